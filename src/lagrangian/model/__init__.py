@@ -1,0 +1,53 @@
+"""What a person described: coordinates, parameters, points, frames and elements, frozen as a `Model`.
+
+`Builder` collects and checks; `Model` is the constant description that `derive` and `dynamics` read.
+"""
+
+from lagrangian.model.builder import Builder
+from lagrangian.model.elements import (
+    REGISTRY,
+    Action,
+    Damper,
+    Dissipation,
+    Element,
+    Force,
+    GeneralizedForce,
+    Gravity,
+    Kinetic,
+    Particle,
+    Potential,
+    RigidBody,
+    Spring,
+    Torque,
+)
+from lagrangian.model.geometry import Frame, Point
+from lagrangian.model.model import Coordinate, Definition, Input, Model, Parameter
+from lagrangian.model.names import RESERVED, check_name, time
+
+__all__ = [
+    "REGISTRY",
+    "RESERVED",
+    "Action",
+    "Builder",
+    "Coordinate",
+    "Damper",
+    "Definition",
+    "Dissipation",
+    "Element",
+    "Force",
+    "Frame",
+    "GeneralizedForce",
+    "Gravity",
+    "Input",
+    "Kinetic",
+    "Model",
+    "Parameter",
+    "Particle",
+    "Point",
+    "Potential",
+    "RigidBody",
+    "Spring",
+    "Torque",
+    "check_name",
+    "time",
+]

@@ -1,0 +1,204 @@
+"""Points relative to points, frames relative to frames.
+
+A point keeps its parent and a frame keeps its parent, so that what they share stays shared:
+
+    r_P = r_parent + R_frame · offset,      R_frame = R_parent · R(axis, angle)
+
+In the plane R(angle) = [[cos, −sin], [sin, cos]], counter-clockwise positive. In space the axis is given in the
+parent's axes and R is Rodrigues' rotation  R = 1 + sin φ [n]× + (1 − cos φ) [n]×².
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from itertools import count
+from typing import TYPE_CHECKING, Any
+
+import sympy as sp
+
+from lagrangian.errors import ModelError, Place
+from lagrangian.model.names import time
+
+if TYPE_CHECKING:
+    from typing import TypeAlias
+
+Scalar: TypeAlias = "sp.Expr | int | float"
+_serial = count(1)
+
+
+def as_expr(value: object, what: str, *, place: Place | None = None) -> sp.Expr:
+    """Return a SymPy expression for a number or an expression; text is refused, never parsed here.
+
+    Decimal numbers become exact rationals (0.1 → 1/10), because equations are shown and compared exactly.
+    """
+    if isinstance(value, sp.Expr):
+        expr = value
+    elif isinstance(value, bool) or not isinstance(value, (int, float)):
+        kind = type(value).__name__
+        raise ModelError(
+            f"{what} must be a number or a SymPy expression (got {kind})",
+            place=place,
+            fix="write symbols as SymPy expressions; text belongs in a model file",
+            code="E406",
+        )
+    elif value != value or value in (float("inf"), float("-inf")):
+        raise ModelError(f"{what} must be a finite number (got {value})", place=place, code="E101")
+    else:
+        expr = sp.Integer(value) if isinstance(value, int) else sp.Rational(repr(value))
+    if expr.has(sp.I, sp.nan, sp.oo, sp.zoo, -sp.oo):
+        raise ModelError(f"{what} must be real and finite (got {expr})", place=place, code="E101")
+    if not expr.is_commutative:
+        raise ModelError(f"{what} must be a scalar (got {expr})", place=place, code="E406")
+    if expr.has(sp.Float):
+        expr = expr.xreplace({f: sp.Rational(str(f)) for f in expr.atoms(sp.Float)})
+    return expr
+
+
+def as_vector(values: object, what: str, *, place: Place | None = None) -> tuple[sp.Expr, ...]:
+    """Return a tuple of two or three expressions."""
+    if isinstance(values, sp.MatrixBase):
+        values = tuple(values)
+    if isinstance(values, str) or not isinstance(values, Sequence):
+        raise ModelError(f"{what} must be a pair or a triple (got {type(values).__name__})", place=place, code="E414")
+    if len(values) not in (2, 3):
+        raise ModelError(
+            f"{what} has {len(values)} component{'s' if len(values) != 1 else ''}",
+            place=place,
+            fix="give two in the plane, three in space",
+            code="E414",
+        )
+    return tuple(as_expr(v, f"component {i} of {what}", place=place) for i, v in enumerate(values, 1))
+
+
+@dataclass(frozen=True, eq=False)
+class Point:
+    """A point, given by an offset from its parent in the axes of a frame (the fixed axes when ``frame`` is None).
+
+    ``point + (x, y)`` is a new point. The origin has no parent. ``serial`` orders points by creation.
+    """
+
+    name: str | None
+    parent: Point | None
+    offset: tuple[sp.Expr, ...]
+    frame: Frame | None = None
+    owner: object = field(default=None, repr=False)
+    place: Place | None = field(default=None, repr=False)
+    serial: int = field(default_factory=lambda: next(_serial), repr=False)
+
+    @property
+    def is_origin(self) -> bool:
+        """Whether this is the fixed origin."""
+        return self.parent is None
+
+    def __add__(self, offset: object) -> Point:
+        """Return the point at ``offset`` (two or three components, in the fixed axes) from this one."""
+        if isinstance(offset, Point):
+            raise ModelError(
+                "two points cannot be added",
+                fix="write point + (x, y): a point is given by its offset from another",
+                code="E414",
+            )
+        components = as_vector(offset, "the offset of a point")
+        mine = self.dimension
+        if mine is not None and mine != len(components):
+            raise ModelError(
+                f"an offset with {len(components)} components was added to a point with {mine}",
+                fix=f"give {mine} components, as for the other points",
+                code="E414",
+            )
+        return Point(None, self, components, None, self.owner)
+
+    @property
+    def dimension(self) -> int | None:
+        """2 in the plane, 3 in space, None for an origin nothing was added to."""
+        return len(self.offset) or None
+
+    @cached_property
+    def position(self) -> tuple[sp.Expr, ...]:
+        """The components of the position in the fixed axes, measured from the origin (empty for the origin itself)."""
+        if self.parent is None:
+            return ()
+        step: Sequence[sp.Expr] = self.offset
+        if self.frame is not None:
+            step = tuple(self.frame.rotation * sp.Matrix(self.offset))
+        before = self.parent.position or (sp.S.Zero,) * len(self.offset)
+        return tuple(a + b for a, b in zip(before, step, strict=True))
+
+
+@dataclass(frozen=True, eq=False)
+class Frame:
+    """Axes turned by ``angle`` from the parent's axes, about ``axis`` (given in the parent's axes; None in the plane).
+
+    ``origin`` is the point that ``frame.point`` measures from; it is the parent's origin unless given.
+    """
+
+    name: str | None
+    parent: Frame | None
+    axis: tuple[sp.Expr, ...] | None
+    angle: sp.Expr
+    origin: Point
+    owner: object = field(default=None, repr=False)
+    place: Place | None = field(default=None, repr=False)
+    serial: int = field(default_factory=lambda: next(_serial), repr=False)
+
+    @property
+    def dimension(self) -> int:
+        """2 in the plane, 3 in space."""
+        return 2 if self.axis is None else 3
+
+    def point(self, *offset: Any, at: Point | None = None) -> Point:
+        """Return the point whose components are ``offset`` in this frame's axes, from its origin or from ``at``."""
+        values = offset[0] if len(offset) == 1 and isinstance(offset[0], (tuple, list)) else offset
+        components = as_vector(values, "the offset of a point")
+        if len(components) != self.dimension:
+            raise ModelError(
+                f"a point with {len(components)} components was given in a frame with {self.dimension}",
+                fix=f"give {self.dimension} components",
+                code="E414",
+            )
+        return Point(None, at if at is not None else self.origin, components, self, self.owner)
+
+    @cached_property
+    def local_rotation(self) -> sp.ImmutableMatrix:
+        """R(axis, angle), from this frame's axes to its parent's."""
+        c, s = sp.cos(self.angle), sp.sin(self.angle)
+        if self.axis is None:
+            return sp.ImmutableMatrix([[c, -s], [s, c]])
+        x, y, z = self.axis
+        cross = sp.Matrix([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+        # R = 1 + sin φ [n]× + (1 − cos φ) [n]×², with [n]×² = n nᵀ − 1 for a unit axis
+        outer = sp.Matrix(3, 3, lambda i, j: self.axis[i] * self.axis[j])  # type: ignore[index]
+        return sp.ImmutableMatrix(c * (sp.eye(3) - outer) + outer + s * cross)
+
+    @cached_property
+    def rotation(self) -> sp.ImmutableMatrix:
+        """The rotation from this frame's axes to the fixed axes."""
+        if self.parent is None:
+            return self.local_rotation
+        if self.axis is None:  # rotations in the plane add their angles
+            c, s = sp.cos(self.total_angle), sp.sin(self.total_angle)
+            return sp.ImmutableMatrix([[c, -s], [s, c]])
+        return sp.ImmutableMatrix(self.parent.rotation * self.local_rotation)
+
+    @cached_property
+    def total_angle(self) -> sp.Expr:
+        """In the plane: the angle from the fixed axes, the sum over the parents."""
+        if self.axis is not None:
+            raise ModelError("a frame in space has no single angle from the fixed axes", code="E414")
+        return self.angle + (self.parent.total_angle if self.parent is not None else 0)
+
+    @cached_property
+    def angular_velocity(self) -> tuple[sp.Expr, ...]:
+        """The angular velocity: ``(ω,)`` in the plane; in space three components in this frame's own axes.
+
+        ω = Rᵀ ω_parent + n φ̇   (the axis n is the same in the frame's and in its parent's axes).
+        """
+        rate = sp.diff(self.angle, time)
+        if self.axis is None:
+            return (sp.diff(self.total_angle, time),)
+        own = sp.Matrix([n * rate for n in self.axis])
+        if self.parent is None:
+            return tuple(own)
+        return tuple(self.local_rotation.T * sp.Matrix(self.parent.angular_velocity) + own)

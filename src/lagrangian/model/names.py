@@ -1,0 +1,59 @@
+"""Names of symbols: which are allowed, and the one symbol of time."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+
+from sympy.physics.vector import dynamicsymbols
+
+from lagrangian.errors import ModelError, Place
+
+time = dynamicsymbols._t
+"""The symbol of time, the one that SymPy's ``dynamicsymbols`` depend on."""
+
+FUNCTIONS = frozenset(
+    "sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp log ln sqrt abs sign min max piecewise".split()
+)
+"""Functions of the expression grammar; none of them can be a symbol's name."""
+
+RESERVED = FUNCTIONS | {"t", "pi"}
+"""Names that mean something already: time, the circle's constant, the functions."""
+
+MAX_LENGTH = 64
+_IDENTIFIER = re.compile(r"[^\W\d]\w*\Z")
+
+
+def check_name(name: str, what: str, *, place: Place | None = None) -> str:
+    """Return ``name`` in its normal form (NFKC) or raise `ModelError`.
+
+    A name is a letter (any script) or underscore, then letters, digits and underscores, at most 64 characters.
+    ``what`` says what it names (``"parameter"``).
+    """
+    if not isinstance(name, str):
+        raise ModelError(f"the name of a {what} must be text (got {type(name).__name__})", place=place, code="E702")
+    shown = name if len(name) <= MAX_LENGTH else name[: MAX_LENGTH - 1] + "…"
+    if len(name) > MAX_LENGTH:
+        raise ModelError(
+            f"the name '{shown}' has {len(name)} characters",
+            place=place,
+            fix=f"use at most {MAX_LENGTH}",
+            code="E702",
+        )
+    name = unicodedata.normalize("NFKC", name)
+    if not _IDENTIFIER.match(name):
+        raise ModelError(
+            f"{what} name {shown!r} is not an identifier",
+            place=place,
+            fix="use a letter, then letters, digits and underscores",
+            code="E702",
+        )
+    if name in RESERVED:
+        meaning = {"t": "time", "pi": "the number 3.14159…"}.get(name, "a function")
+        raise ModelError(
+            f"'{name}' is reserved: it means {meaning}",
+            place=place,
+            fix=f"choose another name for the {what}, such as '{name}_1'",
+            code="E403",
+        )
+    return name
