@@ -13,7 +13,30 @@ time = dynamicsymbols._t
 """The symbol of time, the one that SymPy's ``dynamicsymbols`` depend on."""
 
 FUNCTIONS = frozenset(
-    "sin cos tan asin acos atan atan2 sinh cosh tanh asinh acosh atanh exp log ln sqrt abs sign min max piecewise".split()
+    [
+        "sin",
+        "cos",
+        "tan",
+        "asin",
+        "acos",
+        "atan",
+        "atan2",
+        "sinh",
+        "cosh",
+        "tanh",
+        "asinh",
+        "acosh",
+        "atanh",
+        "exp",
+        "log",
+        "ln",
+        "sqrt",
+        "abs",
+        "sign",
+        "min",
+        "max",
+        "piecewise",
+    ]
 )
 """Functions of the expression grammar; none of them can be a symbol's name."""
 

@@ -1,0 +1,394 @@
+"""Collects what a person describes, checks every piece as it comes, and freezes it as a `Model`."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from typing import Any, TypeVar
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+from sympy.physics.vector import dynamicsymbols
+
+from lagrangian.errors import ModelError, Place, did_you_mean
+from lagrangian.model.checks import check_body, check_use
+from lagrangian.model.elements import Element, GeneralizedForce
+from lagrangian.model.geometry import Frame, Point, as_expr, as_vector
+from lagrangian.model.model import Coordinate, Definition, Input, Model, Parameter
+from lagrangian.model.names import check_name, time
+
+E = TypeVar("E", bound=Element)
+MAX_ELEMENTS = 100_000
+
+
+class Builder:
+    """The description while it grows. Every method checks what it is given and raises `ModelError`."""
+
+    def __init__(self, name: str) -> None:
+        if not isinstance(name, str) or not name.strip():
+            raise ModelError("a system needs a name", fix='System("two-link arm")', code="E401")
+        self.name = name.strip()
+        self.origin = Point("origin", None, (), None, self)
+        self.settings: dict[str, Any] = {}
+        self._coordinates: dict[str, Coordinate] = {}
+        self._parameters: dict[str, Parameter] = {}
+        self._inputs: dict[str, Input] = {}
+        self._definitions: dict[str, Definition] = {}
+        self._points: dict[str, Point] = {"origin": self.origin}
+        self._frames: dict[str, Frame] = {}
+        self._elements: list[Element] = []
+        self._element_names: dict[str, Element] = {}
+        self._dimension: tuple[int, str] | None = None
+        self._frozen: Model | None = None
+
+    # -- symbols ------------------------------------------------------------------------------------------------
+
+    def _claim(self, name: str, what: str, place: Place | None) -> str:
+        self._frozen = None
+        name = check_name(name, what, place=place)
+        tables: tuple[tuple[str, Mapping[str, Any]], ...] = (
+            ("coordinate", self._coordinates),
+            ("parameter", self._parameters),
+            ("input", self._inputs),
+            ("definition", self._definitions),
+        )
+        for kind, table in tables:
+            if name in table:
+                before = table[name].place
+                also = f" (line {before.line})" if before is not None and before.line is not None else ""
+                raise ModelError(
+                    f"'{name}' is defined twice: as a {kind}{also} and as a {what}",
+                    place=place,
+                    fix="give every coordinate, parameter, input and definition a name of its own",
+                    code="E404",
+                )
+        return name
+
+    def coordinate(
+        self, name: str, *, description: str = "", unit: str | None = None, place: Place | None = None
+    ) -> Coordinate:
+        """Add a generalized coordinate."""
+        name = self._claim(name, "coordinate", place)
+        made = Coordinate(name, dynamicsymbols(name), description, unit, place)
+        self._coordinates[name] = made
+        return made
+
+    def parameter(
+        self,
+        name: str,
+        value: float | None = None,
+        *,
+        unit: str | None = None,
+        description: str = "",
+        place: Place | None = None,
+    ) -> Parameter:
+        """Add a constant, with its value in SI units where it has one."""
+        name = self._claim(name, "parameter", place)
+        made = Parameter(name, sp.Symbol(name), self._number(name, value, place), unit, description, place)
+        self._parameters[name] = made
+        return made
+
+    @staticmethod
+    def _number(name: str, value: object, place: Place | None) -> float | None:
+        if value is None:
+            return None
+        if isinstance(value, complex) or (isinstance(value, sp.Expr) and not value.is_real):
+            raise ModelError(f"parameter '{name}' must be a real number (got {value})", place=place, code="E101")
+        try:
+            number = float(value)  # type: ignore[arg-type]
+        except (TypeError, ValueError, OverflowError):
+            raise ModelError(f"parameter '{name}' must be a number (got {value!r})", place=place, code="E406") from None
+        if isinstance(value, bool):
+            raise ModelError(f"parameter '{name}' must be a number (got {value})", place=place, code="E406")
+        if not math.isfinite(number):
+            raise ModelError(f"parameter '{name}' must be a finite number (got {number})", place=place, code="E101")
+        return number
+
+    def set_value(self, name: str, value: float) -> None:
+        """Give a declared parameter another value (SI units)."""
+        if name not in self._parameters:
+            raise ModelError(f"there is no parameter '{name}'", fix=did_you_mean(name, self._parameters), code="E402")
+        self._frozen = None
+        old = self._parameters[name]
+        self._parameters[name] = replace(old, value=self._number(name, value, old.place))
+
+    def input(self, name: str, *, description: str = "", unit: str | None = None, place: Place | None = None) -> Input:
+        """Add a signal from outside."""
+        name = self._claim(name, "input", place)
+        made = Input(name, dynamicsymbols(name), description, unit, place)
+        self._inputs[name] = made
+        return made
+
+    def define(self, name: str, expression: object, *, place: Place | None = None) -> Definition:
+        """Give an expression a name; it stays named. It may use what was declared before it."""
+        expr = as_expr(expression, f"the definition of '{name}'", place=place)
+        name = self._claim(name, "definition", place)
+        self._check_known(expr, f"definition '{name}'", place)
+        moving = expr.has(AppliedUndef, time, sp.Derivative)
+        symbol = dynamicsymbols(name) if moving else sp.Symbol(name)
+        made = Definition(name, symbol, expr, place)
+        self._definitions[name] = made
+        return made
+
+    def _check_known(self, expr: sp.Expr, where: str, place: Place | None, local: Iterable[sp.Symbol] = ()) -> None:
+        """Refuse a symbol that was not declared, with the nearest name."""
+        known: set[Any] = {time, *local}
+        for table in (self._coordinates, self._parameters, self._inputs, self._definitions):
+            known.update(x.symbol for x in table.values())
+        atoms = {*expr.free_symbols, *expr.atoms(AppliedUndef)}
+        for atom in sorted(atoms - known, key=str):
+            name = getattr(atom, "name", str(atom.func))
+            kind = "moving symbol" if isinstance(atom, AppliedUndef) else "symbol"
+            hint = did_you_mean(name, [getattr(k, "name", str(getattr(k, "func", k))) for k in known])
+            fix = hint or f'declare it: coordinates("{name}"), parameters("{name}") or input("{name}")'
+            raise ModelError(f"unknown {kind} '{name}' in {where}", place=place, fix=fix, code="E402")
+
+    # -- geometry -----------------------------------------------------------------------------------------------
+
+    def _fit(self, dimension: int, what: str, place: Place | None) -> None:
+        """Hold every point and frame to one dimension, the first one's."""
+        if self._dimension is None:
+            self._dimension = (dimension, what)
+        elif self._dimension[0] != dimension:
+            first = self._dimension
+            raise ModelError(
+                f"{what} has {dimension} components, but {first[1]} has {first[0]}",
+                place=place,
+                fix=f"a system is either plane or in space: give {first[0]} components everywhere",
+                code="E414",
+            )
+
+    def _own(self, thing: Point | Frame, what: str, place: Place | None) -> None:
+        if thing.owner is not self:
+            raise ModelError(
+                f"{what} belongs to another system",
+                place=place,
+                fix="build it from this system's own origin and frames",
+                code="E412",
+            )
+
+    def point(
+        self,
+        name: str | None,
+        offset: object,
+        *,
+        parent: Point | None = None,
+        frame: Frame | None = None,
+        place: Place | None = None,
+    ) -> Point:
+        """Add a named point, at ``offset`` from ``parent`` (the frame's origin, or the origin) in ``frame``'s axes."""
+        what = f"point '{name}'" if name else "a point"
+        if name is not None:
+            name = self._claim_place(name, "point", self._points, place)
+        base = parent if parent is not None else (frame.origin if frame is not None else self.origin)
+        made = Point(name, base, as_vector(offset, what, place=place), frame, self, place)
+        self._check_point(made, what, place)
+        if name is not None:
+            self._points[name] = made
+        return made
+
+    def frame(
+        self,
+        name: str | None,
+        angle: object,
+        *,
+        axis: object = None,
+        parent: Frame | None = None,
+        origin: Point | None = None,
+        place: Place | None = None,
+    ) -> Frame:
+        """Add a frame turned by ``angle`` from ``parent`` about ``axis`` (in space)."""
+        what = f"frame '{name}'" if name else "a frame"
+        if name is not None:
+            name = self._claim_place(name, "frame", self._frames, place)
+        expr = as_expr(angle, f"the angle of {what}", place=place)
+        turned = None if axis is None else self._axis(axis, what, place)
+        if parent is not None and (parent.axis is None) != (turned is None):
+            raise ModelError(
+                f"{what} and its parent must both have an axis (space) or both have none (plane)",
+                place=place,
+                fix="give axis=(0, 0, 1) to both, or to neither",
+                code="E414",
+            )
+        base = origin if origin is not None else (parent.origin if parent is not None else self.origin)
+        made = Frame(name, parent, turned, expr, base, self, place)
+        self._check_frame(made, what, place)
+        self._frozen = None
+        if name is not None:
+            self._frames[name] = made
+        return made
+
+    @staticmethod
+    def _axis(axis: object, what: str, place: Place | None) -> tuple[sp.Expr, ...]:
+        vector = as_vector(axis, f"the axis of {what}", place=place)
+        if len(vector) != 3:
+            raise ModelError(f"the axis of {what} needs three components", place=place, code="E414")
+        if any(v.has(AppliedUndef, time) for v in vector):
+            raise ModelError(
+                f"the axis of {what} moves",
+                place=place,
+                fix="an axis is fixed in its parent; turn the parent instead",
+                code="E409",
+            )
+        norm2 = sp.expand(sum(v**2 for v in vector))
+        if norm2 == 0:
+            raise ModelError(f"the axis of {what} is (0, 0, 0)", place=place, fix="axis=(0, 0, 1)", code="E409")
+        norm = sp.S.One if sp.trigsimp(norm2) == 1 else sp.sqrt(norm2)
+        return tuple(v / norm for v in vector)
+
+    def _claim_place(self, name: str, what: str, table: Mapping[str, Any], place: Place | None) -> str:
+        self._frozen = None
+        name = check_name(name, what, place=place)
+        if name in table:
+            raise ModelError(f"{what} '{name}' is defined twice", place=place, fix="give it another name", code="E404")
+        return name
+
+    def _check_point(self, point: Point, what: str, place: Place | None) -> None:
+        self._own(point, what, place)
+        chain: list[Point] = []
+        at: Point | None = point
+        while at is not None and not at.is_origin:
+            chain.append(at)
+            at = at.parent
+        for p in chain:
+            self._fit(len(p.offset), what, place)
+            for i, x in enumerate(p.offset, 1):
+                self._check_known(x, f"component {i} of {what}", place)
+                self._check_position(x, f"component {i} of {what}", place)
+            if p.frame is not None:
+                self._check_frame(p.frame, f"the frame of {what}", place)
+
+    def _check_frame(self, frame: Frame, what: str, place: Place | None) -> None:
+        at: Frame | None = frame
+        while at is not None:
+            self._own(at, what, place)
+            self._fit(at.dimension, what, place)
+            self._check_known(at.angle, f"the angle of {what}", place)
+            self._check_position(at.angle, f"the angle of {what}", place)
+            at = at.parent
+
+    def _check_position(self, expr: sp.Expr, where: str, place: Place | None) -> None:
+        """A position holds coordinates, parameters and time; a rate or an input has no place in it."""
+        full = self._written_out(expr)
+        for d in sorted(full.atoms(sp.Derivative), key=str):
+            raise ModelError(
+                f"{where} holds a rate, {d.expr.func}'",
+                place=place,
+                fix="a position depends on coordinates, parameters and t only",
+                code="E308",
+            )
+        inputs = {i.symbol: i.name for i in self._inputs.values()}
+        for atom in sorted(full.atoms(AppliedUndef) & inputs.keys(), key=str):
+            raise ModelError(
+                f"{where} holds the input '{inputs[atom]}', whose velocity is not known",
+                place=place,
+                fix="prescribe the motion as an expression in t, or make it a coordinate",
+                code="E417",
+            )
+
+    def _written_out(self, expr: sp.Expr) -> sp.Expr:
+        table = {d.symbol: d.expression for d in self._definitions.values()}
+        while table and any(expr.has(s) for s in table):
+            expr = expr.subs(table).doit(deep=True, integrals=False, sums=False)
+        return expr
+
+    # -- elements -----------------------------------------------------------------------------------------------
+
+    def add(self, element: E) -> E:
+        """Check an element, give it a name where it has none, and keep it."""
+        self._frozen = None
+        if len(self._elements) >= MAX_ELEMENTS:
+            raise ModelError(f"more than {MAX_ELEMENTS} elements", code="E601")
+        element = replace(element, name=self._element_name(element))
+        for key, point in element.points():
+            self._check_point(point, f"the point in '{key}' of {element.title}", element.place)
+        for key, frame in element.frames():
+            self._check_frame(frame, f"the frame in '{key}' of {element.title}", element.place)
+        for key in ("direction", "value"):
+            vector = getattr(element, key, None)
+            if isinstance(vector, tuple):
+                self._fit(len(vector), f"the {key} of {element.title}", element.place)
+        if isinstance(element, GeneralizedForce) and element.coordinate not in {
+            c.symbol for c in self._coordinates.values()
+        }:
+            name = str(getattr(element.coordinate, "func", element.coordinate))
+            raise ModelError(
+                f"'{name}' is not a coordinate",
+                element=element.title,
+                place=element.place,
+                fix=did_you_mean(name, self._coordinates),
+                code="E402",
+            )
+        for use in element.uses():
+            self._check_known(use.expr, f"the {use.what} of {element.title}", element.place, use.local)
+            check_use(element, use, self._written_out(use.expr), {i.symbol: i.name for i in self._inputs.values()})
+        self._elements.append(element)
+        self._element_names[element.name] = element
+        return element
+
+    def _element_name(self, element: Element) -> str:
+        if element.name:
+            if not isinstance(element.name, str) or len(element.name) > 200 or not element.name.isprintable():
+                raise ModelError(
+                    f"the name of a {element.kind} must be printable text of at most 200 characters",
+                    place=element.place,
+                    code="E702",
+                )
+            if element.name in self._element_names:
+                before = self._element_names[element.name]
+                line = f" (line {before.place.line})" if before.place is not None and before.place.line else ""
+                raise ModelError(
+                    f"the name '{element.name}' is taken by a {before.kind}{line}",
+                    element=element.kind,
+                    place=element.place,
+                    fix="give every element a name of its own",
+                    code="E404",
+                )
+            return element.name
+        base = element.suggested_name()
+        if not base:
+            base, number = element.kind.replace("_", " "), 1
+        elif base not in self._element_names:
+            return base
+        else:
+            number = 2
+        while f"{base} {number}" in self._element_names:
+            number += 1
+        return f"{base} {number}"
+
+    # -- the whole ----------------------------------------------------------------------------------------------
+
+    def model(self) -> Model:
+        """Freeze the description; refuse one without coordinates or without anything that has mass."""
+        if self._frozen is not None:
+            return self._frozen
+        if not self._coordinates:
+            raise ModelError(
+                f"system '{self.name}' has no coordinates",
+                fix='declare the generalized coordinates first: coordinates("theta1 theta2")',
+                code="E201",
+            )
+        if not any(e.ledger == "T*" for e in self._elements):
+            raise ModelError(
+                f"nothing in system '{self.name}' has mass",
+                fix="add a particle, a rigid_body or a kinetic energy",
+                code="E201",
+            )
+        made = Model(
+            name=self.name,
+            dimension=self._dimension[0] if self._dimension else 2,
+            origin=self.origin,
+            coordinates=tuple(self._coordinates.values()),
+            parameters=tuple(self._parameters.values()),
+            inputs=tuple(self._inputs.values()),
+            definitions=tuple(self._definitions.values()),
+            points=tuple(p for p in self._points.values() if not p.is_origin),
+            frames=tuple(self._frames.values()),
+            elements=tuple(self._elements),
+            settings=dict(self.settings),
+        )
+        for body in made.bodies:
+            check_body(made, body)
+        self._frozen = made
+        return made

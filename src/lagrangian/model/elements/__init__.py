@@ -1,0 +1,50 @@
+"""The elements of a mechanical system, one file each.
+
+A new element is one new file, one line in `REGISTRY` and its tests. Each element says, in its own file, where its energy
+or force is booked (``ledger``) and with what expression.
+"""
+
+from lagrangian.model.elements.base import Action, Element, Level, Use, deflection_between
+from lagrangian.model.elements.damper import Damper
+from lagrangian.model.elements.force import Force
+from lagrangian.model.elements.gravity import Gravity
+from lagrangian.model.elements.particle import Particle
+from lagrangian.model.elements.raw import Dissipation, GeneralizedForce, Kinetic, Potential
+from lagrangian.model.elements.rigid_body import RigidBody
+from lagrangian.model.elements.spring import Spring
+from lagrangian.model.elements.torque import Torque
+
+REGISTRY: dict[str, type[Element]] = {
+    "particle": Particle,
+    "rigid_body": RigidBody,
+    "gravity": Gravity,
+    "spring": Spring,
+    "damper": Damper,
+    "force": Force,
+    "torque": Torque,
+    "potential": Potential,
+    "kinetic": Kinetic,
+    "dissipation": Dissipation,
+    "generalized_force": GeneralizedForce,
+}
+"""Every kind of element by its name in files and in Python."""
+
+__all__ = [
+    "REGISTRY",
+    "Action",
+    "Damper",
+    "Dissipation",
+    "Element",
+    "Force",
+    "GeneralizedForce",
+    "Gravity",
+    "Kinetic",
+    "Level",
+    "Particle",
+    "Potential",
+    "RigidBody",
+    "Spring",
+    "Torque",
+    "Use",
+    "deflection_between",
+]

@@ -1,0 +1,193 @@
+"""What every element has, and what an element says of its expressions and of its actions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import TYPE_CHECKING, ClassVar, Literal
+
+import sympy as sp
+
+from lagrangian.errors import ModelError, Place
+from lagrangian.model.names import time
+
+if TYPE_CHECKING:
+    from lagrangian.model.geometry import Frame, Point
+    from lagrangian.model.model import Model
+
+
+class Level(IntEnum):
+    """How far down an expression may reach: parameters only, also positions and time, also rates."""
+
+    CONSTANT = 0
+    POSITION = 1
+    VELOCITY = 2
+
+
+@dataclass(frozen=True)
+class Use:
+    """An expression of an element: what it is, how far down it may reach, whether an input may stand in it.
+
+    ``key`` is the field it came from; ``local`` are symbols that mean something in this expression alone.
+    """
+
+    key: str
+    what: str
+    expr: sp.Expr
+    level: Level
+    inputs: bool = False
+    local: tuple[sp.Symbol, ...] = ()
+
+
+@dataclass(frozen=True)
+class Action:
+    """An effort on something that moves: its power is ``effort · rate`` and Ξ_i = effort · ∂rate/∂ξ̇_i.
+
+    ``effort`` is a force [N] or torque [N m]; ``rate`` is the velocity [m/s] or angular velocity [rad/s] of what it acts
+    on, in the effort's direction and linear in the rates ξ̇. ``displacement`` is the scalar whose variation is the
+    virtual displacement, where there is one. ``on`` says in words what is acted on; ``target`` is that point or frame.
+    """
+
+    effort: sp.Expr
+    rate: sp.Expr
+    on: str
+    displacement: sp.Expr | None = None
+    target: Point | Frame | None = None
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Element:
+    """A piece of the system. ``name`` is unique in its system; ``place`` is where a file describes it."""
+
+    name: str = ""
+    place: Place | None = None
+
+    kind: ClassVar[str] = "element"
+    ledger: ClassVar[Literal["T*", "V", "Ξ"]]
+
+    @property
+    def title(self) -> str:
+        """The element in words, such as ``spring 'k'``."""
+        return f"{self.kind.replace('_', ' ')} '{self.name}'" if self.name else self.kind.replace("_", " ")
+
+    def suggested_name(self) -> str:
+        """A name for an element that was given none: its main symbol, or nothing."""
+        return ""
+
+    def uses(self) -> Iterator[Use]:
+        """Every expression in the element, with what may stand in it."""
+        raise TypeError(f"{type(self).__name__} does not say what it uses")
+
+    def points(self) -> Iterator[tuple[str, Point]]:
+        """Every point the element refers to, with the field it came from."""
+        return iter(())
+
+    def frames(self) -> Iterator[tuple[str, Frame]]:
+        """Every frame the element refers to, with the field it came from."""
+        return iter(())
+
+    def kinetic(self, model: Model) -> sp.Expr:
+        """Its share of the kinetic co-energy T* [J]; zero unless the element moves with mass."""
+        return sp.S.Zero
+
+    def potential(self, model: Model) -> sp.Expr:
+        """Its share of the potential energy V [J]; zero unless it stores energy by position."""
+        return sp.S.Zero
+
+    def works(self, model: Model) -> tuple[Action, ...]:
+        """Its actions by virtual work, in the fewest terms (a pair of forces is one action on its deflection)."""
+        return ()
+
+    def ends(self, model: Model) -> tuple[Action, ...]:
+        """The same actions, end by end, as the box rule counts them; the pair is two actions on two bodies."""
+        return self.works(model)
+
+    def dissipation(self, model: Model) -> sp.Expr | None:
+        """Rayleigh's function D [W], with Ξ_i = −∂D/∂ξ̇_i, or None where the element has none."""
+        return None
+
+    def _error(self, what: str, *, fix: str | None = None, code: str | None = None) -> ModelError:
+        return ModelError(what, element=self.title, place=self.place, fix=fix, code=code)
+
+    def _set(self, **values: object) -> None:
+        """Fill in normalised fields while the frozen object is being made."""
+        for key, value in values.items():
+            object.__setattr__(self, key, value)
+
+
+def difference(model: Model, start: Point, end: Point) -> tuple[sp.Expr, ...]:
+    """The components of r_end − r_start in the fixed axes, with positions written out in the coordinates.
+
+    Parents common to both points cancel before anything is expanded.
+    """
+    shared = {id(p) for p in _ancestors(start)}
+    common = next(p for p in _ancestors(end) if id(p) in shared)
+    a, b = _from(common, start, model.dimension), _from(common, end, model.dimension)
+    return tuple(model.expand(y - x) for x, y in zip(a, b, strict=True))
+
+
+def _ancestors(point: Point) -> Iterator[Point]:
+    at: Point | None = point
+    while at is not None:
+        yield at
+        at = at.parent
+
+
+def _from(base: Point, point: Point, dimension: int) -> list[sp.Expr]:
+    total: list[sp.Expr] = [sp.S.Zero] * dimension
+    at = point
+    while at is not base:
+        step = at.offset if at.frame is None else tuple(at.frame.rotation * sp.Matrix(at.offset))
+        total = [x + y for x, y in zip(total, step, strict=True)]
+        assert at.parent is not None
+        at = at.parent
+    return total
+
+
+def deflection_between(model: Model, start: Point, end: Point) -> sp.Expr:
+    """The distance |r_end − r_start| = √(Δx² + Δy² + Δz²) [m]."""
+    return sp.sqrt(sum(d**2 for d in difference(model, start, end)))
+
+
+def pair_ends(model: Model, start: Point, end: Point, effort: sp.Expr) -> tuple[Action, Action]:
+    """A pair of forces that pushes ``start`` and ``end`` apart, end by end: +F e on the end, −F e on the start.
+
+    e = (r_end − r_start)/|r_end − r_start|; the rate of an end is its velocity along e.
+    """
+    delta = difference(model, start, end)
+    length = sp.sqrt(sum(d**2 for d in delta))
+
+    def along(point: Point) -> sp.Expr:
+        velocity = [sp.diff(model.expand(x), time) for x in model.position(point)]
+        return sum((d * v for d, v in zip(delta, velocity, strict=True)), sp.S.Zero) / length
+
+    return (
+        Action(effort, along(end), model.point_words(end), target=end),
+        Action(-effort, along(start), model.point_words(start), target=start),
+    )
+
+
+def check_ends(element: Element, between: object, deflection: object) -> tuple[Point, Point] | None:
+    """Return the two points of ``between``, or None for a deflection; exactly one of both must be given."""
+    from lagrangian.model.geometry import Point
+
+    if (between is None) == (deflection is None):
+        found = "both" if between is not None else "neither"
+        raise element._error(
+            f"give either two points or a deflection (got {found})",
+            fix="between=(P, Q) for the distance of two points, or deflection=expression in the coordinates",
+            code="E412",
+        )
+    if between is None:
+        return None
+    if not isinstance(between, (tuple, list)) or len(between) != 2 or not all(isinstance(p, Point) for p in between):
+        raise element._error("between must be two points", fix="between=(P, Q) with points of this system", code="E412")
+    start, end = between
+    if start is end:
+        raise element._error(
+            "both ends are the same point: it has no length and no direction",
+            fix="name two different points in between",
+            code="E410",
+        )
+    return start, end

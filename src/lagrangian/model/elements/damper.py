@@ -1,0 +1,106 @@
+"""A damper: linear or by a law, translational or torsional, between points or on a deflection."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
+
+import sympy as sp
+
+from lagrangian.model.elements.base import Action, Element, Level, Use, check_ends, difference, pair_ends
+from lagrangian.model.geometry import Point, as_expr
+from lagrangian.model.names import time
+
+if TYPE_CHECKING:
+    from lagrangian.model.model import Model
+
+RATE = sp.Symbol("rate")
+"""In a law: the rate of the deflection δ̇ [m/s or rad/s]."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Damper(Element):
+    """A damper: it pulls its ends with b δ̇, or with its law of ``rate``; Rayleigh's D = ½ b δ̇², Ξ_i = −∂D/∂ξ̇_i.
+
+    δ is the distance of two points (``between``) or an expression in the coordinates (``deflection``; an angle makes it
+    torsional). ``law`` is the pull [N or N m] as an expression in ``rate`` = δ̇. Exactly one of ``b`` and ``law``.
+    """
+
+    b: Any = None
+    between: Any = None
+    deflection: Any = None
+    law: Any = None
+
+    kind: ClassVar[str] = "damper"
+    ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "Ξ"
+
+    def __post_init__(self) -> None:
+        given = [key for key in ("b", "law") if getattr(self, key) is not None]
+        if len(given) != 1:
+            raise self._error(
+                f"give exactly one of b and law (got {', '.join(given) or 'none'})",
+                fix="b for a linear damper, law='b*rate*abs(rate)' for another",
+                code="E416",
+            )
+        self._set(between=check_ends(self, self.between, self.deflection))
+        for key in (*given, *(("deflection",) if self.deflection is not None else ())):
+            value = getattr(self, key)
+            value = value(RATE) if callable(value) and key == "law" else value
+            self._set(**{key: as_expr(value, f"the {key} of {self.title}", place=self.place)})
+
+    def suggested_name(self) -> str:
+        """The symbol of its coefficient."""
+        return self.b.name if isinstance(self.b, sp.Symbol) else ""
+
+    def uses(self) -> Iterator[Use]:
+        """Coefficient of parameters, deflection of coordinates and time, law of the rate."""
+        if self.b is not None:
+            yield Use("b", "damping coefficient", self.b, Level.CONSTANT)
+        if self.law is not None:
+            yield Use("law", "law", self.law, Level.CONSTANT, local=(RATE,))
+        if self.deflection is not None:
+            yield Use("deflection", "deflection", self.deflection, Level.POSITION)
+
+    def points(self) -> Iterator[tuple[str, Point]]:
+        """Its two ends, where it has them."""
+        for point in self.between or ():
+            yield "between", point
+
+    def displacement(self, model: Model) -> sp.Expr:
+        """δ [m or rad]; along one fixed line the signed separation serves, for a damper does not know its length."""
+        if not self.between:
+            return model.expand(self.deflection)
+        delta = difference(model, *self.between)
+        moving = [d for d in delta if d != 0]
+        if len(moving) == 1 and (self.law is None):
+            return moving[0]
+        return sp.sqrt(sum(d**2 for d in delta))
+
+    def rate(self, model: Model) -> sp.Expr:
+        """δ̇ [m/s or rad/s]."""
+        return sp.diff(self.displacement(model), time)
+
+    def pull(self, model: Model) -> sp.Expr:
+        """The force or torque that resists the motion: b δ̇, or the law at δ̇."""
+        rate = self.rate(model)
+        return self.b * rate if self.b is not None else self.law.subs(RATE, rate)
+
+    def works(self, model: Model) -> tuple[Action, ...]:
+        """One action −b δ̇ on the deflection."""
+        on = "its deflection"
+        return (Action(-self.pull(model), self.rate(model), on, self.displacement(model)),)
+
+    def ends(self, model: Model) -> tuple[Action, ...]:
+        """The pull on each end."""
+        if not self.between:
+            return self.works(model)
+        delta = difference(model, *self.between)
+        length = sp.sqrt(sum(d**2 for d in delta))
+        rate = sum((d * sp.diff(d, time) for d in delta), sp.S.Zero) / length
+        pull = self.b * rate if self.b is not None else self.law.subs(RATE, rate)
+        return pair_ends(model, *self.between, -pull)
+
+    def dissipation(self, model: Model) -> sp.Expr | None:
+        """D = ½ b δ̇² of a linear damper."""
+        return self.b * self.rate(model) ** 2 / 2 if self.b is not None else None

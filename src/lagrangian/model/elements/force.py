@@ -1,0 +1,166 @@
+"""A force: a vector at a point, with or without reaction, or a scalar along a deflection."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
+
+import sympy as sp
+
+from lagrangian.model.elements.base import (
+    Action,
+    Element,
+    Level,
+    Use,
+    check_ends,
+    deflection_between,
+    difference,
+    pair_ends,
+)
+from lagrangian.model.geometry import Frame, Point, as_expr, as_vector
+from lagrangian.model.names import time
+
+if TYPE_CHECKING:
+    from lagrangian.model.model import Model
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Force(Element):
+    """A force [N]: Ξ_i = Σ F·∂r/∂ξ_i.
+
+    A vector acts ``at`` a point, in the fixed axes or in those of ``axes``; ``reaction`` is the point that feels its
+    opposite. A scalar acts along a deflection, of two points (``between``) or an expression (``deflection``): positive
+    pushes the ends apart.
+    """
+
+    value: Any
+    at: Any = None
+    reaction: Any = None
+    axes: Any = None
+    between: Any = None
+    deflection: Any = None
+
+    kind: ClassVar[str] = "force"
+    ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "Ξ"
+
+    def __post_init__(self) -> None:
+        what = f"the value of {self.title}"
+        if self.at is None:
+            self._scalar(what)
+            return
+        if self.between is not None or self.deflection is not None:
+            raise self._error(
+                "a force acts either at a point or along a deflection (got both)",
+                fix="a vector with at=P, or a scalar with between=(P, Q) or deflection=expression",
+                code="E412",
+            )
+        if not isinstance(self.value, (tuple, list, sp.MatrixBase)):
+            raise self._error(
+                "a force at a point is a vector (got one value)",
+                fix="force((Fx, Fy), at=P); a scalar needs between=(P, Q) or deflection=expression",
+                code="E412",
+            )
+        for key in ("at", "reaction"):
+            point = getattr(self, key)
+            if point is not None and not isinstance(point, Point):
+                raise self._error(f"its {key} must be a point", fix=f"{key}=P", code="E412")
+        if self.reaction is self.at:
+            raise self._error(
+                "it acts and reacts on the same point: it does nothing",
+                fix="leave reaction out, or name another point",
+                code="E410",
+            )
+        if self.axes is not None and not isinstance(self.axes, Frame):
+            raise self._error("its axes must be a frame", fix="axes=F", code="E412")
+        self._set(value=as_vector(self.value, what, place=self.place))
+
+    def _scalar(self, what: str) -> None:
+        if isinstance(self.value, (tuple, list, sp.MatrixBase)):
+            raise self._error("a vector force needs the point it acts at", fix="force((Fx, Fy), at=P)", code="E412")
+        if self.between is None and self.deflection is None:
+            raise self._error(
+                "it acts on nothing",
+                fix="name a point with at=P, two points with between=(P, Q), or deflection=expression",
+                code="E412",
+            )
+        if self.reaction is not None or self.axes is not None:
+            key = "reaction" if self.reaction is not None else "axes"
+            raise self._error(
+                f"a force along a deflection already acts on both ends; {key} does not fit",
+                fix=f"leave {key} out",
+                code="E412",
+            )
+        self._set(between=check_ends(self, self.between, self.deflection))
+        self._set(value=as_expr(self.value, what, place=self.place))
+        if self.deflection is not None:
+            self._set(deflection=as_expr(self.deflection, f"the deflection of {self.title}", place=self.place))
+
+    @property
+    def is_vector(self) -> bool:
+        """Whether it is a vector at a point."""
+        return self.at is not None
+
+    def suggested_name(self) -> str:
+        """The symbol of its value."""
+        values = self.value if isinstance(self.value, tuple) else (self.value,)
+        heads = [v for v in values if v != 0]
+        if len(heads) != 1:
+            return ""
+        main = -heads[0] if heads[0].could_extract_minus_sign() else heads[0]
+        return getattr(main, "name", "") if main.is_Symbol or main.is_Function else ""
+
+    def uses(self) -> Iterator[Use]:
+        """The value may hold anything down to rates; a deflection holds coordinates and time."""
+        for v in self.value if isinstance(self.value, tuple) else (self.value,):
+            yield Use("value", "value", v, Level.VELOCITY, inputs=True)
+        if self.deflection is not None:
+            yield Use("deflection", "deflection", self.deflection, Level.POSITION)
+
+    def points(self) -> Iterator[tuple[str, Point]]:
+        """Where it acts."""
+        for key in ("at", "reaction"):
+            if getattr(self, key) is not None:
+                yield key, getattr(self, key)
+        for point in self.between or ():
+            yield "between", point
+
+    def frames(self) -> Iterator[tuple[str, Frame]]:
+        """Its axes, where given."""
+        if self.axes is not None:
+            yield "axes", self.axes
+
+    def components(self, model: Model) -> tuple[sp.Expr, ...]:
+        """The vector in the fixed axes."""
+        vector = self.value if self.axes is None else tuple(self.axes.rotation * sp.Matrix(self.value))
+        return tuple(model.expand(v) for v in vector)
+
+    def works(self, model: Model) -> tuple[Action, ...]:
+        """Component by component at the point and its reaction; or one action on the deflection."""
+        if self.is_vector:
+            return self.ends(model)
+        effort = model.expand(self.value)
+        if self.between:
+            delta = difference(model, *self.between)
+            displacement = deflection_between(model, *self.between)
+            rate = sum((d * sp.diff(d, time) for d in delta), sp.S.Zero) / displacement
+        else:
+            displacement = model.expand(self.deflection)
+            rate = sp.diff(displacement, time)
+        return (Action(effort, rate, "its deflection", displacement),)
+
+    def ends(self, model: Model) -> tuple[Action, ...]:
+        """The force on each end."""
+        if self.between:
+            return pair_ends(model, *self.between, model.expand(self.value))
+        if not self.is_vector:
+            return self.works(model)
+        actions = []
+        for sign, point in ((1, self.at), (-1, self.reaction)):
+            if point is None:
+                continue
+            for f, x in zip(self.components(model), model.position(point), strict=True):
+                if f != 0:
+                    x = model.expand(x)
+                    actions.append(Action(sign * f, sp.diff(x, time), model.point_words(point), x, point))
+        return tuple(actions)

@@ -1,0 +1,77 @@
+"""Uniform gravity on every mass."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
+
+import sympy as sp
+
+from lagrangian.model.elements.base import Element, Level, Use
+from lagrangian.model.geometry import Point, as_expr, as_vector
+
+if TYPE_CHECKING:
+    from lagrangian.model.model import Model
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Gravity(Element):
+    """Gravity g [m/s²] along a direction: V = Σ m g h with h = −n·(r − r_datum) and n the unit direction (down).
+
+    ``datum`` is a fixed point where h = 0; the origin unless given. The direction is a direction: its length does not
+    count.
+    """
+
+    direction: Any
+    g: Any
+    datum: Any = None
+
+    kind: ClassVar[str] = "gravity"
+    ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "V"
+
+    def __post_init__(self) -> None:
+        direction = as_vector(self.direction, f"the direction of {self.title}", place=self.place)
+        norm = sp.sqrt(sum(d**2 for d in direction))
+        if norm == 0:
+            raise self._error("its direction is zero", fix="give a direction such as (0, -1)", code="E409")
+        if norm != 1 and sp.trigsimp(norm**2) != 1:
+            direction = tuple(d / norm for d in direction)
+        self._set(direction=direction, g=as_expr(self.g, f"the strength of {self.title}", place=self.place))
+        if self.datum is not None and not isinstance(self.datum, Point):
+            raise self._error("its datum must be a point", fix="datum=system.origin + (0, h0)", code="E412")
+
+    def suggested_name(self) -> str:
+        """The symbol of its strength."""
+        return self.g.name if isinstance(self.g, sp.Symbol) else ""
+
+    def uses(self) -> Iterator[Use]:
+        """Strength and direction, made of parameters."""
+        yield Use("g", "strength g", self.g, Level.CONSTANT)
+        for d in self.direction:
+            yield Use("direction", "direction", d, Level.CONSTANT)
+
+    def points(self) -> Iterator[tuple[str, Point]]:
+        """The datum, where one is given."""
+        if self.datum is not None:
+            yield "datum", self.datum
+
+    def height(self, model: Model, point: Point) -> sp.Expr:
+        """h = −n·(r − r_datum) [m], the height of a point above the datum."""
+        zero = model.position(self.datum) if self.datum is not None else (sp.S.Zero,) * model.dimension
+        return model.expand(
+            -sum(
+                (n * (x - x0) for n, x, x0 in zip(self.direction, model.position(point), zero, strict=True)),
+                sp.S.Zero,
+            )
+        )
+
+    def shares(self, model: Model) -> Iterator[tuple[Element, sp.Expr, sp.Expr]]:
+        """For every body: the body, its height h and its m g h."""
+        for body in model.bodies:
+            h = self.height(model, body.at)
+            yield body, h, body.mass * self.g * h
+
+    def potential(self, model: Model) -> sp.Expr:
+        """Σ m g h."""
+        return sum((energy for _, _, energy in self.shares(model)), sp.S.Zero)

@@ -1,0 +1,47 @@
+"""A point mass."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
+
+import sympy as sp
+
+from lagrangian.model.elements.base import Element, Level, Use
+from lagrangian.model.geometry import Point, as_expr
+
+if TYPE_CHECKING:
+    from lagrangian.model.model import Model
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Particle(Element):
+    """A point mass [kg] at a point: T* = ½ m v²."""
+
+    mass: Any
+    at: Any
+
+    kind: ClassVar[str] = "particle"
+    ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "T*"
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.at, Point):
+            raise self._error("a particle must be at a point", fix="at=P with P = system.origin + (x, y)", code="E412")
+        self._set(mass=as_expr(self.mass, f"the mass of {self.title}", place=self.place))
+
+    def suggested_name(self) -> str:
+        """The symbol of its mass."""
+        return self.mass.name if isinstance(self.mass, sp.Symbol) else ""
+
+    def uses(self) -> Iterator[Use]:
+        """The mass, made of parameters."""
+        yield Use("mass", "mass", self.mass, Level.CONSTANT)
+
+    def points(self) -> Iterator[tuple[str, Point]]:
+        """Where it is."""
+        yield "at", self.at
+
+    def kinetic(self, model: Model) -> sp.Expr:
+        """½ m (ẋ² + ẏ² + ż²)."""
+        return self.mass / 2 * sum((v**2 for v in model.velocity(self.at)), sp.S.Zero)

@@ -1,0 +1,116 @@
+"""A rigid body: a mass at its centre of mass, and an inertia about it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
+
+import sympy as sp
+
+from lagrangian.model.elements.base import Element, Level, Use
+from lagrangian.model.geometry import Frame, Point, as_expr
+
+if TYPE_CHECKING:
+    from lagrangian.model.model import Model
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RigidBody(Element):
+    """A rigid body: T* = ½ m v² + ½ J ω² in the plane, ½ m v² + ½ ωᵀ I ω in space.
+
+    ``at`` is the centre of mass; ``inertia`` [kg m²] is about the centre of mass, always: a scalar in the plane; in
+    space three principal moments or a symmetric 3×3 matrix in the axes of ``frame``, whose off-diagonal entries are
+    the elements of the tensor (−∫xy dm).
+    """
+
+    mass: Any
+    inertia: Any
+    at: Any
+    frame: Any
+
+    kind: ClassVar[str] = "rigid_body"
+    ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "T*"
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.at, Point):
+            raise self._error("a rigid body's centre of mass must be a point", fix="at=P", code="E412")
+        if not isinstance(self.frame, Frame):
+            raise self._error(
+                "a rigid body needs the frame that turns with it",
+                fix="frame=system.frame(angle=…)",
+                code="E412",
+            )
+        self._set(mass=as_expr(self.mass, f"the mass of {self.title}", place=self.place))
+        self._set(inertia=self._tensor(self.inertia))
+
+    def _tensor(self, given: object) -> sp.ImmutableMatrix:
+        """Return the inertia as a 1×1 matrix in the plane, 3×3 in space."""
+        what = f"the inertia of {self.title}"
+        if isinstance(given, sp.MatrixBase):
+            rows: Any = given.tolist() if given.rows > 1 and given.cols > 1 else list(given)
+        elif isinstance(given, (tuple, list)):
+            rows = list(given)
+        else:
+            rows = None
+        if self.frame.dimension == 2:
+            if rows is not None:
+                raise self._error(
+                    "in the plane the inertia is one number J about the centre of mass", fix="inertia=J", code="E106"
+                )
+            return sp.ImmutableMatrix([[as_expr(given, what, place=self.place)]])
+        if rows is None or len(rows) != 3:
+            raise self._error(
+                "in space the inertia is three principal moments or a 3×3 matrix",
+                fix="inertia=(A, B, C) or inertia=[[Ixx, Ixy, Ixz], [Ixy, Iyy, Iyz], [Ixz, Iyz, Izz]]",
+                code="E106",
+            )
+        if not isinstance(rows[0], (tuple, list)):
+            return sp.ImmutableMatrix(sp.diag(*[as_expr(v, what, place=self.place) for v in rows]))
+        if any(not isinstance(row, (tuple, list)) or len(row) != 3 for row in rows):
+            raise self._error("the inertia matrix is not 3×3", fix="give three rows of three", code="E106")
+        tensor = sp.ImmutableMatrix([[as_expr(v, what, place=self.place) for v in row] for row in rows])
+        for i, j in ((0, 1), (0, 2), (1, 2)):
+            if tensor[i, j] != tensor[j, i]:
+                raise self._error(
+                    f"the inertia matrix is not symmetric: entry ({i + 1},{j + 1}) is {tensor[i, j]} and "
+                    f"entry ({j + 1},{i + 1}) is {tensor[j, i]}",
+                    fix="an inertia is a symmetric tensor; products are its elements (−∫xy dm)",
+                    code="E106",
+                )
+        return tensor
+
+    def suggested_name(self) -> str:
+        """The symbol of its mass, else of its inertia."""
+        if isinstance(self.mass, sp.Symbol):
+            return self.mass.name
+        return self.inertia[0, 0].name if isinstance(self.inertia[0, 0], sp.Symbol) else ""
+
+    def uses(self) -> Iterator[Use]:
+        """The mass and the entries of the inertia, made of parameters."""
+        yield Use("mass", "mass", self.mass, Level.CONSTANT)
+        for entry in self.inertia:
+            yield Use("inertia", "inertia", entry, Level.CONSTANT)
+
+    def points(self) -> Iterator[tuple[str, Point]]:
+        """Its centre of mass."""
+        yield "at", self.at
+
+    def frames(self) -> Iterator[tuple[str, Frame]]:
+        """The axes that turn with it."""
+        yield "frame", self.frame
+
+    def angular_velocity(self, model: Model) -> tuple[sp.Expr, ...]:
+        """``(ω,)`` in the plane, three components in the body's axes in space, written out in the coordinates."""
+        return tuple(model.expand(w) for w in self.frame.angular_velocity)
+
+    def kinetic_parts(self, model: Model) -> tuple[sp.Expr, sp.Expr]:
+        """½ m v² of the centre of mass, and ½ ωᵀ I ω."""
+        omega = sp.Matrix(self.angular_velocity(model))
+        translation = self.mass / 2 * sum((v**2 for v in model.velocity(self.at)), sp.S.Zero)
+        return translation, (omega.T * self.inertia * omega)[0] / 2
+
+    def kinetic(self, model: Model) -> sp.Expr:
+        """½ m v² + ½ ωᵀ I ω."""
+        translation, rotation = self.kinetic_parts(model)
+        return translation + rotation

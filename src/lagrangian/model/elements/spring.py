@@ -1,0 +1,100 @@
+"""A spring: linear or by a law, translational or torsional, between points or on a deflection."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
+
+import sympy as sp
+from sympy.integrals.manualintegrate import manualintegrate
+
+from lagrangian.model.elements.base import Element, Level, Use, check_ends, deflection_between
+from lagrangian.model.geometry import Point, as_expr
+
+if TYPE_CHECKING:
+    from lagrangian.model.model import Model
+
+DELTA = sp.Symbol("delta")
+"""In a law: the extension δ − δ₀ [m or rad]."""
+
+
+def antiderivative(element: Element, law: sp.Expr, variable: sp.Symbol, what: str) -> sp.Expr:
+    """∫₀^variable law, in closed form, or `ModelError` when none is found by the elementary rules."""
+    primitive = manualintegrate(law, variable)
+    at_zero = primitive.subs(variable, 0)
+    if primitive.has(sp.Integral) or at_zero.has(sp.nan, sp.zoo, sp.oo):
+        raise element._error(
+            f"no closed form was found for the integral of its law {law} from 0",
+            fix=f"give {what} instead",
+            code="E415",
+        )
+    return primitive - at_zero
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Spring(Element):
+    """A spring: V = ½ k (δ − δ₀)², or ∫₀^(δ−δ₀) law, with δ the deflection and δ₀ the rest length.
+
+    δ is the distance of two points (``between``) or an expression in the coordinates (``deflection``; an angle makes it
+    torsional). ``law`` is the pull [N or N m] as an expression in ``delta``, the extension; ``energy`` is the stored
+    energy as an expression in ``delta``. Exactly one of ``k``, ``law`` and ``energy`` is given. k may be negative.
+    """
+
+    k: Any = None
+    between: Any = None
+    deflection: Any = None
+    rest: Any = 0
+    law: Any = None
+    energy: Any = None
+
+    kind: ClassVar[str] = "spring"
+    ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "V"
+
+    def __post_init__(self) -> None:
+        given = [key for key in ("k", "law", "energy") if getattr(self, key) is not None]
+        if len(given) != 1:
+            raise self._error(
+                f"give exactly one of k, law and energy (got {', '.join(given) or 'none'})",
+                fix="k for a linear spring, law='k*delta + k3*delta^3' for another",
+                code="E416",
+            )
+        self._set(between=check_ends(self, self.between, self.deflection))
+        for key in (*given, "rest") + (("deflection",) if self.deflection is not None else ()):
+            value = getattr(self, key)
+            value = value(DELTA) if callable(value) and key in ("law", "energy") else value
+            self._set(**{key: as_expr(value, f"the {key} of {self.title}", place=self.place)})
+        if self.law is not None:
+            self._set(energy=antiderivative(self, self.law, DELTA, "energy, an expression in delta"))
+
+    def suggested_name(self) -> str:
+        """The symbol of its stiffness."""
+        return self.k.name if isinstance(self.k, sp.Symbol) else ""
+
+    def uses(self) -> Iterator[Use]:
+        """Stiffness of parameters; deflection and rest length of coordinates, time and inputs; law of the extension."""
+        if self.k is not None:
+            yield Use("k", "stiffness", self.k, Level.CONSTANT)
+        if self.deflection is not None:
+            yield Use("deflection", "deflection", self.deflection, Level.POSITION, inputs=True)
+        yield Use("rest", "rest length", self.rest, Level.POSITION, inputs=True)
+        for key in ("law", "energy"):
+            if getattr(self, key) is not None:
+                yield Use(key, key, getattr(self, key), Level.CONSTANT, local=(DELTA,))
+
+    def points(self) -> Iterator[tuple[str, Point]]:
+        """Its two ends, where it has them."""
+        for point in self.between or ():
+            yield "between", point
+
+    def extension(self, model: Model) -> sp.Expr:
+        """δ − δ₀ [m or rad], positive when stretched."""
+        delta = deflection_between(model, *self.between) if self.between else model.expand(self.deflection)
+        return delta - model.expand(self.rest)
+
+    def potential(self, model: Model) -> sp.Expr:
+        """½ k (δ − δ₀)², or the energy of its law at the extension."""
+        extension = self.extension(model)
+        if self.k is not None:
+            return self.k * extension**2 / 2
+        return self.energy.subs(DELTA, extension)

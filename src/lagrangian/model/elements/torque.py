@@ -1,0 +1,116 @@
+"""A torque on an angle or on a frame, with or without reaction."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
+
+import sympy as sp
+
+from lagrangian.model.elements.base import Action, Element, Level, Use
+from lagrangian.model.geometry import Frame, as_expr, as_vector
+from lagrangian.model.names import time
+
+if TYPE_CHECKING:
+    from lagrangian.model.model import Model
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Torque(Element):
+    """A torque [N m]: Ξ_i = Σ τ·∂φ/∂ξ_i.
+
+    ``on`` is the angle (an expression in the coordinates) or the frame it turns; ``reaction`` is the angle or frame that
+    feels its opposite, the ground when left out. On a frame in space a scalar turns it about the frame's own axis; a
+    vector has three components in the fixed axes.
+    """
+
+    value: Any
+    on: Any = None
+    reaction: Any = None
+
+    kind: ClassVar[str] = "torque"
+    ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "Ξ"
+
+    def __post_init__(self) -> None:
+        if self.on is None:
+            raise self._error(
+                "it acts on nothing", fix="on=angle (an expression such as theta1 + theta2) or on=frame", code="E412"
+            )
+        for key in ("on", "reaction"):
+            target = getattr(self, key)
+            if target is not None and not isinstance(target, Frame):
+                self._set(**{key: as_expr(target, f"the angle in {key} of {self.title}", place=self.place)})
+        if self.on is self.reaction or (not isinstance(self.on, Frame) and self.on == self.reaction):
+            raise self._error(
+                "it acts and reacts on the same angle: it does nothing",
+                fix="leave reaction out, or name another angle",
+                code="E410",
+            )
+        if isinstance(self.value, (tuple, list, sp.MatrixBase)):
+            self._vector()
+        else:
+            self._set(value=as_expr(self.value, f"the value of {self.title}", place=self.place))
+
+    def _vector(self) -> None:
+        value = as_vector(self.value, f"the value of {self.title}", place=self.place)
+        targets = [t for t in (self.on, self.reaction) if t is not None]
+        if len(value) != 3 or any(not isinstance(t, Frame) or t.dimension == 2 for t in targets):
+            raise self._error(
+                "a vector torque has three components and acts on frames in space",
+                fix="torque((tx, ty, tz), on=frame), or one value on an angle",
+                code="E414",
+            )
+        self._set(value=value)
+
+    def suggested_name(self) -> str:
+        """The symbol of its value."""
+        v = self.value
+        return v.name if isinstance(v, sp.Expr) and (v.is_Symbol or v.is_Function) and hasattr(v, "name") else ""
+
+    def uses(self) -> Iterator[Use]:
+        """The value may hold anything down to rates; angles hold coordinates and time."""
+        for v in self.value if isinstance(self.value, tuple) else (self.value,):
+            yield Use("value", "value", v, Level.VELOCITY, inputs=True)
+        for key in ("on", "reaction"):
+            angle = getattr(self, key)
+            if angle is not None and not isinstance(angle, Frame):
+                yield Use(key, f"angle in {key}", angle, Level.POSITION)
+
+    def frames(self) -> Iterator[tuple[str, Frame]]:
+        """What it turns."""
+        for key in ("on", "reaction"):
+            if isinstance(getattr(self, key), Frame):
+                yield key, getattr(self, key)
+
+    def works(self, model: Model) -> tuple[Action, ...]:
+        """The torque on its angle, its opposite on the reaction's."""
+        actions: list[Action] = []
+        for sign, target in ((1, self.on), (-1, self.reaction)):
+            if target is not None:
+                actions.extend(self._actions(model, sign, target))
+        return tuple(actions)
+
+    def _actions(self, model: Model, sign: int, target: sp.Expr | Frame) -> Iterator[Action]:
+        if not isinstance(target, Frame):
+            angle = model.expand(target)
+            yield Action(sign * model.expand(self.value), sp.diff(angle, time), model.angle_words(angle), angle)
+            return
+        on = model.frame_words(target)
+        if target.dimension == 2:
+            angle = model.expand(target.total_angle)
+            yield Action(sign * model.expand(self.value), sp.diff(angle, time), on, angle, target)
+            return
+        if isinstance(self.value, tuple):
+            # components of ω in the fixed axes: R ω_body
+            omega = tuple(target.rotation * sp.Matrix(target.angular_velocity))
+            efforts = self.value
+        else:
+            # about the axis of the frame that is acted on: n·ω, both turned into the fixed axes
+            assert self.on.axis is not None
+            axis = self.on.rotation * sp.Matrix(self.on.axis)
+            spin = target.rotation * sp.Matrix(target.angular_velocity)
+            omega, efforts = ((axis.T * spin)[0],), (self.value,)
+        for effort, rate in zip(efforts, omega, strict=True):
+            if effort != 0:
+                yield Action(sign * model.expand(effort), model.expand(rate), on, None, target)

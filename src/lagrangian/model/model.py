@@ -1,0 +1,171 @@
+"""The frozen description of a mechanical system."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian.errors import Place
+from lagrangian.model.names import time
+
+if TYPE_CHECKING:
+    from lagrangian.model.elements import Element
+    from lagrangian.model.geometry import Frame, Point
+
+
+@dataclass(frozen=True)
+class Coordinate:
+    """A generalized coordinate ξ: ``symbol`` is SymPy's ``dynamicsymbols(name)``."""
+
+    name: str
+    symbol: AppliedUndef
+    description: str = ""
+    unit: str | None = None
+    place: Place | None = field(default=None, compare=False)
+
+    @property
+    def rate(self) -> sp.Derivative:
+        """ξ̇."""
+        return sp.Derivative(self.symbol, time)
+
+    @property
+    def acceleration(self) -> sp.Derivative:
+        """ξ̈."""
+        return sp.Derivative(self.symbol, (time, 2))
+
+
+@dataclass(frozen=True)
+class Parameter:
+    """A constant: a plain SymPy symbol with, perhaps, a value in SI units and the unit it was given in."""
+
+    name: str
+    symbol: sp.Symbol
+    value: float | None = None
+    unit: str | None = None
+    description: str = ""
+    place: Place | None = field(default=None, compare=False)
+
+
+@dataclass(frozen=True)
+class Input:
+    """A force, torque or other signal from outside, a function of time that is known only when the system runs."""
+
+    name: str
+    symbol: AppliedUndef
+    description: str = ""
+    unit: str | None = None
+    place: Place | None = field(default=None, compare=False)
+
+
+@dataclass(frozen=True)
+class Definition:
+    """A named expression. ``moving`` tells whether it holds coordinates or time (its symbol is then a function of t)."""
+
+    name: str
+    symbol: sp.Expr
+    expression: sp.Expr
+    place: Place | None = field(default=None, compare=False)
+
+    @property
+    def moving(self) -> bool:
+        """Whether it changes with time."""
+        return isinstance(self.symbol, AppliedUndef)
+
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """What was described: constant, complete, checked. `Builder.model` makes one.
+
+    ``points`` and ``frames`` are the named ones, in order; unnamed ones are reached from the elements. ``dimension`` is
+    2 in the plane and 3 in space. ``settings`` holds what a file says of simulation, as plain data.
+    """
+
+    name: str
+    dimension: int
+    origin: Point
+    coordinates: tuple[Coordinate, ...]
+    parameters: tuple[Parameter, ...]
+    inputs: tuple[Input, ...]
+    definitions: tuple[Definition, ...]
+    points: tuple[Point, ...]
+    frames: tuple[Frame, ...]
+    elements: tuple[Element, ...]
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    _memo: dict[Any, Any] = field(default_factory=dict, repr=False)
+
+    @cached_property
+    def bodies(self) -> tuple[Any, ...]:
+        """Particles and rigid bodies, in order."""
+        return tuple(e for e in self.elements if e.kind in ("particle", "rigid_body"))
+
+    @cached_property
+    def values(self) -> dict[sp.Symbol, float]:
+        """The parameters that have a value, by symbol."""
+        return {p.symbol: p.value for p in self.parameters if p.value is not None}
+
+    @cached_property
+    def symbols(self) -> dict[str, sp.Expr]:
+        """Every name with its symbol: coordinates, parameters, inputs, definitions."""
+        named = (*self.coordinates, *self.parameters, *self.inputs, *self.definitions)
+        return {x.name: x.symbol for x in named}
+
+    def expand(self, expr: sp.Expr, *, constants: bool = False) -> sp.Expr:
+        """Return ``expr`` with moving definitions written out (and constant ones too, if asked), derivatives done."""
+        key = ("expand", expr, constants)
+        if key not in self._memo:
+            table = {d.symbol: d.expression for d in self.definitions if d.moving or constants}
+            done = expr
+            while table and any(done.has(s) for s in table):
+                done = done.subs(table).doit(deep=True, integrals=False, sums=False)
+            self._memo[key] = done
+        return self._memo[key]
+
+    def position(self, point: Point) -> tuple[sp.Expr, ...]:
+        """The components of a point's position in the fixed axes, ``dimension`` of them; definitions stay named."""
+        return point.position or (sp.S.Zero,) * self.dimension
+
+    def velocity(self, point: Point) -> tuple[sp.Expr, ...]:
+        """The components of a point's velocity in the fixed axes, written out in coordinates and rates."""
+        key = ("velocity", id(point))
+        if key not in self._memo:
+            self._memo[key] = tuple(sp.diff(self.expand(x), time) for x in self.position(point))
+        return self._memo[key]
+
+    def point_words(self, point: Point) -> str:
+        """The point in words: the body that sits there, else its name, else the ground or its components."""
+        if point.is_origin:
+            return "the ground"
+        for body in self.bodies:
+            if body.at is point:
+                return body.title
+        if point.name:
+            return f"point '{point.name}'"
+        position = [self.expand(x) for x in self.position(point)]
+        if not any(x.has(AppliedUndef, time) for x in position):
+            return "the ground"
+        for body in self.bodies:
+            if tuple(self.expand(x) for x in self.position(body.at)) == tuple(position):
+                return body.title
+        return "the point " + "(" + ", ".join(str(x) for x in position).replace("(t)", "") + ")"
+
+    def frame_words(self, frame: Frame) -> str:
+        """The frame in words: the body that turns with it, else its name."""
+        for body in self.bodies:
+            if getattr(body, "frame", None) is frame:
+                return body.title
+        return f"frame '{frame.name}'" if frame.name else "a frame"
+
+    def angle_words(self, angle: sp.Expr) -> str:
+        """An angle in words: the body in the plane whose orientation it is, else the angle itself."""
+        for body in self.bodies:
+            frame = getattr(body, "frame", None)
+            if frame is not None and frame.dimension == 2:
+                free = sp.expand(self.expand(frame.total_angle) - angle)
+                if not free.has(AppliedUndef, time):
+                    return body.title
+        return f"the angle {angle}".replace("(t)", "")
