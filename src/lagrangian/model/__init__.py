@@ -23,6 +23,7 @@ from lagrangian.model.elements import (
 from lagrangian.model.geometry import Frame, Point
 from lagrangian.model.model import Coordinate, Definition, Input, Model, Parameter
 from lagrangian.model.names import RESERVED, check_name, time
+from lagrangian.model.plain import plain
 
 __all__ = [
     "REGISTRY",
@@ -49,5 +50,6 @@ __all__ = [
     "Spring",
     "Torque",
     "check_name",
+    "plain",
     "time",
 ]

@@ -1,0 +1,114 @@
+"""The Derivation: seven steps as data, their results as SymPy, and where every term came from."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import sympy as sp
+
+from lagrangian.derive.formula import Formula, Item, Text
+
+if TYPE_CHECKING:
+    from lagrangian.model import Element, Model
+
+
+@dataclass(frozen=True)
+class Check:
+    """Something that was verified: in words, whether it holds, and the figure."""
+
+    what: Text
+    holds: bool
+    figure: str = ""
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step of the lecture: what was done, why, what came out, what was checked.
+
+    ``items`` are the words, formulas and tables in reading order; ``expressions`` the results by name; ``reasons`` why
+    each result is what it is (in step 6: why each Ξ is what it is).
+    """
+
+    number: int
+    title: str
+    what: Text
+    why: Text
+    items: tuple[Item, ...]
+    expressions: Mapping[str, Any] = field(default_factory=dict)
+    reasons: tuple[Text, ...] = ()
+    checked: tuple[Check, ...] = ()
+
+
+@dataclass(frozen=True)
+class LedgerRow:
+    """An element's one place among T*, V and Ξ, with the reason."""
+
+    element: str
+    column: str
+    expression: sp.Expr | None
+    reason: Text
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where a term came from: the element, the equation it stands in (a coordinate's name), its share of the term."""
+
+    element: Element
+    coordinate: str
+    share: sp.Expr
+    step: int
+
+
+@dataclass(frozen=True)
+class EquationTerm:
+    """A readable term of an equation of motion: its kind and the elements that make it.
+
+    Kinds: "inertia" (with an acceleration), "velocity" (products of rates), "damping", "stiffness", "gravity", "input",
+    "other".
+    """
+
+    expr: sp.Expr
+    kind: str
+    elements: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Derivation:
+    """The equations of motion of a model, and how they were found.
+
+    ``steps[0]`` to ``steps[6]`` are the lecture's. ``equations[i]`` is ``Eq(left-hand side, Ξ_i)`` of coordinate i.
+    M ξ̈ + C ξ̇ + G = Ξ holds with ``mass_matrix`` (n×n), ``coriolis_matrix`` (n×n, by Christoffel symbols, so that
+    Ṁ − 2C is skew), ``gravity_vector`` (n×1: ∂V/∂ξ, and what explicit time adds) and ``generalized_forces`` (n×1).
+    ``result`` is the closing section, ``ledger`` books every element once, ``verified`` holds what was checked at the
+    end. ``notes`` say where something could not be made short and why.
+    """
+
+    model: Model
+    steps: tuple[Step, ...]
+    T: sp.Expr
+    V: sp.Expr
+    L: sp.Expr
+    Xi: Mapping[sp.Expr, sp.Expr]
+    equations: tuple[sp.Eq, ...]
+    terms: tuple[tuple[EquationTerm, ...], ...]
+    mass_matrix: sp.Matrix
+    coriolis_matrix: sp.Matrix
+    gravity_vector: sp.Matrix
+    generalized_forces: sp.Matrix
+    result: tuple[Item, ...]
+    ledger: tuple[LedgerRow, ...]
+    shares: Any = field(repr=False)
+    verified: tuple[Check, ...] = ()
+    notes: tuple[Text, ...] = ()
+
+    @property
+    def coordinates(self) -> tuple[sp.Expr, ...]:
+        """The generalized coordinates, in declared order."""
+        return tuple(c.symbol for c in self.model.coordinates)
+
+    def formulas(self) -> tuple[Formula, ...]:
+        """Every formula of every step and of the result, in reading order."""
+        items = [item for step in self.steps for item in step.items] + list(self.result)
+        return tuple(item for item in items if isinstance(item, Formula))

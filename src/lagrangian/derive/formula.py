@@ -1,0 +1,213 @@
+"""What a step of a derivation is made of: words with symbols in them, formulas, tables.
+
+These are data without any markup. `write` lays them out; ``str()`` gives a plain reading. A quantity is named by its
+meaning ("T*", "Xi"), and the writer chooses the letter of the notation that was asked for (T*, T or K; Ξ, Q or τ).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import sympy as sp
+
+from lagrangian.model.plain import plain
+
+
+@dataclass(frozen=True)
+class Name:
+    """A named quantity: ``base`` is its meaning, ``index`` its subscript, ``dots`` its time derivatives.
+
+    Bases: "T*" kinetic co-energy, "V" potential energy, "L" Lagrangian, "D" Rayleigh's function, "Xi" generalized force,
+    "xi" generalized coordinate, "delta" deflection, "h" height, "v" speed, "omega" angular velocity, "x", "y", "z"
+    positions, "phi" an angle, "W" virtual work, "F" force, "M" mass matrix, "C" Coriolis matrix, "G" gravity and
+    stiffness vector, "q" the vector of coordinates, "E" energy. A base outside this list is shown as it is.
+    """
+
+    base: str
+    index: str = ""
+    dots: int = 0
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        return self.base + (f"_{self.index}" if self.index else "") + "'" * self.dots
+
+
+@dataclass(frozen=True)
+class Partial:
+    """∂of/∂by."""
+
+    of: Left
+    by: Left
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        return f"∂{show(self.of)}/∂{show(self.by)}"
+
+
+@dataclass(frozen=True)
+class Total:
+    """d/dt of something."""
+
+    of: Left
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        return f"d/dt({show(self.of)})"
+
+
+@dataclass(frozen=True)
+class Variation:
+    """δ of something: a virtual displacement or virtual work."""
+
+    of: Left
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        return f"δ{show(self.of)}"
+
+
+@dataclass(frozen=True)
+class Terms:
+    """A sum whose terms keep this order; an empty one is 0."""
+
+    terms: tuple[Left, ...]
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        text = " + ".join(show(t) for t in self.terms) or "0"
+        return text.replace("+ -", "- ")
+
+
+@dataclass(frozen=True)
+class Minus:
+    """−of."""
+
+    of: Left
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        return f"-{show(self.of)}"
+
+
+@dataclass(frozen=True)
+class Product:
+    """Factors side by side, in this order, a sum among them in parentheses."""
+
+    factors: tuple[Left, ...]
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        return "·".join(f"({show(f)})" if isinstance(f, (Terms, sp.Add)) else show(f) for f in self.factors)
+
+
+@dataclass(frozen=True)
+class Square:
+    """coefficient · (a² + b² + …), each square written as a square: ½ m (ẋ² + ẏ²), ½ k (x₁ − x₂)²."""
+
+    coefficient: sp.Expr
+    of: tuple[Left, ...]
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        inner = " + ".join(f"({show(a)})^2" for a in self.of)
+        return f"{plain(self.coefficient)}*({inner})" if len(self.of) > 1 else f"{plain(self.coefficient)}*{inner}"
+
+
+@dataclass(frozen=True)
+class Matrix:
+    """A matrix or column of expressions, row by row."""
+
+    rows: tuple[tuple[Left, ...], ...]
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        return "[" + "; ".join(", ".join(show(x) for x in row) for row in self.rows) + "]"
+
+
+Left: TypeAlias = (
+    "Name | Partial | Total | Variation | Terms | Minus | Product | Square | Matrix | Elided | sp.Expr"
+)
+"""Anything that can stand on a side of an equality."""
+
+
+@dataclass(frozen=True)
+class Elided:
+    """An expression too long to read: how many operations it has, and the expression itself for those who want it."""
+
+    expr: sp.Expr
+    operations: int
+    terms: tuple[sp.Expr, ...] = ()
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        return f"[{self.operations} operations]"
+
+
+def show(item: Left | str) -> str:
+    """Return a plain reading of anything that stands in a formula or a text."""
+    return plain(item) if isinstance(item, sp.Basic) else str(item)
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A chain of equalities a = b = c. ``brief`` marks what belongs on the one-page checklist, ``boxed`` a result."""
+
+    sides: tuple[Left, ...]
+    note: Text | None = None
+    brief: bool = False
+    boxed: bool = False
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        return " = ".join(show(s) for s in self.sides)
+
+
+@dataclass(frozen=True)
+class Text:
+    """Words with symbols in them, in order."""
+
+    parts: tuple[str | Left, ...]
+    brief: bool = False
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        return "".join(show(p) for p in self.parts)
+
+
+@dataclass(frozen=True)
+class Heading:
+    """A heading inside a step."""
+
+    text: Text
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        return str(self.text)
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table; a cell is a `Text`, a `Formula` or a single quantity."""
+
+    header: tuple[Text, ...]
+    rows: tuple[tuple[Text | Formula, ...], ...]
+    brief: bool = False
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        lines = [" | ".join(str(h) for h in self.header)]
+        return "\n".join(lines + [" | ".join(str(c) for c in row) for row in self.rows])
+
+
+Item: TypeAlias = "Text | Formula | Heading | Table"
+
+
+def text(*parts: str | Left, brief: bool = False) -> Text:
+    """Return words with symbols in them: ``text("wiggle only ", theta, ": …")``."""
+    return Text(parts, brief)
+
+
+def formula(*sides: Left, note: Text | None = None, brief: bool = False, boxed: bool = False) -> Formula:
+    """Return the chain of equalities ``sides[0] = sides[1] = …``."""
+    return Formula(sides, note, brief, boxed)

@@ -1,0 +1,48 @@
+"""Expressions as plain text in the grammar of model files: ``m*L^2*theta1'' + g*sin(theta1)``."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sympy as sp
+from sympy.printing.precedence import precedence
+from sympy.printing.str import StrPrinter
+
+
+class _Plain(StrPrinter):
+    """SymPy's text printer with primes for rates, names without ``(t)`` and ``^`` for powers."""
+
+    _names = {"Abs": "abs", "Min": "min", "Max": "max"}  # noqa: RUF012 - a printer's table, never changed
+
+    def _print_Derivative(self, expr: Any) -> str:
+        return f"{self._print(expr.expr)}{chr(39) * expr.derivative_count}"
+
+    def _print_Function(self, expr: Any) -> str:
+        name = expr.func.__name__
+        if isinstance(expr, sp.core.function.AppliedUndef):
+            return name
+        return f"{self._names.get(name, name)}({self.stringify(expr.args, ', ')})"
+
+    def _print_Abs(self, expr: Any) -> str:
+        return self._print_Function(expr)
+
+    def _print_Pow(self, expr: Any, rational: bool = False) -> str:
+        return super()._print_Pow(expr, rational=rational).replace("**", "^")
+
+    def _print_Piecewise(self, expr: Any) -> str:
+        parts: list[str] = []
+        for value, condition in expr.args:
+            if condition == sp.true:
+                parts.append(self._print(value))
+            else:
+                parts += [self._print(condition), self._print(value)]
+        return "piecewise(" + ", ".join(parts) + ")"
+
+    def _print_Relational(self, expr: Any) -> str:
+        left, right = (self.parenthesize(side, precedence(expr)) for side in expr.args)
+        return f"{left} {expr.rel_op} {right}"
+
+
+def plain(expr: sp.Basic) -> str:
+    """Return ``expr`` as text that the expression grammar reads back."""
+    return _Plain({"order": None}).doprint(expr)
