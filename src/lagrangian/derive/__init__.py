@@ -1,1 +1,9 @@
-"""..."""
+"""From a description to its equations of motion, step by step as in a lecture.
+
+`derive` is the whole: 0 holonomic?, 1 coordinates, 2 T*, 3 V, 4 L, 5 left-hand sides, 6 Ξ, then the equations.
+"""
+
+from lagrangian.derive.derivation import Check, Derivation, EquationTerm, LedgerRow, Origin, Step
+from lagrangian.derive.derive import derive
+
+__all__ = ["Check", "Derivation", "EquationTerm", "LedgerRow", "Origin", "Step", "derive"]

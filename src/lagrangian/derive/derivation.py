@@ -112,3 +112,7 @@ class Derivation:
         """Every formula of every step and of the result, in reading order."""
         items = [item for step in self.steps for item in step.items] + list(self.result)
         return tuple(item for item in items if isinstance(item, Formula))
+
+    def where(self, term: sp.Expr) -> tuple[Origin, ...]:
+        """Return the elements a term came from, with the equation, the step and each one's share of it."""
+        return self.shares.where(term)

@@ -357,6 +357,44 @@ class Builder:
             number += 1
         return f"{base} {number}"
 
+    @property
+    def elements(self) -> tuple[Element, ...]:
+        """What was added so far, in order."""
+        return tuple(self._elements)
+
+    def standard_gravity(self, value: float) -> sp.Expr:
+        """Return the parameter g, declared with ``value`` [m/s²] unless the person declared one."""
+        if "g" in self._parameters:
+            return self._parameters["g"].symbol
+        if "g" in self._definitions:
+            return self._definitions["g"].symbol
+        if "g" in self._coordinates or "g" in self._inputs:
+            raise ModelError(
+                "the name 'g' is taken, so gravity has no strength", fix="gravity(..., g=another symbol)", code="E404"
+            )
+        return self.parameter("g", value, unit="m/s^2").symbol
+
+    def lookup(self, name: str) -> Any:
+        """Return the symbol of that name, or else the point, frame or element."""
+        for table in (self._coordinates, self._parameters, self._inputs, self._definitions):
+            if name in table:
+                return table[name].symbol
+        for things in (self._points, self._frames, self._element_names):
+            if name in things:
+                return things[name]
+        known = [*self._coordinates, *self._parameters, *self._inputs, *self._definitions, *self._points, *self._frames]
+        raise ModelError(f"nothing is named '{name}'", fix=did_you_mean(name, known), code="E402")
+
+    def summary(self) -> str:
+        """What there is, counted."""
+        counts = {
+            "coordinate": len(self._coordinates),
+            "parameter": len(self._parameters),
+            "input": len(self._inputs),
+            "element": len(self._elements),
+        }
+        return ", ".join(f"{n} {what}{'s' if n != 1 else ''}" for what, n in counts.items())
+
     # -- the whole ----------------------------------------------------------------------------------------------
 
     def model(self) -> Model:

@@ -1,0 +1,56 @@
+"""The derivation that people hold: the data of `derive`, with its ways of being written and verified."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+from typing import Any, Literal
+
+from lagrangian import analyze, derive, write
+from lagrangian.model import Model
+
+Notation = Literal["lecture", "physics", "robotics"]
+
+
+@dataclass(frozen=True, eq=False)
+class Derivation(derive.Derivation):
+    """The seven steps, their results as SymPy, and every way to write them out."""
+
+    def to_text(
+        self, *, notation: Notation = "lecture", brief: bool = False, full: bool = False, width: int = 80
+    ) -> str:
+        """Return Unicode text for a terminal of ``width`` columns."""
+        return write.to_text(self, notation=notation, brief=brief, full=full, width=width)
+
+    def to_markdown(self, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
+        """Return Markdown with LaTeX mathematics."""
+        return write.to_markdown(self, notation=notation, brief=brief, full=full)
+
+    def to_latex(self, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
+        """Return a LaTeX article that compiles as it is."""
+        return write.to_latex(self, notation=notation, brief=brief, full=full)
+
+    def to_html(self, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
+        """Return one self-contained HTML page that works offline."""
+        return write.to_html(self, notation=notation, brief=brief, full=full)
+
+    def to_dict(self, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> dict[str, Any]:
+        """Return plain data for JSON."""
+        return write.to_dict(self, notation=notation, brief=brief, full=full)
+
+    def verify(self, *, states: int = 50, seed: int = 1) -> tuple[derive.Check, ...]:
+        """Check the equations by independent routes at random states; every check carries its figure."""
+        return analyze.verify(self, states=states, seed=seed)
+
+    def _repr_html_(self) -> str:
+        return write.to_html_fragment(self)
+
+    def __str__(self) -> str:
+        """Read as text."""
+        return self.to_text()
+
+
+def derive_and_verify(model: Model) -> Derivation:
+    """Derive, and end with what was verified."""
+    data = derive.derive(model)
+    made = Derivation(**{f.name: getattr(data, f.name) for f in fields(data)})
+    return replace(made, verified=analyze.verify(made, states=10, seed=1))

@@ -1,0 +1,65 @@
+"""What the steps share: the model, its algebra, what moves with what, and how long a formula may be."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import sympy as sp
+
+from lagrangian.derive.formula import Elided, Left, Name, Terms
+from lagrangian.derive.normal import Algebra, Form
+from lagrangian.derive.wiggle import Wiggle
+from lagrangian.model import Model
+
+READABLE = 400
+"""Operations above which a formula is summarised; the full text is one option away."""
+
+
+@dataclass(frozen=True, eq=False)
+class Context:
+    """Built once for a derivation and handed to every step."""
+
+    model: Model
+    algebra: Algebra
+    wiggle: Wiggle
+    _memo: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
+
+    @cached_property
+    def symbols(self) -> tuple[sp.Expr, ...]:
+        """The coordinates."""
+        return tuple(c.symbol for c in self.model.coordinates)
+
+    def form(self, expr: sp.Expr) -> Form:
+        """The normal form of an expression."""
+        return self.algebra.form(expr)
+
+    def readable(self, expr: sp.Expr) -> sp.Expr:
+        """The expression as a textbook would write it."""
+        if expr not in self._memo:
+            self._memo[expr] = self.algebra.form(expr).expr()
+        return self._memo[expr]
+
+
+def fit(expr: sp.Expr) -> Left:
+    """Return the expression, or its summary where it is too long to read."""
+    operations = int(sp.count_ops(expr))
+    return expr if operations <= READABLE else Elided(expr, operations)
+
+
+def fit_terms(terms: tuple[sp.Expr, ...]) -> Left:
+    """Return the sum in this order, or its summary where it is too long to read."""
+    operations = sum(int(sp.count_ops(t)) for t in terms)
+    if operations <= READABLE:
+        return Terms(terms)
+    return Elided(sp.Add(*terms, evaluate=False) if terms else sp.S.Zero, operations, terms)
+
+
+def xi(model: Model, index: int) -> Name:
+    """The lecture's name of a coordinate, ξ_i; with one coordinate just ξ₁."""
+    return Name("xi", str(index + 1))
+
+
+def big_xi(index: int) -> Name:
+    """The lecture's name of a generalized force, Ξ_i."""
+    return Name("Xi", str(index + 1))

@@ -1,0 +1,212 @@
+"""Step 1: generalized coordinates, complete and independent, absolute or relative."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from lagrangian.derive.context import Context, xi
+from lagrangian.derive.derivation import Check, Step
+from lagrangian.derive.formula import Formula, Item, Left, Table, Text, formula, text
+from lagrangian.derive.wiggle import depends
+from lagrangian.model import Element, Frame, Model, Point
+
+
+@dataclass(frozen=True)
+class Measured:
+    """How a coordinate is measured: an angle or a length, absolute (``to`` is None) or relative to another one."""
+
+    angle: bool
+    to: sp.Expr | None
+    known: bool = True
+
+
+def coordinates(context: Context) -> Step:
+    """Show that the coordinates are complete and independent, and which are absolute and which relative."""
+    model, wiggle = context.model, context.wiggle
+    n = len(model.coordinates)
+    kinds = measured(model)
+    items: list[Item] = []
+    rows: list[tuple[Text | Formula, ...]] = []
+    for i, c in enumerate(model.coordinates):
+        items.append(formula(xi(model, i), c.symbol, note=text(c.description) if c.description else None, brief=True))
+        rows.append((text(c.symbol), text(*_kind_words(kinds[c.symbol])), text(*_wiggle_words(context, i))))
+    header = (text("coordinate"), text("measured"), text("wiggle it alone"))
+    items.append(Table(header, tuple(rows), brief=True))
+    items.append(
+        text(
+            "Complete: with the coordinates (and t) given, the position of every mass follows; nothing else in the "
+            "system moves."
+        )
+    )
+    items.append(
+        text(
+            f"Independent: each one can wiggle while the others stay fixed. The velocities of all masses have rank "
+            f"{wiggle.rank} in the {n} rate{'s' if n > 1 else ''}, so no combination of the coordinates wiggles "
+            "without moving a mass."
+        )
+    )
+    if n > 1 or kinds[context.symbols[0]].to is not None:
+        items.append(text("The set is not unique: any complete and independent set is right, absolute or relative."))
+    reasons = tuple(text(c, ": ", *_kind_words(k)) for c, k in kinds.items())
+    return Step(
+        1,
+        "Generalized coordinates",
+        text("Chose the generalized coordinates and checked that they are complete and independent."),
+        text("There is one equation of motion for each; a missing or a dependent one would make them wrong."),
+        tuple(items),
+        {"coordinates": context.symbols, "rank": wiggle.rank, "relative": {c: k.to for c, k in kinds.items()}},
+        reasons,
+        (Check(text("rank of the velocities in the rates"), wiggle.rank == n, f"{wiggle.rank} of {n}"),),
+    )
+
+
+def _kind_words(kind: Measured) -> list[str | Left]:
+    if not kind.known:
+        return ["as given, with the energies"]
+    what = "an angle" if kind.angle else "a displacement"
+    if kind.to is None:
+        return [f"absolute: {what} from a fixed direction" if kind.angle else f"absolute: {what} from a fixed place"]
+    return [f"relative: {what} measured from what ", kind.to, " moves"]
+
+
+def _wiggle_words(context: Context, index: int) -> list[str | Left]:
+    moved = context.wiggle.moved[index]
+    still = [b for b in context.model.bodies if b not in moved]
+    if not context.model.bodies:
+        return ["its momentum changes: it moves mass"]
+    parts = [f"{_listed(moved)} move{'s' if len(moved) == 1 else ''}"]
+    if still:
+        parts.append(f"; {_listed(still)} stay{'s' if len(still) == 1 else ''}")
+    return list(parts)
+
+
+def _listed(elements: list[Element] | tuple[Element, ...]) -> str:
+    titles = [e.title for e in elements]
+    if len(titles) > 6:
+        return f"{titles[0]}, …, {titles[-1]} ({len(titles)} bodies)"
+    return titles[0] if len(titles) == 1 else ", ".join(titles[:-1]) + " and " + titles[-1]
+
+
+# -- absolute or relative, from the geometry ------------------------------------------------------------------------
+
+
+def measured(model: Model) -> dict[sp.Expr, Measured]:
+    """Work out how every coordinate is measured.
+
+    An angle shows itself in the directions of the system (arguments of sine and cosine, angles of frames): where every
+    direction that holds ξ_i holds other coordinates too, ξ_i is measured from them. A length shows itself in a position:
+    ξ_i is relative to ξ_j when the body it moves is carried along by ξ_j, together with one that ξ_i does not move.
+    """
+    symbols = [c.symbol for c in model.coordinates]
+    directions, carried = _directions(model, symbols), _carriers(model, symbols)
+    reach = {s: sum(any(depends(model, x, s) for x in _where(model, b)) for b in model.bodies) for s in symbols}
+    found: dict[sp.Expr, Measured] = {}
+    lengths = _lengths(model, symbols)
+    for s in symbols:
+        holding = [d for d in directions if s in d]
+        if s in carried:
+            found[s] = Measured(True, carried[s])
+        elif s in lengths:
+            found[s] = Measured(False, _carried_by(model, s, symbols, reach))
+        elif holding:
+            smallest = min(holding, key=lambda d: (len(d), [symbols.index(x) for x in d]))
+            others = [x for x in smallest if x is not s]
+            later = [x for x in others if symbols.index(x) > symbols.index(s)]
+            # of two coordinates that only ever appear together, the first one declared is the one measured from
+            rest = others if len(holding) > 1 or not later else [x for x in others if x not in later]
+            if len(rest) and all(set(smallest) <= set(d) for d in holding):
+                found[s] = Measured(True, min(rest, key=lambda x: (reach[x], -symbols.index(x))))
+            else:
+                found[s] = Measured(True, None)
+        else:
+            found[s] = Measured(False, None, known=False)
+    return found
+
+
+def _where(model: Model, body: Element) -> tuple[sp.Expr, ...]:
+    return tuple(model.expand(x) for x in model.position(body.at))  # type: ignore[attr-defined]
+
+
+def _chain(point: Point) -> list[Point]:
+    chain: list[Point] = []
+    at: Point | None = point
+    while at is not None and not at.is_origin:
+        chain.append(at)
+        at = at.parent
+    return chain
+
+
+def _frames(model: Model) -> list[Frame]:
+    found: list[Frame] = []
+    starts = [f for b in model.bodies for _, f in b.frames()]
+    starts += [p.frame for b in model.bodies for p in _chain(b.at) if p.frame is not None]
+    for start in starts:
+        at: Frame | None = start
+        while at is not None and at not in found:
+            found.append(at)
+            at = at.parent
+    return found
+
+
+def _directions(model: Model, symbols: list[sp.Expr]) -> list[tuple[sp.Expr, ...]]:
+    """The sets of coordinates that make up each direction of the system."""
+    arguments: list[sp.Expr] = []
+    for body in model.bodies:
+        for point in _chain(body.at):
+            for x in point.offset:
+                arguments += [f.args[0] for f in model.expand(x).atoms(sp.sin, sp.cos)]
+    for frame in _frames(model):
+        arguments.append(model.expand(frame.total_angle if frame.axis is None else frame.angle))
+    sets = {tuple(s for s in symbols if a.has(s)) for a in arguments}
+    return sorted((s for s in sets if s), key=lambda s: (len(s), [symbols.index(x) for x in s]))
+
+
+def _carriers(model: Model, symbols: list[sp.Expr]) -> dict[sp.Expr, sp.Expr]:
+    """In space: a coordinate of a frame whose parent turns is measured from the nearest coordinate that turns it."""
+    carried: dict[sp.Expr, sp.Expr] = {}
+    for frame in _frames(model):
+        if frame.axis is None:
+            continue
+        own = [s for s in symbols if model.expand(frame.angle).has(s)]
+        at = frame.parent
+        while at is not None and own:
+            turning = [s for s in symbols if model.expand(at.angle).has(s) and s not in own]
+            if turning:
+                carried.update({s: turning[-1] for s in own if s not in carried})
+                break
+            at = at.parent
+    return carried
+
+
+def _lengths(model: Model, symbols: list[sp.Expr]) -> set[sp.Expr]:
+    """The coordinates that stand in a position outside of any sine or cosine."""
+    outside: set[sp.Expr] = set()
+    for body in model.bodies:
+        for x in _where(model, body):
+            bare = x.replace(lambda e: isinstance(e, (sp.sin, sp.cos)), lambda _: sp.Dummy())
+            outside |= {s for s in symbols if bare.has(s)}
+    return outside
+
+
+def _carried_by(model: Model, s: sp.Expr, symbols: list[sp.Expr], reach: dict[sp.Expr, int]) -> sp.Expr | None:
+    """The nearest coordinate that carries along all that ``s`` moves, adding to it, and something ``s`` leaves still."""
+    places = [_where(model, b) for b in model.bodies]
+    mine = [p for p in places if any(depends(model, x, s) for x in p)]
+    others = [p for p in places if p not in mine]
+    candidates: list[sp.Expr] = []
+    for other in symbols:
+        if other is s or not all(any(depends(model, x, other) for x in p) for p in mine):
+            continue
+        mixed = any(sp.diff(x, s, other) != 0 for p in mine for x in p)
+        if not mixed and any(any(depends(model, x, other) for x in p) for p in others):
+            candidates.append(other)
+    return min(candidates, key=lambda x: (reach[x], -symbols.index(x)), default=None)
+
+
+def chain_of(kinds: dict[sp.Expr, Measured], symbol: sp.Expr) -> list[sp.Expr]:
+    """The coordinates that are, directly or through others, measured from ``symbol``: its children."""
+    children = [s for s, k in kinds.items() if k.to == symbol]
+    return children + [g for c in children for g in chain_of(kinds, c)]
+

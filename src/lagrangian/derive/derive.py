@@ -1,0 +1,69 @@
+"""The derivation, as a table of contents."""
+
+from __future__ import annotations
+
+import sympy as sp
+
+from lagrangian.derive.context import Context
+from lagrangian.derive.coordinates import coordinates
+from lagrangian.derive.derivation import Derivation
+from lagrangian.derive.energies import kinetic, lagrangian, potential, shares
+from lagrangian.derive.forces import contributions, forces
+from lagrangian.derive.holonomy import holonomic
+from lagrangian.derive.lagrange import left_hand_sides, left_sides
+from lagrangian.derive.normal import Algebra
+from lagrangian.derive.result import Shares, closing, equations, ledger, ledger_items, matrices
+from lagrangian.derive.wiggle import study
+from lagrangian.model import Model
+
+
+def derive(model: Model) -> Derivation:
+    """Return the equations of motion of a model and the steps that lead to them.
+
+    d/dt(∂L/∂ξ̇_i) − ∂L/∂ξ_i = Ξ_i with L = T* − V, for every coordinate. Raises `ModelError` for coordinates that are
+    dependent or move nothing, by name. Source: the lecture's steps 0 to 6.
+    """
+    wiggle = study(model)
+    context = Context(model, Algebra(model, _everything(model)), wiggle)
+    pieces = shares(model, context.algebra)
+
+    step0 = holonomic(context)
+    step1 = coordinates(context)
+    step2 = kinetic(context, pieces)
+    step3 = potential(context, pieces)
+    T, V = step2.expressions["T"], step3.expressions["V"]
+    step4 = lagrangian(context, pieces)
+    sides = left_sides(context, pieces)
+    step5 = left_hand_sides(context, sides)
+    found = contributions(context)
+    step6 = forces(context, found)
+
+    Xi = step6.expressions["Xi"]
+    result, mats, book = equations(context, sides, found), matrices(context, sides, Xi), ledger(model, context)
+    return Derivation(
+        model=model,
+        steps=(step0, step1, step2, step3, step4, step5, step6),
+        T=T,
+        V=V,
+        L=step4.expressions["L"],
+        Xi=Xi,
+        equations=result.equalities,
+        terms=result.terms,
+        mass_matrix=mats.M,
+        coriolis_matrix=mats.C,
+        gravity_vector=mats.G,
+        generalized_forces=mats.Xi,
+        result=closing(context, result, mats) + ledger_items(book),
+        ledger=book,
+        shares=Shares(context, sides, found),
+    )
+
+
+def _everything(model: Model) -> list[sp.Expr]:
+    """Every energy and every force, for the algebra to choose its angles and symbols from."""
+    exprs: list[sp.Expr] = []
+    for element in model.elements:
+        exprs += [element.kinetic(model), element.potential(model)]
+        for action in element.works(model):
+            exprs += [action.effort, action.rate]
+    return exprs

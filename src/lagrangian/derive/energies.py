@@ -1,0 +1,323 @@
+"""Steps 2, 3 and 4: kinetic co-energy T*, potential energy V, Lagrangian L = T* − V."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+
+from lagrangian.derive.context import Context, fit
+from lagrangian.derive.derivation import Step
+from lagrangian.derive.formula import (
+    Formula,
+    Heading,
+    Item,
+    Left,
+    Minus,
+    Name,
+    Product,
+    Square,
+    Terms,
+    formula,
+    text,
+)
+from lagrangian.derive.normal import Form
+from lagrangian.model import Element, Gravity, Model, Particle, RigidBody, Spring, time
+
+AXES = ("x", "y", "z")
+
+
+@dataclass(frozen=True, eq=False)
+class Share:
+    """A piece of T* or V that belongs to one element (and, for gravity, to the body it pulls)."""
+
+    element: Element
+    name: Name
+    column: str
+    expr: sp.Expr
+    form: Form
+    body: Element | None = None
+
+
+def indices(model: Model) -> dict[Element, str]:
+    """The subscript of each body's quantities: its number, or its name where the number would mean a coordinate."""
+    bodies = model.bodies
+    numbers = {b: _number_of(b, i) for i, b in enumerate(bodies, 1)}
+    if len(bodies) == 1:
+        numbers = {bodies[0]: ""}
+    if len(set(numbers.values())) < len(bodies):
+        numbers = {b: str(i) for i, b in enumerate(bodies, 1)}
+    taken = {c.name: c.symbol for c in model.coordinates}
+    for body, index in numbers.items():
+        for axis, x in zip(AXES, model.position(body.at), strict=False):
+            clash = taken.get(axis + index, taken.get(f"{axis}_{index}"))
+            if clash is not None and model.expand(x) != clash:
+                return {b: b.name for b in bodies}
+    return numbers
+
+
+def _number_of(body: Any, position: int) -> str:
+    name = body.mass.name if isinstance(body.mass, sp.Symbol) else ""
+    digits = name[1:].lstrip("_")
+    return digits if name[:1] in ("m", "M") and digits.isdigit() else str(position)
+
+
+def shares(model: Model, algebra: Any) -> tuple[Share, ...]:
+    """Every element's pieces of T* and V, each with its normal form."""
+    index = indices(model)
+    found: list[Share] = []
+    for element in model.elements:
+        for name, expr, body in _pieces(model, element, index):
+            found.append(Share(element, name, element.ledger, expr, algebra.form(expr), body))
+    return tuple(found)
+
+
+def _pieces(
+    model: Model, element: Element, index: dict[Element, str]
+) -> Iterator[tuple[Name, sp.Expr, Element | None]]:
+    if isinstance(element, RigidBody):
+        translation, rotation = element.kinetic_parts(model)
+        yield Name("T*", index[element]), translation + rotation, None
+    elif isinstance(element, Particle):
+        yield Name("T*", index[element]), element.kinetic(model), None
+    elif isinstance(element, Gravity):
+        for body, _, energy in element.shares(model):
+            yield Name("V", index[body] if index[body] else "g"), energy, body
+    elif element.ledger == "T*":
+        yield Name("T*", element.name if element.name != "T*" else ""), element.kinetic(model), None
+    elif element.ledger == "V":
+        yield Name("V", element.name if element.name != "V" else ""), element.potential(model), None
+
+
+# -- step 2 ---------------------------------------------------------------------------------------------------------
+
+
+def kinetic(context: Context, pieces: tuple[Share, ...]) -> Step:
+    """T* = Σ ½ m v² + ½ J ω², every body with the velocity of its own centre of mass."""
+    model = context.model
+    index = indices(model)
+    mine = [s for s in pieces if s.column == "T*"]
+    items: list[Item] = []
+    for share in mine:
+        body = share.element
+        if isinstance(body, (Particle, RigidBody)):
+            items.append(Heading(text(_capital(body.title))))
+            items += _motion(context, body, index)
+            items += _rotation(context, body, index) if isinstance(body, RigidBody) else []
+            items.append(_energy(context, body, share, index))
+        else:
+            items.append(formula(share.name, fit(context.readable(share.expr)), note=text("as given")))
+    total = _sum(mine, "T*")
+    whole = context.algebra.total([s.form for s in mine])
+    readable = whole.expr()
+    items.append(formula(*_chain(Name("T*"), total, fit(readable)), brief=True))
+    reasons = tuple(text(s.name, f": {s.element.title} has mass and moves") for s in mine)
+    return Step(
+        2,
+        "Kinetic co-energy",
+        text("Wrote ½mv² for every mass, and ½Jω² for every body that turns, and added them up."),
+        text("Kinetic co-energy is stored by what moves with mass; J is about the centre of mass, always."),
+        tuple(items),
+        {"T": readable},
+        reasons,
+    )
+
+
+def _capital(words: str) -> str:
+    return words[:1].upper() + words[1:]
+
+
+def _chain(*sides: Left) -> tuple[Left, ...]:
+    """The sides without repetitions, such as T* = T* where there is one body."""
+    kept: list[Left] = []
+    for side in sides:
+        if not kept or side != kept[-1]:
+            kept.append(side)
+    return tuple(kept)
+
+
+def _sum(mine: list[Share], base: str) -> Left:
+    return mine[0].name if len(mine) == 1 else Terms(tuple(s.name for s in mine)) if mine else Name(base)
+
+
+def _motion(context: Context, body: Any, index: dict[Element, str]) -> list[Item]:
+    """Positions and their rates; a point given from another body's place is shown from that one."""
+    model = context.model
+    lines: list[Item] = []
+    velocity = model.velocity(body.at)
+    base, steps = _from_body(model, body)
+    for axis, x, v, step in zip(AXES, model.position(body.at), velocity, steps, strict=False):
+        if v == 0:
+            continue
+        here = Name(axis, index[body])
+        shown = [here, *([Terms((Name(axis, index[base]), *_terms(step)))] if base is not None else [x])]
+        if [s for s in shown if s != x] or str(here) != str(x):
+            lines.append(formula(*shown))
+        speed = Name(axis, index[body], 1)
+        if base is not None:
+            rate = sp.diff(model.expand(step), time)
+            before = () if model.velocity(base.at)[AXES.index(axis)] == 0 else (Name(axis, index[base], 1),)
+            lines.append(formula(speed, Terms((*before, *_terms(context.readable(rate))))))
+        else:
+            lines.append(formula(speed, fit(context.readable(v))))
+    if not any(v != 0 for v in velocity):
+        lines.append(text("Its centre of mass stays where it is."))
+    return lines
+
+
+def _terms(expr: sp.Expr) -> tuple[sp.Expr, ...]:
+    return tuple(expr.as_ordered_terms()) if expr != 0 else ()
+
+
+def _from_body(model: Model, body: Any) -> tuple[Any | None, tuple[sp.Expr, ...]]:
+    """Return the body whose place this one's is given from, and the step between them in the fixed axes."""
+    origin = model.position(body.at)
+    for other in model.bodies:
+        if other is not body and body.at.parent is other.at and not other.at.is_origin:
+            before = model.position(other.at)
+            return other, tuple(a - b for a, b in zip(origin, before, strict=True))
+    return None, origin
+
+
+def _rotation(context: Context, body: RigidBody, index: dict[Element, str]) -> list[Item]:
+    omega = body.angular_velocity(context.model)
+    if len(omega) == 1:
+        return [formula(Name("omega", index[body]), context.readable(omega[0]))]
+    lines: list[Item] = [text("Angular velocity in the body's own axes:")]
+    for axis, w in zip(AXES, omega, strict=True):
+        name = Name("omega", f"{axis}{index[body]}" if len(index[body]) <= 2 else f"{axis} {index[body]}")
+        lines.append(formula(name, fit(context.readable(w))))
+    return lines
+
+
+def _energy(context: Context, body: Any, share: Share, index: dict[Element, str]) -> Formula:
+    """½ m (ẋ² + ẏ²) + ½ J ω² = … for one body."""
+    model = context.model
+    moving = [(axis, v) for axis, v in zip(AXES, model.velocity(body.at), strict=False) if v != 0]
+    pieces: list[Left] = []
+    if moving and body.mass != 0:
+        pieces.append(Square(body.mass / 2, tuple(Name(axis, index[body], 1) for axis, _ in moving)))
+    if isinstance(body, RigidBody):
+        omega, inertia = body.angular_velocity(model), body.inertia
+        if len(omega) == 1 and omega[0] != 0:
+            pieces.append(Square(inertia[0, 0] / 2, (Name("omega", index[body]),)))
+        elif inertia.is_diagonal():
+            for axis, w, moment in zip(AXES, omega, inertia.diagonal(), strict=True):
+                name = Name("omega", f"{axis}{index[body]}" if len(index[body]) <= 2 else f"{axis} {index[body]}")
+                if w != 0 and moment != 0:
+                    pieces.append(Square(moment / 2, (name,)))
+        else:
+            pieces.append(Name("½ωᵀIω", ""))
+    shown: Left = pieces[0] if len(pieces) == 1 else Terms(tuple(pieces))
+    return formula(*_chain(share.name, shown, fit(context.readable(share.expr))))
+
+
+# -- step 3 ---------------------------------------------------------------------------------------------------------
+
+
+def potential(context: Context, pieces: tuple[Share, ...]) -> Step:
+    """V = Σ ½ k (δ − δ₀)² + Σ m g h."""
+    model = context.model
+    mine = [s for s in pieces if s.column == "V"]
+    items: list[Item] = []
+    for element in model.elements:
+        if element.ledger != "V":
+            continue
+        items.append(Heading(text(_capital(element.title))))
+        own = [s for s in mine if s.element is element]
+        if isinstance(element, Spring):
+            items += _spring(context, element, own[0])
+        elif isinstance(element, Gravity):
+            items += _gravity(context, element, own)
+        else:
+            items.append(formula(own[0].name, fit(context.readable(own[0].expr)), note=text("as given")))
+    whole = context.algebra.total([s.form for s in mine])
+    readable = whole.expr() if mine else sp.S.Zero
+    if mine:
+        live = [s for s in mine if s.expr != 0] or mine
+        items.append(formula(*_chain(Name("V"), _sum(live, "V"), fit(readable)), brief=True))
+    else:
+        items.append(text("Nothing stores energy by its position: no spring, no gravity."))
+        items.append(formula(Name("V"), sp.S.Zero, brief=True))
+    reasons = tuple(text(s.name, f": {s.element.title} ", _stored(s)) for s in mine)
+    return Step(
+        3,
+        "Potential energy",
+        text("Wrote ½k(Δx)² for every spring and mgh for every mass under gravity, and added them up."),
+        text("Conservative forces are counted here, once, and so never again among the Ξ."),
+        tuple(items),
+        {"V": readable},
+        reasons,
+    )
+
+
+def _stored(share: Share) -> str:
+    if share.body is not None:
+        return f"pulls on {share.body.title}: mgh"
+    return "stores energy by its deflection" if isinstance(share.element, Spring) else "is an energy of position"
+
+
+def _spring(context: Context, spring: Spring, share: Share) -> list[Item]:
+    model = context.model
+    extension = spring.extension(model)
+    shown = context.readable(extension)
+    name = Name("delta", share.name.index)
+    lines: list[Item] = []
+    how = text("extension, from its rest length" if spring.rest != 0 else "deflection from its neutral point")
+    lines.append(formula(name, fit(shown), note=how))
+    if spring.k is not None:
+        squared: Left = Square(spring.k / 2, (shown,))
+        lines.append(formula(*_chain(share.name, Square(spring.k / 2, (name,)), squared, *_distinct(context, share))))
+    else:
+        lines.append(text("Its energy is the work of its law from rest to the extension:"))
+        lines.append(formula(share.name, fit(context.readable(share.expr))))
+    return lines
+
+
+def _distinct(context: Context, share: Share) -> tuple[Left, ...]:
+    """The simplified energy, where it reads differently from ½ k (…)²."""
+    readable = context.readable(share.expr)
+    return (fit(readable),) if isinstance(readable, sp.Add) or readable.is_Mul and _plain_square(readable) else ()
+
+
+def _plain_square(expr: sp.Expr) -> bool:
+    return not any(isinstance(f, sp.Pow) and isinstance(f.base, sp.Add) for f in sp.Mul.make_args(expr))
+
+
+def _gravity(context: Context, gravity: Gravity, own: list[Share]) -> list[Item]:
+    model = context.model
+    where = "the origin" if gravity.datum is None else model.point_words(gravity.datum)
+    if gravity.datum is not None and gravity.datum.name:
+        where = f"point '{gravity.datum.name}'"
+    lines: list[Item] = [
+        text(f"h is the height above the datum, {where} (any fixed one would do: a constant in V changes nothing).")
+    ]
+    for share in own:
+        body = share.body
+        assert body is not None
+        height = context.readable(gravity.height(model, body.at))  # type: ignore[attr-defined]
+        h = Name("h", share.name.index if share.name.index != "g" else "")
+        lines.append(formula(h, fit(height), note=text(body.title)))
+        weight = body.mass * gravity.g  # type: ignore[attr-defined]
+        lines.append(formula(*_chain(share.name, Product((weight, h)), fit(context.readable(share.expr)))))
+    return lines
+
+
+# -- step 4 ---------------------------------------------------------------------------------------------------------
+
+
+def lagrangian(context: Context, pieces: tuple[Share, ...]) -> Step:
+    """L = T* − V."""
+    form = context.algebra.total([s.form if s.column == "T*" else -s.form for s in pieces])
+    readable = form.expr()
+    return Step(
+        4,
+        "Lagrangian",
+        text("Subtracted the potential energy from the kinetic co-energy."),
+        text("The Lagrangian holds all that the left-hand sides need."),
+        (formula(Name("L"), Terms((Name("T*"), Minus(Name("V")))), fit(readable), brief=True),),
+        {"L": readable},
+        (text("L = T* − V: kinetic co-energy minus potential energy"),),
+    )

@@ -1,0 +1,264 @@
+"""Step 6: the non-conservative Ξ_i, by virtual work and by the box rule, and the reason for each."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from lagrangian.derive.context import Context, big_xi, fit
+from lagrangian.derive.coordinates import chain_of, measured
+from lagrangian.derive.derivation import Check, Step
+from lagrangian.derive.ends import find_ends
+from lagrangian.derive.formula import (
+    Formula,
+    Heading,
+    Item,
+    Left,
+    Minus,
+    Name,
+    Partial,
+    Product,
+    Square,
+    Table,
+    Terms,
+    Text,
+    Variation,
+    formula,
+    text,
+)
+from lagrangian.derive.normal import Form
+from lagrangian.model import Action, Damper, Dissipation, Element, time
+
+
+@dataclass(frozen=True, eq=False)
+class Contribution:
+    """What one element adds to one Ξ_i: by virtual work, by the box, and the box's story in words."""
+
+    element: Element
+    index: int
+    virtual: Form
+    box: Form
+    story: Text
+
+    @property
+    def resists(self) -> bool:
+        """Whether it is damping, which the final equation carries on the left."""
+        return isinstance(self.element, (Damper, Dissipation))
+
+
+def contributions(context: Context) -> tuple[Contribution, ...]:
+    """Every element's share of every Ξ_i, worked out twice."""
+    model, algebra = context.model, context.algebra
+    found: list[Contribution] = []
+    for element in model.elements:
+        if element.ledger != "Ξ":
+            continue
+        works = element.works(model)
+        ends = find_ends(model, element)
+        for i, c in enumerate(model.coordinates):
+            virtual = algebra.form(_along(works, c.rate))
+            box = algebra.form(_along(ends, c.rate))
+            found.append(Contribution(element, i, virtual, box, _story(context, element, ends, i, virtual)))
+    return tuple(found)
+
+
+def _along(actions: tuple[Action, ...], rate: sp.Expr) -> sp.Expr:
+    """Σ effort · ∂rate/∂ξ̇_i."""
+    return sp.Add(*[a.effort * sp.diff(a.rate, rate) for a in actions])
+
+
+def _story(context: Context, element: Element, ends: tuple[Action, ...], index: int, virtual: Form) -> Text:
+    """The box rule in words: which ends lie inside the box of what moves with ξ_i alone."""
+    c = context.model.coordinates[index]
+    inside: list[str] = []
+    outside: list[str] = []
+    for end in ends:
+        words = inside if sp.diff(end.rate, c.rate) != 0 else outside
+        if end.on not in words:
+            words.append(end.on)
+    outside = [w for w in outside if w not in inside]
+    if not inside:
+        where = " and ".join(outside) or element.title
+        return text(f"{where} stay{'s' if len(outside) == 1 else ''} outside the box: nothing")
+    if virtual.is_zero:
+        if len(inside) > 1:
+            return text(f"{' and '.join(inside)} are inside the box and move together: the pair cancels")
+        return text(f"{inside[0]} moves, but not along the force: no work")
+    listed = " and ".join(inside)
+    if outside:
+        return text(f"{listed} inside the box, {' and '.join(outside)} outside: it counts")
+    if len(ends) == 1 and ends[0].on == "its deflection":
+        return text("its deflection changes with the box: it counts")
+    return text(f"{listed} inside the box: it counts")
+
+
+def forces(context: Context, found: tuple[Contribution, ...]) -> Step:
+    """Every Ξ_i with its table, the dampers by Rayleigh's function and as fake springs, and the reasons."""
+    model = context.model
+    items: list[Item] = []
+    acting = [e for e in model.elements if e.ledger == "Ξ"]
+    for element in acting:
+        items += _virtual_work(context, element)
+    xi_of: dict[sp.Expr, sp.Expr] = {}
+    reasons: list[Text] = []
+    checks: list[Check] = []
+    for i, c in enumerate(model.coordinates):
+        mine = [f for f in found if f.index == i]
+        total = context.algebra.total([f.virtual for f in mine])
+        xi_of[c.symbol] = total.expr()
+        if acting:
+            items += _coordinate(context, i, mine, total)
+        reasons.append(_reason(i, c.symbol, mine, xi_of[c.symbol]))
+        difference = context.algebra.total([f.virtual - f.box for f in mine])
+        if acting:
+            checks.append(
+                Check(text(big_xi(i), " by virtual work equals ", big_xi(i), " by the box"), difference.is_zero, "exact")
+            )
+    dampers = [e for e in acting if e.dissipation(model) is not None]
+    if dampers:
+        rayleigh, holds = _dampers(context, dampers, found)
+        items += rayleigh
+        checks.append(Check(text("dampers: Rayleigh's function, the fake spring and virtual work agree"), holds, "exact"))
+    if not acting:
+        items.append(text("No force, torque or damper was described: nothing non-conservative acts."))
+    items.append(formula(*_listing(model, xi_of), brief=True))
+    return Step(
+        6,
+        "Non-conservative forces",
+        text("Found what the forces, torques and dampers add to every equation, twice: by virtual work and by the box."),
+        text("They are not in V; the right-hand side collects their actuation and their losses."),
+        tuple(items),
+        {"Xi": xi_of},
+        tuple(reasons),
+        tuple(checks),
+    )
+
+
+def _listing(model, xi_of: dict[sp.Expr, sp.Expr]) -> tuple[Left, ...]:  # type: ignore[no-untyped-def]
+    from lagrangian.derive.formula import Matrix
+
+    if len(xi_of) == 1:
+        return (big_xi(0), fit(next(iter(xi_of.values()))))
+    rows = tuple((fit(x),) for x in xi_of.values())
+    return (Name("Xi"), Matrix(rows))
+
+
+def _virtual_work(context: Context, element: Element) -> list[Item]:
+    """δW = F δ(displacement) = Σ F ∂(displacement)/∂ξ_i δξ_i."""
+    model = context.model
+    items: list[Item] = [Heading(text(element.title[:1].upper() + element.title[1:]))]
+    works = element.works(model)
+    work = Variation(Name("W", element.name))
+    virtual: list[Left] = []
+    expanded: list[Left] = []
+    for action in works:
+        effort = context.readable(action.effort)
+        if action.displacement is not None:
+            virtual.append(_product(effort, Variation(context.readable(action.displacement))))
+    for c in model.coordinates:
+        coefficient = context.algebra.form(_along(works, c.rate))
+        if not coefficient.is_zero:
+            expanded.append(_product(coefficient.expr(), Variation(c.symbol)))
+    sides: list[Left] = [work]
+    if virtual and len(virtual) == len(works) and len(virtual) <= 3:
+        sides.append(Terms(tuple(virtual)))
+    result: Left = Terms(tuple(expanded)) if expanded else sp.S.Zero
+    if str(result) != str(sides[-1]):
+        sides.append(result)
+    items.append(formula(*sides))
+    return items
+
+
+def _product(effort: sp.Expr, what: Left) -> Left:
+    if effort == 1:
+        return what
+    if effort.could_extract_minus_sign():
+        inner = -effort
+        return Minus(what if inner == 1 else Product((fit(inner), what)))
+    return Product((fit(effort), what))
+
+
+def _coordinate(context: Context, index: int, mine: list[Contribution], total: Form) -> list[Item]:
+    """The box of ξ_i, the table of who is in it, and Ξ_i."""
+    model = context.model
+    c = model.coordinates[index]
+    moved = context.wiggle.moved[index]
+    kinds = measured(model)
+    children = chain_of(kinds, c.symbol)
+    listed = ", ".join(b.title for b in moved) if len(moved) <= 6 else f"{len(moved)} bodies"
+    parts: list[str | Left] = ["Wiggle only ", c.symbol, f". In the box: {listed or 'what moves with it'}"]
+    if children:
+        parts += [" (with the children ", *[p for s in children for p in (s, ", ")][:-1], ", which ride along)"]
+    rows = tuple(
+        (text(f.element.title), f.story, formula(Partial(Name("W", f.element.name), c.symbol), fit(f.virtual.expr())))
+        for f in mine
+    )
+    rows = tuple((element, story, text(cell.sides[1])) for element, story, cell in rows)
+    header = (text("element"), text("the box"), text("adds"))
+    return [
+        Heading(text(big_xi(index), " for ", c.symbol)),
+        text(*parts, "."),
+        Table(header, rows),
+        formula(big_xi(index), fit(total.expr())),
+    ]
+
+
+def _reason(index: int, symbol: sp.Expr, mine: list[Contribution], value: sp.Expr) -> Text:
+    if not mine:
+        return text(big_xi(index), " = 0: no force, torque or damper was described")
+    counted = [f for f in mine if not f.virtual.is_zero] or mine
+    parts: list[str | Left] = [big_xi(index), " = ", fit(value), ": "]
+    for f in counted:
+        parts += [f"{f.element.title}: ", *f.story.parts, "; "]
+    return text(*parts[:-1])
+
+
+def _dampers(
+    context: Context, dampers: list[Element], found: tuple[Contribution, ...]
+) -> tuple[list[Item], bool]:
+    """D = ½ b δ̇² with Ξ_i = −∂D/∂ξ̇_i, and the damper read as a spring whose deflection becomes its rate."""
+    model = context.model
+    items: list[Item] = [Heading(text("Dampers, by Rayleigh's function and as fake springs"))]
+    holds = True
+    for element in dampers:
+        energy = element.dissipation(model)
+        assert energy is not None
+        form = context.form(energy)
+        name = Name("D", element.name if element.name != "D" else "")
+        if isinstance(element, Damper):
+            squared = Square(element.b / 2, (context.readable(element.rate(model)),))
+            items.append(formula(name, squared))
+        else:
+            items.append(formula(name, fit(form.expr())))
+        for f in found:
+            if f.element is not element:
+                continue
+            c = model.coordinates[f.index]
+            rayleigh = -form.diff(c.rate)
+            holds = holds and (rayleigh - f.virtual).is_zero
+            if rayleigh.is_zero:
+                continue
+            items.append(formula(Minus(Partial(name, c.rate)), fit(rayleigh.expr())))
+            if isinstance(element, Damper):
+                spring, damped = _fake_spring(context, element, c.symbol)
+                holds = holds and (context.form(damped) + f.virtual).is_zero
+                items.append(
+                    text(
+                        "Fake spring: a spring in its place would put ",
+                        fit(context.readable(spring)),
+                        " on the left; its deflection becomes its rate: ",
+                        fit(context.readable(damped)),
+                    )
+                )
+    return items, holds
+
+
+def _fake_spring(context: Context, damper: Damper, symbol: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+    """∂(½ b δ²)/∂ξ_i = b δ ∂δ/∂ξ_i, and the same with δ replaced by δ̇."""
+    delta = damper.displacement(context.model)
+    slope = sp.diff(delta, symbol)
+    return damper.b * delta * slope, damper.b * sp.diff(delta, time) * slope
+
+
+__all__ = ["Contribution", "Formula", "contributions", "forces"]

@@ -1,0 +1,51 @@
+"""Step 0: holonomic or not?"""
+
+from __future__ import annotations
+
+from lagrangian.derive.context import Context
+from lagrangian.derive.derivation import Step
+from lagrangian.derive.formula import Item, Name, formula, text
+from lagrangian.model import time
+
+
+def holonomic(context: Context) -> Step:
+    """Compare the generalized coordinates with the differential degrees of freedom.
+
+    Without velocity constraints every coordinate can wiggle on its own, so #GC = #DDOF: holonomic.
+    """
+    model = context.model
+    n = len(model.coordinates)
+    listed = [p for c in context.symbols for p in (c, ", ")][:-1]
+    items: list[Item] = [
+        formula(Name("#GC"), Name(str(n)), Name("#DDOF"), brief=True),
+        text(
+            f"The system has no constraint on its velocities, so each of its {n} coordinates " if n > 1 else
+            "The system has no constraint on its velocity, so its one coordinate ",
+            *listed,
+            " can wiggle on its own: ",
+            f"#GC = {n} coordinates say where it can get to in the long run, and #DDOF = {n} of them can change at "
+            "this instant. The two numbers are equal.",
+        ),
+    ]
+    if any(model.expand(x).has(time) and not x.is_number for b in model.bodies for x in _explicit(model, b)):
+        items.append(
+            text(
+                "A motion prescribed in t moves part of the system. It restricts positions, not velocities alone, "
+                "so the system stays holonomic (rheonomic: the restriction depends on time)."
+            )
+        )
+    return Step(
+        0,
+        "Holonomic?",
+        text("Compared the number of generalized coordinates with the differential degrees of freedom."),
+        text("The Lagrangian approach, as used here, needs a holonomic system."),
+        tuple(items),
+        {"holonomic": True, "GC": n, "DDOF": n},
+        (text(f"holonomic: #GC = #DDOF = {n}, because no constraint on velocities was described"),),
+    )
+
+
+def _explicit(model, body):  # type: ignore[no-untyped-def]
+    """The components of a body's position with the coordinates held, so that only explicit time is left."""
+    held = {c.symbol: 0 for c in model.coordinates}
+    return [model.expand(x).subs(held) for x in model.position(body.at)]

@@ -1,0 +1,88 @@
+"""Step 5: the left-hand sides d/dt(∂L/∂ξ̇_i) − ∂L/∂ξ_i, written out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from lagrangian.derive.context import Context, fit, fit_terms
+from lagrangian.derive.derivation import Step
+from lagrangian.derive.energies import Share
+from lagrangian.derive.formula import Heading, Item, Minus, Name, Partial, Terms, Total, formula, text
+from lagrangian.derive.normal import Form
+from lagrangian.model import Coordinate
+
+
+@dataclass(frozen=True, eq=False)
+class LeftSide:
+    """The left-hand side of one coordinate: what each share of T* or V adds to it, and the whole."""
+
+    coordinate: Coordinate
+    momentum: Form
+    momentum_rate: Form
+    gradient: Form
+    parts: tuple[tuple[Share, Form], ...]
+    whole: Form
+
+
+def left_sides(context: Context, pieces: tuple[Share, ...]) -> tuple[LeftSide, ...]:
+    """d/dt(∂L/∂ξ̇_i) − ∂L/∂ξ_i, share by share: L is a sum, and so is every equation."""
+    algebra = context.algebra
+    sides: list[LeftSide] = []
+    for c in context.model.coordinates:
+        momenta: list[Form] = []
+        gradients: list[Form] = []
+        parts: list[tuple[Share, Form]] = []
+        for share in pieces:
+            signed = share.form if share.column == "T*" else -share.form
+            momentum, gradient = signed.diff(c.rate), signed.diff(c.symbol)
+            if momentum.is_zero and gradient.is_zero:
+                continue
+            momenta.append(momentum)
+            gradients.append(gradient)
+            parts.append((share, momentum.total_derivative() - gradient))
+        momentum, gradient = algebra.total(momenta), algebra.total(gradients)
+        rate = momentum.total_derivative()
+        sides.append(LeftSide(c, momentum, rate, gradient, tuple(parts), rate - gradient))
+    return tuple(sides)
+
+
+def left_hand_sides(context: Context, sides: tuple[LeftSide, ...]) -> Step:
+    """Write out ∂L/∂ξ̇_i, its d/dt, ∂L/∂ξ_i and the left-hand side of every coordinate."""
+    items: list[Item] = []
+    expressions: dict[sp.Expr, sp.Expr] = {}
+    reasons = []
+    for i, side in enumerate(sides):
+        c = side.coordinate
+        by_rate, by_place = Partial(Name("L"), c.rate), Partial(Name("L"), c.symbol)
+        whole = Terms((Total(by_rate), Minus(by_place)))
+        terms = tuple(t.expr for t in side.whole.terms())
+        items += [
+            Heading(text(f"Equation {i + 1}: ", c.symbol)),
+            formula(by_rate, fit(side.momentum.expr())),
+            formula(Total(by_rate), fit(side.momentum_rate.expr())),
+            formula(by_place, fit(side.gradient.expr())),
+            formula(whole, fit_terms(terms), brief=True),
+        ]
+        expressions[c.symbol] = side.whole.expr()
+        reasons.append(
+            text(
+                f"equation {i + 1}: ",
+                Total(by_rate),
+                " collects the inertia, ",
+                Minus(by_place),
+                " the springs, gravity and what turns with the geometry",
+            )
+        )
+    n = len(sides)
+    return Step(
+        5,
+        "Left-hand sides",
+        text("Differentiated the Lagrangian for every coordinate: first by its rate, then in time, then by itself."),
+        text(f"A system with {n} generalized coordinate{'s have' if n > 1 else ' has'} {n} "
+             f"equation{'s' if n > 1 else ''} of motion.".replace("coordinates have", "coordinates has")),
+        tuple(items),
+        {"left_hand_sides": expressions},
+        tuple(reasons),
+    )

@@ -1,0 +1,189 @@
+"""The equations of motion, their matrix form, the energy ledger, and where every term came from."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from lagrangian.derive.context import Context, big_xi, fit, fit_terms
+from lagrangian.derive.derivation import EquationTerm, LedgerRow, Origin
+from lagrangian.derive.energies import Share
+from lagrangian.derive.forces import Contribution
+from lagrangian.derive.formula import Heading, Item, Left, Matrix, Name, Product, Table, Terms, formula, text
+from lagrangian.derive.lagrange import LeftSide
+from lagrangian.derive.normal import Form
+from lagrangian.model import Damper, Dissipation, Gravity, Model, Particle, RigidBody, Spring
+
+MATRIX_ENTRIES = 64
+"""Entries above which a matrix is summarised."""
+
+
+@dataclass(frozen=True, eq=False)
+class Shares:
+    """Every share of every equation, so that a term can be traced to the elements that make it."""
+
+    context: Context
+    sides: tuple[LeftSide, ...]
+    forces: tuple[Contribution, ...]
+
+    def where(self, term: sp.Expr) -> tuple[Origin, ...]:
+        """The elements that contribute to a term, equation by equation, each with its share of it."""
+        keys = self.context.form(sp.sympify(term)).keys()
+        found: list[Origin] = []
+        for i, side in enumerate(self.sides):
+            for share, part in side.parts:
+                if not (common := part.restricted(keys)).is_zero:
+                    found.append(Origin(share.element, side.coordinate.name, common.expr(), 2 if share.column == "T*" else 3))
+            for f in self.forces:
+                if f.index == i and not (common := f.virtual.restricted(keys)).is_zero:
+                    found.append(Origin(f.element, side.coordinate.name, common.expr(), 6))
+        return tuple(found)
+
+    def names(self, index: int, term: sp.Expr) -> tuple[str, ...]:
+        """The titles of the elements behind a term of equation ``index``."""
+        keys = self.context.form(term).keys()
+        titles = [s.element.title for s, part in self.sides[index].parts if not part.restricted(keys).is_zero]
+        titles += [
+            f.element.title for f in self.forces if f.index == index and not f.virtual.restricted(keys).is_zero
+        ]
+        return tuple(dict.fromkeys(titles))
+
+
+@dataclass(frozen=True, eq=False)
+class Equations:
+    """The readable equations: damping on the left, the other Ξ on the right, as the lecture combines steps 5 and 6."""
+
+    left: tuple[tuple[sp.Expr, ...], ...]
+    right: tuple[tuple[sp.Expr, ...], ...]
+    terms: tuple[tuple[EquationTerm, ...], ...]
+    equalities: tuple[sp.Eq, ...]
+
+
+def equations(context: Context, sides: tuple[LeftSide, ...], found: tuple[Contribution, ...]) -> Equations:
+    """Put steps 5 and 6 together."""
+    shares = Shares(context, sides, found)
+    lefts, rights, described, equalities = [], [], [], []
+    for i, side in enumerate(sides):
+        mine = [f for f in found if f.index == i]
+        damping = context.algebra.total([f.virtual for f in mine if f.resists])
+        driving = context.algebra.total([f.virtual for f in mine if not f.resists])
+        left = (side.whole - damping).terms()
+        right = driving.terms()
+        lefts.append(tuple(t.expr for t in left))
+        rights.append(tuple(t.expr for t in right))
+        described.append(
+            tuple(EquationTerm(t.expr, t.kind, shares.names(i, t.expr)) for t in left)
+            + tuple(EquationTerm(t.expr, "input", shares.names(i, t.expr)) for t in right)
+        )
+        equalities.append(sp.Eq(sp.Add(*lefts[-1]), sp.Add(*rights[-1]), evaluate=False))
+    return Equations(tuple(lefts), tuple(rights), tuple(described), tuple(equalities))
+
+
+@dataclass(frozen=True, eq=False)
+class Matrices:
+    """M ξ̈ + C ξ̇ + G = Ξ."""
+
+    M: sp.Matrix
+    C: sp.Matrix
+    G: sp.Matrix
+    Xi: sp.Matrix
+
+
+def matrices(context: Context, sides: tuple[LeftSide, ...], xi_of: dict[sp.Expr, sp.Expr]) -> Matrices:
+    """M_ij = ∂²T*/∂ξ̇_i∂ξ̇_j;  C_ij = Σ_k ½ (∂M_ij/∂ξ_k + ∂M_ik/∂ξ_j − ∂M_jk/∂ξ_i) ξ̇_k;  G is the rest.
+
+    Christoffel's symbols make Ṁ − 2C skew-symmetric where M does not hold t.
+    """
+    coordinates, algebra = context.model.coordinates, context.algebra
+    n = len(coordinates)
+    M = [[sides[i].momentum.diff(coordinates[j].rate) for j in range(n)] for i in range(n)]
+    slope = [[[M[i][j].diff(c.symbol) for c in coordinates] for j in range(n)] for i in range(n)]
+    half = sp.Rational(1, 2)
+    C: list[list[Form]] = []
+    for i in range(n):
+        row: list[Form] = []
+        for j in range(n):
+            pieces = [
+                (slope[i][j][k] + slope[i][k][j] - slope[j][k][i]) * algebra.form(half * coordinates[k].rate)
+                for k in range(n)
+            ]
+            row.append(algebra.total(pieces))
+        C.append(row)
+    G = []
+    for i, side in enumerate(sides):
+        inertia = [M[i][j] * algebra.form(c.acceleration) + C[i][j] * algebra.form(c.rate) for j, c in enumerate(coordinates)]
+        G.append(side.whole - algebra.total(inertia))
+    return Matrices(
+        sp.ImmutableMatrix(n, n, lambda i, j: M[i][j].expr()),
+        sp.ImmutableMatrix(n, n, lambda i, j: C[i][j].expr()),
+        sp.ImmutableMatrix(n, 1, lambda i, _: G[i].expr()),
+        sp.ImmutableMatrix(n, 1, list(xi_of.values())),
+    )
+
+
+def closing(context: Context, eqs: Equations, mats: Matrices) -> tuple[Item, ...]:
+    """The equations of motion, boxed, and the matrix form."""
+    n = len(context.model.coordinates)
+    items: list[Item] = [Heading(text("Equations of motion"))]
+    for left, right in zip(eqs.left, eqs.right, strict=True):
+        items.append(formula(fit_terms(left), fit_terms(right), brief=True, boxed=True))
+    if any(f.kind == "damping" for row in eqs.terms for f in row):
+        items.append(text("The dampers' Ξ stand on the left, with the sign turned, as one writes them."))
+    items.append(Heading(text("Matrix form")))
+    M, C, G, Xi = Name("M"), Name("C"), Name("G"), Name("Xi")
+    q, dq, ddq = Name("q"), Name("q", "", 1), Name("q", "", 2)
+    items.append(formula(Terms((Product((M, ddq)), Product((C, dq)), G)), Xi))
+    items.append(formula(q, Matrix(tuple((c.symbol,) for c in context.model.coordinates))))
+    if n * n <= MATRIX_ENTRIES:
+        for name, matrix in ((M, mats.M), (C, mats.C), (G, mats.G), (Xi, mats.Xi)):
+            items.append(formula(name, _shown(matrix)))
+    else:
+        items.append(text(f"M and C have {n * n} entries each; the derivation holds them as SymPy matrices."))
+    return tuple(items)
+
+
+def _shown(matrix: sp.Matrix) -> Left:
+    rows = tuple(tuple(fit(matrix[i, j]) for j in range(matrix.cols)) for i in range(matrix.rows))
+    return Matrix(rows)
+
+
+def ledger(model: Model, context: Context) -> tuple[LedgerRow, ...]:
+    """Every element exactly once in T*, V or Ξ, with the reason."""
+    rows: list[LedgerRow] = []
+    for element in model.elements:
+        expr: sp.Expr | None = None
+        if element.ledger == "T*":
+            expr = context.readable(element.kinetic(model))
+        elif element.ledger == "V":
+            expr = context.readable(element.potential(model))
+        rows.append(LedgerRow(element.title, element.ledger, expr, text(_reason(element))))
+    return tuple(rows)
+
+
+def _reason(element: object) -> str:
+    if isinstance(element, (Particle, RigidBody)):
+        return "it has mass and moves: its energy of motion is in T*"
+    if isinstance(element, Spring):
+        return "its force depends on its deflection alone: conservative, stored in V, so not in Ξ"
+    if isinstance(element, Gravity):
+        return "weight depends on height alone: conservative, stored in V, so not in Ξ"
+    if isinstance(element, (Damper, Dissipation)):
+        return "it only takes energy out: no potential, so it is in Ξ"
+    if getattr(element, "ledger", "") == "Ξ":
+        return "it acts from outside and may do work: no potential, so it is in Ξ"
+    return "given as an energy"
+
+
+def ledger_items(rows: tuple[LedgerRow, ...]) -> tuple[Item, ...]:
+    """The ledger as a table."""
+    header = (text("element"), text("booked in"), text("because"))
+    table = Table(header, tuple((text(r.element), text(_column(r.column)), r.reason) for r in rows))
+    return (Heading(text("Energy ledger: every element once")), table)
+
+
+def _column(column: str) -> Name:
+    return Name({"T*": "T*", "V": "V", "Ξ": "Xi"}[column])
+
+
+__all__ = ["Equations", "Matrices", "Shares", "big_xi", "closing", "equations", "ledger", "ledger_items", "matrices"]

@@ -1,0 +1,71 @@
+"""Numbers for expressions: random states at which ranks are taken and routes compared."""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Iterable, Mapping, Sequence
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian.errors import ModelError
+from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy
+from lagrangian.model import Model, plain, time
+
+TRIES = 60
+"""Random draws before an expression counts as having no value anywhere (a square root of a negative, say)."""
+
+
+class Sampler:
+    """Evaluates expressions at random coordinates, rates, accelerations, parameters, inputs and time.
+
+    Everything is drawn from (0.4, 1.6), so that masses and lengths are positive and nothing is special. With
+    ``values``, parameters that have a value keep it.
+    """
+
+    def __init__(self, model: Model, exprs: Sequence[sp.Expr], *, values: bool = False) -> None:
+        self._model = model
+        full = [model.expand(sp.sympify(e), constants=True) for e in exprs]
+        atoms: set[sp.Basic] = set()
+        for e in full:
+            atoms |= e.free_symbols | e.atoms(AppliedUndef) | e.atoms(sp.Derivative)
+        self.symbols = sorted(atoms | {time}, key=sp.default_sort_key)
+        graph = Graph()
+        table = {s: graph.input("x", i) for i, s in enumerate(self.symbols)}
+        ids = tuple(from_sympy(graph, e, table) for e in full)
+        names = tuple(plain(s) for s in self.symbols)
+        self._program = Program("sample", graph, {"x": names}, {"y": Output(ids, (len(ids),))}, {})
+        self._fixed: Mapping[sp.Basic, float] = dict(model.values) if values else {}
+
+    def draw(self, seed: int) -> dict[sp.Basic, float]:
+        """A random value for every symbol."""
+        source = random.Random(seed)
+        drawn: dict[sp.Basic, float] = {s: source.uniform(0.4, 1.6) for s in self.symbols}
+        drawn.update({s: v for s, v in self._fixed.items() if s in drawn})
+        return drawn
+
+    def at(self, state: Mapping[sp.Basic, float]) -> list[float]:
+        """The values of the expressions at a state; not-a-number where there is none."""
+        try:
+            result = evaluate(self._program, {"x": [state[s] for s in self.symbols]})["y"]
+        except (ZeroDivisionError, ValueError, OverflowError):
+            return [math.nan] * len(self._program.outputs["y"].ids)
+        return [float(y) for y in result]
+
+    def states(self, count: int, *, seed: int = 1) -> Iterable[tuple[dict[sp.Basic, float], list[float]]]:
+        """``count`` random states at which everything is finite, each with the values there."""
+        found = 0
+        for attempt in range(TRIES + count):
+            state = self.draw(seed * 7919 + attempt)
+            values = self.at(state)
+            if all(math.isfinite(v) for v in values):
+                found += 1
+                yield state, values
+                if found == count:
+                    return
+        raise ModelError(
+            f"the expressions of system '{self._model.name}' have no finite value at any of {TRIES} random states",
+            fix="check square roots, logarithms and divisions for arguments that are never allowed",
+            code="E503",
+        )

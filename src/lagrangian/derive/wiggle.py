@@ -1,0 +1,185 @@
+"""What moves when one coordinate wiggles: the rank of the coordinates, and the lecture's boxes.
+
+For every body the columns ∂r/∂ξ_i (and ∂ω/∂ξ̇_i where it can turn) at random states. Their common rank decides whether
+the coordinates are independent; a column that is not zero puts the body into the box of ξ_i.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+import sympy as sp
+
+from lagrangian.derive.sample import Sampler
+from lagrangian.errors import ModelError
+from lagrangian.model import Element, Model, RigidBody, time
+
+SMALL = 1e-9
+"""Relative size under which a singular value or a column counts as zero."""
+STATES = 3
+
+
+@dataclass(frozen=True)
+class _Rows:
+    """A block of rows ∂(rate)/∂ξ̇ of one body: ``turning`` for its rotation; ``weight`` what resists the motion."""
+
+    body: Element
+    turning: bool
+    rates: tuple[sp.Expr, ...]
+    weight: sp.Matrix
+
+
+@dataclass(frozen=True, eq=False)
+class Wiggle:
+    """``moved[i]`` are the bodies in the box of coordinate i, ``turned[i]`` those of them that turn.
+
+    ``rank`` is the rank of the velocities of all that has mass; it equals the number of coordinates, or `study` has
+    refused the coordinates by name.
+    """
+
+    moved: tuple[tuple[Element, ...], ...]
+    turned: tuple[tuple[Element, ...], ...]
+    rank: int
+
+
+def study(model: Model) -> Wiggle:
+    """Return what moves with what; raise `ModelError` for dependent, missing and idle coordinates, by name."""
+    blocks = _blocks(model)
+    rates = [c.rate for c in model.coordinates]
+    entries: list[sp.Expr] = []
+    for block in blocks:
+        entries += [sp.diff(r, v) for r in block.rates for v in rates]
+        entries += list(block.weight)
+    sampler = Sampler(model, entries)
+    n, best = len(rates), -1
+    seen = np.zeros((len(blocks), n), dtype=bool)
+    worst: np.ndarray = np.zeros((0, n))
+    for _, values in sampler.states(STATES):
+        columns, weighted = _split(blocks, np.array(values), n)
+        for k, block in enumerate(columns):
+            seen[k] |= np.abs(block).max(axis=0, initial=0.0) > SMALL
+        stacked = np.vstack(weighted)
+        rank = _rank(stacked)
+        if rank > best:
+            best, worst = rank, stacked
+    moved = tuple(_bodies(model, blocks, seen[:, i], None) for i in range(n))
+    turned = tuple(_bodies(model, blocks, seen[:, i], True) for i in range(n))
+    if best < n:
+        _refuse(model, blocks, seen, worst)
+    return Wiggle(moved, turned, best)
+
+
+def _blocks(model: Model) -> list[_Rows]:
+    blocks: list[_Rows] = []
+    for body in model.bodies:
+        velocity = model.velocity(body.at)
+        blocks.append(_Rows(body, False, velocity, sp.eye(len(velocity)) * body.mass))
+        if isinstance(body, RigidBody):
+            blocks.append(_Rows(body, True, body.angular_velocity(model), sp.Matrix(body.inertia)))
+    for element in model.elements:
+        if element.ledger == "T*" and element not in model.bodies:
+            energy = element.kinetic(model)
+            momenta = tuple(sp.diff(energy, c.rate) for c in model.coordinates)
+            blocks.append(_Rows(element, False, momenta, sp.eye(len(momenta))))
+    return blocks
+
+
+def _split(blocks: Sequence[_Rows], values: np.ndarray, n: int) -> tuple[list[np.ndarray], list[np.ndarray]]:
+    """Cut the flat list of sampled values back into each block's columns, and these times the weight."""
+    columns, weighted, at = [], [], 0
+    for block in blocks:
+        rows = len(block.rates)
+        jacobian = values[at : at + rows * n].reshape(rows, n)
+        at += rows * n
+        size = block.weight.rows
+        weight = values[at : at + size * size].reshape(size, size)
+        at += size * size
+        columns.append(jacobian)
+        weighted.append(weight @ jacobian)
+    return columns, weighted
+
+
+def _rank(matrix: np.ndarray) -> int:
+    scale = np.linalg.norm(matrix, axis=0)
+    live = matrix[:, scale > 0] / scale[scale > 0]
+    if live.shape[1] == 0:
+        return 0
+    singular = np.linalg.svd(live, compute_uv=False)
+    return int((singular > SMALL * singular[0]).sum())
+
+
+def _bodies(model: Model, blocks: Sequence[_Rows], seen: np.ndarray, turning: bool | None) -> tuple[Element, ...]:
+    chosen: list[Element] = []
+    for block, moves in zip(blocks, seen, strict=True):
+        if moves and (turning is None or block.turning) and block.body not in chosen:
+            chosen.append(block.body)
+    return tuple(chosen)
+
+
+def _refuse(model: Model, blocks: Sequence[_Rows], seen: np.ndarray, stacked: np.ndarray) -> None:
+    """Raise the error that names the coordinates at fault."""
+    names = [c.name for c in model.coordinates]
+    for i, c in enumerate(model.coordinates):
+        if np.abs(stacked[:, i]).max(initial=0.0) > SMALL:
+            continue
+        turned = [b.body for b, moves in zip(blocks, seen[:, i], strict=True) if moves and b.turning]
+        if turned:
+            raise ModelError(
+                f"coordinate '{c.name}' only turns {turned[0].title}, which has no inertia about that axis",
+                place=c.place,
+                fix="give the body that inertia, or leave the coordinate out",
+                code="E104",
+            )
+        raise ModelError(
+            f"coordinate '{c.name}' moves nothing that has mass: wiggle it alone and every body stays",
+            place=c.place,
+            fix=f"leave '{c.name}' out, or put it into the position of a body",
+            code="E201",
+        )
+    vector = _null(stacked)
+    involved = [(names[i], x) for i, x in enumerate(vector) if abs(x) > 1e-6]
+    wiggled = ", ".join(f"{name} by {_figure(x)}" for name, x in involved)
+    listed = " and ".join(f"'{name}'" for name, _ in involved)
+    place = model.coordinates[names.index(involved[-1][0])].place
+    raise ModelError(
+        f"coordinates {listed} are dependent: wiggle {wiggled} together and nothing with mass moves",
+        place=place,
+        fix=f"{len(names)} coordinates describe {_rank(stacked)} degrees of freedom; remove one of them",
+        code="E202",
+    )
+
+
+def _null(matrix: np.ndarray) -> np.ndarray:
+    """A null vector with as few entries as found, its largest entry 1."""
+    n = matrix.shape[1]
+    for size in range(2, n + 1):  # the first columns that depend on each other name the fault most shortly
+        for last in range(size - 1, n):
+            block = matrix[:, last - size + 1 : last + 1]
+            _, singular, right = np.linalg.svd(block)
+            if len(singular) < size or singular[-1] <= SMALL * singular[0]:
+                vector = np.zeros(n)
+                vector[last - size + 1 : last + 1] = right[-1]
+                return vector / vector[np.abs(vector).argmax()]
+    raise AssertionError("a matrix of deficient rank has a null vector")
+
+
+def _figure(x: float) -> str:
+    near = Fraction(x).limit_denominator(12)
+    return str(near) if abs(float(near) - x) < 1e-6 else f"{x:.3g}"
+
+
+def depends(model: Model, expr: sp.Expr, symbol: sp.Expr) -> bool:
+    """Whether ``expr`` changes with a coordinate (decided by its derivative, not by how it is written)."""
+    return sp.diff(expr, symbol) != 0
+
+
+def rate_of(expr: sp.Expr) -> sp.Expr:
+    """d/dt of an expression in coordinates and time."""
+    return sp.diff(expr, time)
+
+
+__all__: list[Any] = ["Wiggle", "depends", "rate_of", "study"]
