@@ -95,9 +95,7 @@ def derive(
     _put(_written(system.derive(), format, notation, brief, full, width), output)
 
 
-def _written(
-    derivation: Derivation, format: Format, notation: Notation, brief: bool, full: bool, width: int
-) -> str:
+def _written(derivation: Derivation, format: Format, notation: Notation, brief: bool, full: bool, width: int) -> str:
     letters = notation.value
     if format is Format.TEXT:
         return derivation.to_text(notation=letters, brief=brief, full=full, width=width)

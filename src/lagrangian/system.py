@@ -146,8 +146,8 @@ class System:
     def rigid_body(
         self, mass: object, inertia: object, at: Point, frame: Frame | sp.Expr, *, name: str = ""
     ) -> RigidBody:
-        """Add a rigid body. ``at`` is its centre of mass, ``inertia`` is about it; in the plane ``frame`` may be an angle."""
-        turned = frame if isinstance(frame, Frame) or isinstance(frame, str) else self._builder.frame(None, frame)
+        """Add a rigid body: ``inertia`` about its centre of mass ``at``; in the plane ``frame`` may be an angle."""
+        turned = frame if isinstance(frame, Frame) else self._builder.frame(None, frame)
         return self._builder.add(RigidBody(mass=mass, inertia=inertia, at=at, frame=turned, name=name))
 
     def gravity(

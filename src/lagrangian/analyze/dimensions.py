@@ -1,9 +1,9 @@
 """Do the units fit? Dimensions are worked out by solving for those that were not given.
 
-Every symbol has a dimension kg^a m^b s^c, known from its unit or unknown. What the model says ("this is a mass", "this is
-added to that", "this is the argument of a sine") are linear equations between the exponents; they are solved one after
-another, and the first that contradicts the others is the error, with the element it stands in. Angles have no dimension.
-A bare number may stand for a quantity ("0.5" for half a metre), so it settles nothing.
+Every symbol has a dimension kg^a m^b s^c, known from its unit or unknown. What the model says ("this is a mass", "this
+is added to that", "this is the argument of a sine") are linear equations between the exponents; they are solved one
+after another, and the first that contradicts the others is the error, with the element it stands in. Angles have no
+dimension. A bare number may stand for a quantity ("0.5" for half a metre), so it settles nothing.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import Any
+from typing import Any, cast
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -124,7 +124,7 @@ class Dimensions:
         if isinstance(expr, (sp.Symbol, AppliedUndef)):
             return self.reduce(Dim(unknown=((expr, Fraction(1)),)))
         if isinstance(expr, sp.Derivative):
-            base = self.of(expr.expr)
+            base = self.of(cast("sp.Expr", expr.expr))
             return None if base is None else base.times(SECOND, Fraction(-int(expr.derivative_count)))
         if isinstance(expr, sp.Mul):
             factors = [d for d in map(self.of, expr.args) if d is not None]
@@ -137,14 +137,14 @@ class Dimensions:
         if isinstance(expr, (sp.Add, MinMaxBase)):
             return self._same(expr.args)
         if isinstance(expr, sp.Piecewise):
-            return self._same([value for value, _ in expr.args])
+            return self._same([value for value, _ in cast("Any", expr.args)])
         if isinstance(expr, sp.Abs):
-            return self.of(expr.args[0])
+            return self.of(cast("sp.Expr", expr.args[0]))
         if isinstance(expr, sp.atan2):
             self._same(expr.args)
             return NONE
         if not isinstance(expr, sp.sign):
-            for argument in expr.args:
+            for argument in cast("tuple[sp.Expr, ...]", expr.args):
                 found = self.of(argument)
                 if found is not None and not _has_scale(argument):
                     self.equal(found, NONE)
@@ -152,7 +152,7 @@ class Dimensions:
 
     def _power(self, expr: sp.Pow) -> Dim | None:
         base = self.of(expr.base)
-        if expr.exp.is_Rational:
+        if isinstance(expr.exp, sp.Rational):
             return None if base is None else self.reduce(base.power(Fraction(int(expr.exp.p), int(expr.exp.q))))
         for part in (base, self.of(expr.exp)):
             if part is not None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import cast
 
 import sympy as sp
 
@@ -96,10 +97,11 @@ def measured(model: Model) -> dict[sp.Expr, Measured]:
     """Work out how every coordinate is measured.
 
     An angle shows itself in the directions of the system (arguments of sine and cosine, angles of frames): where every
-    direction that holds ξ_i holds other coordinates too, ξ_i is measured from them. A length shows itself in a position:
-    ξ_i is relative to ξ_j when the body it moves is carried along by ξ_j, together with one that ξ_i does not move.
+    direction that holds ξ_i holds other coordinates too, ξ_i is measured from them. A length shows itself in a
+    position: ξ_i is relative to ξ_j when the body it moves is carried along by ξ_j, together with one that ξ_i does
+    not move.
     """
-    symbols = [c.symbol for c in model.coordinates]
+    symbols: list[sp.Expr] = [c.symbol for c in model.coordinates]
     directions, carried = _directions(model, symbols), _carriers(model, symbols)
     reach = {s: sum(any(depends(model, x, s) for x in _where(model, b)) for b in model.bodies) for s in symbols}
     found: dict[sp.Expr, Measured] = {}
@@ -156,7 +158,7 @@ def _directions(model: Model, symbols: list[sp.Expr]) -> list[tuple[sp.Expr, ...
     for body in model.bodies:
         for point in _chain(body.at):
             for x in point.offset:
-                arguments += [f.args[0] for f in model.expand(x).atoms(sp.sin, sp.cos)]
+                arguments += [cast("sp.Expr", f.args[0]) for f in model.expand(x).atoms(sp.sin, sp.cos)]
     for frame in _frames(model):
         arguments.append(model.expand(frame.total_angle if frame.axis is None else frame.angle))
     sets = {tuple(s for s in symbols if a.has(s)) for a in arguments}
@@ -191,7 +193,7 @@ def _lengths(model: Model, symbols: list[sp.Expr]) -> set[sp.Expr]:
 
 
 def _carried_by(model: Model, s: sp.Expr, symbols: list[sp.Expr], reach: dict[sp.Expr, int]) -> sp.Expr | None:
-    """The nearest coordinate that carries along all that ``s`` moves, adding to it, and something ``s`` leaves still."""
+    """The nearest coordinate that carries along all that ``s`` moves, and something that ``s`` leaves still."""
     places = [_where(model, b) for b in model.bodies]
     mine = [p for p in places if any(depends(model, x, s) for x in p)]
     others = [p for p in places if p not in mine]
@@ -209,4 +211,3 @@ def chain_of(kinds: dict[sp.Expr, Measured], symbol: sp.Expr) -> list[sp.Expr]:
     """The coordinates that are, directly or through others, measured from ``symbol``: its children."""
     children = [s for s, k in kinds.items() if k.to == symbol]
     return children + [g for c in children for g in chain_of(kinds, c)]
-

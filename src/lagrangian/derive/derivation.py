@@ -93,10 +93,10 @@ class Derivation:
     Xi: Mapping[sp.Expr, sp.Expr]
     equations: tuple[sp.Eq, ...]
     terms: tuple[tuple[EquationTerm, ...], ...]
-    mass_matrix: sp.Matrix
-    coriolis_matrix: sp.Matrix
-    gravity_vector: sp.Matrix
-    generalized_forces: sp.Matrix
+    mass_matrix: sp.ImmutableMatrix
+    coriolis_matrix: sp.ImmutableMatrix
+    gravity_vector: sp.ImmutableMatrix
+    generalized_forces: sp.ImmutableMatrix
     result: tuple[Item, ...]
     ledger: tuple[LedgerRow, ...]
     shares: Any = field(repr=False)

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import cast
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from lagrangian.model import Action, Element, Model, time
+from lagrangian.model import DEFLECTION, Action, Element, Model, Words, time
 
+GROUND: Words = ("the ground",)
 MOST = 200
 """Quantities above which no search is made: the pairs grow with the square."""
 
@@ -20,17 +22,17 @@ def find_ends(model: Model, element: Element) -> tuple[Action, ...]:
     then +F acts on B and −F on A. Where nothing fits, the deflection itself stays the one end.
     """
     ends = element.ends(model)
-    if len(ends) != 1 or ends[0].on != "its deflection" or ends[0].displacement is None:
+    if len(ends) != 1 or ends[0].on != DEFLECTION or ends[0].displacement is None:
         return ends
     whole = ends[0]
     quantities = list(_quantities(model))
     if len(quantities) > MOST:
         return ends
-    ground = [(group, "the ground", sp.S.Zero) for group in dict.fromkeys(g for g, _, _ in quantities)]
+    ground = [(group, GROUND, sp.S.Zero) for group in dict.fromkeys(g for g, _, _ in quantities)]
     for group_b, on_b, b in quantities:
         for group_a, on_a, a in ground + quantities:
             if group_a == group_b and on_a != on_b and _constant(whole.displacement - b + a):
-                if on_a == "the ground":
+                if on_a == GROUND:
                     return (Action(whole.effort, sp.diff(b, time), on_b, b),)
                 return (
                     Action(whole.effort, sp.diff(b, time), on_b, b),
@@ -43,7 +45,7 @@ def _constant(expr: sp.Expr) -> bool:
     return not sp.expand(expr).has(AppliedUndef, time)
 
 
-def _quantities(model: Model) -> Iterator[tuple[str, str, sp.Expr]]:
+def _quantities(model: Model) -> Iterator[tuple[str, Words, sp.Expr]]:
     """Positions along each axis and directions: (kind, whose, value)."""
     seen: set[tuple[str, sp.Expr]] = set()
     for body in model.bodies:
@@ -51,18 +53,18 @@ def _quantities(model: Model) -> Iterator[tuple[str, str, sp.Expr]]:
             x = model.expand(x)
             if x.has(AppliedUndef) and (axis, x) not in seen:
                 seen.add((axis, x))
-                yield axis, body.title, x
+                yield axis, (body.title,), x
     for body in model.bodies:
         frame = getattr(body, "frame", None)
         if frame is not None and frame.dimension == 2:
             angle = model.expand(frame.total_angle)
             if angle.has(AppliedUndef) and ("angle", angle) not in seen:
                 seen.add(("angle", angle))
-                yield "angle", body.title, angle
+                yield "angle", (body.title,), angle
     for body in model.bodies:
         for x in model.position(body.at):
             for f in sorted(model.expand(x).atoms(sp.sin, sp.cos), key=sp.default_sort_key):
-                angle = f.args[0]
+                angle = cast("sp.Expr", f.args[0])
                 if angle.has(AppliedUndef) and ("angle", angle) not in seen:
                     seen.add(("angle", angle))
-                    yield "angle", model.angle_words(angle).replace("the angle", "the part at angle"), angle
+                    yield "angle", model.angle_words(angle), angle

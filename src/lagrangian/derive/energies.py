@@ -117,7 +117,7 @@ def kinetic(context: Context, pieces: tuple[Share, ...]) -> Step:
     return Step(
         2,
         "Kinetic co-energy",
-        text("Wrote ½mv² for every mass, and ½Jω² for every body that turns, and added them up."),
+        text("Wrote ½mv² for every mass and ½Jω² for every body that turns, and added them up."),
         text("Kinetic co-energy is stored by what moves with mass; J is about the centre of mass, always."),
         tuple(items),
         {"T": readable},
@@ -153,7 +153,9 @@ def _motion(context: Context, body: Any, index: dict[Element, str]) -> list[Item
             continue
         here = Name(axis, index[body])
         shown = [here, *([Terms((Name(axis, index[base]), *_terms(step)))] if base is not None else [x])]
-        if [s for s in shown if s != x] or str(here) != str(x):
+        if base is None and model.expand(x) != x:
+            shown.append(fit(context.readable(model.expand(x))))
+        if str(here) != str(shown[-1]):
             lines.append(formula(*shown))
         speed = Name(axis, index[body], 1)
         if base is not None:
@@ -168,7 +170,7 @@ def _motion(context: Context, body: Any, index: dict[Element, str]) -> list[Item
 
 
 def _terms(expr: sp.Expr) -> tuple[sp.Expr, ...]:
-    return tuple(expr.as_ordered_terms()) if expr != 0 else ()
+    return tuple(sp.Add.make_args(expr)) if expr != 0 else ()
 
 
 def _from_body(model: Model, body: Any) -> tuple[Any | None, tuple[sp.Expr, ...]]:
@@ -279,7 +281,7 @@ def _spring(context: Context, spring: Spring, share: Share) -> list[Item]:
 def _distinct(context: Context, share: Share) -> tuple[Left, ...]:
     """The simplified energy, where it reads differently from ½ k (…)²."""
     readable = context.readable(share.expr)
-    return (fit(readable),) if isinstance(readable, sp.Add) or readable.is_Mul and _plain_square(readable) else ()
+    return (fit(readable),) if isinstance(readable, sp.Add) or (readable.is_Mul and _plain_square(readable)) else ()
 
 
 def _plain_square(expr: sp.Expr) -> bool:

@@ -11,10 +11,10 @@ from lagrangian.derive.coordinates import chain_of, measured
 from lagrangian.derive.derivation import Check, Step
 from lagrangian.derive.ends import find_ends
 from lagrangian.derive.formula import (
-    Formula,
     Heading,
     Item,
     Left,
+    Matrix,
     Minus,
     Name,
     Partial,
@@ -28,7 +28,7 @@ from lagrangian.derive.formula import (
     text,
 )
 from lagrangian.derive.normal import Form
-from lagrangian.model import Action, Damper, Dissipation, Element, time
+from lagrangian.model import DEFLECTION, Action, Damper, Dissipation, Element, Words, time
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,26 +71,30 @@ def _along(actions: tuple[Action, ...], rate: sp.Expr) -> sp.Expr:
 def _story(context: Context, element: Element, ends: tuple[Action, ...], index: int, virtual: Form) -> Text:
     """The box rule in words: which ends lie inside the box of what moves with ξ_i alone."""
     c = context.model.coordinates[index]
-    inside: list[str] = []
-    outside: list[str] = []
+    inside: list[Words] = []
+    outside: list[Words] = []
     for end in ends:
         words = inside if sp.diff(end.rate, c.rate) != 0 else outside
         if end.on not in words:
             words.append(end.on)
     outside = [w for w in outside if w not in inside]
+    listed, beyond = _and(inside), _and(outside or [(element.title,)])
     if not inside:
-        where = " and ".join(outside) or element.title
-        return text(f"{where} stay{'s' if len(outside) == 1 else ''} outside the box: nothing")
+        return text(*beyond, f" stay{'s' if len(outside) <= 1 else ''} outside the box: nothing")
     if virtual.is_zero:
         if len(inside) > 1:
-            return text(f"{' and '.join(inside)} are inside the box and move together: the pair cancels")
-        return text(f"{inside[0]} moves, but not along the force: no work")
-    listed = " and ".join(inside)
+            return text(*listed, " are inside the box and move together: the pair cancels")
+        return text(*listed, " moves, but not along the force: no work")
     if outside:
-        return text(f"{listed} inside the box, {' and '.join(outside)} outside: it counts")
-    if len(ends) == 1 and ends[0].on == "its deflection":
+        return text(*listed, " inside the box, ", *beyond, " outside: it counts")
+    if ends[0].on == DEFLECTION:
         return text("its deflection changes with the box: it counts")
-    return text(f"{listed} inside the box: it counts")
+    return text(*listed, " inside the box: it counts")
+
+
+def _and(words: list[Words]) -> Words:
+    """Join several with "and"."""
+    return tuple(part for w in words for part in (*w, " and "))[:-1]
 
 
 def forces(context: Context, found: tuple[Contribution, ...]) -> Step:
@@ -113,21 +117,27 @@ def forces(context: Context, found: tuple[Contribution, ...]) -> Step:
         difference = context.algebra.total([f.virtual - f.box for f in mine])
         if acting:
             checks.append(
-                Check(text(big_xi(i), " by virtual work equals ", big_xi(i), " by the box"), difference.is_zero, "exact")
+                Check(
+                    text(big_xi(i), " by virtual work equals ", big_xi(i), " by the box"), difference.is_zero, "exact"
+                )
             )
     dampers = [e for e in acting if e.dissipation(model) is not None]
     if dampers:
         rayleigh, holds = _dampers(context, dampers, found)
         items += rayleigh
-        checks.append(Check(text("dampers: Rayleigh's function, the fake spring and virtual work agree"), holds, "exact"))
+        checks.append(
+            Check(text("dampers: Rayleigh's function, the fake spring and virtual work agree"), holds, "exact")
+        )
     if not acting:
         items.append(text("No force, torque or damper was described: nothing non-conservative acts."))
-    items.append(formula(*_listing(model, xi_of), brief=True))
+    items.append(formula(*_listing(xi_of), brief=True))
     return Step(
         6,
         "Non-conservative forces",
-        text("Found what the forces, torques and dampers add to every equation, twice: by virtual work and by the box."),
-        text("They are not in V; the right-hand side collects their actuation and their losses."),
+        text(
+            "Found what the forces, torques and dampers add to every equation, twice: by virtual work and by the box."
+        ),
+        text("They are not in ", Name("V"), "; the right-hand side collects their actuation and their losses."),
         tuple(items),
         {"Xi": xi_of},
         tuple(reasons),
@@ -135,9 +145,7 @@ def forces(context: Context, found: tuple[Contribution, ...]) -> Step:
     )
 
 
-def _listing(model, xi_of: dict[sp.Expr, sp.Expr]) -> tuple[Left, ...]:  # type: ignore[no-untyped-def]
-    from lagrangian.derive.formula import Matrix
-
+def _listing(xi_of: dict[sp.Expr, sp.Expr]) -> tuple[Left, ...]:
     if len(xi_of) == 1:
         return (big_xi(0), fit(next(iter(xi_of.values()))))
     rows = tuple((fit(x),) for x in xi_of.values())
@@ -189,7 +197,8 @@ def _coordinate(context: Context, index: int, mine: list[Contribution], total: F
     listed = ", ".join(b.title for b in moved) if len(moved) <= 6 else f"{len(moved)} bodies"
     parts: list[str | Left] = ["Wiggle only ", c.symbol, f". In the box: {listed or 'what moves with it'}"]
     if children:
-        parts += [" (with the children ", *[p for s in children for p in (s, ", ")][:-1], ", which ride along)"]
+        ride = ["child", "rides"] if len(children) == 1 else ["children", "ride"]
+        parts += [f" (with its {ride[0]} ", *[p for s in children for p in (s, ", ")][:-1], f", which {ride[1]} along)"]
     rows = tuple(
         (text(f.element.title), f.story, formula(Partial(Name("W", f.element.name), c.symbol), fit(f.virtual.expr())))
         for f in mine
@@ -214,9 +223,7 @@ def _reason(index: int, symbol: sp.Expr, mine: list[Contribution], value: sp.Exp
     return text(*parts[:-1])
 
 
-def _dampers(
-    context: Context, dampers: list[Element], found: tuple[Contribution, ...]
-) -> tuple[list[Item], bool]:
+def _dampers(context: Context, dampers: list[Element], found: tuple[Contribution, ...]) -> tuple[list[Item], bool]:
     """D = ½ b δ̇² with Ξ_i = −∂D/∂ξ̇_i, and the damper read as a spring whose deflection becomes its rate."""
     model = context.model
     items: list[Item] = [Heading(text("Dampers, by Rayleigh's function and as fake springs"))]
@@ -259,6 +266,3 @@ def _fake_spring(context: Context, damper: Damper, symbol: sp.Expr) -> tuple[sp.
     delta = damper.displacement(context.model)
     slope = sp.diff(delta, symbol)
     return damper.b * delta * slope, damper.b * sp.diff(delta, time) * slope
-
-
-__all__ = ["Contribution", "Formula", "contributions", "forces"]

@@ -18,9 +18,9 @@ from lagrangian.model.plain import plain
 class Name:
     """A named quantity: ``base`` is its meaning, ``index`` its subscript, ``dots`` its time derivatives.
 
-    Bases: "T*" kinetic co-energy, "V" potential energy, "L" Lagrangian, "D" Rayleigh's function, "Xi" generalized force,
-    "xi" generalized coordinate, "delta" deflection, "h" height, "v" speed, "omega" angular velocity, "x", "y", "z"
-    positions, "phi" an angle, "W" virtual work, "F" force, "M" mass matrix, "C" Coriolis matrix, "G" gravity and
+    Bases: "T*" kinetic co-energy, "V" potential energy, "L" Lagrangian, "D" Rayleigh's function, "Xi" generalized
+    force, "xi" generalized coordinate, "delta" deflection, "h" height, "v" speed, "omega" angular velocity, "x", "y",
+    "z" positions, "phi" an angle, "W" virtual work, "F" force, "M" mass matrix, "C" Coriolis matrix, "G" gravity and
     stiffness vector, "q" the vector of coordinates, "E" energy. A base outside this list is shown as it is.
     """
 
@@ -125,9 +125,7 @@ class Matrix:
         return "[" + "; ".join(", ".join(show(x) for x in row) for row in self.rows) + "]"
 
 
-Left: TypeAlias = (
-    "Name | Partial | Total | Variation | Terms | Minus | Product | Square | Matrix | Elided | sp.Expr"
-)
+Left: TypeAlias = "Name | Partial | Total | Variation | Terms | Minus | Product | Square | Matrix | Elided | sp.Expr"
 """Anything that can stand on a side of an equality."""
 
 

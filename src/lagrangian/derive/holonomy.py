@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Any, cast
+
+import sympy as sp
+
 from lagrangian.derive.context import Context
 from lagrangian.derive.derivation import Step
 from lagrangian.derive.formula import Item, Name, formula, text
-from lagrangian.model import time
+from lagrangian.model import Model, time
 
 
 def holonomic(context: Context) -> Step:
@@ -19,8 +23,9 @@ def holonomic(context: Context) -> Step:
     items: list[Item] = [
         formula(Name("#GC"), Name(str(n)), Name("#DDOF"), brief=True),
         text(
-            f"The system has no constraint on its velocities, so each of its {n} coordinates " if n > 1 else
-            "The system has no constraint on its velocity, so its one coordinate ",
+            f"The system has no constraint on its velocities, so each of its {n} coordinates "
+            if n > 1
+            else "The system has no constraint on its velocity, so its one coordinate ",
             *listed,
             " can wiggle on its own: ",
             f"#GC = {n} coordinates say where it can get to in the long run, and #DDOF = {n} of them can change at "
@@ -45,7 +50,7 @@ def holonomic(context: Context) -> Step:
     )
 
 
-def _explicit(model, body):  # type: ignore[no-untyped-def]
+def _explicit(model: Model, body: Any) -> list[sp.Expr]:
     """The components of a body's position with the coordinates held, so that only explicit time is left."""
     held = {c.symbol: 0 for c in model.coordinates}
-    return [model.expand(x).subs(held) for x in model.position(body.at)]
+    return [cast("sp.Expr", model.expand(x).subs(list(held.items()))) for x in model.position(body.at)]

@@ -75,13 +75,12 @@ def left_hand_sides(context: Context, sides: tuple[LeftSide, ...]) -> Step:
                 " the springs, gravity and what turns with the geometry",
             )
         )
-    n = len(sides)
+    n, s = len(sides), "" if len(sides) == 1 else "s"
     return Step(
         5,
         "Left-hand sides",
         text("Differentiated the Lagrangian for every coordinate: first by its rate, then in time, then by itself."),
-        text(f"A system with {n} generalized coordinate{'s have' if n > 1 else ' has'} {n} "
-             f"equation{'s' if n > 1 else ''} of motion.".replace("coordinates have", "coordinates has")),
+        text(f"A system with {n} generalized coordinate{s} has {n} equation{s} of motion."),
         tuple(items),
         {"left_hand_sides": expressions},
         tuple(reasons),

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import cast
 
 import sympy as sp
 
-from lagrangian.derive.context import Context, big_xi, fit, fit_terms
+from lagrangian.derive.context import Context, fit, fit_terms
 from lagrangian.derive.derivation import EquationTerm, LedgerRow, Origin
-from lagrangian.derive.energies import Share
 from lagrangian.derive.forces import Contribution
 from lagrangian.derive.formula import Heading, Item, Left, Matrix, Name, Product, Table, Terms, formula, text
 from lagrangian.derive.lagrange import LeftSide
 from lagrangian.derive.normal import Form
-from lagrangian.model import Damper, Dissipation, Gravity, Model, Particle, RigidBody, Spring
+from lagrangian.model import Damper, Dissipation, Element, Gravity, Model, Particle, RigidBody, Spring
 
 MATRIX_ENTRIES = 64
 """Entries above which a matrix is summarised."""
@@ -34,7 +34,9 @@ class Shares:
         for i, side in enumerate(self.sides):
             for share, part in side.parts:
                 if not (common := part.restricted(keys)).is_zero:
-                    found.append(Origin(share.element, side.coordinate.name, common.expr(), 2 if share.column == "T*" else 3))
+                    found.append(
+                        Origin(share.element, side.coordinate.name, common.expr(), 2 if share.column == "T*" else 3)
+                    )
             for f in self.forces:
                 if f.index == i and not (common := f.virtual.restricted(keys)).is_zero:
                     found.append(Origin(f.element, side.coordinate.name, common.expr(), 6))
@@ -44,9 +46,7 @@ class Shares:
         """The titles of the elements behind a term of equation ``index``."""
         keys = self.context.form(term).keys()
         titles = [s.element.title for s, part in self.sides[index].parts if not part.restricted(keys).is_zero]
-        titles += [
-            f.element.title for f in self.forces if f.index == index and not f.virtual.restricted(keys).is_zero
-        ]
+        titles += [f.element.title for f in self.forces if f.index == index and not f.virtual.restricted(keys).is_zero]
         return tuple(dict.fromkeys(titles))
 
 
@@ -84,10 +84,10 @@ def equations(context: Context, sides: tuple[LeftSide, ...], found: tuple[Contri
 class Matrices:
     """M ξ̈ + C ξ̇ + G = Ξ."""
 
-    M: sp.Matrix
-    C: sp.Matrix
-    G: sp.Matrix
-    Xi: sp.Matrix
+    M: sp.ImmutableMatrix
+    C: sp.ImmutableMatrix
+    G: sp.ImmutableMatrix
+    Xi: sp.ImmutableMatrix
 
 
 def matrices(context: Context, sides: tuple[LeftSide, ...], xi_of: dict[sp.Expr, sp.Expr]) -> Matrices:
@@ -112,7 +112,9 @@ def matrices(context: Context, sides: tuple[LeftSide, ...], xi_of: dict[sp.Expr,
         C.append(row)
     G = []
     for i, side in enumerate(sides):
-        inertia = [M[i][j] * algebra.form(c.acceleration) + C[i][j] * algebra.form(c.rate) for j, c in enumerate(coordinates)]
+        inertia = [
+            M[i][j] * algebra.form(c.acceleration) + C[i][j] * algebra.form(c.rate) for j, c in enumerate(coordinates)
+        ]
         G.append(side.whole - algebra.total(inertia))
     return Matrices(
         sp.ImmutableMatrix(n, n, lambda i, j: M[i][j].expr()),
@@ -125,13 +127,15 @@ def matrices(context: Context, sides: tuple[LeftSide, ...], xi_of: dict[sp.Expr,
 def closing(context: Context, eqs: Equations, mats: Matrices) -> tuple[Item, ...]:
     """The equations of motion, boxed, and the matrix form."""
     n = len(context.model.coordinates)
+    M, C, G, Xi = Name("M"), Name("C"), Name("G"), Name("Xi")
     items: list[Item] = [Heading(text("Equations of motion"))]
     for left, right in zip(eqs.left, eqs.right, strict=True):
         items.append(formula(fit_terms(left), fit_terms(right), brief=True, boxed=True))
     if any(f.kind == "damping" for row in eqs.terms for f in row):
-        items.append(text("The dampers' Ξ stand on the left, with the sign turned, as one writes them."))
+        items.append(
+            text("What the dampers add to ", Xi, " stands on the left, with the sign turned, as one writes it.")
+        )
     items.append(Heading(text("Matrix form")))
-    M, C, G, Xi = Name("M"), Name("C"), Name("G"), Name("Xi")
     q, dq, ddq = Name("q"), Name("q", "", 1), Name("q", "", 2)
     items.append(formula(Terms((Product((M, ddq)), Product((C, dq)), G)), Xi))
     items.append(formula(q, Matrix(tuple((c.symbol,) for c in context.model.coordinates))))
@@ -143,8 +147,8 @@ def closing(context: Context, eqs: Equations, mats: Matrices) -> tuple[Item, ...
     return tuple(items)
 
 
-def _shown(matrix: sp.Matrix) -> Left:
-    rows = tuple(tuple(fit(matrix[i, j]) for j in range(matrix.cols)) for i in range(matrix.rows))
+def _shown(matrix: sp.ImmutableMatrix) -> Left:
+    rows = tuple(tuple(fit(cast("sp.Expr", matrix[i, j])) for j in range(matrix.cols)) for i in range(matrix.rows))
     return Matrix(rows)
 
 
@@ -157,22 +161,23 @@ def ledger(model: Model, context: Context) -> tuple[LedgerRow, ...]:
             expr = context.readable(element.kinetic(model))
         elif element.ledger == "V":
             expr = context.readable(element.potential(model))
-        rows.append(LedgerRow(element.title, element.ledger, expr, text(_reason(element))))
+        rows.append(LedgerRow(element.title, element.ledger, expr, text(*_reason(element))))
     return tuple(rows)
 
 
-def _reason(element: object) -> str:
+def _reason(element: Element) -> tuple[str | Left, ...]:
+    T, V, Xi = Name("T*"), Name("V"), Name("Xi")
     if isinstance(element, (Particle, RigidBody)):
-        return "it has mass and moves: its energy of motion is in T*"
+        return "it has mass and moves: its energy of motion is in ", T
     if isinstance(element, Spring):
-        return "its force depends on its deflection alone: conservative, stored in V, so not in Ξ"
+        return "its force depends on its deflection alone: conservative, stored in ", V, ", so not in ", Xi
     if isinstance(element, Gravity):
-        return "weight depends on height alone: conservative, stored in V, so not in Ξ"
+        return "weight depends on height alone: conservative, stored in ", V, ", so not in ", Xi
     if isinstance(element, (Damper, Dissipation)):
-        return "it only takes energy out: no potential, so it is in Ξ"
-    if getattr(element, "ledger", "") == "Ξ":
-        return "it acts from outside and may do work: no potential, so it is in Ξ"
-    return "given as an energy"
+        return "it takes energy out and stores none: no potential, so it is in ", Xi
+    if element.ledger == "Ξ":
+        return "it acts from outside and may do work: no potential, so it is in ", Xi
+    return ("given as an energy",)
 
 
 def ledger_items(rows: tuple[LedgerRow, ...]) -> tuple[Item, ...]:
@@ -184,6 +189,3 @@ def ledger_items(rows: tuple[LedgerRow, ...]) -> tuple[Item, ...]:
 
 def _column(column: str) -> Name:
     return Name({"T*": "T*", "V": "V", "Ξ": "Xi"}[column])
-
-
-__all__ = ["Equations", "Matrices", "Shares", "big_xi", "closing", "equations", "ledger", "ledger_items", "matrices"]

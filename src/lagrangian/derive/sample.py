@@ -36,7 +36,7 @@ class Sampler:
         ids = tuple(from_sympy(graph, e, table) for e in full)
         names = tuple(plain(s) for s in self.symbols)
         self._program = Program("sample", graph, {"x": names}, {"y": Output(ids, (len(ids),))}, {})
-        self._fixed: Mapping[sp.Basic, float] = dict(model.values) if values else {}
+        self._fixed: dict[sp.Basic, float] = {**model.values} if values else {}
 
     def draw(self, seed: int) -> dict[sp.Basic, float]:
         """A random value for every symbol."""

@@ -9,14 +9,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 import sympy as sp
 
 from lagrangian.derive.sample import Sampler
 from lagrangian.errors import ModelError
-from lagrangian.model import Element, Model, RigidBody, time
+from lagrangian.model import Element, Model, RigidBody
 
 SMALL = 1e-9
 """Relative size under which a singular value or a column counts as zero."""
@@ -53,7 +52,7 @@ def study(model: Model) -> Wiggle:
     entries: list[sp.Expr] = []
     for block in blocks:
         entries += [sp.diff(r, v) for r in block.rates for v in rates]
-        entries += list(block.weight)
+        entries += block.weight.flat()
     sampler = Sampler(model, entries)
     n, best = len(rates), -1
     seen = np.zeros((len(blocks), n), dtype=bool)
@@ -175,11 +174,3 @@ def _figure(x: float) -> str:
 def depends(model: Model, expr: sp.Expr, symbol: sp.Expr) -> bool:
     """Whether ``expr`` changes with a coordinate (decided by its derivative, not by how it is written)."""
     return sp.diff(expr, symbol) != 0
-
-
-def rate_of(expr: sp.Expr) -> sp.Expr:
-    """d/dt of an expression in coordinates and time."""
-    return sp.diff(expr, time)
-
-
-__all__: list[Any] = ["Wiggle", "depends", "rate_of", "study"]

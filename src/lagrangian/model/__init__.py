@@ -5,6 +5,7 @@
 
 from lagrangian.model.builder import Builder
 from lagrangian.model.elements import (
+    DEFLECTION,
     REGISTRY,
     Action,
     Damper,
@@ -19,6 +20,7 @@ from lagrangian.model.elements import (
     RigidBody,
     Spring,
     Torque,
+    Words,
 )
 from lagrangian.model.geometry import Frame, Point
 from lagrangian.model.model import Coordinate, Definition, Input, Model, Parameter
@@ -26,6 +28,7 @@ from lagrangian.model.names import RESERVED, check_name, time
 from lagrangian.model.plain import plain
 
 __all__ = [
+    "DEFLECTION",
     "REGISTRY",
     "RESERVED",
     "Action",
@@ -49,6 +52,7 @@ __all__ = [
     "RigidBody",
     "Spring",
     "Torque",
+    "Words",
     "check_name",
     "plain",
     "time",

@@ -9,14 +9,13 @@ from typing import Any, TypeVar
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
-from sympy.physics.vector import dynamicsymbols
 
 from lagrangian.errors import ModelError, Place, did_you_mean
 from lagrangian.model.checks import check_body, check_use
 from lagrangian.model.elements import Element, GeneralizedForce
 from lagrangian.model.geometry import Frame, Point, as_expr, as_vector
-from lagrangian.model.model import Coordinate, Definition, Input, Model, Parameter
-from lagrangian.model.names import check_name, time
+from lagrangian.model.model import Coordinate, Definition, Input, Model, Parameter, written_out
+from lagrangian.model.names import check_name, moving_symbol, time
 
 E = TypeVar("E", bound=Element)
 MAX_ELEMENTS = 100_000
@@ -70,7 +69,7 @@ class Builder:
     ) -> Coordinate:
         """Add a generalized coordinate."""
         name = self._claim(name, "coordinate", place)
-        made = Coordinate(name, dynamicsymbols(name), description, unit, place)
+        made = Coordinate(name, moving_symbol(name), description, unit, place)
         self._coordinates[name] = made
         return made
 
@@ -116,7 +115,7 @@ class Builder:
     def input(self, name: str, *, description: str = "", unit: str | None = None, place: Place | None = None) -> Input:
         """Add a signal from outside."""
         name = self._claim(name, "input", place)
-        made = Input(name, dynamicsymbols(name), description, unit, place)
+        made = Input(name, moving_symbol(name), description, unit, place)
         self._inputs[name] = made
         return made
 
@@ -126,7 +125,7 @@ class Builder:
         name = self._claim(name, "definition", place)
         self._check_known(expr, f"definition '{name}'", place)
         moving = expr.has(AppliedUndef, time, sp.Derivative)
-        symbol = dynamicsymbols(name) if moving else sp.Symbol(name)
+        symbol = moving_symbol(name) if moving else sp.Symbol(name)
         made = Definition(name, symbol, expr, place)
         self._definitions[name] = made
         return made
@@ -288,10 +287,7 @@ class Builder:
             )
 
     def _written_out(self, expr: sp.Expr) -> sp.Expr:
-        table = {d.symbol: d.expression for d in self._definitions.values()}
-        while table and any(expr.has(s) for s in table):
-            expr = expr.subs(table).doit(deep=True, integrals=False, sums=False)
-        return expr
+        return written_out(expr, {d.symbol: d.expression for d in self._definitions.values()})
 
     # -- elements -----------------------------------------------------------------------------------------------
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any
+from typing import Any, cast
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -62,7 +62,7 @@ def number(model: Model, expr: sp.Expr) -> float | None:
     full = model.expand(expr, constants=True)
     if full.free_symbols - model.values.keys():
         return None
-    value = full.xreplace({s: sp.Float(v) for s, v in model.values.items()})
+    value = cast("sp.Expr", full.xreplace({s: sp.Float(v) for s, v in model.values.items()}))
     return float(value) if value.is_real else float("nan")
 
 

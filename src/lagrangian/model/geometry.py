@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import count
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import sympy as sp
 
@@ -52,14 +52,14 @@ def as_expr(value: object, what: str, *, place: Place | None = None) -> sp.Expr:
     if not expr.is_commutative:
         raise ModelError(f"{what} must be a scalar (got {expr})", place=place, code="E406")
     if expr.has(sp.Float):
-        expr = expr.xreplace({f: sp.Rational(str(f)) for f in expr.atoms(sp.Float)})
+        expr = cast("sp.Expr", expr.xreplace({f: sp.Rational(str(f)) for f in expr.atoms(sp.Float)}))
     return expr
 
 
 def as_vector(values: object, what: str, *, place: Place | None = None) -> tuple[sp.Expr, ...]:
     """Return a tuple of two or three expressions."""
     if isinstance(values, sp.MatrixBase):
-        values = tuple(values)
+        values = tuple(values.flat())
     if isinstance(values, str) or not isinstance(values, Sequence):
         raise ModelError(f"{what} must be a pair or a triple (got {type(values).__name__})", place=place, code="E414")
     if len(values) not in (2, 3):
@@ -200,5 +200,5 @@ class Frame:
             return (sp.diff(self.total_angle, time),)
         own = sp.Matrix([n * rate for n in self.axis])
         if self.parent is None:
-            return tuple(own)
-        return tuple(self.local_rotation.T * sp.Matrix(self.parent.angular_velocity) + own)
+            return tuple(own.flat())
+        return tuple((self.local_rotation.T * sp.Matrix(self.parent.angular_velocity) + own).flat())

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -14,8 +14,15 @@ from lagrangian.errors import Place
 from lagrangian.model.names import time
 
 if TYPE_CHECKING:
-    from lagrangian.model.elements import Element
+    from lagrangian.model.elements import Element, Words
     from lagrangian.model.geometry import Frame, Point
+
+
+def written_out(expr: sp.Expr, table: Mapping[Any, Any]) -> sp.Expr:
+    """Return ``expr`` with symbols replaced by their expressions, and the derivatives of those worked out."""
+    while table and any(expr.has(s) for s in table):
+        expr = cast("sp.Expr", expr.subs(list(table.items())).doit(deep=True, integrals=False, sums=False))
+    return expr
 
 
 @dataclass(frozen=True)
@@ -64,7 +71,7 @@ class Input:
 
 @dataclass(frozen=True)
 class Definition:
-    """A named expression. ``moving`` tells whether it holds coordinates or time (its symbol is then a function of t)."""
+    """A named expression; where it holds coordinates or time it is ``moving``, and its symbol a function of t."""
 
     name: str
     symbol: sp.Expr
@@ -119,10 +126,7 @@ class Model:
         key = ("expand", expr, constants)
         if key not in self._memo:
             table = {d.symbol: d.expression for d in self.definitions if d.moving or constants}
-            done = expr
-            while table and any(done.has(s) for s in table):
-                done = done.subs(table).doit(deep=True, integrals=False, sums=False)
-            self._memo[key] = done
+            self._memo[key] = written_out(expr, table)
         return self._memo[key]
 
     def position(self, point: Point) -> tuple[sp.Expr, ...]:
@@ -136,36 +140,39 @@ class Model:
             self._memo[key] = tuple(sp.diff(self.expand(x), time) for x in self.position(point))
         return self._memo[key]
 
-    def point_words(self, point: Point) -> str:
+    def point_words(self, point: Point) -> Words:
         """The point in words: the body that sits there, else its name, else the ground or its components."""
         if point.is_origin:
-            return "the ground"
+            return ("the ground",)
         for body in self.bodies:
             if body.at is point:
-                return body.title
+                return (body.title,)
         if point.name:
-            return f"point '{point.name}'"
+            return (f"point '{point.name}'",)
         position = [self.expand(x) for x in self.position(point)]
         if not any(x.has(AppliedUndef, time) for x in position):
-            return "the ground"
+            return ("the ground",)
         for body in self.bodies:
             if tuple(self.expand(x) for x in self.position(body.at)) == tuple(position):
-                return body.title
-        return "the point " + "(" + ", ".join(str(x) for x in position).replace("(t)", "") + ")"
+                return (body.title,)
+        listed: list[str | sp.Expr] = [part for x in position for part in (x, ", ")]
+        return ("the point (", *listed[:-1], ")")
 
-    def frame_words(self, frame: Frame) -> str:
+    def frame_words(self, frame: Frame) -> Words:
         """The frame in words: the body that turns with it, else its name."""
         for body in self.bodies:
             if getattr(body, "frame", None) is frame:
-                return body.title
-        return f"frame '{frame.name}'" if frame.name else "a frame"
+                return (body.title,)
+        if frame.name:
+            return (f"frame '{frame.name}'",)
+        return ("the frame turned by ", self.expand(frame.total_angle if frame.axis is None else frame.angle))
 
-    def angle_words(self, angle: sp.Expr) -> str:
+    def angle_words(self, angle: sp.Expr) -> Words:
         """An angle in words: the body in the plane whose orientation it is, else the angle itself."""
         for body in self.bodies:
             frame = getattr(body, "frame", None)
             if frame is not None and frame.dimension == 2:
                 free = sp.expand(self.expand(frame.total_angle) - angle)
                 if not free.has(AppliedUndef, time):
-                    return body.title
-        return f"the angle {angle}".replace("(t)", "")
+                    return (body.title,)
+        return ("what turns with ", angle)

@@ -4,13 +4,21 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from typing import cast
 
-from sympy.physics.vector import dynamicsymbols
+import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian.errors import ModelError, Place
 
-time = dynamicsymbols._t
+time = sp.Symbol("t")
 """The symbol of time, the one that SymPy's ``dynamicsymbols`` depend on."""
+
+
+def moving_symbol(name: str) -> AppliedUndef:
+    """Return the function of time ``name(t)``, equal to SymPy's ``dynamicsymbols(name)``."""
+    return cast("AppliedUndef", sp.Function(name)(time))
+
 
 FUNCTIONS = frozenset(
     [

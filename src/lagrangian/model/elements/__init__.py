@@ -1,10 +1,10 @@
 """The elements of a mechanical system, one file each.
 
-A new element is one new file, one line in `REGISTRY` and its tests. Each element says, in its own file, where its energy
-or force is booked (``ledger``) and with what expression.
+A new element is one new file, one line in `REGISTRY` and its tests. Each element says, in its own file, where its
+energy or force is booked (``ledger``) and with what expression.
 """
 
-from lagrangian.model.elements.base import Action, Element, Level, Use, deflection_between
+from lagrangian.model.elements.base import DEFLECTION, Action, Element, Level, Use, Words, deflection_between
 from lagrangian.model.elements.damper import Damper
 from lagrangian.model.elements.force import Force
 from lagrangian.model.elements.gravity import Gravity
@@ -30,6 +30,7 @@ REGISTRY: dict[str, type[Element]] = {
 """Every kind of element by its name in files and in Python."""
 
 __all__ = [
+    "DEFLECTION",
     "REGISTRY",
     "Action",
     "Damper",
@@ -46,5 +47,6 @@ __all__ = [
     "Spring",
     "Torque",
     "Use",
+    "Words",
     "deflection_between",
 ]

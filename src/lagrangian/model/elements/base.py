@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import TYPE_CHECKING, ClassVar, Literal
+from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
 
 import sympy as sp
 
@@ -15,6 +15,13 @@ from lagrangian.model.names import time
 if TYPE_CHECKING:
     from lagrangian.model.geometry import Frame, Point
     from lagrangian.model.model import Model
+
+
+Words: TypeAlias = "tuple[str | sp.Expr, ...]"
+"""Words with symbols in them."""
+
+DEFLECTION: Words = ("its deflection",)
+"""What an action is on when its ends are not known apart."""
 
 
 class Level(IntEnum):
@@ -44,14 +51,15 @@ class Use:
 class Action:
     """An effort on something that moves: its power is ``effort · rate`` and Ξ_i = effort · ∂rate/∂ξ̇_i.
 
-    ``effort`` is a force [N] or torque [N m]; ``rate`` is the velocity [m/s] or angular velocity [rad/s] of what it acts
-    on, in the effort's direction and linear in the rates ξ̇. ``displacement`` is the scalar whose variation is the
-    virtual displacement, where there is one. ``on`` says in words what is acted on; ``target`` is that point or frame.
+    ``effort`` is a force [N] or torque [N m]; ``rate`` is the velocity [m/s] or angular velocity [rad/s] of what it
+    acts on, in the effort's direction and linear in the rates ξ̇. ``displacement`` is the scalar whose variation is the
+    virtual displacement, where there is one. ``on`` says what is acted on; ``target`` is
+    that point or frame.
     """
 
     effort: sp.Expr
     rate: sp.Expr
-    on: str
+    on: Words
     displacement: sp.Expr | None = None
     target: Point | Frame | None = None
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import sympy as sp
 
-from lagrangian.model.elements.base import Action, Element, Level, Use, check_ends, difference, pair_ends
+from lagrangian.model.elements.base import DEFLECTION, Action, Element, Level, Use, check_ends, difference, pair_ends
 from lagrangian.model.geometry import Point, as_expr
 from lagrangian.model.names import time
 
@@ -88,8 +88,7 @@ class Damper(Element):
 
     def works(self, model: Model) -> tuple[Action, ...]:
         """One action −b δ̇ on the deflection."""
-        on = "its deflection"
-        return (Action(-self.pull(model), self.rate(model), on, self.displacement(model)),)
+        return (Action(-self.pull(model), self.rate(model), DEFLECTION, self.displacement(model)),)
 
     def ends(self, model: Model) -> tuple[Action, ...]:
         """The pull on each end."""
@@ -99,7 +98,7 @@ class Damper(Element):
         length = sp.sqrt(sum(d**2 for d in delta))
         rate = sum((d * sp.diff(d, time) for d in delta), sp.S.Zero) / length
         pull = self.b * rate if self.b is not None else self.law.subs(RATE, rate)
-        return pair_ends(model, *self.between, -pull)
+        return pair_ends(model, self.between[0], self.between[1], -pull)
 
     def dissipation(self, model: Model) -> sp.Expr | None:
         """D = ½ b δ̇² of a linear damper."""

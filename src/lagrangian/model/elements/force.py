@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, ClassVar, Literal
 import sympy as sp
 
 from lagrangian.model.elements.base import (
+    DEFLECTION,
     Action,
     Element,
     Level,
@@ -147,12 +148,12 @@ class Force(Element):
         else:
             displacement = model.expand(self.deflection)
             rate = sp.diff(displacement, time)
-        return (Action(effort, rate, "its deflection", displacement),)
+        return (Action(effort, rate, DEFLECTION, displacement),)
 
     def ends(self, model: Model) -> tuple[Action, ...]:
         """The force on each end."""
         if self.between:
-            return pair_ends(model, *self.between, model.expand(self.value))
+            return pair_ends(model, self.between[0], self.between[1], model.expand(self.value))
         if not self.is_vector:
             return self.works(model)
         actions = []

@@ -78,7 +78,7 @@ class Dissipation(Element):
         """−∂D/∂ξ̇_i on each coordinate."""
         d = model.expand(self.value)
         return tuple(
-            Action(-effort, c.rate, f"{c.name}", c.symbol)
+            Action(-effort, c.rate, (c.symbol,), c.symbol)
             for c in model.coordinates
             if (effort := sp.diff(d, c.rate)) != 0
         )
@@ -111,4 +111,4 @@ class GeneralizedForce(Element):
     def works(self, model: Model) -> tuple[Action, ...]:
         """The force on its coordinate."""
         rate = sp.diff(self.coordinate, time)
-        return (Action(model.expand(self.value), rate, str(self.coordinate.func), self.coordinate),)
+        return (Action(model.expand(self.value), rate, (self.coordinate,), self.coordinate),)

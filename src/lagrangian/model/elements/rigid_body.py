@@ -48,7 +48,7 @@ class RigidBody(Element):
         """Return the inertia as a 1×1 matrix in the plane, 3×3 in space."""
         what = f"the inertia of {self.title}"
         if isinstance(given, sp.MatrixBase):
-            rows: Any = given.tolist() if given.rows > 1 and given.cols > 1 else list(given)
+            rows: Any = given.tolist() if given.rows > 1 and given.cols > 1 else given.flat()
         elif isinstance(given, (tuple, list)):
             rows = list(given)
         else:

@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 class Torque(Element):
     """A torque [N m]: Ξ_i = Σ τ·∂φ/∂ξ_i.
 
-    ``on`` is the angle (an expression in the coordinates) or the frame it turns; ``reaction`` is the angle or frame that
-    feels its opposite, the ground when left out. On a frame in space a scalar turns it about the frame's own axis; a
-    vector has three components in the fixed axes.
+    ``on`` is the angle (an expression in the coordinates) or the frame it turns; ``reaction`` is the angle or frame
+    that feels its opposite, the ground when left out. On a frame in space a scalar turns it about the frame's own axis;
+    a vector has three components in the fixed axes.
     """
 
     value: Any
@@ -66,7 +66,7 @@ class Torque(Element):
     def suggested_name(self) -> str:
         """The symbol of its value."""
         v = self.value
-        return v.name if isinstance(v, sp.Expr) and (v.is_Symbol or v.is_Function) and hasattr(v, "name") else ""
+        return getattr(v, "name", "") if isinstance(v, sp.Expr) and (v.is_Symbol or v.is_Function) else ""
 
     def uses(self) -> Iterator[Use]:
         """The value may hold anything down to rates; angles hold coordinates and time."""
