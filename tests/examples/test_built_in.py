@@ -1,0 +1,68 @@
+"""The built-in model files: named, described, found with a hint when misspelled."""
+
+from __future__ import annotations
+
+import tomllib
+
+import pytest
+
+from lagrangian import ModelError, examples
+
+ASKED_FOR = {
+    "lecture-1",
+    "lecture-2",
+    "lecture-2-absolute",
+    "lecture-3a",
+    "lecture-3b",
+    "pendulum",
+    "cart-pole",
+    "double-pendulum",
+    "double-pendulum-relative",
+    "triple-pendulum",
+    "triple-pendulum-relative",
+    "elastic-pendulum",
+    "spherical-pendulum",
+    "furuta-pendulum",
+    "quarter-car",
+    "bead-on-hoop",
+    "atwood",
+    "wedge",
+    "three-masses",
+    "kapitza-pendulum",
+    "two-carts",
+}
+
+
+def test_the_examples_that_were_asked_for_are_there() -> None:
+    assert set(examples.names()) >= ASKED_FOR
+
+
+def test_the_lectures_examples_come_first() -> None:
+    assert examples.names()[:5] == ("lecture-1", "lecture-2", "lecture-2-absolute", "lecture-3a", "lecture-3b")
+
+
+@pytest.mark.parametrize("name", examples.names())
+def test_a_file_is_valid_toml_with_a_description_and_a_unit_for_every_parameter(name: str) -> None:
+    text = examples.text(name)
+    file = tomllib.loads(text)
+    assert 20 < len(examples.describe(name)) < 110
+    assert text.startswith(f"# {examples.describe(name)}\n")
+    assert all(isinstance(value, str) and " " in value for value in file["parameters"].values())
+    assert all(len(line) <= 120 for line in text.splitlines())
+
+
+def test_descriptions_differ() -> None:
+    assert len({examples.describe(name) for name in examples.names()}) == len(examples.names())
+
+
+def test_a_misspelled_name_is_answered_with_the_nearest() -> None:
+    with pytest.raises(ModelError, match="double-pendulun") as caught:
+        examples.text("double-pendulun")
+    assert "Did you mean 'double-pendulum'?" in str(caught.value)
+
+
+@pytest.mark.parametrize("name", ["", "../errors", "/etc/passwd", "x" * 10_000, "__init__.py", "pendulum.toml\0"])
+def test_only_names_of_examples_open_files(name: str) -> None:
+    with pytest.raises(ModelError) as caught:
+        examples.text(name)
+    assert len(str(caught.value)) < 300
