@@ -1,1 +1,43 @@
-"""..."""
+"""Program → Kernel: machine code through LLVM, C99 and NumPy sources."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
+
+from lagrangian.errors import RunError
+
+from . import native
+from .build import Build, Options
+from .kernel import Kernel, RawFunction
+
+if TYPE_CHECKING:
+    from lagrangian.graph import Program
+
+__all__ = ["Kernel", "RawFunction", "compile"]
+
+
+def compile(
+    program: Program,
+    *,
+    hoist: Iterable[str] = ("p",),
+    optional: Mapping[str, float] | None = None,
+    lanes: int | None = None,
+    threads: int | None = None,
+    keep: bool = True,
+) -> Kernel:
+    """Compile ``program``; machine code is made at the first call of each kind (one state, many, a parameter set each).
+
+    ``hoist``: groups that stay the same over many states; what depends on them alone is computed once a set.
+    ``optional``: groups that may be left out, with the value their entries then have.
+    ``lanes``: states computed side by side in a batch (1, 2, 4, 8; the machine's widest unless given).
+    ``threads``: cores used for a large batch (all unless given). ``keep``: keep the code on disk between runs.
+    """
+    target = native.host()
+    width = target.lanes if lanes is None else lanes
+    if width not in (1, 2, 4, 8):
+        raise RunError(f"lanes must be 1, 2, 4 or 8 (got {lanes!r})", code="E501")
+    if threads is not None and threads < 1:
+        raise RunError(f"threads must be at least 1 (got {threads!r})", code="E501")
+    build = Build(program, Options(width, tuple(hoist), keep=keep), target)
+    return Kernel(build, optional=optional or {}, threads=threads)

@@ -1,0 +1,177 @@
+"""Between strided arrays and blocks: many states' rows become one vector an entry, and back.
+
+Arrays hold a state's entries side by side, blocks hold an entry's states side by side: a transposition. Rows that are
+contiguous are transposed W × W in registers, W the number of lanes and, for what is left of a row, smaller powers of
+two; pieces overlap where a row's length is no multiple, so nothing outside a row is touched. Any other stride goes
+number by number.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from .ir import Function, Module, Value
+
+
+def emit_move(module: Module, lanes: int, n: int, *, gather: bool) -> str:
+    """Print ``gather`` (array → block) or ``scatter`` (block → array) for rows of ``n`` entries; return its symbol.
+
+    Signature: ``(ptr base, i64 row, i64 step, ptr block)``; lane l is the row at ``base + l row``, its entries
+    ``step`` bytes apart. Returns Σ 0·x in every lane: zero exactly if every number is finite.
+    """
+    name = f"{'gather' if gather else 'scatter'}_{lanes}_{n}"
+    if module.defines(name):
+        return "@" + name
+    f = Function(module, lanes)
+    rows = ["%base"]
+    for k in range(1, lanes):
+        rows.append(f.put(f"getelementptr i8, ptr %base, i64 {f.put(f'mul i64 %row, {k}')}"))
+    f.do("%plain = icmp eq i64 %step, 8")
+    f.do("br i1 %plain, label %near, label %far")
+    mover = _Mover(f, rows, gather)
+    f.label("near")
+    mover.contiguous(n)
+    f.label("far")
+    mover.strided(n)
+    arguments = "ptr %base, i64 %row, i64 %step, ptr %block"
+    f.finish(name, f"internal {f.real}", arguments, f'nounwind noinline "prefer-vector-width"="{lanes * 64}"')
+    return "@" + name
+
+
+class _Mover:
+    """Prints the two ways through a move; ``rows`` are the addresses of the lanes' rows."""
+
+    def __init__(self, f: Function, rows: list[str], gather: bool) -> None:
+        self.f, self.rows, self.gather = f, rows, gather
+
+    def contiguous(self, n: int) -> None:
+        """Rows without gaps: full transpositions in a loop, then the rest in one or two smaller ones."""
+        f, lanes = self.f, self.f.lanes
+        full, rest = divmod(n, lanes)
+        total = Value(f, f.constant(0.0))
+        if full:
+            f.do("br label %tiles")
+            f.label("tiles")
+            f.do("%tile = phi i64 [0, %near], [%nexttile, %tiles]")
+            start_of_sum = len(f.lines)  # the second phi names a value printed below
+            total = self.tile("%tile", lanes, Value(f, "%tilesum"))
+            f.lines.insert(
+                start_of_sum, f"  %tilesum = phi {f.real} [{f.constant(0.0)}, %near], [{total.name}, %tiles]"
+            )
+            f.do(f"%nexttile = add i64 %tile, {lanes}")
+            f.do(f"%moretiles = icmp slt i64 %nexttile, {full * lanes}")
+            f.do("br i1 %moretiles, label %tiles, label %rest")
+            f.label("rest")
+        done = full * lanes
+        while rest:
+            width = 1 << (rest - 1).bit_length()
+            if width > n:  # no room to overlap: the largest piece that fits
+                width //= 2
+            start = min(done, n - width)
+            total = self.tile(str(start), width, total)
+            rest -= start + width - done
+            done = start + width
+        f.do(f"ret {f.real} {total.name}")
+
+    def tile(self, first: str, width: int, total: Value) -> Value:
+        """Move entries ``first`` … ``first + width − 1`` of every row; return the sum carried on."""
+        f = self.f
+        places = [f.put(f"getelementptr double, ptr {row}, i64 {first}") for row in self.rows]
+        kind = "double" if width == 1 else f"<{width} x double>"
+        slots = []
+        for k in range(width):
+            slot = f.put(f"getelementptr {f.real}, ptr %block, i64 {first}")
+            slots.append(f.put(f"getelementptr {f.real}, ptr {slot}, i64 {k}"))
+        if self.gather:
+            pieces = [f.put(f"load {kind}, ptr {place}, align 8") for place in places]
+            vectors = self.transposed(self.joined(pieces, width), width)
+            for slot, x in zip(slots, vectors, strict=True):
+                f.do(f"store {f.real} {x}, ptr {slot}, align {8 * f.lanes}")
+        else:
+            vectors = [f.put(f"load {f.real}, ptr {slot}, align {8 * f.lanes}") for slot in slots]
+            for piece, place in zip(self.parted(self.transposed(vectors, width), width), places, strict=True):
+                f.do(f"store {kind} {piece}, ptr {place}, align 8")
+        for x in vectors:
+            total = f.fma(Value(f, x), 0.0, total)
+        return total
+
+    def joined(self, pieces: list[str], width: int) -> list[str]:
+        """Vector k: the pieces of rows k, k + width, k + 2 width … one after the other."""
+        f = self.f
+        if width == 1:
+            return [f.gathered(pieces).name]
+        return [self._concatenated(pieces[k::width], width) for k in range(width)]
+
+    def _concatenated(self, parts: list[str], width: int) -> str:
+        f = self.f
+        while len(parts) > 1:
+            kind, mask = f"<{width} x double>", _mask(range(2 * width))
+            parts = [
+                f.put(f"shufflevector {kind} {a}, {kind} {b}, {mask}")
+                for a, b in zip(parts[::2], parts[1::2], strict=True)
+            ]
+            width *= 2
+        return parts[0]
+
+    def parted(self, vectors: list[str], width: int) -> list[str]:
+        """The reverse of :meth:`joined`: one piece a row."""
+        f = self.f
+        if width == 1:
+            return [f.lane(Value(f, vectors[0]), k) for k in range(f.lanes)]
+        pieces = []
+        for row in range(f.lanes):
+            start = row // width * width
+            vector = vectors[row % width]
+            if width == f.lanes:
+                pieces.append(vector)
+            else:
+                mask = _mask(range(start, start + width))
+                pieces.append(f.put(f"shufflevector {f.real} {vector}, {f.real} poison, {mask}"))
+        return pieces
+
+    def transposed(self, vectors: list[str], width: int) -> list[str]:
+        """Transpose every width × width tile across the vectors: log2 width rounds of exchanging halves, quarters, …"""
+        f = self.f
+        vectors = list(vectors)
+        stride = 1
+        while stride < width:
+            low = _mask(j if not j & stride else f.lanes + j - stride for j in range(f.lanes))
+            high = _mask(j + stride if not j & stride else f.lanes + j for j in range(f.lanes))
+            for k in range(width):
+                if not k & stride:
+                    pair = f"{f.real} {vectors[k]}, {f.real} {vectors[k + stride]}"
+                    vectors[k], vectors[k + stride] = (f.put(f"shufflevector {pair}, {m}") for m in (low, high))
+            stride *= 2
+        return vectors
+
+    def strided(self, n: int) -> None:
+        """Any strides: entry by entry, lane by lane."""
+        f = self.f
+        f.do("br label %loop")
+        f.label("loop")
+        f.do("%k = phi i64 [0, %far], [%next, %loop]")
+        f.do("%offset = phi i64 [0, %far], [%ahead, %loop]")
+        start_of_sum = len(f.lines)  # the third phi names a value printed below
+        slot = f.put(f"getelementptr {f.real}, ptr %block, i64 %k")
+        places = [f.put(f"getelementptr i8, ptr {row}, i64 %offset") for row in self.rows]
+        if self.gather:
+            x = f.gathered([f.put(f"load double, ptr {place}, align 8") for place in places])
+            f.do(f"store {f.real} {x.name}, ptr {slot}, align {8 * f.lanes}")
+        else:
+            x = Value(f, f.put(f"load {f.real}, ptr {slot}, align {8 * f.lanes}"))
+            for lane, place in enumerate(places):
+                f.do(f"store double {f.lane(x, lane)}, ptr {place}, align 8")
+        total = f.fma(x, 0.0, Value(f, "%sum"))
+        f.lines.insert(start_of_sum, f"  %sum = phi {f.real} [{f.constant(0.0)}, %far], [{total.name}, %loop]")
+        f.do("%next = add i64 %k, 1")
+        f.do("%ahead = add i64 %offset, %step")
+        f.do(f"%more = icmp slt i64 %next, {n}")
+        f.do("br i1 %more, label %loop, label %end")
+        f.label("end")
+        f.do(f"ret {f.real} {total.name}")
+
+
+def _mask(indices: Iterable[int]) -> str:
+    """A shuffle's mask."""
+    numbers = list(indices)
+    return f"<{len(numbers)} x i32> <" + ", ".join(f"i32 {k}" for k in numbers) + ">"
