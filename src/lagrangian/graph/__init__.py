@@ -1,1 +1,30 @@
-"""..."""
+"""The expression graph: building, differentiating, evaluating, and `Program`, the waist of the house."""
+
+from lagrangian.graph.autodiff import gradient, hessian, hessian_product, jacobian, jvp, vjp
+from lagrangian.graph.evaluate import evaluate
+from lagrangian.graph.from_sympy import from_sympy
+from lagrangian.graph.graph import Graph, operands
+from lagrangian.graph.program import Count, Output, Program, count_operations, count_program, reached
+from lagrangian.graph.scalar import Scalar
+from lagrangian.graph.to_sympy import to_sympy
+
+__all__ = [
+    "Count",
+    "Graph",
+    "Output",
+    "Program",
+    "Scalar",
+    "count_operations",
+    "count_program",
+    "evaluate",
+    "from_sympy",
+    "gradient",
+    "hessian",
+    "hessian_product",
+    "jacobian",
+    "jvp",
+    "operands",
+    "reached",
+    "to_sympy",
+    "vjp",
+]

@@ -1,0 +1,220 @@
+"""Derivatives on the graph: forward tangents, reverse cotangents, and what is made of them.
+
+Both walk the active nodes only: those that lie between what is asked for and what is varied. With y = f(x),
+
+    jvp:  ẏ = Σ_k ∂f/∂x_k ẋ_k        vjp:  x̄_k = Σ_i ȳ_i ∂f_i/∂x_k
+
+What is varied may be any nodes, not inputs alone; nothing behind them is followed. At a kink the derivative is that of
+the branch the evaluation takes; abs has slope sign(a), which is 0 at 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+
+from lagrangian.graph.graph import CONDITIONS, Graph, Node, operands
+from lagrangian.graph.program import reached
+
+Partial = Callable[[Graph, int, int], int]
+
+# f′(a), given the graph, a and y = f(a)
+SLOPES: dict[str, Partial] = {
+    "sqrt": lambda g, a, y: g.div(g.const(0.5), y),
+    "sin": lambda g, a, y: g.cos(a),
+    "cos": lambda g, a, y: g.neg(g.sin(a)),
+    "tan": lambda g, a, y: g.add(g.one, g.mul(y, y)),
+    "asin": lambda g, a, y: g.div(g.one, g.sqrt(g.sub(g.one, g.mul(a, a)))),
+    "acos": lambda g, a, y: g.div(g.negative, g.sqrt(g.sub(g.one, g.mul(a, a)))),
+    "atan": lambda g, a, y: g.div(g.one, g.add(g.one, g.mul(a, a))),
+    "sinh": lambda g, a, y: g.cosh(a),
+    "cosh": lambda g, a, y: g.sinh(a),
+    "tanh": lambda g, a, y: g.sub(g.one, g.mul(y, y)),
+    "asinh": lambda g, a, y: g.div(g.one, g.sqrt(g.add(g.mul(a, a), g.one))),
+    "acosh": lambda g, a, y: g.div(g.one, g.mul(g.sqrt(g.sub(a, g.one)), g.sqrt(g.add(a, g.one)))),
+    "atanh": lambda g, a, y: g.div(g.one, g.sub(g.one, g.mul(a, a))),
+    "exp": lambda g, a, y: y,
+    "log": lambda g, a, y: g.div(g.one, a),
+    "abs": lambda g, a, y: g.sign(a),
+    "sign": lambda g, a, y: g.zero,
+}
+
+
+def _power_slopes(g: Graph, node: Node, y: int) -> tuple[int, int]:
+    """∂(a^b)/∂a = b a^(b−1) and ∂(a^b)/∂b = a^b ln a."""
+    a, b = node[1], node[2]
+    base = g.mul(b, g.pow(a, g.sub(b, g.one)))
+    if g.value(b) is not None:
+        return base, g.zero
+    # 0^b does not depend on b for b > 0, and ln 0 · 0 would not be a number
+    log = g.select(g.eq(a, g.zero), g.zero, g.mul(y, g.log(a)))
+    return base, log
+
+
+def slopes(g: Graph, i: int) -> tuple[int, ...]:
+    """∂(node i)/∂(each operand), as nodes."""
+    node = g.nodes[i]
+    op = node[0]
+    if op in SLOPES:
+        return (SLOPES[op](g, node[1], i),)
+    if op == "add":
+        return g.one, g.one
+    if op == "sub":
+        return g.one, g.negative
+    if op == "mul":
+        return node[2], node[1]
+    if op == "neg":
+        return (g.negative,)
+    if op == "div":
+        return g.div(g.one, node[2]), g.neg(g.div(i, node[2]))
+    if op == "powi":
+        return (g.mul(g.const(float(node[2])), g.powi(node[1], node[2] - 1)),)
+    if op == "pow":
+        return _power_slopes(g, node, i)
+    if op == "atan2":  # ∂/∂y = x/(x² + y²), ∂/∂x = −y/(x² + y²)
+        y, x = node[1], node[2]
+        square = g.add(g.mul(x, x), g.mul(y, y))
+        return g.div(x, square), g.neg(g.div(y, square))
+    if op in ("min", "max"):
+        a, b = node[1], node[2]
+        first = g.le(a, b) if op == "min" else g.le(b, a)
+        return g.select(first, g.one, g.zero), g.select(first, g.zero, g.one)
+    if op == "select":
+        c = node[1]
+        return g.zero, g.select(c, g.one, g.zero), g.select(c, g.zero, g.one)
+    return tuple(g.zero for _ in operands(node))  # conditions are steps
+
+
+def jvp(graph: Graph, outputs: Sequence[int], tangents: Mapping[int, int]) -> list[int]:
+    """The tangents of ``outputs`` when every node x of ``tangents`` moves at ``tangents[x]``."""
+    nodes = graph.nodes
+    moving: dict[int, int] = dict(tangents)
+    zero = graph.zero
+    for i in reached(graph, outputs, tangents):
+        if i not in moving:
+            t = _tangent(graph, i, nodes[i], moving)
+            if t != zero:
+                moving[i] = t
+    return [moving.get(i, zero) for i in outputs]
+
+
+def _tangent(g: Graph, i: int, node: Node, moving: Mapping[int, int]) -> int:
+    """The tangent of node i, given those of its operands that move."""
+    op = node[0]
+    zero = g.zero
+    if op in ("const", "input") or op in CONDITIONS:
+        return zero
+    if op in ("add", "sub"):
+        ta, tb = moving.get(node[1], zero), moving.get(node[2], zero)
+        return g.add(ta, tb) if op == "add" else g.sub(ta, tb)
+    if op == "select":
+        return g.select(node[1], moving.get(node[2], zero), moving.get(node[3], zero))
+    if op == "mul" and node[1] == node[2]:
+        return g.mul(g.const(2.0), g.mul(node[1], moving[node[1]])) if node[1] in moving else zero
+    active = [k for k, a in enumerate(operands(node)) if a in moving]
+    if not active:
+        return zero
+    if op == "div":  # (ȧ − y ḃ)/b
+        top = moving.get(node[1], zero)
+        if node[2] in moving:
+            top = g.sub(top, g.mul(i, moving[node[2]]))
+        return g.div(top, node[2])
+    if op == "min" or op == "max":
+        first = g.le(node[1], node[2]) if op == "min" else g.le(node[2], node[1])
+        return g.select(first, moving.get(node[1], zero), moving.get(node[2], zero))
+    partial = slopes(g, i)
+    total = zero
+    for k in active:
+        total = g.add(total, g.mul(partial[k], moving[node[1 + k]]))
+    return total
+
+
+def vjp(graph: Graph, outputs: Sequence[int], cotangents: Sequence[int], inputs: Sequence[int]) -> list[int]:
+    """Σ_i cotangent_i · ∂output_i/∂x for every node x of ``inputs``, in one pass backwards."""
+    g, nodes = graph, graph.nodes
+    ends = set(inputs)
+    zero = g.zero
+    order = reached(g, outputs, ends)
+    active: set[int] = set()
+    for i in order:
+        if i in ends or any(k in active for k in operands(nodes[i])):
+            active.add(i)
+    bar: dict[int, int] = {}
+    for i, c in zip(outputs, cotangents, strict=True):
+        if i in active:
+            bar[i] = g.add(bar.get(i, zero), c)
+    for i in reversed(order):
+        c = bar.get(i, zero)
+        if c == zero or i in ends:
+            continue
+        node = nodes[i]
+        if node[0] == "mul" and node[1] == node[2]:
+            a = node[1]
+            bar[a] = g.add(bar.get(a, zero), g.mul(g.const(2.0), g.mul(a, c)))
+            continue
+        _spread(g, i, node, c, bar, active)
+    return [bar.get(i, zero) for i in inputs]
+
+
+def _spread(g: Graph, i: int, node: Node, c: int, bar: dict[int, int], active: set[int]) -> None:
+    """Add the cotangent c of node i to those of its operands."""
+    op = node[0]
+    zero = g.zero
+    if op == "div":
+        share = g.div(c, node[2])
+        parts: tuple[int, ...] = (share, g.neg(g.mul(i, share)) if node[2] in active else zero)
+    elif op == "select":
+        parts = (zero, g.select(node[1], c, zero), g.select(node[1], zero, c))
+    elif op in ("min", "max"):
+        first = g.le(node[1], node[2]) if op == "min" else g.le(node[2], node[1])
+        parts = (g.select(first, c, zero), g.select(first, zero, c))
+    elif op == "add":
+        parts = (c, c)
+    elif op == "sub":
+        parts = (c, g.neg(c))
+    else:
+        parts = tuple(g.mul(c, s) for s in slopes(g, i))
+    for a, part in zip(operands(node), parts, strict=True):
+        if a in active and part != zero:
+            bar[a] = g.add(bar.get(a, zero), part)
+
+
+def gradient(graph: Graph, output: int, inputs: Sequence[int]) -> list[int]:
+    """∂output/∂x for every x of ``inputs``."""
+    return vjp(graph, [output], [graph.one], inputs)
+
+
+def jacobian(graph: Graph, outputs: Sequence[int], inputs: Sequence[int]) -> dict[tuple[int, int], int]:
+    """The entries ∂output_i/∂x_k that are not zero by structure, at ``[i, k]``.
+
+    Rows are taken backwards or columns forwards, whichever are fewer.
+    """
+    entries: dict[tuple[int, int], int] = {}
+    if len(outputs) <= len(inputs):
+        for i, y in enumerate(outputs):
+            for k, d in enumerate(vjp(graph, [y], [graph.one], inputs)):
+                if d != graph.zero:
+                    entries[i, k] = d
+    else:
+        for k, x in enumerate(inputs):
+            for i, d in enumerate(jvp(graph, outputs, {x: graph.one})):
+                if d != graph.zero:
+                    entries[i, k] = d
+    return entries
+
+
+def hessian_product(graph: Graph, output: int, inputs: Sequence[int], direction: Sequence[int]) -> list[int]:
+    """Σ_k ∂²output/∂x_i∂x_k · direction_k: the tangent of the gradient."""
+    first = gradient(graph, output, inputs)
+    return jvp(graph, first, dict(zip(inputs, direction, strict=True)))
+
+
+def hessian(graph: Graph, output: int, inputs: Sequence[int]) -> dict[tuple[int, int], int]:
+    """The entries ∂²output/∂x_i∂x_k that are not zero by structure; ``[i, k]`` and ``[k, i]`` are the same node."""
+    first = gradient(graph, output, inputs)
+    entries: dict[tuple[int, int], int] = {}
+    for k, x in enumerate(inputs):
+        column = jvp(graph, first[: k + 1], {x: graph.one})
+        for i, d in enumerate(column):
+            if d != graph.zero:
+                entries[i, k] = entries[k, i] = d
+    return entries

@@ -1,0 +1,191 @@
+"""Evaluation by a slow and obvious interpreter: the oracle of every back end.
+
+In double precision every operation is IEEE's: what divides by zero or leaves a domain is infinite or not a number,
+never an exception. In mpmath precision the same walk is done with as many decimal digits as asked.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from typing import Any
+
+import mpmath
+
+from lagrangian.errors import RunError
+from lagrangian.graph.graph import UNARY
+from lagrangian.graph.program import Program, reached
+
+Table = Mapping[str, Callable[..., Any]]
+
+
+def _guarded(function: Callable[..., float]) -> Callable[..., float]:
+    """The function with not-a-number outside its domain and infinity beyond the greatest double."""
+
+    def call(*x: float) -> float:
+        try:
+            return function(*x)
+        except ValueError:
+            return math.nan
+        except OverflowError:
+            return math.inf
+
+    return call
+
+
+def _divide(a: float, b: float) -> float:
+    if b == 0.0:
+        return math.nan if a == 0.0 or a != a else math.copysign(math.inf, a) * math.copysign(1.0, b)
+    return a / b
+
+
+def _log(a: float) -> float:
+    return -math.inf if a == 0.0 else math.log(a) if a > 0.0 else math.nan
+
+
+def _atanh(a: float) -> float:
+    return math.copysign(math.inf, a) if abs(a) == 1.0 else _guarded(math.atanh)(a)
+
+
+def _pow(a: float, b: float) -> float:
+    try:
+        return math.pow(a, b)
+    except ValueError:  # 0 to a negative power is infinite; a negative base to a broken power is not a number
+        return math.nan if a else (math.copysign(math.inf, a) if b % 2 == 1 else math.inf)
+    except OverflowError:
+        return -math.inf if a < 0 and b % 2 == 1 else math.inf
+
+
+def _sinh(a: float) -> float:
+    return math.copysign(_guarded(math.sinh)(abs(a)), a)
+
+
+def _sign(a: Any) -> Any:
+    return a if a != a else (a > 0) - (a < 0)
+
+
+def _min(a: Any, b: Any) -> Any:
+    return a if a != a or a <= b else b
+
+
+def _max(a: Any, b: Any) -> Any:
+    return a if a != a or a >= b else b
+
+
+_SHARED: Table = {
+    "add": lambda a, b: a + b,
+    "sub": lambda a, b: a - b,
+    "mul": lambda a, b: a * b,
+    "neg": lambda a: -a,
+    "abs": abs,
+    "min": _min,
+    "max": _max,
+    "lt": lambda a, b: a < b,
+    "le": lambda a, b: a <= b,
+    "eq": lambda a, b: a == b,
+    "and": lambda a, b: bool(a) and bool(b),
+    "or": lambda a, b: bool(a) or bool(b),
+    "not": lambda a: not a,
+    "select": lambda c, a, b: a if c else b,
+}
+
+DOUBLE: Table = {
+    **_SHARED,
+    **{name: _guarded(function) for name, function in UNARY.items()},
+    "div": _divide,
+    "log": _log,
+    "atanh": _atanh,
+    "sinh": _sinh,
+    "pow": _pow,
+    "powi": lambda a, n: _pow(a, float(n)),
+    "sign": lambda a: float(_sign(a)),
+    "atan2": math.atan2,
+}
+
+
+def _real(function: Callable[..., Any]) -> Callable[..., Any]:
+    """The mpmath function, not-a-number where its value is not real or not defined."""
+
+    def call(*x: Any) -> Any:
+        try:
+            y = function(*x)
+        except (ValueError, ZeroDivisionError):
+            return mpmath.nan
+        return mpmath.nan if isinstance(y, mpmath.mpc) else y
+
+    return call
+
+
+def _divide_exactly(a: Any, b: Any) -> Any:
+    if b == 0:
+        return mpmath.nan if a == 0 or a != a else mpmath.sign(a) * mpmath.inf
+    return a / b
+
+
+MANY_DIGITS: Table = {
+    **_SHARED,
+    **{name: _real(getattr(mpmath, name)) for name in UNARY},
+    "div": _divide_exactly,
+    "log": lambda a: mpmath.log(a) if a > 0 else -mpmath.inf if a == 0 else mpmath.nan,
+    "pow": _real(mpmath.power),
+    "powi": lambda a, n: _divide_exactly(mpmath.mpf(1), a**-n) if n < 0 else a**n,
+    "sign": lambda a: a if a != a else mpmath.sign(a),
+    "atan2": mpmath.atan2,
+}
+
+
+def evaluate(program: Program, inputs: Mapping[str, Sequence[Any]], *, digits: int | None = None) -> dict[str, Any]:
+    """The outputs of ``program``: one number, or nested lists of its shape.
+
+    ``inputs`` holds one sequence of numbers a group. ``digits`` asks for mpmath numbers of that many decimal digits
+    (constants stay the doubles they are). A group that is left out takes the defaults of its entries.
+    Raises `RunError` where a group is missing or has the wrong length.
+    """
+    values = {group: _entries(program, group, inputs) for group in program.inputs}
+    if digits is None:
+        return _run(program, values, DOUBLE, float)
+    with mpmath.workdps(digits):
+        return _run(program, values, MANY_DIGITS, mpmath.mpf)
+
+
+def _entries(program: Program, group: str, inputs: Mapping[str, Sequence[Any]]) -> Sequence[Any]:
+    names = program.inputs[group]
+    if group not in inputs:
+        defaults = [program.defaults.get(name) for name in names]
+        missing = [name for name, value in zip(names, defaults, strict=True) if value is None]
+        if missing:
+            raise RunError(f"input group '{group}' is missing: {', '.join(missing)} have no value", code="E501")
+        return defaults
+    given = inputs[group]
+    if len(given) != len(names):
+        raise RunError(f"'{group}' has {len(given)} values, {len(names)} are needed: {', '.join(names)}", code="E501")
+    return given
+
+
+def _run(
+    program: Program, inputs: Mapping[str, Sequence[Any]], table: Table, number: Callable[..., Any]
+) -> dict[str, Any]:
+    nodes = program.graph.nodes
+    value: dict[int, Any] = {}
+    for i in reached(program.graph, program.ids):
+        node = nodes[i]
+        op = node[0]
+        if op == "const":
+            value[i] = number(node[1])
+        elif op == "input":
+            value[i] = number(inputs[node[1]][node[2]])
+        elif op == "powi":
+            value[i] = table[op](value[node[1]], node[2])
+        else:
+            value[i] = table[op](*(value[k] for k in node[1:]))
+    return {name: _shaped([value[i] for i in out.ids], out.shape) for name, out in program.outputs.items()}
+
+
+def _shaped(flat: list[Any], shape: tuple[int, ...]) -> Any:
+    """Nested lists of a flat list, row after row."""
+    if not shape:
+        return flat[0]
+    if len(shape) == 1:
+        return flat
+    step = len(flat) // shape[0] if shape[0] else 0
+    return [_shaped(flat[k * step : (k + 1) * step], shape[1:]) for k in range(shape[0])]

@@ -1,0 +1,101 @@
+"""Program: named inputs to named outputs, the one small type between mechanics and machine."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from math import prod
+
+from lagrangian.graph.graph import LEAVES, Graph, operands
+
+
+@dataclass(frozen=True)
+class Output:
+    """The node ids of an array of results, row after row, and its shape (``()`` is one number)."""
+
+    ids: tuple[int, ...]
+    shape: tuple[int, ...]
+
+    def __post_init__(self) -> None:
+        if len(self.ids) != prod(self.shape):
+            raise ValueError(f"an output of shape {self.shape} needs {prod(self.shape)} ids, not {len(self.ids)}")
+
+
+@dataclass(frozen=True)
+class Program:
+    """A graph with named inputs and outputs.
+
+    ``inputs``: group → names of its entries in order; ``("input", group, k)`` is the k-th. ``outputs``: name →
+    `Output`. ``defaults``: values of entries of the group ``"p"``, None where one must be given.
+    """
+
+    name: str
+    graph: Graph
+    inputs: Mapping[str, tuple[str, ...]]
+    outputs: Mapping[str, Output]
+    defaults: Mapping[str, float | None] = field(default_factory=dict)
+
+    @property
+    def ids(self) -> tuple[int, ...]:
+        """The node ids of all outputs, one output after the other."""
+        return tuple(i for output in self.outputs.values() for i in output.ids)
+
+
+def reached(graph: Graph, ids: Iterable[int], stop: Iterable[int] = ()) -> list[int]:
+    """The nodes that ``ids`` need, in increasing order; nothing behind the nodes in ``stop`` is followed."""
+    nodes = graph.nodes
+    seen = bytearray(len(nodes))
+    halt = set(stop)
+    stack = list(ids)
+    while stack:
+        i = stack.pop()
+        if seen[i]:
+            continue
+        seen[i] = 1
+        if i not in halt:
+            stack.extend(operands(nodes[i]))
+    return [i for i, mark in enumerate(seen) if mark]
+
+
+@dataclass(frozen=True)
+class Count:
+    """How much a program computes.
+
+    ``operations`` are all but sines and cosines (a whole power counts its products); ``sincos`` are the angles of which
+    a sine, a cosine or both are needed; ``prologue`` are the operations that depend on hoisted groups alone.
+    """
+
+    operations: int
+    sincos: int
+    prologue: int = 0
+
+
+def count_operations(graph: Graph, ids: Iterable[int], *, hoist: Iterable[str] = ()) -> Count:
+    """Count what is live in ``ids``; work that depends on the groups in ``hoist`` alone is counted apart."""
+    nodes = graph.nodes
+    held = frozenset(hoist)
+    fixed: dict[int, bool] = {}
+    operations = prologue = 0
+    angles: set[int] = set()
+    for i in reached(graph, ids):
+        node = nodes[i]
+        op = node[0]
+        if op in LEAVES:
+            fixed[i] = op == "const" or node[1] in held
+            continue
+        fixed[i] = all(fixed[k] for k in operands(node))
+        if fixed[i]:
+            prologue += 1
+        elif op in ("sin", "cos"):
+            angles.add(node[1])
+        elif op == "powi":
+            n = abs(node[2])
+            operations += n.bit_length() - 1 + n.bit_count() - 1 + (node[2] < 0)
+        else:
+            operations += 1
+    return Count(operations, len(angles), prologue)
+
+
+def count_program(program: Program, *, hoist: Iterable[str] = ("p",)) -> Count:
+    """`count_operations` of a whole program, parameters hoisted."""
+    return count_operations(program.graph, program.ids, hoist=hoist)
