@@ -51,6 +51,7 @@ class Derivation(derive.Derivation):
 
 def derive_and_verify(model: Model) -> Derivation:
     """Derive, and end with what was verified."""
+    analyze.check_dimensions(model)
     data = derive.derive(model)
     made = Derivation(**{f.name: getattr(data, f.name) for f in fields(data)})
     return replace(made, verified=analyze.verify(made, states=10, seed=1))

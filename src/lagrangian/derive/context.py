@@ -34,6 +34,10 @@ class Context:
         """The normal form of an expression."""
         return self.algebra.form(expr)
 
+    def written(self, form: Form) -> Left:
+        """A form as a sum of readable terms in a textbook's order."""
+        return fit_terms(tuple(t.expr for t in form.terms()))
+
     def readable(self, expr: sp.Expr) -> sp.Expr:
         """The expression as a textbook would write it."""
         if expr not in self._memo:

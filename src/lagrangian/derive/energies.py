@@ -8,7 +8,7 @@ from typing import Any
 
 import sympy as sp
 
-from lagrangian.derive.context import Context, fit
+from lagrangian.derive.context import Context, fit, fit_terms
 from lagrangian.derive.derivation import Step
 from lagrangian.derive.formula import (
     Formula,
@@ -110,9 +110,8 @@ def kinetic(context: Context, pieces: tuple[Share, ...]) -> Step:
         else:
             items.append(formula(share.name, fit(context.readable(share.expr)), note=text("as given")))
     total = _sum(mine, "T*")
-    whole = context.algebra.total([s.form for s in mine])
-    readable = whole.expr()
-    items.append(formula(*_chain(Name("T*"), total, fit(readable)), brief=True))
+    readable = context.algebra.total([s.form for s in mine]).expr()
+    items.append(formula(*_chain(Name("T*"), total, _added(context, mine)), brief=True))
     reasons = tuple(text(s.name, f": {s.element.title} has mass and moves") for s in mine)
     return Step(
         2,
@@ -140,6 +139,11 @@ def _chain(*sides: Left) -> tuple[Left, ...]:
 
 def _sum(mine: list[Share], base: str) -> Left:
     return mine[0].name if len(mine) == 1 else Terms(tuple(s.name for s in mine)) if mine else Name(base)
+
+
+def _added(context: Context, mine: list[Share], sign: int = 1) -> Left:
+    """The pieces written out one after another, as a lecture does before it differentiates."""
+    return fit_terms(tuple(x for s in mine for x in sp.Add.make_args(sign * context.readable(s.expr)) if x != 0))
 
 
 def _motion(context: Context, body: Any, index: dict[Element, str]) -> list[Item]:
@@ -239,7 +243,7 @@ def potential(context: Context, pieces: tuple[Share, ...]) -> Step:
     readable = whole.expr() if mine else sp.S.Zero
     if mine:
         live = [s for s in mine if s.expr != 0] or mine
-        items.append(formula(*_chain(Name("V"), _sum(live, "V"), fit(readable)), brief=True))
+        items.append(formula(*_chain(Name("V"), _sum(live, "V"), _added(context, live)), brief=True))
     else:
         items.append(text("Nothing stores energy by its position: no spring, no gravity."))
         items.append(formula(Name("V"), sp.S.Zero, brief=True))
@@ -312,14 +316,16 @@ def _gravity(context: Context, gravity: Gravity, own: list[Share]) -> list[Item]
 
 def lagrangian(context: Context, pieces: tuple[Share, ...]) -> Step:
     """L = T* − V."""
-    form = context.algebra.total([s.form if s.column == "T*" else -s.form for s in pieces])
-    readable = form.expr()
+    readable = context.algebra.total([s.form if s.column == "T*" else -s.form for s in pieces]).expr()
+    signed = [x for s in pieces if s.column == "T*" for x in sp.Add.make_args(context.readable(s.expr))]
+    signed += [-x for s in pieces if s.column == "V" for x in sp.Add.make_args(context.readable(s.expr))]
+    written = fit_terms(tuple(x for x in signed if x != 0))
     return Step(
         4,
         "Lagrangian",
         text("Subtracted the potential energy from the kinetic co-energy."),
         text("The Lagrangian holds all that the left-hand sides need."),
-        (formula(Name("L"), Terms((Name("T*"), Minus(Name("V")))), fit(readable), brief=True),),
+        (formula(Name("L"), Terms((Name("T*"), Minus(Name("V")))), written, brief=True),),
         {"L": readable},
         (text("L = T* − V: kinetic co-energy minus potential energy"),),
     )

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
-from lagrangian.derive.context import Context, fit, fit_terms
+from lagrangian.derive.context import Context
 from lagrangian.derive.derivation import Step
 from lagrangian.derive.energies import Share
 from lagrangian.derive.formula import Heading, Item, Minus, Name, Partial, Terms, Total, formula, text
@@ -57,13 +57,12 @@ def left_hand_sides(context: Context, sides: tuple[LeftSide, ...]) -> Step:
         c = side.coordinate
         by_rate, by_place = Partial(Name("L"), c.rate), Partial(Name("L"), c.symbol)
         whole = Terms((Total(by_rate), Minus(by_place)))
-        terms = tuple(t.expr for t in side.whole.terms())
         items += [
             Heading(text(f"Equation {i + 1}: ", c.symbol)),
-            formula(by_rate, fit(side.momentum.expr())),
-            formula(Total(by_rate), fit(side.momentum_rate.expr())),
-            formula(by_place, fit(side.gradient.expr())),
-            formula(whole, fit_terms(terms), brief=True),
+            formula(by_rate, context.written(side.momentum)),
+            formula(Total(by_rate), context.written(side.momentum_rate)),
+            formula(by_place, context.written(side.gradient)),
+            formula(whole, context.written(side.whole), brief=True),
         ]
         expressions[c.symbol] = side.whole.expr()
         reasons.append(

@@ -1,0 +1,6 @@
+"""``python -m lagrangian`` is the command."""
+
+from lagrangian.cli import run
+
+if __name__ == "__main__":
+    run()

@@ -1,0 +1,49 @@
+"""What the papers say runs as it stands there."""
+
+import pathlib
+import re
+import subprocess
+import sys
+
+import pytest
+
+ROOT = pathlib.Path(__file__).parent.parent
+
+
+def blocks(path: str, language: str) -> list[str]:
+    return re.findall(rf"```{language}\n(.*?)```", (ROOT / path).read_text(encoding="utf-8"), re.S)
+
+
+def test_the_readmes_python_runs(tmp_path: pathlib.Path) -> None:
+    (code,) = blocks("README.md", "python")
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, timeout=120, check=False)
+    output = done.stdout.decode("utf-8")
+    assert done.returncode == 0, done.stderr.decode("utf-8")
+    assert "inside the box" in output
+    assert (tmp_path / "arm.html").read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
+
+
+@pytest.mark.parametrize("path", ["README.md", *[f"docs/{p.name}" for p in (ROOT / "docs").glob("*.md")]])
+def test_links_between_the_papers_lead_somewhere(path: str) -> None:
+    here = ROOT / path
+    for target in re.findall(r"\]\(([^)#]+)\)", here.read_text(encoding="utf-8")):
+        assert "://" in target or (here.parent / target).exists(), f"{path}: {target}"
+
+
+def test_every_command_of_the_readme_runs(tmp_path: pathlib.Path) -> None:
+    listed = [b for b in blocks("README.md", "") if b.startswith("lagrangian ")]
+    assert len(listed) == 1
+    for line in listed[0].strip().splitlines():
+        command = line.split("#")[0].strip()
+        argv, _, target = command.partition(" > ")
+        done = subprocess.run(
+            [sys.executable, "-m", "lagrangian", *argv.split()[1:]],
+            cwd=tmp_path,
+            capture_output=True,
+            timeout=120,
+            check=False,
+        )
+        assert done.returncode == 0, (command, done.stderr.decode("utf-8"))
+        if target:
+            (tmp_path / target).write_bytes(done.stdout)
+    assert {p.name for p in tmp_path.iterdir()} == {"carts.toml", "carts.html", "carts.tex"}

@@ -1,0 +1,79 @@
+"""The house's own rules: floors, types, style, public names, rooms, and the README's commands."""
+
+import ast
+import pathlib
+import re
+import subprocess
+import sys
+
+import pytest
+
+import lagrangian
+
+ROOT = pathlib.Path(__file__).parent.parent
+SOURCE = ROOT / "src" / "lagrangian"
+FILES = sorted(SOURCE.rglob("*.py"))
+
+
+def run(*command: str) -> subprocess.CompletedProcess[str]:
+    return subprocess.run([sys.executable, "-m", *command], cwd=ROOT, capture_output=True, text=True, timeout=300)
+
+
+def test_floors_import_downward_only() -> None:
+    done = subprocess.run(
+        [sys.executable, "-c", "from importlinter.cli import lint_imports; raise SystemExit(lint_imports())"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        timeout=120,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
+def test_the_linter_finds_nothing() -> None:
+    done = run("ruff", "check", ".")
+    assert done.returncode == 0, done.stdout
+
+
+def test_the_format_is_kept() -> None:
+    done = run("ruff", "format", "--check", ".")
+    assert done.returncode == 0, done.stdout
+
+
+def test_the_types_hold() -> None:
+    done = run("pyright", "--pythonpath", sys.executable)
+    assert done.returncode == 0, done.stdout[-4000:]
+
+
+def test_all_is_the_sorted_public_names() -> None:
+    assert lagrangian.__all__ == sorted(lagrangian.__all__)
+    assert all(hasattr(lagrangian, name) for name in lagrangian.__all__)
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda f: str(f.relative_to(SOURCE)))
+def test_text_is_never_run(file: pathlib.Path) -> None:
+    called = {
+        node.func.id if isinstance(node.func, ast.Name) else node.func.attr
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Call) and isinstance(node.func, (ast.Name, ast.Attribute))
+    }
+    assert not called & {"eval", "exec", "parse_expr", "lambdify"}, called
+
+
+def test_no_room_without_a_purpose() -> None:
+    names = {p.name for p in SOURCE.rglob("*") if p.is_dir()} | {p.stem for p in FILES}
+    assert not names & {"utils", "common", "helpers", "misc"}
+
+
+def test_every_dependency_has_its_reason() -> None:
+    text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    lines = [x for x in text.splitlines() if re.match(r'\s+"[\w-]+>=[\d.]+', x)]
+    assert len(lines) > 8
+    assert not [x for x in lines if "#" not in x]
+
+
+def test_continuous_integration_runs_the_readmes_test_command() -> None:
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    command = re.search(r"<!-- test command -->\n```\n(.+)\n```", readme)
+    assert command is not None and "pytest" in command[1]
+    assert "README.md" in (ROOT / ".ci" / "run").read_text(encoding="utf-8")
