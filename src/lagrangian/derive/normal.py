@@ -1,0 +1,346 @@
+"""The trigonometric normal form: one Fourier sum for every expression, exact and canonical.
+
+    f = Σ_h  C_h cos(h·a) + S_h sin(h·a)
+
+The a_j are the angles that occur inside sines and cosines (coordinates, Ω·t, the angle α of a slope, x/R of a wheel),
+h their rational multiples, C_h and S_h polynomials with rational coefficients in everything else: lengths, masses,
+rates, accelerations. Products become sums, sin² + cos² disappears, cos θ₁ cos θ₂ + sin θ₁ sin θ₂ becomes
+cos(θ₁ − θ₂); two expressions are equal when their forms are. What is not polynomial (a square root, 1/(R + r), exp)
+is a generator of its own with its derivative, see `generators`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable
+from fractions import Fraction
+from math import lcm
+from typing import TYPE_CHECKING, Protocol
+
+import sympy as sp
+
+from lagrangian.derive.normal_generators import Generators, Symbolic
+from lagrangian.derive.normal_monomials import LARGEST_EXPONENT, Packed, Poly, content, digits, multiples, product, unit
+from lagrangian.derive.normal_reading import Reader
+from lagrangian.errors import ModelError
+
+if TYPE_CHECKING:
+    from lagrangian.derive.readable import Term
+
+LARGEST_FORM = 1_000_000
+"""Terms above which a product is refused: such an expression is beyond reading and beyond memory."""
+
+Harmonic = tuple[Packed, int]
+"""A packed multiple of the angles, never negative, and 0 for its cosine, 1 for its sine; (0, 0) is the constant 1."""
+
+Key = tuple[Harmonic, int]
+"""What a term is a multiple of: its harmonic and the monomial of all that moves in it."""
+
+Rate = Callable[[int], "int | Form | None"]
+"""A derivative's table: index → its derivative as a monomial, as a form, or None where it is zero."""
+
+
+class OutOfReach(ModelError):
+    """An expression has no normal form of reasonable size."""
+
+
+class Described(Protocol):
+    """What the algebra needs of a model: its coordinates, in order, each with a ``symbol``."""
+
+    @property
+    def coordinates(self) -> Collection[HasSymbol]:
+        """The generalized coordinates."""
+        ...
+
+
+class HasSymbol(Protocol):
+    """Something that is written as a symbol."""
+
+    @property
+    def symbol(self) -> sp.Expr:
+        """The symbol, a function of time."""
+        ...
+
+
+class Form:
+    """One expression in normal form: Σ_h C_h cos(h·a) + S_h sin(h·a), divided by ``den``.
+
+    ``parts`` holds the polynomials by harmonic, with integer coefficients that have no common divisor with ``den``.
+    Never changed once made; ``==`` decides equality exactly (up to relations among functions it does not know, such
+    as tan = sin/cos, cosh² − sinh² = 1, or √2·√3 = √6).
+    """
+
+    __hash__ = None  # type: ignore[assignment] # equality is decided by clearing denominators, so no key stands for it
+    __slots__ = ("algebra", "den", "parts")
+
+    def __init__(self, algebra: Algebra, parts: dict[Harmonic, Poly], den: int = 1) -> None:
+        kept: dict[Harmonic, Poly] = {}
+        for h, p in parts.items():
+            if not all(p.values()):
+                p = {m: c for m, c in p.items() if c}
+            if p:
+                kept[h] = p
+        if den != 1 and (g := content([den, *(c for p in kept.values() for c in p.values())])) > 1:
+            den //= g
+            kept = {h: {m: c // g for m, c in p.items()} for h, p in kept.items()}
+        self.algebra, self.parts, self.den = algebra, kept, den if kept else 1
+
+    # -- arithmetic -------------------------------------------------------------------------------------------------
+
+    def __add__(self, other: Form) -> Form:
+        return self.algebra.total([self, other])
+
+    def __sub__(self, other: Form) -> Form:
+        return self.algebra.total([self, -other])
+
+    def __neg__(self) -> Form:
+        return self.scaled(-1)
+
+    def scaled(self, factor: Packed) -> Form:
+        """Return a rational multiple."""
+        n, d = factor.numerator, factor.denominator
+        return Form(self.algebra, {h: {m: c * n for m, c in p.items()} for h, p in self.parts.items()}, self.den * d)
+
+    def __mul__(self, other: Form | int | Fraction) -> Form:
+        """Multiply by a form or a number.
+
+        cos a cos b = ½ cos(a−b) + ½ cos(a+b), sin a sin b = ½ cos(a−b) − ½ cos(a+b),
+        sin a cos b = ½ sin(a+b) + ½ sin(a−b).
+        """
+        if not isinstance(other, Form):
+            return self.scaled(other)
+        if self.size * other.size > 50 * LARGEST_FORM:
+            raise OutOfReach(f"a product of sums with {self.size} and {other.size} terms is too long to write out")
+        whole: list[tuple[Packed, int, Poly, int]] = []
+        half: list[tuple[Packed, int, Poly, int]] = []
+        for (a, s), p in self.parts.items():
+            for (b, r), q in other.parts.items():
+                pq = product(p, q)
+                if a == 0 or b == 0:
+                    whole.append((a + b, s + r, pq, 1))
+                elif s == r:
+                    half.append((a - b, 0, pq, 1))
+                    half.append((a + b, 0, pq, -1 if s else 1))
+                else:
+                    half.append((a + b, 1, pq, 1))
+                    half.append((a - b, 1, pq, 1 if s else -1))
+        out: dict[Harmonic, Poly] = {}
+        _gather(out, whole, 2 if half else 1)
+        _gather(out, half, 1)
+        return self.algebra.reduced(Form(self.algebra, out, self.den * other.den * (2 if half else 1)))
+
+    __rmul__ = __mul__
+
+    def __pow__(self, exponent: int) -> Form:
+        """Raise to a small whole power, not negative."""
+        if not 0 <= exponent <= LARGEST_EXPONENT:
+            raise OutOfReach(f"an exponent of {exponent} is outside 0 … {LARGEST_EXPONENT}")
+        result, base = self.algebra.number(1), self
+        while exponent:
+            if exponent & 1:
+                result = result * base
+            exponent >>= 1
+            if exponent:
+                base = base * base
+        return result
+
+    # -- derivatives ------------------------------------------------------------------------------------------------
+
+    def diff(self, symbol: sp.Expr) -> Form:
+        """Return the partial derivative by a coordinate, a rate, an acceleration, a parameter or time."""
+        generators = self.algebra.generators
+        g = generators.index(symbol)
+        return self._derived(lambda i: generators.partial(i, g), lambda j: generators.angle_partial(j, g))
+
+    def total_derivative(self) -> Form:
+        """Return d/dt: coordinates become rates, rates accelerations, and time runs."""
+        generators = self.algebra.generators
+        return self._derived(generators.rate, generators.angle_rate)
+
+    def _derived(self, of_generator: Rate, of_angle: Rate) -> Form:
+        """Σ ∂f/∂g · g' over the generators, and d cos(h·a) = −(Σ k_j a_j') sin(h·a), d sin(h·a) = (Σ k_j a_j') cos."""
+        algebra = self.algebra
+        out: dict[Harmonic, Poly] = {}
+        slow: list[Form] = []
+        for (h, s), p in self.parts.items():
+            here = out.setdefault((h, s), {})
+            by_form: dict[int, tuple[Form, Poly]] = {}
+            for m, c in p.items():
+                for i, e in digits(m):
+                    rate = of_generator(i)
+                    if rate is None:
+                        continue
+                    lower = m - unit(i)
+                    if isinstance(rate, int):
+                        here[lower + rate] = here.get(lower + rate, 0) + c * e
+                    else:
+                        by_form.setdefault(i, (rate, {}))[1][lower] = c * e
+            slow += [Form(algebra, {(h, s): q}, self.den) * rate for rate, q in by_form.values()]
+            for j, k in multiples(h):
+                rate = of_angle(j)
+                if rate is None:
+                    continue
+                k = k if s else -k
+                if isinstance(rate, int) and isinstance(k, int):
+                    turned = out.setdefault((h, 1 - s), {})
+                    for m, c in p.items():
+                        turned[m + rate] = turned.get(m + rate, 0) + c * k
+                else:
+                    factor = algebra.monomial(rate) if isinstance(rate, int) else rate
+                    slow.append((Form(algebra, {(h, 1 - s): p}, self.den) * factor).scaled(k))
+        return algebra.total([algebra.reduced(Form(algebra, out, self.den)), *slow])
+
+    # -- questions --------------------------------------------------------------------------------------------------
+
+    @property
+    def size(self) -> int:
+        """How many terms it has."""
+        return sum(len(p) for p in self.parts.values())
+
+    @property
+    def is_zero(self) -> bool:
+        """Whether it vanishes identically; denominators are cleared to decide it."""
+        form = self
+        while form.parts:
+            factor = self.algebra.generators.denominators(form)
+            if factor == 0:
+                return False
+            form = form * self.algebra.monomial(factor)
+        return True
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Form) and (self - other).is_zero
+
+    def __bool__(self) -> bool:
+        raise TypeError("a Form has no truth value; ask for is_zero")
+
+    def keys(self) -> frozenset[Key]:
+        """Return what its terms are multiples of: harmonic, and monomial of all that moves; lengths and masses drop."""
+        moving = self.algebra.generators.moving
+        return frozenset((h, moving(m)) for h, p in self.parts.items() for m in p)
+
+    def restricted(self, keys: Collection[Key]) -> Form:
+        """Return the terms that are multiples of these keys."""
+        moving = self.algebra.generators.moving
+        parts = {h: {m: c for m, c in p.items() if (h, moving(m)) in keys} for h, p in self.parts.items()}
+        return Form(self.algebra, parts, self.den)
+
+    def opaque(self) -> tuple[sp.Expr, ...]:
+        """Return the subexpressions that were kept as they are because they are no polynomials in sines and cosines."""
+        return self.algebra.generators.kept(m for p in self.parts.values() for m in p)
+
+    # -- reading ----------------------------------------------------------------------------------------------------
+
+    def expr(self) -> sp.Expr:
+        """Return the expression as a textbook would write it: the shortest of the shapes that were tried."""
+        return self.algebra.writer.expr(self)
+
+    def terms(self) -> list[Term]:
+        """Return the readable terms in a textbook's order: inertia, products of rates, damping, stiffness, gravity."""
+        return self.algebra.writer.terms(self)
+
+    def raw(self) -> sp.Expr:
+        """Return the plain Fourier sum, term by term."""
+        g = self.algebra.generators
+        terms = [sp.Rational(c, self.den) * g.expr(m) * g.trig(h) for h, p in self.parts.items() for m, c in p.items()]
+        return sp.Add(*terms)
+
+    def __repr__(self) -> str:
+        return f"Form({self.raw()})"
+
+
+def _gather(out: dict[Harmonic, Poly], pieces: list[tuple[Packed, int, Poly, int]], scale: int) -> None:
+    """Add harmonics that may still be negative: cos(−h) = cos h, sin(−h) = −sin h, sin 0 = 0."""
+    for h, s, p, sign in pieces:
+        if h < 0:
+            h, sign = -h, -sign if s else sign
+        elif h == 0 and s:
+            continue
+        if isinstance(h, Fraction) and h.denominator == 1:
+            h = h.numerator
+        here = out.setdefault((h, s), {})
+        factor = sign * scale
+        for m, c in p.items():
+            here[m] = here.get(m, 0) + c * factor
+
+
+class Algebra:
+    """The ring that a system's expressions live in; built once for the system.
+
+    ``model`` gives the coordinates, whose order is the order of terms; ``expressions`` are read first, so that the
+    shape of later results does not depend on who asks first.
+    """
+
+    def __init__(self, model: Described, expressions: Iterable[sp.Expr] = ()) -> None:
+        from lagrangian.derive.readable import Writer
+
+        self.generators = Generators(self, [c.symbol for c in model.coordinates])
+        self.reader = Reader(self)
+        self.writer = Writer(self.generators)
+        for expr in expressions:
+            self.form(expr)
+
+    def form(self, expr: sp.Expr) -> Form:
+        """Return the normal form; raise `OutOfReach` where it would be too long or is not a real expression."""
+        return self.reader.form(sp.sympify(expr))
+
+    def number(self, value: Packed) -> Form:
+        """Return a rational constant."""
+        return Form(self, {(0, 0): {0: value.numerator}}, value.denominator)
+
+    def monomial(self, packed: int) -> Form:
+        """Return a monomial of generators."""
+        return Form(self, {(0, 0): {packed: 1}})
+
+    def total(self, forms: Iterable[Form]) -> Form:
+        """Return the sum of any number of forms, 0 of none."""
+        forms = [f for f in forms if f.parts]
+        if not forms:
+            return Form(self, {})
+        if len(forms) == 1:
+            return forms[0]
+        den = lcm(*(f.den for f in forms))
+        out: dict[Harmonic, Poly] = {}
+        for f in forms:
+            scale = den // f.den
+            for h, p in f.parts.items():
+                here = out.setdefault(h, {})
+                for m, c in p.items():
+                    here[m] = here.get(m, 0) + c * scale
+        result = Form(self, out, den)
+        if result.size > LARGEST_FORM:
+            raise OutOfReach(f"a sum of {result.size} terms is too long to write out")
+        return result
+
+    def reduced(self, form: Form) -> Form:
+        """Return the form with g^q replaced by b for every generator g = b^(1/q)."""
+        roots = self.generators.roots
+        if not roots:
+            return form
+        keep: dict[Harmonic, Poly] = {}
+        extra: dict[tuple[int, int], dict[Harmonic, Poly]] = {}
+        for h, p in form.parts.items():
+            for m, c in p.items():
+                for i, e in digits(m):
+                    if i in roots and e >= roots[i].q:
+                        times = e // roots[i].q
+                        lower = m - unit(i) * times * roots[i].q
+                        extra.setdefault((i, times), {}).setdefault(h, {})[lower] = c
+                        break
+                else:
+                    keep.setdefault(h, {})[m] = c
+        if not extra:
+            return form
+        replaced = [Form(self, parts, form.den) * roots[i].base ** times for (i, times), parts in extra.items()]
+        return self.total([Form(self, keep, form.den), *replaced])
+
+
+def equations(
+    kinetic: Iterable[Form], potential: Iterable[Form], coordinates: Iterable[sp.Expr], algebra: Algebra
+) -> list[Form]:
+    """Return d/dt(∂T*/∂ξ̇_i) − ∂T*/∂ξ_i + ∂V/∂ξ_i for every coordinate."""
+    T, V = algebra.total(kinetic), algebra.total(potential)
+    sides: list[Form] = []
+    for q in coordinates:
+        momentum = T.diff(sp.Derivative(q, Symbolic.time))
+        sides.append(algebra.total([momentum.total_derivative(), -T.diff(q), V.diff(q)]))
+    return sides

@@ -1,0 +1,291 @@
+"""The letters of the normal form: symbols, roots, functions left as they are, and the angles inside sines."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING, ClassVar, cast
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian.derive.normal_monomials import Packed, digits, multiples, packed, unit
+
+if TYPE_CHECKING:
+    from lagrangian.derive.normal import Algebra, Form, Harmonic
+
+
+@dataclass(frozen=True, eq=False)
+class Symbolic:
+    """A symbol: time, a parameter, or a function of time with ``order`` dots. ``role`` says which.
+
+    Roles: "coordinate", "rate", "acceleration" (and beyond), "input", "time", "parameter".
+    """
+
+    time: ClassVar[sp.Symbol] = sp.Symbol("t")
+    expr: sp.Expr
+    role: str
+    order: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class Root:
+    """g = b^(1/q) of a form b; with q = 1 it stands for denominators, 1/b being g⁻¹. Relation: g^q = b."""
+
+    base: Form
+    q: int
+    moving: bool
+
+    @property
+    def expr(self) -> sp.Expr:
+        """b^(1/q), the base readable."""
+        return cast("sp.Expr", self.base.expr() ** sp.Rational(1, self.q))
+
+
+@dataclass(frozen=True, eq=False)
+class Opaque:
+    """A function kept as it is, such as exp(−x/l) or tanh(v/v₀); ``inside`` are the symbols it depends on."""
+
+    expr: sp.Expr
+    inside: tuple[sp.Expr, ...]
+    moving: bool
+
+
+Generator = Symbolic | Root | Opaque
+Slope = "int | Form | None"
+"""A derivative: a monomial, a form, or None for zero."""
+
+
+class Generators:
+    """The table of generators and angles of an algebra; it grows as new ones are met."""
+
+    def __init__(self, algebra: Algebra, coordinates: Sequence[sp.Expr]) -> None:
+        self.algebra = algebra
+        self.table: list[Generator] = []
+        self.roots: dict[int, Root] = {}
+        self.angles: list[Form] = []
+        self._index: dict[object, int] = {}
+        self._angle: dict[tuple[Harmonic, int], int] = {}
+        self._slopes: dict[tuple[str, int, int], int | Form | None] = {}
+        self._moving: dict[int, int] = {}
+        self._trig: dict[Harmonic, sp.Expr] = {}
+        self._coordinates = frozenset(coordinates)
+        self.placeholders: dict[sp.Expr, sp.Expr] = {}
+        for q in coordinates:
+            self.angle((0, 0), unit(self.index(q)))
+        for order in (1, 2):
+            for q in coordinates:
+                self.index(sp.Derivative(q, (Symbolic.time, order)))
+
+    # -- finding and making -----------------------------------------------------------------------------------------
+
+    def index(self, symbol: sp.Expr) -> int:
+        """Return the number of a symbol, a function of time or a derivative of one."""
+        if symbol not in self._index:
+            self._index[symbol] = len(self.table)
+            self.table.append(self._symbolic(symbol))
+            if not isinstance(symbol, sp.Symbol):
+                self.placeholders[symbol] = sp.Symbol(f"u{self._index[symbol]}")
+        return self._index[symbol]
+
+    def _symbolic(self, symbol: sp.Expr) -> Symbolic:
+        if symbol == Symbolic.time:
+            return Symbolic(symbol, "time")
+        if isinstance(symbol, sp.Derivative):
+            order = int(symbol.derivative_count)
+            if symbol.expr not in self._coordinates:
+                return Symbolic(symbol, "input", order)
+            return Symbolic(symbol, "rate" if order == 1 else "acceleration", order)
+        if isinstance(symbol, AppliedUndef):
+            return Symbolic(symbol, "coordinate" if symbol in self._coordinates else "input")
+        return Symbolic(symbol, "parameter")
+
+    def root(self, base: Form, q: int) -> int:
+        """Return the number of base^(1/q)."""
+        key = (q, base.den, frozenset((h, frozenset(p.items())) for h, p in base.parts.items()))
+        if key not in self._index:
+            moving = any(h[0] and self.turning(h[0]) for h in base.parts) or any(
+                self.moving(m) for p in base.parts.values() for m in p
+            )
+            self._index[key] = i = len(self.table)
+            self.roots[i] = root = Root(base, q, moving)
+            self.table.append(root)
+        return self._index[key]
+
+    def opaque(self, expr: sp.Expr) -> int:
+        """Return the number of a function that is kept as it is."""
+        if expr not in self._index:
+            atoms = _outermost(expr)
+            inside = tuple(sorted(atoms, key=self.index))
+            moving = any(self.is_moving(self.index(a)) for a in inside)
+            self._index[expr] = len(self.table)
+            self.table.append(Opaque(expr, inside, moving))
+        return self._index[expr]
+
+    def angle(self, harmonic: Harmonic, monomial: int) -> int:
+        """Return the number of the angle that is this one term: a monomial, or a monomial times a sine or cosine."""
+        from lagrangian.derive.normal import Form
+
+        key = (harmonic, monomial)
+        if key not in self._angle:
+            self._angle[key] = len(self.angles)
+            self.angles.append(Form(self.algebra, {harmonic: {monomial: 1}}))
+        return self._angle[key]
+
+    # -- derivatives ------------------------------------------------------------------------------------------------
+
+    def partial(self, i: int, g: int) -> int | Form | None:
+        """∂(generator i)/∂(generator g)."""
+        if i == g:
+            return 0
+        entry = self.table[i]
+        if isinstance(entry, Symbolic):
+            return None
+        key = ("partial", i, g)
+        if key not in self._slopes:
+            symbol = cast("Symbolic", self.table[g]).expr
+            if isinstance(entry, Root):
+                self._slopes[key] = self._root_slope(i, entry, entry.base.diff(symbol))
+            else:
+                self._slopes[key] = self._opaque_slope(entry, symbol)
+        return self._slopes[key]
+
+    def rate(self, i: int) -> int | Form | None:
+        """d(generator i)/dt."""
+        key = ("rate", i, 0)
+        if key not in self._slopes:
+            self._slopes[key] = self._rate(i, self.table[i])
+        return self._slopes[key]
+
+    def _rate(self, i: int, entry: Generator) -> int | Form | None:
+        if isinstance(entry, Symbolic):
+            if entry.role == "parameter":
+                return None
+            if entry.role == "time":
+                return 0
+            of = entry.expr.expr if isinstance(entry.expr, sp.Derivative) else entry.expr
+            return unit(self.index(sp.Derivative(of, (Symbolic.time, entry.order + 1))))
+        if not entry.moving:
+            return None
+        if isinstance(entry, Root):
+            return self._root_slope(i, entry, entry.base.total_derivative())
+        pieces: list[Form] = []
+        for symbol in entry.inside:
+            by, slope = self.index(symbol), self._opaque_slope(entry, symbol)
+            rate = self.rate(by)
+            if isinstance(rate, int) and slope is not None:
+                pieces.append(slope * self.algebra.monomial(rate))
+        return _or_none(self.algebra.total(pieces))
+
+    def _root_slope(self, i: int, entry: Root, slope: Form) -> Form | None:
+        """d b^(1/q) = (1/q) g^(1−q) db."""
+        return _or_none((slope * self.algebra.monomial(unit(i) * (1 - entry.q))).scaled(Fraction(1, entry.q)))
+
+    def _opaque_slope(self, entry: Opaque, symbol: sp.Expr) -> Form | None:
+        """SymPy's derivative, the moving symbols replaced by real ones so that |x| differentiates to sign(x)."""
+        if symbol not in entry.inside:
+            return None
+        real = {a: sp.Dummy(f"u{k}", real=True) for k, a in enumerate(entry.inside)}
+        back = {v: k for k, v in real.items()}
+        slope = sp.diff(entry.expr.xreplace(real), real[symbol])
+        return _or_none(self.algebra.form(cast("sp.Expr", slope.xreplace(back))))
+
+    def angle_partial(self, j: int, g: int) -> int | Form | None:
+        """∂(angle j)/∂(generator g)."""
+        key = ("angle", j, g)
+        if key not in self._slopes:
+            self._slopes[key] = _simple(self.angles[j].diff(cast("Symbolic", self.table[g]).expr))
+        return self._slopes[key]
+
+    def angle_rate(self, j: int) -> int | Form | None:
+        """d(angle j)/dt."""
+        key = ("turning", j, 0)
+        if key not in self._slopes:
+            self._slopes[key] = _simple(self.angles[j].total_derivative())
+        return self._slopes[key]
+
+    # -- questions --------------------------------------------------------------------------------------------------
+
+    def is_moving(self, i: int) -> bool:
+        """Whether a generator changes with time."""
+        entry = self.table[i]
+        return entry.role != "parameter" if isinstance(entry, Symbolic) else entry.moving
+
+    def moving(self, monomial: int) -> int:
+        """Return the part of a monomial that changes with time."""
+        if monomial not in self._moving:
+            self._moving[monomial] = int(packed((i, e) for i, e in digits(monomial) if self.is_moving(i)))
+        return self._moving[monomial]
+
+    def turning(self, harmonic: Packed) -> bool:
+        """Whether an angle changes with time."""
+        return any(self.angle_rate(j) is not None for j, _ in multiples(harmonic))
+
+    def denominators(self, form: Form) -> int:
+        """Return the monomial that clears every denominator of a form, 0 where it has none."""
+        least: dict[int, int] = {}
+        for p in form.parts.values():
+            for m in p:
+                for i, e in digits(m):
+                    if e < 0 and i in self.roots:
+                        least[i] = min(least.get(i, 0), e)
+        return int(packed((i, -e) for i, e in least.items()))
+
+    def kept(self, monomials: Iterable[int]) -> tuple[sp.Expr, ...]:
+        """Return the roots and functions that occur in these monomials."""
+        found = {i for m in monomials for i, _ in digits(m) if not isinstance(self.table[i], Symbolic)}
+        return tuple(self.table[i].expr for i in sorted(found))
+
+    # -- back to SymPy ----------------------------------------------------------------------------------------------
+
+    def power(self, i: int, exponent: int) -> sp.Expr:
+        """Return generator i to a power."""
+        entry = self.table[i]
+        if isinstance(entry, Root):
+            return cast("sp.Expr", entry.base.expr() ** sp.Rational(exponent, entry.q))
+        return cast("sp.Expr", entry.expr**exponent)
+
+    def expr(self, monomial: int) -> sp.Expr:
+        """Return a monomial."""
+        return sp.Mul(*[self.power(i, e) for i, e in digits(monomial)])
+
+    def angle_expr(self, harmonic: Packed) -> sp.Expr:
+        """Return Σ k_j a_j."""
+        return sp.Add(*[sp.Rational(k) * self.angles[j].raw() for j, k in multiples(harmonic)])
+
+    def trig(self, harmonic: Harmonic) -> sp.Expr:
+        """Return cos(h·a), sin(h·a), or 1."""
+        if harmonic not in self._trig:
+            h, s = harmonic
+            argument = self.angle_expr(h)
+            self._trig[harmonic] = sp.sin(argument) if s else sp.cos(argument) if h else sp.S.One
+        return self._trig[harmonic]
+
+
+def _or_none(form: Form) -> Form | None:
+    return form if form.parts else None
+
+
+def _simple(form: Form) -> int | Form | None:
+    """A form that is one bare monomial as that monomial, zero as None."""
+    if not form.parts:
+        return None
+    if form.den == 1 and list(form.parts) == [(0, 0)]:
+        (poly,) = form.parts.values()
+        if list(poly.values()) == [1]:
+            return next(iter(poly))
+    return form
+
+
+def _outermost(expr: sp.Expr) -> set[sp.Expr]:
+    """The symbols an expression depends on; of a derivative only the whole, of a function of time not its t."""
+    found: set[sp.Expr] = set()
+    stack: list[sp.Basic] = [expr]
+    while stack:
+        node = stack.pop()
+        if isinstance(node, (AppliedUndef, sp.Derivative, sp.Symbol)):
+            found.add(cast("sp.Expr", node))
+        else:
+            stack.extend(node.args)
+    return found

@@ -1,0 +1,113 @@
+"""Monomials and harmonics as single integers, and sparse polynomials over them.
+
+A monomial ∏ g_i^e_i is the integer Σ e_i·2^(16 i) with signed exponents, so that a product of monomials is a sum of
+integers and a Laurent exponent needs nothing special. A harmonic Σ k_j·a_j of angles is packed the same way; where a
+k_j is a fraction, so is the packed number, and adding still adds them one by one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+from functools import lru_cache
+from math import gcd
+
+BITS = 16
+"""Bits a field has; exponents and multiples stay far inside ±2^15, see `LARGEST_EXPONENT`."""
+
+LARGEST_EXPONENT = 64
+"""The largest exponent that one power may have; a larger one is left as it was written."""
+
+Packed = int | Fraction
+Poly = dict[int, int]
+"""A polynomial with integer coefficients: packed monomial → coefficient, none of them zero."""
+
+_MASK = (1 << BITS) - 1
+_HALF = 1 << (BITS - 1)
+
+
+@lru_cache(maxsize=1 << 16)
+def digits(packed: int) -> tuple[tuple[int, int], ...]:
+    """Return the fields that are not zero as pairs (index, exponent), lowest index first."""
+    found: list[tuple[int, int]] = []
+    i = 0
+    while packed:
+        e = packed & _MASK
+        if e >= _HALF:
+            e -= 1 << BITS
+        if e:
+            found.append((i, e))
+        packed = (packed - e) >> BITS
+        i += 1
+    return tuple(found)
+
+
+def multiples(harmonic: Packed) -> tuple[tuple[int, Packed], ...]:
+    """Return the fields of a harmonic as pairs (angle, multiple); the multiples are fractions where they must be."""
+    if isinstance(harmonic, int):
+        return digits(harmonic)
+    d = harmonic.denominator
+    return tuple((j, whole(Fraction(k, d))) for j, k in digits(harmonic.numerator))
+
+
+def whole(number: Packed) -> Packed:
+    """Return an integer where the number is one."""
+    return number if isinstance(number, int) else number.numerator if number.denominator == 1 else number
+
+
+def packed(pairs: Iterable[tuple[int, Packed]]) -> Packed:
+    """Return the packed number of pairs (index, exponent)."""
+    total: Packed = 0
+    for i, e in pairs:
+        total += e * (1 << (BITS * i))
+    return whole(total)
+
+
+def unit(index: int) -> int:
+    """Return the monomial that is generator ``index`` itself."""
+    return 1 << (BITS * index)
+
+
+def product(p: Poly, q: Poly) -> Poly:
+    """Return p·q; coefficients that cancel are left as zeros for the caller to drop."""
+    if len(p) > len(q):
+        p, q = q, p
+    out: Poly = {}
+    get = out.get
+    for m, c in p.items():
+        for n, d in q.items():
+            key = m + n
+            out[key] = get(key, 0) + c * d
+    return out
+
+
+def content(numbers: Iterable[int]) -> int:
+    """Return the greatest common divisor, 0 of nothing."""
+    g = 0
+    for n in numbers:
+        g = gcd(g, n)
+        if g == 1:
+            return 1
+    return g
+
+
+def common(monomials: Iterable[int]) -> int:
+    """Return the monomial that divides all of them: the smallest exponent of every generator, below zero too."""
+    least: dict[int, int] | None = None
+    for m in monomials:
+        here = dict(digits(m))
+        if least is None:
+            least = here
+            continue
+        for i in list(least):
+            e = min(least[i], here.pop(i, 0))
+            if e:
+                least[i] = e
+            else:
+                del least[i]
+        for i, e in here.items():
+            if e < 0:
+                least[i] = e
+        if not least:
+            continue
+    return int(packed((least or {}).items()))

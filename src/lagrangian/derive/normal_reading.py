@@ -1,0 +1,173 @@
+"""From SymPy to the normal form: one rule for every kind of node, each subexpression read once."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import isqrt
+from typing import TYPE_CHECKING, Any, cast
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian.derive.normal_monomials import LARGEST_EXPONENT, Packed, common, content, unit, whole
+
+if TYPE_CHECKING:
+    from lagrangian.derive.normal import Algebra, Form
+
+EXACT_TURNS = 12
+"""cos(x + π·p/q) is written out as cos x cos(πp/q) − sin x sin(πp/q) for q up to this, so that thirds cancel."""
+
+
+class Reader:
+    """Reads expressions into an algebra; what has been read is remembered."""
+
+    def __init__(self, algebra: Algebra) -> None:
+        self.algebra = algebra
+        self._memo: dict[sp.Basic, Form] = {}
+
+    def form(self, expr: sp.Expr) -> Form:
+        """Return the normal form of an expression."""
+        if (known := self._memo.get(expr)) is None:
+            known = self._memo[expr] = self._read(expr)
+        return known
+
+    def _read(self, expr: sp.Expr) -> Form:
+        algebra = self.algebra
+        if isinstance(expr, sp.Rational):
+            return algebra.number(whole(Fraction(int(expr.p), int(expr.q))))
+        if isinstance(expr, sp.Float):
+            return algebra.number(whole(_decimal(expr)))
+        if isinstance(expr, sp.Add):
+            return algebra.total(self.form(cast("sp.Expr", a)) for a in expr.args)
+        if isinstance(expr, sp.Mul):
+            result = algebra.number(1)
+            for factor in sorted((self.form(cast("sp.Expr", a)) for a in expr.args), key=lambda f: f.size):
+                result = result * factor
+            return result
+        if isinstance(expr, sp.Pow):
+            return self._power(expr)
+        if isinstance(expr, (sp.sin, sp.cos)):
+            return self._trig(self.form(cast("sp.Expr", expr.args[0])), isinstance(expr, sp.sin))
+        if isinstance(expr, (sp.Symbol, AppliedUndef)) or _of_time(expr):
+            return algebra.monomial(unit(algebra.generators.index(expr)))
+        return self._opaque(expr)
+
+    # -- powers -----------------------------------------------------------------------------------------------------
+
+    def _power(self, expr: sp.Pow) -> Form:
+        base, exponent = expr.args
+        if not isinstance(exponent, sp.Rational) or max(abs(exponent.p), exponent.q) > LARGEST_EXPONENT:
+            return self._opaque(expr)
+        inner = self.form(cast("sp.Expr", base))
+        if exponent.q == 1 and exponent.p >= 0:
+            if inner.size > 1 and inner.size**exponent.p > 1e6 and exponent.p > 4:
+                return self._opaque(expr)
+            return inner ** int(exponent.p)
+        return self._inverse(inner, int(exponent.p), int(exponent.q))
+
+    def _inverse(self, form: Form, p: int, q: int) -> Form:
+        """form^(p/q) with p/q negative or broken: a number and a monomial come out, the rest is a generator.
+
+        1/(2 m₁ + 2 m₂) = ½ (m₁ + m₂)⁻¹, √(4x² + 4y²) = 2 √(x² + y²). Out of a root only what is certain to be
+        positive comes: a number that is a perfect power.
+        """
+        from lagrangian.derive.normal import Form, OutOfReach
+
+        algebra = self.algebra
+        if not form.parts:
+            raise OutOfReach("an expression divides by zero")
+        number = Fraction(content(c for poly in form.parts.values() for c in poly.values()), form.den)
+        monomial = common(m for poly in form.parts.values() for m in poly)
+        if q == 1:
+            if form.parts[min(form.parts)][min(form.parts[min(form.parts)])] < 0:
+                number = -number
+            outside = _power_of(number, p)
+        else:
+            root = _exact_root(number, q)
+            number, outside, monomial = (number, _power_of(root, p), 0) if root else (Fraction(1), Fraction(1), 0)
+        rest = Form(
+            algebra,
+            {h: {m - monomial: c * number.denominator for m, c in poly.items()} for h, poly in form.parts.items()},
+            form.den * number.numerator if number > 0 else -form.den * -number.numerator,
+        )
+        if rest.den < 0:
+            rest = Form(algebra, {h: {m: -c for m, c in poly.items()} for h, poly in rest.parts.items()}, -rest.den)
+        left = algebra.monomial(monomial * p).scaled(whole(outside))
+        if q == 1 and rest.size == 1 and list(rest.parts) == [(0, 0)]:
+            return left
+        if rest.size == 1 and list(rest.parts) == [(0, 0)] and rest.parts[(0, 0)] == {0: 1} and rest.den == 1:
+            return left
+        generator = algebra.generators.root(rest, q)
+        return algebra.reduced(left * algebra.monomial(unit(generator) * p))
+
+    # -- sines and cosines ------------------------------------------------------------------------------------------
+
+    def _trig(self, argument: Form, sine: bool) -> Form:
+        """sin or cos of Σ k_j a_j: every term of the argument is a rational multiple of an angle."""
+        from lagrangian.derive.normal import Form
+
+        algebra, generators = self.algebra, self.algebra.generators
+        h: Packed = 0
+        turn = Fraction(0)
+        pi = unit(generators.opaque(sp.pi))
+        for harmonic, poly in argument.parts.items():
+            for m, c in poly.items():
+                k = Fraction(c, argument.den)
+                if m == pi and harmonic == (0, 0) and k.denominator <= EXACT_TURNS:
+                    turn = k % 2
+                else:
+                    h += k * unit(generators.angle(harmonic, m))
+        h = whole(h)
+        if turn:
+            c, s = self.form(sp.cos(sp.pi * sp.Rational(turn))), self.form(sp.sin(sp.pi * sp.Rational(turn)))
+            bare_cos, bare_sin = self._plain(h, 0), self._plain(h, 1)
+            return bare_sin * c + bare_cos * s if sine else bare_cos * c - bare_sin * s
+        return self._plain(h, int(sine)) if h else Form(algebra, {} if sine else {(0, 0): {0: 1}})
+
+    def _plain(self, h: Packed, s: int) -> Form:
+        from lagrangian.derive.normal import Form
+
+        if h == 0:
+            return Form(self.algebra, {} if s else {(0, 0): {0: 1}})
+        return Form(self.algebra, {(abs(h), s): {0: -1 if s and h < 0 else 1}})
+
+    # -- the rest ---------------------------------------------------------------------------------------------------
+
+    def _opaque(self, expr: sp.Expr) -> Form:
+        """A function of readable arguments is a generator."""
+        from lagrangian.derive.normal import OutOfReach
+
+        if expr.has(sp.I, sp.zoo, sp.oo, sp.nan, sp.S.NegativeInfinity):
+            raise OutOfReach(f"'{expr}' is not a finite real expression")
+        generators = self.algebra.generators
+        if expr.args and not expr.is_number and isinstance(expr, (sp.Function, sp.Pow)):
+            arguments: list[Any] = [self.form(a).expr() if isinstance(a, sp.Expr) else a for a in expr.args]
+            rebuilt = cast("sp.Expr", expr.func(*arguments))
+            if rebuilt.func is not expr.func:
+                return self.form(rebuilt)
+            expr = rebuilt
+        return self.algebra.monomial(unit(generators.opaque(expr)))
+
+
+def _of_time(expr: sp.Expr) -> bool:
+    return isinstance(expr, sp.Derivative) and isinstance(expr.expr, AppliedUndef)
+
+
+def _decimal(number: sp.Float) -> Fraction:
+    """The shortest decimal that is this floating-point number, exactly."""
+    return Fraction(repr(float(number)))
+
+
+def _power_of(number: Fraction, p: int) -> Fraction:
+    return number**p
+
+
+def _exact_root(number: Fraction, q: int) -> Fraction | None:
+    """The q-th root where it is rational."""
+    parts = [_integer_root(n, q) for n in (number.numerator, number.denominator)]
+    return None if None in parts else Fraction(cast("int", parts[0]), cast("int", parts[1]))
+
+
+def _integer_root(n: int, q: int) -> int | None:
+    root = isqrt(n) if q == 2 else int(sp.integer_nthroot(n, q)[0])
+    return root if root**q == n else None

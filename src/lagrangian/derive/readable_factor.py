@@ -1,0 +1,219 @@
+"""Short sums of products: the factored shape of a polynomial, found by trying.
+
+A `Tree` is a product  coefficient · monomial · ∏ (sum)^power. Its cost is what ``sympy.count_ops`` would count. Tried
+are the plain sum, SymPy's factorization, and pulling each letter out of the terms that hold it, in turn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from fractions import Fraction
+from math import gcd, lcm
+
+import sympy as sp
+
+from lagrangian.derive.normal_monomials import common, digits, packed, unit
+
+Flat = dict[int, Fraction]
+"""A polynomial over display letters: packed monomial → rational coefficient."""
+
+FACTOR_TERMS = 16
+"""Sums of more terms are not handed to SymPy's factorization."""
+FACTOR_LETTERS = 8
+"""Sums in more letters are not either."""
+WIDE_TERMS = 9
+"""Up to this many terms several letters are tried to be pulled out first, beyond it the most frequent one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tree:
+    """coefficient · monomial · ∏ sums_i^power_i; a sum is a tuple of trees, in order. ``cost`` in operations."""
+
+    coefficient: Fraction
+    monomial: int
+    sums: tuple[tuple[tuple[Tree, ...], int], ...]
+    cost: int
+
+
+class Shortener:
+    """Finds short trees; ``cost_of`` is the number of operations inside a letter (0 for a symbol, 1 for sin θ)."""
+
+    def __init__(self, cost_of: Callable[[int], int]) -> None:
+        self.cost_of = cost_of
+        self._memo: dict[frozenset[tuple[int, Fraction]], Tree] = {}
+        self._factors: dict[object, list[tuple[Flat, int]] | None] = {}
+
+    # -- making -----------------------------------------------------------------------------------------------------
+
+    def product(self, coefficient: Fraction, monomial: int, sums: Iterable[tuple[tuple[Tree, ...], int]] = ()) -> Tree:
+        """Return a product with its cost."""
+        sums = tuple(sums)
+        cost = factors = 0
+        for i, e in digits(monomial):
+            cost += self.cost_of(i) + (e not in (1, -1))
+            factors += 1
+        for terms, power in sums:
+            cost += sum(t.cost for t in terms) + len(terms) - 1 + (power != 1)
+            factors += 1
+        factors += (abs(coefficient.numerator) != 1 or factors == 0) + (coefficient.denominator != 1)
+        return Tree(coefficient, monomial, sums, cost + factors - 1)
+
+    def times(self, tree: Tree, coefficient: Fraction, monomial: int) -> Tree:
+        """Return a multiple of a tree; its own sums stay."""
+        return self.product(tree.coefficient * coefficient, tree.monomial + monomial, tree.sums)
+
+    def summed(self, trees: Iterable[Tree]) -> Tree:
+        """Return a sum of trees as one tree; a single one stays itself."""
+        flat: list[Tree] = []
+        for t in trees:
+            bare = t.coefficient == 1 and t.monomial == 0 and len(t.sums) == 1 and t.sums[0][1] == 1
+            flat += t.sums[0][0] if bare else (t,)
+        if len(flat) == 1:
+            return flat[0]
+        return self.product(Fraction(1), 0, [(tuple(flat), 1)])
+
+    # -- searching --------------------------------------------------------------------------------------------------
+
+    def short(self, poly: Flat) -> Tree:
+        """Return the shortest tree found for a polynomial that is not zero."""
+        coefficient, monomial, rest = primitive(poly)
+        if len(rest) == 1:
+            return self.product(coefficient, monomial)
+        return self.times(self._short(rest), coefficient, monomial)
+
+    def _short(self, poly: Flat) -> Tree:
+        key = frozenset(poly.items())
+        if (known := self._memo.get(key)) is not None:
+            return known
+        best = self.summed(self.product(c, m) for m, c in ordered(poly))
+        if len(poly) > 2 or any(abs(e) > 1 for m in poly for _, e in digits(m)):
+            for candidate in self._candidates(poly):
+                if candidate.cost < best.cost:
+                    best = candidate
+        self._memo[key] = best
+        return best
+
+    def _candidates(self, poly: Flat) -> Iterable[Tree]:
+        factors = self._factorized(poly)
+        if factors is not None:
+            coefficient, sums, monomial = Fraction(1), [], 0
+            for factor, power in factors:
+                tree = self.short(factor)
+                coefficient *= tree.coefficient**power
+                monomial += tree.monomial * power
+                sums += [(terms, k * power) for terms, k in tree.sums]
+            yield self.product(coefficient, monomial, sums)
+        counts: dict[int, int] = {}
+        for m in poly:
+            for i, e in digits(m):
+                letter = i if e > 0 else ~i
+                counts[letter] = counts.get(letter, 0) + 1
+        wanted = sorted((letter for letter, n in counts.items() if n > 1), key=lambda i: (-counts[i], i))
+        for letter in wanted[: 6 if len(poly) <= WIDE_TERMS else 1]:
+            yield self.split(poly, letter)
+        for groups in partitions(poly):
+            yield self.summed(self.short(g) for g in groups)
+
+    def split(self, poly: Flat, letter: int) -> Tree:
+        """Return letter·(…) + the rest; ``~i`` asks for the terms that are divided by letter i."""
+        i, sign = (letter, 1) if letter >= 0 else (~letter, -1)
+        inside: Flat = {}
+        outside: Flat = {}
+        for m, c in poly.items():
+            (inside if any(j == i and e * sign > 0 for j, e in digits(m)) else outside)[m] = c
+        parts = [(self.short(p), lead(p)) for p in (inside, outside) if p]
+        return self.summed(t for t, _ in sorted(parts, key=lambda x: x[1]))
+
+    def _factorized(self, poly: Flat) -> list[tuple[Flat, int]] | None:
+        """SymPy's factors with their powers, None where there is nothing to gain."""
+        letters = sorted({i for m in poly for i, _ in digits(m)})
+        if len(poly) > FACTOR_TERMS or len(letters) > FACTOR_LETTERS:
+            return None
+        if any(e < 0 for m in poly for _, e in digits(m)):
+            return None
+        place = {i: k for k, i in enumerate(letters)}
+        scale = lcm(*(c.denominator for c in poly.values()))
+        shape = {tuple(dict(digits(m)).get(i, 0) for i in letters): int(c * scale) for m, c in poly.items()}
+        key = frozenset(shape.items())
+        if key not in self._factors:
+            self._factors[key] = _factors(shape, len(place))
+        found = self._factors[key]
+        if found is None:
+            return None
+        named = [
+            ({int(packed((letters[k], e) for k, e in digits(m))): c for m, c in f.items()}, power) for f, power in found
+        ]
+        sign = Fraction(1, scale)
+        return [({0: sign}, 1), *named] if sign != 1 else named
+
+
+def _factors(shape: dict[tuple[int, ...], int], letters: int) -> list[tuple[Flat, int]] | None:
+    """The irreducible factors over the integers, letters numbered 0, 1, …; None where the polynomial is one."""
+    if min(sum(1 for m in shape if m[k]) for k in range(letters)) == 1 and all(max(m) <= 1 for m in shape):
+        lonely = next(k for k in range(letters) if sum(1 for m in shape if m[k]) == 1)
+        if sum(1 for m in shape if m[lonely]) == 1 and len(shape) > 1:
+            return None  # A·x + B with a monomial A: a factor would divide both, and there is no common monomial
+    ring = sp.polys.rings.PolyRing([f"x{k}" for k in range(letters)], sp.ZZ)
+    content, found = ring.from_dict(shape).factor_list()
+    if len(found) == 1 and found[0][1] == 1:
+        return None
+    listed = [({int(packed(enumerate(m))): Fraction(int(c)) for m, c in f.items()}, int(power)) for f, power in found]
+    return [({0: Fraction(int(content))}, 1), *listed] if content != 1 else listed
+
+
+def partitions(poly: Flat) -> list[list[Flat]]:
+    """Return ways to deal the terms out by letters of which every term has exactly one, such as L1², L2², L3².
+
+    A family of such letters is grown from each letter of the first term; groups are in the order of their first terms.
+    """
+    holders: dict[tuple[int, int], set[int]] = {}
+    for m in poly:
+        for pair in digits(m):
+            holders.setdefault(pair, set()).add(m)
+    found: dict[frozenset[tuple[int, int]], list[Flat]] = {}
+    first = min(poly, key=order)
+    for start in digits(first):
+        family, covered = [start], set(holders[start])
+        for pair, terms in sorted(holders.items(), key=lambda x: (-len(x[1]), x[0])):
+            if pair[1] == start[1] and not terms & covered:
+                family.append(pair)
+                covered |= terms
+        if 1 < len(family) < len(poly) and len(covered) == len(poly):
+            groups = [{m: c for m, c in poly.items() if m in holders[pair]} for pair in family]
+            found[frozenset(family)] = sorted(groups, key=lead)
+    return list(found.values())
+
+
+def primitive(poly: Flat) -> tuple[Fraction, int, Flat]:
+    """Return coefficient, monomial and the rest, so that the rest has neither in common and starts with a plus."""
+    monomial = common(poly)
+    numerator, denominator = 0, 1
+    for c in poly.values():
+        numerator, denominator = gcd(numerator, c.numerator), lcm(denominator, c.denominator)
+    coefficient = Fraction(numerator, denominator)
+    first = min(poly, key=order)
+    if poly[first] < 0:
+        coefficient = -coefficient
+    return coefficient, monomial, {m - monomial: c / coefficient for m, c in poly.items()}
+
+
+def order(monomial: int) -> tuple[tuple[int, int], ...]:
+    """The key that sorts monomials: by their first letter, higher powers first."""
+    return tuple((i, -e) for i, e in digits(monomial)) or ((1 << 30, 0),)
+
+
+def lead(poly: Flat) -> tuple[tuple[int, int], ...]:
+    """The key of the first monomial of a polynomial."""
+    return min(order(m) for m in poly)
+
+
+def ordered(poly: Flat) -> list[tuple[int, Fraction]]:
+    """The terms in the order of their monomials."""
+    return sorted(poly.items(), key=lambda x: order(x[0]))
+
+
+def times_letter(poly: Flat, letter: int, exponent: int = 1) -> Flat:
+    """Return a polynomial times a letter."""
+    step = unit(letter) * exponent
+    return {m + step: c for m, c in poly.items()}

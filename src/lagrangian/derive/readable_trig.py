@@ -1,0 +1,199 @@
+"""Which sines and cosines to show: cos(θ₁ − θ₂) or products, (1 − cos 2θ)/2 or sin²θ, by what is shorter."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import comb
+from typing import TYPE_CHECKING, cast
+
+import sympy as sp
+
+from lagrangian.derive.normal_generators import Generators, Symbolic
+from lagrangian.derive.normal_monomials import Packed, digits, multiples, unit, whole
+from lagrangian.derive.readable_factor import Flat
+
+if TYPE_CHECKING:
+    from lagrangian.derive.normal import Form, Harmonic
+
+FIRST = 1 << 10
+"""Display letters from this number on are sines and cosines; lower ones are the generators."""
+
+SPLIT_TERMS = 3000
+"""Forms of more terms keep their harmonics."""
+
+
+class Display:
+    """The letters on the page: the generators, and the sines and cosines met so far."""
+
+    def __init__(self, generators: Generators) -> None:
+        self.generators = generators
+        self._letters: dict[Harmonic, int] = {}
+        self._harmonics: list[Harmonic] = []
+
+    def letter(self, harmonic: Harmonic) -> int:
+        """Return the letter of a sine or cosine."""
+        if harmonic not in self._letters:
+            self._letters[harmonic] = FIRST + len(self._harmonics)
+            self._harmonics.append(harmonic)
+        return self._letters[harmonic]
+
+    def role(self, letter: int) -> str:
+        """Return "trig", "function", or the role of the symbol; a function of parameters alone is a parameter."""
+        if letter >= FIRST:
+            h, _ = self._harmonics[letter - FIRST]
+            return "trig" if self.generators.turning(h) else "parameter"
+        entry = self.generators.table[letter]
+        if isinstance(entry, Symbolic):
+            return entry.role
+        return "function" if entry.moving else "parameter"
+
+    def cost(self, letter: int) -> int:
+        """Return the operations inside a letter."""
+        if letter >= FIRST:
+            return int(sp.count_ops(self.power(letter, 1).xreplace(self.generators.placeholders)))
+        entry = self.generators.table[letter]
+        return (
+            0 if isinstance(entry, Symbolic) else int(sp.count_ops(entry.expr.xreplace(self.generators.placeholders)))
+        )
+
+    def power(self, letter: int, exponent: int) -> sp.Expr:
+        """Return a letter to a power."""
+        if letter >= FIRST:
+            return cast("sp.Expr", self.generators.trig(self._harmonics[letter - FIRST]) ** exponent)
+        return self.generators.power(letter, exponent)
+
+
+def displayed(form: Form, display: Display) -> Flat:
+    """Return the form over display letters, with the angles split whose splitting makes it shorter."""
+    split: frozenset[int] = frozenset()
+    best = _flat(form, display, split)
+    if form.size <= SPLIT_TERMS:
+        best_cost = _cost(best, display)
+        for j in _candidates(form):
+            trial = _flat(form, display, split | {j})
+            cost = _cost(trial, display)
+            if cost <= best_cost:
+                split, best, best_cost = split | {j}, trial, cost
+    return best
+
+
+def _candidates(form: Form) -> list[int]:
+    """Angles with a double multiple, or with both signs against the same others: cos(a + b) beside cos(a − b)."""
+    harmonics = {h for h, _ in form.parts}
+    found: set[int] = set()
+    for h in harmonics:
+        pairs = multiples(h)
+        for j, k in pairs:
+            if len(pairs) == 1:
+                if isinstance(k, int) and abs(k) > 1:
+                    found.add(j)
+            elif abs(whole(h - 2 * k * unit(j))) in harmonics and isinstance(k, int):
+                found.add(j)
+    return sorted(found)
+
+
+def _flat(form: Form, display: Display, split: frozenset[int]) -> Flat:
+    """Σ coefficient · monomial · trig letters."""
+    out: Flat = {}
+    for h, p in form.parts.items():
+        for trig, k in _expanded(h, display, split).items():
+            for m, c in p.items():
+                key = m + trig
+                out[key] = out.get(key, Fraction(0)) + Fraction(c, form.den) * k
+    out = {m: c for m, c in out.items() if c}
+    for j in sorted(split):
+        out = _folded(out, display.letter((unit(j), 0)), display.letter((unit(j), 1)))
+    return out
+
+
+def _expanded(harmonic: Harmonic, display: Display, split: frozenset[int]) -> dict[int, Fraction]:
+    """cos or sin of h·a as products: of cos(k a_j), sin(k a_j) for the split angles and one harmonic of the others."""
+    h, s = harmonic
+    if h == 0:
+        return {0: Fraction(1)}
+    own = [(j, k) for j, k in multiples(h) if j in split and isinstance(k, int)]
+    rest: Packed = whole(h - sum(k * unit(j) for j, k in own))
+    sign = -1 if rest < 0 else 1
+    cos_sum: dict[int, Fraction] = {unit(display.letter((abs(rest), 0))) if rest else 0: Fraction(1)}
+    sin_sum: dict[int, Fraction] = {unit(display.letter((abs(rest), 1))): Fraction(sign)} if rest else {}
+    for j, k in own:
+        c, v = _multiple(display.letter((unit(j), 0)), display.letter((unit(j), 1)), k)
+        cos_sum, sin_sum = (
+            _plus(_times(cos_sum, c), _times(sin_sum, v), -1),
+            _plus(_times(sin_sum, c), _times(cos_sum, v), 1),
+        )
+    return sin_sum if s else cos_sum
+
+
+def _multiple(c: int, s: int, k: int) -> tuple[dict[int, Fraction], dict[int, Fraction]]:
+    """cos kx and sin kx in c = cos x and s = sin x, the sine at most linear (De Moivre with s² = 1 − c²)."""
+    cos_k: dict[int, Fraction] = {0: Fraction(1)}
+    sin_k: dict[int, Fraction] = {}
+    one_c, one_s = {unit(c): Fraction(1)}, {unit(s): Fraction(1)}
+    for _ in range(abs(k)):
+        cos_k, sin_k = (
+            _plus(_times(cos_k, one_c), _times(sin_k, one_s), -1),
+            _plus(_times(sin_k, one_c), _times(cos_k, one_s), 1),
+        )
+        cos_k, sin_k = _linear_in_sine(cos_k, c, s), _linear_in_sine(sin_k, c, s)
+    return cos_k, {m: -v for m, v in sin_k.items()} if k < 0 else sin_k
+
+
+def _linear_in_sine(poly: dict[int, Fraction], c: int, s: int) -> dict[int, Fraction]:
+    out: dict[int, Fraction] = {}
+    for m, v in poly.items():
+        if dict(digits(m)).get(s, 0) >= 2:
+            lower = m - 2 * unit(s)
+            out[lower] = out.get(lower, Fraction(0)) + v
+            lower += 2 * unit(c)
+            out[lower] = out.get(lower, Fraction(0)) - v
+        else:
+            out[m] = out.get(m, Fraction(0)) + v
+    return {m: v for m, v in out.items() if v}
+
+
+def _times(p: dict[int, Fraction], q: dict[int, Fraction]) -> dict[int, Fraction]:
+    out: dict[int, Fraction] = {}
+    for m, a in p.items():
+        for n, b in q.items():
+            out[m + n] = out.get(m + n, Fraction(0)) + a * b
+    return out
+
+
+def _plus(p: dict[int, Fraction], q: dict[int, Fraction], sign: int) -> dict[int, Fraction]:
+    out = dict(p)
+    for m, v in q.items():
+        out[m] = out.get(m, Fraction(0)) + sign * v
+    return {m: v for m, v in out.items() if v}
+
+
+def _folded(poly: Flat, c: int, s: int) -> Flat:
+    """Replace c² by 1 − s² in every group of terms that gets fewer by it: 1 − c² is s²."""
+    groups: dict[tuple[int, int], dict[int, Fraction]] = {}
+    for m, v in poly.items():
+        powers = dict(digits(m))
+        e = powers.get(c, 0)
+        odd = e % 2
+        groups.setdefault((m - e * unit(c), odd), {})[e // 2] = v
+    out: Flat = {}
+    for (rest, odd), even in groups.items():
+        other: dict[int, Fraction] = {}
+        for power, v in even.items():
+            for i in range(power + 1):
+                other[i] = other.get(i, Fraction(0)) + v * (-1) ** i * comb(power, i)
+        other = {i: v for i, v in other.items() if v}
+        letter, chosen = (s, other) if len(other) < len(even) else (c, even)
+        for power, v in chosen.items():
+            m = rest + odd * unit(c) + 2 * power * unit(letter)
+            out[m] = out.get(m, Fraction(0)) + v
+    return {m: v for m, v in out.items() if v}
+
+
+def _cost(poly: Flat, display: Display) -> int:
+    """About the operations of the plain sum."""
+    total = 0
+    for m, c in poly.items():
+        total += 1 + (abs(c.numerator) != 1) + (c.denominator != 1)
+        for i, e in digits(m):
+            total += 1 + (abs(e) != 1) + (display.cost(i) if i >= FIRST else 0)
+    return total
