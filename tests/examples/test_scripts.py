@@ -1,0 +1,43 @@
+"""The scripts in examples/ run, and what they derive is right."""
+
+from __future__ import annotations
+
+import runpy
+from pathlib import Path
+
+import pytest
+import sympy as sp
+from derived import derivation
+from sympy.physics.mechanics import dynamicsymbols
+
+FOLDER = Path(__file__).parents[2] / "examples"
+SCRIPTS = sorted(FOLDER.glob("*.py"))
+
+
+def run(name: str) -> dict:
+    return runpy.run_path(str(FOLDER / f"{name}.py"), run_name="example")
+
+
+@pytest.mark.parametrize("script", SCRIPTS, ids=lambda path: path.stem)
+def test_a_script_prints_a_derivation(script: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    runpy.run_path(str(script), run_name="__main__")
+    assert len(capsys.readouterr().out) > 100
+
+
+def test_the_arm_in_python_is_the_arm_in_the_file() -> None:
+    script, file = run("two_link_arm")["d"], derivation("lecture-2")
+    assert [(e.lhs, e.rhs) for e in script.equations] == [(e.lhs, e.rhs) for e in file.equations]
+    assert script.Xi == {dynamicsymbols("theta1"): 0, dynamicsymbols("theta2"): dynamicsymbols("tau")}
+
+
+def test_the_cart_in_python_is_the_cart_in_the_file() -> None:
+    script, file = run("cart_pole")["d"], derivation("cart-pole")
+    for one, other in zip(script.equations, file.equations, strict=True):
+        assert sp.expand(one.lhs - one.rhs - other.lhs + other.rhs, trig=True) == 0
+
+
+def test_the_bead_from_its_energies_rubs_along_its_way() -> None:
+    script, file = run("from_energies")["d"], derivation("bead-on-parabola")
+    x, (c, b) = dynamicsymbols("x"), sp.symbols("c b")
+    (one,), (other,) = script.equations, file.equations
+    assert sp.expand(one.lhs - one.rhs - other.lhs - b * (1 + 4 * c**2 * x**2) * x.diff()) == 0
