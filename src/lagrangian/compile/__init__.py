@@ -9,12 +9,14 @@ from lagrangian.errors import RunError
 
 from . import native
 from .build import Build, Options
+from .c99 import to_c
 from .kernel import Kernel, RawFunction
+from .numpy_source import to_numpy
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program
 
-__all__ = ["Kernel", "RawFunction", "compile"]
+__all__ = ["Kernel", "RawFunction", "compile", "to_c", "to_numpy"]
 
 
 def compile(

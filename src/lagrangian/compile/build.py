@@ -18,11 +18,13 @@ from typing import TYPE_CHECKING
 
 import llvmlite
 
+from lagrangian.graph import reached
+
 from . import cache as disk
 from . import driver, native
 from .emit import CHUNK, emit, plan
 from .ir import Module, Target
-from .tape import Lowered, lower, operands
+from .tape import Lowered, lower
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program
@@ -147,14 +149,7 @@ def _printer_version() -> str:
 def fingerprint(program: Program, options: Options, target: Target) -> str:
     """SHA-256 of all that decides the machine code. Nodes that no output needs, and all names, do not count."""
     nodes = program.graph.nodes
-    seen = {i for output in program.outputs.values() for i in output.ids}
-    stack = list(seen)
-    while stack:
-        for k in operands(nodes[stack.pop()]):
-            if k not in seen:
-                seen.add(k)
-                stack.append(k)
-    order = sorted(seen)
+    order = reached(program.graph, program.ids)
     position = {i: k for k, i in enumerate(order)}
     rows = []
     for i in order:

@@ -106,10 +106,7 @@ def _return_two(f: Function, a: Value, b: Value) -> None:
 
 
 def function(module: Module, name: str, lanes: int) -> str:
-    """The symbol of ``exp``, ``log``, ``atan2``, ``atan``, ``asin``, ``acos`` or a function of the C library.
-
-    Per lane.
-    """
+    """The symbol of an elementary function: ours, or the C library's lane by lane."""
     symbol = f"{name}_{lanes}"
     if module.defines(symbol):
         return "@" + symbol

@@ -194,10 +194,9 @@ class _Printer:
                 return f.intrinsic("sqrt", v[0])
             case "abs":
                 return f.intrinsic("fabs", v[0])
-            case "min":
-                return f.select(f.compare("olt", v[1], v[0]), v[1], v[0])
-            case "max":
-                return f.select(f.compare("ogt", v[1], v[0]), v[1], v[0])
+            case "min" | "max":  # NaN in either gives NaN, as in the interpreter
+                first = f.compare("ole" if kind == "min" else "oge", v[0], v[1])
+                return f.select(f.logic("or", first, f.compare("uno", v[0], v[0])), v[0], v[1])
             case "sign":
                 unit = f.intrinsic("copysign", 1.0, v[0])
                 return f.select(f.compare("one", v[0], 0.0), unit, v[0])

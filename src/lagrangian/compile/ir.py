@@ -197,7 +197,7 @@ class Function:
     def compare(self, condition: str, a: Value | float, b: Value | float) -> str:
         """A truth value per lane.
 
-        ``condition`` is LLVM's (``olt``, ``ole``, ``oeq`` …: false when an operand is NaN).
+        ``condition`` is LLVM's: ``olt``, ``ole``, ``oeq`` are false when an operand is NaN.
         """
         return self.put(f"fcmp {condition} {self.real} {self.operand(a)}, {self.operand(b)}")
 

@@ -15,12 +15,12 @@ from numpy.typing import NDArray
 
 from lagrangian.errors import RunError, did_you_mean
 
-from . import workers
+from . import native, workers
 from .arguments import FLOAT, Group, not_finite_input, rows, where
-from .build import Build
+from .build import Build, Options
 
 if TYPE_CHECKING:
-    pass
+    from lagrangian.graph import Program
 
 _TAPE = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)
 _BATCH = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p)
@@ -94,6 +94,11 @@ def _address(array: NDArray[Any]) -> int:
     return array.__array_interface__["data"][0]
 
 
+def _rebuilt(program: Program, options: Options, optional: Mapping[str, float], threads: int | None) -> Kernel:
+    """A kernel sent from another process, perhaps another machine: compiled here, for what is here."""
+    return Kernel(Build(program, options, native.host()), optional=optional, threads=threads)
+
+
 class Kernel:
     """A compiled program: arrays in, arrays out.
 
@@ -128,6 +133,9 @@ class Kernel:
         self._batches: dict[str, Any] = {}
         self._lone = len(self._shapes) == 1 and self._shapes[0] != ()
         self._lock = threading.Lock()
+
+    def __reduce__(self) -> Any:
+        return _rebuilt, (self.program, self._build.options, self._optional, self.threads)
 
     def __repr__(self) -> str:
         inputs = ", ".join(f"{g.name}[{len(g.entries)}]" for g in self._groups)

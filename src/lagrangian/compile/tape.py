@@ -16,6 +16,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from lagrangian.graph import operands as sources
+from lagrangian.graph import reached
+
 if TYPE_CHECKING:
     from lagrangian.graph import Program
 
@@ -59,11 +62,7 @@ class Lowered:
 
 def operands(op: Op) -> tuple[int, ...]:
     """The positions an operation reads."""
-    if op[0] in LEAVES or op[0] == "input":
-        return ()
-    if op[0] == "powi":
-        return (op[1],)
-    return op[1:]
+    return () if op[0] in LEAVES else op[1:]
 
 
 class _Builder:
@@ -111,24 +110,24 @@ def lower(program: Program, hoist: Iterable[str] = ("p",)) -> Lowered:
     """
     hoist = frozenset(hoist)
     nodes = program.graph.nodes
-    wanted = [i for output in program.outputs.values() for i in output.ids]
-    reached = _reached(nodes, wanted)
+    wanted = program.ids
+    order = reached(program.graph, wanted)
     hoisted = tuple(g for g in program.inputs if g in hoist)
     groups = tuple(g for g in program.inputs if g not in hoist)
     early, late = _slots(program, hoisted), _slots(program, groups)
 
     varies: dict[int, bool] = {}  # depends on a group that is not hoisted
-    for i in reached:
+    for i in order:
         node = nodes[i]
-        varies[i] = node[1] not in hoist if node[0] == "input" else any(varies[k] for k in operands(node))
+        varies[i] = node[1] not in hoist if node[0] == "input" else any(varies[k] for k in sources(node))
     divisors: dict[int, int] = {}
-    for i in reached:
+    for i in order:
         if nodes[i][0] == "div":
             divisors[nodes[i][2]] = divisors.get(nodes[i][2], 0) + 1
 
     prologue = _Builder()
     first: dict[int, int] = {}
-    for i in reached:
+    for i in order:
         if not varies[i]:
             first[i] = _translate(prologue, nodes[i], first, early, divisors)
     shared: dict[int, int] = {}  # entry of the prologue → shared slot
@@ -140,11 +139,11 @@ def lower(program: Program, hoist: Iterable[str] = ("p",)) -> Lowered:
             return body.const(prologue.ops[entry][1])
         return body.add("shared", shared.setdefault(entry, len(shared)))
 
-    for i in reached:
+    for i in order:
         if not varies[i]:
             continue
         node = nodes[i]
-        for k in operands(node):
+        for k in sources(node):
             if k in first and not (node[0] == "div" and k == node[2]):
                 second[k] = share(first[k])
         if node[0] == "div" and node[2] in first:  # x / y = x · (1/y), the reciprocal taken once
@@ -179,18 +178,6 @@ def _slots(program: Program, groups: Iterable[str]) -> dict[tuple[str, int], int
         for index in range(len(program.inputs[group])):
             slots[group, index] = len(slots)
     return slots
-
-
-def _reached(nodes: list[Op], wanted: Iterable[int]) -> list[int]:
-    """The nodes that ``wanted`` needs, in increasing order."""
-    seen = set(wanted)
-    stack = list(seen)
-    while stack:
-        for k in operands(nodes[stack.pop()]):
-            if k not in seen:
-                seen.add(k)
-                stack.append(k)
-    return sorted(seen)
 
 
 def _translate(
