@@ -1,0 +1,56 @@
+"""Files written whole or not at all."""
+
+from __future__ import annotations
+
+import os
+import tempfile
+from pathlib import Path
+
+from lagrangian.errors import Error
+
+
+def write_file(path: str | os.PathLike[str], text: str) -> Path:
+    """Write ``text`` as UTF-8 to ``path`` and return the path.
+
+    The text is written to a file beside it, which then takes its place: a reader sees the old text or the new one, and a full disk
+    leaves the old one. The permissions of a file that was there are kept. Raises `Error` for a folder that is missing, a
+    path that is a folder, a place where writing is not allowed, and a full disk.
+    """
+    target = Path(os.path.realpath(path))
+    folder = target.parent
+    if target.is_dir():
+        raise Error(f"'{path}' is a folder", fix="name a file in it", code="E801")
+    if not folder.is_dir():
+        raise Error(f"cannot write '{path}': there is no folder '{folder}'", fix="make the folder first", code="E801")
+    beside: Path | None = None
+    try:
+        mode = target.stat().st_mode & 0o777 if target.exists() else 0o666 & ~_umask()
+        handle, name = tempfile.mkstemp(dir=folder, prefix=f".{target.name[:100]}.", suffix=".part")
+        beside = Path(name)
+        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+            file.flush()
+            os.fsync(file.fileno())
+        beside.chmod(mode)
+        beside.replace(target)
+        beside = None
+    except OSError as problem:
+        reason = (problem.strerror or str(problem)).lower()
+        raise Error(f"cannot write '{path}': {reason}", fix=_advice(problem), code="E801") from problem
+    finally:
+        if beside is not None:
+            beside.unlink(missing_ok=True)
+    return Path(path)
+
+
+def _umask() -> int:
+    """The mask of permissions of new files; there is no way to read it but to set it."""
+    mask = os.umask(0o022)
+    os.umask(mask)
+    return mask
+
+
+def _advice(problem: OSError) -> str | None:
+    if isinstance(problem, PermissionError):
+        return "choose a folder you may write to"
+    return "the file that was there is unchanged"
