@@ -15,7 +15,7 @@ import sympy as sp
 
 from lagrangian.derive.normal_generators import Generators
 from lagrangian.derive.normal_monomials import digits, packed
-from lagrangian.derive.readable_factor import Flat, Shortener, Tree, lead
+from lagrangian.derive.readable_factor import FACTOR_TERMS, Flat, Shortener, Tree, lead, order
 from lagrangian.derive.readable_trig import Display, displayed
 
 if TYPE_CHECKING:
@@ -38,14 +38,21 @@ class Term:
     kind: str
 
 
-PRODUCT_TERMS = 16
-"""Sums of up to this many terms are tried as one product."""
+def _merge_inputs(classes: dict[str, Flat], home_of: Callable[[int], str]) -> None:
+    """Move bare inputs beside the springs and dampers they act through: k (x − u) is one term."""
+    for m, c in list(classes.get("input", {}).items()):
+        home = home_of(m)
+        if home in classes:
+            del classes["input"][m]
+            classes[home][m] = c
 
 
-def _is_product(tree: Tree, alike: bool) -> bool:
-    """Whether a tree is worth writing as one product: its sums flat, and a square or two of them or terms alike."""
-    flat = all(not t.sums for terms, _ in tree.sums for t in terms)
-    return flat and (alike or len(tree.sums) > 1 or any(power > 1 for _, power in tree.sums))
+def _letters(tree: Tree) -> set[int]:
+    found = {i for i, _ in digits(tree.monomial)}
+    for terms, _ in tree.sums:
+        for t in terms:
+            found |= _letters(t)
+    return found
 
 
 class Writer:
@@ -63,9 +70,9 @@ class Writer:
         flat = displayed(form, self.display)
         classes = self._classes(flat)
         whole = self.shortener.summed(tree for _, tree in classes)
-        if 1 < len(flat) <= PRODUCT_TERMS:
-            product = self.shortener.short(flat)
-            if product.cost < whole.cost and _is_product(product, len({kind for kind, _ in classes}) == 1):
+        if 1 < len(flat) <= FACTOR_TERMS:
+            product = self.shortener.factored(flat)
+            if product is not None and product.cost < whole.cost:
                 whole = product
         return self.sympy(whole)
 
@@ -78,15 +85,43 @@ class Writer:
     # -- classes ----------------------------------------------------------------------------------------------------
 
     def _classes(self, flat: Flat) -> list[tuple[str, Tree]]:
+        """Every class made readable; constants go with the stiffness or the gravity, where they make it shorter."""
         classes: dict[str, Flat] = {}
         for m, c in flat.items():
             classes.setdefault(self.kind(m), {})[m] = c
-        found: list[tuple[str, Tree]] = []
+        constant = classes.pop("constant", {})
+        _merge_inputs(classes, self._bare)
         long = sum(len(p) for p in classes.values()) > 12
-        for kind in KINDS:
-            if kind in classes:
-                found += [(kind, tree) for tree in self._grouped(kind, classes[kind], long)]
-        return found
+        homes = [kind for kind in ("stiffness", "gravity") if kind in classes] or ["gravity"]
+        ways: list[list[tuple[str, Tree]]] = []
+        for home in homes if constant else homes[:1]:
+            dealt = {**classes, home: {**classes.get(home, {}), **constant}}
+            ways.append(
+                [
+                    (self._kind_of(tree, kind), tree)
+                    for kind in KINDS
+                    if dealt.get(kind)
+                    for tree in self._grouped(kind, dealt[kind], long)
+                ]
+            )
+        best = min(ways, key=lambda way: sum(t.cost + 1 for _, t in way))
+        return sorted(best, key=lambda x: KINDS.index(x[0]))
+
+    def _kind_of(self, tree: Tree, kind: str) -> str:
+        """The kind of a finished term: a constant or an input alone is not stiffness, though it was dealt with it."""
+        if kind not in ("stiffness", "damping"):
+            return kind
+        roles = {self.display.role(i) for i in _letters(tree)}
+        if roles & {"coordinate", "rate", "function"}:
+            return kind
+        return "input" if "input" in roles else "gravity"
+
+    def _bare(self, monomial: int) -> str:
+        """Where an input stands alone with parameters: beside "stiffness", its rate beside "damping"; else nowhere."""
+        moving = [(i, e) for i, e in digits(monomial) if self.display.role(i) != "parameter"]
+        if len(moving) != 1:
+            return ""
+        return "damping" if isinstance(self.display.power(moving[0][0], 1), sp.Derivative) else "stiffness"
 
     def kind(self, monomial: int) -> str:
         """Classify a displayed monomial."""
@@ -107,53 +142,76 @@ class Writer:
                 place = place or role == "coordinate"
         if rates:
             return "damping" if rates == 1 and not moving else "velocity"
-        if not moving or (trig and not place):
-            return "gravity"
-        return "stiffness" if place and not trig else "other"
+        if not moving:
+            return "constant"
+        return "gravity" if trig else "stiffness" if place else "other"
 
     def _grouped(self, kind: str, poly: Flat, long: bool) -> list[Tree]:
-        """The terms of one class in the best of the groupings that fit it."""
-        ways: list[list[Tree]] = []
+        """The terms of one class in the best of the groupings that fit it; of equals, the first."""
+        if len(poly) == 1:
+            return [self.shortener.short(poly)]
         if kind == "inertia":
-            ways = [self._by(poly, self._role("acceleration")), self._by(poly, self._role("trig"))]
-            if not long:
-                ways = ways[:1]
+            ways = [self._by(poly, self._role("acceleration"))]
+            if long:
+                ways.append(self._by(poly, self._role("trig")))
         elif kind == "velocity":
             ways = [
                 self._by(poly, self._role("trig")),
                 self._by(poly, self._role("rate")),
-                self._by(poly, self._but("trig", "rate")),
+                self._by(poly, self._but("trig", "rate"), merge=True),
             ]
         elif kind == "input":
             ways = [self._by(poly, self._role("input"))]
         elif kind in ("gravity", "other"):
             ways = [self._by(poly, self._role("trig", "coordinate"))]
+            if any(self.display.role(i) == "function" for m in poly for i, _ in digits(m)):
+                ways.append(self._whole(poly, spread=True))
+            if len(poly) == 2 and any(self.kind(m) == "constant" for m in poly):
+                ways.append([self.shortener.short(poly)])
         else:
-            ways = [self._whole(poly), self._by(poly, self._role("coordinate", "rate"))]
+            ways = [
+                self._by(poly, self._but("coordinate", "rate", "input"), merge=True),
+                self._whole(poly),
+                self._by(poly, self._role("coordinate", "rate")),
+            ]
         return min(ways, key=lambda way: sum(t.cost for t in way) + len(way))
 
-    def _role(self, *roles: str) -> Callable[[int], Hashable]:
+    def _role(self, *roles: str) -> Callable[[int], int]:
         """The part of a monomial made of letters with these roles."""
         role = self.display.role
-        return lambda m: packed((i, e) for i, e in digits(m) if role(i) in roles)
+        return lambda m: int(packed((i, e) for i, e in digits(m) if role(i) in roles))
 
-    def _but(self, *roles: str) -> Callable[[int], Hashable]:
+    def _but(self, *roles: str) -> Callable[[int], int]:
         role = self.display.role
-        return lambda m: packed((i, e) for i, e in digits(m) if role(i) not in roles)
+        return lambda m: int(packed((i, e) for i, e in digits(m) if role(i) not in roles))
 
-    def _by(self, poly: Flat, key: Callable[[int], Hashable]) -> list[Tree]:
-        """One tree a group, in the order of their first terms."""
-        groups: dict[Hashable, Flat] = {}
+    def _by(self, poly: Flat, key: Callable[[int], int], *, merge: bool = False) -> list[Tree]:
+        """One tree a group, in the order of first terms; with ``merge``, groups that differ by a factor are one."""
+        groups: dict[int, Flat] = {}
         for m, c in poly.items():
             groups.setdefault(key(m), {})[m] = c
-        return [tree for g in sorted(groups.values(), key=lead) for tree in self._whole(g)]
+        dealt = list(groups.values())
+        if merge:
+            alike: dict[Hashable, Flat] = {}
+            for g in groups.values():
+                first = g[min(g, key=order)]
+                cofactor = frozenset((m - key(m), c / first) for m, c in g.items())
+                alike.setdefault(cofactor, {}).update(g)
+            dealt = list(alike.values())
+        return [tree for g in sorted(dealt, key=lead) for tree in self._whole(g)]
 
-    def _whole(self, poly: Flat) -> list[Tree]:
-        """The best factored sum, each of its terms one term."""
+    def _whole(self, poly: Flat, *, spread: bool = False) -> list[Tree]:
+        """The best factored sum, each of its terms one term; with ``spread`` what they share is put into each.
+
+        k (x₁ − x₂) stays one term; g (m₁ L₁ sin θ₁ + m₂ L₂ sin θ₂) is spread into two.
+        """
         tree = self.shortener.short(poly)
-        if tree.coefficient == 1 and tree.monomial == 0 and len(tree.sums) == 1 and tree.sums[0][1] == 1:
-            return list(tree.sums[0][0])
-        return [tree]
+        if len(tree.sums) != 1 or tree.sums[0][1] != 1:
+            return [tree]
+        plain = tree.monomial == 0 and (abs(tree.coefficient) == 1 or tree.coefficient.numerator == 1)
+        if not (plain or spread):
+            return [tree]
+        return [self.shortener.times(t, tree.coefficient, tree.monomial) for t in tree.sums[0][0]]
 
     # -- to SymPy ---------------------------------------------------------------------------------------------------
 

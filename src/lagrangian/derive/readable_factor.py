@@ -22,8 +22,9 @@ FACTOR_TERMS = 16
 """Sums of more terms are not handed to SymPy's factorization."""
 FACTOR_LETTERS = 8
 """Sums in more letters are not either."""
+WIDE = 4
 WIDE_TERMS = 9
-"""Up to this many terms several letters are tried to be pulled out first, beyond it the most frequent one."""
+"""Up to this many terms `WIDE` letters are tried to be pulled out first, beyond it the most frequent one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,8 +77,20 @@ class Shortener:
     # -- searching --------------------------------------------------------------------------------------------------
 
     def short(self, poly: Flat) -> Tree:
-        """Return the shortest tree found for a polynomial that is not zero."""
-        coefficient, monomial, rest = primitive(poly)
+        """Return the shortest tree found for a polynomial that is not zero.
+
+        Denominators that only some terms have stay with these terms, J/R² + m, unless (J + m R²)/R² is shorter.
+        """
+        best = self._outside(poly, whole=False)
+        if len(poly) > 1 and any(e < 0 for m in poly for _, e in digits(m)):
+            over_all = self._outside(poly, whole=True)
+            if (over_all.cost, -len(over_all.sums)) < (best.cost, -len(best.sums)):
+                return over_all
+        return best
+
+    def _outside(self, poly: Flat, *, whole: bool) -> Tree:
+        """Return what all terms have in common times the rest made short."""
+        coefficient, monomial, rest = primitive(poly, whole=whole)
         if len(rest) == 1:
             return self.product(coefficient, monomial)
         return self.times(self._short(rest), coefficient, monomial)
@@ -94,23 +107,31 @@ class Shortener:
         self._memo[key] = best
         return best
 
+    def factored(self, poly: Flat) -> Tree | None:
+        """Return the product of the irreducible factors, None where there is one factor beside what all terms share."""
+        coefficient, monomial, rest = primitive(poly, whole=False)
+        factors = self._factorized(rest)
+        if factors is None:
+            return None
+        sums: list[tuple[tuple[Tree, ...], int]] = []
+        for factor, power in factors:
+            tree = self.short(factor)
+            coefficient *= tree.coefficient**power
+            monomial += tree.monomial * power
+            sums += [(terms, k * power) for terms, k in tree.sums]
+        return self.product(coefficient, monomial, sums)
+
     def _candidates(self, poly: Flat) -> Iterable[Tree]:
-        factors = self._factorized(poly)
-        if factors is not None:
-            coefficient, sums, monomial = Fraction(1), [], 0
-            for factor, power in factors:
-                tree = self.short(factor)
-                coefficient *= tree.coefficient**power
-                monomial += tree.monomial * power
-                sums += [(terms, k * power) for terms, k in tree.sums]
-            yield self.product(coefficient, monomial, sums)
+        product = self.factored(poly)
+        if product is not None:
+            yield product
         counts: dict[int, int] = {}
         for m in poly:
             for i, e in digits(m):
                 letter = i if e > 0 else ~i
                 counts[letter] = counts.get(letter, 0) + 1
         wanted = sorted((letter for letter, n in counts.items() if n > 1), key=lambda i: (-counts[i], i))
-        for letter in wanted[: 6 if len(poly) <= WIDE_TERMS else 1]:
+        for letter in wanted[: WIDE if len(poly) <= WIDE_TERMS else 1]:
             yield self.split(poly, letter)
         for groups in partitions(poly):
             yield self.summed(self.short(g) for g in groups)
@@ -130,19 +151,26 @@ class Shortener:
         letters = sorted({i for m in poly for i, _ in digits(m)})
         if len(poly) > FACTOR_TERMS or len(letters) > FACTOR_LETTERS:
             return None
-        if any(e < 0 for m in poly for _, e in digits(m)):
+        below = {i for m in poly for i, e in digits(m) if e < 0}
+        if any(i in below and e > 0 for m in poly for i, e in digits(m)):
             return None
-        place = {i: k for k, i in enumerate(letters)}
         scale = lcm(*(c.denominator for c in poly.values()))
-        shape = {tuple(dict(digits(m)).get(i, 0) for i in letters): int(c * scale) for m, c in poly.items()}
+        shape = {tuple(abs(dict(digits(m)).get(i, 0)) for i in letters): int(c * scale) for m, c in poly.items()}
         key = frozenset(shape.items())
         if key not in self._factors:
-            self._factors[key] = _factors(shape, len(place))
+            self._factors[key] = _factors(shape, len(letters))
         found = self._factors[key]
         if found is None:
             return None
         named = [
-            ({int(packed((letters[k], e) for k, e in digits(m))): c for m, c in f.items()}, power) for f, power in found
+            (
+                {
+                    int(packed((letters[k], -e if letters[k] in below else e) for k, e in digits(m))): c
+                    for m, c in f.items()
+                },
+                p,
+            )
+            for f, p in found
         ]
         sign = Fraction(1, scale)
         return [({0: sign}, 1), *named] if sign != 1 else named
@@ -185,15 +213,22 @@ def partitions(poly: Flat) -> list[list[Flat]]:
     return list(found.values())
 
 
-def primitive(poly: Flat) -> tuple[Fraction, int, Flat]:
-    """Return coefficient, monomial and the rest, so that the rest has neither in common and starts with a plus."""
+def primitive(poly: Flat, *, whole: bool = True) -> tuple[Fraction, int, Flat]:
+    """Return coefficient, monomial and the rest, so that the rest has neither in common and mostly plus signs.
+
+    Of the numbers' denominators what all have is common, of a letter's all only with ``whole``.
+    """
     monomial = common(poly)
-    numerator, denominator = 0, 1
+    if not whole:
+        shared = {i: all(dict(digits(m)).get(i, 0) < 0 for m in poly) for i, e in digits(monomial) if e < 0}
+        monomial = int(packed((i, e) for i, e in digits(monomial) if shared.get(i, True)))
+    numerator = 0
     for c in poly.values():
-        numerator, denominator = gcd(numerator, c.numerator), lcm(denominator, c.denominator)
-    coefficient = Fraction(numerator, denominator)
-    first = min(poly, key=order)
-    if poly[first] < 0:
+        numerator = gcd(numerator, c.numerator)
+    denominators = {c.denominator for c in poly.values()}
+    coefficient = Fraction(numerator, gcd(*denominators))
+    negative = 2 * sum(c < 0 for c in poly.values())
+    if negative > len(poly) or (negative == len(poly) and poly[min(poly, key=order)] < 0):
         coefficient = -coefficient
     return coefficient, monomial, {m - monomial: c / coefficient for m, c in poly.items()}
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, cast
 import sympy as sp
 
 from lagrangian.derive.normal_generators import Generators, Symbolic
-from lagrangian.derive.normal_monomials import Packed, digits, multiples, unit, whole
+from lagrangian.derive.normal_monomials import Packed, digits, multiples, packed, unit, whole
 from lagrangian.derive.readable_factor import Flat
 
 if TYPE_CHECKING:
@@ -37,6 +37,10 @@ class Display:
             self._harmonics.append(harmonic)
         return self._letters[harmonic]
 
+    def sign(self, h: Packed) -> int:
+        """Return −1 where SymPy turns sin(h·a) into −sin(−h·a): the sine on the page is the latter."""
+        return -1 if self.generators.trig((h, 1)).could_extract_minus_sign() else 1
+
     def role(self, letter: int) -> str:
         """Return "trig", "function", or the role of the symbol; a function of parameters alone is a parameter."""
         if letter >= FIRST:
@@ -59,22 +63,44 @@ class Display:
     def power(self, letter: int, exponent: int) -> sp.Expr:
         """Return a letter to a power."""
         if letter >= FIRST:
-            return cast("sp.Expr", self.generators.trig(self._harmonics[letter - FIRST]) ** exponent)
+            h, s = self._harmonics[letter - FIRST]
+            return cast("sp.Expr", (self.generators.trig((h, s)) * (self.sign(h) if s else 1)) ** exponent)
         return self.generators.power(letter, exponent)
 
 
 def displayed(form: Form, display: Display) -> Flat:
-    """Return the form over display letters, with the angles split whose splitting makes it shorter."""
+    """Return the form over display letters, with the angles split whose splitting makes it shorter.
+
+    One choice for the whole, so that sin²θ and sin θ cos θ stand together; but terms with the same rates (or none) go
+    back to harmonics where that is fewer terms, as J − I cos 2ψ against J − I + 2 I sin²ψ.
+    """
     split: frozenset[int] = frozenset()
-    best = _flat(form, display, split)
-    if form.size <= SPLIT_TERMS:
-        best_cost = _cost(best, display)
-        for j in _candidates(form):
-            trial = _flat(form, display, split | {j})
-            cost = _cost(trial, display)
-            if cost <= best_cost:
-                split, best, best_cost = split | {j}, trial, cost
-    return best
+    harmonic = best = _flat(form, display, split)
+    if form.size > SPLIT_TERMS:
+        return best
+    best_cost = _cost(best, display)
+    for j in _candidates(form):
+        trial = _flat(form, display, split | {j})
+        cost = _cost(trial, display)
+        if cost <= best_cost:
+            split, best, best_cost = split | {j}, trial, cost
+    if not split:
+        return best
+    out: Flat = {}
+    fewer = [_by_motion(flat, display) for flat in (harmonic, *(_flat(form, display, split - {j}) for j in split))]
+    for motion, terms in _by_motion(best, display).items():
+        out |= min((terms, *(other.get(motion, terms) for other in fewer)), key=len)
+    return out
+
+
+def _by_motion(flat: Flat, display: Display) -> dict[int, Flat]:
+    """The terms dealt out by the part of their monomials that moves and is no sine or cosine."""
+    moving = display.generators.moving
+    groups: dict[int, Flat] = {}
+    for m, c in flat.items():
+        bare = int(packed((i, e) for i, e in digits(m) if i < FIRST))
+        groups.setdefault(moving(bare), {})[m] = c
+    return groups
 
 
 def _candidates(form: Form) -> list[int]:
@@ -115,7 +141,9 @@ def _expanded(harmonic: Harmonic, display: Display, split: frozenset[int]) -> di
     rest: Packed = whole(h - sum(k * unit(j) for j, k in own))
     sign = -1 if rest < 0 else 1
     cos_sum: dict[int, Fraction] = {unit(display.letter((abs(rest), 0))) if rest else 0: Fraction(1)}
-    sin_sum: dict[int, Fraction] = {unit(display.letter((abs(rest), 1))): Fraction(sign)} if rest else {}
+    sin_sum: dict[int, Fraction] = {}
+    if rest:
+        sin_sum[unit(display.letter((abs(rest), 1)))] = Fraction(sign * display.sign(abs(rest)))
     for j, k in own:
         c, v = _multiple(display.letter((unit(j), 0)), display.letter((unit(j), 1)), k)
         cos_sum, sin_sum = (
