@@ -85,47 +85,80 @@ def slopes(g: Graph, i: int) -> tuple[int, ...]:
 
 
 def jvp(graph: Graph, outputs: Sequence[int], tangents: Mapping[int, int]) -> list[int]:
-    """The tangents of ``outputs`` when every node x of ``tangents`` moves at ``tangents[x]``."""
-    nodes = graph.nodes
-    moving: dict[int, int] = dict(tangents)
-    zero = graph.zero
+    """The tangents of ``outputs`` when every node x of ``tangents`` moves at ``tangents[x]``.
+
+    A tangent is carried as a factor times a base until two bases meet: the tangent of L sin φ becomes (L cos φ)·φ̇ and
+    not L·(cos φ·φ̇). The factor then depends on positions alone, and often it is a position that is there already.
+    """
+    nodes, zero = graph.nodes, graph.zero
+    moving: dict[int, Tangent] = {x: (graph.one, t) for x, t in tangents.items() if t != zero}
     for i in reached(graph, outputs, tangents):
-        if i not in moving:
+        if i not in tangents:
             t = _tangent(graph, i, nodes[i], moving)
-            if t != zero:
+            if t is not None:
                 moving[i] = t
-    return [moving.get(i, zero) for i in outputs]
+    return [graph.mul(*moving[i]) if i in moving else zero for i in outputs]
 
 
-def _tangent(g: Graph, i: int, node: Node, moving: Mapping[int, int]) -> int:
+Tangent = tuple[int, int]
+"""(factor, base): their product is the tangent."""
+
+
+def _joined(g: Graph, a: Tangent | None, b: Tangent | None) -> Tangent | None:
+    """The sum of two tangents."""
+    if a is None or b is None:
+        return b if a is None else a
+    if a[1] == b[1]:
+        factor = g.add(a[0], b[0])
+        return None if factor == g.zero else (factor, a[1])
+    total = g.add(g.mul(*a), g.mul(*b))
+    return None if total == g.zero else (g.one, total)
+
+
+def _tangent(g: Graph, i: int, node: Node, moving: Mapping[int, Tangent]) -> Tangent | None:
     """The tangent of node i, given those of its operands that move."""
     op = node[0]
-    zero = g.zero
     if op in ("const", "input") or op in CONDITIONS:
-        return zero
-    if op in ("add", "sub"):
-        ta, tb = moving.get(node[1], zero), moving.get(node[2], zero)
-        return g.add(ta, tb) if op == "add" else g.sub(ta, tb)
-    if op == "select":
-        return g.select(node[1], moving.get(node[2], zero), moving.get(node[3], zero))
-    if op == "mul" and node[1] == node[2]:
-        return g.mul(g.const(2.0), g.mul(node[1], moving[node[1]])) if node[1] in moving else zero
-    active = [k for k, a in enumerate(operands(node)) if a in moving]
+        return None
+    ids = operands(node)
+    active = [k for k, a in enumerate(ids) if a in moving]
     if not active:
-        return zero
+        return None
+    if op in ("select", "min", "max"):
+        return _branch(g, node, moving)
+    if op == "mul" and ids[0] == ids[1]:
+        factor, base = moving[ids[0]]
+        return g.mul(g.const(2.0), g.mul(ids[0], factor)), base
     if op == "div":  # (ȧ − y ḃ)/b
-        top = moving.get(node[1], zero)
-        if node[2] in moving:
-            top = g.sub(top, g.mul(i, moving[node[2]]))
-        return g.div(top, node[2])
-    if op == "min" or op == "max":
-        first = g.le(node[1], node[2]) if op == "min" else g.le(node[2], node[1])
-        return g.select(first, moving.get(node[1], zero), moving.get(node[2], zero))
+        top = moving.get(ids[0])
+        if ids[1] in moving:
+            factor, base = moving[ids[1]]
+            top = _joined(g, top, (g.neg(g.mul(i, factor)), base))
+        return None if top is None else (g.div(top[0], ids[1]), top[1])
     partial = slopes(g, i)
-    total = zero
+    total: Tangent | None = None
     for k in active:
-        total = g.add(total, g.mul(partial[k], moving[node[1 + k]]))
+        factor, base = moving[ids[k]]
+        factor = g.mul(partial[k], factor)
+        if factor != g.zero:
+            total = _joined(g, total, (factor, base))
     return total
+
+
+def _branch(g: Graph, node: Node, moving: Mapping[int, Tangent]) -> Tangent | None:
+    """The tangent of the branch that is taken."""
+    if node[0] == "select":
+        condition, a, b = node[1:]
+    else:
+        a, b = node[1:]
+        condition = g.le(a, b) if node[0] == "min" else g.le(b, a)
+    ta, tb = moving.get(a), moving.get(b)
+    bases = {t[1] for t in (ta, tb) if t is not None}
+    if len(bases) == 1:
+        factor = g.select(condition, ta[0] if ta else g.zero, tb[0] if tb else g.zero)
+        return factor, bases.pop()
+    assert ta is not None and tb is not None
+    return g.one, g.select(condition, g.mul(*ta), g.mul(*tb))
 
 
 def vjp(graph: Graph, outputs: Sequence[int], cotangents: Sequence[int], inputs: Sequence[int]) -> list[int]:
