@@ -1,4 +1,4 @@
-"""Random mechanisms: the readable equations against the definition, differentiated and evaluated without any of our algebra."""
+"""Random mechanisms: the readable equations against the definition, differentiated without any of our algebra."""
 
 import random
 

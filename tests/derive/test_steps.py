@@ -120,7 +120,7 @@ def test_the_box_explains_why_a_pair_cancels() -> None:
 def test_example_3_comes_out_as_the_lecture_prints_it(relative: bool) -> None:
     s = carts(relative=relative)
     d = s.derive()
-    x1, x2, m1, m2, k, b, F = (s[n] for n in "x1 x2 m1 m2 k b F".split())
+    x1, x2, m1, m2, k, b, F = (s[n] for n in ["x1", "x2", "m1", "m2", "k", "b", "F"])
     a1, a2, v1, v2 = x1.diff(s.t, 2), x2.diff(s.t, 2), x1.diff(), x2.diff()
     if relative:
         expected = [(m1 + m2) * a1 + m2 * a2, m2 * a1 + m2 * a2 + k * x2 + b * v2 - F]
@@ -169,7 +169,7 @@ def test_every_term_of_every_equation_has_a_source() -> None:
 def test_the_matrix_form_is_the_equations() -> None:
     s = arm(relative=True)
     d = s.derive()
-    q = sp.Matrix([c for c in d.coordinates])
+    q = sp.Matrix(d.coordinates)
     v, a = q.diff(s.t), q.diff(s.t, 2)
     left = d.mass_matrix * a + d.coriolis_matrix * v + d.gravity_vector - d.generalized_forces
     for i, equation in enumerate(d.equations):
@@ -205,7 +205,7 @@ def test_definitions_of_constants_stay_named_in_the_equations() -> None:
     La, Lb, m = s.parameters("L_a L_b m")
     Lab = s.define("L_ab", La + Lb)
     s.particle(m, s.origin + (Lab * cos(th), Lab * sin(th)))
-    assert s.derive().T == m * Lab**2 * th.diff() ** 2 / 2
+    assert m * Lab**2 * th.diff() ** 2 / 2 == s.derive().T
 
 
 def test_from_energies_gives_the_same_as_from_elements() -> None:

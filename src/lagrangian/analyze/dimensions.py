@@ -91,9 +91,10 @@ class Mismatch(Exception):
 
 @dataclass
 class Dimensions:
-    """The dimensions solved so far."""
+    """The dimensions solved so far; ``loose`` once a bare number stood for a quantity with a unit."""
 
     solved: dict[Any, Dim] = field(default_factory=dict)
+    loose: bool = False
 
     def reduce(self, dim: Dim) -> Dim:
         """The dimension with all that is solved put in."""
@@ -220,6 +221,7 @@ def _claim(dims: Dimensions, title: str, place: Place | None, what: str, expr: s
             code="E408",
         ) from None
     if found is None or _has_scale(expr):
+        dims.loose = dims.loose or expr != 0
         return
     try:
         dims.equal(found, wanted)

@@ -2,8 +2,8 @@
 
 The derived equations came from energies, by Lagrange's equations, in a normal form. Here they meet, at random states,
 
-* the principle of virtual work: Σ_b (m a − F)·∂v/∂ξ̇_i + (I ω̇ + ω × I ω)·∂ω/∂ξ̇_i, differentiated on the graph straight from
-  positions and angles, with no energy of motion and no normal form in it;
+* the principle of virtual work: Σ_b (m a − F)·∂v/∂ξ̇_i + (I ω̇ + ω × I ω)·∂ω/∂ξ̇_i, differentiated on the graph straight
+  from positions and angles, with no energy of motion and no normal form in it;
 * what any such equations obey: M symmetric and positive definite, Ṁ − 2C skew-symmetric, power balance;
 * dimensions, where units were given.
 """
@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import cast
 
 import numpy as np
 import sympy as sp
@@ -59,16 +60,21 @@ def verify(derivation: Derivation, *, states: int = 50, seed: int = 1) -> tuple[
     return tuple(checks)
 
 
+def _residual(equation: sp.Eq) -> sp.Expr:
+    """Left minus right."""
+    return cast("sp.Expr", equation.lhs) - cast("sp.Expr", equation.rhs)
+
+
 def _holds_time(expr: sp.Expr) -> bool:
     """Whether t itself stands in an expression, apart from the coordinates that depend on it."""
     return expr.replace(lambda e: isinstance(e, (AppliedUndef, sp.Derivative)), lambda _: sp.Dummy()).has(time)
 
 
 def _dimensional(derivation: Derivation) -> Check | None:
-    """Every term of every equation has the dimension of energy over its coordinate; None without units."""
+    """Every term of every equation has the dimension of energy over its coordinate; None without units or with bare numbers."""
     dims = check_dimensions(derivation.model)
     what = text("dimensions: every term of an equation has the same unit")
-    if dims is None:
+    if dims is None or dims.loose:
         return None
     terms = 0
     for coordinate, row in zip(derivation.coordinates, derivation.terms, strict=True):
@@ -93,7 +99,7 @@ class _Figures:
 def _figures(derivation: Derivation, states: int, seed: int) -> _Figures:
     model, n = derivation.model, len(derivation.coordinates)
     route = _Route(model)
-    exprs: list[sp.Expr] = [e.lhs - e.rhs for e in derivation.equations]
+    exprs: list[sp.Expr] = [_residual(e) for e in derivation.equations]
     exprs += [*derivation.mass_matrix.flat(), *derivation.coriolis_matrix.flat(), *derivation.gravity_vector.flat()]
     exprs += [*derivation.generalized_forces.flat(), *route.exprs]
     sampler = Sampler(model, exprs)
@@ -113,9 +119,8 @@ def _figures(derivation: Derivation, states: int, seed: int) -> _Figures:
         v = got["v"]
         a = np.linalg.solve(M, got["Xi"] - C @ v - got["G"])
         balance = got["hdot0"][0] + got["p_a"] @ a - got["Xi"] @ v + got["L_t"][0]
-        found.power = max(
-            found.power, abs(float(balance)) / max(1.0, float(np.abs(got["G"]).max() + np.abs(got["Xi"]).max()))
-        )
+        size = max(1.0, float(np.abs(got["G"]).max() + np.abs(got["Xi"]).max()))
+        found.power = max(found.power, abs(float(balance)) / size)
     return found
 
 
@@ -151,7 +156,10 @@ class _Route:
             at = [node.of(x) for x in w]
             velocities += at
             efforts += _torque(
-                g, at, node.rates(at), [[node.of(inertia[i, j]) for j in range(len(at))] for i in range(len(at))]
+                g,
+                at,
+                node.rates(at),
+                [[node.of(cast("sp.Expr", inertia[i, j])) for j in range(len(at))] for i in range(len(at))],
             )
         for work in self.works:
             velocities.append(node.of(work.rate))
@@ -225,7 +233,7 @@ def _program(derivation: Derivation, route: _Route, sampler: Sampler) -> Program
     momenta = vjp(g, [lagrangian], [g.const(1.0)], v)
     h = g.sub(_sum(g, [g.mul(p, x) for p, x in zip(momenta, v, strict=True)]), lagrangian)
     outputs = {
-        "equations": [node.of(e.lhs - e.rhs) for e in derivation.equations],
+        "equations": [node.of(_residual(e)) for e in derivation.equations],
         "work": work,
         "parts": parts,
         "M": M,

@@ -16,6 +16,7 @@ from lagrangian.model.elements import Element, GeneralizedForce
 from lagrangian.model.geometry import Frame, Point, as_expr, as_vector
 from lagrangian.model.model import Coordinate, Definition, Input, Model, Parameter, written_out
 from lagrangian.model.names import check_name, moving_symbol, time
+from lagrangian.model.plain import plain
 
 E = TypeVar("E", bound=Element)
 MAX_ELEMENTS = 100_000
@@ -296,7 +297,7 @@ class Builder:
         self._frozen = None
         if len(self._elements) >= MAX_ELEMENTS:
             raise ModelError(f"more than {MAX_ELEMENTS} elements", code="E601")
-        element = replace(element, name=self._element_name(element))
+        element = element.named(self._element_name(element))
         for key, point in element.points():
             self._check_point(point, f"the point in '{key}' of {element.title}", element.place)
         for key, frame in element.frames():
@@ -308,7 +309,7 @@ class Builder:
         if isinstance(element, GeneralizedForce) and element.coordinate not in {
             c.symbol for c in self._coordinates.values()
         }:
-            name = str(getattr(element.coordinate, "func", element.coordinate))
+            name = plain(element.coordinate)
             raise ModelError(
                 f"'{name}' is not a coordinate",
                 element=element.title,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, cast
 
+import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
@@ -99,8 +100,7 @@ def _check_inertia(model: Model, body: RigidBody, error: Any) -> None:
         if entries[0] is not None and entries[0] < 0:
             raise error(f"its inertia {entries[0]:g} kg m² is negative", "J is not negative", "E106")
         return
-    matrix = sp.Matrix(3, 3, entries)
-    moments = sorted(float(sp.re(x)) for x in matrix.evalf(30).eigenvals(multiple=True))
+    moments = np.linalg.eigvalsh(np.array(entries, float).reshape(3, 3)).tolist()
     listed = ", ".join(f"{x:.6g}" for x in moments)
     slack = RELATIVE_TOLERANCE * max(abs(moments[2]), 1e-300)
     if moments[0] < -slack:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from copy import copy
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import TYPE_CHECKING, ClassVar, Literal, TypeAlias
+from typing import TYPE_CHECKING, ClassVar, Literal, Self, TypeAlias
 
 import sympy as sp
 
@@ -78,6 +79,12 @@ class Element:
     def title(self) -> str:
         """The element in words, such as ``spring 'k'``."""
         return f"{self.kind.replace('_', ' ')} '{self.name}'" if self.name else self.kind.replace("_", " ")
+
+    def named(self, name: str) -> Self:
+        """Return the same element under another name."""
+        other = copy(self)
+        other._set(name=name)
+        return other
 
     def suggested_name(self) -> str:
         """A name for an element that was given none: its main symbol, or nothing."""
