@@ -52,7 +52,16 @@ class Opaque:
     moving: bool
 
 
-Generator = Symbolic | Root | Opaque
+@dataclass(frozen=True, eq=False)
+class Trig:
+    """A sine or cosine as a letter on the page; forms keep their harmonics and never hold one."""
+
+    harmonic: Harmonic
+    expr: sp.Expr
+    moving: bool
+
+
+Generator = Symbolic | Root | Opaque | Trig
 Slope = "int | Form | None"
 """A derivative: a monomial, a form, or None for zero."""
 
@@ -70,6 +79,7 @@ class Generators:
         self._slopes: dict[tuple[str, int, int], int | Form | None] = {}
         self._moving: dict[int, int] = {}
         self._trig: dict[Harmonic, sp.Expr] = {}
+        self._costs: dict[int, int] = {}
         self._coordinates = frozenset(coordinates)
         self.placeholders: dict[sp.Expr, sp.Expr] = {}
         for q in coordinates:
@@ -123,6 +133,19 @@ class Generators:
             self.table.append(Opaque(expr, inside, moving))
         return self._index[expr]
 
+    def trig_letter(self, harmonic: Harmonic) -> int:
+        """Return the number of a sine or cosine on the page; of a sine with the sign that SymPy lets stand."""
+        key = ("trig", harmonic)
+        if key not in self._index:
+            self._index[key] = len(self.table)
+            expr = self.trig(harmonic) * (self.sign(harmonic[0]) if harmonic[1] else 1)
+            self.table.append(Trig(harmonic, cast("sp.Expr", expr), self.turning(harmonic[0])))
+        return self._index[key]
+
+    def sign(self, h: Packed) -> int:
+        """Return −1 where SymPy turns sin(h·a) into −sin(−h·a): the sine on the page is the latter."""
+        return -1 if self.trig((h, 1)).could_extract_minus_sign() else 1
+
     def angle(self, harmonic: Harmonic, monomial: int) -> int:
         """Return the number of the angle that is this one term: a monomial, or a monomial times a sine or cosine."""
         from lagrangian.derive.normal import Form
@@ -148,7 +171,7 @@ class Generators:
             if isinstance(entry, Root):
                 self._slopes[key] = self._root_slope(i, entry, entry.base.diff(symbol))
             else:
-                self._slopes[key] = self._opaque_slope(entry, symbol)
+                self._slopes[key] = self._opaque_slope(cast("Opaque", entry), symbol)
         return self._slopes[key]
 
     def rate(self, i: int) -> int | Form | None:
@@ -171,6 +194,7 @@ class Generators:
         if isinstance(entry, Root):
             return self._root_slope(i, entry, entry.base.total_derivative())
         pieces: list[Form] = []
+        entry = cast("Opaque", entry)
         for symbol in entry.inside:
             by, slope = self.index(symbol), self._opaque_slope(entry, symbol)
             rate = self.rate(by)
@@ -238,6 +262,12 @@ class Generators:
         return tuple(self.table[i].expr for i in sorted(found))
 
     # -- back to SymPy ----------------------------------------------------------------------------------------------
+
+    def cost(self, i: int) -> int:
+        """Return the operations inside a generator, every symbol, rate and acceleration counted as one name."""
+        if i not in self._costs:
+            self._costs[i] = int(sp.count_ops(self.table[i].expr.xreplace(self.placeholders)))
+        return self._costs[i]
 
     def power(self, i: int, exponent: int) -> sp.Expr:
         """Return generator i to a power."""

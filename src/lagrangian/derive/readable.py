@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from lagrangian.derive.normal_generators import Generators
+from lagrangian.derive.normal_generators import Generators, Symbolic, Trig
 from lagrangian.derive.normal_monomials import digits, packed
 from lagrangian.derive.readable_factor import FACTOR_TERMS, Flat, Shortener, Tree, lead, order
-from lagrangian.derive.readable_trig import Display, displayed
+from lagrangian.derive.readable_trig import displayed
 
 if TYPE_CHECKING:
     from lagrangian.derive.normal import Form
@@ -60,14 +60,13 @@ class Writer:
 
     def __init__(self, generators: Generators) -> None:
         self.generators = generators
-        self.display = Display(generators)
-        self.shortener = Shortener(self.display.cost)
+        self.shortener = Shortener(generators.cost)
 
     def expr(self, form: Form) -> sp.Expr:
         """Return the whole as one expression: by classes, or as one factored product where that is shorter."""
         if not form.parts:
             return sp.S.Zero
-        flat = displayed(form, self.display)
+        flat = displayed(form, self.generators)
         classes = self._classes(flat)
         whole = self.shortener.summed(tree for _, tree in classes)
         if 1 < len(flat) <= FACTOR_TERMS:
@@ -80,7 +79,16 @@ class Writer:
         """Return the terms, class by class."""
         if not form.parts:
             return []
-        return [Term(self.sympy(tree), kind) for kind, tree in self._classes(displayed(form, self.display))]
+        return [Term(self.sympy(tree), kind) for kind, tree in self._classes(displayed(form, self.generators))]
+
+    def role(self, letter: int) -> str:
+        """Return "trig", "function", or the role of the symbol; a function of parameters alone is a parameter."""
+        entry = self.generators.table[letter]
+        if isinstance(entry, Symbolic):
+            return entry.role
+        if not entry.moving:
+            return "parameter"
+        return "trig" if isinstance(entry, Trig) else "function"
 
     # -- classes ----------------------------------------------------------------------------------------------------
 
@@ -111,25 +119,24 @@ class Writer:
         """The kind of a finished term: a constant or an input alone is not stiffness, though it was dealt with it."""
         if kind not in ("stiffness", "damping"):
             return kind
-        roles = {self.display.role(i) for i in _letters(tree)}
+        roles = {self.role(i) for i in _letters(tree)}
         if roles & {"coordinate", "rate", "function"}:
             return kind
         return "input" if "input" in roles else "gravity"
 
     def _bare(self, monomial: int) -> str:
         """Where an input stands alone with parameters: beside "stiffness", its rate beside "damping"; else nowhere."""
-        moving = [(i, e) for i, e in digits(monomial) if self.display.role(i) != "parameter"]
+        moving = [(i, e) for i, e in digits(monomial) if self.role(i) != "parameter"]
         if len(moving) != 1:
             return ""
-        return "damping" if isinstance(self.display.power(moving[0][0], 1), sp.Derivative) else "stiffness"
+        return "damping" if isinstance(self.generators.power(moving[0][0], 1), sp.Derivative) else "stiffness"
 
     def kind(self, monomial: int) -> str:
         """Classify a displayed monomial."""
-        display = self.display
         rates = moving = 0
         trig = place = False
         for i, e in digits(monomial):
-            role = display.role(i)
+            role = self.role(i)
             if role == "acceleration":
                 return "inertia"
             if role == "input":
@@ -164,7 +171,7 @@ class Writer:
             ways = [self._by(poly, self._role("input"))]
         elif kind in ("gravity", "other"):
             ways = [self._by(poly, self._role("trig", "coordinate"))]
-            if any(self.display.role(i) == "function" for m in poly for i, _ in digits(m)):
+            if any(self.role(i) == "function" for m in poly for i, _ in digits(m)):
                 ways.append(self._whole(poly, spread=True))
             if len(poly) == 2 and any(self.kind(m) == "constant" for m in poly):
                 ways.append([self.shortener.short(poly)])
@@ -178,11 +185,11 @@ class Writer:
 
     def _role(self, *roles: str) -> Callable[[int], int]:
         """The part of a monomial made of letters with these roles."""
-        role = self.display.role
+        role = self.role
         return lambda m: int(packed((i, e) for i, e in digits(m) if role(i) in roles))
 
     def _but(self, *roles: str) -> Callable[[int], int]:
-        role = self.display.role
+        role = self.role
         return lambda m: int(packed((i, e) for i, e in digits(m) if role(i) not in roles))
 
     def _by(self, poly: Flat, key: Callable[[int], int], *, merge: bool = False) -> list[Tree]:
@@ -217,7 +224,7 @@ class Writer:
 
     def sympy(self, tree: Tree) -> sp.Expr:
         """Return a tree as an expression that keeps its shape."""
-        factors: list[sp.Expr] = [self.display.power(i, e) for i, e in digits(tree.monomial)]
+        factors: list[sp.Expr] = [self.generators.power(i, e) for i, e in digits(tree.monomial)]
         for terms, power in tree.sums:
             factors.append(sp.Add(*[self.sympy(t) for t in terms]) ** power)
         c = tree.coefficient

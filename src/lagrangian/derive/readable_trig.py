@@ -4,101 +4,52 @@ from __future__ import annotations
 
 from fractions import Fraction
 from math import comb
-from typing import TYPE_CHECKING, cast
+from typing import TYPE_CHECKING
 
-import sympy as sp
-
-from lagrangian.derive.normal_generators import Generators, Symbolic
+from lagrangian.derive.normal_generators import Generators, Trig
 from lagrangian.derive.normal_monomials import Packed, digits, multiples, packed, unit, whole
 from lagrangian.derive.readable_factor import Flat
 
 if TYPE_CHECKING:
     from lagrangian.derive.normal import Form, Harmonic
 
-FIRST = 1 << 10
-"""Display letters from this number on are sines and cosines; lower ones are the generators."""
-
 SPLIT_TERMS = 3000
 """Forms of more terms keep their harmonics."""
 
 
-class Display:
-    """The letters on the page: the generators, and the sines and cosines met so far."""
-
-    def __init__(self, generators: Generators) -> None:
-        self.generators = generators
-        self._letters: dict[Harmonic, int] = {}
-        self._harmonics: list[Harmonic] = []
-
-    def letter(self, harmonic: Harmonic) -> int:
-        """Return the letter of a sine or cosine."""
-        if harmonic not in self._letters:
-            self._letters[harmonic] = FIRST + len(self._harmonics)
-            self._harmonics.append(harmonic)
-        return self._letters[harmonic]
-
-    def sign(self, h: Packed) -> int:
-        """Return −1 where SymPy turns sin(h·a) into −sin(−h·a): the sine on the page is the latter."""
-        return -1 if self.generators.trig((h, 1)).could_extract_minus_sign() else 1
-
-    def role(self, letter: int) -> str:
-        """Return "trig", "function", or the role of the symbol; a function of parameters alone is a parameter."""
-        if letter >= FIRST:
-            h, _ = self._harmonics[letter - FIRST]
-            return "trig" if self.generators.turning(h) else "parameter"
-        entry = self.generators.table[letter]
-        if isinstance(entry, Symbolic):
-            return entry.role
-        return "function" if entry.moving else "parameter"
-
-    def cost(self, letter: int) -> int:
-        """Return the operations inside a letter."""
-        if letter >= FIRST:
-            return int(sp.count_ops(self.power(letter, 1).xreplace(self.generators.placeholders)))
-        entry = self.generators.table[letter]
-        return (
-            0 if isinstance(entry, Symbolic) else int(sp.count_ops(entry.expr.xreplace(self.generators.placeholders)))
-        )
-
-    def power(self, letter: int, exponent: int) -> sp.Expr:
-        """Return a letter to a power."""
-        if letter >= FIRST:
-            h, s = self._harmonics[letter - FIRST]
-            return cast("sp.Expr", (self.generators.trig((h, s)) * (self.sign(h) if s else 1)) ** exponent)
-        return self.generators.power(letter, exponent)
-
-
-def displayed(form: Form, display: Display) -> Flat:
-    """Return the form over display letters, with the angles split whose splitting makes it shorter.
+def displayed(form: Form, generators: Generators) -> Flat:
+    """Return the form in letters for the page, with the angles split whose splitting makes it shorter.
 
     One choice for the whole, so that sin²θ and sin θ cos θ stand together; but terms with the same rates (or none) go
     back to harmonics where that is fewer terms, as J − I cos 2ψ against J − I + 2 I sin²ψ.
     """
     split: frozenset[int] = frozenset()
-    harmonic = best = _flat(form, display, split)
+    harmonic = best = _flat(form, generators, split)
     if form.size > SPLIT_TERMS:
         return best
-    best_cost = _cost(best, display)
+    best_cost = _cost(best, generators)
     for j in _candidates(form):
-        trial = _flat(form, display, split | {j})
-        cost = _cost(trial, display)
+        trial = _flat(form, generators, split | {j})
+        cost = _cost(trial, generators)
         if cost <= best_cost:
             split, best, best_cost = split | {j}, trial, cost
     if not split:
         return best
     out: Flat = {}
-    fewer = [_by_motion(flat, display) for flat in (harmonic, *(_flat(form, display, split - {j}) for j in split))]
-    for motion, terms in _by_motion(best, display).items():
+    fewer = [
+        _by_motion(flat, generators) for flat in (harmonic, *(_flat(form, generators, split - {j}) for j in split))
+    ]
+    for motion, terms in _by_motion(best, generators).items():
         out |= min((terms, *(other.get(motion, terms) for other in fewer)), key=len)
     return out
 
 
-def _by_motion(flat: Flat, display: Display) -> dict[int, Flat]:
+def _by_motion(flat: Flat, generators: Generators) -> dict[int, Flat]:
     """The terms dealt out by the part of their monomials that moves and is no sine or cosine."""
-    moving = display.generators.moving
+    moving, table = generators.moving, generators.table
     groups: dict[int, Flat] = {}
     for m, c in flat.items():
-        bare = int(packed((i, e) for i, e in digits(m) if i < FIRST))
+        bare = int(packed((i, e) for i, e in digits(m) if not isinstance(table[i], Trig)))
         groups.setdefault(moving(bare), {})[m] = c
     return groups
 
@@ -118,21 +69,21 @@ def _candidates(form: Form) -> list[int]:
     return sorted(found)
 
 
-def _flat(form: Form, display: Display, split: frozenset[int]) -> Flat:
+def _flat(form: Form, generators: Generators, split: frozenset[int]) -> Flat:
     """Σ coefficient · monomial · trig letters."""
     out: Flat = {}
     for h, p in form.parts.items():
-        for trig, k in _expanded(h, display, split).items():
+        for trig, k in _expanded(h, generators, split).items():
             for m, c in p.items():
                 key = m + trig
                 out[key] = out.get(key, Fraction(0)) + Fraction(c, form.den) * k
     out = {m: c for m, c in out.items() if c}
     for j in sorted(split):
-        out = _folded(out, display.letter((unit(j), 0)), display.letter((unit(j), 1)))
+        out = _folded(out, generators.trig_letter((unit(j), 0)), generators.trig_letter((unit(j), 1)))
     return out
 
 
-def _expanded(harmonic: Harmonic, display: Display, split: frozenset[int]) -> dict[int, Fraction]:
+def _expanded(harmonic: Harmonic, generators: Generators, split: frozenset[int]) -> dict[int, Fraction]:
     """cos or sin of h·a as products: of cos(k a_j), sin(k a_j) for the split angles and one harmonic of the others."""
     h, s = harmonic
     if h == 0:
@@ -140,12 +91,12 @@ def _expanded(harmonic: Harmonic, display: Display, split: frozenset[int]) -> di
     own = [(j, k) for j, k in multiples(h) if j in split and isinstance(k, int)]
     rest: Packed = whole(h - sum(k * unit(j) for j, k in own))
     sign = -1 if rest < 0 else 1
-    cos_sum: dict[int, Fraction] = {unit(display.letter((abs(rest), 0))) if rest else 0: Fraction(1)}
+    cos_sum: dict[int, Fraction] = {unit(generators.trig_letter((abs(rest), 0))) if rest else 0: Fraction(1)}
     sin_sum: dict[int, Fraction] = {}
     if rest:
-        sin_sum[unit(display.letter((abs(rest), 1)))] = Fraction(sign * display.sign(abs(rest)))
+        sin_sum[unit(generators.trig_letter((abs(rest), 1)))] = Fraction(sign * generators.sign(abs(rest)))
     for j, k in own:
-        c, v = _multiple(display.letter((unit(j), 0)), display.letter((unit(j), 1)), k)
+        c, v = _multiple(generators.trig_letter((unit(j), 0)), generators.trig_letter((unit(j), 1)), k)
         cos_sum, sin_sum = (
             _plus(_times(cos_sum, c), _times(sin_sum, v), -1),
             _plus(_times(sin_sum, c), _times(cos_sum, v), 1),
@@ -217,11 +168,11 @@ def _folded(poly: Flat, c: int, s: int) -> Flat:
     return {m: v for m, v in out.items() if v}
 
 
-def _cost(poly: Flat, display: Display) -> int:
+def _cost(poly: Flat, generators: Generators) -> int:
     """About the operations of the plain sum."""
     total = 0
     for m, c in poly.items():
         total += 1 + (abs(c.numerator) != 1) + (c.denominator != 1)
         for i, e in digits(m):
-            total += 1 + (abs(e) != 1) + (display.cost(i) if i >= FIRST else 0)
+            total += 1 + (abs(e) != 1) + (generators.cost(i))
     return total
