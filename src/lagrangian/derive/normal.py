@@ -108,7 +108,7 @@ class Form:
         """
         if not isinstance(other, Form):
             return self.scaled(other)
-        if self.size * other.size > 50 * LARGEST_FORM:
+        if self.size * other.size > 4 * LARGEST_FORM:
             raise OutOfReach(f"a product of sums with {self.size} and {other.size} terms is too long to write out")
         whole: list[tuple[Packed, int, Poly, int]] = []
         half: list[tuple[Packed, int, Poly, int]] = []

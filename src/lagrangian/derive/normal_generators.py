@@ -75,7 +75,7 @@ class Generators:
         self.roots: dict[int, Root] = {}
         self.angles: list[Form] = []
         self._index: dict[object, int] = {}
-        self._angle: dict[tuple[Harmonic, int], int] = {}
+        self._angle: dict[tuple[Harmonic, int, Fraction | None], int] = {}
         self._slopes: dict[tuple[str, int, int], int | Form | None] = {}
         self._moving: dict[int, int] = {}
         self._trig: dict[Harmonic, sp.Expr] = {}
@@ -146,14 +146,18 @@ class Generators:
         """Return −1 where SymPy turns sin(h·a) into −sin(−h·a): the sine on the page is the latter."""
         return -1 if self.trig((h, 1)).could_extract_minus_sign() else 1
 
-    def angle(self, harmonic: Harmonic, monomial: int) -> int:
-        """Return the number of the angle that is this one term: a monomial, or a monomial times a sine or cosine."""
+    def angle(self, harmonic: Harmonic, monomial: int, scale: Fraction | None = None) -> int:
+        """Return the number of the angle that is this one term: a monomial, or a monomial times a sine or cosine.
+
+        ``scale`` belongs to the angle where it is too long a fraction to count its multiples.
+        """
         from lagrangian.derive.normal import Form
 
-        key = (harmonic, monomial)
+        key = (harmonic, monomial, scale)
         if key not in self._angle:
+            n, d = (scale.numerator, scale.denominator) if scale else (1, 1)
             self._angle[key] = len(self.angles)
-            self.angles.append(Form(self.algebra, {harmonic: {monomial: 1}}))
+            self.angles.append(Form(self.algebra, {harmonic: {monomial: n}}, d))
         return self._angle[key]
 
     # -- derivatives ------------------------------------------------------------------------------------------------

@@ -1,8 +1,9 @@
 """Monomials and harmonics as single integers, and sparse polynomials over them.
 
 A monomial ∏ g_i^e_i is the integer Σ e_i·2^(16 i) with signed exponents, so that a product of monomials is a sum of
-integers and a Laurent exponent needs nothing special. A harmonic Σ k_j·a_j of angles is packed the same way; where a
-k_j is a fraction, so is the packed number, and adding still adds them one by one.
+integers and a Laurent exponent needs nothing special. A harmonic Σ k_j·a_j of angles is packed the same way, in a base
+that is a prime: where a k_j is a fraction, so is the packed number, its denominator is that of the k_j (a power of two
+as base would swallow halves), and adding still adds them one by one.
 """
 
 from __future__ import annotations
@@ -21,6 +22,9 @@ LARGEST_EXPONENT = 64
 Packed = int | Fraction
 Poly = dict[int, int]
 """A polynomial with integer coefficients: packed monomial → coefficient, none of them zero."""
+
+PRIME = (1 << 61) - 1
+"""The base in which harmonics are packed, a Mersenne prime."""
 
 _MASK = (1 << BITS) - 1
 _HALF = 1 << (BITS - 1)
@@ -42,12 +46,25 @@ def digits(packed: int) -> tuple[tuple[int, int], ...]:
     return tuple(found)
 
 
+@lru_cache(maxsize=1 << 14)
 def multiples(harmonic: Packed) -> tuple[tuple[int, Packed], ...]:
     """Return the fields of a harmonic as pairs (angle, multiple); the multiples are fractions where they must be."""
-    if isinstance(harmonic, int):
-        return digits(harmonic)
-    d = harmonic.denominator
-    return tuple((j, whole(Fraction(k, d))) for j, k in digits(harmonic.numerator))
+    found: list[tuple[int, Packed]] = []
+    rest, d = harmonic.numerator, harmonic.denominator
+    j = 0
+    while rest:
+        rest, k = divmod(rest, PRIME)
+        if k > PRIME // 2:
+            rest, k = rest + 1, k - PRIME
+        if k:
+            found.append((j, whole(Fraction(k, d))))
+        j += 1
+    return tuple(found)
+
+
+def turn(angle: int) -> int:
+    """Return the harmonic that is angle number ``angle`` once."""
+    return PRIME**angle
 
 
 def whole(number: Packed) -> Packed:

@@ -3,19 +3,23 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import isqrt
+from math import comb, isqrt
 from typing import TYPE_CHECKING, Any, cast
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from lagrangian.derive.normal_monomials import LARGEST_EXPONENT, Packed, common, content, unit, whole
+from lagrangian.derive.normal_monomials import LARGEST_EXPONENT, Packed, common, content, turn, unit, whole
 
 if TYPE_CHECKING:
     from lagrangian.derive.normal import Algebra, Form
 
 EXACT_TURNS = 12
 """cos(x + π·p/q) is written out as cos x cos(πp/q) − sin x sin(πp/q) for q up to this, so that thirds cancel."""
+
+
+LARGEST_POWER = 20_000
+"""A power of a sum that would have more terms is left as it is."""
 
 
 class Reader:
@@ -60,7 +64,7 @@ class Reader:
             return self._opaque(expr)
         inner = self.form(cast("sp.Expr", base))
         if exponent.q == 1 and exponent.p >= 0:
-            if inner.size > 1 and inner.size**exponent.p > 1e6 and exponent.p > 4:
+            if comb(inner.size + int(exponent.p) - 1, int(exponent.p)) > LARGEST_POWER:
                 return self._opaque(expr)
             return inner ** int(exponent.p)
         return self._inverse(inner, int(exponent.p), int(exponent.q))
@@ -108,18 +112,20 @@ class Reader:
 
         algebra, generators = self.algebra, self.algebra.generators
         h: Packed = 0
-        turn = Fraction(0)
+        phase = Fraction(0)
         pi = unit(generators.opaque(sp.pi))
         for harmonic, poly in argument.parts.items():
             for m, c in poly.items():
                 k = Fraction(c, argument.den)
                 if m == pi and harmonic == (0, 0) and k.denominator <= EXACT_TURNS:
-                    turn = k % 2
+                    phase = k % 2
+                elif max(abs(k.numerator), k.denominator) > LARGEST_EXPONENT:
+                    h += turn(generators.angle(harmonic, m, k))
                 else:
-                    h += k * unit(generators.angle(harmonic, m))
+                    h += k * turn(generators.angle(harmonic, m))
         h = whole(h)
-        if turn:
-            c, s = self.form(sp.cos(sp.pi * sp.Rational(turn))), self.form(sp.sin(sp.pi * sp.Rational(turn)))
+        if phase:
+            c, s = self.form(sp.cos(sp.pi * sp.Rational(phase))), self.form(sp.sin(sp.pi * sp.Rational(phase)))
             bare_cos, bare_sin = self._plain(h, 0), self._plain(h, 1)
             return bare_sin * c + bare_cos * s if sine else bare_cos * c - bare_sin * s
         return self._plain(h, int(sine)) if h else Form(algebra, {} if sine else {(0, 0): {0: 1}})

@@ -7,7 +7,7 @@ from math import comb
 from typing import TYPE_CHECKING
 
 from lagrangian.derive.normal_generators import Generators, Trig
-from lagrangian.derive.normal_monomials import Packed, digits, multiples, packed, unit, whole
+from lagrangian.derive.normal_monomials import Packed, digits, multiples, packed, turn, unit, whole
 from lagrangian.derive.readable_factor import Flat
 
 if TYPE_CHECKING:
@@ -64,7 +64,7 @@ def _candidates(form: Form) -> list[int]:
             if len(pairs) == 1:
                 if isinstance(k, int) and abs(k) > 1:
                     found.add(j)
-            elif abs(whole(h - 2 * k * unit(j))) in harmonics and isinstance(k, int):
+            elif abs(whole(h - 2 * k * turn(j))) in harmonics and isinstance(k, int):
                 found.add(j)
     return sorted(found)
 
@@ -79,7 +79,7 @@ def _flat(form: Form, generators: Generators, split: frozenset[int]) -> Flat:
                 out[key] = out.get(key, Fraction(0)) + Fraction(c, form.den) * k
     out = {m: c for m, c in out.items() if c}
     for j in sorted(split):
-        out = _folded(out, generators.trig_letter((unit(j), 0)), generators.trig_letter((unit(j), 1)))
+        out = _folded(out, generators.trig_letter((turn(j), 0)), generators.trig_letter((turn(j), 1)))
     return out
 
 
@@ -89,14 +89,14 @@ def _expanded(harmonic: Harmonic, generators: Generators, split: frozenset[int])
     if h == 0:
         return {0: Fraction(1)}
     own = [(j, k) for j, k in multiples(h) if j in split and isinstance(k, int)]
-    rest: Packed = whole(h - sum(k * unit(j) for j, k in own))
+    rest: Packed = whole(h - sum(k * turn(j) for j, k in own))
     sign = -1 if rest < 0 else 1
     cos_sum: dict[int, Fraction] = {unit(generators.trig_letter((abs(rest), 0))) if rest else 0: Fraction(1)}
     sin_sum: dict[int, Fraction] = {}
     if rest:
         sin_sum[unit(generators.trig_letter((abs(rest), 1)))] = Fraction(sign * generators.sign(abs(rest)))
     for j, k in own:
-        c, v = _multiple(generators.trig_letter((unit(j), 0)), generators.trig_letter((unit(j), 1)), k)
+        c, v = _multiple(generators.trig_letter((turn(j), 0)), generators.trig_letter((turn(j), 1)), k)
         cos_sum, sin_sum = (
             _plus(_times(cos_sum, c), _times(sin_sum, v), -1),
             _plus(_times(sin_sum, c), _times(cos_sum, v), 1),
