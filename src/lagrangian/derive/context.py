@@ -9,6 +9,7 @@ import sympy as sp
 
 from lagrangian.derive.formula import Elided, Left, Name, Terms
 from lagrangian.derive.normal import Algebra, Form
+from lagrangian.derive.readable import Term
 from lagrangian.derive.wiggle import Wiggle
 from lagrangian.model import Model
 
@@ -24,6 +25,7 @@ class Context:
     algebra: Algebra
     wiggle: Wiggle
     _memo: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
+    _terms: dict[int, tuple[Form, list[Term]]] = field(default_factory=dict)
 
     @cached_property
     def symbols(self) -> tuple[sp.Expr, ...]:
@@ -36,7 +38,14 @@ class Context:
 
     def written(self, form: Form) -> Left:
         """A form as a sum of readable terms in a textbook's order."""
-        return fit_terms(tuple(t.expr for t in form.terms()))
+        return fit_terms(tuple(t.expr for t in self.terms(form)))
+
+    def terms(self, form: Form) -> list[Term]:
+        """The readable terms of a form; one form is read once, however often it is shown."""
+        kept = self._terms.get(id(form))
+        if kept is None or kept[0] is not form:
+            kept = self._terms[id(form)] = (form, form.terms())
+        return kept[1]
 
     def readable(self, expr: sp.Expr) -> sp.Expr:
         """The expression as a textbook would write it."""

@@ -68,8 +68,8 @@ def equations(context: Context, sides: tuple[LeftSide, ...], found: tuple[Contri
         mine = [f for f in found if f.index == i]
         damping = context.algebra.total([f.virtual for f in mine if f.resists])
         driving = context.algebra.total([f.virtual for f in mine if not f.resists])
-        left = (side.whole - damping).terms()
-        right = driving.terms()
+        left = context.terms(side.whole if damping.is_zero else side.whole - damping)
+        right = context.terms(driving)
         lefts.append(tuple(t.expr for t in left))
         rights.append(tuple(t.expr for t in right))
         described.append(
