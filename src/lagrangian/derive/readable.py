@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from lagrangian.derive.normal_generators import Generators, Symbolic, Trig
-from lagrangian.derive.normal_monomials import digits, packed
+from lagrangian.derive.normal_generators import Generators, Root, Symbolic, Trig
+from lagrangian.derive.normal_monomials import digits, packed, unit
 from lagrangian.derive.readable_factor import FACTOR_TERMS, Flat, Shortener, Tree, lead, order
 from lagrangian.derive.readable_trig import displayed
 
@@ -55,6 +55,19 @@ def _letters(tree: Tree) -> set[int]:
     return found
 
 
+def _with_square(flat: Flat, base: Flat, root: int) -> Flat:
+    """Replace c·base by c·root² wherever all terms of it are there: k (d − l)² / 2 can then be seen as a square."""
+    first, lead_c = min(base.items(), key=lambda x: order(x[0]))
+    out = dict(flat)
+    for m, c in flat.items():
+        times, factor = m - first, c / lead_c
+        if all(out.get(times + n) == factor * v for n, v in base.items()):
+            for n in base:
+                del out[times + n]
+            out[times + 2 * root] = out.get(times + 2 * root, 0) + factor
+    return out
+
+
 class Writer:
     """Writes forms; keeps what it found, since the same sums come again and again."""
 
@@ -66,7 +79,7 @@ class Writer:
         """Return the whole as one expression: by classes, or as one factored product where that is shorter."""
         if not form.parts:
             return sp.S.Zero
-        flat = displayed(form, self.generators)
+        flat = self._letters(form)
         classes = self._classes(flat)
         whole = self.shortener.summed(tree for _, tree in classes)
         if 1 < len(flat) <= FACTOR_TERMS:
@@ -79,7 +92,16 @@ class Writer:
         """Return the terms, class by class."""
         if not form.parts:
             return []
-        return [Term(self.sympy(tree), kind) for kind, tree in self._classes(displayed(form, self.generators))]
+        return [Term(self.sympy(tree), kind) for kind, tree in self._classes(self._letters(form))]
+
+    def _letters(self, form: Form) -> Flat:
+        """The form in letters for the page; l² + x² + h² − 2 l √(x² + h²) with the square of the root put back."""
+        flat = displayed(form, self.generators)
+        for i in {i for m in flat for i, e in digits(m) if e == 1 and i in self.generators.roots}:
+            root = self.generators.roots[i]
+            if root.q == 2 and root.base.size > 1:
+                flat = _with_square(flat, displayed(root.base, self.generators), unit(i))
+        return flat
 
     def role(self, letter: int) -> str:
         """Return "trig", "function", or the role of the symbol; a function of parameters alone is a parameter."""
@@ -146,7 +168,7 @@ class Writer:
             elif role != "parameter":
                 moving += 1
                 trig = trig or role == "trig"
-                place = place or role == "coordinate"
+                place = place or role == "coordinate" or isinstance(self.generators.table[i], Root)
         if rates:
             return "damping" if rates == 1 and not moving else "velocity"
         if not moving:
@@ -177,7 +199,7 @@ class Writer:
                 ways.append([self.shortener.short(poly)])
         else:
             ways = [
-                self._by(poly, self._but("coordinate", "rate", "input"), merge=True),
+                self._by(poly, self._but("coordinate", "rate", "input", "function"), merge=True),
                 self._whole(poly),
                 self._by(poly, self._role("coordinate", "rate")),
             ]

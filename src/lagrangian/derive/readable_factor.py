@@ -82,6 +82,11 @@ class Shortener:
         Denominators that only some terms have stay with these terms, J/R² + m, unless (J + m R²)/R² is shorter.
         """
         best = self._outside(poly, whole=False)
+        denominators = {c.denominator for c in poly.values()}
+        if len(denominators) > 1:
+            scale = lcm(*denominators)
+            tree = self._outside({m: c * scale for m, c in poly.items()}, whole=False)
+            best = min(best, self.times(tree, Fraction(1, scale), 0), key=lambda t: t.cost)
         if len(poly) > 1 and any(e < 0 for m in poly for _, e in digits(m)):
             over_all = self._outside(poly, whole=True)
             if (over_all.cost, -len(over_all.sums)) < (best.cost, -len(best.sums)):
@@ -122,6 +127,10 @@ class Shortener:
         return self.product(coefficient, monomial, sums)
 
     def _candidates(self, poly: Flat) -> Iterable[Tree]:
+        apart = components(poly)
+        if len(apart) > 1:
+            yield self.summed(self.short(p) for p in apart)
+            return
         product = self.factored(poly)
         if product is not None:
             yield product
@@ -188,6 +197,21 @@ def _factors(shape: dict[tuple[int, ...], int], letters: int) -> list[tuple[Flat
         return None
     listed = [({int(packed(enumerate(m))): Fraction(int(c)) for m, c in f.items()}, int(power)) for f, power in found]
     return [({0: Fraction(int(content))}, 1), *listed] if content != 1 else listed
+
+
+def components(poly: Flat) -> list[Flat]:
+    """Return the parts that have no letter in common, such as (x₁ − x₂)² and (y₁ − y₂)²; no factor spans two."""
+    parts: list[tuple[set[int], Flat]] = []
+    for m, c in poly.items():
+        letters, terms = {i for i, _ in digits(m)}, {m: c}
+        apart: list[tuple[set[int], Flat]] = []
+        for other, others in parts:
+            if letters & other:
+                letters, terms = letters | other, {**others, **terms}
+            else:
+                apart.append((other, others))
+        parts = [*apart, (letters, terms)]
+    return sorted((terms for _, terms in parts), key=lead)
 
 
 def partitions(poly: Flat) -> list[list[Flat]]:
