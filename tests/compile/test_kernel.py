@@ -69,6 +69,16 @@ def test_repeated_single_calls_do_not_share_results(kernel):
     assert not np.array_equal(first, second)
 
 
+def test_calls_leave_nothing_behind(kernel):
+    q, v = states()
+    for _ in range(50):
+        kernel(q.tolist(), v.tolist())
+        kernel(q, v)
+        with pytest.raises(RunError):
+            kernel(q * np.nan, v)
+    assert len(kernel._stages) <= 2
+
+
 def test_omitted_groups_take_their_value_again_after_being_given(kernel):
     q, v = states()
     plain = kernel(q, v)
@@ -232,6 +242,23 @@ def test_missing_parameters_are_all_named(bare):
     assert caught.value.code == "E401"
     with pytest.raises(RunError, match="Missing: m1, m2, l1, l2, g"):
         bare(q, v)
+
+
+def test_other_groups_can_be_held_too():
+    """Inputs held over many states go to the prologue with the parameters."""
+    held = compile(PENDULUM, hoist=("u", "p"), optional=OPTIONAL, keep=False)
+    free = compile(PENDULUM, optional=OPTIONAL, keep=False)
+    q, v = states(10)
+    assert held.operations <= free.operations
+    for u, p in ((None, None), (np.array([2.0]), None), (None, np.array(list(P.values())) * 1.5), (2.0, {"g": 0.0})):
+        np.testing.assert_allclose(held(q, v, u, p), free(q, v, u, p), rtol=1e-13)
+        for _ in range(2):
+            np.testing.assert_allclose(held(q[0], v[0], u, p), free(q[0], v[0], u, p), rtol=1e-13)
+    pushed = np.linspace(-1, 1, 10)[:, None]
+    np.testing.assert_allclose(held(q, v, pushed), free(q, v, pushed), rtol=1e-13)
+    nothing = compile(PENDULUM, hoist=(), optional=OPTIONAL, keep=False)
+    np.testing.assert_allclose(nothing(q, v), free(q, v), rtol=1e-13)
+    np.testing.assert_allclose(nothing(q[0], v[0]), free(q[0], v[0]), rtol=1e-13)
 
 
 # Refusals ----------------------------------------------------------------------------------------------------------

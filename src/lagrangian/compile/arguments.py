@@ -88,6 +88,8 @@ class Group:
 
 def numbers(given: Any, what: str) -> NDArray[np.float64]:
     """``given`` as float64, if nothing is lost: no text, no complex numbers, nothing masked."""
+    if type(given) is np.ndarray and given.dtype is FLOAT:
+        return given
     try:
         array = np.asarray(given)
     except ValueError as cause:

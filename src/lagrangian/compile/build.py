@@ -22,7 +22,7 @@ from lagrangian.graph import reached
 
 from . import cache as disk
 from . import driver, native
-from .emit import CHUNK, emit, plan
+from .emit import emit, plan
 from .ir import Module, Target
 from .tape import Lowered, lower
 
@@ -38,7 +38,7 @@ class Options:
 
     lanes: int
     hoist: tuple[str, ...] = ("p",)
-    chunk: int = CHUNK
+    chunk: int | None = None  # operations in one function; None: by the length of the program
     level: int = LEVEL
     keep: bool = True  # on disk, between runs
 

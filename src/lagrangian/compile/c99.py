@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from .emit import CHUNK, Chunk, Plan, plan
+from .emit import Chunk, Plan, plan
 from .labels import comment, identifier, word
 from .tape import FLAGS, LEAVES, Op, Tape, lower, operands
 
@@ -55,7 +55,7 @@ def to_c(program: Program, *, name: str | None = None) -> tuple[str, str]:
     signature = f"void {function}({', '.join(arguments) or 'void'})"
     writer = _Writer(
         tape,
-        plan(tape, CHUNK),
+        plan(tape),
         function,
         places=[f"{c}[{k}]" for c, _, entries in inputs for k in range(len(entries))],
         targets=[f"{c}[{k}]" for c, _, out in outputs for k in range(len(out.ids))],

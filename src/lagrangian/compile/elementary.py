@@ -1,7 +1,8 @@
 """Elementary functions in LLVM IR: branch-free, the same code for one number and for a vector of lanes.
 
-``sincos``, ``exp``, ``log`` and ``atan2`` are written out here, ``asin``, ``acos`` and ``atan`` follow from
-``atan2``; the others call the C library lane by lane. Each is one function of the module, printed on first use.
+``sincos``, ``exp``, ``log`` and ``atan2`` are written out here; ``sinh``, ``cosh`` and ``tanh`` follow from ``exp``,
+``asin``, ``acos`` and ``atan`` from ``atan2``; the others call the C library lane by lane. Each is one function of
+the module, printed on first use.
 
 The digits come from ``minimax.py``; with z = r²
 
@@ -14,6 +15,7 @@ The digits come from ``minimax.py``; with z = r²
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 from .ir import Function, Module, Value
 
@@ -35,8 +37,8 @@ LN2 = (0.6931471806019545, -4.2009150726810846e-11)  # their sum is ln 2; n·LN2
 
 SHIFT = 6755399441055744.0  # 1.5·2⁵²: adding it rounds to a whole number and leaves that number in the low bits
 SHIFT_BITS = 0x4338000000000000
-LIBM = ("sin", "cos", "pow", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh")  # the order of the table of addresses
-LANEWISE = ("pow", "sinh", "cosh", "tanh", "asinh", "acosh", "atanh")
+LIBM = ("sin", "cos", "pow", "asinh", "acosh", "atanh")  # the order of the table of addresses
+LANEWISE = ("pow", "asinh", "acosh", "atanh")
 
 
 def sincos(module: Module, lanes: int) -> str:
@@ -116,9 +118,7 @@ def function(module: Module, name: str, lanes: int) -> str:
     if name in LANEWISE:
         result = _lanewise(f, LIBM.index(name), values)
     else:
-        result = {"exp": _exp, "log": _log, "atan2": _atan2, "atan": _atan, "asin": _asin, "acos": _acos}[name](
-            f, *values
-        )
+        result = _PRINTERS[name](f, *values)
     f.do(f"ret {f.real} {result.name}")
     f.finish(symbol, f"internal {f.real}", ", ".join(f"{f.real} {a}" for a in arguments), "noinline nounwind")
     return "@" + symbol
@@ -140,18 +140,56 @@ def _lanewise(f: Function, index: int, arguments: list[Value]) -> Value:
 
 def _exp(f: Function, x: Value) -> Value:
     """``exp x = 2^n exp r``, n = round(x / ln 2); 2^n in two factors, so that results below 2^−1022 round once."""
-    x = f.select(f.compare("ogt", x, 710.0), 710.0, x)
     x = f.select(f.compare("olt", x, -746.0), -746.0, x)
+    excess, n = _exp_parts(f, x)
+    value = excess + 1.0
+    half = f.whole_op("ashr", n, 1)
+    for part in (half, f.whole_op("sub", n, half)):
+        value = value * _power_of_two(f, part)
+    return value
+
+
+def _exp_parts(f: Function, x: Value) -> tuple[Value, str]:
+    """``exp r − 1`` and n of ``x = n ln 2 + r``; beyond 711 all that is made of them overflows, so x stops there."""
+    x = f.select(f.compare("ogt", x, 711.0), 711.0, x)
     turned = f.fma(x, 1 / math.log(2), SHIFT)
     n = turned - SHIFT
     r = f.fma(n, -LN2[1], f.fma(n, -LN2[0], x))
-    value = f.fma(r * r, f.polynomial(r, EXP), r) + 1.0
-    whole = f.whole_op("sub", f.bits(turned), SHIFT_BITS)
-    half = f.whole_op("ashr", whole, 1)
-    rest = f.whole_op("sub", whole, half)
-    for part in (half, rest):
-        value = value * f.number(f.whole_op("shl", f.whole_op("add", part, 1023), 52))
-    return value
+    return f.fma(r * r, f.polynomial(r, EXP), r), f.whole_op("sub", f.bits(turned), SHIFT_BITS)
+
+
+def _power_of_two(f: Function, n: str) -> Value:
+    """``2^n`` for −1022 ≤ n ≤ 1023, made from its bits."""
+    return f.number(f.whole_op("shl", f.whole_op("add", n, 1023), 52))
+
+
+def _eighth(f: Function, x: Value) -> Value:
+    """``(exp x − 1)/8`` for x ≥ 0, without cancellation near 0: s (exp r − 1) + (s − ⅛), s = 2^(n−3)."""
+    excess, n = _exp_parts(f, x)
+    s = _power_of_two(f, f.whole_op("sub", n, 3))
+    return f.fma(s, excess, s - 0.125)
+
+
+def _sinh(f: Function, x: Value) -> Value:
+    """``sinh |x| = h + h/(2h + 1)``, h = (exp |x| − 1)/2, with the sign of x."""
+    h = _eighth(f, f.intrinsic("fabs", x)) * 4.0
+    value = h + h / (h + h + 1.0)
+    value = f.select(f.compare("oeq", h, math.inf), h, value)
+    return f.intrinsic("copysign", value, x)
+
+
+def _cosh(f: Function, x: Value) -> Value:
+    """``cosh x = h + ¼/h``, h = exp |x| / 2."""
+    h = _eighth(f, f.intrinsic("fabs", x)) * 4.0 + 0.5
+    return h + 0.25 / h
+
+
+def _tanh(f: Function, x: Value) -> Value:
+    """``tanh |x| = e/(e + 2)``, e = exp 2|x| − 1, with the sign of x; 1 from |x| = 22 on."""
+    size = f.intrinsic("fabs", x)
+    size = f.select(f.compare("ogt", size, 22.0), 22.0, size)
+    eighth = _eighth(f, size + size)
+    return f.intrinsic("copysign", eighth / (eighth + 0.25), x)
 
 
 def _log(f: Function, x: Value) -> Value:
@@ -221,3 +259,16 @@ def _asin(f: Function, x: Value) -> Value:
 def _acos(f: Function, x: Value) -> Value:
     """``acos x`` = angle of (x, √(1 − x²))."""
     return _atan2(f, _leg(f, x), x)
+
+
+_PRINTERS: dict[str, Callable[..., Value]] = {
+    "exp": _exp,
+    "log": _log,
+    "sinh": _sinh,
+    "cosh": _cosh,
+    "tanh": _tanh,
+    "atan2": _atan2,
+    "atan": _atan,
+    "asin": _asin,
+    "acos": _acos,
+}

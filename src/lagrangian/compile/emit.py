@@ -17,7 +17,9 @@ from .elementary import sincos
 from .ir import Function, Module, Value
 from .tape import FLAGS, LEAVES, Op, Tape, operands
 
-CHUNK = 1000  # operations in one function
+CHUNK = 1000  # operations in one function …
+SHORT = 300  # … and in very long programs, where a few per cent of speed are given for a third of LLVM's time
+LONG = 10_000  # operations from which a program is very long
 
 ARITHMETIC = {"add": "fadd", "sub": "fsub", "mul": "fmul", "div": "fdiv"}
 COMPARISON = {"lt": "olt", "le": "ole", "eq": "oeq"}
@@ -43,9 +45,10 @@ class Plan:
     scratch: int
 
 
-def plan(tape: Tape, chunk: int = CHUNK) -> Plan:
+def plan(tape: Tape, chunk: int | None = None) -> Plan:
     """Cut a tape into chunks of equal length; a scratch slot is used again once its last reader's chunk is over."""
     computed = [i for i, op in enumerate(tape.ops) if op[0] not in LEAVES]
+    chunk = chunk or (CHUNK if len(computed) < LONG else SHORT)
     count = max(1, -(-len(computed) // chunk))
     size = -(-len(computed) // count) if computed else 1
     chunks = [Chunk(computed[k * size : (k + 1) * size]) for k in range(count)]
@@ -73,7 +76,9 @@ def plan(tape: Tape, chunk: int = CHUNK) -> Plan:
     return Plan(chunks, slots, top)
 
 
-def emit(module: Module, name: str, tape: Tape, lanes: int, *, own_shared: bool = False, chunk: int = CHUNK) -> int:
+def emit(
+    module: Module, name: str, tape: Tape, lanes: int, *, own_shared: bool = False, chunk: int | None = None
+) -> int:
     """Print a tape as the function ``name``; return how many scratch slots it wants.
 
     ``own_shared``: the shared block holds ``lanes`` doubles a slot, as in a sweep with a parameter set per lane.

@@ -1,0 +1,75 @@
+"""Memory that machine code reads and writes: aligned blocks, and the stage of a call for one state."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .arguments import FLOAT, Group
+from .driver import Sizes
+
+
+@dataclass(frozen=True)
+class RawFunction:
+    """A tape's function for callers in machine code: ``void f(double *in, double *shared, double *out, double
+    *scratch)``.
+
+    ``in``, ``out`` and ``scratch`` hold ``lanes`` doubles a slot, one system a lane, ``shared`` one; blocks are
+    aligned to ``8 lanes`` bytes and do not overlap. ``in`` holds the groups that are not hoisted, one after the
+    other; ``out`` the outputs. The other fields count slots. ``owner`` keeps the code in memory.
+    """
+
+    address: int
+    lanes: int
+    inputs: int
+    shared: int
+    outputs: int
+    scratch: int
+    owner: object
+
+
+class Stage:
+    """The blocks of one call for one state, and the table of their addresses that the machine code is handed."""
+
+    __slots__ = ("out", "parts", "results", "scratch", "shared", "table", "where")
+
+    def __init__(self, sizes: Sizes, groups: Sequence[tuple[int, Group]], shapes: Sequence[tuple[int, ...]]) -> None:
+        block = aligned(sum(sizes.groups))
+        self.out, self.scratch = aligned(sum(sizes.outputs)), aligned(sizes.scratch)
+        self.table = (ctypes.c_void_p * 4)(address(block), None, address(self.out), address(self.scratch))
+        self.where = ctypes.c_void_p(ctypes.addressof(self.table))
+        self.shared: NDArray[np.float64] | None = None
+        self.parts: list[tuple[int, NDArray[np.float64], tuple[int], bool, NDArray[np.float64] | None]] = []
+        start = 0
+        for k, group in groups:
+            size = len(group.entries)
+            default = None if None in group.defaults else np.array(group.defaults, float)
+            self.parts.append((k, block[start : start + size], (size,), group.scalar, default))
+            start += size
+        self.results: list[NDArray[np.float64]] = []
+        start = 0
+        for size, shape in zip(sizes.outputs, shapes, strict=True):
+            self.results.append(self.out[start : start + size].reshape(shape))
+            start += size
+
+    def share(self, shared: NDArray[np.float64]) -> None:
+        """Point the table at a shared block."""
+        self.shared = shared
+        self.table[1] = address(shared)
+
+
+def aligned(count: int) -> NDArray[np.float64]:
+    """Uninitialised doubles that start at a multiple of 64 bytes."""
+    raw = np.empty(8 * count + 64, np.uint8)
+    start = -raw.__array_interface__["data"][0] % 64
+    return raw[start : start + 8 * count].view(FLOAT)
+
+
+def address(array: NDArray[Any]) -> int:
+    """Where an array's first element is."""
+    return array.__array_interface__["data"][0]
