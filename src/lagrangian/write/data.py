@@ -1,0 +1,166 @@
+"""A derivation as plain data for JSON.
+
+Schema 1. Expressions are ``{"plain": …, "latex": …}``: text that the expression grammar reads back, and LaTeX. Formulas also
+have ``"text"`` (one line of Unicode). Keys at the top:
+
+    schema, name, notation      1, the system's name, the notation of the formulas
+    coordinates, parameters, inputs, definitions
+                                lists with "name", and "unit", "value", "description", "expression" where there are
+    T, V, L                     expressions: kinetic co-energy, potential energy, Lagrangian
+    Xi                          {coordinate: expression}
+    equations                   list: "coordinate", "left", "right" (expressions), "terms" (list: expression, "kind",
+                                "elements")
+    mass_matrix, coriolis_matrix, gravity_vector, generalized_forces
+                                lists of rows of plain text; q̈ follows from M q̈ + C q̇ + G = Ξ
+    steps                       list: "number", "title", "what", "why", "items", "reasons", "checks"
+    result                      items of the closing section
+    ledger                      list: "element", "column", "reason", "expression" (or null)
+    verified                    list: "what", "holds", "figure"
+    notes                       list of texts
+
+An item has a "kind": "text" ("text"), "heading" ("text"), "formula" ("plain", "text", "latex", "boxed", "note"; an elided side has
+"operations") or "table" ("header", "rows": lists of text).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import sympy as sp
+
+from lagrangian.derive import Check, Derivation
+from lagrangian.derive import formula as data
+from lagrangian.model import plain
+from lagrangian.write.glyphs import unicode
+from lagrangian.write.layout import operations
+from lagrangian.write.math import Relation
+from lagrangian.write.quantities import Notation, Quantities
+from lagrangian.write.tex import latex
+
+SCHEMA = 1
+
+
+def to_dict(
+    derivation: Derivation, *, notation: Notation = "lecture", brief: bool = False, full: bool = False
+) -> dict[str, Any]:
+    """Return the derivation as plain data: dictionaries, lists, text, numbers.
+
+    ``brief`` keeps the items of the one-page checklist; ``full`` writes out the formulas that would be summarised (the
+    results themselves are always whole). Raises `ModelError` for an unknown notation.
+    """
+    return _Data(derivation, notation, brief, full).whole()
+
+
+class _Data:
+    def __init__(self, derivation: Derivation, notation: Notation, brief: bool, full: bool) -> None:
+        self.derivation, self.notation, self.brief = derivation, notation, brief
+        self.write = Quantities(derivation.model, notation, full=full)
+
+    def whole(self) -> dict[str, Any]:
+        d, model = self.derivation, self.derivation.model
+        return {
+            "schema": SCHEMA,
+            "name": model.name,
+            "notation": self.notation,
+            "coordinates": [{"name": c.name, "unit": c.unit, "description": c.description} for c in model.coordinates],
+            "parameters": [
+                {"name": p.name, "value": p.value, "unit": p.unit, "description": p.description}
+                for p in model.parameters
+            ],
+            "inputs": [{"name": i.name, "unit": i.unit, "description": i.description} for i in model.inputs],
+            "definitions": [{"name": x.name, "expression": self.expression(x.expression)} for x in model.definitions],
+            "T": self.expression(d.T),
+            "V": self.expression(d.V),
+            "L": self.expression(d.L),
+            "Xi": {plain(q): self.expression(x) for q, x in d.Xi.items()},
+            "equations": [self.equation(i) for i in range(len(d.equations))],
+            "mass_matrix": _rows(d.mass_matrix),
+            "coriolis_matrix": _rows(d.coriolis_matrix),
+            "gravity_vector": _rows(d.gravity_vector),
+            "generalized_forces": _rows(d.generalized_forces),
+            "steps": [
+                {
+                    "number": s.number,
+                    "title": s.title,
+                    "what": self.text(s.what),
+                    "why": self.text(s.why),
+                    "items": self.items(s.items),
+                    "reasons": [self.text(r) for r in s.reasons],
+                    "checks": self.checks(s.checked),
+                }
+                for s in d.steps
+            ],
+            "result": self.items(d.result),
+            "ledger": [
+                {
+                    "element": row.element,
+                    "column": row.column,
+                    "reason": self.text(row.reason),
+                    "expression": None if row.expression is None else self.expression(row.expression),
+                }
+                for row in d.ledger
+            ],
+            "verified": self.checks(d.verified),
+            "notes": [self.text(n) for n in d.notes],
+        }
+
+    def expression(self, expr: sp.Expr) -> dict[str, str]:
+        return {"plain": plain(expr), "latex": latex(self.write.expressions(expr))}
+
+    def equation(self, index: int) -> dict[str, Any]:
+        d = self.derivation
+        equality = d.equations[index]
+        return {
+            "coordinate": d.model.coordinates[index].name,
+            "left": self.expression(equality.lhs),
+            "right": self.expression(equality.rhs),
+            "terms": [
+                {**self.expression(t.expr), "kind": t.kind, "elements": list(t.elements)} for t in d.terms[index]
+            ],
+        }
+
+    def text(self, item: data.Text | data.Formula) -> str:
+        return "".join(x if isinstance(x, str) else unicode(x) for x in self.write.inline(item))
+
+    def items(self, items: Iterable[data.Item]) -> list[dict[str, Any]]:
+        return [self.item(x) for x in items if not self.brief or getattr(x, "brief", False)]
+
+    def item(self, item: data.Item) -> dict[str, Any]:
+        match item:
+            case data.Formula():
+                return self.formula(item)
+            case data.Text():
+                return {"kind": "text", "text": self.text(item)}
+            case data.Heading():
+                return {"kind": "heading", "text": self.text(item.text)}
+            case data.Table():
+                return {
+                    "kind": "table",
+                    "header": [self.text(h) for h in item.header],
+                    "rows": [[self.text(c) for c in row] for row in item.rows],
+                }
+        raise TypeError(f"not an item of a step: {type(item).__name__}")
+
+    def formula(self, item: data.Formula) -> dict[str, Any]:
+        sides = self.write.formula(item)
+        shown = Relation(sides) if len(sides) > 1 else sides[0]
+        made: dict[str, Any] = {
+            "kind": "formula",
+            "plain": str(item),
+            "text": unicode(shown),
+            "latex": latex(shown),
+            "boxed": item.boxed,
+            "note": None if item.note is None else self.text(item.note),
+        }
+        longest = max((n for side in item.sides for n in operations(side)), default=0)
+        if longest and not self.write.full:
+            made["operations"] = longest
+        return made
+
+    def checks(self, checks: Iterable[Check]) -> list[dict[str, Any]]:
+        return [{"what": self.text(c.what), "holds": bool(c.holds), "figure": c.figure} for c in checks]
+
+
+def _rows(matrix: Any) -> list[list[str]]:
+    return [[plain(matrix[i, j]) for j in range(matrix.cols)] for i in range(matrix.rows)]

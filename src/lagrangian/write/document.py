@@ -1,0 +1,97 @@
+"""A Document: what a derivation says, in reading order, before it has a format."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+from lagrangian.write.math import Math
+
+Inline: TypeAlias = "tuple[str | Math, ...]"
+"""Words and mathematics in a line."""
+
+
+@dataclass(frozen=True)
+class Heading:
+    """A heading inside a section."""
+
+    text: Inline
+
+
+@dataclass(frozen=True)
+class Paragraph:
+    """A paragraph; its role is "" or "what" (what a step did), "why" (the reason), "note" (something in small print)."""
+
+    text: Inline
+    role: str = ""
+
+
+@dataclass(frozen=True)
+class Display:
+    """A formula on a line of its own: a chain of equal sides, a number for boxed results, a note beside it."""
+
+    sides: tuple[Math, ...]
+    anchor: str
+    number: int | None = None
+    note: Inline = ()
+
+
+@dataclass(frozen=True)
+class Boxed:
+    """Results in one box."""
+
+    displays: tuple[Display, ...]
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table with one header row."""
+
+    header: tuple[Inline, ...]
+    rows: tuple[tuple[Inline, ...], ...]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Something that was verified: in words, whether it holds, and the figure."""
+
+    what: Inline
+    holds: bool
+    figure: str
+
+
+@dataclass(frozen=True)
+class Verdicts:
+    """What was verified, in a list."""
+
+    verdicts: tuple[Verdict, ...]
+
+
+@dataclass(frozen=True)
+class Details:
+    """What is too long to read at once, under a summary."""
+
+    summary: Inline
+    blocks: tuple[Block, ...]
+
+
+Block: TypeAlias = "Heading | Paragraph | Display | Boxed | Table | Verdicts | Details"
+
+
+@dataclass(frozen=True)
+class Section:
+    """A step of the derivation, or what stands before and after the steps. ``number`` is the step's."""
+
+    anchor: str
+    title: Inline
+    blocks: tuple[Block, ...]
+    number: int | None = None
+
+
+@dataclass(frozen=True)
+class Document:
+    """A title and sections; ``brief`` tells the one-page checklist from the whole derivation."""
+
+    title: str
+    sections: tuple[Section, ...]
+    brief: bool = False

@@ -1,0 +1,242 @@
+"""From SymPy to mathematics on a page: dots for rates, textbook order, signs in front, fractions where they belong."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+from typing import Any
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+from sympy.logic.boolalg import BooleanFunction
+
+from lagrangian.model import Model, time
+from lagrangian.write.math import (
+    FUNCTIONS,
+    Apply,
+    Cases,
+    Fence,
+    Letter,
+    Mark,
+    Math,
+    Number,
+    Power,
+    Ratio,
+    Relation,
+    Root,
+    Sum,
+    Times,
+    Word,
+    fenced,
+)
+from lagrangian.write.names import letter, letters
+from lagrangian.write.order import Order
+
+_FUNCTION_NAMES = {
+    "asin": "arcsin",
+    "acos": "arccos",
+    "atan": "arctan",
+    "log": "ln",
+    "sign": "sgn",
+    "Min": "min",
+    "Max": "max",
+    "asinh": "arsinh",
+    "acosh": "arcosh",
+    "atanh": "artanh",
+}
+_CONSTANTS = {sp.pi: "π", sp.E: "e", sp.oo: "∞", sp.zoo: "∞", sp.nan: "undefined", sp.I: "i"}
+_RELATIONS = {"<": "<", "<=": "≤", ">": ">", ">=": "≥", "==": "=", "!=": "≠"}
+
+
+class Expressions:
+    """Lays out the expressions of one system, whose names look different from each other."""
+
+    def __init__(self, model: Model) -> None:
+        moving = [c.symbol for c in model.coordinates] + [d.symbol for d in model.definitions if d.moving]
+        self.letters = letters(model.symbols)
+        self._order = Order(moving, [i.symbol for i in model.inputs])
+
+    def letter(self, name: str) -> Letter:
+        """The symbol of a name of the system, or of any other name."""
+        return self.letters.get(name) or letter(name)
+
+    def __call__(self, expr: Any) -> Math:
+        """Lay out an expression; `TypeError` for anything that is none."""
+        match expr:
+            case sp.Add():
+                return self.sum(self._sorted(expr))
+            case sp.Mul():
+                return self._product(expr)
+            case sp.Pow():
+                return self._power(expr)
+            case sp.Symbol():
+                return self.letter(expr.name)
+            case AppliedUndef():
+                return self._undefined(expr)
+            case sp.Derivative():
+                return self._derivative(expr)
+            case sp.Number():
+                return self._number(expr)
+            case sp.Piecewise():
+                return self._piecewise(expr)
+            case sp.Abs():
+                return Fence(self(expr.args[0]), "|", "|")
+            case sp.Function() | sp.Min() | sp.Max():
+                return self._function(expr, None)
+            case sp.core.relational.Relational():
+                return Relation((self(expr.args[0]), self(expr.args[1])), _RELATIONS[expr.rel_op])
+            case BooleanFunction():
+                name = {"And": "and", "Or": "or", "Not": "not"}[type(expr).__name__]
+                return Apply(name, tuple(self(a) for a in expr.args))
+        if expr in _CONSTANTS:
+            return Number(_CONSTANTS[expr])
+        if expr in (sp.true, sp.false):
+            return Word("always" if expr == sp.true else "never")
+        raise TypeError(f"cannot write {type(expr).__name__}: {expr}")
+
+    # -- sums -------------------------------------------------------------------------------------------------------
+
+    def sum(self, terms: Iterable[sp.Expr]) -> Math:
+        """Lay out a sum whose terms keep this order."""
+        laid = [self.term(t) for t in terms]
+        if len(laid) == 1 and not laid[0][0]:
+            return laid[0][1]
+        return Sum(tuple(laid)) if laid else Number("0")
+
+    def term(self, term: sp.Expr) -> tuple[bool, Math]:
+        """Lay out a term as (is it negative?, its size)."""
+        if term.is_number and term.is_extended_real and term.is_negative:
+            return True, self(-term)
+        if isinstance(term, sp.Mul):
+            laid = self._product(term)
+            if isinstance(laid, Sum) and len(laid.terms) == 1:
+                return laid.terms[0]
+            return False, laid
+        return False, self(term)
+
+    def _sorted(self, expr: sp.Add) -> list[sp.Expr]:
+        """The terms in textbook order, a positive one first where there is one."""
+        functions = any(isinstance(f, sp.Function) and not isinstance(f, AppliedUndef) for f in expr.atoms(sp.Function))
+        terms = sorted(expr.args, key=lambda t: self._order.term(t, functions))
+        if _negative(terms[0]):
+            first = next((t for t in terms if not _negative(t)), None)
+            if first is not None:
+                terms.remove(first)
+                terms.insert(0, first)
+        return terms
+
+    # -- products ---------------------------------------------------------------------------------------------------
+
+    def _product(self, expr: sp.Expr) -> Math:
+        number, over, under = self._split(expr)
+        negative = number < 0
+        number = abs(number)
+        if under:
+            top, bottom = Fraction(number).limit_denominator(10**18).as_integer_ratio()
+            if Fraction(top, bottom) != number:  # a decimal number stays in front of the fraction
+                over, top, bottom = [sp.Float(number), *over], 1, 1
+            shown: Math = Ratio(self._times(top, over), self._times(bottom, under))
+        else:
+            shown = self._times(number, over)
+        return Sum(((True, shown),)) if negative else shown
+
+    def _split(self, expr: sp.Expr) -> tuple[Any, list[sp.Expr], list[sp.Expr]]:
+        """The number, the factors above and the factors below the line."""
+        number: Any = 1
+        over: list[sp.Expr] = []
+        under: list[sp.Expr] = []
+        waiting = list(expr.args)
+        while waiting:
+            factor = waiting.pop(0)
+            if isinstance(factor, sp.Mul):
+                waiting = [*factor.args, *waiting]
+            elif isinstance(factor, sp.Rational):
+                number = number * Fraction(int(factor.p), int(factor.q))
+            elif isinstance(factor, sp.Float):
+                number = number * float(factor)
+            elif isinstance(factor, sp.Pow) and _negative(factor.exp):
+                under.append(sp.Pow(factor.base, -factor.exp))
+            else:
+                over.append(factor)
+        return number, sorted(over, key=self._order.factor), sorted(under, key=self._order.factor)
+
+    def _times(self, number: Any, factors: list[sp.Expr]) -> Math:
+        laid = [self(f) for f in factors]
+        if number != 1 or not laid or isinstance(number, float):
+            laid.insert(0, _numeral(number))
+        return laid[0] if len(laid) == 1 else Times(tuple(laid))
+
+    def _power(self, expr: sp.Pow) -> Math:
+        base, exponent = expr.base, expr.exp
+        if _negative(exponent):
+            return Ratio(Number("1"), self(sp.Pow(base, -exponent)))
+        if exponent == sp.Rational(1, 2):
+            return Root(self(base))
+        if isinstance(base, sp.Function) and not isinstance(base, AppliedUndef) and exponent.is_Integer:
+            name = _FUNCTION_NAMES.get(base.func.__name__, base.func.__name__)
+            if name in FUNCTIONS and not isinstance(base, sp.exp):
+                return self._function(base, self(exponent))
+        return Power(self._base(base), self(exponent))
+
+    def _base(self, base: sp.Expr) -> Math:
+        laid = self(base)
+        if isinstance(laid, Apply) and laid.name != "atan2":
+            return Fence(laid)
+        return fenced(laid, (Sum, Times, Ratio, Power, Mark, Relation, Cases, Root))
+
+    # -- the rest ---------------------------------------------------------------------------------------------------
+
+    def _undefined(self, expr: Any) -> Math:
+        name = expr.func.__name__
+        if expr.args == (time,):
+            return self.letter(name)
+        return Apply(name, tuple(self(a) for a in expr.args))
+
+    def _derivative(self, expr: sp.Derivative) -> Math:
+        laid = self(expr.expr)
+        count = expr.derivative_count
+        if isinstance(laid, Letter) and set(expr.variables) == {time} and count <= 3:
+            return Letter(laid.base, laid.sub, count, laid.star, laid.bold, laid.literal)
+        if set(expr.variables) == {time}:
+            order: Math = Number(str(count))
+            sign: Math = Word("d") if count == 1 else Power(Word("d"), order)
+            return Times((Ratio(sign, Mark("d", Word("t") if count == 1 else Power(Word("t"), order))), Fence(laid)))
+        below = tuple(Mark("∂", self(v)) for v in expr.variables)
+        above: Math = Word("∂") if count == 1 else Power(Word("∂"), Number(str(count)))
+        return Times((Ratio(above, below[0] if count == 1 else Times(below)), Fence(laid)))
+
+    def _number(self, expr: sp.Number) -> Math:
+        if expr in _CONSTANTS:
+            return Number(_CONSTANTS[expr])
+        value: Any = Fraction(int(expr.p), int(expr.q)) if isinstance(expr, sp.Rational) else float(expr)
+        return Sum(((True, _numeral(-value)),)) if value < 0 else _numeral(value)
+
+    def _function(self, expr: Any, power: Math | None) -> Math:
+        name = expr.func.__name__
+        args = expr.args
+        if name in ("Min", "Max"):
+            args = sorted(args, key=self._order.names)
+        return Apply(_FUNCTION_NAMES.get(name, name), tuple(self(a) for a in args), power)
+
+    def _piecewise(self, expr: sp.Piecewise) -> Math:
+        return Cases(tuple((self(value), None if cond == sp.true else self(cond)) for value, cond in expr.args))
+
+
+def _negative(expr: sp.Expr) -> bool:
+    """Whether a sign stands in front: the number in it is negative."""
+    number = expr.as_coeff_Mul()[0]
+    return bool(number.is_extended_real and number.is_negative)
+
+
+def _numeral(value: Any) -> Math:
+    """A number that is not negative: 2, ½, 9.81, 1.5·10⁻⁶."""
+    if isinstance(value, Fraction) and value.denominator != 1:
+        return Ratio(Number(str(value.numerator)), Number(str(value.denominator)))
+    if isinstance(value, (int, Fraction)):
+        return Number(str(int(value)))
+    digits, _, exponent = f"{value:.15g}".partition("e")
+    if exponent:
+        power = int(exponent)
+        raised: Math = Number(str(power)) if power >= 0 else Sum(((True, Number(str(-power))),))
+        return Times((Number(digits), Word("·"), Power(Number("10"), raised)))
+    return Number(digits)

@@ -1,0 +1,180 @@
+"""A derivation as one HTML page that works offline: MathML, no scripts, nothing loaded from anywhere.
+
+Hovering over a term of the final equations, or focusing it with the keyboard or a tap, shows the elements it came from.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from html import escape as _escape
+from importlib.resources import files
+
+from lagrangian.derive import Derivation
+from lagrangian.write.document import (
+    Block,
+    Boxed,
+    Details,
+    Display,
+    Document,
+    Heading,
+    Inline,
+    Paragraph,
+    Section,
+    Table,
+    Verdicts,
+)
+from lagrangian.write.layout import lay_out
+from lagrangian.write.math import Math, Number, Sum, Tagged, tokens
+from lagrangian.write.mathml import displayed, mathml, row
+from lagrangian.write.quantities import Notation
+from lagrangian.write.text import clean
+
+WIDTH = 96
+"""Columns of Unicode text that fit the width of the page's text."""
+
+KINDS = {
+    "inertia": "inertia: with an acceleration",
+    "velocity": "velocity: products of rates",
+    "damping": "damping",
+    "stiffness": "stiffness",
+    "gravity": "gravity",
+    "input": "input: Ξ from outside",
+    "other": "other",
+}
+"""The kinds of terms, as the legend names them."""
+
+
+def to_html(derivation: Derivation, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
+    """Return the derivation as a self-contained HTML page. Raises `ModelError` for an unknown notation."""
+    document = lay_out(derivation, notation=notation, brief=brief, full=full, details=True)
+    title = escape(document.title)
+    body = "\n".join(_section(section) for section in document.sections)
+    return (
+        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        '<meta name="color-scheme" content="light dark">\n'
+        f"<title>{title}: equations of motion</title>\n<style>\n{_style()}</style>\n</head>\n<body>\n"
+        f'<main class="{"brief" if brief else "whole"}">\n<header><h1>{title}</h1></header>\n'
+        f"{_contents(document)}{body}\n</main>\n</body>\n</html>\n"
+    )
+
+
+def to_html_fragment(derivation: Derivation, *, notation: Notation = "lecture", brief: bool = True) -> str:
+    """Return the derivation as a piece of HTML for a notebook: the checklist unless ``brief`` is False."""
+    document = lay_out(derivation, notation=notation, brief=brief, details=True)
+    body = "\n".join(_section(section, anchors=False) for section in document.sections)
+    scoped = f"@scope (.lagrangian) {{\n{_style().replace(':root', ':scope').replace('body', ':scope')}}}\n"
+    return f'<div class="lagrangian"><style>{scoped}</style>\n<h3>{escape(document.title)}</h3>\n{body}\n</div>'
+
+
+def _style() -> str:
+    return files("lagrangian.write").joinpath("page.css").read_text(encoding="utf-8")
+
+
+def escape(words: str) -> str:
+    """Any text so that a browser shows it."""
+    return _escape(clean(words), quote=True)
+
+
+def inline(text: Inline) -> str:
+    """Words and mathematics in a line."""
+    return "".join(escape(x) if isinstance(x, str) else mathml(x) for x in text)
+
+
+def _contents(document: Document) -> str:
+    if document.brief:
+        return ""
+    items = "".join(f'<li><a href="#{s.anchor}">{_number(s)}{inline(s.title)}</a></li>' for s in document.sections)
+    return f'<nav aria-label="Contents"><ol>{items}</ol></nav>\n'
+
+
+def _number(section: Section) -> str:
+    return f'<span class="number">{section.number}</span> ' if section.number is not None else ""
+
+
+def _section(section: Section, *, anchors: bool = True) -> str:
+    identity = f' id="{section.anchor}"' if anchors else ""
+    blocks = "\n".join(line for block in section.blocks for line in _block(block, anchors))
+    return f"<section{identity}>\n<h2>{_number(section)}{inline(section.title)}</h2>\n{blocks}\n</section>"
+
+
+def _block(block: Block, anchors: bool) -> Iterator[str]:
+    match block:
+        case Heading(text):
+            yield f"<h3>{inline(text)}</h3>"
+        case Paragraph(text, role):
+            lead = '<span class="lead">Why:</span> ' if role == "why" else ""
+            yield f"<p{f' class={role}' if role else ''}>{lead}{inline(text)}</p>"
+        case Display():
+            yield _display(block, anchors)
+        case Boxed(displays):
+            yield from _boxed(displays, anchors)
+        case Table():
+            yield _table(block)
+        case Verdicts(verdicts):
+            items = "".join(
+                f'<li class="{"holds" if v.holds else "fails"}"><span aria-hidden="true">{"✓" if v.holds else "✗"}</span> '
+                f'<span class="unseen">{"holds: " if v.holds else "fails: "}</span>{inline(v.what)}'
+                + (f' <span class="figure">({escape(v.figure)})</span>' if v.figure else "")
+                + "</li>"
+                for v in verdicts
+            )
+            yield f'<ul class="checks">{items}</ul>'
+        case Details(summary, blocks):
+            inner = "".join(line for b in blocks for line in _block(b, False))
+            yield f"<details><summary>{inline(summary)}</summary>{inner}</details>"
+
+
+def _display(block: Display, anchors: bool) -> str:
+    identity = f' id="{block.anchor}"' if anchors and block.anchor else ""
+    note = f' <span class="note">{inline(block.note)}</span>' if block.note else ""
+    return f'<div class="formula"{identity}>{displayed(block.sides, WIDTH)}{note}</div>'
+
+
+def _boxed(displays: tuple[Display, ...], anchors: bool) -> Iterator[str]:
+    """The results, term by term; each term can be asked for the elements it came from."""
+    lines: list[str] = []
+    kinds: list[str] = []
+    for formula in displays:
+        sides = [_terms(side, kinds) for side in formula.sides]
+        equals = '<span class="sign"><math><mo>=</mo></math></span> '
+        identity = f' id="{formula.anchor}"' if anchors else ""
+        number = f'<span class="tag">({formula.number})</span>' if len(displays) > 1 else ""
+        lines.append(f'<div class="equation"{identity}><div class="terms">{equals.join(sides)}</div>{number}</div>')
+    yield f'<div class="result" role="group" aria-label="Equations of motion">{"".join(lines)}</div>'
+    if kinds:
+        shown = "".join(f'<li><span class="swatch {k}"></span>{escape(KINDS[k])}</li>' for k in KINDS if k in kinds)
+        yield f'<p class="hint">Point at a term to see the elements it came from.</p><ul class="legend">{shown}</ul>'
+
+
+def _terms(side: Math, kinds: list[str]) -> str:
+    pairs = side.terms if isinstance(side, Sum) else ((False, side),)
+    out: list[str] = []
+    for i, (minus, term) in enumerate(pairs or ((False, Number("0")),)):
+        form = "infix" if i else "prefix"
+        sign = f'<mo form="{form}">{"−" if minus else "+"}</mo>' if i or minus else ""
+        inner = f'<math displaystyle="true">{sign}{row(tokens(term))}</math>'
+        if isinstance(term, Tagged) and term.elements:
+            kind = term.kind if term.kind in KINDS else "other"
+            if kind not in kinds:
+                kinds.append(kind)
+            origin = escape(", ".join(term.elements))
+            out.append(
+                f'<span class="term {kind}" tabindex="0" aria-label="from {origin}" data-from="{origin}">{inner}</span>'
+            )
+        else:
+            out.append(f'<span class="sign">{inner}</span>')
+    return " ".join(out) + " "
+
+
+def _table(table: Table) -> str:
+    head = "".join(f'<th scope="col">{inline(h)}</th>' for h in table.header)
+    rows = "".join(
+        "<tr>"
+        + "".join(
+            f'<th scope="row">{inline(c)}</th>' if j == 0 else f"<td>{inline(c)}</td>" for j, c in enumerate(row_)
+        )
+        + "</tr>"
+        for row_ in table.rows
+    )
+    return f'<div class="table"><table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>'

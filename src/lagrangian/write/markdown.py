@@ -1,0 +1,82 @@
+"""A derivation as Markdown with LaTeX mathematics between dollar signs, as GitHub and notebooks show it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from lagrangian.derive import Derivation
+from lagrangian.write.document import Block, Boxed, Details, Display, Heading, Inline, Paragraph, Table, Verdicts
+from lagrangian.write.layout import lay_out
+from lagrangian.write.quantities import Notation
+from lagrangian.write.tex import latex
+from lagrangian.write.tex_lines import boxed, displayed
+from lagrangian.write.text import clean
+
+_SPECIAL = re.compile(r"([\\`*_{}\[\]#|$~+!])")
+
+
+def to_markdown(
+    derivation: Derivation, *, notation: Notation = "lecture", brief: bool = False, full: bool = False
+) -> str:
+    """Return the derivation as Markdown. Raises `ModelError` for an unknown notation."""
+    document = lay_out(derivation, notation=notation, brief=brief, full=full)
+    blocks = [f"# {escape(document.title)}"]
+    for section in document.sections:
+        number = f"{section.number}. " if section.number is not None else ""
+        blocks.append(f"## {number}{inline(section.title)}")
+        for block in section.blocks:
+            blocks += _block(block)
+    return "\n\n".join(blocks) + "\n"
+
+
+def escape(words: str) -> str:
+    """Return any text so that Markdown shows it: no markup, no HTML, no mathematics."""
+    safe = clean(words).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+    return _SPECIAL.sub(r"\\\1", safe)
+
+
+def inline(text: Inline) -> str:
+    """Return words and mathematics in a line."""
+    return "".join(escape(x) if isinstance(x, str) else f"${latex(x)}$" for x in text)
+
+
+def _block(block: Block) -> Iterator[str]:
+    match block:
+        case Heading(text):
+            yield f"### {inline(text)}"
+        case Paragraph(text, role):
+            yield f"*Why:* {inline(text)}" if role == "why" else _start(inline(text))
+        case Display(sides, _, _, note):
+            yield f"$$\n{displayed(sides)}\n$$"
+            if note:
+                yield f"({inline(note)})"
+        case Boxed(displays):
+            lines = boxed([(d.sides, d.number) for d in displays])
+            body = " \\\\\n".join(lines)
+            yield f"$$\n\\boxed{{\\begin{{aligned}}\n{body}\n\\end{{aligned}}}}\n$$"
+        case Table(header, rows):
+            lines = [_row(header), "|" + " --- |" * len(header), *[_row(row) for row in rows]]
+            yield "\n".join(lines)
+        case Verdicts(verdicts):
+            yield "\n".join(
+                f"- {'✓' if v.holds else '✗'} {inline(v.what)}" + (f" ({escape(v.figure)})" if v.figure else "")
+                for v in verdicts
+            )
+        case Details(summary, blocks):
+            yield f"*{inline(summary)}*"
+            for inner in blocks:
+                yield from _block(inner)
+
+
+def _row(cells: tuple[Inline, ...]) -> str:
+    return "| " + " | ".join(inline(cell) for cell in cells) + " |"
+
+
+def _start(line: str) -> str:
+    """A paragraph that begins like a list item or a rule is kept a paragraph."""
+    return re.sub(
+        r"\A(\s*)([-=]|\d+[.)])",
+        lambda m: m[1] + ("\\" + m[2] if not m[2][0].isdigit() else m[2][:-1] + "\\" + m[2][-1]),
+        line,
+    )

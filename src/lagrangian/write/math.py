@@ -1,0 +1,328 @@
+"""Mathematics as it stands on a page, before it is text, LaTeX or MathML.
+
+Every format renders the same tree, so that order, signs, parentheses and line breaks are decided once. A formula is cut
+into lines where its *tokens* allow it: before + and −, best outside of parentheses, and between factors as a last resort.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias
+
+GREEK = {
+    "alpha": "α",
+    "beta": "β",
+    "gamma": "γ",
+    "delta": "δ",
+    "epsilon": "ε",
+    "zeta": "ζ",
+    "eta": "η",
+    "theta": "θ",
+    "iota": "ι",
+    "kappa": "κ",
+    "lambda": "λ",
+    "lamda": "λ",
+    "mu": "μ",
+    "nu": "ν",
+    "xi": "ξ",
+    "omicron": "ο",
+    "pi": "π",
+    "rho": "ρ",
+    "sigma": "σ",
+    "tau": "τ",
+    "upsilon": "υ",
+    "phi": "φ",
+    "chi": "χ",
+    "psi": "ψ",
+    "omega": "ω",
+    "Gamma": "Γ",
+    "Delta": "Δ",
+    "Theta": "Θ",
+    "Lambda": "Λ",
+    "Xi": "Ξ",
+    "Pi": "Π",
+    "Sigma": "Σ",
+    "Upsilon": "Υ",
+    "Phi": "Φ",
+    "Psi": "Ψ",
+    "Omega": "Ω",
+}
+"""Spelled Greek letters; the other capitals look like Latin ones and stay spelled."""
+
+FUNCTIONS = frozenset(["sin", "cos", "tan", "sinh", "cosh", "tanh", "arcsin", "arccos", "arctan", "ln", "exp"])
+"""Functions written without parentheses before a single letter, and with their power after the name: sin²θ."""
+
+
+@dataclass(frozen=True)
+class Letter:
+    """A symbol: base letter, subscript parts, dots for time derivatives; ``star`` as in T*, ``bold`` for a vector.
+
+    A vector is ``apart`` where its plain letter would be another symbol's, so that even plain text must show it bold.
+    ``base`` and the parts of ``sub`` are spelled: "theta", "x", "1r". A ``literal`` letter is shown exactly as spelled.
+    """
+
+    base: str
+    sub: tuple[str, ...] = ()
+    dots: int = 0
+    star: bool = False
+    bold: bool = False
+    literal: bool = False
+    apart: bool = False
+
+
+@dataclass(frozen=True)
+class Number:
+    """A number or constant as text: "2", "9.81", "π", "∞"."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Word:
+    """Upright words inside mathematics: "d", "otherwise", "⟨612 operations⟩"."""
+
+    text: str
+
+
+@dataclass(frozen=True)
+class Sum:
+    """Terms with their signs: (is it subtracted?, term)."""
+
+    terms: tuple[tuple[bool, Math], ...]
+
+
+@dataclass(frozen=True)
+class Times:
+    """Factors side by side."""
+
+    factors: tuple[Math, ...]
+
+
+@dataclass(frozen=True)
+class Power:
+    """base^exponent."""
+
+    base: Math
+    exponent: Math
+
+
+@dataclass(frozen=True)
+class Ratio:
+    """A fraction."""
+
+    over: Math
+    under: Math
+
+
+@dataclass(frozen=True)
+class Root:
+    """A square root."""
+
+    of: Math
+
+
+@dataclass(frozen=True)
+class Apply:
+    """A function of its arguments, perhaps with a power after its name: sin²θ."""
+
+    name: str
+    args: tuple[Math, ...]
+    power: Math | None = None
+
+
+@dataclass(frozen=True)
+class Fence:
+    """Something in parentheses or bars."""
+
+    of: Math
+    left: str = "("
+    right: str = ")"
+
+
+@dataclass(frozen=True)
+class Mark:
+    """∂, d or δ before something."""
+
+    sign: str
+    of: Math
+
+
+@dataclass(frozen=True)
+class Relation:
+    """Sides with a relation between each two: a = b = c, x < 0."""
+
+    sides: tuple[Math, ...]
+    sign: str = "="
+
+
+@dataclass(frozen=True)
+class Grid:
+    """A matrix or column."""
+
+    rows: tuple[tuple[Math, ...], ...]
+
+
+@dataclass(frozen=True)
+class Cases:
+    """A quantity with several branches; the condition None means otherwise."""
+
+    branches: tuple[tuple[Math, Math | None], ...]
+
+
+@dataclass(frozen=True)
+class Tagged:
+    """A term that knows the elements it came from, and its kind."""
+
+    of: Math
+    elements: tuple[str, ...]
+    kind: str
+
+
+Math: TypeAlias = "Letter | Number | Word | Sum | Times | Power | Ratio | Root | Apply | Fence | Mark | Relation | Grid | Cases | Tagged"
+
+
+@dataclass(frozen=True)
+class Token:
+    """A piece of a formula that is never cut.
+
+    ``role``: "leaf" (``math`` is rendered), "plus", "minus" (between terms), "negative" (before the first term), "gap"
+    (between factors), "open", "close" (``text`` is the fence), "exponent" (``math`` is raised), "sign" (``text`` is a
+    relation). ``level`` says how bad a line break before it is (0 best), None that there cannot be one. ``tall`` fences
+    hold a fraction.
+    """
+
+    role: str
+    math: Math | None = None
+    text: str = ""
+    level: int | None = None
+    tall: bool = False
+
+
+def tokens(math: Math, depth: int = 0) -> Iterator[Token]:
+    """Cut a formula into tokens; ``depth`` counts the parentheses around it."""
+    if isinstance(math, Sum):
+        for i, (subtracted, term) in enumerate(math.terms):
+            if i:
+                yield Token("minus" if subtracted else "plus", level=2 * depth)
+            elif subtracted:
+                yield Token("negative")
+            yield from tokens(fenced(term, Sum), depth)
+        if not math.terms:
+            yield Token("leaf", Number("0"))
+    elif isinstance(math, Times):
+        for i in range(len(math.factors)):
+            if i:
+                yield Token("gap", level=2 * depth + 1)
+            yield from tokens(_in_product(math.factors, i), depth)
+    elif isinstance(math, Fence):
+        tall = is_tall(math.of)
+        yield Token("open", text=math.left, tall=tall)
+        yield from tokens(math.of, depth + 1)
+        yield Token("close", text=math.right, tall=tall)
+    elif isinstance(math, Power) and isinstance(base := fenced(math.base, _Loose), Fence):
+        yield from tokens(base, depth)
+        yield Token("exponent", math.exponent)
+    elif isinstance(math, Relation):
+        for i, side in enumerate(math.sides):
+            if i:
+                yield Token("sign", text=math.sign, level=None if math.sign == "," else 0)
+            yield from tokens(side, depth)
+    elif isinstance(math, Tagged):
+        yield from tokens(math.of, depth)
+    else:
+        yield Token("leaf", math)
+
+
+_Loose = (Sum, Times, Ratio, Power, Mark, Relation, Cases)
+
+
+def fenced(math: Math, kinds: type | tuple[type, ...]) -> Math:
+    """Put parentheses around anything of these kinds."""
+    inner = math.of if isinstance(math, Tagged) else math
+    return Fence(math) if isinstance(inner, kinds) else math
+
+
+def _in_product(factors: tuple[Math, ...], i: int) -> Math:
+    """Parentheses for sums among factors, and around a bare argument that the next factor would run into."""
+    factor = fenced(factors[i], (Sum, Relation))
+    following = factors[i + 1] if i + 1 < len(factors) else None
+    if isinstance(factor, Apply) and following is not None and not isinstance(following, Apply) and bare(factor):
+        return Apply(factor.name, (Fence(factor.args[0]),), factor.power)
+    return factor
+
+
+def bare(math: Apply) -> bool:
+    """Whether the argument stands without parentheses: sin θ, sin 2θ."""
+    if len(math.args) != 1 or math.name not in FUNCTIONS:
+        return False
+    arg = math.args[0]
+    if isinstance(arg, Times) and len(arg.factors) == 2 and isinstance(arg.factors[0], Number):
+        arg = arg.factors[1]
+    return isinstance(arg, (Letter, Number))
+
+
+def is_word(math: Math | None) -> bool:
+    """Whether it is a name of several letters, which needs air around it."""
+    return isinstance(math, Word) or (isinstance(math, Letter) and (math.literal or _several(math.base)))
+
+
+def _several(base: str) -> bool:
+    return len(base) > 1 and base not in GREEK
+
+
+def is_tall(math: Math | None) -> bool:
+    """Whether it holds a fraction with letters in it or anything else that stands higher than a line."""
+    match math:
+        case Ratio():
+            return not (isinstance(math.over, Number) and isinstance(math.under, Number))
+        case Grid() | Cases():
+            return True
+        case Sum():
+            return any(is_tall(t) for _, t in math.terms)
+        case Times():
+            return any(is_tall(f) for f in math.factors)
+        case Relation():
+            return any(is_tall(s) for s in math.sides)
+        case Power():
+            return is_tall(math.base)
+        case Apply():
+            return any(is_tall(a) for a in math.args)
+        case Fence() | Mark() | Root() | Tagged():
+            return is_tall(math.of)
+        case _:
+            return False
+
+
+def break_lines(
+    pieces: Sequence[Token], width: int, measure: Callable[[Token], int], *, first: int | None = None
+) -> list[list[Token]]:
+    """Cut tokens into lines of at most ``width`` (the first one ``first``) where that is possible.
+
+    Among the breaks that fill a line to two fifths, the least bad one is taken, and of equally bad ones the last.
+    """
+    lines: list[list[Token]] = []
+    start = 0
+    room = width if first is None else first
+    while start < len(pieces):
+        used, end = 0, start
+        breaks: list[tuple[int, int, int]] = []
+        while end < len(pieces):
+            level = pieces[end].level
+            if end > start and level is not None and used <= room:
+                breaks.append((end, used, level))
+            used += measure(pieces[end])
+            end += 1
+            if used > room and breaks:
+                break
+        if used <= room or not breaks:
+            lines.append(list(pieces[start:]))
+            break
+        filled = [b for b in breaks if b[1] >= 0.4 * room] or breaks[-1:]
+        best = min(level for _, _, level in filled)
+        cut = max(at for at, _, level in filled if level == best)
+        lines.append(list(pieces[start:cut]))
+        start, room = cut, width
+        if pieces[start].role == "gap":
+            start += 1
+    return lines

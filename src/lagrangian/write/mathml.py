@@ -1,0 +1,193 @@
+"""Mathematics as MathML Core, which every browser shows without scripts; all text in it is escaped."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from html import escape
+
+from lagrangian.write.lines import Line, chain, chains
+from lagrangian.write.math import (
+    GREEK,
+    Apply,
+    Cases,
+    Fence,
+    Grid,
+    Letter,
+    Mark,
+    Math,
+    Number,
+    Power,
+    Ratio,
+    Root,
+    Token,
+    Word,
+    bare,
+    tokens,
+)
+from lagrangian.write.glyphs import bold
+
+_DOTS = ("", "˙", "¨", "⃛")
+_GAP = '<mspace width="0.17em"></mspace>'
+_IF = "<mtext>if&#xa0;</mtext>"
+_APPLY = "<mo>&#x2061;</mo>"
+
+
+def mathml(math: Math, *, display: bool = False) -> str:
+    """Return a formula as a ``math`` element."""
+    mode = ' display="block"' if display else ""
+    return f"<math{mode}>{row(tokens(math))}</math>"
+
+
+def displayed(sides: tuple[Math, ...], width: int) -> str:
+    """Return a formula for display, cut into aligned lines where it is longer than ``width`` columns."""
+    parts = chains(sides, width)
+    if len(parts) == 1 and len(lines := chain(sides, width)) == 1:
+        return f'<math display="block">{row(lines[0].right)}</math>'
+    body = "".join(_line(line) for part in parts for line in chain(part, width))
+    return f'<math display="block"><mtable displaystyle="true">{body}</mtable></math>'
+
+
+def _line(line: Line) -> str:
+    equals = "<mo>=</mo>" if line.equals else ""
+    indent = '<mspace width="2em"></mspace>' if line.indented else ""
+    right = f"<mtd>{indent}{equals}{row(line.right)}</mtd>"
+    return f"<mtr><mtd>{row(line.left)}</mtd>{right}</mtr>"
+
+
+def row(pieces: Iterable[Token]) -> str:
+    """Return tokens as one row."""
+    listed = list(pieces)
+    out: list[str] = []
+    for i, piece in enumerate(listed):
+        following = listed[i + 1] if i + 1 < len(listed) else None
+        if piece.role == "exponent":
+            continue
+        made = _token(piece, first=i == 0)
+        if following is not None and following.role == "exponent":
+            made = f"<msup>{made}<mrow>{_inner(following.math)}</mrow></msup>"  # type: ignore[arg-type]
+        out.append(made)
+    return f"<mrow>{''.join(out)}</mrow>"
+
+
+def _token(piece: Token, *, first: bool) -> str:
+    match piece.role:
+        case "leaf":
+            return _leaf(piece.math)  # type: ignore[arg-type]
+        case "sign":
+            return f"<mo>{escape(piece.text)}</mo>"
+        case "open" | "close":
+            side = "prefix" if piece.role == "open" else "postfix"
+            stretchy = "true" if piece.tall else "false"
+            return f'<mo form="{side}" stretchy="{stretchy}">{escape(piece.text)}</mo>'
+        case "gap":
+            return "" if first else _GAP
+        case "negative":
+            return '<mo form="prefix">−</mo>'
+        case role:
+            form = "prefix" if first else "infix"
+            sign = "+" if role == "plus" else "−"
+            return f'<mo form="{form}">{sign}</mo>'
+
+
+def _inner(math: Math) -> str:
+    return row(tokens(math))
+
+
+def _leaf(math: Math) -> str:
+    match math:
+        case Letter():
+            return _letter(math)
+        case Number(text):
+            return f"<mn>{escape(text)}</mn>"
+        case Word(text):
+            return (
+                "<mi>d</mi>"
+                if text == "d"
+                else f"<mo>{text}</mo>"
+                if text in "·∂"
+                else f"<mtext>{escape(text)}</mtext>"
+            )
+        case Ratio(Number(), Number()):
+            return f'<mfrac displaystyle="false">{_inner(math.over)}{_inner(math.under)}</mfrac>'
+        case Ratio(over, under):
+            return f"<mfrac>{_inner(over)}{_inner(under)}</mfrac>"
+        case Power(base, exponent):
+            return _power(base, exponent)
+        case Root(of):
+            return f"<msqrt>{_inner(of)}</msqrt>"
+        case Apply():
+            return _apply(math)
+        case Mark(sign, of):
+            inner = _inner(of if isinstance(of, (Letter, Word, Power, Fence)) else Fence(of))
+            return f'<mrow><mo form="prefix" lspace="0" rspace="0">{sign}</mo>{inner}</mrow>'
+        case Grid(rows):
+            return f"<mrow><mo>[</mo>{_table(rows)}<mo>]</mo></mrow>"
+        case Cases(branches):
+            shown = [(v, Word("otherwise") if c is None else c) for v, c in branches]
+            body = "".join(
+                f"<mtr><mtd>{_inner(v)}</mtd><mtd>{'' if isinstance(c, Word) else _IF}{_inner(c)}</mtd></mtr>"
+                for v, c in shown
+            )
+            return f'<mrow><mo form="prefix">{{</mo><mtable>{body}</mtable></mrow>'
+    raise TypeError(f"not a leaf: {math!r}")
+
+
+def _table(rows: tuple[tuple[Math, ...], ...]) -> str:
+    cells = "".join("<mtr>" + "".join(f"<mtd>{_inner(x)}</mtd>" for x in line) + "</mtr>" for line in rows)
+    return f'<mtable class="matrix">{cells}</mtable>'
+
+
+def _power(base: Math, exponent: Math) -> str:
+    raised = _inner(exponent)
+    if isinstance(base, Letter) and base.sub and not base.star:
+        return f"<msubsup>{_base(base)}{_sub(base)}{raised}</msubsup>"
+    return f"<msup>{_inner(base)}{raised}</msup>"
+
+
+def _apply(math: Apply) -> str:
+    name = f"<mi>{escape(math.name)}</mi>"
+    if math.power is not None:
+        name = f"<msup>{name}{_inner(math.power)}</msup>"
+    if bare(math):
+        return f"<mrow>{name}{_APPLY}{_GAP}{_inner(math.args[0])}</mrow>"
+    if len(math.args) == 1 and isinstance(math.args[0], Fence):
+        return f"<mrow>{name}{_APPLY}{_inner(math.args[0])}</mrow>"
+    inner = "<mo>,</mo>".join(_inner(a) for a in math.args)
+    return f'<mrow>{name}{_APPLY}<mo form="prefix">(</mo>{inner}<mo form="postfix">)</mo></mrow>'
+
+
+def _letter(math: Letter) -> str:
+    base = _base(math)
+    sub = _sub(math) if math.sub else ""
+    if sub and math.star:
+        return f"<msubsup>{base}{sub}<mo>*</mo></msubsup>"
+    if sub:
+        return f"<msub>{base}{sub}</msub>"
+    return f"<msup>{base}<mo>*</mo></msup>" if math.star else base
+
+
+def _base(math: Letter) -> str:
+    text = math.base if math.literal else GREEK.get(math.base, math.base)
+    upright = math.literal or math.bold or (len(text) == 1 and text in "ΓΔΘΛΞΠΣΥΦΨΩ")
+    if math.bold:
+        text = bold(text)
+    variant = ' mathvariant="normal"' if upright else ""
+    letter = f"<mi{variant}>{escape(text)}</mi>"
+    return f'<mover accent="true">{letter}<mo stretchy="false">{_DOTS[math.dots]}</mo></mover>' if math.dots else letter
+
+
+def _sub(math: Letter) -> str:
+    parts = [_part(part) for part in math.sub]
+    comma = '<mo separator="true">,</mo>'
+    return parts[0] if len(parts) == 1 else f"<mrow>{comma.join(parts)}</mrow>"
+
+
+def _part(part: str) -> str:
+    if part.isdigit():
+        return f"<mn>{part}</mn>"
+    if part in GREEK or len(part) == 1:
+        return f"<mi>{escape(GREEK.get(part, part))}</mi>"
+    digits = len(part) - len(part.lstrip("0123456789"))
+    if digits and len(part) - digits == 1:
+        return f"<mrow><mn>{part[:digits]}</mn><mi>{escape(part[digits:])}</mi></mrow>"
+    return f"<mtext>{escape(part)}</mtext>"

@@ -1,0 +1,60 @@
+"""How a symbol's name is written: theta1 → θ₁, L_a → Lₐ, x2r → x₂ᵣ.
+
+A Greek letter may be spelled; what follows a first letter with a digit, or an underscore, is its subscript. Any other name
+of several letters is a word and stays one. Two names of one system never look the same.
+"""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Iterable, Mapping
+
+from lagrangian.write.math import GREEK, Letter
+
+SPELLED = {letter: name for name, letter in GREEK.items() if name != "lamda"}
+_VARIANTS = {"ϑ": "theta", "ϕ": "phi", "ϵ": "epsilon", "ς": "sigma", "µ": "mu"}
+
+_GREEK_HEAD = re.compile(r"(%s)(\d\w*)?\Z" % "|".join(sorted(GREEK, key=len, reverse=True)))
+_LATIN_HEAD = re.compile(r"([^\W\d_])(\d\w*)?\Z")
+
+
+def letter(name: str) -> Letter:
+    """Return the symbol that a name stands for."""
+    spelled = "".join(_VARIANTS.get(c, SPELLED.get(c, c)) if len(name) == 1 or _greek(c) else c for c in name)
+    head, _, tail = spelled.partition("_")
+    parts = tuple(p for p in tail.split("_") if p)
+    match = _GREEK_HEAD.match(head) or _LATIN_HEAD.match(head)
+    if match is None:
+        word = name.partition("_")[0]
+        return Letter(word, parts) if word else Letter(name, literal=True)
+    base, digits = match.group(1), match.group(2)
+    if base == "lamda":
+        base = "lambda"
+    return Letter(base, ((digits,) if digits else ()) + parts)
+
+
+def _greek(c: str) -> bool:
+    return c in SPELLED or c in _VARIANTS
+
+
+def letters(names: Iterable[str]) -> Mapping[str, Letter]:
+    """Return the symbols of all names of a system; a name that would look like an earlier one is shown as spelled."""
+    table: dict[str, Letter] = {}
+    taken: set[tuple[str, str]] = set()
+    for name in names:
+        made = letter(name)
+        look = (made.base, "".join(made.sub))
+        if look in taken:
+            made = Letter(unicodedata.normalize("NFC", name), literal=True)
+        taken.add(look)
+        table[name] = made
+    return table
+
+
+def natural(name: str) -> tuple[tuple[int, str, int], ...]:
+    """A key that sorts names as people do: m2 before m10, a before B, M before m."""
+    pieces = re.findall(r"\d+|\D+", name)
+    return tuple((0, "", int(p)) if p.isdigit() and p.isascii() else (1, p.casefold(), 0) for p in pieces) + (
+        (2, name, 0),
+    )

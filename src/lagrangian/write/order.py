@@ -1,0 +1,118 @@
+"""The order of a textbook: m g L sin θ, m₁ l₁ l₂ θ̈₂ cos(θ₁ − θ₂), (m₁ + m₂) ẍ₁, k (x₁ − x₂).
+
+Factors: number, masses, stiffness, damping and inputs, g, other parameters, sums, coordinates, rates, accelerations,
+functions. Terms: accelerations, rates, the rest; among equals by coordinate as declared, then by name as people count.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian.write.names import natural
+
+_MASS, _STIFF, _GRAVITY, _OTHER, _SUM, _PLACE, _RATE, _ACCELERATION, _FUNCTION = range(1, 10)
+_TRIGONOMETRIC = {"sin": 0, "cos": 1, "tan": 2}
+
+
+class Order:
+    """Sort keys for the factors and terms of one system's expressions."""
+
+    def __init__(self, moving: Iterable[sp.Expr], inputs: Iterable[sp.Expr] = ()) -> None:
+        """``moving``: the coordinates as declared, then the definitions that move; ``inputs``: signals from outside."""
+        self._index = {symbol: i for i, symbol in enumerate(moving)}
+        self._inputs = frozenset(inputs)
+        self._names: dict[sp.Expr, tuple[Any, ...]] = {}
+        self._factors: dict[sp.Expr, tuple[Any, ...]] = {}
+
+    def factor(self, factor: sp.Expr) -> tuple[Any, ...]:
+        """Return the sort key of a factor."""
+        if factor not in self._factors:
+            self._factors[factor] = self._factor(factor)
+        return self._factors[factor]
+
+    def _factor(self, factor: sp.Expr) -> tuple[Any, ...]:
+        base, exponent = factor.as_base_exp() if isinstance(factor, sp.Pow) else (factor, sp.S.One)
+        if isinstance(base, sp.Symbol):
+            return (_initial(base.name), 0, natural(base.name))
+        if isinstance(base, (AppliedUndef, sp.Derivative)):
+            return self._moving(base)
+        if isinstance(base, sp.Add):
+            return self._sum(base)
+        if isinstance(base, sp.Function):
+            name = base.func.__name__
+            return (_FUNCTION, _TRIGONOMETRIC.get(name, -1), tuple(self.names(base)))
+        return (_OTHER if not base.atoms(AppliedUndef) else _PLACE, 2, tuple(self.names(base)), str(exponent))
+
+    def _moving(self, base: Any) -> tuple[Any, ...]:
+        symbol = base.expr if isinstance(base, sp.Derivative) else base
+        if symbol in self._inputs:
+            return (_STIFF, 1, natural(str(symbol.func)))
+        rank = _PLACE + (min(base.derivative_count, 2) if isinstance(base, sp.Derivative) else 0)
+        return (rank, 0, self._index.get(symbol, len(self._index)), natural(str(getattr(symbol, "func", symbol))))
+
+    def _sum(self, base: sp.Add) -> tuple[Any, ...]:
+        """(m₁ + m₂) stands with the masses, (M + m sin²θ) before the coordinates, (x₁ − x₂) with them."""
+        names = tuple(self.names(base))
+        count = max((d.derivative_count for d in base.atoms(sp.Derivative)), default=0)
+        if count:
+            return (_PLACE + min(count, 2), 1, names)
+        if base.has(sp.sin, sp.cos, sp.tan):
+            return (_SUM, 1, names)
+        if base.atoms(AppliedUndef) - self._inputs:
+            return (_PLACE, 1, names)
+        ranks = {_initial(s.name) for s in base.free_symbols if isinstance(s, sp.Symbol)}
+        return (_MASS if ranks == {_MASS} else _SUM, 2, names)
+
+    def names(self, expr: sp.Expr) -> list[Any]:
+        """The names in an expression as a key, coordinates by their index."""
+        if expr not in self._names:
+            atoms = expr.atoms(sp.Symbol, AppliedUndef)
+            moving = sorted(self._index[a] for a in atoms if a in self._index)
+            others = sorted(natural(_name(a)) for a in atoms if a not in self._index and _name(a) != "t")
+            self._names[expr] = [tuple(moving), tuple(others), str(expr)]
+        return self._names[expr]
+
+    def term(self, term: sp.Expr, functions: bool) -> tuple[Any, ...]:
+        """Return the sort key of a term; ``functions``: whether functions stand in the sum (then 1 comes before cos θ)."""
+        if term.is_number:
+            return (-1,) if functions else (9,)
+        derivatives: list[tuple[int, int]] = []
+        places: list[int] = []
+        rest: list[Any] = []
+        called = False
+        for part in sp.Mul.make_args(term):
+            base, exponent = part.as_base_exp()
+            times = int(exponent) if exponent.is_Integer and exponent > 0 else 1
+            if isinstance(base, sp.Derivative):
+                derivatives += [(-base.derivative_count, self._index.get(base.expr, 99))] * min(times, 4)
+            elif base.atoms(sp.Derivative):
+                inner = base.atoms(sp.Derivative)
+                derivatives += sorted((-d.derivative_count, self._index.get(d.expr, 99)) for d in inner)
+            elif base in self._index:
+                places.append(self._index[base])
+            elif isinstance(base, sp.Function) and base not in self._inputs:
+                called = True
+                rest.append((8, tuple(self.names(base))))
+            elif not base.is_number:
+                rest.append((self.factor(base)[0], tuple(self.names(base))))
+        highest = min((d for d, _ in derivatives), default=0)
+        kind = {0: 2, -1: 1}.get(highest, 0)
+        moved = tuple(i for _, i in sorted(derivatives))
+        return (kind, moved, called, tuple(sorted(places)), tuple(sorted(rest)))
+
+
+def _initial(name: str) -> int:
+    """The class of a parameter by its first letter, as textbooks use them."""
+    if name == "g":
+        return _GRAVITY
+    if name[:1] in ("m", "M", "J", "I") and not name.startswith("mu"):
+        return _MASS
+    return _STIFF if name[:1] in ("k", "K", "b", "c", "F") else _OTHER
+
+
+def _name(atom: Any) -> str:
+    return atom.name if isinstance(atom, sp.Symbol) else str(atom.func)

@@ -1,0 +1,281 @@
+"""The letters of a notation, and the quantities of a derivation laid out in them.
+
+    meaning                lecture   physics   robotics
+    coordinate             ξ_i       q_i       q_i
+    kinetic co-energy      T*        T         K
+    potential energy       V         V         P
+    Lagrangian             ℒ         ℒ         ℒ
+    generalized force      Ξ_i       Q_i       τ_i
+    matrix form            M q̈ + C q̇ + G = Ξ   (with Q)   M(q) q̈ + C(q, q̇) q̇ + g(q) = τ
+
+A letter that already means something in the system gives way to the next one in its row of `_CHOICES`: a system with a
+parameter V has the potential energy U.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from typing import Literal, TypeAlias, cast, get_args
+
+import sympy as sp
+
+from lagrangian.derive.formula import (
+    Elided,
+    Formula,
+    Left,
+    Matrix,
+    Minus,
+    Name,
+    Partial,
+    Product,
+    Square,
+    Terms,
+    Text,
+    Total,
+    Variation,
+)
+from lagrangian.errors import ModelError, did_you_mean
+from lagrangian.model import Model
+from lagrangian.write.expression import Expressions
+from lagrangian.write.math import (
+    Fence,
+    Grid,
+    Letter,
+    Mark,
+    Math,
+    Number,
+    Power,
+    Ratio,
+    Relation,
+    Sum,
+    Times,
+    Word,
+    fenced,
+)
+
+Notation: TypeAlias = Literal["lecture", "physics", "robotics"]
+"""Which letters: the lecture's ξ, T*, V, Ξ; the physicist's q, T, V, Q; the roboticist's q, K, P, τ."""
+
+_CHOICES: dict[str, dict[str, tuple[Letter, ...]]] = {
+    "lecture": {
+        "T*": (Letter("T", star=True),),
+        "V": (Letter("V"), Letter("U"), Letter("𝒱")),
+        "Xi": (Letter("Xi"), Letter("Q"), Letter("𝒬")),
+        "xi": (Letter("xi"), Letter("q"), Letter("eta")),
+    },
+    "physics": {
+        "T*": (Letter("T"), Letter("K"), Letter("T", star=True)),
+        "V": (Letter("V"), Letter("U"), Letter("𝒱")),
+        "Xi": (Letter("Q"), Letter("Xi"), Letter("𝒬")),
+        "xi": (Letter("q"), Letter("xi"), Letter("eta")),
+    },
+    "robotics": {
+        "T*": (Letter("K"), Letter("T"), Letter("T", star=True)),
+        "V": (Letter("P"), Letter("V"), Letter("U")),
+        "Xi": (Letter("tau"), Letter("Q"), Letter("Xi")),
+        "xi": (Letter("q"), Letter("xi"), Letter("eta")),
+    },
+}
+_COMMON: dict[str, tuple[Letter, ...]] = {
+    "L": (Letter("ℒ"),),
+    "D": (Letter("D"), Letter("ℱ")),
+    "delta": (Letter("delta"), Letter("Delta")),
+    "h": (Letter("h"), Letter("z"), Letter("H")),
+    "v": (Letter("v"), Letter("u")),
+    "omega": (Letter("omega"), Letter("Omega")),
+    "phi": (Letter("phi"), Letter("psi")),
+    "W": (Letter("W"), Letter("𝒲")),
+    "F": (Letter("F"),),
+    "E": (Letter("E"), Letter("ℰ")),
+}
+_VECTORS = {"M": "M", "C": "C", "G": "G", "q": "q"}
+
+
+class Quantities:
+    """Lays out whatever stands in a formula, in one notation; ``full`` writes out what would be summarised."""
+
+    def __init__(self, model: Model, notation: Notation, *, full: bool = False) -> None:
+        if notation not in get_args(Notation):
+            known = ", ".join(get_args(Notation))
+            hint = did_you_mean(str(notation), get_args(Notation))
+            raise ModelError(f"unknown notation '{notation}'", fix=hint or f"one of {known}", code="E405")
+        self.notation, self.full = notation, full
+        self.expressions = Expressions(model)
+        self._taken = {(x.base, x.sub) for x in self.expressions.letters.values() if not x.literal}
+        self._subs = {""} | {self._index(e.name) for e in model.elements}
+        self._order = [c.name for c in model.coordinates]
+        self._chosen = {base: self._choose(base, row) for base, row in (_COMMON | _CHOICES[notation]).items()}
+
+    # -- letters ----------------------------------------------------------------------------------------------------
+
+    def _choose(self, base: str, row: tuple[Letter, ...]) -> Letter:
+        return next((x for x in row if not self._clashes(base, x)), row[-1])
+
+    def _clashes(self, meaning: str, candidate: Letter) -> bool:
+        """Whether a symbol of the system looks like this letter with an index the derivation may give it."""
+        if candidate.star:
+            return False
+        for base, sub in self._taken:
+            if base != candidate.base:
+                continue
+            index = " ".join(sub)
+            if meaning in ("Xi", "xi") and index == "":
+                continue  # without an index these are vectors, and bold
+            if meaning == "xi" and index.isdigit() and self._own_place(base, index):
+                continue
+            if index in self._subs or index.isdigit():
+                return True
+        return False
+
+    def _own_place(self, base: str, index: str) -> bool:
+        """Whether the coordinate at this place is itself named so: q₁ is the first coordinate."""
+        at = int(index) - 1
+        return 0 <= at < len(self._order) and self.expressions.letter(self._order[at]) == Letter(base, (index,))
+
+    def _index(self, index: str) -> str:
+        """An index as the parts of a subscript, joined: an element's name is laid out as a symbol is."""
+        return " ".join(self._parts(index))
+
+    def _parts(self, index: str) -> tuple[str, ...]:
+        if not index:
+            return ()
+        if index.isidentifier():
+            made = self.expressions.letter(index)
+            return (made.base, *made.sub) if not made.literal else (index,)
+        return (index,)
+
+    def name(self, name: Name) -> Math:
+        """Lay out a named quantity."""
+        sub = self._parts(name.index)
+        if name.base in self._chosen and not (name.base == "Xi" and not sub):
+            chosen = self._chosen[name.base]
+            return Letter(chosen.base, sub, name.dots, chosen.star)
+        if name.base == "Xi":
+            return self._vector(self._chosen["Xi"].base, name.dots)
+        if name.base in _VECTORS:
+            if name.base == "G" and self.notation == "robotics":
+                return Times((self._vector("g", 0), Fence(self._vector("q", 0))))
+            return self._vector(_VECTORS[name.base], name.dots)
+        if name.base in ("x", "y", "z"):
+            return Letter(name.base, sub, name.dots)
+        if name.base.isdigit():
+            return Number(name.base)
+        return Word(name.base + (f" {name.index}" if name.index else ""))
+
+    def _vector(self, base: str, dots: int) -> Letter:
+        return Letter(base, (), dots, bold=True, apart=any(taken == base for taken, _ in self._taken))
+
+    def words(self, words: str) -> Iterator[str | Math]:
+        """Split words at the letters of the lecture that stand in them and lay those out in this notation.
+
+        What stands in quotation marks is a name that somebody gave, and stays.
+        """
+        for i, part in enumerate(_QUOTED.split(words)):
+            if i % 2:
+                yield part
+                continue
+            at = 0
+            for found in _LETTERS.finditer(part):
+                if found.start() > at:
+                    yield part[at : found.start()]
+                at = found.end()
+                yield self._lecture_letter(found.group())
+            if at < len(part):
+                yield part[at:]
+
+    def _lecture_letter(self, found: str) -> Math:
+        letters = {"T*": "T*", "V": "V", "L": "L", "Ξ": "Xi", "ξ": "xi", "Ξᵢ": "Xi", "ξᵢ": "xi"}
+        base = letters[found]
+        sub = ("i",) if found.endswith("ᵢ") else ()
+        return Letter(self._chosen[base].base, sub, star=self._chosen[base].star)
+
+    # -- anything in a formula --------------------------------------------------------------------------------------
+
+    def __call__(self, item: Left) -> Math:
+        """Lay out anything that stands on a side of an equality."""
+        match item:
+            case Name():
+                return self.name(item)
+            case Partial(of, by):
+                return Ratio(Mark("∂", self(of)), Mark("∂", self(by)))
+            case Total(of):
+                return Times((Ratio(Word("d"), Word("dt")), Fence(self(of))))
+            case Variation(of):
+                return Mark("δ", fenced(self(of), (Sum, Times, Ratio)))
+            case Terms(terms):
+                return self._terms(terms)
+            case Minus(of):
+                return Sum(((True, fenced(self(of), Sum)),))
+            case Product(factors):
+                return self._product(factors)
+            case Square(coefficient, of):
+                return self._square(coefficient, of)
+            case Matrix(rows):
+                return Grid(tuple(tuple(self(x) for x in row) for row in rows))
+            case Elided(expr, operations, terms):
+                if not self.full:
+                    return Word(f"⟨{operations} operations⟩")
+                return self.expressions.sum(terms) if terms else self.expressions(expr)
+        return self.expressions(item)
+
+    def _terms(self, terms: tuple[Left, ...]) -> Math:
+        laid: list[tuple[bool, Math]] = []
+        for term in terms:
+            if isinstance(term, Minus):
+                laid.append((True, self(term.of)))
+            elif isinstance(term, sp.Basic):
+                laid.append(self.expressions.term(cast(sp.Expr, term)))
+            else:
+                laid.append((False, self(term)))
+        if len(laid) == 1 and not laid[0][0]:
+            return laid[0][1]
+        return Sum(tuple(laid)) if laid else Number("0")
+
+    def _product(self, factors: tuple[Left, ...]) -> Math:
+        laid: list[Math] = []
+        for factor in factors:
+            made = self(factor)
+            laid += made.factors if isinstance(made, Times) and not isinstance(factor, Name) else (made,)
+            if self.notation == "robotics" and isinstance(factor, Name) and factor.base in ("M", "C"):
+                q, rate = self._vector("q", 0), self._vector("q", 1)
+                laid.append(Fence(q if factor.base == "M" else Relation((q, rate), ",")))
+        return Times(tuple(laid))
+
+    def _square(self, coefficient: sp.Expr, of: tuple[Left, ...]) -> Math:
+        """½ m (ẋ² + ẏ²)."""
+        number = coefficient.as_coeff_Mul()[0]
+        squares = [Power(fenced(self(a), _NOT_SQUARED), Number("2")) for a in of]
+        inner: Math = squares[0] if len(squares) == 1 else Sum(tuple((False, s) for s in squares))
+        negative = bool(number.is_negative)
+        front = self.expressions(-coefficient if negative else coefficient)
+        factors = front.factors if isinstance(front, Times) else () if front == Number("1") else (front,)
+        product = Times((*factors, inner)) if factors else inner
+        return Sum(((True, product),)) if negative else product
+
+    def formula(self, item: Formula) -> tuple[Math, ...]:
+        """Lay out the sides of a chain of equalities; a side that looks like the one before it is left out."""
+        sides: list[Math] = []
+        for side in item.sides:
+            laid = self(side)
+            if not sides or laid != sides[-1]:
+                sides.append(laid)
+        return tuple(sides)
+
+    def inline(self, item: Text | Formula, *, given: frozenset[str] = frozenset()) -> tuple[str | Math, ...]:
+        """Lay out words with symbols in them; texts in ``given`` are somebody's own words and stay as they are."""
+        if isinstance(item, Formula):
+            sides = self.formula(item)
+            return (Relation(sides) if len(sides) > 1 else sides[0],)
+        made: list[str | Math] = []
+        for part in item.parts:
+            if isinstance(part, str):
+                made += [part] if part in given else self.words(part)
+            else:
+                made.append(self(part))
+        return tuple(made)
+
+
+_QUOTED = re.compile(r"('[^']*')")
+_LETTERS = re.compile(r"T\*|Ξᵢ|ξᵢ|Ξ|ξ(?!̇)|(?<![\w*'’])[VL](?![\w*'’(])")
+_NOT_SQUARED = (Sum, Times, Ratio, Power, Mark)
