@@ -1,0 +1,100 @@
+"""The functions of the expression grammar: how many arguments each takes and which SymPy function it is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import sympy as sp
+
+
+@dataclass(frozen=True)
+class Known:
+    """A function: what SymPy calls it and how many arguments it takes (``most`` None: any number)."""
+
+    make: Callable[..., sp.Expr]
+    least: int = 1
+    most: int | None = 1
+
+
+def _real(function: Callable[..., sp.Expr]) -> Callable[..., sp.Expr]:
+    """Return abs or sign of a real number: where SymPy would split into real and imaginary parts it stays as it is."""
+
+    def make(argument: sp.Expr) -> sp.Expr:
+        value = function(argument)
+        return function(argument, evaluate=False) if value.has(sp.re, sp.im, sp.arg, sp.conjugate) else value
+
+    return make
+
+
+def _extremum(function: type[sp.Max] | type[sp.Min]) -> Callable[..., sp.Expr]:
+    """Return a maximum or minimum that compares its arguments only while they are few: SymPy's takes O(n²) proofs."""
+
+    def make(*args: sp.Expr) -> sp.Expr:
+        count = sum(len(a.args) if isinstance(a, (sp.Max, sp.Min)) else 1 for a in args)
+        if all(a.is_Rational for a in args) or count <= 4:
+            return function(*args)
+        return function(*args, evaluate=False)
+
+    return make
+
+
+FUNCTIONS: dict[str, Known] = {
+    "sin": Known(sp.sin),
+    "cos": Known(sp.cos),
+    "tan": Known(sp.tan),
+    "asin": Known(sp.asin),
+    "acos": Known(sp.acos),
+    "atan": Known(sp.atan),
+    "atan2": Known(sp.atan2, 2, 2),
+    "sinh": Known(sp.sinh),
+    "cosh": Known(sp.cosh),
+    "tanh": Known(sp.tanh),
+    "asinh": Known(sp.asinh),
+    "acosh": Known(sp.acosh),
+    "atanh": Known(sp.atanh),
+    "exp": Known(sp.exp),
+    "log": Known(sp.log),
+    "ln": Known(sp.log),
+    "sqrt": Known(sp.sqrt),
+    "abs": Known(_real(sp.Abs)),
+    "sign": Known(_real(sp.sign)),
+    "min": Known(_extremum(sp.Min), 1, 32),
+    "max": Known(_extremum(sp.Max), 1, 32),
+}
+"""Every function but ``piecewise``, whose arguments are conditions and values in turn."""
+
+ALIASES = {
+    "arcsin": "asin",
+    "arccos": "acos",
+    "arctan": "atan",
+    "arctan2": "atan2",
+    "arcsinh": "asinh",
+    "arccosh": "acosh",
+    "arctanh": "atanh",
+    "arsinh": "asinh",
+    "arcosh": "acosh",
+    "artanh": "atanh",
+    "tg": "tan",
+    "fabs": "abs",
+    "Abs": "abs",
+    "Max": "max",
+    "Min": "min",
+    "sgn": "sign",
+    "signum": "sign",
+    "Piecewise": "piecewise",
+    "pow": "a^b",
+    "cot": "1/tan(x)",
+    "sec": "1/cos(x)",
+    "csc": "1/sin(x)",
+    "log10": "log(x)/log(10)",
+    "log2": "log(x)/log(2)",
+    "cbrt": "x^(1/3)",
+    "diff": "x' for the rate of x",
+    "Derivative": "x' for the rate of x",
+    "heaviside": "piecewise(x < 0, 0, 1)",
+    "Heaviside": "piecewise(x < 0, 0, 1)",
+    "deg2rad": "pi/180*x",
+    "radians": "pi/180*x",
+}
+"""What people of other languages write, and what to write here."""

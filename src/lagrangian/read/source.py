@@ -1,0 +1,80 @@
+"""A piece of text and where it stands, so that every error points at the character that is wrong."""
+
+from __future__ import annotations
+
+import unicodedata
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from lagrangian.errors import ParseError, Place
+
+
+def shown(text: str, limit: int = 40) -> str:
+    """Return the text in single quotes, cut at ``limit`` characters, with control characters written out."""
+    cut = text if len(text) <= limit else text[: limit - 1] + "…"
+    return "'" + "".join(c if c.isprintable() else f"\\u{ord(c):04x}" for c in cut) + "'"
+
+
+def character(c: str) -> str:
+    """Return a character for a message: itself where it prints, with its code point where it is not ASCII."""
+    if c.isascii():
+        return f"'{c}'" if c.isprintable() else f"the control character U+{ord(c):04X}"
+    return f"'{c}' (U+{ord(c):04X} {unicodedata.name(c, 'unnamed')})"
+
+
+@dataclass(frozen=True)
+class Source:
+    """``text`` as a person wrote it. ``what`` says what it is (``"k of spring 's1'"``); ``place`` is where it starts.
+
+    ``columns`` gives the column in the file of each character, for text that a file writes with escapes; without it the
+    text stands in the file as it is.
+    """
+
+    text: str
+    what: str
+    place: Place | None = None
+    columns: Sequence[int] | None = None
+
+    def at(self, offset: int) -> Place:
+        """Return the place of the character at ``offset``."""
+        offset = max(0, min(offset, len(self.text)))
+        start = self.place or Place()
+        if start.line is not None and (start.column is None or self.columns is not None):
+            if self.columns is None:
+                return start
+            column = self.columns[min(offset, len(self.columns) - 1)]
+            return Place(start.file, start.line, column, start.text)
+        before = self.text[:offset]
+        row = before.count("\n")
+        first = self.text.rfind("\n", 0, offset) + 1
+        last = self.text.find("\n", offset)
+        line = self.text[first : last if last >= 0 else len(self.text)]
+        column = offset - first + 1
+        if row == 0 and start.line is not None and start.column is not None:
+            return Place(start.file, start.line, start.column + offset, _printable(start.text))
+        return Place(start.file, (start.line or 1) + row, column, _printable(line))
+
+    def error(self, message: str, offset: int, *, fix: str | None = None, code: str = "E701") -> ParseError:
+        """Return a `ParseError` that points at ``offset``."""
+        return ParseError(message, element=self.what or None, place=self.at(offset), fix=fix, code=code)
+
+    def check_text(self, limit: int, example: str) -> None:
+        """Refuse what is not text, empty, or longer than ``limit`` characters."""
+        if not isinstance(self.text, str):
+            kind = type(self.text).__name__
+            raise ParseError(f"this must be text (got {kind})", element=self.what, place=self.place, code="E406")
+        if len(self.text) > limit:
+            raise ParseError(
+                f"the text has {len(self.text)} characters; at most {limit} are read",
+                element=self.what,
+                place=self.place,
+                fix="give parts of it names under [define]" if limit > 1000 else f"write it shortly, such as {example}",
+                code="E703",
+            )
+        if not self.text.strip():
+            raise self.error("the text is empty", 0, fix=f"write {example}", code="E406")
+
+
+def _printable(line: str | None) -> str | None:
+    """Return a line with one printable character for each of its own, so that the caret stays under the right one."""
+    return None if line is None else "".join(c if c.isprintable() else " " for c in line)
