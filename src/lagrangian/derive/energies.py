@@ -252,7 +252,7 @@ def potential(context: Context, pieces: tuple[Share, ...]) -> Step:
         3,
         "Potential energy",
         text("Wrote ½k(Δx)² for every spring and mgh for every mass under gravity, and added them up."),
-        text("Conservative forces are counted here, once, and so never again among the Ξ."),
+        text("Conservative forces are counted here, once, and so never again among the ", Name("Xi"), "."),
         tuple(items),
         {"V": readable},
         reasons,
@@ -327,5 +327,5 @@ def lagrangian(context: Context, pieces: tuple[Share, ...]) -> Step:
         text("The Lagrangian holds all that the left-hand sides need."),
         (formula(Name("L"), Terms((Name("T*"), Minus(Name("V")))), written, brief=True),),
         {"L": readable},
-        (text("L = T* − V: kinetic co-energy minus potential energy"),),
+        (text(Name("L"), " = ", Name("T*"), " − ", Name("V"), ": kinetic co-energy minus potential energy"),),
     )

@@ -200,17 +200,22 @@ def _coordinate(context: Context, index: int, mine: list[Contribution], total: F
         ride = ["child", "rides"] if len(children) == 1 else ["children", "ride"]
         parts += [f" (with its {ride[0]} ", *[p for s in children for p in (s, ", ")][:-1], f", which {ride[1]} along)"]
     rows = tuple(
-        (text(f.element.title), f.story, formula(Partial(Name("W", f.element.name), c.symbol), fit(f.virtual.expr())))
+        (text(f.element.title), f.story, text(_pieces(context, f.element, c.rate)), text(fit(f.virtual.expr())))
         for f in mine
     )
-    rows = tuple((element, story, text(cell.sides[1])) for element, story, cell in rows)
-    header = (text("element"), text("the box"), text("adds"))
+    header = (text("element"), text("the box"), text("virtual work"), text("adds"))
     return [
         Heading(text(big_xi(index), " for ", c.symbol)),
         text(*parts, "."),
         Table(header, rows),
         formula(big_xi(index), fit(total.expr())),
     ]
+
+
+def _pieces(context: Context, element: Element, rate: sp.Expr) -> Left:
+    """Effort · ∂displacement/∂ξ_i, action by action, before anything cancels."""
+    pieces = [context.algebra.form(a.effort * sp.diff(a.rate, rate)) for a in element.works(context.model)]
+    return Terms(tuple(fit(p.expr()) for p in pieces if not p.is_zero))
 
 
 def _reason(index: int, symbol: sp.Expr, mine: list[Contribution], value: sp.Expr) -> Text:

@@ -50,7 +50,9 @@ def left_sides(context: Context, pieces: tuple[Share, ...]) -> tuple[LeftSide, .
 
 def left_hand_sides(context: Context, sides: tuple[LeftSide, ...]) -> Step:
     """Write out ∂L/∂ξ̇_i, its d/dt, ∂L/∂ξ_i and the left-hand side of every coordinate."""
-    items: list[Item] = []
+    by_xi = Partial(Name("L"), Name("xi", "i", 1))
+    law = Terms((Total(by_xi), Minus(Partial(Name("L"), Name("xi", "i")))))
+    items: list[Item] = [formula(law, Name("Xi", "i"), brief=True)]
     expressions: dict[sp.Expr, sp.Expr] = {}
     reasons = []
     for i, side in enumerate(sides):

@@ -1,0 +1,199 @@
+"""A system as machine code: what ``system.compile()`` returns."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import sympy as sp
+from numpy.typing import ArrayLike, NDArray
+
+from lagrangian import compile as machine
+from lagrangian import dynamics
+from lagrangian.errors import ModelError, RunError
+from lagrangian.model import plain
+
+if TYPE_CHECKING:
+    from lagrangian.graph import Program
+    from lagrangian.model import Model
+
+Values = ArrayLike | Mapping[Any, Any] | None
+"""Inputs or parameters: an array in declared order, a mapping by name or symbol, or None for what is declared."""
+
+SINGULAR = 1e12
+"""Condition number of M above which a configuration is called singular."""
+
+
+class Compiled:
+    """The dynamics M(q) q̈ + C(q, q̇) q̇ + G(q) = Ξ of a system, as kernels of machine code.
+
+    Every method takes arrays of shape ``(..., n)``, any number of leading dimensions that broadcast together, in the
+    declared order of the coordinates, and answers in one call. ``u`` are the inputs, 0 unless given; ``p`` the
+    parameters, as declared unless given; both by name (a mapping) or in declared order. ``t`` is time [s].
+    Code is made at the first call of each method and kept on disk between runs.
+
+    Raises `RunError` for a shape, a type, a name or a value that does not fit, and where M is singular.
+    """
+
+    def __init__(self, model: Model, *, lanes: int | None = None, threads: int | None = None) -> None:
+        self._model, self._lanes, self._threads = model, lanes, threads
+        self._kernels: dict[str, machine.Kernel] = {}
+        self.coordinates = tuple(c.name for c in model.coordinates)
+        self.inputs = tuple(u.name for u in model.inputs)
+        self.parameters = tuple(p.name for p in model.parameters)
+        self._kernel("forward")  # a coordinate without mass is found now, not at the first call
+
+    def __repr__(self) -> str:
+        """Say what there is."""
+        return f"<Compiled {self._model.name!r}: q = {', '.join(self.coordinates)}>"
+
+    def program(self, name: str) -> Program:
+        """Return the `Program` behind a method: "forward", "inverse", "mass_matrix", "bias", "gravity", …"""
+        if name not in _PROGRAMS:
+            raise RunError(f"there is no program '{name}'", fix=f"one of {', '.join(_PROGRAMS)}", code="E402")
+        return _PROGRAMS[name](self._model)
+
+    def _kernel(self, name: str) -> machine.Kernel:
+        found = self._kernels.get(name)
+        if found is None:
+            optional = {"u": 0.0, "t": 0.0}
+            if name in _STILL:
+                optional["v"] = 0.0
+            found = machine.compile(self.program(name), optional=optional, lanes=self._lanes, threads=self._threads)
+            self._kernels[name] = found
+        return found
+
+    def forward(
+        self, q: ArrayLike, v: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
+    ) -> NDArray[np.float64]:
+        """Return the accelerations q̈, shape ``(..., n)``, in the time of O(n) for chains and trees."""
+        try:
+            return self._kernels["forward"](q, v, u if u is None else _named(u), p if p is None else _named(p), t)
+        except RunError as trouble:
+            raise self._explained(trouble, q, p, t) from None
+
+    def inverse(
+        self, q: ArrayLike, v: ArrayLike, a: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
+    ) -> NDArray[np.float64]:
+        """Return the generalized forces that the motion needs beyond those described: M a + C v + G − Ξ(u)."""
+        return self._kernel("inverse")(q, v, a, _named(u), _named(p), t)
+
+    def mass_matrix(self, q: ArrayLike, p: Values = None, t: ArrayLike = 0.0) -> NDArray[np.float64]:
+        """Return M(q), shape ``(..., n, n)``."""
+        return self._kernel("mass_matrix")(q, None, None, _named(p), t)
+
+    def bias(
+        self, q: ArrayLike, v: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
+    ) -> NDArray[np.float64]:
+        """Return C v + G − Ξ(u): what `inverse` gives at a = 0."""
+        return self._kernel("bias")(q, v, _named(u), _named(p), t)
+
+    def coriolis_matrix(self, q: ArrayLike, v: ArrayLike, p: Values = None, t: ArrayLike = 0.0) -> NDArray[np.float64]:
+        """Return C(q, v) by Christoffel's symbols, shape ``(..., n, n)``: Ṁ − 2C is skew-symmetric."""
+        return self._kernel("coriolis")(q, v, None, _named(p), t)
+
+    def gravity(self, q: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0) -> NDArray[np.float64]:
+        """Return ∂V/∂q: weights, springs and potentials."""
+        return self._kernel("gravity")(q, None, _named(u), _named(p), t)
+
+    def energy(
+        self, q: ArrayLike, v: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
+    ) -> NDArray[np.float64]:
+        """Return T* + V [J], shape ``(...)``."""
+        both = self._kernel("energy")(q, v, _named(u), _named(p), t)
+        return both["T"] + both["V"]
+
+    def energies(
+        self, q: ArrayLike, v: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Return T* and V [J], each of shape ``(...)``."""
+        both = self._kernel("energy")(q, v, _named(u), _named(p), t)
+        return both["T"], both["V"]
+
+    def rhs(self, t: ArrayLike, x: ArrayLike, u: Values = None, p: Values = None) -> NDArray[np.float64]:
+        """Return ẋ of x = [q; v] in declared order, shape ``(..., 2n)``: the right-hand side that solvers want."""
+        try:
+            return self._kernel("rhs")(x, _named(u), _named(p), t)
+        except RunError as trouble:
+            n = len(self.coordinates)
+            raise self._explained(trouble, np.asarray(x)[..., :n], p, t) from None
+
+    @cached_property
+    def operations(self) -> int:
+        """Operations of machine code that one q̈ takes."""
+        return self._kernel("forward").operations
+
+    def _explained(self, trouble: RunError, q: ArrayLike, p: Values, t: ArrayLike) -> RunError:
+        """Where the accelerations are not finite, look whether M is singular there, and say for which coordinates."""
+        if trouble.code != "E503" or not trouble.what.startswith("output"):
+            return trouble
+        try:
+            matrices = np.asarray(self.mass_matrix(q, p, t))
+        except RunError:
+            return trouble
+        flat = matrices.reshape(-1, *matrices.shape[-2:])
+        states = np.broadcast_to(np.asarray(q, float), (*matrices.shape[:-2], flat.shape[-1])).reshape(len(flat), -1)
+        for state, M in zip(states, flat, strict=True):
+            _, singular, right = np.linalg.svd(M)
+            if singular[-1] * SINGULAR <= singular[0]:
+                return RunError(
+                    f"M is singular at {self._listed(state)}: {self._moved(right[-1])} moves no mass there",
+                    fix="choose other coordinates near this configuration, or give what they move a mass or an inertia",
+                    code="E203",
+                )
+        return trouble
+
+    def _listed(self, state: NDArray[np.float64]) -> str:
+        shown = [f"{name} = {x:.6g}" for name, x in zip(self.coordinates, state, strict=True)]
+        return ", ".join(shown[:8]) + (", …" if len(shown) > 8 else "")
+
+    def _moved(self, direction: NDArray[np.float64]) -> str:
+        involved = [n for n, x in zip(self.coordinates, direction, strict=True) if abs(x) > 1e-6]
+        return (
+            f"'{involved[0]}'"
+            if len(involved) == 1
+            else "moving " + ", ".join(f"'{n}'" for n in involved) + " together"
+        )
+
+
+def _named(given: Values) -> Any:
+    """A mapping with names for keys, whether it was given with names or symbols; anything else as it is."""
+    if isinstance(given, Mapping):
+        return {plain(k) if isinstance(k, sp.Basic) else k: value for k, value in given.items()}
+    return given
+
+
+_PROGRAMS: dict[str, Callable[[Model], Program]] = {
+    "forward": dynamics.forward,
+    "inverse": dynamics.inverse,
+    "mass_matrix": dynamics.mass_matrix,
+    "bias": dynamics.bias,
+    "gravity": dynamics.gravity,
+    "coriolis": dynamics.coriolis,
+    "energy": dynamics.energy,
+    "rhs": dynamics.rhs,
+}
+_STILL = ("mass_matrix", "gravity")
+
+EXPORTED: Sequence[str] = ("forward", "inverse", "mass_matrix", "energy")
+"""The programs that source files are written of."""
+
+
+def source(model: Model, language: str) -> dict[str, str]:
+    """Return the source files of a system in "c" or "python": file name → text.
+
+    One file (and a header in C) a program: forward dynamics, inverse dynamics, mass matrix, energies.
+    """
+    if language not in ("c", "python"):
+        raise ModelError(f"there is no export to '{language}'", fix="c or python", code="E402")
+    files: dict[str, str] = {}
+    for name in EXPORTED:
+        program = _PROGRAMS[name](model)
+        if language == "c":
+            code, header = machine.to_c(program)
+            files[f"{name}.c"], files[f"{name}.h"] = code, header
+        else:
+            files[f"{name}.py"] = machine.to_numpy(program)
+    return files
