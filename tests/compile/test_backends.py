@@ -251,7 +251,7 @@ def test_long_programs_are_cut_into_functions(c_function):
     q, p = np.array([[0.3, 0.5], [-1.0, 0.2], [0.1, -0.4]]), np.array([0.6])
     want = np.array([oracle(made, {"q": row, "p": p}) for row in q])
     kernel = machine(made)
-    assert "body_1_2" in kernel._build.text("single")
+    assert "body_1_2" in kernel.build.text("single")
     np.testing.assert_allclose(kernel(q, p), want, rtol=1e-12)
     np.testing.assert_allclose(kernel(q[0], p), want[0], rtol=1e-12)
     source, _ = to_c(made, name="f")
@@ -262,7 +262,7 @@ def test_long_programs_are_cut_into_functions(c_function):
 
 def test_what_depends_on_parameters_alone_runs_once():
     kernel = machine(PENDULUM)
-    body, prologue = kernel._build.lowered.body, kernel._build.lowered.prologue
+    body, prologue = kernel.build.lowered.body, kernel.build.lowered.prologue
     assert prologue.operations >= 6  # (m1+m2)·l1², m2·l2², gravity's torques, …
     assert not any(op[0] == "div" for op in prologue.ops)
     assert body.operations + prologue.operations <= 60

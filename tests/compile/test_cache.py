@@ -43,7 +43,7 @@ def test_the_second_kernel_comes_from_disk(folder, compilations):
     kernel = fresh()
     np.testing.assert_array_equal(kernel(Q, V), first)
     assert len(compilations) == 1
-    assert kernel._build._lowered is None  # nothing was lowered or printed either
+    assert kernel.build._lowered is None  # nothing was lowered or printed either
     batch = fresh()(np.tile(Q, (9, 1)), V)
     sweep = fresh()(Q, V, p={"g": np.full(9, 9.81)})
     assert len(compilations) == 3

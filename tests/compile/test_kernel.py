@@ -422,6 +422,35 @@ def test_raw_functions(kernel):
         kernel.raw(3)
 
 
+def test_others_can_print_code_around_the_tapes(kernel):
+    """One explicit Euler step of [q; v] in the same module: x + h [v; a]."""
+    import ctypes
+
+    from lagrangian.compile import aligned
+
+    def euler(module, build):
+        build.emit_tapes(module, 1)
+        lines = ["call void @body_1(ptr %x, ptr %shared, ptr %a, ptr %scratch)"]
+        for k in range(4):
+            source = f"ptr %x, i64 {k + 2}" if k < 2 else f"ptr %a, i64 {k - 2}"
+            lines += [f"%r{k} = getelementptr double, {source}", f"%d{k} = load double, ptr %r{k}"]
+        for k in range(4):
+            lines += [f"%p{k} = getelementptr double, ptr %x, i64 {k}", f"%o{k} = load double, ptr %p{k}"]
+            lines += [f"%m{k} = fmul double %d{k}, %h", f"%n{k} = fadd double %o{k}, %m{k}"]
+            lines += [f"store double %n{k}, ptr %p{k}"]
+        arguments = "ptr %x, ptr %shared, ptr %a, ptr %scratch, double %h"
+        module.define("euler", "\n".join([f"define void @euler({arguments}) {{", *lines, "ret void", "}"]))
+
+    loaded = kernel.build.extended("euler 1", euler)
+    assert kernel.build.extended("euler 1", euler) is loaded
+    step = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4, ctypes.c_double)(loaded.address("euler"))
+    q, v = states()
+    x, a, shared = aligned(6), aligned(2), kernel.shared()
+    x[:] = [*q, *v, 0, 0]
+    step(x.ctypes.data, shared.ctypes.data, a.ctypes.data, None, 0.01)
+    np.testing.assert_allclose(x[:4], [*(q + 0.01 * v), *(v + 0.01 * kernel(q, v))], rtol=1e-14)
+
+
 def test_what_a_kernel_says_of_itself(kernel):
     assert repr(kernel) == "<Kernel 'double pendulum': q[2], v[2], u[1], p[5], t[1] -> acc[2]>"
     assert 20 < kernel.operations < 60

@@ -10,13 +10,14 @@ from lagrangian.errors import RunError
 from . import native
 from .build import Build, Options
 from .c99 import to_c
-from .kernel import Kernel, RawFunction
+from .kernel import Kernel
 from .numpy_source import to_numpy
+from .stage import RawFunction, aligned
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program
 
-__all__ = ["Kernel", "RawFunction", "compile", "to_c", "to_numpy"]
+__all__ = ["Build", "Kernel", "Options", "RawFunction", "aligned", "compile", "to_c", "to_numpy"]
 
 
 def compile(

@@ -11,6 +11,7 @@ from __future__ import annotations
 import hashlib
 import json
 import threading
+from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from functools import cache
 from pathlib import Path
@@ -91,7 +92,7 @@ class Build:
                 found = self._loaded.get(kind) or self._loaded.setdefault(kind, self._load(kind))
         return found
 
-    def _load(self, kind: str) -> native.Loaded:
+    def _load(self, kind: str, printer: Callable[[Module, Build], None] | None = None) -> native.Loaded:
         keep = self.options.keep and disk.directory() is not None
         key = f"{self.key}-{kind}" if keep else ""
         content = disk.read(key) if keep else None
@@ -99,7 +100,13 @@ class Build:
             head, _, code = content.partition(b"\n")
             self._sizes = self._sizes or _sizes(head)
             return native.Loaded(code, self.target)
-        code = native.object_code(self.text(kind), self.target, self.options.level)
+        if printer is None:
+            text = self.text(kind)
+        else:
+            module = Module(self.target)
+            printer(module, self)
+            text = module.text()
+        code = native.object_code(text, self.target, self.options.level)
         if keep:
             disk.write(key, json.dumps(asdict(self.sizes)).encode() + b"\n" + code)
         return native.Loaded(code, self.target)
@@ -114,21 +121,38 @@ class Build:
 
     def text(self, kind: str) -> str:
         """The LLVM IR of the module of that kind."""
-        low, sizes, options = self.lowered, self.sizes, self.options
-        module = Module(self.target)
-        if kind != "sweep":
-            emit(module, "prologue_1", low.prologue, 1, chunk=options.chunk)
+        module, lanes = Module(self.target), self.options.lanes
         if kind == "single":
-            emit(module, "body_1", low.body, 1, chunk=options.chunk)
-            driver.emit_single(module, sizes)
+            self.emit_tapes(module, 1)
+            driver.emit_single(module, self.sizes)
             return module.text()
-        lanes, own = options.lanes, kind == "sweep"
+        own = kind == "sweep"
+        self.emit_tapes(module, lanes, own_shared=own)
+        if lanes > 1 and not own:
+            emit(module, "prologue_1", self.lowered.prologue, 1, chunk=self.options.chunk)
         body, prologue = f"body_{lanes}", f"prologue_{lanes}"
-        emit(module, body, low.body, lanes, own_shared=own, chunk=options.chunk)
-        if own:
-            emit(module, prologue, low.prologue, lanes, own_shared=True, chunk=options.chunk)
-        driver.emit_batch(module, sizes, lanes, own_shared=own, body=body, prologue=prologue)
+        driver.emit_batch(module, self.sizes, lanes, own_shared=own, body=body, prologue=prologue)
         return module.text()
+
+    def emit_tapes(self, module: Module, lanes: int, *, own_shared: bool = False) -> None:
+        """Print ``body_<lanes>``, and ``prologue_<lanes>`` unless all lanes share one parameter set."""
+        low, chunk = self.lowered, self.options.chunk
+        if lanes == 1 or own_shared:
+            emit(module, f"prologue_{lanes}", low.prologue, lanes, own_shared=own_shared, chunk=chunk)
+        emit(module, f"body_{lanes}", low.body, lanes, own_shared=own_shared, chunk=chunk)
+
+    def extended(self, name: str, printer: Callable[[Module, Build], None]) -> native.Loaded:
+        """A module of somebody else's making, kept and found again like the others.
+
+        ``printer`` prints functions that call ``body_…`` (see :meth:`emit_tapes`), an integrator for instance. ``name``
+        stands for the text it prints: two printers, or two versions of one, must not share it.
+        """
+        with self._lock:
+            kind = "x" + hashlib.sha256(name.encode()).hexdigest()[:24]
+            found = self._loaded.get(kind)
+            if found is None:
+                found = self._loaded[kind] = self._load(kind, printer)
+            return found
 
 
 def _sizes(head: bytes) -> driver.Sizes:

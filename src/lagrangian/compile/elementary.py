@@ -115,10 +115,7 @@ def function(module: Module, name: str, lanes: int) -> str:
     f = Function(module, lanes)
     arguments = ["%x", "%y"] if name in ("atan2", "pow") else ["%x"]
     values = [Value(f, a) for a in arguments]
-    if name in LANEWISE:
-        result = _lanewise(f, LIBM.index(name), values)
-    else:
-        result = _PRINTERS[name](f, *values)
+    result = _lanewise(f, LIBM.index(name), values) if name in LANEWISE else _PRINTERS[name](f, *values)
     f.do(f"ret {f.real} {result.name}")
     f.finish(symbol, f"internal {f.real}", ", ".join(f"{f.real} {a}" for a in arguments), "noinline nounwind")
     return "@" + symbol

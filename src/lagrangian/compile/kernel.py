@@ -54,7 +54,7 @@ class Kernel:
         program = build.program
         self.name, self.program, self.lanes = program.name, program, build.options.lanes
         self.threads = threads
-        self._build, self._optional = build, dict(optional)
+        self.build, self._optional = build, dict(optional)
         self._groups = tuple(
             Group(name, tuple(entries), tuple(program.defaults.get(e, optional.get(name)) for e in entries))
             for name, entries in program.inputs.items()
@@ -74,7 +74,7 @@ class Kernel:
         self._lock = threading.Lock()
 
     def __reduce__(self) -> Any:
-        return _rebuilt, (self.program, self._build.options, self._optional, self.threads)
+        return _rebuilt, (self.program, self.build.options, self._optional, self.threads)
 
     def __repr__(self) -> str:
         inputs = ", ".join(f"{g.name}[{len(g.entries)}]" for g in self._groups)
@@ -84,12 +84,12 @@ class Kernel:
     @property
     def operations(self) -> int:
         """Operations a state takes; a fused product and sum, a division, a call each count as one."""
-        return self._build.lowered.body.operations
+        return self.build.lowered.body.operations
 
     @property
     def parameter_operations(self) -> int:
         """Operations a parameter set takes, once."""
-        return self._build.lowered.prologue.operations
+        return self.build.lowered.prologue.operations
 
     # One state, plain arrays: as little Python as possible ---------------------------------------------------------
 
@@ -207,8 +207,8 @@ class Kernel:
         for k, a in zip(self._early, early, strict=True):
             if trouble := not_finite_input(self._groups[k], a, ""):
                 raise trouble
-        code = self._build.loaded("batch" if "batch" in self._build.ready else "single")
-        sizes = self._build.sizes
+        code = self.build.loaded("batch" if "batch" in self.build.ready else "single")
+        sizes = self.build.sizes
         block, shared, scratch = aligned(sum(sizes.hoisted)), aligned(sizes.shared), aligned(sizes.scratch)
         block[:] = np.concatenate([*early, np.empty(0)])
         _TAPE(code.address("prologue_1"))(address(block), None, address(shared), address(scratch))
@@ -223,11 +223,11 @@ class Kernel:
         """One state."""
         if self._single is None:
             kind = _SINGLE_LONG if len(self.program.graph.nodes) > LONG else _SINGLE_SHORT
-            self._single = kind(self._build.loaded("single").address("single"))
+            self._single = kind(self.build.loaded("single").address("single"))
         try:
             stage = self._stages.pop()
         except IndexError:
-            stage = Stage(self._build.sizes, [(k, self._groups[k]) for k in self._late], self._shapes)
+            stage = Stage(self.build.sizes, [(k, self._groups[k]) for k in self._late], self._shapes)
         for array, (_, part, *_) in zip(late, stage.parts, strict=True):
             part[...] = array
         stage.share(shared)
@@ -261,10 +261,10 @@ class Kernel:
         kind = "batch" if shared is not None else "sweep"
         call = self._batches.get(kind)
         if call is None:
-            call = self._batches[kind] = _BATCH(self._build.loaded(kind).address("batch"))
+            call = self._batches[kind] = _BATCH(self.build.loaded(kind).address("batch"))
         entries = [n for a in (*inputs, *targets) for n in (address(a), *a.strides)]
         table = np.array([*entries, 0 if shared is None else address(shared)], np.int64)
-        work = self._build.sizes.work(self.lanes, shared is None)
+        work = self.build.sizes.work(self.lanes, shared is None)
 
         def task(start: int, stop: int) -> int:
             space = aligned(work)
@@ -355,8 +355,8 @@ class Kernel:
         """The body as a function pointer, for one state or for ``self.lanes`` at a time."""
         if lanes not in (1, self.lanes):
             raise RunError(f"no code for {lanes} lanes", fix=f"1 or {self.lanes}")
-        code = self._build.loaded("single" if lanes == 1 else "batch")
-        s = self._build.sizes
+        code = self.build.loaded("single" if lanes == 1 else "batch")
+        s = self.build.sizes
         name = f"body_{lanes}"
         return RawFunction(code.address(name), lanes, sum(s.groups), s.shared, sum(s.outputs), s.scratch, code)
 
