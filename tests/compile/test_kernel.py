@@ -136,6 +136,14 @@ def test_one_entry_groups_take_plain_numbers(kernel):
     np.testing.assert_array_equal(kernel(q, v, 2, None, 0), kernel(q, v, [2.0], None, 0.0))
 
 
+def test_an_only_coordinate_may_be_called_like_its_group():
+    k = compile(program(lambda g, x: {"a": [x["q"] * x["t"]]}, q=("q",), t=("t",)), keep=False)
+    assert k(np.array([2.0]), 3.0).tolist() == [6.0]
+    assert k(np.array([[2.0], [3.0]]), np.array([1.0, 2.0])).tolist() == [[2.0], [6.0]]
+    with pytest.raises(RunError, match="q has 2 values"):
+        k(np.array([2.0, 3.0]), 3.0)
+
+
 def test_a_lone_number_comes_back_as_a_number():
     k = compile(program(lambda g, x: {"e": x["a"] * x["b"]}, q=("a", "b")), keep=False)
     assert k([2.0, 3.0]) == 6.0

@@ -1,13 +1,13 @@
 """What callers hand over → arrays a kernel can read, or an error that says what would be right.
 
 A *group* of inputs (``q``, ``v``, ``u``, ``p``, ``t``) is an array of shape ``(..., n)``, entries in declared order,
-or a mapping from entry names to numbers or arrays of shape ``(...)``. A group whose only entry bears its own name
-(``t``) is a number or an array of shape ``(...)``.
+or a mapping from entry names to numbers or arrays of shape ``(...)``. The group of time, ``t``, is a number or an array of
+shape ``(...)``.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -17,7 +17,13 @@ from numpy.typing import NDArray
 from lagrangian.errors import RunError, did_you_mean
 
 FLOAT = np.dtype(np.float64)
+NOUNS = {"q": "coordinate", "v": "velocity", "a": "acceleration", "x": "state", "p": "parameter"}
 SHOWN = 12  # names listed in a message before "…"
+
+
+def is_scalar(group: str, entries: Sequence[str]) -> bool:
+    """Whether a group's arrays have the shape (...) of the states, without an axis for entries: time alone."""
+    return group == "t" and len(entries) == 1
 
 
 @dataclass(frozen=True)
@@ -30,13 +36,13 @@ class Group:
 
     @property
     def scalar(self) -> bool:
-        """Whether arrays of this group have no axis for entries."""
-        return self.entries == (self.name,)
+        """Whether arrays of this group have no axis for entries: time has none."""
+        return is_scalar(self.name, self.entries)
 
     @property
     def noun(self) -> str:
         """What an entry is called in a message."""
-        return {"p": "parameter", "u": "input", "q": "coordinate", "v": "velocity"}.get(self.name, "input")
+        return NOUNS.get(self.name, "input")
 
     def array(self, given: Any) -> NDArray[np.float64]:
         """``given`` as an array of shape ``(..., n)``."""

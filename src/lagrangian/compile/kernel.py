@@ -56,8 +56,8 @@ class Kernel:
         self.threads = threads
         self.build, self._optional = build, dict(optional)
         self._groups = tuple(
-            Group(name, tuple(entries), tuple(program.defaults.get(e, optional.get(name)) for e in entries))
-            for name, entries in program.inputs.items()
+            Group(name, tuple(e), tuple(program.defaults.get(x) if name == "p" else optional.get(name) for x in e))
+            for name, e in program.inputs.items()
         )
         self._outputs = tuple(program.outputs)
         self._shapes = tuple(tuple(o.shape) for o in program.outputs.values())

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from lagrangian.graph import operands, reached
 
+from .arguments import is_scalar
 from .labels import comment, identifier, word
 from .tape import Op
 
@@ -97,7 +98,7 @@ def _docstring(program: Program, groups: list[tuple[str, str, tuple[str, ...]]])
     lines = ['    """Arrays of shape (..., n); leading dimensions are broadcast.', ""]
     for c, group, entries in groups:
         shown = ", ".join(comment(e) for e in entries[:20]) + (", ..." if len(entries) > 20 else "")
-        shape = "(...)" if entries == (group,) else f"(..., {len(entries)})"
+        shape = "(...)" if is_scalar(group, entries) else f"(..., {len(entries)})"
         lines.append(f"    {c}: {shape} {shown}".rstrip())
     for title, output in program.outputs.items():
         lines.append(f"    returns {comment(title)}: (...{''.join(f', {n}' for n in output.shape)})")
@@ -109,7 +110,7 @@ def _preparation(program: Program, groups: list[tuple[str, str, tuple[str, ...]]
     lines, leads = [], []
     for c, group, entries in groups:
         lines.append(f"    {c} = np.asarray({c}, dtype=float)")
-        if entries == (group,):
+        if is_scalar(group, entries):
             lines.append(f"    {c} = {c}[..., np.newaxis]")
         lines.append(f"    if {c}.shape[-1:] != ({len(entries)},):")
         lines.append(f'        raise ValueError(f"{c} must have shape (..., {len(entries)}), not {{{c}.shape}}")')
