@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 
 from lagrangian.derive import Derivation
 from lagrangian.write.document import Block, Boxed, Details, Display, Heading, Inline, Paragraph, Table, Verdicts
@@ -10,7 +10,7 @@ from lagrangian.write.glyphs import columns, unicode
 from lagrangian.write.layout import lay_out
 from lagrangian.write.quantities import Notation
 from lagrangian.write.tex import escape, latex
-from lagrangian.write.tex_lines import boxed, displayed, rows
+from lagrangian.write.tex_lines import WIDTH, boxed, displayed, rows
 from lagrangian.write.text import clean
 
 MOST_BOXED = 30
@@ -18,7 +18,7 @@ MOST_BOXED = 30
 MOST_ALIGNED = 20
 """Rows of a formula that are kept on one page."""
 
-_PREAMBLE = r"""\documentclass[11pt,a4paper]{article}
+_PREAMBLE = r"""\documentclass[11pt,a4paper,fleqn]{article}
 \usepackage[utf8]{inputenc}
 \IfFileExists{lmodern.sty}{\usepackage{lmodern}\usepackage[T1]{fontenc}}{}
 \usepackage{textcomp}
@@ -29,6 +29,9 @@ _PREAMBLE = r"""\documentclass[11pt,a4paper]{article}
 \setlength{\parskip}{0.5\baselineskip}
 \setlength{\emergencystretch}{3em}
 \setcounter{secnumdepth}{0}
+\setlength{\mathindent}{2em}
+\AtBeginDocument{\setlength{\abovedisplayskip}{4pt plus 2pt}\setlength{\belowdisplayskip}{4pt plus 2pt}%
+  \setlength{\abovedisplayshortskip}{4pt plus 2pt}\setlength{\belowdisplayshortskip}{4pt plus 2pt}}
 \allowdisplaybreaks
 % A letter that pdfLaTeX has no sign for is shown by its number; XeLaTeX and LuaLaTeX show the letter.
 \ifdefined\Umathchar
@@ -38,21 +41,61 @@ _PREAMBLE = r"""\documentclass[11pt,a4paper]{article}
 \fi
 """
 
+_SMALL = r"""\small\setlength{\parskip}{0pt}\setlength{\LTpre}{2pt}\setlength{\LTpost}{2pt}
+\setlength{\abovedisplayskip}{2pt}\setlength{\belowdisplayskip}{2pt}
+\setlength{\abovedisplayshortskip}{2pt}\setlength{\belowdisplayshortskip}{2pt}"""
+
 
 def to_latex(derivation: Derivation, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
     """Return the derivation as a complete LaTeX article. Raises `ModelError` for an unknown notation."""
     document = lay_out(derivation, notation=notation, brief=brief, full=full)
     blocks = [_PREAMBLE + r"\begin{document}", rf"\section*{{\Large {words(document.title)}}}"]
     if brief:
-        blocks.append(r"\small\setlength{\parskip}{0.2\baselineskip}")
+        blocks.append(_SMALL)
     for section in document.sections:
         number = f"{section.number}\\quad " if section.number is not None else ""
-        level = "subsection*" if brief else "section*"
-        blocks.append(rf"\{level}{{{number}{inline(section.title)}}}")
-        for block in section.blocks:
-            blocks += _block(block)
+        title = f"{number}{inline(section.title)}"
+        blocks.append(rf"\medskip\textbf{{{title}}}" if brief else rf"\section*{{{title}}}")
+        blocks += _blocks(section.blocks)
     blocks.append(r"\end{document}")
-    return "\n\n".join(blocks) + "\n"
+    text = blocks[0]
+    for block in blocks[1:]:  # an empty line before a displayed formula would be an empty paragraph
+        text += ("\n" if block.startswith((r"\begin{gather*}", r"\begin{align*}")) else "\n\n") + block
+    return text + "\n"
+
+
+def _blocks(blocks: Iterable[Block]) -> Iterator[str]:
+    """The blocks, formulas that follow each other in one display."""
+    run: list[Display] = []
+    for block in blocks:
+        if isinstance(block, Display):
+            run.append(block)
+            continue
+        yield from _displays(run)
+        run = []
+        yield from _block(block)
+    yield from _displays(run)
+
+
+def _displays(run: list[Display]) -> Iterator[str]:
+    """Formulas as rows of one display; a long one is aligned on its own, so that it can run over pages."""
+    waiting: list[str] = []
+    for formula in run:
+        note = rf" \qquad\text{{({inline(formula.note)})}}" if formula.note else ""
+        lines = rows(formula.sides)
+        if len(lines) <= MOST_ALIGNED:
+            waiting.append(displayed(formula.sides) + note)
+            continue
+        if waiting:
+            yield _gathered(waiting)
+            waiting = []
+        yield "\\begin{align*}\n" + " \\\\\n".join(lines) + note + "\n\\end{align*}"
+    if waiting:
+        yield _gathered(waiting)
+
+
+def _gathered(rows_of: list[str]) -> str:
+    return "\\begin{gather*}\n" + " \\\\\n".join(rows_of) + "\n\\end{gather*}"
 
 
 def words(text: str) -> str:
@@ -72,7 +115,7 @@ def _block(block: Block) -> Iterator[str]:
         case Paragraph(text, role):
             yield rf"\textit{{Why:}} {inline(text)}" if role == "why" else inline(text)
         case Display():
-            yield _display(block)
+            yield from _displays([block])
         case Boxed(displays):
             yield _boxed(displays)
         case Table():
@@ -86,16 +129,7 @@ def _block(block: Block) -> Iterator[str]:
             yield "\n".join((r"\begin{itemize}\setlength{\itemsep}{0pt}", *items, r"\end{itemize}"))
         case Details(summary, blocks):
             yield inline(summary)
-            for inner in blocks:
-                yield from _block(inner)
-
-
-def _display(block: Display) -> str:
-    lines = rows(block.sides)
-    note = rf" \qquad\text{{({inline(block.note)})}}" if block.note else ""
-    if len(lines) > MOST_ALIGNED:
-        return "\\begin{align*}\n" + " \\\\\n".join(lines) + note + "\n\\end{align*}"
-    return f"\\[\n{displayed(block.sides)}{note}\n\\]"
+            yield from _blocks(blocks)
 
 
 def _boxed(displays: tuple[Display, ...]) -> str:
@@ -103,22 +137,21 @@ def _boxed(displays: tuple[Display, ...]) -> str:
     body = " \\\\\n".join(lines)
     if len(lines) > MOST_BOXED:
         return f"\\noindent\\hrulefill\n\\begin{{align*}}\n{body}\n\\end{{align*}}\n\\noindent\\hrulefill"
-    return f"\\[\n\\boxed{{\\begin{{aligned}}\n{body}\n\\end{{aligned}}}}\n\\]"
+    return f"\\begin{{gather*}}\n\\boxed{{\\begin{{aligned}}\n{body}\n\\end{{aligned}}}}\n\\end{{gather*}}"
 
 
 def _table(table: Table) -> str:
     """A table that may run over pages; the columns share the width by what is longest in them."""
-    lengths = [
-        max((_length(row[j]) for row in (table.header, *table.rows)), default=1) for j in range(len(table.header))
-    ]
-    capped = [min(max(n, 6), 60) for n in lengths]
-    total = sum(capped)
-    scale = min(1.0, total / 88)
-    spec = "".join(rf"p{{{0.93 * scale * n / total:.3f}\linewidth}}" for n in capped)
+    rows_of = (table.header, *table.rows)
+    lengths = [max(_length(row[j]) for row in rows_of) for j in range(len(table.header))]
+    if sum(lengths) + 2 * len(lengths) <= WIDTH - 8:
+        spec = "l" * len(lengths)
+    else:
+        capped = [min(max(n, 1.6 * _length(h) + 2), 60) for n, h in zip(lengths, table.header, strict=True)]
+        share = [f"{n / sum(capped):.3f}" for n in capped]
+        spec = "".join(rf">{{\raggedright\arraybackslash}}p{{\dimexpr{x}\linewidth-2\tabcolsep}}" for x in share)
     head = " & ".join(rf"\textbf{{{inline(h)}}}" for h in table.header) + r" \\ \hline \endhead"
     body = [" & ".join(inline(c) for c in row) + r" \\" for row in table.rows]
-    ragged = r"\raggedright\arraybackslash"
-    spec = spec.replace("p{", rf">{{{ragged}}}p{{")
     return "\n".join((rf"\begin{{longtable}}[l]{{{spec}}}", head, *body, r"\end{longtable}"))
 
 

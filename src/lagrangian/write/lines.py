@@ -42,6 +42,10 @@ def chain(sides: tuple[Math, ...], width: int) -> list[Line]:
     for k, cut in enumerate(break_lines(list(left), width, measure)):
         lines.append(Line((), False, tuple(cut), k > 0))
     for side in sides[1:]:
+        last = lines[-1].right
+        if sum(measure(t) for t in (*last, *tokens(side))) + 6 <= width:
+            lines[-1] = Line((), False, (*last, Token("sign", text="="), *tokens(side)), lines[-1].indented)
+            continue
         for k, cut in enumerate(break_lines(list(tokens(side)), width - 3, measure)):
             lines.append(Line((), k == 0, tuple(cut), True))
     return lines

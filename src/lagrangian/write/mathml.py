@@ -22,6 +22,7 @@ from lagrangian.write.math import (
     Token,
     Word,
     bare,
+    is_tall,
     tokens,
 )
 from lagrangian.write.glyphs import bold
@@ -84,9 +85,8 @@ def _token(piece: Token, *, first: bool) -> str:
         case "negative":
             return '<mo form="prefix">−</mo>'
         case role:
-            form = "prefix" if first else "infix"
             sign = "+" if role == "plus" else "−"
-            return f'<mo form="{form}">{sign}</mo>'
+            return f'<mo form="infix">{sign}</mo>'
 
 
 def _inner(math: Math) -> str:
@@ -99,14 +99,12 @@ def _leaf(math: Math) -> str:
             return _letter(math)
         case Number(text):
             return f"<mn>{escape(text)}</mn>"
+        case Word("d" | "t" | "dt" as text):
+            return "".join(f"<mi>{c}</mi>" for c in text)
+        case Word("·" | "∂" as text):
+            return f"<mo>{text}</mo>"
         case Word(text):
-            return (
-                "<mi>d</mi>"
-                if text == "d"
-                else f"<mo>{text}</mo>"
-                if text in "·∂"
-                else f"<mtext>{escape(text)}</mtext>"
-            )
+            return f"<mtext>{escape(text)}</mtext>"
         case Ratio(Number(), Number()):
             return f'<mfrac displaystyle="false">{_inner(math.over)}{_inner(math.under)}</mfrac>'
         case Ratio(over, under):
@@ -152,8 +150,10 @@ def _apply(math: Apply) -> str:
         return f"<mrow>{name}{_APPLY}{_GAP}{_inner(math.args[0])}</mrow>"
     if len(math.args) == 1 and isinstance(math.args[0], Fence):
         return f"<mrow>{name}{_APPLY}{_inner(math.args[0])}</mrow>"
-    inner = "<mo>,</mo>".join(_inner(a) for a in math.args)
-    return f'<mrow>{name}{_APPLY}<mo form="prefix">(</mo>{inner}<mo form="postfix">)</mo></mrow>'
+    stretchy = "true" if any(is_tall(a) for a in math.args) else "false"
+    inner = '<mo separator="true">,</mo>'.join(_inner(a) for a in math.args)
+    fences = [f'<mo form="{form}" stretchy="{stretchy}">' for form in ("prefix", "postfix")]
+    return f"<mrow>{name}{_APPLY}{fences[0]}(</mo>{inner}{fences[1]})</mo></mrow>"
 
 
 def _letter(math: Letter) -> str:
