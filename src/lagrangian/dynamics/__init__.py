@@ -1,1 +1,1 @@
-"""..."""
+"""Model → Program: inverse and forward dynamics, mass matrix, energies, by virtual work through the graph."""

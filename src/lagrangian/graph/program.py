@@ -44,17 +44,17 @@ class Program:
 def reached(graph: Graph, ids: Iterable[int], stop: Iterable[int] = ()) -> list[int]:
     """The nodes that ``ids`` need, in increasing order; nothing behind the nodes in ``stop`` is followed."""
     nodes = graph.nodes
-    seen = bytearray(len(nodes))
-    halt = set(stop)
+    seen: set[int] = set()
+    halt = stop if isinstance(stop, (set, frozenset, Mapping)) else set(stop)
     stack = list(ids)
     while stack:
         i = stack.pop()
-        if seen[i]:
+        if i in seen:
             continue
-        seen[i] = 1
+        seen.add(i)
         if i not in halt:
             stack.extend(operands(nodes[i]))
-    return [i for i, mark in enumerate(seen) if mark]
+    return sorted(seen)
 
 
 @dataclass(frozen=True)

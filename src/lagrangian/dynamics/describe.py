@@ -1,0 +1,336 @@
+"""Model → Mechanics: points and frames along their parents, elements as efforts on rates.
+
+SymPy expressions are converted piece by piece, as they were written: a definition or a parent point that many use is one
+node. Elements of a kind that is not known here are taken by what they say of themselves: T*, V and their actions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import sympy as sp
+
+from lagrangian.dynamics.inertia import Bodies
+from lagrangian.dynamics.mechanics import Mechanics
+from lagrangian.dynamics.motion import Axes, Motion, Place, along_axis
+from lagrangian.dynamics.vectors import Vector, dot, minus, plus, scaled, times, zeros
+from lagrangian.errors import ModelError
+from lagrangian.graph import Graph, from_sympy, gradient
+from lagrangian.model import Frame, Model, time
+from lagrangian.model.elements.damper import RATE
+from lagrangian.model.elements.spring import DELTA
+
+
+@dataclass
+class Inputs:
+    """The input nodes of a program over a model: one id a coordinate, rate, parameter, input, and time."""
+
+    q: list[int]
+    v: list[int]
+    u: list[int]
+    p: list[int]
+    t: int
+
+    @classmethod
+    def of(cls, graph: Graph, model: Model, *, state: bool = False) -> Inputs:
+        """Groups q, v, u, p, t; with ``state``, x = [q; v] in place of q and v."""
+        n = len(model.coordinates)
+        q = [graph.input("x" if state else "q", i) for i in range(n)]
+        v = [graph.input("x", n + i) if state else graph.input("v", i) for i in range(n)]
+        u = [graph.input("u", i) for i in range(len(model.inputs))]
+        p = [graph.input("p", i) for i in range(len(model.parameters))]
+        return cls(q, v, u, p, graph.input("t", 0))
+
+
+@dataclass
+class Description:
+    """A model while it is turned into nodes."""
+
+    model: Model
+    graph: Graph
+    inputs: Inputs
+    motion: Motion
+    table: dict[Any, int]
+    memo: dict[Any, int] = field(default_factory=dict)
+    axes: dict[int, Axes] = field(default_factory=dict)
+    places: dict[int, Place] = field(default_factory=dict)
+    angles: dict[int, int] = field(default_factory=dict)
+
+    def node(self, expr: Any, local: Mapping[Any, int] | None = None) -> int:
+        """The node of an expression; ``local`` gives meaning to symbols of this expression alone."""
+        if local:
+            return from_sympy(self.graph, expr, {**self.table, **local})
+        return from_sympy(self.graph, expr, self.table, self.memo)
+
+    def nodes(self, exprs: Sequence[Any]) -> Vector:
+        """The nodes of several expressions."""
+        return [self.node(e) for e in exprs]
+
+
+def describe(model: Model, graph: Graph, inputs: Inputs) -> Mechanics:
+    """The mechanics of a model over given input nodes. Raises `ModelError` that names the element in question."""
+    motion = Motion(graph, model.dimension, inputs.q, inputs.v, inputs.v, inputs.t)
+    d = Description(model, graph, inputs, motion, _symbols(model, inputs))
+    for definition in model.definitions:
+        node = d.table[definition.symbol] = d.node(definition.expression)
+        if definition.moving and definition.symbol != time:
+            d.table[sp.Derivative(definition.symbol, time)] = motion.rate([node])[0]
+    _geometry(d)
+    names = tuple(c.name for c in model.coordinates)
+    m = Mechanics(graph, motion, Bodies(motion), names, zeros(graph, model.dimension))
+    for element in model.elements:
+        try:
+            ELEMENTS.get(element.kind, _any)(d, m, element)
+        except ModelError as error:
+            if error.element is None:
+                error.element = element.title
+            raise error.at(element.place)
+    return m
+
+
+def _symbols(model: Model, inputs: Inputs) -> dict[Any, int]:
+    table: dict[Any, int] = {time: inputs.t}
+    for c, q, v in zip(model.coordinates, inputs.q, inputs.v, strict=True):
+        table[c.symbol], table[c.rate] = q, v
+    table.update((p.symbol, node) for p, node in zip(model.parameters, inputs.p, strict=True))
+    table.update((u.symbol, node) for u, node in zip(model.inputs, inputs.u, strict=True))
+    return table
+
+
+# -- geometry ---------------------------------------------------------------------------------------------------
+
+
+def _geometry(d: Description) -> None:
+    """All points and frames that the model names or its elements use, parents first."""
+    things: dict[int, Any] = {}
+    waiting: list[Any] = [*d.model.points, *d.model.frames]
+    for element in d.model.elements:
+        waiting += [point for _, point in element.points()]
+        waiting += [frame for _, frame in element.frames()]
+    while waiting:
+        thing = waiting.pop()
+        if thing is None or id(thing) in things:
+            continue
+        things[id(thing)] = thing
+        waiting += [thing.parent, getattr(thing, "frame", None), getattr(thing, "origin", None)]
+    for thing in sorted(things.values(), key=lambda x: x.serial):
+        if hasattr(thing, "angle"):
+            d.axes[id(thing)] = _axes(d, thing)
+        elif thing.is_origin:
+            d.places[id(thing)] = d.motion.ground
+        else:
+            axes = d.motion.root if thing.frame is None else d.axes[id(thing.frame)]
+            d.places[id(thing)] = d.motion.place(d.places[id(thing.parent)], axes, d.nodes(thing.offset))
+
+
+def _axes(d: Description, frame: Any) -> Axes:
+    motion, g = d.motion, d.graph
+    parent = motion.root if frame.parent is None else d.axes[id(frame.parent)]
+    if frame.axis is None:
+        before = g.zero if frame.parent is None else d.angles[id(frame.parent)]
+        total = d.angles[id(frame)] = g.add(before, d.node(frame.angle))
+        return motion.plane_axes(parent, total)
+    angle = d.node(frame.angle)
+    main = [k for k in range(3) if frame.axis[k] != 0]
+    if frame.angle.is_number:  # SymPy knows cos(π/2) = 0 exactly
+        turn = [d.nodes(row) for row in frame.local_rotation.tolist()]
+        return motion.turned_axes(parent, turn, zeros(g, 3))
+    if len(main) == 1 and abs(frame.axis[main[0]]) == 1:
+        return motion.turned_about(parent, main[0], angle if frame.axis[main[0]] == 1 else g.neg(angle))
+    n = d.nodes(frame.axis)
+    rate = motion.rate([angle])[0]
+    return motion.turned_axes(parent, along_axis(g, n, angle), scaled(g, rate, n))
+
+
+# -- elements ---------------------------------------------------------------------------------------------------
+
+
+def _particle(d: Description, m: Mechanics, e: Any) -> None:
+    m.bodies.add_point(d.places[id(e.at)], d.node(e.mass))
+
+
+def _rigid_body(d: Description, m: Mechanics, e: Any) -> None:
+    axes, place, mass = d.axes[id(e.frame)], d.places[id(e.at)], d.node(e.mass)
+    if d.motion.dimension == 2:
+        m.bodies.add_in_plane(axes, place, mass, d.node(e.inertia[0, 0]))
+    else:
+        m.bodies.add(axes, place, mass, [d.nodes(row) for row in e.inertia.tolist()])
+
+
+def _gravity(d: Description, m: Mechanics, e: Any) -> None:
+    """Weight m g n on every mass; V counts from the datum: V = Σ m g n·(r_datum − r)."""
+    g = d.graph
+    down = scaled(g, d.node(e.g), d.nodes(e.direction))
+    m.down = plus(g, m.down, down)
+    if e.datum is not None:
+        level = dot(g, down, d.motion.position(d.places[id(e.datum)]))
+        for body in d.model.bodies:
+            m.potentials.append(g.mul(d.node(body.mass), level))
+
+
+def _deflection(d: Description, e: Any) -> tuple[int, int | None, Vector, Vector]:
+    """δ, δ̇ (None between points), and between points Δr and Δv in the fixed axes."""
+    g, motion = d.graph, d.motion
+    if e.between is None:
+        delta = d.node(e.deflection)
+        return delta, motion.rate([delta])[0], [], []
+    start, end = (d.places[id(p)] for p in e.between)
+    apart = motion.between(start, end)
+    velocity = minus(g, _velocity(d, end), _velocity(d, start))
+    return g.sqrt(dot(g, apart, apart)), None, apart, velocity
+
+
+def _velocity(d: Description, place: Place) -> Vector:
+    """The velocity of a place in the fixed axes."""
+    return d.motion.turned(place.velocity, place.axes, d.motion.root)
+
+
+def _pull(
+    d: Description, pairs: list[tuple[int, int]], pull: int, delta: tuple[int, int | None, Vector, Vector]
+) -> None:
+    """Add a pull against a deflection: −pull on δ̇, or −(pull/δ) Δr on Δv."""
+    g = d.graph
+    length, rate, apart, velocity = delta
+    if rate is not None:
+        pairs.append((rate, g.neg(pull)))
+        return
+    density = g.div(pull, length)
+    pairs.extend((v, g.neg(g.mul(density, x))) for v, x in zip(velocity, apart, strict=True))
+
+
+def _spring(d: Description, m: Mechanics, e: Any) -> None:
+    """V = ½ k (δ − δ₀)² or the energy of its law; the pull is dV/dδ."""
+    g = d.graph
+    delta = _deflection(d, e)
+    extension = g.sub(delta[0], d.node(e.rest))
+    if e.k is not None:
+        k = d.node(e.k)
+        if e.between is not None and e.rest == 0:  # ½ k Δr·Δr: no root, no division
+            square = dot(g, delta[2], delta[2])
+            m.potentials.append(g.mul(g.const(0.5), g.mul(k, square)))
+            m.stores.extend((v, g.neg(g.mul(k, x))) for v, x in zip(delta[3], delta[2], strict=True))
+            return
+        energy, pull = g.mul(g.const(0.5), g.mul(k, g.mul(extension, extension))), g.mul(k, extension)
+    else:
+        energy = d.node(e.energy, {DELTA: extension})
+        pull = d.node(e.law if e.law is not None else sp.diff(e.energy, DELTA), {DELTA: extension})
+    m.potentials.append(energy)
+    rest_moves = not d.motion.constant([d.node(e.rest)])
+    _pull(d, m.stores, pull, delta)
+    if rest_moves:  # a rest length that depends on coordinates is part of the extension that V is a function of
+        m.stores.append((d.motion.rate([d.node(e.rest)])[0], pull))
+
+
+def _damper(d: Description, m: Mechanics, e: Any) -> None:
+    """The pull b δ̇, or its law of δ̇."""
+    g = d.graph
+    if e.between is not None and e.law is None:  # along one fixed line the separation's sign does not matter
+        start, end = (d.places[id(p)] for p in e.between)
+        apart = d.motion.between(start, end)
+        moving = [k for k, x in enumerate(apart) if x != g.zero]
+        if len(moving) == 1:
+            velocity = minus(g, _velocity(d, end), _velocity(d, start))[moving[0]]
+            pull = g.mul(d.node(e.b), velocity)
+            m.efforts.append((velocity, g.neg(pull)))
+            m.losses.append(g.mul(pull, velocity))
+            return
+    delta = _deflection(d, e)
+    rate = delta[1] if delta[1] is not None else g.div(dot(g, delta[2], delta[3]), delta[0])
+    pull = g.mul(d.node(e.b), rate) if e.b is not None else d.node(e.law, {RATE: rate})
+    m.losses.append(g.mul(pull, rate))
+    _pull(d, m.efforts, pull, delta)
+
+
+def _force(d: Description, m: Mechanics, e: Any) -> None:
+    g, motion = d.graph, d.motion
+    if not e.is_vector:
+        _pull(d, m.efforts, g.neg(d.node(e.value)), _deflection(d, e))
+        return
+    source = motion.root if e.axes is None else d.axes[id(e.axes)]
+    value = d.nodes(e.value)
+    if motion.dimension == 2 and e.axes is not None:
+        value = times(g, source.turn, value)
+    for sign, point in ((1, e.at), (-1, e.reaction)):
+        if point is not None:
+            place = d.places[id(point)]
+            there = motion.turned(value, source, place.axes)
+            m.efforts.extend((v, f if sign == 1 else g.neg(f)) for v, f in zip(place.velocity, there, strict=True))
+
+
+def _torque(d: Description, m: Mechanics, e: Any) -> None:
+    g, motion = d.graph, d.motion
+    for sign, target in ((1, e.on), (-1, e.reaction)):
+        if target is None:
+            continue
+        if not isinstance(target, Frame):
+            effort = d.node(e.value)
+            m.efforts.append((motion.rate([d.node(target)])[0], effort if sign == 1 else g.neg(effort)))
+            continue
+        axes = d.axes[id(target)]
+        if motion.dimension == 2:
+            value, source = [d.node(e.value)], axes
+        elif isinstance(e.value, tuple):
+            value, source = d.nodes(e.value), motion.root
+        else:  # about the axis of the frame that is acted on
+            source = d.axes[id(e.on)]
+            value = scaled(g, d.node(e.value), d.nodes(e.on.axis))
+        there = motion.turned(value, source, axes)
+        m.efforts.extend((w, f if sign == 1 else g.neg(f)) for w, f in zip(axes.omega, there, strict=True))
+
+
+def _on_coordinates(d: Description, forces: Sequence[int]) -> list[tuple[int, int]]:
+    return [(rate, f) for rate, f in zip(d.motion.rates, forces, strict=True) if f != d.graph.zero]
+
+
+def _potential(d: Description, m: Mechanics, e: Any) -> None:
+    _store(d, m, d.node(e.value))
+
+
+def _store(d: Description, m: Mechanics, energy: int) -> None:
+    g = d.graph
+    m.potentials.append(energy)
+    m.stores.extend(_on_coordinates(d, [g.neg(x) for x in gradient(g, energy, d.motion.q)]))
+
+
+def _kinetic(d: Description, m: Mechanics, e: Any) -> None:
+    m.kinetics.append(d.node(e.value))
+
+
+def _dissipation(d: Description, m: Mechanics, e: Any) -> None:
+    """Ξ_i = −∂D/∂ξ̇_i."""
+    g = d.graph
+    slope = gradient(g, d.node(e.value), d.inputs.v)
+    m.efforts.extend(_on_coordinates(d, [g.neg(x) for x in slope]))
+    m.losses.append(dot(g, slope, d.inputs.v))
+
+
+def _generalized_force(d: Description, m: Mechanics, e: Any) -> None:
+    m.efforts.append((d.table[sp.Derivative(e.coordinate, time)], d.node(e.value)))
+
+
+def _any(d: Description, m: Mechanics, e: Any) -> None:
+    """An element by what it says of itself."""
+    kinetic, potential = e.kinetic(d.model), e.potential(d.model)
+    if kinetic != 0:
+        m.kinetics.append(d.node(kinetic))
+    if potential != 0:
+        _store(d, m, d.node(potential))
+    for action in e.works(d.model):
+        m.efforts.append((d.node(action.rate), d.node(action.effort)))
+
+
+ELEMENTS: dict[str, Callable[[Description, Mechanics, Any], None]] = {
+    "particle": _particle,
+    "rigid_body": _rigid_body,
+    "gravity": _gravity,
+    "spring": _spring,
+    "damper": _damper,
+    "force": _force,
+    "torque": _torque,
+    "potential": _potential,
+    "kinetic": _kinetic,
+    "dissipation": _dissipation,
+    "generalized_force": _generalized_force,
+}

@@ -1,0 +1,271 @@
+"""A mechanical system in the graph, whatever described it.
+
+`Mechanics` holds coordinates, velocities, links, efforts and energies as nodes; everything the programs compute follows
+from it. Equations of motion, by virtual work:
+
+    r_i = Σ_b (inertial force − applied force) · ∂(velocity of b)/∂v_i = 0
+
+which is one reverse pass over the velocities with the forces as cotangents.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from lagrangian.dynamics.eliminate import Quadratic, solve
+from lagrangian.dynamics.inertia import AnyLink, Bodies
+from lagrangian.dynamics.motion import Motion
+from lagrangian.dynamics.tape import is_linear, make_tape, moving_nodes
+from lagrangian.dynamics.vectors import dot, zeros
+from lagrangian.graph import Graph, count_operations, gradient, hessian, jvp, operands, vjp
+
+Pairs = list[tuple[int, int]]
+
+SMALL = 12
+"""Up to so many velocities the dense way is tried as well."""
+
+
+@dataclass
+class Mechanics:
+    """A mechanical system as nodes of ``graph``.
+
+    ``names`` are the names of the velocities v; q̇ = ``motion.rates``. ``down`` is the acceleration of gravity in the fixed axes.
+    ``efforts`` are (rate, effort) pairs: their power is Σ rate · effort and Ξ_i = Σ effort · ∂rate/∂v_i. ``stores`` are the
+    (rate, effort) pairs of what is kept in ``potentials``. ``kinetics`` are raw kinetic co-energies, ``losses`` the powers
+    taken by dampers.
+    """
+
+    graph: Graph
+    motion: Motion
+    bodies: Bodies
+    names: tuple[str, ...]
+    down: list[int]
+    efforts: Pairs = field(default_factory=list)
+    stores: Pairs = field(default_factory=list)
+    potentials: list[int] = field(default_factory=list)
+    kinetics: list[int] = field(default_factory=list)
+    losses: list[int] = field(default_factory=list)
+    _links: dict[bool, list[AnyLink]] = field(default_factory=dict)
+
+    @property
+    def q(self) -> tuple[int, ...]:
+        """The coordinates."""
+        return self.motion.q
+
+    @property
+    def v(self) -> tuple[int, ...]:
+        """The velocities: rates of the coordinates, or quasi-velocities."""
+        return self.motion.v
+
+    def links(self, *, regrouped: bool) -> list[AnyLink]:
+        """The links, as they are or with what a turn does not change handed to the parents."""
+        if regrouped not in self._links:
+            self._links[regrouped] = self.bodies.regrouped() if regrouped else self.bodies.links
+        return self._links[regrouped]
+
+    # -- what acts ----------------------------------------------------------------------------------------------
+
+    def inertial(self, vdot: Sequence[int], *, gravity: bool = True, regrouped: bool = True) -> Pairs:
+        """(velocity, inertial force − weight) of every link at v̇ = vdot: the ground accelerates with −g."""
+        g = self.graph
+        ground = [g.neg(x) for x in self.down] if gravity else zeros(g, self.motion.dimension)
+        acc = self.motion.accelerations(vdot, ground)
+        return [pair for link in self.links(regrouped=regrouped) for pair in link.wrench(self.motion, acc)]
+
+    def raw_inertial(self, vdot: Sequence[int]) -> Pairs:
+        """d/dt ∂T/∂v − ∂T/∂q of raw kinetic co-energies, on the velocities."""
+        if not self.kinetics:
+            return []
+        g, motion = self.graph, self.motion
+        T = self.raw_kinetic
+        momentum = motion.second_rate(gradient(g, T, self.v), vdot)
+        force = vjp(g, list(motion.rates), gradient(g, T, self.q), list(self.v))
+        return [(v, g.sub(p, f)) for v, p, f in zip(self.v, momentum, force, strict=True)]
+
+    @property
+    def raw_kinetic(self) -> int:
+        """The sum of raw kinetic co-energies."""
+        return self._sum(self.kinetics)
+
+    def _sum(self, ids: Sequence[int]) -> int:
+        total = self.graph.zero
+        for x in ids:
+            total = self.graph.add(total, x)
+        return total
+
+    def missing(self, vdot: Sequence[int]) -> Pairs:
+        """(velocity, force that is missing) at v̇ = vdot: inertial minus applied."""
+        g = self.graph
+        applied = [(rate, g.neg(effort)) for rate, effort in (*self.stores, *self.efforts)]
+        return [*self.inertial(vdot), *self.raw_inertial(vdot), *applied]
+
+    def gathered(self, pairs: Pairs) -> list[int]:
+        """Σ effort · ∂rate/∂v_i of (rate, effort) pairs."""
+        g = self.graph
+        total: dict[int, int] = {}
+        for rate, effort in pairs:
+            if effort != g.zero and rate != g.zero:
+                total[rate] = g.add(total.get(rate, g.zero), effort)
+        return vjp(g, list(total), list(total.values()), list(self.v))
+
+    # -- what comes of it ---------------------------------------------------------------------------------------
+
+    def inverse(self, vdot: Sequence[int]) -> list[int]:
+        """The generalized forces that are missing at v̇ = vdot: M v̇ + C v + G − Ξ."""
+        return self.gathered(self.missing(vdot))
+
+    def bias(self) -> list[int]:
+        """`inverse` at v̇ = 0."""
+        return self.inverse(zeros(self.graph, len(self.v)))
+
+    def inertia(self) -> Quadratic:
+        """H over the velocity nodes: T = ½ Σ H_ik v_i v_k."""
+        g, motion = self.graph, self.motion
+        H = Quadratic(g)
+        triples = [triple for link in self.links(regrouped=True) for triple in link.seeds(motion)]
+        triples = [triple for triple in triples if g.zero not in triple]
+        moving = set(moving_nodes(g, {i for pair in triples for i in pair[:2]}, self.v))
+        for i, k, h in triples:
+            if i in moving and k in moving:
+                (i, si), (k, sk) = self._bare(i), self._bare(k)
+                H.couple(i, k, h if si == sk else g.neg(h))
+        if self.kinetics:
+            nodes = maximal_linear_nodes(g, self.raw_kinetic, self.v)
+            for (i, k), h in hessian(g, self.raw_kinetic, nodes).items():
+                if i <= k:
+                    H.add(nodes[i], nodes[k], h)
+        return H
+
+    def _bare(self, node: int) -> tuple[int, bool]:
+        """The node without its sign, and whether it had one."""
+        n = self.graph.nodes[node]
+        return (n[1], True) if n[0] == "neg" else (node, False)
+
+    def mass_matrix(self) -> list[list[int]]:
+        """M, row after row: column j is Σ_ik (∂v_i/∂v) H_ik (∂v_k/∂v_j)."""
+        g, n = self.graph, len(self.v)
+        H = self.inertia()
+        seeds = list(H.rows)
+        rows = [[g.zero] * n for _ in range(n)]
+        for j, v in enumerate(self.v):
+            moved = dict(zip(seeds, jvp(g, seeds, {v: g.one}), strict=True))
+            forces = []
+            for i in seeds:
+                total = g.zero
+                for k, h in H.rows[i].items():
+                    total = g.add(total, g.mul(h, moved[k]))
+                forces.append(total)
+            column = vjp(g, seeds, forces, list(self.v))
+            for i in range(j + 1):
+                rows[i][j] = rows[j][i] = column[i]
+        return rows
+
+    # -- energies -----------------------------------------------------------------------------------------------
+
+    def kinetic(self) -> int:
+        """T* of all bodies as they are, and of the raw energies."""
+        g = self.graph
+        total = self.raw_kinetic
+        for link in self.links(regrouped=False):
+            for i, k, h in link.seeds(self.motion):
+                total = g.add(total, g.mul(h, g.mul(i, k)))
+        return total
+
+    def potential(self) -> int:
+        """V: the stores, and −m g·r of every link's matter."""
+        g, motion = self.graph, self.motion
+        total = self._sum(self.potentials)
+        if any(x != g.zero for x in self.down):
+            for link in self.links(regrouped=False):
+                total = g.sub(total, dot(g, self.down, link.moment(motion)))
+        return total
+
+    def loss(self) -> int:
+        """The power that dampers take."""
+        return self._sum(self.losses)
+
+    def gravity(self) -> list[int]:
+        """G = ∂V/∂q, on the velocities."""
+        g = self.graph
+        return vjp(g, list(self.motion.rates), gradient(g, self.potential(), self.q), list(self.v))
+
+    def coriolis(self) -> list[list[int]]:
+        """C by Christoffel's symbols, so that Ṁ − 2C is skew:  C = ½ (Ṁ + P − Pᵀ),  P_ij = ∂(M v)_i/∂q_j.
+
+        For velocities that are rates of the coordinates.
+        """
+        g, n = self.graph, len(self.v)
+        M = self.mass_matrix()
+        half = g.const(0.5)
+        change = jvp(g, [x for row in M for x in row], dict(zip(self.q, self.v, strict=True)))
+        momentum = [dot(g, row, self.v) for row in M]
+        columns = [jvp(g, momentum, {q: g.one}) for q in self.q]
+        return [
+            [g.mul(half, g.add(change[i * n + j], g.sub(columns[j][i], columns[i][j]))) for j in range(n)]
+            for i in range(n)
+        ]
+
+    def inverse_from_lagrangian(self, vdot: Sequence[int]) -> list[int]:
+        """d/dt ∂L/∂v − ∂L/∂q − Ξ of L = T − V, the independent route to `inverse`.
+
+        For velocities that are rates of the coordinates.
+        """
+        g = self.graph
+        L = g.sub(self.kinetic(), self.potential())
+        momentum = self.motion.second_rate(gradient(g, L, self.v), vdot)
+        force = gradient(g, L, self.q)
+        applied = self.gathered(self.efforts)
+        return [g.sub(g.sub(p, f), x) for p, f, x in zip(momentum, force, applied, strict=True)]
+
+    # -- forward dynamics ---------------------------------------------------------------------------------------
+
+    def forward(self) -> list[int]:
+        """v̇, by the cheapest of the eliminations: along the tape, with and without exchange, or of the mass matrix."""
+        g = self.graph
+        H = self.inertia()
+        linear = self._linear(self.missing(zeros(g, len(self.v))))
+        names = dict(zip(self.v, self.names, strict=True))
+        seeds = list(dict.fromkeys((*H.rows, *linear)))
+        found = [solve(g, make_tape(g, seeds, self.v, exchange=x), H, linear, self.v, names) for x in (True, False)]
+        if len(self.v) <= SMALL:
+            found.append(self._by_mass_matrix(names))
+        return min(found, key=lambda ids: count_operations(g, ids, hoist=["p"]).operations)
+
+    def _by_mass_matrix(self, names: dict[int, int] | dict[int, str]) -> list[int]:
+        """Solve M v̇ = −bias by LDLᵀ: the elimination with no tape between the rates and H."""
+        g, H = self.graph, Quadratic(self.graph)
+        for i, row in enumerate(self.mass_matrix()):
+            for k in range(i + 1):
+                H.add(self.v[i], self.v[k], row[k])
+        linear = dict(zip(self.v, self.bias(), strict=True))
+        return solve(g, make_tape(g, self.v, self.v), H, linear, self.v, names)
+
+    def _linear(self, pairs: Pairs) -> dict[int, int]:
+        """The linear term over velocity nodes, those that depend on v alone."""
+        g = self.graph
+        moving = set(moving_nodes(g, [rate for rate, _ in pairs], self.v))
+        linear: dict[int, int] = {}
+        for rate, effort in pairs:
+            if effort != g.zero and rate in moving:
+                node, negative = self._bare(rate)
+                linear[node] = g.add(linear.get(node, g.zero), g.neg(effort) if negative else effort)
+        return linear
+
+
+def maximal_linear_nodes(g: Graph, energy: int, v: Sequence[int]) -> list[int]:
+    """The nodes linear in v that feed an operation of ``energy`` that is not."""
+    active = moving_nodes(g, [energy], v)
+    moves = set(active)
+    linear = set(v)
+    maximal: dict[int, None] = {}
+    for i in active:
+        if i in linear:
+            continue
+        node = g.nodes[i]
+        below = [k for k in operands(node) if k in moves]
+        if all(k in linear for k in below) and is_linear(node, moves):
+            linear.add(i)
+        else:
+            maximal.update((k, None) for k in below if k in linear)
+    return list(maximal) or [energy]

@@ -1,0 +1,349 @@
+"""What moves, and how fast: axes and places along their parents, in the graph.
+
+In space every vector stands in the axes it is known in, so that a turn about a fixed axis costs four products; in the
+plane all vectors stand in the fixed axes and a turn is its angle. Both speak the same language: `Axes` turn against
+their parent, a `Place` is offset from its parent in some axes.
+
+    ω = Rᵀ ω_parent + w           α = Rᵀ α_parent + (Rᵀ ω_parent) × w + ẇ
+    v = v_parent + ω × r + ṙ      a = a_parent + α × r + ω × (ω × r) + 2 ω × ṙ + r̈
+
+Accelerations are those seen from the fixed axes, with components in the body's axes. The ground's acceleration is a
+parameter of them: gravity g acts like a ground that accelerates with −g.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from lagrangian.dynamics.vectors import (
+    Matrix,
+    Vector,
+    cross,
+    identity,
+    minus,
+    plus,
+    product,
+    scaled,
+    times,
+    transposed,
+    zeros,
+)
+from lagrangian.graph import Graph, jvp, reached
+
+
+@dataclass(eq=False)
+class Axes:
+    """Axes that turn. ``turn`` is R (own axes → parent's axes), ``own`` the angular velocity against the parent, in
+    these axes; ``axis`` is the number of the coordinate axis of a turn about one. In the plane ``own`` is one number
+    and ``turn`` goes to the fixed axes.
+    """
+
+    parent: Axes | None
+    turn: Matrix
+    own: Vector
+    axis: int | None = None
+    omega: Vector = field(default_factory=list)
+    depth: int = 0
+    steady: bool = False  # at rest against the parent
+
+
+@dataclass(eq=False)
+class Place:
+    """A place that moves: ``offset`` and its rate in ``axes``, from ``parent``; ``velocity`` in ``axes``.
+
+    ``slide`` are velocity components against the ground in ``axes``, for a place that floats with quasi-velocities;
+    ``given`` are the axes and components an offset in the plane was given in.
+    """
+
+    parent: Place | None
+    axes: Axes
+    offset: Vector
+    offset_rate: Vector
+    velocity: Vector
+    slide: Vector | None = None
+    position: Vector | None = None
+    given: tuple[Axes, Vector] | None = None
+
+
+@dataclass
+class Accelerations:
+    """α of axes and a of places; in the plane α is one number and a stands in the fixed axes."""
+
+    alpha: dict[Axes, Vector]
+    a: dict[Place, Vector]
+
+
+class Motion:
+    """Axes and places over coordinates q and velocities v with q̇ = rates(q, v); ``dimension`` is 2 or 3.
+
+    ``root`` are the fixed axes, ``ground`` the origin. Add axes and places parents first.
+    """
+
+    def __init__(
+        self,
+        graph: Graph,
+        dimension: int,
+        q: Sequence[int],
+        v: Sequence[int],
+        rates: Sequence[int],
+        t: int | None = None,
+    ) -> None:
+        self.graph, self.dimension = graph, dimension
+        self.q, self.v, self.rates, self.t = tuple(q), tuple(v), tuple(rates), t
+        self._along = dict(zip(self.q, self.rates, strict=True))
+        if t is not None:
+            self._along[t] = graph.one
+        spin = 1 if dimension == 2 else 3
+        self.root = Axes(None, identity(graph, dimension), zeros(graph, spin), None, zeros(graph, spin), 0, True)
+        none = zeros(graph, dimension)
+        self.ground = Place(None, self.root, none, none, none, None, none)
+        self.axes: list[Axes] = [self.root]
+        self.places: list[Place] = [self.ground]
+        self._rotation: dict[Axes, Matrix] = {self.root: self.root.turn}
+
+    # -- rates --------------------------------------------------------------------------------------------------
+
+    def rate(self, ids: Sequence[int]) -> Vector:
+        """The total time derivative of nodes that depend on q and t."""
+        return jvp(self.graph, ids, self._along)
+
+    def second_rate(self, ids: Sequence[int], vdot: Sequence[int]) -> Vector:
+        """The total time derivative of nodes that depend on q, v and t, at v̇ = vdot."""
+        return jvp(self.graph, ids, {**self._along, **dict(zip(self.v, vdot, strict=True))})
+
+    # -- building -----------------------------------------------------------------------------------------------
+
+    def turned_axes(self, parent: Axes, turn: Matrix, own: Vector, axis: int | None = None) -> Axes:
+        """Axes in space turned by R = ``turn`` from ``parent``, with angular velocity ``own`` against it (own axes)."""
+        g = self.graph
+        omega = plus(g, times(g, transposed(turn), parent.omega), own)
+        made = Axes(parent, turn, own, axis, omega, parent.depth + 1, all(w == g.zero for w in own))
+        self.axes.append(made)
+        return made
+
+    def turned_about(self, parent: Axes, axis: int, angle: int) -> Axes:
+        """Axes in space turned about the parent's coordinate axis 0, 1 or 2 by ``angle``."""
+        g = self.graph
+        c, s = g.cos(angle), g.sin(angle)
+        i, j = (axis + 1) % 3, (axis + 2) % 3
+        turn = identity(g, 3)
+        turn[i][i], turn[i][j], turn[j][i], turn[j][j] = c, g.neg(s), s, c
+        own = zeros(g, 3)
+        own[axis] = self.rate([angle])[0]
+        return self.turned_axes(parent, turn, own, axis)
+
+    def plane_axes(self, parent: Axes, angle: int) -> Axes:
+        """Axes in the plane turned from the fixed axes by ``angle`` (the sum over the parents)."""
+        g = self.graph
+        c, s = g.cos(angle), g.sin(angle)
+        own = self.rate([angle])
+        made = Axes(parent, [[c, g.neg(s)], [s, c]], own, None, own, parent.depth + 1)
+        self.axes.append(made)
+        return made
+
+    def place(self, parent: Place, axes: Axes, offset: Sequence[int]) -> Place:
+        """The place at ``offset``, in ``axes``, from ``parent``."""
+        g = self.graph
+        if self.dimension == 2:
+            step = times(g, axes.turn, offset)
+            change = self.rate(step)
+            made = Place(parent, self.root, step, change, plus(g, parent.velocity, change))
+            made.given = axes, list(offset)
+        else:
+            change = self.rate(offset)
+            carried = plus(g, self.turned(parent.velocity, parent.axes, axes), cross(g, axes.omega, offset))
+            made = Place(parent, axes, list(offset), change, plus(g, carried, change))
+        self.places.append(made)
+        return made
+
+    def floating(self, position: Sequence[int], axes: Axes, velocity: Sequence[int]) -> Place:
+        """A place at ``position`` (fixed axes) whose velocity has the components ``velocity`` in ``axes``."""
+        none = zeros(self.graph, self.dimension)
+        made = Place(self.ground, axes, none, none, list(velocity), list(velocity), list(position))
+        self.places.append(made)
+        return made
+
+    # -- using --------------------------------------------------------------------------------------------------
+
+    def turned(self, x: Sequence[int], source: Axes, target: Axes) -> Vector:
+        """The vector x, with components in ``source``, in ``target``; in the plane everything stands in the root."""
+        if source is target or self.dimension == 2:
+            return list(x)
+        g = self.graph
+        down: list[Axes] = []
+        up = source
+        while up is not target:
+            if up.depth >= target.depth and up.parent is not None:
+                x = times(g, up.turn, x)
+                up = up.parent
+            else:
+                assert target.parent is not None
+                down.append(target)
+                target = target.parent
+        for axes in reversed(down):
+            x = times(g, transposed(axes.turn), x)
+        return list(x)
+
+    def rotation(self, axes: Axes) -> Matrix:
+        """R from ``axes`` to the fixed axes."""
+        if self.dimension == 2:
+            return axes.turn
+        chain: list[Axes] = []
+        at = axes
+        while at not in self._rotation:
+            chain.append(at)
+            assert at.parent is not None
+            at = at.parent
+        for below in reversed(chain):
+            assert below.parent is not None
+            self._rotation[below] = product(self.graph, self._rotation[below.parent], below.turn)
+        return self._rotation[axes]
+
+    def position(self, place: Place) -> Vector:
+        """r of a place from the origin, in the fixed axes."""
+        chain: list[Place] = []
+        at = place
+        while at.position is None:
+            chain.append(at)
+            assert at.parent is not None
+            at = at.parent
+        for below in reversed(chain):
+            assert below.parent is not None and below.parent.position is not None
+            below.position = plus(self.graph, below.parent.position, self._step(below))
+        assert place.position is not None
+        return place.position
+
+    def _step(self, place: Place) -> Vector:
+        """The offset of a place in the fixed axes."""
+        if place.slide is not None:
+            assert place.position is not None
+            return place.position
+        return times(self.graph, self.rotation(place.axes), place.offset)
+
+    def between(self, start: Place, end: Place) -> Vector:
+        """r_end − r_start in the fixed axes; what both share cancels before anything is computed."""
+        above: set[Place] = set()
+        at: Place | None = start
+        while at is not None:
+            above.add(at)
+            at = at.parent
+        common = end
+        while common not in above:
+            assert common.parent is not None
+            common = common.parent
+        return minus(self.graph, self._from(common, end), self._from(common, start))
+
+    def _from(self, common: Place, place: Place) -> Vector:
+        total = zeros(self.graph, self.dimension)
+        while place is not common:
+            total = plus(self.graph, self._step(place), total)
+            assert place.parent is not None
+            place = place.parent
+        return total
+
+    def accelerations(self, vdot: Sequence[int], ground: Sequence[int]) -> Accelerations:
+        """All accelerations at v̇ = vdot, with the ground accelerating at ``ground`` (fixed axes)."""
+        found = Accelerations({}, {self.ground: list(ground)})
+        if self.dimension == 2:
+            turning = self.second_rate([a.own[0] for a in self.axes], vdot)
+            found.alpha = {a: [x] for a, x in zip(self.axes, turning, strict=True)}
+            changes = self.second_rate([x for p in self.places for x in p.offset_rate], vdot)
+            for n, place in enumerate(self.places):
+                if place.parent is not None:
+                    found.a[place] = plus(self.graph, found.a[place.parent], changes[2 * n : 2 * n + 2])
+            return found
+        self._alphas(vdot, found)
+        changes = self.second_rate([x for p in self.places for x in (p.slide or p.offset_rate)], vdot)
+        for n, place in enumerate(self.places):
+            if place.parent is not None:
+                found.a[place] = self._acceleration(place, changes[3 * n : 3 * n + 3], found)
+        return found
+
+    def _alphas(self, vdot: Sequence[int], found: Accelerations) -> None:
+        """α = Rᵀ α_parent + (Rᵀ ω_parent) × w + ẇ."""
+        g = self.graph
+        changes = self.second_rate([w for a in self.axes for w in a.own], vdot)
+        found.alpha[self.root] = zeros(g, 3)
+        for n, axes in enumerate(self.axes):
+            if axes.parent is None:
+                continue
+            back = transposed(axes.turn)
+            carried = times(g, back, found.alpha[axes.parent])
+            gyro = cross(g, times(g, back, axes.parent.omega), axes.own)
+            found.alpha[axes] = plus(g, plus(g, carried, gyro), changes[3 * n : 3 * n + 3])
+
+    def _acceleration(self, place: Place, change: Sequence[int], found: Accelerations) -> Vector:
+        """a = a_parent + A r + 2 ω × ṙ + r̈,  A = [α]× + [ω]×²; of a floating place  a = a_ground + ω × v + v̇."""
+        g = self.graph
+        axes, parent = place.axes, place.parent
+        assert parent is not None
+        total = self.turned(found.a[parent], parent.axes, axes)
+        if place.slide is not None:
+            return plus(g, plus(g, total, cross(g, axes.omega, place.slide)), change)
+        if any(x != g.zero for x in place.offset):
+            total = plus(g, total, times(g, self.spin(axes, found), place.offset))
+        if any(x != g.zero for x in place.offset_rate):
+            total = plus(g, total, scaled(g, g.const(2.0), cross(g, axes.omega, place.offset_rate)))
+        return plus(g, total, change)
+
+    def spin(self, axes: Axes, found: Accelerations) -> Matrix:
+        """A = [α]× + ω ωᵀ − |ω|² 1: what a point fixed in ``axes`` at r accelerates by, A r."""
+        g = self.graph
+        x, y, z = axes.omega
+        ax, ay, az = found.alpha[axes]
+        xx, yy, zz = g.mul(x, x), g.mul(y, y), g.mul(z, z)
+        xy, xz, yz = g.mul(x, y), g.mul(x, z), g.mul(y, z)
+        return [
+            [g.neg(g.add(yy, zz)), g.sub(xy, az), g.add(xz, ay)],
+            [g.add(xy, az), g.neg(g.add(xx, zz)), g.sub(yz, ax)],
+            [g.sub(xz, ay), g.add(yz, ax), g.neg(g.add(xx, yy))],
+        ]
+
+    # -- questions ----------------------------------------------------------------------------------------------
+
+    def constant(self, ids: Sequence[int]) -> bool:
+        """Whether nodes depend on parameters and numbers alone."""
+        nodes = self.graph.nodes
+        moving = {*self.q, *self.v, *((self.t,) if self.t is not None else ())}
+        return not any(i in moving or (nodes[i][0] == "input" and nodes[i][1] == "u") for i in reached(self.graph, ids))
+
+    def base(self, axes: Axes) -> tuple[Axes, Matrix]:
+        """The nearest axes above (or these) that are not at rest against their parent, and R from ``axes`` to them."""
+        g = self.graph
+        turn = identity(g, 3)
+        while axes.steady and axes.parent is not None:
+            turn = product(g, axes.turn, turn)
+            axes = axes.parent
+        return axes, turn
+
+    def anchor(self, place: Place, axes: Axes) -> tuple[Place, Vector]:
+        """The farthest place above that is at rest against ``place`` in ``axes``, and r from there, in ``axes``.
+
+        In space ``axes`` must be a `base`.
+        """
+        g = self.graph
+        r = zeros(g, self.dimension)
+        while place.parent is not None and place.slide is None:
+            if self.dimension == 2:
+                assert place.given is not None
+                home, step = place.given
+            else:
+                home, turn = self.base(place.axes)
+                step = times(g, turn, place.offset)
+            if home is not axes or not self.constant(step):
+                break
+            r = plus(g, r, step)
+            place = place.parent
+        return place, r
+
+
+def along_axis(g: Graph, n: Sequence[int], angle: int) -> Matrix:
+    """Rodrigues' rotation about the unit axis n: R = c 1 + s [n]× + (1 − c) n nᵀ."""
+    c, s = g.cos(angle), g.sin(angle)
+    rest = g.sub(g.one, c)
+    hat = [[g.zero, g.neg(n[2]), n[1]], [n[2], g.zero, g.neg(n[0])], [g.neg(n[1]), n[0], g.zero]]
+    return [
+        [g.add(g.add(c if i == j else g.zero, g.mul(s, hat[i][j])), g.mul(rest, g.mul(n[i], n[j]))) for j in range(3)]
+        for i in range(3)
+    ]

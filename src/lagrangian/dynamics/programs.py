@@ -1,0 +1,127 @@
+"""The programs of a model: each a graph of its own with the groups q, v, u, p, t as far as it needs them.
+
+    inverse        r(q, v, a, u, p, t) = M a + C v + G − Ξ       the generalized force that is missing
+    forward        a(q, v, u, p, t), the solution of r = 0
+    rhs            ẋ of x = [q; v]
+    mass_matrix    M(q, p, t)
+    bias           r at a = 0
+    gravity        G = ∂V/∂q
+    coriolis       C(q, v, p, t) by Christoffel, so that Ṁ − 2C is skew
+    energy         T and V
+    loss           the power that dampers take [W]
+
+Every group is named in ``inputs`` even where a program does not read it, so that all are called alike. Parameters carry the
+model's values as defaults.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from lagrangian.dynamics.describe import Inputs, describe
+from lagrangian.dynamics.mechanics import Mechanics
+from lagrangian.errors import ModelError
+from lagrangian.graph import Graph, Output, Program
+from lagrangian.model import Model
+
+
+def _start(model: Model, *, state: bool = False) -> tuple[Graph, Inputs, Mechanics]:
+    if not model.coordinates:
+        raise ModelError(f"system '{model.name}' has no coordinate: nothing can move", code="E201")
+    graph = Graph()
+    inputs = Inputs.of(graph, model, state=state)
+    return graph, inputs, describe(model, graph, inputs)
+
+
+def _program(
+    model: Model, name: str, graph: Graph, outputs: Mapping[str, Output], *, groups: Sequence[str] = ("q", "v")
+) -> Program:
+    q = tuple(c.name for c in model.coordinates)
+    names = {
+        "q": q,
+        "v": tuple(f"{x}'" for x in q),
+        "a": tuple(f"{x}''" for x in q),
+        "x": (*q, *(f"{x}'" for x in q)),
+        "u": tuple(u.name for u in model.inputs),
+        "p": tuple(p.name for p in model.parameters),
+        "t": ("t",),
+    }
+    defaults = {p.name: p.value for p in model.parameters}
+    inputs = {group: names[group] for group in (*groups, "u", "p", "t")}
+    return Program(name, graph, inputs, outputs, defaults)
+
+
+def _vector(ids: Sequence[int]) -> Output:
+    return Output(tuple(ids), (len(ids),))
+
+
+def _matrix(rows: Sequence[Sequence[int]]) -> Output:
+    return Output(tuple(x for row in rows for x in row), (len(rows), len(rows[0]) if rows else 0))
+
+
+def forward(model: Model) -> Program:
+    """q, v, u, p, t → a [rad/s² or m/s²], shape (n,).
+
+    Raises `ModelError` that names a coordinate where the mass matrix is singular by structure.
+    """
+    graph, _, m = _start(model)
+    return _program(model, "forward", graph, {"a": _vector(m.forward())})
+
+
+def rhs(model: Model) -> Program:
+    """x, u, p, t → ẋ of x = [q; v], shape (2n,)."""
+    graph, inputs, m = _start(model, state=True)
+    return _program(model, "rhs", graph, {"xdot": _vector([*inputs.v, *m.forward()])}, groups=("x",))
+
+
+def inverse(model: Model) -> Program:
+    """q, v, a, u, p, t → the generalized forces that are missing, M a + C v + G − Ξ, shape (n,)."""
+    graph, _, m = _start(model)
+    a = [graph.input("a", i) for i in range(len(m.v))]
+    return _program(model, "inverse", graph, {"r": _vector(m.inverse(a))}, groups=("q", "v", "a"))
+
+
+def inverse_from_lagrangian(model: Model) -> Program:
+    """The same as `inverse` by the independent route, from L = T − V: d/dt ∂L/∂q̇ − ∂L/∂q − Ξ."""
+    graph, _, m = _start(model)
+    a = [graph.input("a", i) for i in range(len(m.v))]
+    return _program(
+        model, "inverse_from_lagrangian", graph, {"r": _vector(m.inverse_from_lagrangian(a))}, groups=("q", "v", "a")
+    )
+
+
+def mass_matrix(model: Model) -> Program:
+    """q, v, u, p, t → M, shape (n, n); it does not read v and u."""
+    graph, _, m = _start(model)
+    return _program(model, "mass_matrix", graph, {"M": _matrix(m.mass_matrix())})
+
+
+def bias(model: Model) -> Program:
+    """q, v, u, p, t → C v + G − Ξ, shape (n,): what `inverse` gives at a = 0."""
+    graph, _, m = _start(model)
+    return _program(model, "bias", graph, {"h": _vector(m.bias())})
+
+
+def gravity(model: Model) -> Program:
+    """q, v, u, p, t → G = ∂V/∂q, shape (n,): weights, springs and raw potentials."""
+    graph, _, m = _start(model)
+    return _program(model, "gravity", graph, {"G": _vector(m.gravity())})
+
+
+def coriolis(model: Model) -> Program:
+    """q, v, u, p, t → C, shape (n, n), by Christoffel's symbols; Ṁ − 2C is skew."""
+    graph, _, m = _start(model)
+    return _program(model, "coriolis", graph, {"C": _matrix(m.coriolis())})
+
+
+def energy(model: Model) -> Program:
+    """q, v, u, p, t → T and V [J], one number each."""
+    graph, _, m = _start(model)
+    outputs = {"T": Output((m.kinetic(),), ()), "V": Output((m.potential(),), ())}
+    return _program(model, "energy", graph, outputs)
+
+
+def loss(model: Model) -> Program:
+    """q, v, u, p, t → the power that dampers take [W], one number."""
+    graph, _, m = _start(model)
+    return _program(model, "loss", graph, {"P": Output((m.loss(),), ())})
