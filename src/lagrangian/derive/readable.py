@@ -15,7 +15,7 @@ import sympy as sp
 
 from lagrangian.derive.normal_generators import Generators, Root, Symbolic, Trig
 from lagrangian.derive.normal_monomials import digits, packed, unit
-from lagrangian.derive.readable_factor import FACTOR_TERMS, Flat, Shortener, Tree, lead, order
+from lagrangian.derive.readable_factor import FACTOR_TERMS, SEARCH, Flat, Shortener, Tree, lead, order
 from lagrangian.derive.readable_trig import displayed
 
 if TYPE_CHECKING:
@@ -97,6 +97,7 @@ class Writer:
     def _letters(self, form: Form) -> Flat:
         """The form in letters for the page; l² + x² + h² − 2 l √(x² + h²) with the square of the root put back."""
         flat = displayed(form, self.generators)
+        self.shortener.budget = max(SEARCH, 30 * len(flat))
         for i in {i for m in flat for i, e in digits(m) if e == 1 and i in self.generators.roots}:
             root = self.generators.roots[i]
             if root.q == 2 and root.base.size > 1:

@@ -22,6 +22,10 @@ FACTOR_TERMS = 16
 """Sums of more terms are not handed to SymPy's factorization."""
 FACTOR_LETTERS = 8
 """Sums in more letters are not either."""
+SEARCH = 40_000
+"""Terms that one search may look at before it leaves the remaining sums as they are; `Shortener.budget` counts down."""
+FACTOR_DEGREES = 14
+"""Nor are sums whose degrees in their letters add up to more."""
 WIDE = 4
 WIDE_TERMS = 9
 """Up to this many terms `WIDE` letters are tried to be pulled out first, beyond it the most frequent one."""
@@ -42,6 +46,7 @@ class Shortener:
 
     def __init__(self, cost_of: Callable[[int], int]) -> None:
         self.cost_of = cost_of
+        self.budget = SEARCH
         self._memo: dict[frozenset[tuple[int, Fraction]], Tree] = {}
         self._factors: dict[object, list[tuple[Flat, int]] | None] = {}
 
@@ -83,7 +88,7 @@ class Shortener:
         """
         best = self._outside(poly, whole=False)
         denominators = {c.denominator for c in poly.values()}
-        if len(denominators) > 1:
+        if 1 < len(denominators) <= len(poly) <= FACTOR_TERMS:
             scale = lcm(*denominators)
             tree = self._outside({m: c * scale for m, c in poly.items()}, whole=False)
             best = min(best, self.times(tree, Fraction(1, scale), 0), key=lambda t: t.cost)
@@ -105,6 +110,9 @@ class Shortener:
         if (known := self._memo.get(key)) is not None:
             return known
         best = self.summed(self.product(c, m) for m, c in ordered(poly))
+        self.budget -= 1 + len(poly)
+        if self.budget < 0:
+            return best
         if len(poly) > 2 or any(abs(e) > 1 for m in poly for _, e in digits(m)):
             for candidate in self._candidates(poly):
                 if candidate.cost < best.cost:
@@ -166,7 +174,10 @@ class Shortener:
         scale = lcm(*(c.denominator for c in poly.values()))
         shape = {tuple(abs(dict(digits(m)).get(i, 0)) for i in letters): int(c * scale) for m, c in poly.items()}
         key = frozenset(shape.items())
+        if sum(max(m[i] for m in shape) for i in range(len(letters))) > FACTOR_DEGREES:
+            return None
         if key not in self._factors:
+            self.budget -= 200
             self._factors[key] = _factors(shape, len(letters))
         found = self._factors[key]
         if found is None:
