@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import tomllib
 
+import jsonschema
 import pytest
 
-from lagrangian import ModelError, examples
+import lagrangian as lg
+from lagrangian import ModelError, examples, read
 
 ASKED_FOR = {
     "lecture-1",
@@ -66,3 +68,23 @@ def test_only_names_of_examples_open_files(name: str) -> None:
     with pytest.raises(ModelError) as caught:
         examples.text(name)
     assert len(str(caught.value)) < 300
+
+
+@pytest.mark.parametrize("name", examples.names())
+def test_a_file_fits_the_published_schema(name: str) -> None:
+    jsonschema.validate(tomllib.loads(examples.text(name)), read.schema())
+
+
+@pytest.mark.parametrize("name", examples.names())
+def test_a_saved_system_is_the_same_system(name: str) -> None:
+    first = lg.loads(examples.text(name), name=name)
+    again = lg.loads(first.to_toml(), name="saved")
+    for attribute in ("coordinates", "parameters", "inputs", "definitions"):
+        assert getattr(again.model, attribute) == getattr(first.model, attribute)
+    for one, other in zip(first.model.elements, again.model.elements, strict=True):
+        assert (one.kind, one.name) == (other.kind, other.name)
+        assert one.kinetic(first.model) == other.kinetic(again.model)
+        assert one.potential(first.model) == other.potential(again.model)
+        assert [(a.effort, a.rate) for a in one.works(first.model)] == [
+            (a.effort, a.rate) for a in other.works(again.model)
+        ]
