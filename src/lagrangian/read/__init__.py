@@ -1,7 +1,23 @@
-"""Reading what people wrote: expressions, quantities with units, model files."""
+"""Reading what people wrote: expressions, quantities with units, model files; and writing model files."""
 
 from lagrangian.read.expression import parse_expression
+from lagrangian.read.file_load import load, loads
 from lagrangian.read.quantity import Quantity, parse_quantity, unit_dimension
+from lagrangian.read.file_save import dumps
+from lagrangian.read.file_schema import schema
 from lagrangian.read.scope import Scope
+from lagrangian.read.validate import MAX_BYTES, decode
 
-__all__ = ["Quantity", "Scope", "parse_expression", "parse_quantity", "unit_dimension"]
+__all__ = [
+    "MAX_BYTES",
+    "Quantity",
+    "Scope",
+    "decode",
+    "dumps",
+    "load",
+    "loads",
+    "parse_expression",
+    "parse_quantity",
+    "schema",
+    "unit_dimension",
+]

@@ -51,8 +51,8 @@ class Source:
         line = self.text[first : last if last >= 0 else len(self.text)]
         column = offset - first + 1
         if row == 0 and start.line is not None and start.column is not None:
-            return Place(start.file, start.line, start.column + offset, _printable(start.text))
-        return Place(start.file, (start.line or 1) + row, column, _printable(line))
+            return Place(start.file, start.line, start.column + offset, printable(start.text))
+        return Place(start.file, (start.line or 1) + row, column, printable(line))
 
     def error(self, message: str, offset: int, *, fix: str | None = None, code: str = "E701") -> ParseError:
         """Return a `ParseError` that points at ``offset``."""
@@ -75,6 +75,6 @@ class Source:
             raise self.error("the text is empty", 0, fix=f"write {example}", code="E406")
 
 
-def _printable(line: str | None) -> str | None:
+def printable(line: str | None) -> str | None:
     """Return a line with one printable character for each of its own, so that the caret stays under the right one."""
     return None if line is None else "".join(c if c.isprintable() else " " for c in line)

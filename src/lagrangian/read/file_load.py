@@ -1,0 +1,457 @@
+"""From a model file to a `Builder`: names first, then geometry, then elements in the order of the file.
+
+Points and frames are made when they are first needed, so that a frame may be measured from a point and a point in a frame;
+a circle of such references is refused.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from pathlib import Path as FilePath
+from typing import Any, NoReturn
+
+import sympy as sp
+
+from lagrangian.errors import ModelError, ParseError, Place, did_you_mean
+from lagrangian.model import Builder, Frame, Point
+from lagrangian.model.geometry import as_expr
+from lagrangian.read import file_schema as schema
+from lagrangian.read.elements import KINDS, add_element
+from lagrangian.read.expression import read_source
+from lagrangian.read.letters import normal, spelled, twin
+from lagrangian.read.quantity import Quantity, parse_unit, read_quantity
+from lagrangian.read.scope import Scope
+from lagrangian.read.source import shown
+from lagrangian.read.toml_index import Path
+from lagrangian.read.units import SYMBOLS
+from lagrangian.read.validate import MAX_BYTES, decode, owner, read_toml
+
+_WORD = re.compile(r"[^\W\d]\w*")
+
+
+def load(path: str | FilePath) -> Builder:
+    """Return the description in a model file. Raises `ParseError` or `ModelError` with file, line and column."""
+    name = str(path)
+    try:
+        with FilePath(path).open("rb") as file:
+            data = file.read(MAX_BYTES + 1)
+    except FileNotFoundError:
+        raise _unreadable(name, "there is no such file", "check the path; `lagrangian new NAME` writes one") from None
+    except IsADirectoryError:
+        raise _unreadable(name, "this is a folder, not a file", "name the model file in it") from None
+    except PermissionError:
+        raise _unreadable(name, "the file may not be read", "check its permissions") from None
+    except (OSError, ValueError) as error:
+        raise _unreadable(name, f"the file cannot be read ({error})", "check the path") from None
+    return loads(decode(data, name), name)
+
+
+def _unreadable(name: str, what: str, fix: str) -> ModelError:
+    return ModelError(what, place=Place(name), fix=fix, code="E702")
+
+
+def loads(text: str, name: str | None = None) -> Builder:
+    """Return the description in the text of a model file; ``name`` stands for the file in messages."""
+    return _Loader(text, name or "<text>").build()
+
+
+class _Loader:
+    """Reads one file; ``scope`` holds every name declared so far."""
+
+    def __init__(self, text: str, name: str) -> None:
+        self.file, self.data, self.index = read_toml(text, name)
+        self.builder = Builder(self.file.name if self.file.name.strip() else self._unnamed())
+        self.scope = Scope()
+        self.points: dict[str, Point] = {"origin": self.builder.origin}
+        self.frames: dict[str, Frame] = {}
+        self.frame_numbers: dict[str, int] = {}
+        self.making: list[str] = []
+
+    @property
+    def coordinate_names(self) -> list[str]:
+        """The coordinates, in order."""
+        return [normal(name) for name in self.file.coordinates]
+
+    def _unnamed(self) -> NoReturn:
+        place = self.index.of_value(("name",))
+        raise ParseError("the name of the system is empty", place=place, fix='name = "two-link arm"', code="E401")
+
+    def build(self) -> Builder:
+        """Read every section, in an order in which each finds what it refers to."""
+        self._coordinates()
+        self._parameters()
+        self._inputs()
+        self._look_alikes()
+        self._definitions()
+        self._geometry()
+        self._elements()
+        self._simulate()
+        return self.builder
+
+    # -- names --------------------------------------------------------------------------------------------------
+
+    def _placed(self, make: Callable[[], Any], place: Place, element: str | None = None) -> Any:
+        """Call ``make``; an error that does not know its place gets this one."""
+        try:
+            return make()
+        except ModelError as error:
+            error.at(place)
+            if error.element is None and element is not None:
+                error.element = element
+            raise
+
+    def _coordinates(self) -> None:
+        for name, value in self.file.coordinates.items():
+            path, place = ("coordinates", name), self.index.of_key(("coordinates", name))
+            table = schema.CoordinateTable(description=value) if isinstance(value, str) else value
+            unit = self._unit(table.unit, (*path, "unit"))
+            made = self._placed(
+                lambda n=name, t=table, u=unit, p=place: self.builder.coordinate(
+                    n, description=t.description, unit=u, place=p
+                ),
+                place,
+            )
+            self.scope.add(made.name, made.symbol)
+
+    def _parameters(self) -> None:
+        for name, value in self.file.parameters.items():
+            path, place = ("parameters", name), self.index.of_key(("parameters", name))
+            number, unit, description = self._parameter(value, path)
+            made = self._placed(
+                lambda n=name, v=number, u=unit, d=description, p=place: self.builder.parameter(
+                    n, v, unit=u, description=d, place=p
+                ),
+                place,
+            )
+            self.scope.add(made.name, made.symbol)
+
+    def _parameter(self, value: Any, path: Path) -> tuple[float | None, str | None, str]:
+        """Return a parameter's value in SI units, its unit and its description."""
+        if not isinstance(value, schema.ParameterTable):
+            number, unit = self._number(value, path)
+            return number, unit, ""
+        unit = self._unit(value.unit, (*path, "unit"))
+        if value.value is None:
+            return None, unit, value.description
+        number, own = self._number(value.value, (*path, "value"))
+        if unit is not None and own is not None:
+            raise ParseError(
+                f"the unit is given twice, as {shown(own)} and as {shown(unit)}",
+                element=owner(path, self.data),
+                place=self.index.of_value((*path, "unit")),
+                fix="keep one of the two",
+                code="E404",
+            )
+        if unit is not None:
+            number = float(sp.Rational(repr(number)) * sp.Rational(parse_unit(unit).factor))
+        return number, unit or own, value.description
+
+    def _number(self, value: Any, path: Path) -> tuple[float, str | None]:
+        if isinstance(value, str):
+            quantity = read_quantity(self.index.source(path, value, owner(path, self.data)))
+            return quantity.value, quantity.unit or None
+        return float(value), None
+
+    def _unit(self, unit: str | None, path: Path) -> str | None:
+        """Return a unit after a look at whether it is one."""
+        if unit is None:
+            return None
+        place = self.index.source(path, unit, "").place
+        return unit if parse_unit(unit, owner(path, self.data), place) else None
+
+    def _inputs(self) -> None:
+        for name, value in self.file.inputs.items():
+            path, place = ("inputs", name), self.index.of_key(("inputs", name))
+            if isinstance(value, str):
+                unit, description = _unit_and_words(value)
+            else:
+                unit, description = self._unit(value.unit, (*path, "unit")), value.description
+            made = self._placed(
+                lambda n=name, d=description, u=unit, p=place: self.builder.input(n, description=d, unit=u, place=p),
+                place,
+            )
+            self.scope.add(made.name, made.symbol)
+
+    def _look_alikes(self) -> None:
+        """Refuse two names that a reader takes for one: θ1 and theta1, а (Cyrillic) and a."""
+        seen: dict[str, tuple[str, str]] = {}
+        sections: tuple[tuple[str, Mapping[str, Any]], ...] = (
+            ("coordinates", self.file.coordinates),
+            ("parameters", self.file.parameters),
+            ("inputs", self.file.inputs),
+            ("define", self.file.define),
+        )
+        for section, table in sections:
+            for name in table:
+                for form in {spelled(name), twin(name)}:
+                    before = seen.setdefault(form, (section, name))
+                    if before != (section, name) and normal(before[1]) != normal(name):
+                        line = self.index.of_key(before).line
+                        raise ParseError(
+                            f"'{name}' and '{before[1]}' (line {line}) look alike",
+                            place=self.index.of_key((section, name)),
+                            fix="write one of them in other letters",
+                            code="E404",
+                        )
+
+    def _definitions(self) -> None:
+        names = list(self.file.define)
+        for number, name in enumerate(names):
+            path = ("define", name)
+            place = self.index.of_key(path)
+            value = self.file.define[name]
+            later = [w for w in _WORD.findall(value) if w in names[number:]] if isinstance(value, str) else []
+            if later and later[0] not in self.scope:
+                self._not_in_order(name, later[0])
+            expr = self.expression(value, path, f"definition '{name}'")
+            made = self._placed(lambda n=name, e=expr, p=place: self.builder.define(n, e, place=p), place)
+            self.scope.add(made.name, made.symbol)
+
+    def _not_in_order(self, name: str, later: str) -> NoReturn:
+        """A definition refers to itself or to a later one: a circle, or only the wrong order."""
+        table = {n: [w for w in _WORD.findall(v) if w in self.file.define] for n, v in self._texts().items()}
+        trail = _circle(table, name)
+        place = self.index.of_value(("define", name))
+        if trail:
+            raise ParseError(
+                f"definitions go in a circle: {' → '.join(trail)}",
+                element=f"definition '{name}'",
+                place=place,
+                fix="write one of them out without the others",
+                code="E413",
+            )
+        raise ParseError(
+            f"it uses '{later}', which is defined after it",
+            element=f"definition '{name}'",
+            place=place,
+            fix=f"put '{later}' before '{name}'",
+            code="E413",
+        )
+
+    def _texts(self) -> dict[str, str]:
+        return {n: v for n, v in self.file.define.items() if isinstance(v, str)}
+
+    # -- values -------------------------------------------------------------------------------------------------
+
+    def expression(self, value: Any, path: Path, what: str, local: tuple[sp.Symbol, ...] = ()) -> sp.Expr:
+        """Return the SymPy expression of a text or number at a path; ``local`` are names of this expression alone."""
+        if not isinstance(value, str):
+            return self._placed(lambda: as_expr(_whole(value), what), self.index.of_value(path))
+        scope = self.scope.extended({s.name: s for s in local}) if local else self.scope
+        return read_source(self.index.source(path, value, what), scope)
+
+    def vector(self, values: list[Any], path: Path, what: str) -> tuple[sp.Expr, ...]:
+        """Return the expressions of a list."""
+        return tuple(self.expression(v, (*path, i), f"component {i + 1} of {what}") for i, v in enumerate(values))
+
+    # -- points and frames --------------------------------------------------------------------------------------
+
+    def _geometry(self) -> None:
+        for number, table in enumerate(self.file.frame):
+            if table.name in self.frame_numbers:
+                line = self.index.of_key(("frame", self.frame_numbers[table.name])).line
+                raise ParseError(
+                    f"frame '{table.name}' is given twice (line {line})",
+                    place=self.index.of_value(("frame", number, "name")),
+                    fix="give it another name",
+                    code="E404",
+                )
+            self.frame_numbers[table.name] = number
+        for number, table in enumerate(self.file.frame):
+            self.frame(table.name, ("frame", number))
+        for name in self.file.points:
+            self.named_point(name, ("points", name))
+
+    def _enter(self, what: str, path: Path) -> None:
+        if what in self.making:
+            circle = [*self.making[self.making.index(what) :], what]
+            raise ParseError(
+                f"they go in a circle: {' → '.join(circle)}",
+                element=owner(path, self.data) or None,
+                place=self.index.of_value(path),
+                fix="measure one of them from the origin or the fixed axes",
+                code="E413",
+            )
+        if len(self.making) > 200:
+            raise ParseError("more than 200 points and frames hang on each other", place=self.index.of_value(path))
+        self.making.append(what)
+
+    def named_point(self, name: str, path: Path) -> Point:
+        """Return the point of that name; ``path`` is where it is referred to."""
+        if name in self.points:
+            return self.points[name]
+        if name not in self.file.points:
+            self._unknown("point", name, path, ["origin", *self.file.points])
+        self._enter(f"point '{name}'", path)
+        own = ("points", name)
+        self.points[name] = self._point(self.file.points[name], own, name)
+        self.making.pop()
+        return self.points[name]
+
+    def point(self, value: Any, path: Path) -> Point:
+        """Return a point that is named, or written on the spot."""
+        return self.named_point(value, path) if isinstance(value, str) else self._point(value, path, None)
+
+    def _point(self, value: Any, path: Path, name: str | None) -> Point:
+        what = f"point '{name}'" if name else f"the point in {owner(path, self.data)}"
+        if isinstance(value, schema.PointTable):
+            parent = self.named_point(value.from_, (*path, "from")) if value.from_ is not None else None
+            frame = self.frame(value.frame, (*path, "frame")) if value.frame is not None else None
+            offset = self.vector(value.offset, (*path, "offset"), what)
+        else:
+            parent, frame, offset = None, None, self.vector(value, path, what)
+        place = self.index.of_key(path)
+        return self._placed(lambda: self.builder.point(name, offset, parent=parent, frame=frame, place=place), place)
+
+    def frame(self, name: str, path: Path) -> Frame:
+        """Return the frame of that name; ``path`` is where it is referred to."""
+        if name in self.frames:
+            return self.frames[name]
+        if name not in self.frame_numbers:
+            self._unknown("frame", name, path, list(self.frame_numbers))
+        self._enter(f"frame '{name}'", path)
+        own = ("frame", self.frame_numbers[name])
+        table = self.file.frame[self.frame_numbers[name]]
+        what = f"frame '{name}'"
+        parent = self.frame(table.parent, (*own, "parent")) if table.parent is not None else None
+        origin = self.named_point(table.origin, (*own, "origin")) if table.origin is not None else None
+        angle = self.expression(table.angle, (*own, "angle"), f"angle of {what}")
+        axis = self.vector(table.axis, (*own, "axis"), f"the axis of {what}") if table.axis is not None else None
+        place = self.index.of_key(own)
+        self.frames[name] = self._placed(
+            lambda: self.builder.frame(name, angle, axis=axis, parent=parent, origin=origin, place=place), place
+        )
+        self.making.pop()
+        return self.frames[name]
+
+    def frame_or_angle(self, value: Any, path: Path, what: str) -> Frame | sp.Expr:
+        """Return the frame of that name, or else the expression of an angle."""
+        if isinstance(value, str):
+            name = value.strip()
+            if name in self.frame_numbers:
+                return self.frame(name, path)
+            if _WORD.fullmatch(name) and not self.scope.meanings(name)[0] and did_you_mean(name, self.frame_numbers):
+                self._unknown("frame", name, path, list(self.frame_numbers))
+        return self.expression(value, path, what)
+
+    def _unknown(self, what: str, name: str, path: Path, known: list[str]) -> NoReturn:
+        listed = "known: " + ", ".join(known[:12]) if known else f"there is no {what} in this file"
+        raise ParseError(
+            f"unknown {what} {shown(name)}",
+            element=owner(path, self.data) or None,
+            place=self.index.of_value(path),
+            fix=did_you_mean(name[:64], known) or listed,
+            code="E412",
+        )
+
+    # -- elements -----------------------------------------------------------------------------------------------
+
+    def _elements(self) -> None:
+        """Add the elements in the order of the file, whatever their kinds."""
+        found: list[tuple[int, Path, Callable[[], None]]] = []
+        for kind in KINDS:
+            for number, table in enumerate(getattr(self.file, kind)):
+                path = (kind, number)
+                found.append(
+                    (self.index.offset(path), path, lambda k=kind, t=table, p=path: add_element(self, k, t, p))
+                )
+        if self.file.energies is not None:
+            for key in ("T", "V", "D", "Xi"):
+                path = ("energies", key)
+                if getattr(self.file.energies, key):
+                    found.append((self.index.offset(path), path, lambda k=key: self._energy(k)))
+        for _, path, add in sorted(found, key=lambda item: item[0]):
+            self._placed(add, self.index.of_key(path))
+
+    def _energy(self, key: str) -> None:
+        table = self.file.energies
+        assert table is not None
+        if key == "Xi":
+            for coordinate, value in table.Xi.items():
+                path = ("energies", "Xi", coordinate)
+                made = schema.GeneralizedForceTable(name=f"Xi_{coordinate}", coordinate=coordinate, value=value)
+                add_element(self, "generalized_force", made, path, path)
+            return
+        kind, name = {"T": ("kinetic", "T*"), "V": ("potential", "V"), "D": ("dissipation", "D")}[key]
+        path = ("energies", key)
+        add_element(self, kind, schema.EnergyTable(name=name, value=getattr(table, key)), path, path)
+
+    # -- simulation ---------------------------------------------------------------------------------------------
+
+    def _simulate(self) -> None:
+        """Check what stands under [simulate] and keep it as it was written."""
+        table = self.file.simulate
+        if table is None:
+            return
+        if table.duration is not None:
+            path = ("simulate", "duration")
+            duration = self._quantity(table.duration, path, "the duration")
+            exponents = duration.dimension.mechanical
+            if not duration.is_bare and tuple(exponents) != (0, 0, 1):
+                self._refuse(path, f"expected a time, got {shown(duration.unit)}", "write '10 s'", "E408")
+            if duration.value < 0:
+                self._refuse(path, f"the duration is negative ({duration.value:g} s)", "give 0 or more", "E406")
+        coordinates = list(self.file.coordinates)
+        for name, value in table.initial.items():
+            path = ("simulate", "initial", name)
+            self._quantity(value, path, f"the initial value of '{name[:64]}'")
+            base = name.removesuffix("'")
+            if normal(base) not in map(normal, coordinates):
+                self._refuse(
+                    path,
+                    f"there is no coordinate {shown(base)}",
+                    did_you_mean(base[:64], coordinates) or "known: " + ", ".join(coordinates),
+                    "E402",
+                )
+        for name, value in table.inputs.items():
+            path = ("simulate", "inputs", name)
+            if name not in self.file.inputs:
+                known = list(self.file.inputs)
+                hint = did_you_mean(name[:64], known) or "known: " + ", ".join(known)
+                self._refuse(path, f"there is no input {shown(name)}", hint, "E402")
+            self.expression(value, path, f"the input '{name}' in [simulate]")
+        self.builder.settings.update(self.data["simulate"])
+
+    def _quantity(self, value: Any, path: Path, what: str) -> Quantity:
+        if isinstance(value, str):
+            return read_quantity(self.index.source(path, value, what))
+        return read_quantity(self.index.source(path, repr(value), what))
+
+    def _refuse(self, path: Path, message: str, fix: str, code: str) -> NoReturn:
+        place = self.index.of_key(path) if code == "E402" else self.index.of_value(path)
+        raise ParseError(message, element="[simulate]", place=place, fix=fix, code=code)
+
+
+def _whole(value: float) -> int | float:
+    """Return a whole number as an integer, so that it is shown without a point."""
+    return int(value) if float(value).is_integer() else value
+
+
+def _unit_and_words(text: str) -> tuple[str | None, str]:
+    """Split ``"N, pushes the carts apart"``. What stands before the comma is a unit where it is made of SI symbols."""
+    first, comma, rest = text.partition(",")
+    words = re.findall(r"[^\W\d]+|°", first)
+    if words and all(w in SYMBOLS for w in words) and not re.search(r"[^\W\d]\s+[^\W\d]", first):
+        try:
+            parse_unit(first.strip())
+        except ParseError:
+            return None, text
+        return first.strip(), rest.strip() if comma else ""
+    return None, text
+
+
+def _circle(table: Mapping[str, list[str]], start: str) -> list[str]:
+    """Return a circle of references that starts and ends at ``start``, or nothing."""
+    trail, seen = [(start, iter(table.get(start, ())))], {start}
+    while trail:
+        for name in trail[-1][1]:
+            if name == start:
+                return [*(n for n, _ in trail), start]
+            if name not in seen:
+                seen.add(name)
+                trail.append((name, iter(table.get(name, ()))))
+                break
+        else:
+            trail.pop()
+    return []

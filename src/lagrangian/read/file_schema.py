@@ -1,0 +1,231 @@
+"""The model file as pydantic models: they validate what was read and publish the JSON Schema that editors use."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
+
+
+def _form(value: object) -> str | None:
+    """Which of the ways to write a value was taken."""
+    if isinstance(value, bool):
+        return None
+    if isinstance(value, str):
+        return "text"
+    if isinstance(value, (int, float)):
+        return "number"
+    if isinstance(value, list):
+        return "list"
+    return "table" if isinstance(value, (dict, BaseModel)) else None
+
+
+def _either(**forms: Any) -> Any:
+    """A value that may be written in one of several forms, told apart by `_form`."""
+    tagged = [Annotated[kind, Tag(name)] for name, kind in forms.items()]
+    union = tagged[0]
+    for kind in tagged[1:]:
+        union = union | kind
+    return Annotated[union, Discriminator(_form)]
+
+
+class _Table(BaseModel):
+    """A table of the file: no unknown keys, no conversion between text and numbers."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, populate_by_name=False, allow_inf_nan=False)
+
+
+Expression = _either(text=str, number=float)
+"""An expression as text, or a number."""
+Quantity = _either(text=str, number=float)
+"""A number in SI units, or text with a unit."""
+Vector = Annotated[list[Expression], Field(min_length=2, max_length=3)]
+ExpressionOrVector = _either(text=str, number=float, list=Vector)
+_Row = Annotated[list[Expression], Field(min_length=3, max_length=3)]
+Inertia = _either(text=str, number=float, list=list[_either(text=str, number=float, list=_Row)])  # type: ignore[misc]
+Between = Annotated[list[str], Field(min_length=2, max_length=2, description="The two points it joins.")]
+
+
+class CoordinateTable(_Table):
+    """A generalized coordinate."""
+
+    description: str = Field("", description="What it measures, and from where.")
+    unit: str | None = Field(None, description="Its unit, such as 'm' or 'rad'.")
+
+
+class ParameterTable(_Table):
+    """A constant of the system."""
+
+    value: Quantity | None = Field(None, description="A number in SI units, or text with a unit: '40 N/m'.")
+    unit: str | None = Field(None, description="The unit of a value given as a number.")
+    description: str = Field("", description="What it is.")
+
+
+class InputTable(_Table):
+    """A force, torque or other signal from outside."""
+
+    description: str = Field("", description="What it is and which way it acts.")
+    unit: str | None = Field(None, description="Its unit, such as 'N' or 'N*m'.")
+
+
+class PointTable(_Table):
+    """A point, by its offset from another point, in the axes of a frame."""
+
+    offset: Vector = Field(description="Two components in the plane, three in space.")
+    from_: str | None = Field(None, alias="from", description="The point it is measured from; the origin if left out.")
+    frame: str | None = Field(None, description="The frame whose axes the offset is given in; fixed axes if left out.")
+
+
+PointValue = _either(list=Vector, table=PointTable)
+PointReference = _either(text=str, list=Vector, table=PointTable)
+"""The name of a point, or the point itself."""
+
+
+class FrameTable(_Table):
+    """Axes that turn."""
+
+    name: str = Field(description="The frame's name.")
+    angle: Expression = Field(description="The angle from its parent's axes.")
+    axis: Vector | None = Field(None, description="The axis it turns about, in its parent's axes; in space only.")
+    parent: str | None = Field(None, description="The frame it turns from; the fixed axes if left out.")
+    origin: str | None = Field(None, description="The point its points are measured from.")
+
+
+class ElementTable(_Table):
+    """What every element may have."""
+
+    name: str = Field("", description="The element's name, its own in the system.")
+
+
+class ParticleTable(ElementTable):
+    """A point mass: T* = ½ m v²."""
+
+    mass: Expression = Field(description="The mass, made of parameters.")
+    at: PointReference = Field(description="The point it is at.")
+
+
+class RigidBodyTable(ElementTable):
+    """A rigid body: T* = ½ m v² + ½ J ω²."""
+
+    mass: Expression = Field(description="The mass, made of parameters.")
+    inertia: Inertia = Field(
+        description="About the centre of mass: J in the plane; three principal moments or a 3×3 tensor in space."
+    )
+    at: PointReference = Field(description="Its centre of mass.")
+    frame: Expression = Field(description="The frame that turns with it; in the plane an angle will do.")
+
+
+class GravityTable(ElementTable):
+    """Gravity: V = Σ m g h."""
+
+    direction: Vector = Field(description="Which way is down: [0, -1].")
+    g: Expression | None = Field(None, description="Its strength; the parameter g, 9.81 m/s², if left out.")
+    datum: PointReference | None = Field(None, description="The point where h = 0; the origin if left out.")
+
+
+class SpringTable(ElementTable):
+    """A spring: V = ½ k (δ − rest)², or by its law."""
+
+    k: Expression | None = Field(None, description="Its stiffness.")
+    between: Between | None = Field(None, description="The two points it joins.")
+    deflection: Expression | None = Field(None, description="Its deflection δ, instead of two points.")
+    rest: Expression = Field(0.0, description="The deflection without force.")
+    law: Expression | None = Field(None, description="Its pull as an expression in delta, instead of k.")
+    energy: Expression | None = Field(None, description="Its energy as an expression in delta, instead of k.")
+
+
+class DamperTable(ElementTable):
+    """A damper: D = ½ b δ̇², or by its law."""
+
+    b: Expression | None = Field(None, description="Its coefficient.")
+    between: Between | None = Field(None, description="The two points it joins.")
+    deflection: Expression | None = Field(None, description="Its deflection δ, instead of two points.")
+    law: Expression | None = Field(None, description="Its pull as an expression in rate, instead of b.")
+
+
+class ForceTable(ElementTable):
+    """A force: a vector at a point, or a scalar along a deflection."""
+
+    value: ExpressionOrVector = Field(description="A vector [Fx, Fy] at a point, or one value along a deflection.")
+    at: PointReference | None = Field(None, description="The point a vector acts at.")
+    reaction: PointReference | None = Field(None, description="The point that feels its opposite.")
+    axes: str | None = Field(None, description="The frame whose axes the vector is given in.")
+    between: Between | None = Field(None, description="Two points; a positive value pushes them apart.")
+    deflection: Expression | None = Field(None, description="A deflection, instead of two points.")
+
+
+class TorqueTable(ElementTable):
+    """A torque on an angle or on a frame."""
+
+    value: ExpressionOrVector = Field(description="The torque; in space it may be a vector in the fixed axes.")
+    on: Expression = Field(description="The angle it turns, as an expression, or a frame.")
+    reaction: Expression | None = Field(None, description="The angle or frame that feels its opposite.")
+
+
+class EnergyTable(ElementTable):
+    """An energy or power as an expression."""
+
+    value: Expression = Field(description="The expression.")
+
+
+class GeneralizedForceTable(ElementTable):
+    """A generalized force Ξ on one coordinate."""
+
+    coordinate: str = Field(description="The coordinate.")
+    value: Expression = Field(description="The force, as an expression.")
+
+
+class EnergiesTable(_Table):
+    """Energies of the whole system, for those who have them already."""
+
+    T: Expression | None = Field(None, description="Kinetic co-energy T*.")
+    V: Expression | None = Field(None, description="Potential energy.")
+    D: Expression | None = Field(None, description="Rayleigh's dissipation function.")
+    Xi: dict[str, Expression] = Field(default_factory=dict, description="Generalized forces by coordinate.")
+
+
+class SimulateTable(_Table):
+    """What to simulate."""
+
+    duration: Quantity | None = Field(None, description="How long, such as '10 s'.")
+    initial: dict[str, Quantity] = Field(
+        default_factory=dict, description='Initial coordinates, and rates as "x\'"; zero where left out.'
+    )
+    inputs: dict[str, Expression] = Field(default_factory=dict, description="Inputs as expressions in t.")
+
+
+class ModelFile(_Table):
+    """A mechanical system as a TOML file of the package `lagrangian`."""
+
+    name: str = Field(description="The system's name.")
+    coordinates: dict[str, _either(text=str, table=CoordinateTable)] = Field(  # type: ignore[valid-type]
+        default_factory=dict, description="Generalized coordinates, each with what it measures."
+    )
+    parameters: dict[str, _either(text=str, number=float, table=ParameterTable)] = Field(  # type: ignore[valid-type]
+        default_factory=dict, description="Constants: a number in SI units, or text with a unit."
+    )
+    inputs: dict[str, _either(text=str, table=InputTable)] = Field(  # type: ignore[valid-type]
+        default_factory=dict, description="Signals from outside: 'unit, description'."
+    )
+    define: dict[str, Expression] = Field(default_factory=dict, description="Named expressions, in order.")
+    points: dict[str, PointValue] = Field(default_factory=dict, description="Named points.")
+    frame: list[FrameTable] = Field(default_factory=list, description="Frames.")
+    particle: list[ParticleTable] = Field(default_factory=list, description="Point masses.")
+    rigid_body: list[RigidBodyTable] = Field(default_factory=list, description="Rigid bodies.")
+    gravity: list[GravityTable] = Field(default_factory=list, description="Gravity.")
+    spring: list[SpringTable] = Field(default_factory=list, description="Springs.")
+    damper: list[DamperTable] = Field(default_factory=list, description="Dampers.")
+    force: list[ForceTable] = Field(default_factory=list, description="Forces.")
+    torque: list[TorqueTable] = Field(default_factory=list, description="Torques.")
+    potential: list[EnergyTable] = Field(default_factory=list, description="Potential energies.")
+    kinetic: list[EnergyTable] = Field(default_factory=list, description="Kinetic co-energies.")
+    dissipation: list[EnergyTable] = Field(default_factory=list, description="Rayleigh's dissipation functions.")
+    generalized_force: list[GeneralizedForceTable] = Field(default_factory=list, description="Generalized forces.")
+    energies: EnergiesTable | None = Field(None, description="Energies of the whole system.")
+    simulate: SimulateTable | None = Field(None, description="What to simulate.")
+
+
+def schema() -> dict[str, Any]:
+    """Return the JSON Schema (draft 2020-12) of the model file."""
+    made = ModelFile.model_json_schema(by_alias=True)
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **made}
