@@ -1,8 +1,8 @@
 """What callers hand over → arrays a kernel can read, or an error that says what would be right.
 
 A *group* of inputs (``q``, ``v``, ``u``, ``p``, ``t``) is an array of shape ``(..., n)``, entries in declared order,
-or a mapping from entry names to numbers or arrays of shape ``(...)``. The group of time, ``t``, is a number or an array of
-shape ``(...)``.
+or a mapping from entry names to numbers or arrays of shape ``(...)``. The group of time, ``t``, is a number or an
+array of shape ``(...)``.
 """
 
 from __future__ import annotations

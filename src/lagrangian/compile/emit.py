@@ -4,8 +4,8 @@ A tape becomes ``void name(ptr in, ptr shared, ptr out, ptr scratch)``. Slot k o
 per system, aligned to their size; a shared block holds one double a slot unless every lane has its own. ``in``,
 ``shared`` and ``scratch`` do not overlap ``out``. Integrators can call these functions from the same module.
 
-A long tape is cut into functions of about a thousand operations that hand values on through ``scratch``: LLVM's time
-grows faster than the length of a function.
+A long tape is cut into functions that hand values on through ``scratch``: LLVM's time grows faster than the length of a
+function.
 """
 
 from __future__ import annotations
@@ -17,9 +17,10 @@ from .elementary import sincos
 from .ir import Function, Module, Value
 from .tape import FLAGS, LEAVES, Op, Tape, operands
 
-CHUNK = 1000  # operations in one function …
-SHORT = 300  # … and in very long programs, where a few per cent of speed are given for a third of LLVM's time
-LONG = 10_000  # operations from which a program is very long
+WHOLE = 3500  # operations that still go into one function: what a value costs to hand on is saved
+CHUNK = 1000  # operations in each of several functions …
+LONG = 10_000  # … up to this length; beyond it
+SHORT = 300  # gives a few per cent of speed for a third of LLVM's time
 
 ARITHMETIC = {"add": "fadd", "sub": "fsub", "mul": "fmul", "div": "fdiv"}
 COMPARISON = {"lt": "olt", "le": "ole", "eq": "oeq"}
@@ -48,7 +49,8 @@ class Plan:
 def plan(tape: Tape, chunk: int | None = None) -> Plan:
     """Cut a tape into chunks of equal length; a scratch slot is used again once its last reader's chunk is over."""
     computed = [i for i, op in enumerate(tape.ops) if op[0] not in LEAVES]
-    chunk = chunk or (CHUNK if len(computed) < LONG else SHORT)
+    if chunk is None:
+        chunk = WHOLE if len(computed) <= WHOLE else CHUNK if len(computed) <= LONG else SHORT
     count = max(1, -(-len(computed) // chunk))
     size = -(-len(computed) // count) if computed else 1
     chunks = [Chunk(computed[k * size : (k + 1) * size]) for k in range(count)]
