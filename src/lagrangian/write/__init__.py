@@ -1,7 +1,7 @@
 """A derivation written out for people: text, Markdown, LaTeX, HTML, and plain data for JSON.
 
-`lay_out` makes a Document of it, in one of three notations; a writer for each format renders the Document. This is the only
-room that knows page markup.
+`lay_out` makes a Document of it, in one of three notations; a writer for each format renders the Document. This is the
+only room that knows page markup.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """A derivation as plain data for JSON.
 
-Schema 1. Expressions are ``{"plain": …, "latex": …}``: text that the expression grammar reads back, and LaTeX. Formulas also
-have ``"text"`` (one line of Unicode). Keys at the top:
+Schema 1. Expressions are ``{"plain": …, "latex": …}``: text that the expression grammar reads back, and LaTeX. Formulas
+also have ``"text"`` (one line of Unicode). Keys at the top:
 
     schema, name, notation      1, the system's name, the notation of the formulas
     coordinates, parameters, inputs, definitions
@@ -18,8 +18,8 @@ have ``"text"`` (one line of Unicode). Keys at the top:
     verified                    list: "what", "holds", "figure"
     notes                       list of texts
 
-An item has a "kind": "text" ("text"), "heading" ("text"), "formula" ("plain", "text", "latex", "boxed", "note"; an elided side has
-"operations") or "table" ("header", "rows": lists of text).
+An item has a "kind": "text" ("text"), "heading" ("text"), "formula" ("plain", "text", "latex", "boxed", "note"; with an
+elided side also "operations") or "table" ("header", "rows": lists of text).
 """
 
 from __future__ import annotations
@@ -34,9 +34,9 @@ from lagrangian.derive import formula as data
 from lagrangian.model import plain
 from lagrangian.write.glyphs import unicode
 from lagrangian.write.layout import operations
-from lagrangian.write.math import Relation
+from lagrangian.write.math import equality
 from lagrangian.write.quantities import Notation, Quantities
-from lagrangian.write.tex import latex
+from lagrangian.write.tex import WEB
 
 SCHEMA = 1
 
@@ -105,8 +105,8 @@ class _Data:
             "notes": [self.text(n) for n in d.notes],
         }
 
-    def expression(self, expr: sp.Expr) -> dict[str, str]:
-        return {"plain": plain(expr), "latex": latex(self.write.expressions(expr))}
+    def expression(self, expr: sp.Basic) -> dict[str, str]:
+        return {"plain": plain(expr), "latex": WEB.latex(self.write.expressions(expr))}
 
     def equation(self, index: int) -> dict[str, Any]:
         d = self.derivation
@@ -144,12 +144,12 @@ class _Data:
 
     def formula(self, item: data.Formula) -> dict[str, Any]:
         sides = self.write.formula(item)
-        shown = Relation(sides) if len(sides) > 1 else sides[0]
+        shown = equality(sides)
         made: dict[str, Any] = {
             "kind": "formula",
             "plain": str(item),
             "text": unicode(shown),
-            "latex": latex(shown),
+            "latex": WEB.latex(shown),
             "boxed": item.boxed,
             "note": None if item.note is None else self.text(item.note),
         }

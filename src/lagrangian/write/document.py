@@ -7,7 +7,7 @@ from typing import TypeAlias
 
 from lagrangian.write.math import Math
 
-Inline: TypeAlias = "tuple[str | Math, ...]"
+Inline: TypeAlias = tuple[str | Math, ...]
 """Words and mathematics in a line."""
 
 
@@ -20,7 +20,7 @@ class Heading:
 
 @dataclass(frozen=True)
 class Paragraph:
-    """A paragraph; its role is "" or "what" (what a step did), "why" (the reason), "note" (something in small print)."""
+    """A paragraph; its role is "", "what" (what a step did), "why" (the reason) or "note" (small print)."""
 
     text: Inline
     role: str = ""
@@ -75,7 +75,7 @@ class Details:
     blocks: tuple[Block, ...]
 
 
-Block: TypeAlias = "Heading | Paragraph | Display | Boxed | Table | Verdicts | Details"
+Block: TypeAlias = Heading | Paragraph | Display | Boxed | Table | Verdicts | Details
 
 
 @dataclass(frozen=True)

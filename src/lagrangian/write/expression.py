@@ -8,6 +8,7 @@ from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
+from sympy.core.relational import Relational
 from sympy.logic.boolalg import BooleanFunction
 
 from lagrangian.model import Model, time
@@ -83,8 +84,8 @@ class Expressions:
                 return Fence(self(expr.args[0]), "|", "|")
             case sp.Function() | sp.Min() | sp.Max():
                 return self._function(expr, None)
-            case sp.core.relational.Relational():
-                return Relation((self(expr.args[0]), self(expr.args[1])), _RELATIONS[expr.rel_op])
+            case Relational():
+                return self._relation(expr)
             case BooleanFunction():
                 name = {"And": "and", "Or": "or", "Not": "not"}[type(expr).__name__]
                 return Apply(name, tuple(self(a) for a in expr.args))
@@ -145,7 +146,7 @@ class Expressions:
         number: Any = 1
         over: list[sp.Expr] = []
         under: list[sp.Expr] = []
-        waiting = list(expr.args)
+        waiting: list[Any] = list(expr.args)
         while waiting:
             factor = waiting.pop(0)
             if isinstance(factor, sp.Mul):
@@ -218,7 +219,10 @@ class Expressions:
             args = sorted(args, key=self._order.names)
         return Apply(_FUNCTION_NAMES.get(name, name), tuple(self(a) for a in args), power)
 
-    def _piecewise(self, expr: sp.Piecewise) -> Math:
+    def _relation(self, expr: Any) -> Math:
+        return Relation((self(expr.lhs), self(expr.rhs)), _RELATIONS[expr.rel_op])
+
+    def _piecewise(self, expr: Any) -> Math:
         return Cases(tuple((self(value), None if cond == sp.true else self(cond)) for value, cond in expr.args))
 
 

@@ -12,9 +12,9 @@ from lagrangian.errors import Error
 def write_file(path: str | os.PathLike[str], text: str) -> Path:
     """Write ``text`` as UTF-8 to ``path`` and return the path.
 
-    The text is written to a file beside it, which then takes its place: a reader sees the old text or the new one, and a full disk
-    leaves the old one. The permissions of a file that was there are kept. Raises `Error` for a folder that is missing, a
-    path that is a folder, a place where writing is not allowed, and a full disk.
+    The text is written to a file beside it, which then takes its place: a reader sees the old text or the new one, and
+    a full disk leaves the old one. The permissions of a file that was there are kept. Raises `Error` for a folder that
+    is missing, a path that is a folder, a place where writing is not allowed, and a full disk.
     """
     target = Path(os.path.realpath(path))
     folder = target.parent

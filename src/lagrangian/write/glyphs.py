@@ -19,6 +19,7 @@ from lagrangian.write.math import (
     Ratio,
     Root,
     Token,
+    Value,
     Word,
     bare,
     tokens,
@@ -87,6 +88,8 @@ def _leaf(math: Math) -> str:
             return f"√{inner}" if isinstance(of, (Letter, Number)) else f"√({inner})"
         case Apply():
             return _apply(math)
+        case Value(of, args):
+            return f"{unicode(of)}({', '.join(unicode(a) for a in args)})"
         case Mark(sign, of):
             return sign + (unicode(of) if isinstance(of, (Letter, Word, Power, Fence)) else f"({unicode(of)})")
         case Grid(rows):
@@ -144,7 +147,7 @@ def _raised(exponent: Math) -> str:
     inner = unicode(exponent)
     if all(c in _SUPERSCRIPTS for c in inner):
         return "".join(_SUPERSCRIPTS[c] for c in inner)
-    return f"^{inner}" if inner.isalnum() or inner.startswith("(") and inner.count("(") == 1 else f"^({inner})"
+    return f"^{inner}" if inner.isalnum() or (inner.startswith("(") and inner.count("(") == 1) else f"^({inner})"
 
 
 def _ratio(over: Math, under: Math) -> str:

@@ -9,8 +9,9 @@ from lagrangian.write.document import Block, Boxed, Details, Display, Heading, I
 from lagrangian.write.glyphs import columns, unicode
 from lagrangian.write.layout import lay_out
 from lagrangian.write.quantities import Notation
-from lagrangian.write.tex import escape, latex
+from lagrangian.write.tex import PAGE
 from lagrangian.write.tex_lines import WIDTH, boxed, displayed, rows
+from lagrangian.write.tex_words import escape
 from lagrangian.write.text import clean
 
 MOST_BOXED = 30
@@ -82,9 +83,9 @@ def _displays(run: list[Display]) -> Iterator[str]:
     waiting: list[str] = []
     for formula in run:
         note = rf" \qquad\text{{({inline(formula.note)})}}" if formula.note else ""
-        lines = rows(formula.sides)
+        lines = rows(PAGE, formula.sides)
         if len(lines) <= MOST_ALIGNED:
-            waiting.append(displayed(formula.sides) + note)
+            waiting.append(displayed(PAGE, formula.sides) + note)
             continue
         if waiting:
             yield _gathered(waiting)
@@ -105,7 +106,7 @@ def words(text: str) -> str:
 
 def inline(text: Inline) -> str:
     """Words and mathematics in a line."""
-    return "".join(words(x) if isinstance(x, str) else f"${latex(x)}$" for x in text)
+    return "".join(words(x) if isinstance(x, str) else f"${PAGE.latex(x)}$" for x in text)
 
 
 def _block(block: Block) -> Iterator[str]:
@@ -133,7 +134,7 @@ def _block(block: Block) -> Iterator[str]:
 
 
 def _boxed(displays: tuple[Display, ...]) -> str:
-    lines = boxed([(d.sides, d.number) for d in displays])
+    lines = boxed(PAGE, [(d.sides, d.number) for d in displays])
     body = " \\\\\n".join(lines)
     if len(lines) > MOST_BOXED:
         return f"\\noindent\\hrulefill\n\\begin{{align*}}\n{body}\n\\end{{align*}}\n\\noindent\\hrulefill"

@@ -40,9 +40,9 @@ def lay_out(
 ) -> Document:
     """Lay out a derivation.
 
-    ``brief`` keeps each step's title and what the derivation marked for the one-page checklist; ``full`` writes out what
-    would be summarised for its length; ``details`` puts that under collapsible summaries instead. Raises `ModelError`
-    for an unknown notation.
+    ``brief`` keeps each step's title and what the derivation marked for the one-page checklist; ``full`` writes out
+    what would be summarised for its length; ``details`` puts that under collapsible summaries instead. Raises
+    `ModelError` for an unknown notation.
     """
     return _Layout(derivation, notation, brief, full, details).document()
 
@@ -118,6 +118,7 @@ class _Layout:
             kept = not self.brief or getattr(item, "brief", False)
             if not kept:
                 continue
+            sides: tuple[Math, ...] = ()
             if isinstance(item, data.Formula):
                 count += 1
                 sides = self.write.formula(item)

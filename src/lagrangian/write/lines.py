@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from lagrangian.write.glyphs import columns, token, unicode
-from lagrangian.write.math import Grid, Letter, Math, Relation, Token, break_lines, tokens
+from lagrangian.write.math import Grid, Letter, Math, Token, Value, break_lines, equality, tokens
 
 
 @dataclass(frozen=True)
@@ -28,20 +28,21 @@ def measure(piece: Token) -> int:
 
 def chain(sides: tuple[Math, ...], width: int) -> list[Line]:
     """Cut a chain of equalities: one line if it fits, else a line a side under the first equals sign."""
-    whole = Relation(sides) if len(sides) > 1 else sides[0]
+    whole = equality(sides)
     if columns(unicode(whole)) <= width:
         return [Line((), False, tuple(tokens(whole)))]
-    left = tuple(tokens(sides[0]))
-    span = columns(unicode(sides[0]))
+    first, *rest = sides
+    left = tuple(tokens(first))
+    span = columns(unicode(first))
     lines: list[Line] = []
-    if len(sides) > 1 and span <= width // 3:
-        for i, side in enumerate(sides[1:]):
+    if rest and span <= width // 3:
+        for i, side in enumerate(rest):
             for k, cut in enumerate(break_lines(list(tokens(side)), width - span - 3, measure)):
                 lines.append(Line(left if i == k == 0 else (), k == 0, tuple(cut), k > 0))
         return lines
     for k, cut in enumerate(break_lines(list(left), width, measure)):
         lines.append(Line((), False, tuple(cut), k > 0))
-    for side in sides[1:]:
+    for side in rest:
         last = lines[-1].right
         if sum(measure(t) for t in (*last, *tokens(side))) + 6 <= width:
             lines[-1] = Line((), False, (*last, Token("sign", text="="), *tokens(side)), lines[-1].indented)
@@ -81,6 +82,8 @@ def entries(grid: Grid) -> list[tuple[str, Math]]:
 
 def entry(name: Math, index: str) -> Math:
     """The name of a matrix with an entry's index."""
+    if isinstance(name, Value):
+        name = name.of
     if isinstance(name, Letter):
         return Letter(
             name.base, (*name.sub, *index.split(",")), name.dots, name.star, name.bold, name.literal, name.apart

@@ -9,7 +9,7 @@ from lagrangian.derive import Derivation
 from lagrangian.write.document import Block, Boxed, Details, Display, Heading, Inline, Paragraph, Table, Verdicts
 from lagrangian.write.layout import lay_out
 from lagrangian.write.quantities import Notation
-from lagrangian.write.tex import latex
+from lagrangian.write.tex import WEB
 from lagrangian.write.tex_lines import boxed, displayed
 from lagrangian.write.text import clean
 
@@ -38,7 +38,7 @@ def escape(words: str) -> str:
 
 def inline(text: Inline) -> str:
     """Return words and mathematics in a line."""
-    return "".join(escape(x) if isinstance(x, str) else f"${latex(x)}$" for x in text)
+    return "".join(escape(x) if isinstance(x, str) else f"${WEB.latex(x)}$" for x in text)
 
 
 def _block(block: Block) -> Iterator[str]:
@@ -48,11 +48,11 @@ def _block(block: Block) -> Iterator[str]:
         case Paragraph(text, role):
             yield f"*Why:* {inline(text)}" if role == "why" else _start(inline(text))
         case Display(sides, _, _, note):
-            yield f"$$\n{displayed(sides)}\n$$"
+            yield f"$$\n{displayed(WEB, sides)}\n$$"
             if note:
                 yield f"({inline(note)})"
         case Boxed(displays):
-            lines = boxed([(d.sides, d.number) for d in displays])
+            lines = boxed(WEB, [(d.sides, d.number) for d in displays])
             body = " \\\\\n".join(lines)
             yield f"$$\n\\boxed{{\\begin{{aligned}}\n{body}\n\\end{{aligned}}}}\n$$"
         case Table(header, rows):

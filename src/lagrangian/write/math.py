@@ -1,7 +1,8 @@
 """Mathematics as it stands on a page, before it is text, LaTeX or MathML.
 
 Every format renders the same tree, so that order, signs, parentheses and line breaks are decided once. A formula is cut
-into lines where its *tokens* allow it: before + and −, best outside of parentheses, and between factors as a last resort.
+into lines where its *tokens* allow it: before + and −, best outside of parentheses, and between factors as a last
+resort.
 """
 
 from __future__ import annotations
@@ -132,6 +133,14 @@ class Apply:
 
 
 @dataclass(frozen=True)
+class Value:
+    """A named quantity with what it depends on: M(q)."""
+
+    of: Letter
+    args: tuple[Math, ...]
+
+
+@dataclass(frozen=True)
 class Fence:
     """Something in parentheses or bars."""
 
@@ -179,7 +188,24 @@ class Tagged:
     kind: str
 
 
-Math: TypeAlias = "Letter | Number | Word | Sum | Times | Power | Ratio | Root | Apply | Fence | Mark | Relation | Grid | Cases | Tagged"
+Math: TypeAlias = (
+    Letter
+    | Number
+    | Word
+    | Sum
+    | Times
+    | Power
+    | Ratio
+    | Root
+    | Apply
+    | Value
+    | Fence
+    | Mark
+    | Relation
+    | Grid
+    | Cases
+    | Tagged
+)
 
 
 @dataclass(frozen=True)
@@ -262,6 +288,11 @@ def bare(math: Apply) -> bool:
     return isinstance(arg, (Letter, Number))
 
 
+def equality(sides: tuple[Math, ...]) -> Math:
+    """One side as it is, several with equals signs between them."""
+    return sides[0] if len(sides) == 1 else Relation(sides)
+
+
 def is_word(math: Math | None) -> bool:
     """Whether it is a name of several letters, which needs air around it."""
     return isinstance(math, Word) or (isinstance(math, Letter) and (math.literal or _several(math.base)))
@@ -269,6 +300,19 @@ def is_word(math: Math | None) -> bool:
 
 def _several(base: str) -> bool:
     return len(base) > 1 and base not in GREEK
+
+
+def product(front: Math, *rest: Math) -> Math:
+    """Factors side by side; a fraction takes what follows it into its numerator."""
+    if not rest:
+        return front
+    if isinstance(front, Ratio) and not isinstance(front.over, Number):
+        return Ratio(product(front.over, *rest), front.under)
+    if isinstance(front, Ratio) and not isinstance(front.under, Number):
+        return Ratio(Times(rest) if front.over == Number("1") else Times((front.over, *rest)), front.under)
+    factors = front.factors if isinstance(front, Times) else () if front == Number("1") else (front,)
+    made = (*factors, *rest)
+    return made[0] if len(made) == 1 else Times(made)
 
 
 def is_tall(math: Math | None) -> bool:

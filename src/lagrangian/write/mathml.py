@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from html import escape
 
+from lagrangian.write.glyphs import bold
 from lagrangian.write.lines import Line, chain, chains
 from lagrangian.write.math import (
     GREEK,
@@ -20,12 +21,12 @@ from lagrangian.write.math import (
     Ratio,
     Root,
     Token,
+    Value,
     Word,
     bare,
     is_tall,
     tokens,
 )
-from lagrangian.write.glyphs import bold
 
 _DOTS = ("", "˙", "¨", "⃛")
 _GAP = '<mspace width="0.17em"></mspace>'
@@ -115,6 +116,10 @@ def _leaf(math: Math) -> str:
             return f"<msqrt>{_inner(of)}</msqrt>"
         case Apply():
             return _apply(math)
+        case Value(of, args):
+            inner = '<mo separator="true">,</mo>'.join(_inner(a) for a in args)
+            fences = [f'<mo form="{form}" stretchy="false">' for form in ("prefix", "postfix")]
+            return f"<mrow>{_inner(of)}{_APPLY}{fences[0]}(</mo>{inner}{fences[1]})</mo></mrow>"
         case Mark(sign, of):
             inner = _inner(of if isinstance(of, (Letter, Word, Power, Fence)) else Fence(of))
             return f'<mrow><mo form="prefix" lspace="0" rspace="0">{sign}</mo>{inner}</mrow>'

@@ -1,7 +1,7 @@
 """How a symbol's name is written: theta1 → θ₁, L_a → Lₐ, x2r → x₂ᵣ.
 
-A Greek letter may be spelled; what follows a first letter with a digit, or an underscore, is its subscript. Any other name
-of several letters is a word and stays one. Two names of one system never look the same.
+A Greek letter may be spelled; what follows a first letter with a digit, or an underscore, is its subscript. Any other
+name of several letters is a word and stays one. Two names of one system never look the same.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from lagrangian.write.math import GREEK, Letter
 SPELLED = {letter: name for name, letter in GREEK.items() if name != "lamda"}
 _VARIANTS = {"ϑ": "theta", "ϕ": "phi", "ϵ": "epsilon", "ς": "sigma", "µ": "mu"}
 
-_GREEK_HEAD = re.compile(r"(%s)(\d\w*)?\Z" % "|".join(sorted(GREEK, key=len, reverse=True)))
+_GREEK_HEAD = re.compile(rf"({'|'.join(sorted(GREEK, key=len, reverse=True))})(\d\w*)?\Z")
 _LATIN_HEAD = re.compile(r"([^\W\d_])(\d\w*)?\Z")
 
 
@@ -46,7 +46,10 @@ def letters(names: Iterable[str]) -> Mapping[str, Letter]:
         made = letter(name)
         look = (made.base, "".join(made.sub))
         if look in taken:
-            made = Letter(unicodedata.normalize("NFC", name), literal=True)
+            shown = unicodedata.normalize("NFC", name)
+            while (shown, "") in taken or (SPELLED.get(shown, ""), "") in taken:
+                shown += "′"
+            made, look = Letter(shown, literal=True), (shown, "")
         taken.add(look)
         table[name] = made
     return table

@@ -23,7 +23,7 @@ class Order:
 
     def __init__(self, moving: Iterable[sp.Expr], inputs: Iterable[sp.Expr] = ()) -> None:
         """``moving``: the coordinates as declared, then the definitions that move; ``inputs``: signals from outside."""
-        self._index = {symbol: i for i, symbol in enumerate(moving)}
+        self._index: dict[sp.Basic, int] = {symbol: i for i, symbol in enumerate(moving)}
         self._inputs = frozenset(inputs)
         self._names: dict[sp.Expr, tuple[Any, ...]] = {}
         self._factors: dict[sp.Expr, tuple[Any, ...]] = {}
@@ -44,8 +44,8 @@ class Order:
             return self._sum(base)
         if isinstance(base, sp.Function):
             name = base.func.__name__
-            return (_FUNCTION, _TRIGONOMETRIC.get(name, -1), tuple(self.names(base)))
-        return (_OTHER if not base.atoms(AppliedUndef) else _PLACE, 2, tuple(self.names(base)), str(exponent))
+            return (_FUNCTION, _TRIGONOMETRIC.get(name, -1), self.names(base))
+        return (_OTHER if not base.atoms(AppliedUndef) else _PLACE, 2, self.names(base), str(exponent))
 
     def _moving(self, base: Any) -> tuple[Any, ...]:
         symbol = base.expr if isinstance(base, sp.Derivative) else base
@@ -56,7 +56,7 @@ class Order:
 
     def _sum(self, base: sp.Add) -> tuple[Any, ...]:
         """(m₁ + m₂) stands with the masses, (M + m sin²θ) before the coordinates, (x₁ − x₂) with them."""
-        names = tuple(self.names(base))
+        names = self.names(base)
         count = max((d.derivative_count for d in base.atoms(sp.Derivative)), default=0)
         if count:
             return (_PLACE + min(count, 2), 1, names)
@@ -67,17 +67,20 @@ class Order:
         ranks = {_initial(s.name) for s in base.free_symbols if isinstance(s, sp.Symbol)}
         return (_MASS if ranks == {_MASS} else _SUM, 2, names)
 
-    def names(self, expr: sp.Expr) -> list[Any]:
+    def names(self, expr: sp.Expr) -> tuple[Any, ...]:
         """The names in an expression as a key, coordinates by their index."""
         if expr not in self._names:
             atoms = expr.atoms(sp.Symbol, AppliedUndef)
             moving = sorted(self._index[a] for a in atoms if a in self._index)
             others = sorted(natural(_name(a)) for a in atoms if a not in self._index and _name(a) != "t")
-            self._names[expr] = [tuple(moving), tuple(others), str(expr)]
+            self._names[expr] = (tuple(moving), tuple(others), str(expr))
         return self._names[expr]
 
     def term(self, term: sp.Expr, functions: bool) -> tuple[Any, ...]:
-        """Return the sort key of a term; ``functions``: whether functions stand in the sum (then 1 comes before cos θ)."""
+        """Return the sort key of a term.
+
+        ``functions`` tells whether functions stand in the sum: then a number comes first, as in 1 − cos θ.
+        """
         if term.is_number:
             return (-1,) if functions else (9,)
         derivatives: list[tuple[int, int]] = []
@@ -96,9 +99,9 @@ class Order:
                 places.append(self._index[base])
             elif isinstance(base, sp.Function) and base not in self._inputs:
                 called = True
-                rest.append((8, tuple(self.names(base))))
+                rest.append((8, self.names(base)))
             elif not base.is_number:
-                rest.append((self.factor(base)[0], tuple(self.names(base))))
+                rest.append((self.factor(base)[0], self.names(base)))
         highest = min((d for d, _ in derivatives), default=0)
         kind = {0: 2, -1: 1}.get(highest, 0)
         moved = tuple(i for _, i in sorted(derivatives))

@@ -47,11 +47,13 @@ from lagrangian.write.math import (
     Number,
     Power,
     Ratio,
-    Relation,
     Sum,
     Times,
+    Value,
     Word,
+    equality,
     fenced,
+    product,
 )
 
 Notation: TypeAlias = Literal["lecture", "physics", "robotics"]
@@ -104,6 +106,8 @@ class Quantities:
         self.expressions = Expressions(model)
         self._taken = {(x.base, x.sub) for x in self.expressions.letters.values() if not x.literal}
         self._subs = {""} | {self._index(e.name) for e in model.elements}
+        names = sorted((re.escape(f"'{e.name}'") for e in model.elements), key=len, reverse=True)
+        self._quoted = re.compile("(" + "|".join([*names, "'[^']*'"]) + ")")
         self._order = [c.name for c in model.coordinates]
         self._chosen = {base: self._choose(base, row) for base, row in (_COMMON | _CHOICES[notation]).items()}
 
@@ -155,7 +159,7 @@ class Quantities:
             return self._vector(self._chosen["Xi"].base, name.dots)
         if name.base in _VECTORS:
             if name.base == "G" and self.notation == "robotics":
-                return Times((self._vector("g", 0), Fence(self._vector("q", 0))))
+                return Value(self._vector("g", 0), (self._vector("q", 0),))
             return self._vector(_VECTORS[name.base], name.dots)
         if name.base in ("x", "y", "z"):
             return Letter(name.base, sub, name.dots)
@@ -171,7 +175,7 @@ class Quantities:
 
         What stands in quotation marks is a name that somebody gave, and stays.
         """
-        for i, part in enumerate(_QUOTED.split(words)):
+        for i, part in enumerate(self._quoted.split(words)):
             if i % 2:
                 yield part
                 continue
@@ -236,22 +240,23 @@ class Quantities:
         laid: list[Math] = []
         for factor in factors:
             made = self(factor)
-            laid += made.factors if isinstance(made, Times) and not isinstance(factor, Name) else (made,)
-            if self.notation == "robotics" and isinstance(factor, Name) and factor.base in ("M", "C"):
+            if self.notation == "robotics" and isinstance(factor, Name) and isinstance(made, Letter):
                 q, rate = self._vector("q", 0), self._vector("q", 1)
-                laid.append(Fence(q if factor.base == "M" else Relation((q, rate), ",")))
-        return Times(tuple(laid))
+                made = Value(made, {"M": (q,), "C": (q, rate)}[factor.base]) if factor.base in ("M", "C") else made
+            laid += made.factors if isinstance(made, Times) else (made,)
+        return product(laid[0], *laid[1:]) if laid else Number("1")
 
     def _square(self, coefficient: sp.Expr, of: tuple[Left, ...]) -> Math:
         """½ m (ẋ² + ẏ²)."""
-        number = coefficient.as_coeff_Mul()[0]
+        content, rest = coefficient.as_content_primitive()
+        if isinstance(rest, sp.Add):
+            negative, front = False, product(self.expressions(content), self.expressions(rest))
+        else:
+            negative, front = self.expressions.term(coefficient)
         squares = [Power(fenced(self(a), _NOT_SQUARED), Number("2")) for a in of]
         inner: Math = squares[0] if len(squares) == 1 else Sum(tuple((False, s) for s in squares))
-        negative = bool(number.is_negative)
-        front = self.expressions(-coefficient if negative else coefficient)
-        factors = front.factors if isinstance(front, Times) else () if front == Number("1") else (front,)
-        product = Times((*factors, inner)) if factors else inner
-        return Sum(((True, product),)) if negative else product
+        made = product(front, inner)
+        return Sum(((True, made),)) if negative else made
 
     def formula(self, item: Formula) -> tuple[Math, ...]:
         """Lay out the sides of a chain of equalities; a side that looks like the one before it is left out."""
@@ -265,8 +270,7 @@ class Quantities:
     def inline(self, item: Text | Formula, *, given: frozenset[str] = frozenset()) -> tuple[str | Math, ...]:
         """Lay out words with symbols in them; texts in ``given`` are somebody's own words and stay as they are."""
         if isinstance(item, Formula):
-            sides = self.formula(item)
-            return (Relation(sides) if len(sides) > 1 else sides[0],)
+            return (equality(self.formula(item)),)
         made: list[str | Math] = []
         for part in item.parts:
             if isinstance(part, str):
@@ -276,6 +280,5 @@ class Quantities:
         return tuple(made)
 
 
-_QUOTED = re.compile(r"('[^']*')")
 _LETTERS = re.compile(r"T\*|Ξᵢ|ξᵢ|Ξ|ξ(?!̇)|(?<![\w*'’])[VL](?![\w*'’(])")
 _NOT_SQUARED = (Sum, Times, Ratio, Power, Mark)

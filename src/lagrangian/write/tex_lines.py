@@ -4,44 +4,44 @@ from __future__ import annotations
 
 from lagrangian.write.lines import Line, chain, chains
 from lagrangian.write.math import Math
-from lagrangian.write.tex import join
+from lagrangian.write.tex import Tex
 
 WIDTH = 84
 """Columns of Unicode text that fit the width of a page."""
 
 
-def rows(sides: tuple[Math, ...], width: int = WIDTH) -> list[str]:
+def rows(tex: Tex, sides: tuple[Math, ...], width: int = WIDTH) -> list[str]:
     """Return the rows of a formula, each with its alignment point."""
-    return [_row(line) for part in chains(sides, width) for line in chain(part, width)]
+    return [_row(tex, line) for part in chains(sides, width) for line in chain(part, width)]
 
 
-def _row(line: Line) -> str:
-    right = join(line.right)
+def _row(tex: Tex, line: Line) -> str:
+    right = tex.join(line.right)
     if line.equals:
         indent = r"\quad " if line.indented else ""
-        return f"{join(line.left)} &{indent}= {right}".strip()
+        return f"{tex.join(line.left)} &{indent}= {right}".strip()
     return rf"&\qquad {{}} {right}" if line.indented else f"& {right}"
 
 
-def displayed(sides: tuple[Math, ...], width: int = WIDTH) -> str:
+def displayed(tex: Tex, sides: tuple[Math, ...], width: int = WIDTH) -> str:
     """Return a formula for display mathematics: one row as it is, several in ``aligned``."""
-    lines = rows(sides, width)
+    lines = rows(tex, sides, width)
     if len(lines) == 1:
         return lines[0].replace("&", "", 1).strip()
     return "\\begin{aligned}\n" + " \\\\\n".join(lines) + "\n\\end{aligned}"
 
 
-def boxed(formulas: list[tuple[tuple[Math, ...], int | None]], width: int = WIDTH) -> list[str]:
+def boxed(tex: Tex, formulas: list[tuple[tuple[Math, ...], int | None]], width: int = WIDTH) -> list[str]:
     """Return the rows of several results, each numbered on its last row where there are several."""
     made: list[str] = []
     for sides, number in formulas:
-        lines = [_flush(line) for part in chains(sides, width) for line in chain(part, width)]
+        lines = [_flush(tex, line) for part in chains(sides, width) for line in chain(part, width)]
         if number is not None and len(formulas) > 1:
             lines[-1] += f" && ({number})"
         made += lines
     return made
 
 
-def _flush(line: Line) -> str:
-    inner = join((*line.left,)) + (" = " if line.equals else "") + join(line.right)
+def _flush(tex: Tex, line: Line) -> str:
+    inner = tex.join((*line.left,)) + (" = " if line.equals else "") + tex.join(line.right)
     return (r"&\quad {} " if line.indented else "& ") + inner

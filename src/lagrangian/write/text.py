@@ -21,7 +21,7 @@ from lagrangian.write.document import (
 from lagrangian.write.glyphs import columns, join, unicode
 from lagrangian.write.layout import lay_out
 from lagrangian.write.lines import chains, measure
-from lagrangian.write.math import Grid, Math, Relation, break_lines, tokens
+from lagrangian.write.math import Grid, Math, break_lines, equality, tokens
 from lagrangian.write.quantities import Notation
 
 NARROWEST = 40
@@ -44,7 +44,8 @@ def to_text(
     if width < NARROWEST:
         raise ModelError(f"a width of {width} columns is too narrow", fix=f"use {NARROWEST} or more", code="E406")
     document = lay_out(derivation, notation=notation, brief=brief, full=full)
-    lines = [*wrap((clean(document.title),), width), "═" * min(width, max(columns(clean(document.title)), 1))]
+    title = " ".join(clean(document.title).split())
+    lines = [*wrap((title,), width), "═" * min(width, max(columns(title), 1))]
     for section in document.sections:
         lines += ["", *_section(section, width, brief)]
     return "\n".join(line.rstrip().replace(_KEPT, " ") for line in lines) + "\n"
@@ -148,19 +149,20 @@ def display(formula: Display, width: int) -> list[str]:
 
 
 def _chain(sides: tuple[Math, ...], width: int) -> list[str]:
-    whole = unicode(Relation(sides)) if len(sides) > 1 else unicode(sides[0])
+    whole = unicode(equality(sides))
     if columns(whole) <= width:
         return [whole]
-    left = unicode(sides[0])
-    if len(sides) > 1 and columns(left) <= width // 3:
+    head, *rest = sides
+    left = unicode(head)
+    if rest and columns(left) <= width // 3:
         hang = columns(left) + 1
         lines: list[str] = []
-        for i, side in enumerate(sides[1:]):
+        for i, side in enumerate(rest):
             first = (left if i == 0 else " " * (hang - 1)) + " = "
             lines += _broken(side, first, hang + 4, width)
         return lines
-    lines = _broken(sides[0], "", 4, width)
-    for side in sides[1:]:
+    lines = _broken(head, "", 4, width)
+    for side in rest:
         if columns(lines[-1]) + 3 + columns(unicode(side)) <= width:
             lines[-1] += " = " + unicode(side)
         else:
