@@ -1,7 +1,7 @@
 """Model → Mechanics: points and frames along their parents, elements as efforts on rates.
 
-SymPy expressions are converted piece by piece, as they were written: a definition or a parent point that many use is one
-node. Elements of a kind that is not known here are taken by what they say of themselves: T*, V and their actions.
+SymPy expressions are converted piece by piece, as they were written: a definition or a parent point that many use is
+one node. Elements of a kind that is not known here are taken by what they say of themselves: T*, V and their actions.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ from typing import Any
 import sympy as sp
 
 from lagrangian.dynamics.inertia import Bodies
-from lagrangian.dynamics.mechanics import Mechanics
+from lagrangian.dynamics.mechanics import Mechanics, Pairs
 from lagrangian.dynamics.motion import Axes, Motion, Place, along_axis
 from lagrangian.dynamics.vectors import Vector, dot, minus, plus, scaled, times, zeros
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, from_sympy, gradient
-from lagrangian.model import Frame, Model, time
+from lagrangian.model import Frame, Model, Point, time
 from lagrangian.model.elements.damper import RATE
 from lagrangian.model.elements.spring import DELTA
 
@@ -54,9 +54,9 @@ class Description:
     motion: Motion
     table: dict[Any, int]
     memo: dict[Any, int] = field(default_factory=dict)
-    axes: dict[int, Axes] = field(default_factory=dict)
-    places: dict[int, Place] = field(default_factory=dict)
-    angles: dict[int, int] = field(default_factory=dict)
+    axes: dict[Frame, Axes] = field(default_factory=dict)
+    places: dict[Point, Place] = field(default_factory=dict)
+    angles: dict[Frame, int] = field(default_factory=dict)
 
     def node(self, expr: Any, local: Mapping[Any, int] | None = None) -> int:
         """The node of an expression; ``local`` gives meaning to symbols of this expression alone."""
@@ -71,6 +71,11 @@ class Description:
 
 def describe(model: Model, graph: Graph, inputs: Inputs) -> Mechanics:
     """The mechanics of a model over given input nodes. Raises `ModelError` that names the element in question."""
+    return described(model, graph, inputs)[0]
+
+
+def described(model: Model, graph: Graph, inputs: Inputs) -> tuple[Mechanics, dict[Point, Place]]:
+    """The mechanics of a model, and where its points went."""
     motion = Motion(graph, model.dimension, inputs.q, inputs.v, inputs.v, inputs.t)
     d = Description(model, graph, inputs, motion, _symbols(model, inputs))
     for definition in model.definitions:
@@ -86,8 +91,9 @@ def describe(model: Model, graph: Graph, inputs: Inputs) -> Mechanics:
         except ModelError as error:
             if error.element is None:
                 error.element = element.title
-            raise error.at(element.place)
-    return m
+            error.at(element.place)
+            raise
+    return m, d.places
 
 
 def _symbols(model: Model, inputs: Inputs) -> dict[Any, int]:
@@ -117,20 +123,20 @@ def _geometry(d: Description) -> None:
         waiting += [thing.parent, getattr(thing, "frame", None), getattr(thing, "origin", None)]
     for thing in sorted(things.values(), key=lambda x: x.serial):
         if hasattr(thing, "angle"):
-            d.axes[id(thing)] = _axes(d, thing)
+            d.axes[thing] = _axes(d, thing)
         elif thing.is_origin:
-            d.places[id(thing)] = d.motion.ground
+            d.places[thing] = d.motion.ground
         else:
-            axes = d.motion.root if thing.frame is None else d.axes[id(thing.frame)]
-            d.places[id(thing)] = d.motion.place(d.places[id(thing.parent)], axes, d.nodes(thing.offset))
+            axes = d.motion.root if thing.frame is None else d.axes[thing.frame]
+            d.places[thing] = d.motion.place(d.places[thing.parent], axes, d.nodes(thing.offset))
 
 
 def _axes(d: Description, frame: Any) -> Axes:
     motion, g = d.motion, d.graph
-    parent = motion.root if frame.parent is None else d.axes[id(frame.parent)]
+    parent = motion.root if frame.parent is None else d.axes[frame.parent]
     if frame.axis is None:
-        before = g.zero if frame.parent is None else d.angles[id(frame.parent)]
-        total = d.angles[id(frame)] = g.add(before, d.node(frame.angle))
+        before = g.zero if frame.parent is None else d.angles[frame.parent]
+        total = d.angles[frame] = g.add(before, d.node(frame.angle))
         return motion.plane_axes(parent, total)
     angle = d.node(frame.angle)
     main = [k for k in range(3) if frame.axis[k] != 0]
@@ -148,11 +154,11 @@ def _axes(d: Description, frame: Any) -> Axes:
 
 
 def _particle(d: Description, m: Mechanics, e: Any) -> None:
-    m.bodies.add_point(d.places[id(e.at)], d.node(e.mass))
+    m.bodies.add_point(d.places[e.at], d.node(e.mass))
 
 
 def _rigid_body(d: Description, m: Mechanics, e: Any) -> None:
-    axes, place, mass = d.axes[id(e.frame)], d.places[id(e.at)], d.node(e.mass)
+    axes, place, mass = d.axes[e.frame], d.places[e.at], d.node(e.mass)
     if d.motion.dimension == 2:
         m.bodies.add_in_plane(axes, place, mass, d.node(e.inertia[0, 0]))
     else:
@@ -165,7 +171,7 @@ def _gravity(d: Description, m: Mechanics, e: Any) -> None:
     down = scaled(g, d.node(e.g), d.nodes(e.direction))
     m.down = plus(g, m.down, down)
     if e.datum is not None:
-        level = dot(g, down, d.motion.position(d.places[id(e.datum)]))
+        level = dot(g, down, d.motion.position(d.places[e.datum]))
         for body in d.model.bodies:
             m.potentials.append(g.mul(d.node(body.mass), level))
 
@@ -176,7 +182,7 @@ def _deflection(d: Description, e: Any) -> tuple[int, int | None, Vector, Vector
     if e.between is None:
         delta = d.node(e.deflection)
         return delta, motion.rate([delta])[0], [], []
-    start, end = (d.places[id(p)] for p in e.between)
+    start, end = (d.places[p] for p in e.between)
     apart = motion.between(start, end)
     velocity = minus(g, _velocity(d, end), _velocity(d, start))
     return g.sqrt(dot(g, apart, apart)), None, apart, velocity
@@ -187,9 +193,7 @@ def _velocity(d: Description, place: Place) -> Vector:
     return d.motion.turned(place.velocity, place.axes, d.motion.root)
 
 
-def _pull(
-    d: Description, pairs: list[tuple[int, int]], pull: int, delta: tuple[int, int | None, Vector, Vector]
-) -> None:
+def _pull(d: Description, pairs: Pairs, pull: int, delta: tuple[int, int | None, Vector, Vector]) -> None:
     """Add a pull against a deflection: −pull on δ̇, or −(pull/δ) Δr on Δv."""
     g = d.graph
     length, rate, apart, velocity = delta
@@ -227,7 +231,7 @@ def _damper(d: Description, m: Mechanics, e: Any) -> None:
     """The pull b δ̇, or its law of δ̇."""
     g = d.graph
     if e.between is not None and e.law is None:  # along one fixed line the separation's sign does not matter
-        start, end = (d.places[id(p)] for p in e.between)
+        start, end = (d.places[p] for p in e.between)
         apart = d.motion.between(start, end)
         moving = [k for k, x in enumerate(apart) if x != g.zero]
         if len(moving) == 1:
@@ -248,13 +252,13 @@ def _force(d: Description, m: Mechanics, e: Any) -> None:
     if not e.is_vector:
         _pull(d, m.efforts, g.neg(d.node(e.value)), _deflection(d, e))
         return
-    source = motion.root if e.axes is None else d.axes[id(e.axes)]
+    source = motion.root if e.axes is None else d.axes[e.axes]
     value = d.nodes(e.value)
     if motion.dimension == 2 and e.axes is not None:
         value = times(g, source.turn, value)
     for sign, point in ((1, e.at), (-1, e.reaction)):
         if point is not None:
-            place = d.places[id(point)]
+            place = d.places[point]
             there = motion.turned(value, source, place.axes)
             m.efforts.extend((v, f if sign == 1 else g.neg(f)) for v, f in zip(place.velocity, there, strict=True))
 
@@ -268,13 +272,13 @@ def _torque(d: Description, m: Mechanics, e: Any) -> None:
             effort = d.node(e.value)
             m.efforts.append((motion.rate([d.node(target)])[0], effort if sign == 1 else g.neg(effort)))
             continue
-        axes = d.axes[id(target)]
+        axes = d.axes[target]
         if motion.dimension == 2:
             value, source = [d.node(e.value)], axes
         elif isinstance(e.value, tuple):
             value, source = d.nodes(e.value), motion.root
         else:  # about the axis of the frame that is acted on
-            source = d.axes[id(e.on)]
+            source = d.axes[e.on]
             value = scaled(g, d.node(e.value), d.nodes(e.on.axis))
         there = motion.turned(value, source, axes)
         m.efforts.extend((w, f if sign == 1 else g.neg(f)) for w, f in zip(axes.omega, there, strict=True))

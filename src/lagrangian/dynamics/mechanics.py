@@ -30,10 +30,10 @@ SMALL = 12
 class Mechanics:
     """A mechanical system as nodes of ``graph``.
 
-    ``names`` are the names of the velocities v; q̇ = ``motion.rates``. ``down`` is the acceleration of gravity in the fixed axes.
-    ``efforts`` are (rate, effort) pairs: their power is Σ rate · effort and Ξ_i = Σ effort · ∂rate/∂v_i. ``stores`` are the
-    (rate, effort) pairs of what is kept in ``potentials``. ``kinetics`` are raw kinetic co-energies, ``losses`` the powers
-    taken by dampers.
+    ``names`` are the names of the velocities v; q̇ = ``motion.rates``. ``down`` is the acceleration of gravity in the
+    fixed axes. ``efforts`` are (rate, effort) pairs: their power is Σ rate · effort and Ξ_i = Σ effort · ∂rate/∂v_i.
+    ``stores`` are the (rate, effort) pairs of what is kept in ``potentials``. ``kinetics`` are raw kinetic co-energies,
+    ``losses`` the powers taken by dampers.
     """
 
     graph: Graph
@@ -232,7 +232,7 @@ class Mechanics:
             found.append(self._by_mass_matrix(names))
         return min(found, key=lambda ids: count_operations(g, ids, hoist=["p"]).operations)
 
-    def _by_mass_matrix(self, names: dict[int, int] | dict[int, str]) -> list[int]:
+    def _by_mass_matrix(self, names: dict[int, str]) -> list[int]:
         """Solve M v̇ = −bias by LDLᵀ: the elimination with no tape between the rates and H."""
         g, H = self.graph, Quadratic(self.graph)
         for i, row in enumerate(self.mass_matrix()):

@@ -163,7 +163,7 @@ def _place(graph: Graph, tape: Tape, forms: dict[int, Form], seeds: Sequence[int
             if i in placed or (i not in forms and i not in leaves):
                 stack.pop()
                 continue
-            waiting = [k for k in forms.get(i, ()) if k not in placed]
+            waiting = [k for k in forms.get(i, {}) if k not in placed]
             steps = [k for k in waiting if k in forms]
             if steps:  # the rates wait until everything else is there
                 stack.extend(reversed(steps))
