@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import unicodedata
+
 import pytest
 import sympy as sp
 from derived import derivation
@@ -98,3 +100,17 @@ def test_the_file_of_the_design_is_example_3b() -> None:
     rename = {dynamicsymbols("x2"): dynamicsymbols("x2r")}
     for one, other in zip(ours.equations, lecture.equations, strict=True):
         assert same(one.lhs.subs(rename) - one.rhs.subs(rename), other.lhs - other.rhs)
+
+
+@pytest.mark.parametrize(
+    ("name", "printed"),
+    [
+        ("lecture-1", ["½ m Lₘ² θ̇²", "m Lₘ² θ̈ + b L_b² θ̇ + k Lₖ² θ + m g Lₘ sin θ = τ"]),
+        ("lecture-3a", ["½ k (x₁ − x₂)²", "m₁ ẍ₁ + k (x₁ − x₂) = −F", "m₂ ẍ₂ − k (x₁ − x₂) = F"]),
+        ("lecture-3b", ["½ m₁ ẋ₁² + ½ m₂ (ẋ₁ + ẋ₂ᵣ)²", "(m₁ + m₂) ẍ₁ + m₂ ẍ₂ᵣ = 0", "m₂ ẍ₁ + m₂ ẍ₂ᵣ + k x₂ᵣ = F"]),
+    ],
+)
+def test_the_page_reads_as_the_lecture_does(name: str, printed: list[str]) -> None:
+    page = unicodedata.normalize("NFD", derivation(name).to_text(brief=True))
+    for line in printed:
+        assert unicodedata.normalize("NFD", line) in page

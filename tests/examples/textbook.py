@@ -70,11 +70,11 @@ BOOK: dict[str, list[str]] = {
         "m*L**2*sin(theta)**2*phi'' + 2*m*L**2*sin(theta)*cos(theta)*theta'*phi' = 0",
     ],
     "furuta-pendulum": [
-        "(J1 + m1*l1**2 + m2*L1**2 + J2_l*cos(theta2)**2 + (J2 + m2*l2**2)*sin(theta2)**2)*theta1''"
-        " + m2*L1*l2*cos(theta2)*theta2'' + 2*(J2 - J2_l + m2*l2**2)*sin(theta2)*cos(theta2)*theta1'*theta2'"
+        "(J1 + m1*l1**2 + m2*L1**2 + A2*cos(theta2)**2 + (J2 + m2*l2**2)*sin(theta2)**2)*theta1''"
+        " + m2*L1*l2*cos(theta2)*theta2'' + 2*(J2 - A2 + m2*l2**2)*sin(theta2)*cos(theta2)*theta1'*theta2'"
         " - m2*L1*l2*sin(theta2)*theta2'**2 + b1*theta1' = tau",
         "m2*L1*l2*cos(theta2)*theta1'' + (J2 + m2*l2**2)*theta2''"
-        " - (J2 - J2_l + m2*l2**2)*sin(theta2)*cos(theta2)*theta1'**2 + b2*theta2' + m2*g*l2*sin(theta2) = 0",
+        " - (J2 - A2 + m2*l2**2)*sin(theta2)*cos(theta2)*theta1'**2 + b2*theta2' + m2*g*l2*sin(theta2) = 0",
     ],
     "quarter-car": [
         "m_s*z_s'' + b_s*(z_s' - z_u') + k_s*(z_s - z_u) = F",
