@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import unicodedata
-from collections.abc import Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from lagrangian.errors import ParseError, Place
@@ -26,33 +26,31 @@ def character(c: str) -> str:
 class Source:
     """``text`` as a person wrote it. ``what`` says what it is (``"k of spring 's1'"``); ``place`` is where it starts.
 
-    ``columns`` gives the column in the file of each character, for text that a file writes with escapes; without it the
-    text stands in the file as it is.
+    ``locate`` gives the place of each character for text inside a file, whose lines go on around it and which may be
+    written there with escapes; without it the text stands in the file as it is.
     """
 
     text: str
     what: str
     place: Place | None = None
-    columns: Sequence[int] | None = None
+    locate: Callable[[int], Place] | None = None
 
     def at(self, offset: int) -> Place:
         """Return the place of the character at ``offset``."""
         offset = max(0, min(offset, len(self.text)))
+        if self.locate is not None:
+            return self.locate(offset)
         start = self.place or Place()
-        if start.line is not None and (start.column is None or self.columns is not None):
-            if self.columns is None:
-                return start
-            column = self.columns[min(offset, len(self.columns) - 1)]
-            return Place(start.file, start.line, column, start.text)
+        if start.line is not None and start.column is None:
+            return start
         before = self.text[:offset]
         row = before.count("\n")
         first = self.text.rfind("\n", 0, offset) + 1
         last = self.text.find("\n", offset)
         line = self.text[first : last if last >= 0 else len(self.text)]
-        column = offset - first + 1
         if row == 0 and start.line is not None and start.column is not None:
             return Place(start.file, start.line, start.column + offset, printable(start.text))
-        return Place(start.file, (start.line or 1) + row, column, printable(line))
+        return Place(start.file, (start.line or 1) + row, offset - first + 1, printable(line))
 
     def error(self, message: str, offset: int, *, fix: str | None = None, code: str = "E701") -> ParseError:
         """Return a `ParseError` that points at ``offset``."""

@@ -25,6 +25,8 @@ _STRING = re.compile(
 _SCALAR = re.compile(r"[^,\]}\n#]*")
 _ESCAPE = re.compile(r"\\(?:u[0-9A-Fa-f]{4}|U[0-9A-Fa-f]{8}|.)")
 
+_JOINED = re.compile(r"\\[ \t]*\n\s*")
+
 
 @dataclass(frozen=True)
 class Spot:
@@ -94,10 +96,10 @@ class Index:
             return Source(text, what, self.of_value(path))
         start, end = spot.inside
         raw = self.text[start:end]
-        if "\\" in raw:
-            columns = _columns(raw, self.place(start).column or 1)
-            return Source(text, what, self.place(start), columns if "\n" not in raw else None)
-        return Source(text, what, self.place(start))
+        if "\\" in raw and '"' in self.text[start - 2 : start]:
+            offsets = _offsets(raw, start)
+            return Source(text, what, self.place(start), lambda i: self.place(offsets[min(i, len(offsets) - 1)]))
+        return Source(text, what, self.place(start), lambda i: self.place(start + i))
 
     # -- the walk -----------------------------------------------------------------------------------------------
 
@@ -226,12 +228,15 @@ def _character(escape: str) -> str:
     return {"b": "\b", "t": "\t", "n": "\n", "f": "\f", "r": "\r"}.get(escape[1], escape[1])
 
 
-def _columns(raw: str, first: int) -> list[int]:
-    """The column in the file of each character of a one-line string that holds escapes, and of its end."""
-    columns: list[int] = []
+def _offsets(raw: str, start: int) -> list[int]:
+    """The offset in the file of each character of a string that holds escapes, and of its end."""
+    offsets: list[int] = []
     at = 0
     while at < len(raw):
-        columns.append(first + at)
+        if (joined := _JOINED.match(raw, at)) is not None:  # a backslash at the end of a line swallows the break
+            at = joined.end()
+            continue
+        offsets.append(start + at)
         match = _ESCAPE.match(raw, at)
         at = match.end() if match else at + 1
-    return [*columns, first + len(raw)]
+    return [*offsets, start + len(raw)]

@@ -10,7 +10,7 @@ from pydantic import BaseModel, ValidationError
 
 from lagrangian.errors import ParseError, Place, did_you_mean
 from lagrangian.read.file_schema import ModelFile
-from lagrangian.read.source import shown
+from lagrangian.read.source import printable, shown
 from lagrangian.read.toml_index import Index, Path
 
 MAX_BYTES = 1 << 20
@@ -68,7 +68,7 @@ def read_toml(text: str, name: str) -> tuple[ModelFile, dict[str, Any], Index]:
     if not _STRINGS.sub("", text).strip():
         raise ParseError(
             "the file is empty",
-            place=Place(name, 1, 1),
+            place=_place(text, name, 0),
             fix="`lagrangian new pendulum` writes an example to start from",
             code="E401",
         )
@@ -90,7 +90,7 @@ def _check_nesting(text: str, name: str) -> None:
         if depth > MAX_NESTING:
             raise ParseError(
                 f"brackets are nested more than {MAX_NESTING} deep",
-                place=Index("", name).place(0) if not text else _place(text, name, match.start()),
+                place=_place(text, name, match.start()),
                 fix="a model file needs three levels",
                 code="E703",
             )
@@ -107,7 +107,7 @@ def _place(text: str, name: str, offset: int) -> Place:
     start = text.rfind("\n", 0, offset) + 1
     end = text.find("\n", offset)
     line = text[start : end if end >= 0 else len(text)]
-    return Place(name, text.count("\n", 0, offset) + 1, offset - start + 1, line)
+    return Place(name, text.count("\n", 0, offset) + 1, offset - start + 1, printable(line))
 
 
 def _parse(text: str, name: str) -> tuple[dict[str, Any], Index]:
@@ -115,9 +115,14 @@ def _parse(text: str, name: str) -> tuple[dict[str, Any], Index]:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise _toml_error(str(error), text, name) from None
-    except (ValueError, RecursionError) as error:
-        what = "a number has too many digits" if isinstance(error, ValueError) else "it is nested too deeply"
-        raise ParseError(f"the file cannot be read: {what}", place=Place(name), code="E703") from None
+    except ValueError:  # Python reads no integer of more than 4300 digits
+        digits = re.search(r"[0-9_]{1000,}", text)
+        raise ParseError(
+            "the number has too many digits",
+            place=_place(text, name, digits.start() if digits else 0),
+            fix="write it with a power of ten: 1e30",
+            code="E703",
+        ) from None
     return data, Index(text, name)
 
 
@@ -177,7 +182,7 @@ def _translated(error: ValidationError, data: dict[str, Any], index: Index) -> P
         return ParseError(
             f"the field '{path[-1]}' is missing",
             element=element or "the file",
-            place=index.of_key(path[:-1]) if len(path) > 1 else Place(index.file, 1, 1),
+            place=index.of_key(path[:-1]) if len(path) > 1 else index.place(0),
             fix=f"write {path[-1]} = …: {_description(path, data)}",
             code="E401",
         )
