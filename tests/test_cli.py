@@ -88,7 +88,7 @@ MISTAKES = {
     "no such format": (["derive", "x.toml", "--format", "pdf"], ["pdf"]),
     "no such command": (["derve"], ["derve"]),
     "no such option": (["derive", "x.toml", "--breif"], ["--breif"]),
-    "a width of nothing": (["derive", "-e", "lecture-1", "--width", "3"], ["3"]),
+    "a width of nothing": (["derive", "-e", "lecture-1", "--width", "3"], ["--width", "40"]),
     "a folder that does not exist": (["new", "lecture-1", "-o", "no/such/folder/x.toml"], ["no/such/folder"]),
 }
 

@@ -11,7 +11,8 @@ ROOT = pathlib.Path(__file__).parent.parent
 
 
 def blocks(path: str, language: str) -> list[str]:
-    return re.findall(rf"```{language}\n(.*?)```", (ROOT / path).read_text(encoding="utf-8"), re.S)
+    parts = re.split(r"^```(.*)$", (ROOT / path).read_text(encoding="utf-8"), flags=re.M)
+    return [body.lstrip("\n") for opened, body in zip(parts[1::4], parts[2::4], strict=True) if opened == language]
 
 
 def test_the_readmes_python_runs(tmp_path: pathlib.Path) -> None:

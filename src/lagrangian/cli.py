@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import json
-import os
 import sys
-from collections.abc import Callable
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
 
-import click
 import typer
 
 from lagrangian import examples, read, write
@@ -86,7 +83,7 @@ def derive(
 ) -> None:
     """Derive the equations of motion, step by step."""
     if (file is None) == (example is None):
-        raise click.UsageError("name a model file, or a built-in example with --example NAME")
+        raise typer.BadParameter("name a model file, or a built-in example with --example NAME")
     if example is not None:
         system = loads(examples.text(example), name=f"<example {example}>")
     else:
@@ -96,17 +93,8 @@ def derive(
 
 
 def _written(derivation: Derivation, format: Format, notation: Notation, brief: bool, full: bool, width: int) -> str:
-    letters = notation.value
-    if format is Format.TEXT:
-        return derivation.to_text(notation=letters, brief=brief, full=full, width=width)
-    if format is Format.JSON:
-        return json.dumps(derivation.to_dict(notation=letters, brief=brief, full=full), ensure_ascii=False, indent=1)
-    writers: dict[Format, Callable[..., str]] = {
-        Format.MARKDOWN: derivation.to_markdown,
-        Format.LATEX: derivation.to_latex,
-        Format.HTML: derivation.to_html,
-    }
-    return writers[format](notation=letters, brief=brief, full=full)
+    columns = {"width": width} if format is Format.TEXT else {}
+    return write.FORMATS[format.value](derivation, notation=notation.value, brief=brief, full=full, **columns)
 
 
 @app.command()
@@ -161,22 +149,13 @@ def main(arguments: list[str] | None = None) -> int:
         if hasattr(stream, "reconfigure") and (stream.encoding or "").lower().replace("-", "") != "utf8":
             stream.reconfigure(encoding="utf-8", errors="replace")  # type: ignore[union-attr]
     try:
-        result = app(args=arguments, standalone_mode=False)
-        return result if isinstance(result, int) else 0
-    except typer.Exit as stop:
-        return int(stop.exit_code)
-    except click.ClickException as error:
-        error.show()
-        return 2
-    except click.Abort:
-        return 130
-    except BrokenPipeError:
-        # the reader has gone away: leave quietly, and keep Python from complaining when it flushes at exit
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return 0
+        app(args=arguments, prog_name="lagrangian")
+    except SystemExit as stop:
+        return stop.code if isinstance(stop.code, int) else 0
     except Error as error:
         sys.stderr.write(f"{_kind(error)}{error}\n")
         return 2
+    return 0
 
 
 def _kind(error: Error) -> str:

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from typing import Any, Literal
+from typing import Any
 
 from lagrangian import analyze, derive, write
 from lagrangian.model import Model
-
-Notation = Literal["lecture", "physics", "robotics"]
+from lagrangian.write import Notation
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,7 +14,6 @@ from lagrangian.derive.formula import (
     Heading,
     Item,
     Left,
-    Matrix,
     Minus,
     Name,
     Partial,
@@ -102,6 +101,8 @@ def forces(context: Context, found: tuple[Contribution, ...]) -> Step:
     model = context.model
     items: list[Item] = []
     acting = [e for e in model.elements if e.ledger == "Ξ"]
+    if not acting:
+        items.append(text("No force, torque or damper was described: nothing non-conservative acts."))
     for element in acting:
         items += _virtual_work(context, element)
     xi_of: dict[sp.Expr, sp.Expr] = {}
@@ -111,8 +112,8 @@ def forces(context: Context, found: tuple[Contribution, ...]) -> Step:
         mine = [f for f in found if f.index == i]
         total = context.algebra.total([f.virtual for f in mine])
         xi_of[c.symbol] = total.expr()
-        if acting:
-            items += _coordinate(context, i, mine, total)
+        items += _coordinate(context, i, mine) if acting else []
+        items.append(formula(big_xi(i), fit(xi_of[c.symbol]), brief=True))
         reasons.append(_reason(i, c.symbol, mine, xi_of[c.symbol]))
         difference = context.algebra.total([f.virtual - f.box for f in mine])
         if acting:
@@ -128,9 +129,6 @@ def forces(context: Context, found: tuple[Contribution, ...]) -> Step:
         checks.append(
             Check(text("dampers: Rayleigh's function, the fake spring and virtual work agree"), holds, "exact")
         )
-    if not acting:
-        items.append(text("No force, torque or damper was described: nothing non-conservative acts."))
-    items.append(formula(*_listing(xi_of), brief=True))
     return Step(
         6,
         "Non-conservative forces",
@@ -143,13 +141,6 @@ def forces(context: Context, found: tuple[Contribution, ...]) -> Step:
         tuple(reasons),
         tuple(checks),
     )
-
-
-def _listing(xi_of: dict[sp.Expr, sp.Expr]) -> tuple[Left, ...]:
-    if len(xi_of) == 1:
-        return (big_xi(0), fit(next(iter(xi_of.values()))))
-    rows = tuple((fit(x),) for x in xi_of.values())
-    return (Name("Xi"), Matrix(rows))
 
 
 def _virtual_work(context: Context, element: Element) -> list[Item]:
@@ -187,8 +178,8 @@ def _product(effort: sp.Expr, what: Left) -> Left:
     return Product((fit(effort), what))
 
 
-def _coordinate(context: Context, index: int, mine: list[Contribution], total: Form) -> list[Item]:
-    """The box of ξ_i, the table of who is in it, and Ξ_i."""
+def _coordinate(context: Context, index: int, mine: list[Contribution]) -> list[Item]:
+    """The box of ξ_i and the table of who is in it."""
     model = context.model
     c = model.coordinates[index]
     moved = context.wiggle.moved[index]
@@ -208,7 +199,6 @@ def _coordinate(context: Context, index: int, mine: list[Contribution], total: F
         Heading(text(big_xi(index), " for ", c.symbol)),
         text(*parts, "."),
         Table(header, rows),
-        formula(big_xi(index), fit(total.expr())),
     ]
 
 
