@@ -49,7 +49,8 @@ def test_a_file_is_valid_toml_with_a_description_and_a_unit_for_every_parameter(
     file = tomllib.loads(text)
     assert 20 < len(examples.describe(name)) < 110
     assert text.startswith(f"# {examples.describe(name)}\n")
-    assert all(isinstance(value, str) and " " in value for value in file["parameters"].values())
+    given = [value["value"] if isinstance(value, dict) else value for value in file["parameters"].values()]
+    assert all(isinstance(value, str) and " " in value for value in given)
     assert all(len(line) <= 120 for line in text.splitlines())
 
 
@@ -88,3 +89,9 @@ def test_a_saved_system_is_the_same_system(name: str) -> None:
         assert [(a.effort, a.rate) for a in one.works(first.model)] == [
             (a.effort, a.rate) for a in other.works(again.model)
         ]
+
+
+@pytest.mark.parametrize("name", [name for name in examples.names() if name != "two-carts"])
+def test_every_symbol_but_g_is_described(name: str) -> None:
+    model = lg.loads(examples.text(name), name=name).model
+    assert [s.name for s in (*model.coordinates, *model.parameters, *model.inputs) if not s.description] in ([], ["g"])
