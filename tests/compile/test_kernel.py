@@ -182,6 +182,32 @@ def test_out_that_does_not_fit(kernel, out):
         kernel(*states(4), out=readonly)
 
 
+def test_a_prepared_call_reads_its_arrays_anew(kernel):
+    q, v = states(30)
+    out = np.empty((30, 2))
+    batch = kernel.prepared(q, v, out=out)
+    assert batch() is out
+    np.testing.assert_array_equal(out, kernel(q, v))
+    q *= -0.5
+    batch()
+    np.testing.assert_array_equal(out, kernel(q, v))
+    q[17, 1] = np.nan
+    with pytest.raises(RunError, match="coordinate 'b' is nan at state 17"):
+        batch()
+    own = kernel.prepared(v, v, p={"g": 1.0})
+    np.testing.assert_array_equal(own(), kernel(v, v, p={"g": 1.0}))
+    assert own() is own() or np.shares_memory(own(), own())
+
+
+def test_a_prepared_call_copies_nothing(kernel):
+    q, v = states(30)
+    kernel.prepared(q[::2], v[:15])()
+    kernel.prepared(q[0], v)()
+    for wrong in (q[:3], q.astype(np.float32), np.zeros((2, 3, 30, 2)).transpose(1, 2, 0, 3)):
+        with pytest.raises(RunError, match="'q' cannot be read in place"):
+            kernel.prepared(wrong, v[0])
+
+
 # Parameters --------------------------------------------------------------------------------------------------------
 
 

@@ -11,12 +11,12 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy import ndarray
-from numpy.typing import NDArray
 
 from lagrangian.errors import RunError, did_you_mean
 
-from . import native, workers
-from .arguments import FLOAT, Group, not_finite_input, rows, where
+from . import native
+from .arguments import FLOAT, Group, not_finite_input
+from .batch import Array, Batch, Engine, trouble
 from .build import Build, Options
 from .stage import RawFunction, Stage, address, aligned
 
@@ -59,18 +59,17 @@ class Kernel:
             Group(name, tuple(e), tuple(program.defaults.get(x) if name == "p" else optional.get(name) for x in e))
             for name, e in program.inputs.items()
         )
-        self._outputs = tuple(program.outputs)
-        self._shapes = tuple(tuple(o.shape) for o in program.outputs.values())
+        self._outputs = {name: tuple(o.shape) for name, o in program.outputs.items()}
         hoist = build.options.hoist
         self._late = [k for k, g in enumerate(self._groups) if g.name not in hoist]
         self._early = [k for k, g in enumerate(self._groups) if g.name in hoist]
         self._early_at = self._early[0] if self._early else len(self._groups)
         self._stages: list[Stage] = []
-        self._blocks: OrderedDict[bytes, NDArray[np.float64]] = OrderedDict()
-        self._standard: NDArray[np.float64] | None = None  # the shared block of the default parameters, once used
+        self._blocks: OrderedDict[bytes, Array] = OrderedDict()
+        self._standard: Array | None = None  # the shared block of the default parameters, once used
         self._single: Any = None
-        self._batches: dict[str, Any] = {}
-        self._lone = len(self._shapes) == 1 and self._shapes[0] != ()
+        self._engines: dict[str, Engine] = {}
+        self._lone = len(self._outputs) == 1 and () not in self._outputs.values()
         self._lock = threading.Lock()
 
     def __reduce__(self) -> Any:
@@ -78,7 +77,7 @@ class Kernel:
 
     def __repr__(self) -> str:
         inputs = ", ".join(f"{g.name}[{len(g.entries)}]" for g in self._groups)
-        outputs = ", ".join(f"{n}{list(s)}" for n, s in zip(self._outputs, self._shapes, strict=True))
+        outputs = ", ".join(f"{n}{list(s)}" for n, s in self._outputs.items())
         return f"<Kernel {self.name!r}: {inputs} -> {outputs}>"
 
     @property
@@ -168,24 +167,24 @@ class Kernel:
 
     def _general(self, slots: list[Any], out: Any) -> Any:
         """Check, convert, broadcast, and run."""
-        arrays = [group.array(given) for group, given in zip(self._groups, slots, strict=True)]
-        early = [arrays[k] for k in self._early]
-        sweep = any(a.size != a.shape[-1] for a in early)
-        if not sweep:
-            early = [a.reshape(-1) for a in early]
-        shaped = arrays if sweep else [arrays[k] for k in self._late] + [arrays[k][..., :0] for k in self._early]
-        lead = self._lead(shaped)
-        if sweep:
-            shared = None
-        else:
-            shared = self._shared_block(early)
-            if all(given is None for given in (slots[k] for k in self._early)):
-                self._standard = shared
+        arrays, lead, shared = self._understood(slots)
         if lead == () and shared is not None and out is None:
             return self._one([arrays[k] for k in self._late], shared)
-        return self._many(arrays, lead, shared, out)
+        return self._many(arrays, lead, shared, out)()
 
-    def _lead(self, arrays: list[NDArray[np.float64]]) -> tuple[int, ...]:
+    def _understood(self, slots: list[Any]) -> tuple[list[Array], tuple[int, ...], Array | None]:
+        """Arrays by group, their common leading shape, and the shared block if all states have the same parameters."""
+        arrays = [group.array(given) for group, given in zip(self._groups, slots, strict=True)]
+        early = [arrays[k] for k in self._early]
+        if any(a.size != a.shape[-1] for a in early):
+            return arrays, self._lead(arrays), None
+        lead = self._lead([arrays[k] for k in self._late] + [a[..., :0] for a in early])
+        shared = self._shared_block([a.reshape(-1) for a in early])
+        if all(slots[k] is None for k in self._early):
+            self._standard = shared
+        return arrays, lead, shared
+
+    def _lead(self, arrays: list[Array]) -> tuple[int, ...]:
         """The leading shape that all groups broadcast to."""
         shapes = {a.shape[:-1] for a in arrays} - {()}
         try:
@@ -198,7 +197,7 @@ class Kernel:
                 fix="make all but the last axis equal, or 1",
             ) from cause
 
-    def _shared_block(self, early: list[NDArray[np.float64]]) -> NDArray[np.float64]:
+    def _shared_block(self, early: list[Array]) -> Array:
         """The prologue's results for one parameter set; the latest few sets are remembered."""
         key = b"".join(a.tobytes() for a in early)
         found = self._blocks.get(key)
@@ -219,7 +218,7 @@ class Kernel:
             self._blocks[key] = shared
         return shared
 
-    def _one(self, late: list[NDArray[np.float64]], shared: NDArray[np.float64]) -> Any:
+    def _one(self, late: list[Array], shared: Array) -> Any:
         """One state."""
         if self._single is None:
             kind = _SINGLE_LONG if len(self.program.graph.nodes) > LONG else _SINGLE_SHORT
@@ -227,7 +226,7 @@ class Kernel:
         try:
             stage = self._stages.pop()
         except IndexError:
-            stage = Stage(self.build.sizes, [(k, self._groups[k]) for k in self._late], self._shapes)
+            stage = Stage(self.build.sizes, [(k, self._groups[k]) for k in self._late], tuple(self._outputs.values()))
         for array, (_, part, *_) in zip(late, stage.parts, strict=True):
             part[...] = array
         stage.share(shared)
@@ -235,119 +234,54 @@ class Kernel:
         answer = self._answer(stage)
         self._stages.append(stage)
         if not fine:
-            given = [a.reshape(1, -1) for a in late]
-            results = [np.reshape(x, (1, -1)) for x in (answer.values() if isinstance(answer, dict) else [answer])]
-            raise self._trouble(given, results, (), 0, 1, self._late)
+            inputs, groups = [a.reshape(-1) for a in late], [self._groups[k] for k in self._late]
+            results = [np.ravel(x) for x in (answer.values() if len(self._outputs) != 1 else [answer])]
+            raise trouble(groups, inputs, self._outputs, results, "") or RunError("a result is not finite", code="E503")
         return answer
 
-    def _many(
-        self,
-        arrays: list[NDArray[np.float64]],
-        lead: tuple[int, ...],
-        shared: NDArray[np.float64] | None,
-        out: Any,
-    ) -> Any:
+    def _many(self, arrays: list[Array], lead: tuple[int, ...], shared: Array | None, out: Any) -> Batch:
         """Any number of states."""
-        results, answer = self._results(lead, out, arrays)
-        count = math.prod(lead)
-        if count == 0:
-            return answer()
+        if math.prod(lead) == 0:  # nothing will be computed: no code is needed
+            engine = Engine(lambda *_: -1, (), self._outputs, self.lanes, 0, 0)
+        else:
+            engine = self._engine("batch" if shared is not None else "sweep")
         order = self._late if shared is not None else self._late + self._early
-        inputs = [rows(arrays[k], lead) for k in order]
-        targets = results
-        if count < self.lanes:  # machine code wants full lanes: the last state fills them
-            fill = np.minimum(np.arange(self.lanes), count - 1)
-            inputs, targets = [a[fill] for a in inputs], [np.empty((self.lanes, r.shape[1])) for r in results]
-        kind = "batch" if shared is not None else "sweep"
-        call = self._batches.get(kind)
-        if call is None:
-            call = self._batches[kind] = _BATCH(self.build.loaded(kind).address("batch"))
-        entries = [n for a in (*inputs, *targets) for n in (address(a), *a.strides)]
-        table = np.array([*entries, 0 if shared is None else address(shared)], np.int64)
-        work = self.build.sizes.work(self.lanes, shared is None)
+        given = [arrays[k] for k in order]
+        return Batch(engine, given, lead, shared=shared, out=out, threads=self.threads)
 
-        def task(start: int, stop: int) -> int:
-            space = aligned(work)
-            return call(address(table), start, stop, address(space))
+    def _engine(self, kind: str) -> Engine:
+        """The machine code for many states that share a parameter set (``batch``) or have one each (``sweep``)."""
+        found = self._engines.get(kind)
+        if found is None:
+            order = self._late if kind == "batch" else self._late + self._early
+            found = self._engines[kind] = Engine(
+                call=_BATCH(self.build.loaded(kind).address("batch")),
+                groups=tuple(self._groups[k] for k in order),
+                outputs=self._outputs,
+                lanes=self.lanes,
+                work=self.build.sizes.work(self.lanes, kind == "sweep"),
+                cost=len(self.program.graph.nodes),
+            )
+        return found
 
-        cost = len(self.program.graph.nodes)
-        bad = workers.over(max(count, self.lanes), self.lanes, cost, self.threads, task)
-        if bad >= 0:
-            raise self._trouble(inputs, targets, lead, bad, min(bad + self.lanes, count), order)
-        if targets is not results:
-            for result, target in zip(results, targets, strict=True):
-                result[:] = target[:count]
-        return answer()
+    def prepared(self, *given: Any, out: Any = None, **named: Any) -> Batch:
+        """A call for certain float64 arrays with everything but the arithmetic done: ``batch()`` computes from what
+        they hold.
 
-    def _results(
-        self, lead: tuple[int, ...], out: Any, arrays: list[NDArray[np.float64]]
-    ) -> tuple[list[NDArray[np.float64]], Any]:
-        """Arrays (states, size) to compute into, and a function that hands over what they become."""
-        count = math.prod(lead)
-        given = [None] * len(self._outputs) if out is None else self._targets(out, lead)
-        results, finals = [], []
-        for shape, target in zip(self._shapes, given, strict=True):
-            size = math.prod(shape)
-            direct = target is not None and target.flags.c_contiguous and target.flags.aligned
-            if target is None or not direct or any(np.may_share_memory(target, a) for a in arrays):
-                results.append(np.empty((count, size)))
-            else:
-                results.append(target.reshape(count, size))
-            finals.append(target)
-
-        def answer() -> Any:
-            made = []
-            for result, target, shape in zip(results, finals, self._shapes, strict=True):
-                if target is None:
-                    made.append(result.reshape(*lead, *shape)[()])
-                    continue
-                if not np.may_share_memory(result, target):
-                    target[...] = result.reshape(*lead, *shape)
-                made.append(target)
-            return made[0] if len(made) == 1 else dict(zip(self._outputs, made, strict=True))
-
-        return results, answer
-
-    def _targets(self, out: Any, lead: tuple[int, ...]) -> list[NDArray[np.float64]]:
-        """The arrays to write to, checked."""
-        named = out if isinstance(out, Mapping) else {self._outputs[0]: out} if len(self._outputs) == 1 else None
-        if named is None or set(named) != set(self._outputs):
-            raise RunError("out does not fit", code="E501", fix=f"give arrays for {', '.join(self._outputs)}")
-        for name, shape in zip(self._outputs, self._shapes, strict=True):
-            a, wanted = named[name], (*lead, *shape)
-            if not isinstance(a, np.ndarray) or a.dtype != FLOAT or a.shape != wanted or not a.flags.writeable:
-                found = f"{a.dtype} {a.shape}" if isinstance(a, np.ndarray) else type(a).__name__
+        For loops that evaluate the same arrays over and over. Parameters are those of now, unless each state has its
+        own. There must be at least ``lanes`` states, and leading axes that one stride can walk.
+        """
+        slots = self._assigned(given, named)
+        arrays, lead, shared = self._understood(slots)
+        batch = self._many(arrays, lead, shared, out)
+        for k, row in zip(self._late if shared is not None else self._late + self._early, batch.inputs, strict=True):
+            if isinstance(slots[k], ndarray) and not (batch.direct and np.may_share_memory(slots[k], row)):
                 raise RunError(
-                    f"out for '{name}' must be a writable float64 array of shape {wanted} (got {found})", code="E501"
+                    f"'{self._groups[k].name}' cannot be read in place",
+                    code="E501",
+                    fix=f"give float64 arrays of at least {self.lanes} states, with leading axes in C order",
                 )
-        return [named[name] for name in self._outputs]
-
-    def _trouble(
-        self,
-        inputs: list[NDArray[np.float64]],
-        results: list[NDArray[np.float64]],
-        lead: tuple[int, ...],
-        start: int,
-        stop: int,
-        order: list[int],
-    ) -> RunError:
-        """The error for the first number that is not finite among the states of a block."""
-        for state in range(start, stop):
-            at = where(lead, state)
-            for k, array in zip(order, inputs, strict=True):
-                if found := not_finite_input(self._groups[k], array[state], at):
-                    return found
-            for name, shape, result in zip(self._outputs, self._shapes, results, strict=True):
-                for j in np.flatnonzero(~np.isfinite(result[state])):
-                    index = [int(i) for i in np.unravel_index(j, shape)] if shape else ""
-                    return RunError(
-                        f"output '{name}'{index} is {result[state][j]}{at}",
-                        code="E503",
-                        fix="the inputs are finite: look for a division by zero or a root of a negative number there",
-                    )
-        return RunError(
-            "a result is not finite, but not twice in a row", code="E503", fix="do not change arrays in use"
-        )
+        return batch
 
     # For callers in machine code ---------------------------------------------------------------------------------
 
@@ -360,6 +294,9 @@ class Kernel:
         name = f"body_{lanes}"
         return RawFunction(code.address(name), lanes, sum(s.groups), s.shared, sum(s.outputs), s.scratch, code)
 
-    def shared(self, p: Any = None) -> NDArray[np.float64]:
-        """The shared block of a parameter set, for :meth:`raw` functions."""
-        return self._shared_block([self._groups[k].array(p).reshape(-1) for k in self._early])
+    def shared(self, *early: Any) -> Array:
+        """The shared block of a parameter set (of values for the hoisted groups), for :meth:`raw` functions."""
+        given = [*early, *[None] * (len(self._early) - len(early))]
+        return self._shared_block(
+            [self._groups[k].array(x).reshape(-1) for k, x in zip(self._early, given, strict=True)]
+        )
