@@ -69,10 +69,11 @@ class Verdicts:
 
 @dataclass(frozen=True)
 class Details:
-    """What is too long to read at once, under a summary."""
+    """What is too long to read at once, under a summary; ``vast`` where even a browser would take long to set it."""
 
     summary: Inline
     blocks: tuple[Block, ...]
+    vast: bool = False
 
 
 Block: TypeAlias = Heading | Paragraph | Display | Boxed | Table | Verdicts | Details

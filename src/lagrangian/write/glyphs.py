@@ -18,10 +18,12 @@ from lagrangian.write.math import (
     Power,
     Ratio,
     Root,
+    Times,
     Token,
     Value,
     Word,
     bare,
+    in_parentheses,
     tokens,
 )
 
@@ -156,11 +158,18 @@ def _ratio(over: Math, under: Math) -> str:
             pair = (int(over.text), int(under.text))
             return _VULGAR.get(pair, f"({over.text}/{under.text})")
         return f"({over.text}/{under.text})"
-    above, below = unicode(over), unicode(under)
+    above, below = unicode(_closed(over)), unicode(under)
     flat = (Letter, Number, Word, Mark, Power, Root, Apply, Fence)
-    top = above if isinstance(over, flat) or type(over).__name__ == "Times" else f"({above})"
+    top = above if isinstance(over, (*flat, Times)) else f"({above})"
     bottom = below if isinstance(under, (Letter, Number, Word, Mark, Power, Root, Fence)) else f"({below})"
     return f"{top}/{bottom}"
+
+
+def _closed(over: Math) -> Math:
+    """A numerator whose last function has its argument in parentheses: cos(θ)/a is not cos(θ/a)."""
+    if isinstance(over, Times):
+        return Times((*over.factors[:-1], _closed(over.factors[-1])))
+    return Apply(over.name, (Fence(over.args[0]),), over.power) if isinstance(over, Apply) and bare(over) else over
 
 
 def _apply(math: Apply) -> str:
@@ -168,7 +177,7 @@ def _apply(math: Apply) -> str:
     if bare(math):
         inner = unicode(math.args[0]).replace(" ", "")
         return f"{name}{'' if math.power is not None else ' '}{inner}"
-    if len(math.args) == 1 and isinstance(math.args[0], Fence):
+    if len(math.args) == 1 and in_parentheses(math.args[0]):
         return name + unicode(math.args[0])
     return f"{name}({', '.join(unicode(a) for a in math.args)})"
 

@@ -28,6 +28,7 @@ from lagrangian.write.math import Math, Number, Sum, Tagged, tokens
 from lagrangian.write.mathml import displayed, mathml, row
 from lagrangian.write.quantities import Notation
 from lagrangian.write.text import clean
+from lagrangian.write.text import display as text_lines
 
 WIDTH = 96
 """Columns of Unicode text that fit the width of the page's text."""
@@ -122,8 +123,19 @@ def _block(block: Block, anchors: bool) -> Iterator[str]:
             )
             yield f'<ul class="checks">{items}</ul>'
         case Details(summary, blocks):
-            inner = "".join(line for b in blocks for line in _block(b, False))
+            inner = _preformatted(blocks) if block.vast else "".join(x for b in blocks for x in _block(b, False))
             yield f"<details><summary>{inline(summary)}</summary>{inner}</details>"
+
+
+def _preformatted(blocks: tuple[Block, ...]) -> str:
+    """Formulas as lines of text: mathematics of this length takes a browser long."""
+    lines = [line for block in blocks if isinstance(block, Display) for line in text_lines(block, WIDTH)]
+    return f"<pre>{escape_lines(lines)}</pre>"
+
+
+def escape_lines(lines: list[str]) -> str:
+    """Lines of text so that a browser shows them."""
+    return "\n".join(escape(line) for line in lines)
 
 
 def _display(block: Display, anchors: bool) -> str:

@@ -47,6 +47,10 @@ def lay_out(
     return _Layout(derivation, notation, brief, full, details).document()
 
 
+SET_OPERATIONS = 800
+"""Operations up to which elided mathematics is set as such in its details; more of it is plain text there."""
+
+
 class _Layout:
     def __init__(self, derivation: Derivation, notation: Notation, brief: bool, full: bool, details: bool) -> None:
         self.derivation, self.brief, self.details = derivation, brief, details
@@ -174,7 +178,7 @@ class _Layout:
         self.elided = True
         if self.details and longest <= DETAILS_OPERATIONS:
             sides = self.whole.formula(item)
-            yield Details((f"written out: {longest} operations",), (Display(sides, ""),))
+            yield Details((f"written out: {longest} operations",), (Display(sides, ""),), longest > SET_OPERATIONS)
 
     def tagged(self, item: data.Formula, sides: tuple[Math, ...], known: Sequence[EquationTerm]) -> tuple[Math, ...]:
         """Mark each term of an equation of motion with the elements that make it."""

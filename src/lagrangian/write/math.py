@@ -302,6 +302,11 @@ def _several(base: str) -> bool:
     return len(base) > 1 and base not in GREEK
 
 
+def in_parentheses(math: Math) -> bool:
+    """Whether it stands in parentheses already; bars are none."""
+    return isinstance(math, Fence) and math.left == "("
+
+
 def product(front: Math, *rest: Math) -> Math:
     """Factors side by side; a fraction takes what follows it into its numerator."""
     if not rest:
@@ -338,6 +343,19 @@ def is_tall(math: Math | None) -> bool:
             return False
 
 
+def _loosened(pieces: Sequence[Token], width: int, measure: Callable[[Token], int]) -> list[Token]:
+    """Write a fraction that takes most of a line as 1/b · a, whose numerator can be cut."""
+    made: list[Token] = []
+    for piece in pieces:
+        ratio = piece.math
+        if piece.role == "leaf" and isinstance(ratio, Ratio) and measure(piece) > 0.6 * width:
+            over = ratio.over.factors if isinstance(ratio.over, Times) else (ratio.over,)
+            made += tokens(Times((Ratio(Number("1"), ratio.under), Word("·"), *over)), 1)
+        else:
+            made.append(piece)
+    return made
+
+
 def break_lines(
     pieces: Sequence[Token], width: int, measure: Callable[[Token], int], *, first: int | None = None
 ) -> list[list[Token]]:
@@ -345,6 +363,7 @@ def break_lines(
 
     Among the breaks that fill a line to two fifths, the least bad one is taken, and of equally bad ones the last.
     """
+    pieces = _loosened(pieces, width, measure)
     lines: list[list[Token]] = []
     start = 0
     room = width if first is None else first

@@ -24,6 +24,7 @@ from lagrangian.write.math import (
     Value,
     Word,
     bare,
+    in_parentheses,
     is_tall,
     tokens,
 )
@@ -153,7 +154,7 @@ def _apply(math: Apply) -> str:
         name = f"<msup>{name}{_inner(math.power)}</msup>"
     if bare(math):
         return f"<mrow>{name}{_APPLY}{_GAP}{_inner(math.args[0])}</mrow>"
-    if len(math.args) == 1 and isinstance(math.args[0], Fence):
+    if len(math.args) == 1 and in_parentheses(math.args[0]):
         return f"<mrow>{name}{_APPLY}{_inner(math.args[0])}</mrow>"
     stretchy = "true" if any(is_tall(a) for a in math.args) else "false"
     inner = '<mo separator="true">,</mo>'.join(_inner(a) for a in math.args)

@@ -22,6 +22,7 @@ from lagrangian.write.math import (
     Value,
     Word,
     bare,
+    in_parentheses,
     is_word,
     tokens,
 )
@@ -137,7 +138,7 @@ class Tex:
             name += f"^{{{self.latex(math.power)}}}"
         if bare(math):
             return f"{name} {self.latex(math.args[0])}"
-        if len(math.args) == 1 and isinstance(math.args[0], Fence):
+        if len(math.args) == 1 and in_parentheses(math.args[0]):
             return name + self.latex(math.args[0])
         inner = ", ".join(self.latex(a) for a in math.args)
         tall = any(r"\frac" in self.latex(a) for a in math.args)

@@ -1,0 +1,365 @@
+"""Every format of whole derivations: the lecture's examples by exact strings, and what a reader of the format asks."""
+
+from __future__ import annotations
+
+import json
+import re
+import shutil
+import subprocess
+from html.parser import HTMLParser
+
+import pytest
+from sympy import cos, sin
+
+from lagrangian.derive import Check, Derivation, derive
+from lagrangian.derive import formula as data
+from lagrangian.derive.formula import text
+from lagrangian.errors import ModelError
+from lagrangian.model import Builder, Damper, Force, Gravity, Particle, Spring, Torque
+from lagrangian.write import FORMATS, NOTATIONS, to_dict, to_html, to_html_fragment, to_latex, to_markdown, to_text
+from lagrangian.write.glyphs import columns
+from lagrangian.write.layout import lay_out
+
+
+def example_1() -> Builder:
+    b = Builder("mass on a lever")
+    theta = b.coordinate("theta").symbol
+    m, L_m, k, L_k, c, L_b = (b.parameter(n).symbol for n in ["m", "L_m", "k", "L_k", "b", "L_b"])
+    tau = b.input("tau").symbol
+    b.add(Particle(mass=m, at=b.point(None, (L_m * sin(theta), -L_m * cos(theta)))))
+    b.add(Gravity(direction=(0, -1), g=b.standard_gravity(9.81)))
+    b.add(Spring(k=k, deflection=L_k * theta))
+    b.add(Damper(b=c, deflection=L_b * theta))
+    b.add(Torque(value=tau, on=theta))
+    return b
+
+
+def example_2() -> Builder:
+    b = Builder("two-link arm")
+    th1, th2 = b.coordinate("theta1").symbol, b.coordinate("theta2").symbol
+    L_a, L_b, L_c, m1, m2, m3 = (b.parameter(n).symbol for n in ["L_a", "L_b", "L_c", "m1", "m2", "m3"])
+    tau = b.input("tau").symbol
+    p1 = b.point(None, (L_a * cos(th1), L_a * sin(th1)))
+    p2 = b.point(None, (L_b * cos(th1), L_b * sin(th1)), parent=p1)
+    p3 = b.point(None, (L_c * cos(th1 + th2), L_c * sin(th1 + th2)), parent=p2)
+    for mass, at in ((m1, p1), (m2, p2), (m3, p3)):
+        b.add(Particle(mass=mass, at=at))
+    b.add(Gravity(direction=(0, -1), g=b.standard_gravity(9.81)))
+    b.add(Torque(value=tau, on=th1 + th2, reaction=th1))
+    return b
+
+
+def example_3(relative: bool) -> Builder:
+    b = Builder("two carts and a spring")
+    x1, x2 = b.coordinate("x1").symbol, b.coordinate("x2r" if relative else "x2").symbol
+    m1, m2, k = (b.parameter(n).symbol for n in ["m1", "m2", "k"])
+    F = b.input("F").symbol
+    apart = x2 if relative else x2 - x1
+    b.add(Particle(mass=m1, at=b.point("A", (x1, 0))))
+    b.add(Particle(mass=m2, at=b.point("B", (x1 + x2 if relative else x2, 0))))
+    b.add(Spring(k=k, deflection=apart))
+    b.add(Force(value=F, deflection=apart))
+    return b
+
+
+HOSTILE = "<script>alert(1)</script> $x_% \\input{/etc/passwd} | `a` & 中"
+
+
+def hostile() -> Builder:
+    """Names that mean something in one of the formats; symbols that clash with the letters of every notation."""
+    b = Builder(HOSTILE)
+    theta = b.coordinate("theta", description="angle of <b>arm</b> | from V $y$ \\% L").symbol
+    slide = b.coordinate("lambda_").symbol
+    names = "m L V T Q M q2 pos_of_end θ Ξ_1 ж1 tau1"
+    m, L, V, T, Q, M, q2, pos, other, xi, zhe, tau1 = (b.parameter(n).symbol for n in names.split())
+    tau = b.input("tau").symbol
+    at = b.point(None, (L * sin(theta) + slide, -L * cos(theta)))
+    b.add(Particle(mass=(m + M) * pos / zhe, at=at, name="<img src=x onerror=alert(1)>"))
+    b.add(Gravity(direction=(0, -1), g=b.standard_gravity(9.81), name="$x_% | \\end{document}"))
+    b.add(Spring(k=V + T + Q + q2 + other + xi + tau1, deflection=theta, name="ẋ→中"))
+    b.add(Torque(value=tau, on=theta, name='a\' V "b"'))
+    return b
+
+
+MODELS = {
+    "example 1": example_1,
+    "example 2": example_2,
+    "example 3A": lambda: example_3(False),
+    "example 3B": lambda: example_3(True),
+    "hostile": hostile,
+}
+
+
+@pytest.fixture(scope="module")
+def derivations() -> dict[str, Derivation]:
+    return {name: derive(make().model()) for name, make in MODELS.items()}
+
+
+# -- text -----------------------------------------------------------------------------------------------------------
+
+
+def boxed(rendered: str) -> list[str]:
+    return [line.strip("│ ") for line in rendered.splitlines() if line.startswith("│")]
+
+
+def test_equations_of_the_lecture_in_their_box(derivations):
+    assert boxed(to_text(derivations["example 1"])) == ["m Lₘ² θ̈ + b L_b² θ̇ + k Lₖ² θ + m g Lₘ sin θ = τ"]
+    assert boxed(to_text(derivations["example 3A"])) == [
+        "m₁ ẍ₁ + k (x₁ − x₂) = −F  (1)",
+        "m₂ ẍ₂ − k (x₁ − x₂) = F   (2)",
+    ]
+    assert boxed(to_text(derivations["example 3B"])) == [
+        "(m₁ + m₂) ẍ₁ + m₂ ẍ₂ᵣ = 0   (1)",
+        "m₂ ẍ₁ + m₂ ẍ₂ᵣ + k x₂ᵣ = F  (2)",
+    ]
+
+
+def test_energies_of_the_lecture(derivations):
+    lines = [line.strip() for line in to_text(derivations["example 1"]).splitlines()]
+    assert "ℒ = T* − V = ½ m Lₘ² θ̇² + m g Lₘ cos θ − ½ k Lₖ² θ²" in lines
+    assert "∂ℒ/∂θ̇ = m Lₘ² θ̇" in lines
+    assert "d/dt (∂ℒ/∂θ̇) = m Lₘ² θ̈" in lines
+    assert "d/dt (∂ℒ/∂θ̇) − ∂ℒ/∂θ = m Lₘ² θ̈ + k Lₖ² θ + m g Lₘ sin θ" in lines
+    assert "Ξ₁ = τ − b L_b² θ̇" in lines
+    lines = [line.strip() for line in to_text(derivations["example 3B"]).splitlines()]
+    assert "T* = T₁* + T₂* = ½ m₁ ẋ₁² + ½ m₂ (ẋ₁ + ẋ₂ᵣ)²" in lines
+    lines = [line.strip() for line in to_text(derivations["example 2"]).splitlines()]
+    assert "x₃ = x₂ + L_c cos(θ₁ + θ₂)" in lines
+    assert "ẋ₃ = ẋ₂ − L_c (θ̇₁ + θ̇₂) sin(θ₁ + θ₂)" in lines
+
+
+def test_letters_of_every_notation(derivations):
+    d = derivations["example 3A"]
+    assert "ξ₁ = x₁" in to_text(d)
+    assert "M q̈ + C q̇ + G = Ξ" in to_text(d)
+    physics = to_text(d, notation="physics")
+    assert "q₁ = x₁" in physics and "ℒ = T − V" in physics and "M q̈ + C q̇ + G = Q" in physics
+    robotics = to_text(d, notation="robotics")
+    assert "ℒ = K − P" in robotics and "M(q) q̈ + C(q, q̇) q̇ + g(q) = τ" in robotics
+    for rendered in (physics, robotics):
+        assert "Ξ" not in rendered and "ξ" not in rendered and "T*" not in rendered
+
+
+def test_letters_that_mean_something_already_give_way(derivations):
+    rendered = to_text(derivations["hostile"], notation="physics")
+    assert "ℒ = K − U" in rendered
+    assert "torque 'a' V \"b\"'" in rendered, "what somebody named stays as it is"
+
+
+def test_unknown_notation_and_narrow_width_are_refused(derivations):
+    for writer in FORMATS.values():
+        with pytest.raises(ModelError, match="unknown notation 'robotic'") as caught:
+            writer(derivations["example 1"], notation="robotic")
+        assert "robotics" in str(caught.value)
+    with pytest.raises(ModelError, match="too narrow"):
+        to_text(derivations["example 1"], width=10)
+
+
+@pytest.mark.parametrize("width", [50, 80, 120])
+@pytest.mark.parametrize("notation", NOTATIONS)
+def test_no_line_is_wider_than_the_terminal(derivations, width, notation):
+    for name, d in derivations.items():
+        for line in to_text(d, notation=notation, width=width).splitlines():
+            assert columns(line) <= width, (name, line)
+            assert line == line.rstrip()
+
+
+def test_the_checklist_is_one_page(derivations):
+    for name in ("example 1", "example 3A", "example 3B"):
+        rendered = to_text(derivations[name], brief=True)
+        assert len(rendered.splitlines()) <= 60
+        for number in range(7):
+            assert re.search(rf"^{number}  \w", rendered, re.MULTILINE)
+        assert boxed(rendered) == boxed(to_text(derivations[name]))
+
+
+def test_what_is_too_long_is_summarised_and_written_on_request(derivations):
+    d = derivations["example 1"]
+    long = data.formula(data.Name("T*"), data.Elided(d.T, 4321))
+    step = type(d.steps[2])(2, "Kinetic co-energy", text("a"), text("b"), (long,))
+    changed = type(d)(**{**vars(d), "steps": (*d.steps[:2], step, *d.steps[3:])})
+    assert "T* = ⟨4321 operations⟩" in to_text(changed)
+    assert "T* = ½ m Lₘ² θ̇²" in to_text(changed, full=True)
+    assert "4321" not in to_text(changed, full=True)
+    assert to_dict(changed)["steps"][2]["items"][0]["operations"] == 4321
+    page = to_html(
+        type(d)(
+            **{
+                **vars(d),
+                "steps": (
+                    type(step)(2, "T", text("a"), text("b"), (data.formula(data.Name("T*"), data.Elided(d.T, 700)),)),
+                ),
+            }
+        )
+    )
+    assert "<details><summary>written out: 700 operations</summary>" in page
+
+
+def test_a_check_that_fails_is_shown_as_failing(derivations):
+    d = derivations["example 1"]
+    changed = type(d)(**{**vars(d), "verified": (Check(text("energy"), False, "3e-1"), Check(text("M"), True))})
+    assert "✗ energy (3e-1)" in to_text(changed)
+    assert "✗ energy (3e-1)" in to_text(changed, brief=True)
+    assert 'class="fails"' in to_html(changed)
+    assert to_dict(changed)["verified"][0] == {"what": "energy", "holds": False, "figure": "3e-1"}
+
+
+# -- Markdown -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("notation", NOTATIONS)
+def test_markdown_tables_are_well_formed(derivations, notation):
+    for d in derivations.values():
+        rendered = to_markdown(d, notation=notation)
+        tables = [block for block in rendered.split("\n\n") if block.startswith("|")]
+        assert tables
+        for table in tables:
+            counts = {len(re.findall(r"(?<!\\)\|", line)) for line in table.splitlines()}
+            assert len(counts) == 1, table
+
+
+def test_markdown_mathematics_is_closed_and_user_text_is_escaped(derivations):
+    rendered = to_markdown(derivations["hostile"])
+    assert rendered.count("$$") % 2 == 0
+    outside = re.sub(r"\$\$.*?\$\$", "", rendered, flags=re.DOTALL)
+    for line in outside.splitlines():
+        assert len(re.findall(r"(?<!\\)\$", line)) % 2 == 0, line
+    assert "<" not in rendered.replace("&lt;", "").replace("< 0", "")
+    assert "\\lbrace" in rendered or "\\\\input\\{" in rendered
+    assert "```" not in rendered
+
+
+# -- LaTeX ----------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="pdflatex is not installed")
+@pytest.mark.parametrize("name", MODELS)
+def test_latex_compiles(derivations, name, tmp_path):
+    (tmp_path / "a.tex").write_text(to_latex(derivations[name], notation="robotics"), encoding="utf-8")
+    command = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "-no-shell-escape", "a.tex"]
+    run = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, errors="replace", check=False)
+    assert run.returncode == 0, run.stdout[-2000:]
+    too_wide = [float(x) for x in re.findall(r"Overfull \\hbox \(([\d.]+)pt", run.stdout)]
+    assert name == "hostile" or max(too_wide, default=0) < 6
+
+
+def test_latex_never_obeys_a_name(derivations):
+    rendered = to_latex(derivations["hostile"])
+    assert "\\input{" not in rendered
+    assert rendered.count("\\end{document}") == 1
+
+
+# -- HTML -----------------------------------------------------------------------------------------------------------
+
+VOID = {"meta"}
+
+
+class Page(HTMLParser):
+    """Holds a page to its structure: every element closed in order, nothing that loads or runs anything."""
+
+    def __init__(self) -> None:
+        super().__init__(convert_charrefs=True)
+        self.open: list[str] = []
+        self.ids: list[str] = []
+        self.links: list[str] = []
+        self.seen: dict[str, int] = {}
+        self.words = ""
+
+    def handle_starttag(self, tag, attrs):
+        self.seen[tag] = self.seen.get(tag, 0) + 1
+        for key, value in attrs:
+            assert not key.startswith("on") and key not in ("src", "srcset", "style", "action"), (tag, key)
+            if key == "id":
+                self.ids.append(value)
+            if key == "href":
+                self.links.append(value)
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+    def handle_data(self, data):
+        self.words += data
+
+
+@pytest.mark.parametrize("brief", [False, True])
+@pytest.mark.parametrize("name", MODELS)
+def test_html_is_well_formed_and_self_contained(derivations, name, brief):
+    rendered = to_html(derivations[name], brief=brief)
+    page = Page()
+    page.feed(rendered)
+    page.close()
+    assert page.open == []
+    assert not {"script", "img", "link", "iframe", "object", "b"} & set(page.seen)
+    assert not re.search(r"https?://|@import|url\(", rendered)
+    assert len(page.ids) == len(set(page.ids))
+    assert all(link.startswith("#") and link[1:] in page.ids for link in page.links)
+    assert '<html lang="en">' in rendered
+    assert page.seen["h1"] == 1
+    if not brief:
+        assert {f"step-{i}" for i in range(7)} <= set(page.ids)
+        assert page.seen["th"] > 0 and 'scope="col"' in rendered
+    if name == "hostile":
+        assert HOSTILE.split(" |")[0] in page.words
+
+
+def test_html_tells_where_each_term_came_from(derivations):
+    rendered = to_html(derivations["example 1"])
+    terms = re.findall(r'<span class="term (\w+)" tabindex="0" aria-label="from ([^"]*)"', rendered)
+    assert terms == [
+        ("inertia", "particle &#x27;m&#x27;"),
+        ("damping", "damper &#x27;b&#x27;"),
+        ("stiffness", "spring &#x27;k&#x27;"),
+        ("gravity", "gravity &#x27;g&#x27;"),
+        ("input", "torque &#x27;tau&#x27;"),
+    ]
+
+
+def test_html_for_a_notebook_is_a_fragment(derivations):
+    rendered = to_html_fragment(derivations["hostile"])
+    page = Page()
+    page.feed(rendered)
+    assert page.open == []
+    assert rendered.startswith('<div class="lagrangian">')
+    assert not {"html", "head", "body", "script", "img"} & set(page.seen)
+    assert page.ids == []
+
+
+# -- JSON -----------------------------------------------------------------------------------------------------------
+
+
+def test_json_says_the_equations(derivations):
+    d = derivations["example 3B"]
+    read = json.loads(FORMATS["json"](d))
+    assert read == to_dict(d)
+    assert read["schema"] == 1
+    assert read["Xi"]["x2r"]["plain"] == "F"
+    assert [e["coordinate"] for e in read["equations"]] == ["x1", "x2r"]
+    assert read["equations"][0]["left"]["latex"] == r"(m_{1} + m_{2}) \ddot{x}_{1} + m_{2} \ddot{x}_{2r}"
+    assert read["equations"][1]["terms"][-1] == {
+        "plain": "F",
+        "latex": "F",
+        "kind": "input",
+        "elements": ["force 'F'"],
+    }
+    assert read["mass_matrix"] == [["m1 + m2", "m2"], ["m2", "m2"]]
+    assert [s["number"] for s in read["steps"]] == list(range(7))
+
+
+def test_json_of_everything_is_plain_data(derivations):
+    for d in derivations.values():
+        for brief in (False, True):
+            data_ = to_dict(d, brief=brief)
+            assert json.loads(json.dumps(data_)) == data_
+
+
+# -- the layout -----------------------------------------------------------------------------------------------------
+
+
+def test_every_item_is_laid_out(derivations):
+    d = derivations["example 1"]
+    document = lay_out(d)
+    shown = sum(len(s.blocks) for s in document.sections if s.number is not None)
+    items = sum(len(s.items) + 2 + bool(s.checked) for s in d.steps)
+    assert shown == items

@@ -1,0 +1,280 @@
+"""How an expression reads: by eye against the textbook, and by a parser that knows nothing of the printer."""
+
+from __future__ import annotations
+
+import math
+import re
+import unicodedata
+from typing import ClassVar
+
+import pytest
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from lagrangian.model import Builder, Particle, time
+from lagrangian.write.expression import Expressions
+from lagrangian.write.glyphs import columns, join, token, unicode
+from lagrangian.write.math import break_lines, tokens
+from lagrangian.write.names import letters
+from lagrangian.write.tex import PAGE, WEB
+
+
+def _model():
+    builder = Builder("x")
+    for name in ["theta1", "theta2", "x1", "x2r", "x"]:
+        builder.coordinate(name)
+    parameters = "m m1 m2 M L_m L_a L_b L_k L_0 g k b l1 l2 theta_dot_ref lambda_ beta m_cart pos L I_zz"
+    for name in parameters.split():
+        builder.parameter(name)
+    builder.input("tau")
+    builder.input("F")
+    builder.add(Particle(mass=builder.lookup("m"), at=builder.point(None, (builder.lookup("x"), 0))))
+    return builder.model()
+
+
+MODEL = _model()
+WRITE = Expressions(MODEL)
+S = MODEL.symbols
+
+
+def d(symbol, order=1):
+    return sp.diff(symbol, (time, order))
+
+
+th1, th2, x1, x2r, x = (S[n] for n in ["theta1", "theta2", "x1", "x2r", "x"])
+m, m1, m2, M, g, k, L = (S[n] for n in ["m", "m1", "m2", "M", "g", "k", "L"])
+
+TEXTBOOK = [
+    (S["L_m"] ** 2 * m * d(th1, 2), "m Lₘ² θ̈₁", r"m L_{m}^{2} \ddot{\theta}_{1}"),
+    (m * g * S["L_m"] * sp.sin(th1), "m g Lₘ sin θ₁", r"m g L_{m} \sin \theta_{1}"),
+    (k * S["L_k"] ** 2 * th1, "k Lₖ² θ₁", r"k L_{k}^{2} \theta_{1}"),
+    (
+        (m1 + m2) * d(x1, 2) + m2 * d(x2r, 2),
+        "(m₁ + m₂) ẍ₁ + m₂ ẍ₂ᵣ",
+        r"(m_{1} + m_{2}) \ddot{x}_{1} + m_{2} \ddot{x}_{2r}",
+    ),
+    (k * (x1 - x2r), "k (x₁ − x₂ᵣ)", r"k (x_{1} - x_{2r})"),
+    (-k * (x1 - x2r), "−k (x₁ − x₂ᵣ)", r"-k (x_{1} - x_{2r})"),
+    (-x1 + x2r, "x₂ᵣ − x₁", r"x_{2r} - x_{1}"),
+    (
+        m * S["l1"] * S["l2"] * d(th2, 2) * sp.cos(th1 - th2),
+        "m l₁ l₂ θ̈₂ cos(θ₁ − θ₂)",
+        r"m l_{1} l_{2} \ddot{\theta}_{2} \cos(\theta_{1} - \theta_{2})",
+    ),
+    (S["L_a"] ** 2 * (m1 + m2) * d(th1, 2), "(m₁ + m₂) Lₐ² θ̈₁", r"(m_{1} + m_{2}) L_{a}^{2} \ddot{\theta}_{1}"),
+    (m * d(x) ** 2 / 2, "½ m ẋ²", r"\tfrac{1}{2} m \dot{x}^{2}"),
+    (m * sp.sin(th1) ** 2, "m sin²θ₁", r"m \sin^{2} \theta_{1}"),
+    (sp.sin(2 * th1), "sin 2θ₁", r"\sin 2 \theta_{1}"),
+    ((M + m * sp.sin(th1) ** 2) * d(x, 2), "(M + m sin²θ₁) ẍ", r"(M + m \sin^{2} \theta_{1}) \ddot{x}"),
+    (m * g / (2 * L), "m g/(2 L)", r"\frac{m g}{2 L}"),
+    (sp.Rational(3, 7) * m, "(3/7) m", r"\tfrac{3}{7} m"),
+    (sp.sqrt(x**2 + L**2), "√(L² + x²)", r"\sqrt{L^{2} + x^{2}}"),
+    (k * sp.Abs(d(x)) * d(x), "k ẋ |ẋ|", r"k \dot{x} \lvert \dot{x}\rvert"),
+    (1 - sp.cos(th1), "1 − cos θ₁", r"1 - \cos \theta_{1}"),
+    (x - S["L_0"], "x − L₀", r"x - L_{0}"),
+    (S["tau"] - S["F"], "τ − F", r"\tau - F"),
+    (S["lambda_"] * S["beta"] * S["pos"], "β λ pos", r"\beta \lambda\, \mathrm{pos}"),
+    (S["m_cart"] * d(x, 2), "m_cart ẍ", r"m_{\mathrm{cart}} \ddot{x}"),
+    (
+        S["theta_dot_ref"] * d(th1),
+        "θ_dot_ref θ̇₁",
+        r"\theta_{\mathrm{dot},\mathrm{ref}} \dot{\theta}_{1}",
+    ),
+    (x ** sp.Rational(3, 2), "x^(3/2)", r"x^{\tfrac{3}{2}}"),
+    (sp.cos(th1) / L, "cos(θ₁)/L", r"\frac{\cos \theta_{1}}{L}"),
+    (
+        sp.Piecewise((x, x < 0), (0, True)),
+        "{x if x < 0; 0 otherwise}",
+        r"\begin{cases} x & \text{if } x < 0 \\ 0 & \text{otherwise} \end{cases}",
+    ),
+    (sp.S.Zero, "0", "0"),
+    (-sp.S(2), "−2", "-2"),
+]
+
+
+@pytest.mark.parametrize(("expr", "text", "tex"), TEXTBOOK, ids=[t for _, t, _ in TEXTBOOK])
+def test_reads_like_the_textbook(expr, text, tex):
+    laid = WRITE(expr)
+    assert unicode(laid) == unicodedata.normalize("NFC", text)
+    assert PAGE.latex(laid) == tex
+    assert WEB.latex(laid) == tex
+
+
+def test_combining_dots_take_no_column():
+    assert columns("θ̈₁") == 2
+    assert columns("ẋ") == 1
+    assert columns("中") == 2
+
+
+def test_names_that_would_look_the_same_are_told_apart():
+    shown = [unicode(x) for x in letters(["x1", "x_1", "theta", "θ", "lambda", "lambda_", "beta", "Delta_x"]).values()]
+    assert len(set(shown)) == len(shown)
+    assert shown[0] == "x₁"
+    assert shown[2] == "θ"
+
+
+def test_what_is_no_expression_is_refused():
+    with pytest.raises(TypeError, match="cannot write"):
+        WRITE(sp.Interval(0, 1))
+
+
+# -- a reader of what was printed, written without a look at the printer ---------------------------------------
+
+
+class Reader:
+    """Reads ``m g/(2 L)``: a sign, factors side by side, one fraction bar; functions take an atom or parentheses."""
+
+    TOKEN = re.compile(
+        r"\s*(√|sin|cos|exp|[½⅓⅔¼¾⅕⅙⅛]|\d+(?:\.\d+)?|[^\W\d_][\u0300-\u036f]*[₀-₉ₐ-ₜᵣ]*|[()+−/|^]|[⁰¹²³⁴-⁹⁻]+)"
+    )
+    SMALL: ClassVar = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-", strict=True))
+
+    def __init__(self, text: str, values: dict[str, float]) -> None:
+        self.parts: list[str] = []
+        at = 0
+        while at < len(text):
+            found = self.TOKEN.match(text, at)
+            assert found, (text, at)
+            self.parts.append(found.group(1))
+            at = found.end()
+        self.values, self.at = values, 0
+
+    def peek(self) -> str:
+        return self.parts[self.at] if self.at < len(self.parts) else ""
+
+    def take(self, expected: str = "") -> str:
+        part = self.peek()
+        assert not expected or part == expected, (self.parts, self.at)
+        self.at += 1
+        return part
+
+    def sum(self) -> float:
+        total = 0.0
+        sign = -1 if self.peek() == "−" else 1
+        if sign < 0:
+            self.take()
+        while True:
+            total += sign * self.term()
+            if self.peek() not in ("+", "−"):
+                return total
+            sign = 1 if self.take() == "+" else -1
+
+    def term(self) -> float:
+        value = self.factor()
+        while (self.peek() and self.peek() not in "+−)/|") or (self.peek() == "|" and not self.bar):
+            value *= self.factor()
+        if self.peek() == "/":
+            self.take()
+            value /= self.factor()
+        return value
+
+    bar = False
+
+    def factor(self) -> float:
+        part = self.take()
+        if part in ("sin", "cos", "exp"):
+            power = self.raised(default=1)
+            return getattr(math, part)(self.argument()) ** power
+        if part == "√":
+            return math.sqrt(self.argument())
+        if part == "(":
+            value = self.sum()
+            self.take(")")
+        elif part == "|":
+            self.bar = True
+            value = abs(self.sum())
+            self.take("|")
+            self.bar = False
+        elif part in "½⅓⅔¼¾⅕⅙⅛":
+            value = unicodedata.numeric(part)
+        elif part[0].isdigit():
+            value = float(part)
+        else:
+            value = self.values[part]
+        return value ** self.raised(default=1)
+
+    def argument(self) -> float:
+        if self.peek() == "(":
+            self.take()
+            value = self.sum()
+            self.take(")")
+            return value
+        value = 1.0
+        if self.peek()[0].isdigit():
+            value = float(self.take())
+        return value * self.values[self.take()] if self.peek() in self.values else value
+
+    def raised(self, default: float) -> float:
+        part = self.peek()
+        if part and part[0] in self.SMALL:
+            return float("".join(self.SMALL[c] for c in self.take()))
+        if part == "^":
+            self.take()
+            return self.argument()
+        return default
+
+
+ATOMS = {
+    "m₁": m1,
+    "m₂": m2,
+    "g": g,
+    "L": L,
+    "x₁": x1,
+    "θ₁": th1,
+    "θ₂": th2,
+    "ẋ₁": d(x1),
+    "θ̈₁": d(th1, 2),
+    "τ": S["tau"],
+}
+VALUES = {unicodedata.normalize("NFC", name): 0.3 + 0.17 * i for i, name in enumerate(ATOMS)}
+numbers = st.sampled_from([sp.S(-2), sp.S(3), sp.Rational(1, 2), sp.Rational(-3, 7), sp.Rational(5, 4)])
+atoms = st.one_of(st.sampled_from(list(ATOMS.values())), numbers)
+
+
+def _grow(children):
+    return st.one_of(
+        st.tuples(children, children).map(lambda p: p[0] + p[1]),
+        st.tuples(children, children).map(lambda p: p[0] * p[1]),
+        st.tuples(children, children).map(lambda p: p[0] - p[1]),
+        children.map(sp.sin),
+        children.map(sp.cos),
+        children.map(lambda e: e**2),
+        children.map(lambda e: 1 / (e**2 + 1)),
+        children.map(lambda e: sp.sqrt(e**2 + 2)),
+        st.tuples(atoms, atoms).map(lambda p: sp.Abs(p[0] - p[1])),
+    )
+
+
+expressions = st.recursive(atoms, _grow, max_leaves=7)
+
+
+@settings(max_examples=200, deadline=None, derandomize=True)
+@given(expressions)
+def test_what_is_printed_means_what_was_meant(expr):
+    table = {symbol: sp.Float(VALUES[unicodedata.normalize("NFC", name)]) for name, symbol in ATOMS.items()}
+    derivatives = {s: v for s, v in table.items() if isinstance(s, sp.Derivative)}
+    expected = complex(sp.sympify(expr).xreplace(derivatives).xreplace(table))
+    text = unicode(WRITE(expr))
+    reader = Reader(text, VALUES)
+    assert reader.sum() == pytest.approx(expected.real, rel=1e-9, abs=1e-9), text
+    assert not reader.peek(), text
+
+
+@settings(max_examples=60, deadline=None, derandomize=True)
+@given(expressions, st.integers(20, 60))
+def test_broken_lines_hold_every_token_once_and_fit(expr, width):
+    pieces = [p for p in tokens(WRITE(expr)) if p.math is None or columns(token(p)) < width / 2]
+    lines = break_lines(pieces, width, lambda p: columns(token(p)))
+    kept = [p for line in lines for p in line]
+    assert [p for p in pieces if p.role != "gap"] == [p for p in kept if p.role != "gap"]
+    for line in lines:
+        breakable = [p for p in line[1:] if p.level is not None]
+        assert columns(join(line)) <= width or not breakable
+
+
+def test_breaks_are_taken_outside_of_parentheses_first():
+    expr = m1 * (L + S["L_a"] + S["L_b"]) * x1 + m2 * (L + S["L_a"] + S["L_b"]) * x2r
+    pieces = list(tokens(WRITE(expr)))
+    lines = [join(line) for line in break_lines(pieces, 34, lambda p: columns(token(p)))]
+    assert lines == ["m₁ (L + Lₐ + L_b) x₁", "+ m₂ (L + Lₐ + L_b) x₂ᵣ"]
