@@ -2,9 +2,9 @@
 
 from lagrangian.read.expression import parse_expression
 from lagrangian.read.file_load import load, loads
-from lagrangian.read.quantity import Quantity, parse_quantity, unit_dimension
 from lagrangian.read.file_save import dumps
 from lagrangian.read.file_schema import schema
+from lagrangian.read.quantity import Quantity, parse_quantity, unit_dimension
 from lagrangian.read.scope import Scope
 from lagrangian.read.validate import MAX_BYTES, decode
 

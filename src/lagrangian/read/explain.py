@@ -179,13 +179,13 @@ def _no_operator(source: Source, offset: int, before: str, rest: str) -> ParseEr
     left = left_match.group() if left_match else before[-1:]
     word = _WORD.match(rest)
     number = _NUMBER.match(rest)
-    if match := re.search(r"(\w+?)(?:\s*(?:\^|\*\*)\s*([0-9]+)|[²³])\s*\Z", before):
-        if match.group(1) in FUNCTIONS and rest[0] == "(":
-            return source.error(
-                f"the argument of {match.group(1)} must come before the power",
-                offset,
-                fix=f"write {match.group(1)}(x)^{match.group(2) or 2}",
-            )
+    match = re.search(r"(\w+?)(?:\s*(?:\^|\*\*)\s*([0-9]+)|[²³])\s*\Z", before)
+    if match and match.group(1) in FUNCTIONS and rest[0] == "(":
+        return source.error(
+            f"the argument of {match.group(1)} must come before the power",
+            offset,
+            fix=f"write {match.group(1)}(x)^{match.group(2) or 2}",
+        )
     start = len(before) - len(left)
     if left == "lambda" and word:
         return source.error(f"found a lambda; {ALLOWED}", start, fix="write the expression itself")

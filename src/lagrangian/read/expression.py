@@ -7,7 +7,7 @@ changes with time. Sizes are bounded before anything is computed: numbers by the
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import NoReturn
+from typing import Any, NoReturn, TypeAlias
 
 import sympy as sp
 from lark import Token, Tree
@@ -58,6 +58,10 @@ _RELATIONS = {
 }
 
 
+Node: TypeAlias = Any
+"""A node of lark's tree or one of its tokens; lark's own types say no more of a node's children."""
+
+
 def parse_expression(
     text: str, scope: Mapping[str, sp.Basic], *, place: Place | None = None, what: str = "expression"
 ) -> sp.Expr:
@@ -68,8 +72,9 @@ def parse_expression(
     circle's constant. Raises `ParseError` with line, column, what is wrong and what would be right.
 
     >>> from sympy.physics.vector import dynamicsymbols
-    >>> parse_expression("m*L^2*theta'' + m*g*L*sin(θ)", {n: sp.Symbol(n) for n in "mgL"} | {"theta": dynamicsymbols("theta")})
-    L**2*m*Derivative(theta(t), (t, 2)) + L*g*m*sin(theta(t))
+    >>> scope = {"theta": dynamicsymbols("theta"), "m": sp.Symbol("m"), "L": sp.Symbol("L")}
+    >>> parse_expression("m*L^2*theta'' + m*sin(θ)", scope)
+    L**2*m*Derivative(theta(t), (t, 2)) + m*sin(theta(t))
     """
     return read_source(Source(text, what, place), scope)
 
@@ -90,10 +95,10 @@ class _Reader:
         self.source, self.scope = source, scope
         self.roots = 0
 
-    def fail(self, message: str, node: Tree | Token, *, fix: str | None = None, code: str = "E701") -> NoReturn:
+    def fail(self, message: str, node: Node, *, fix: str | None = None, code: str = "E701") -> NoReturn:
         raise self.source.error(message, _start(node), fix=fix, code=code)
 
-    def value(self, node: Tree) -> sp.Expr:
+    def value(self, node: Node) -> sp.Expr:
         """The number or expression of any node but a condition."""
         while len(inner := [c for c in node.children if c is not None]) == 1 and isinstance(inner[0], Tree):
             node = inner[0]  # a node with nothing of its own: a sum of one product of one power ...
@@ -103,7 +108,7 @@ class _Reader:
 
     # -- arithmetic ---------------------------------------------------------------------------------------------
 
-    def _sum(self, node: Tree) -> sp.Expr:
+    def _sum(self, node: Node) -> sp.Expr:
         sign, first, *rest = node.children
         terms = [self._signed_value(sign, self.value(first))]
         for sign, term in zip(rest[::2], rest[1::2], strict=True):
@@ -111,13 +116,13 @@ class _Reader:
         return self._bounded(sp.Add(*terms), node)
 
     @staticmethod
-    def _signed_value(sign: Token | None, value: sp.Expr) -> sp.Expr:
+    def _signed_value(sign: Any, value: sp.Expr) -> sp.Expr:
         return value if sign is None or sign == "+" else -value
 
-    def _signed(self, node: Tree) -> sp.Expr:
+    def _signed(self, node: Node) -> sp.Expr:
         return self._signed_value(node.children[0], self.value(node.children[1]))
 
-    def _product(self, node: Tree) -> sp.Expr:
+    def _product(self, node: Node) -> sp.Expr:
         first, *rest = node.children
         number: sp.Expr = sp.S.One  # numbers are multiplied one by one, so that a long product stays bounded
         factors: list[sp.Expr] = []
@@ -133,7 +138,7 @@ class _Reader:
                 factors.append(factor)
         return self._bounded(sp.Mul(number, *factors), node)
 
-    def _power(self, node: Tree) -> sp.Expr:
+    def _power(self, node: Node) -> sp.Expr:
         """a^b^c = a^(b^c), from the right."""
         *rest, last = node.children
         if len(rest) > 3 * MAX_TOWER:
@@ -147,7 +152,7 @@ class _Reader:
             value = self._raise(base, self.value(base), self._signed_value(sign, value))
         return value
 
-    def _postfix(self, node: Tree) -> sp.Expr:
+    def _postfix(self, node: Node) -> sp.Expr:
         atom, raised = node.children
         base = self.value(atom)
         if raised is None:
@@ -157,7 +162,7 @@ class _Reader:
             self.fail(f"the exponent has {len(digits)} digits", raised, fix=f"use at most {MAX_EXPONENT}", code="E703")
         return self._raise(atom, base, sp.Integer(int(digits)))
 
-    def _raise(self, node: Tree, base: sp.Expr, exponent: sp.Expr) -> sp.Expr:
+    def _raise(self, node: Node, base: Any, exponent: Any) -> sp.Expr:
         if exponent.is_Rational:
             if abs(exponent) > MAX_EXPONENT or exponent.q > MAX_EXPONENT:
                 shown_exponent = str(exponent) if abs(exponent.p) < 10**12 and exponent.q < 10**12 else "it"
@@ -178,24 +183,25 @@ class _Reader:
             self.fail("the number is too large to raise to this power", node, code="E703")
         return self._real(self._bounded(base**exponent, node), node)
 
-    def _count_root(self, base: sp.Expr, exponent: sp.Rational, node: Tree) -> None:
+    def _count_root(self, base: Any, exponent: Any, node: Node) -> None:
         if not base.is_Rational or exponent.q == 1:
             return
         self.roots += 1
         if self.roots > MAX_ROOTS:
             self.fail(f"more than {MAX_ROOTS} roots of numbers", node, fix="write the numbers as decimals", code="E703")
 
-    def _bounded(self, value: sp.Expr, node: Tree | Token) -> sp.Expr:
+    def _bounded(self, value: sp.Expr, node: Node) -> sp.Expr:
         if value in (sp.nan, sp.zoo, sp.oo, -sp.oo):
             self.fail("the value is not finite", node, fix="it has a pole there, or divides by zero", code="E705")
-        for factor in sp.Mul.make_args(value):
+        factors: Any = sp.Mul.make_args(value)
+        for factor in factors:
             if factor.is_Rational and _bits(factor) > MAX_BITS:
                 self.fail("the number is too large", node, fix=f"numbers go up to {MAX_BITS} bits", code="E703")
             if factor.is_Pow and factor.exp.is_Rational and abs(factor.exp) > MAX_EXPONENT:
                 self.fail("the power is too large", node, fix=f"powers go up to {MAX_EXPONENT}", code="E703")
         return value
 
-    def _real(self, value: sp.Expr, node: Tree | Token) -> sp.Expr:
+    def _real(self, value: sp.Expr, node: Node) -> sp.Expr:
         if value.has(sp.I) or (value.is_number and value.is_extended_real is False):
             self.fail(
                 "the value is not a real number",
@@ -207,8 +213,8 @@ class _Reader:
 
     # -- numbers and names --------------------------------------------------------------------------------------
 
-    def _number(self, node: Tree) -> sp.Expr:
-        token: Token = node.children[0]
+    def _number(self, node: Node) -> sp.Expr:
+        token = node.children[0]
         if token in _FRACTIONS:
             return _FRACTIONS[token]
         digits, _, power = token.lower().partition("e")
@@ -216,12 +222,12 @@ class _Reader:
             self.fail(
                 f"the number {shown(token, 20)} is too long",
                 token,
-                fix=f"at most {MAX_DIGITS} digits, and powers of ten from -{MAX_DECIMAL_EXPONENT} to {MAX_DECIMAL_EXPONENT}",
+                fix=f"at most {MAX_DIGITS} digits, and powers of ten up to {MAX_DECIMAL_EXPONENT} either way",
                 code="E703",
             )
         return sp.Rational(token.value)
 
-    def _name(self, node: Tree) -> sp.Expr:
+    def _name(self, node: Node) -> sp.Expr:
         token, primes = node.children
         base, value, order = self._meaning(token)
         order += sum(_PRIMES[c] for c in primes or "")
@@ -241,7 +247,7 @@ class _Reader:
             )
         return sp.diff(value, (time, order))
 
-    def _meaning(self, token: Token) -> tuple[str, sp.Expr, int]:
+    def _meaning(self, token: Any) -> tuple[str, sp.Expr, int]:
         """The name that is meant, its object, and the number of dots over it."""
         names, dots = self.scope.meanings(token)
         if len(names) == 1:
@@ -266,7 +272,7 @@ class _Reader:
 
     # -- functions ----------------------------------------------------------------------------------------------
 
-    def _call(self, node: Tree) -> sp.Expr:
+    def _call(self, node: Node) -> sp.Expr:
         token, *arguments = node.children
         arguments = [a for a in arguments if a is not None]
         if token == "piecewise":
@@ -283,12 +289,11 @@ class _Reader:
                 code="E704",
             )
         values = [self.value(a) for a in arguments]
-        if token == "log" or token == "ln":
-            if values[0].is_zero:
-                self.fail("the logarithm of zero is not finite", arguments[0], fix="use a positive number", code="E705")
+        if token in ("log", "ln") and values[0].is_zero:
+            self.fail("the logarithm of zero is not finite", arguments[0], fix="use a positive number", code="E705")
         return self._real(self._bounded(known.make(*values), token), token)
 
-    def _unknown_function(self, token: Token, arguments: list[Tree]) -> NoReturn:
+    def _unknown_function(self, token: Any, arguments: list[Node]) -> NoReturn:
         names, _ = self.scope.meanings(token)
         if names:
             inside = self.source.text[_start(arguments[0]) :].lstrip()[:1] if arguments else ""
@@ -303,7 +308,7 @@ class _Reader:
             fix = did_you_mean(token.lower(), FUNCTION_NAMES) or "known: " + " ".join(sorted(FUNCTION_NAMES))
         self.fail(f"unknown function {shown(token)}", token, fix=fix, code="E402")
 
-    def _piecewise(self, token: Token, arguments: list[Tree]) -> sp.Expr:
+    def _piecewise(self, token: Any, arguments: list[Node]) -> sp.Expr:
         """piecewise(condition, value, condition, value, ..., otherwise)."""
         form = "write piecewise(condition, value, ..., otherwise)"
         if len(arguments) < 3 or len(arguments) % 2 == 0:
@@ -320,7 +325,7 @@ class _Reader:
         # not evaluated: SymPy's proofs about the conditions have no bound on time
         return sp.Piecewise(*pairs[: 1 + next(i for i, p in enumerate(pairs) if p[1] == sp.true)], evaluate=False)
 
-    def condition(self, node: Tree) -> Boolean:
+    def condition(self, node: Node) -> Boolean:
         """The truth of a condition's node."""
         while len(inner := [c for c in node.children if c is not None]) == 1 and isinstance(inner[0], Tree):
             node = inner[0]
@@ -339,13 +344,13 @@ class _Reader:
         )
 
 
-def _start(node: Tree | Token) -> int:
+def _start(node: Node) -> int:
     if isinstance(node, Token):
         return node.start_pos or 0
     return node.meta.start_pos
 
 
-def _bits(number: sp.Rational) -> int:
+def _bits(number: Any) -> int:
     return max(int(number.p).bit_length(), int(number.q).bit_length())
 
 

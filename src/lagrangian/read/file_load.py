@@ -1,8 +1,4 @@
-"""From a model file to a `Builder`: names first, then geometry, then elements in the order of the file.
-
-Points and frames are made when they are first needed, so that a frame may be measured from a point and a point in a frame;
-a circle of such references is refused.
-"""
+"""From a model file to a `Builder`: names first, then geometry, then elements in the order of the file."""
 
 from __future__ import annotations
 
@@ -14,17 +10,17 @@ from typing import Any, NoReturn
 import sympy as sp
 
 from lagrangian.errors import ModelError, ParseError, Place, did_you_mean
-from lagrangian.model import Builder, Frame, Point
+from lagrangian.model import Builder
 from lagrangian.model.geometry import as_expr
 from lagrangian.read import file_schema as schema
-from lagrangian.read.elements import KINDS, add_element
 from lagrangian.read.expression import read_source
+from lagrangian.read.file_elements import KINDS, add_element
+from lagrangian.read.file_geometry import Geometry
 from lagrangian.read.letters import normal, spelled, twin
-from lagrangian.read.quantity import Quantity, parse_unit, read_quantity
+from lagrangian.read.quantity import Quantity, parse_unit, read_quantity, unit_and_words
 from lagrangian.read.scope import Scope
 from lagrangian.read.source import shown
 from lagrangian.read.toml_index import Path
-from lagrangian.read.units import SYMBOLS
 from lagrangian.read.validate import MAX_BYTES, decode, owner, read_toml
 
 _WORD = re.compile(r"[^\W\d]\w*")
@@ -53,20 +49,17 @@ def _unreadable(name: str, what: str, fix: str) -> ModelError:
 
 def loads(text: str, name: str | None = None) -> Builder:
     """Return the description in the text of a model file; ``name`` stands for the file in messages."""
-    return _Loader(text, name or "<text>").build()
+    return Loader(text, name or "<text>").build()
 
 
-class _Loader:
+class Loader:
     """Reads one file; ``scope`` holds every name declared so far."""
 
     def __init__(self, text: str, name: str) -> None:
         self.file, self.data, self.index = read_toml(text, name)
         self.builder = Builder(self.file.name if self.file.name.strip() else self._unnamed())
         self.scope = Scope()
-        self.points: dict[str, Point] = {"origin": self.builder.origin}
-        self.frames: dict[str, Frame] = {}
-        self.frame_numbers: dict[str, int] = {}
-        self.making: list[str] = []
+        self.geometry = Geometry(self)
 
     @property
     def coordinate_names(self) -> list[str]:
@@ -84,14 +77,14 @@ class _Loader:
         self._inputs()
         self._look_alikes()
         self._definitions()
-        self._geometry()
+        self.geometry.read()
         self._elements()
         self._simulate()
         return self.builder
 
     # -- names --------------------------------------------------------------------------------------------------
 
-    def _placed(self, make: Callable[[], Any], place: Place, element: str | None = None) -> Any:
+    def placed(self, make: Callable[[], Any], place: Place, element: str | None = None) -> Any:
         """Call ``make``; an error that does not know its place gets this one."""
         try:
             return make()
@@ -104,9 +97,9 @@ class _Loader:
     def _coordinates(self) -> None:
         for name, value in self.file.coordinates.items():
             path, place = ("coordinates", name), self.index.of_key(("coordinates", name))
-            table = schema.CoordinateTable(description=value) if isinstance(value, str) else value
+            table = schema.CoordinateTable(description=value, unit=None) if isinstance(value, str) else value
             unit = self._unit(table.unit, (*path, "unit"))
-            made = self._placed(
+            made = self.placed(
                 lambda n=name, t=table, u=unit, p=place: self.builder.coordinate(
                     n, description=t.description, unit=u, place=p
                 ),
@@ -118,7 +111,7 @@ class _Loader:
         for name, value in self.file.parameters.items():
             path, place = ("parameters", name), self.index.of_key(("parameters", name))
             number, unit, description = self._parameter(value, path)
-            made = self._placed(
+            made = self.placed(
                 lambda n=name, v=number, u=unit, d=description, p=place: self.builder.parameter(
                     n, v, unit=u, description=d, place=p
                 ),
@@ -164,10 +157,10 @@ class _Loader:
         for name, value in self.file.inputs.items():
             path, place = ("inputs", name), self.index.of_key(("inputs", name))
             if isinstance(value, str):
-                unit, description = _unit_and_words(value)
+                unit, description = unit_and_words(value)
             else:
                 unit, description = self._unit(value.unit, (*path, "unit")), value.description
-            made = self._placed(
+            made = self.placed(
                 lambda n=name, d=description, u=unit, p=place: self.builder.input(n, description=d, unit=u, place=p),
                 place,
             )
@@ -205,7 +198,7 @@ class _Loader:
             if later and later[0] not in self.scope:
                 self._not_in_order(name, later[0])
             expr = self.expression(value, path, f"definition '{name}'")
-            made = self._placed(lambda n=name, e=expr, p=place: self.builder.define(n, e, place=p), place)
+            made = self.placed(lambda n=name, e=expr, p=place: self.builder.define(n, e, place=p), place)
             self.scope.add(made.name, made.symbol)
 
     def _not_in_order(self, name: str, later: str) -> NoReturn:
@@ -237,113 +230,13 @@ class _Loader:
     def expression(self, value: Any, path: Path, what: str, local: tuple[sp.Symbol, ...] = ()) -> sp.Expr:
         """Return the SymPy expression of a text or number at a path; ``local`` are names of this expression alone."""
         if not isinstance(value, str):
-            return self._placed(lambda: as_expr(_whole(value), what), self.index.of_value(path))
+            return self.placed(lambda: as_expr(_whole(value), what), self.index.of_value(path))
         scope = self.scope.extended({s.name: s for s in local}) if local else self.scope
         return read_source(self.index.source(path, value, what), scope)
 
     def vector(self, values: list[Any], path: Path, what: str) -> tuple[sp.Expr, ...]:
         """Return the expressions of a list."""
         return tuple(self.expression(v, (*path, i), f"component {i + 1} of {what}") for i, v in enumerate(values))
-
-    # -- points and frames --------------------------------------------------------------------------------------
-
-    def _geometry(self) -> None:
-        for number, table in enumerate(self.file.frame):
-            if table.name in self.frame_numbers:
-                line = self.index.of_key(("frame", self.frame_numbers[table.name])).line
-                raise ParseError(
-                    f"frame '{table.name}' is given twice (line {line})",
-                    place=self.index.of_value(("frame", number, "name")),
-                    fix="give it another name",
-                    code="E404",
-                )
-            self.frame_numbers[table.name] = number
-        for number, table in enumerate(self.file.frame):
-            self.frame(table.name, ("frame", number))
-        for name in self.file.points:
-            self.named_point(name, ("points", name))
-
-    def _enter(self, what: str, path: Path) -> None:
-        if what in self.making:
-            circle = [*self.making[self.making.index(what) :], what]
-            raise ParseError(
-                f"they go in a circle: {' → '.join(circle)}",
-                element=owner(path, self.data) or None,
-                place=self.index.of_value(path),
-                fix="measure one of them from the origin or the fixed axes",
-                code="E413",
-            )
-        if len(self.making) > 200:
-            raise ParseError("more than 200 points and frames hang on each other", place=self.index.of_value(path))
-        self.making.append(what)
-
-    def named_point(self, name: str, path: Path) -> Point:
-        """Return the point of that name; ``path`` is where it is referred to."""
-        if name in self.points:
-            return self.points[name]
-        if name not in self.file.points:
-            self._unknown("point", name, path, ["origin", *self.file.points])
-        self._enter(f"point '{name}'", path)
-        own = ("points", name)
-        self.points[name] = self._point(self.file.points[name], own, name)
-        self.making.pop()
-        return self.points[name]
-
-    def point(self, value: Any, path: Path) -> Point:
-        """Return a point that is named, or written on the spot."""
-        return self.named_point(value, path) if isinstance(value, str) else self._point(value, path, None)
-
-    def _point(self, value: Any, path: Path, name: str | None) -> Point:
-        what = f"point '{name}'" if name else f"the point in {owner(path, self.data)}"
-        if isinstance(value, schema.PointTable):
-            parent = self.named_point(value.from_, (*path, "from")) if value.from_ is not None else None
-            frame = self.frame(value.frame, (*path, "frame")) if value.frame is not None else None
-            offset = self.vector(value.offset, (*path, "offset"), what)
-        else:
-            parent, frame, offset = None, None, self.vector(value, path, what)
-        place = self.index.of_key(path)
-        return self._placed(lambda: self.builder.point(name, offset, parent=parent, frame=frame, place=place), place)
-
-    def frame(self, name: str, path: Path) -> Frame:
-        """Return the frame of that name; ``path`` is where it is referred to."""
-        if name in self.frames:
-            return self.frames[name]
-        if name not in self.frame_numbers:
-            self._unknown("frame", name, path, list(self.frame_numbers))
-        self._enter(f"frame '{name}'", path)
-        own = ("frame", self.frame_numbers[name])
-        table = self.file.frame[self.frame_numbers[name]]
-        what = f"frame '{name}'"
-        parent = self.frame(table.parent, (*own, "parent")) if table.parent is not None else None
-        origin = self.named_point(table.origin, (*own, "origin")) if table.origin is not None else None
-        angle = self.expression(table.angle, (*own, "angle"), f"angle of {what}")
-        axis = self.vector(table.axis, (*own, "axis"), f"the axis of {what}") if table.axis is not None else None
-        place = self.index.of_key(own)
-        self.frames[name] = self._placed(
-            lambda: self.builder.frame(name, angle, axis=axis, parent=parent, origin=origin, place=place), place
-        )
-        self.making.pop()
-        return self.frames[name]
-
-    def frame_or_angle(self, value: Any, path: Path, what: str) -> Frame | sp.Expr:
-        """Return the frame of that name, or else the expression of an angle."""
-        if isinstance(value, str):
-            name = value.strip()
-            if name in self.frame_numbers:
-                return self.frame(name, path)
-            if _WORD.fullmatch(name) and not self.scope.meanings(name)[0] and did_you_mean(name, self.frame_numbers):
-                self._unknown("frame", name, path, list(self.frame_numbers))
-        return self.expression(value, path, what)
-
-    def _unknown(self, what: str, name: str, path: Path, known: list[str]) -> NoReturn:
-        listed = "known: " + ", ".join(known[:12]) if known else f"there is no {what} in this file"
-        raise ParseError(
-            f"unknown {what} {shown(name)}",
-            element=owner(path, self.data) or None,
-            place=self.index.of_value(path),
-            fix=did_you_mean(name[:64], known) or listed,
-            code="E412",
-        )
 
     # -- elements -----------------------------------------------------------------------------------------------
 
@@ -362,7 +255,7 @@ class _Loader:
                 if getattr(self.file.energies, key):
                     found.append((self.index.offset(path), path, lambda k=key: self._energy(k)))
         for _, path, add in sorted(found, key=lambda item: item[0]):
-            self._placed(add, self.index.of_key(path))
+            self.placed(add, self.index.of_key(path))
 
     def _energy(self, key: str) -> None:
         table = self.file.energies
@@ -426,19 +319,6 @@ class _Loader:
 def _whole(value: float) -> int | float:
     """Return a whole number as an integer, so that it is shown without a point."""
     return int(value) if float(value).is_integer() else value
-
-
-def _unit_and_words(text: str) -> tuple[str | None, str]:
-    """Split ``"N, pushes the carts apart"``. What stands before the comma is a unit where it is made of SI symbols."""
-    first, comma, rest = text.partition(",")
-    words = re.findall(r"[^\W\d]+|°", first)
-    if words and all(w in SYMBOLS for w in words) and not re.search(r"[^\W\d]\s+[^\W\d]", first):
-        try:
-            parse_unit(first.strip())
-        except ParseError:
-            return None, text
-        return first.strip(), rest.strip() if comma else ""
-    return None, text
 
 
 def _circle(table: Mapping[str, list[str]], start: str) -> list[str]:

@@ -1,7 +1,7 @@
 """From a `Model` to the text of a model file that reads back as the same system.
 
-Elements keep their order and their names. Points that were never named are written where they are used when they hang on the
-origin alone, and get a name (``P1``, ``P2`` …) otherwise; frames likewise.
+Elements keep their order and their names. A point that was never named is written where it is used when that is one
+place only, and gets a name (``P1``, ``P2`` …) otherwise; a frame without a name gets one (``F1`` …).
 """
 
 from __future__ import annotations
@@ -20,8 +20,7 @@ from lagrangian.model import Element, Frame, Model, Parameter, Point, plain
 from lagrangian.model.elements.damper import RATE
 from lagrangian.model.elements.spring import DELTA
 from lagrangian.read.expression import parse_expression
-from lagrangian.read.file_load import _unit_and_words
-from lagrangian.read.quantity import parse_quantity, parse_unit
+from lagrangian.read.quantity import parse_quantity, parse_unit, unit_and_words
 from lagrangian.read.scope import Scope
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+\Z")
@@ -67,7 +66,7 @@ class _Writer:
         for point in self.model.points:
             visit(point)
         for frame in self.frames:
-            visit(self._frame(frame).origin)
+            visit(self.frame_table[frame].origin)
         for element in self.model.elements:
             for _, point in element.points():
                 visit(point)
@@ -100,9 +99,6 @@ class _Writer:
                 visit(frame)
         return list(found.values())
 
-    def _frame(self, key: int) -> Frame:
-        return self.frame_table[key]
-
     def _frame_names(self) -> dict[int, str]:
         frames = self._all_frames()
         self.frame_table = {id(f): f for f in frames}
@@ -114,7 +110,7 @@ class _Writer:
         uses: Counter[int] = Counter()
         joined: set[int] = set()
         for p in points:
-            uses[id(p.parent)] += 1
+            uses[id(p.parent)] += 2
         for frame in self.frame_table.values():
             uses[id(frame.origin)] += 2
         for element in self.model.elements:
@@ -122,7 +118,7 @@ class _Writer:
                 uses[id(point)] += 1
                 if key == "between":
                     joined.add(id(point))
-        kept = [p for p in points if p.name or uses[id(p)] > 1 or id(p) in joined or any(q.parent is p for q in points)]
+        kept = [p for p in points if p.name or uses[id(p)] > 1 or id(p) in joined]
         return _named(kept, "P", {p.name for p in points if p.name})
 
     # -- values -------------------------------------------------------------------------------------------------
@@ -217,7 +213,8 @@ class _Writer:
             value = getattr(element, key)
             if key in ("name", "place") or value is None:
                 continue
-            if key == "rest" and value == 0 or key == "energy" and getattr(element, "law", None) is not None:
+            derived = key == "energy" and getattr(element, "law", None) is not None
+            if derived or (key == "rest" and value == 0):
                 continue
             rows.append((key, self._field(element, key, value)))
         self.lines += ["", f"[[{element.kind}]]", *(f"{key} = {value}" for key, value in rows)]
@@ -267,7 +264,7 @@ def _described(description: str, unit: str | None) -> str:
 
 def _input(description: str, unit: str | None) -> str:
     short = description if unit is None else f"{unit}, {description}" if description else unit
-    if _unit_and_words(short) == (unit, description):
+    if unit_and_words(short) == (unit, description):
         return _text(short)
     return _described(description, unit) if unit is not None else "{ description = " + _text(description) + " }"
 

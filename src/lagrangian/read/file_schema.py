@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeAlias
 
 from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
 
@@ -20,13 +20,9 @@ def _form(value: object) -> str | None:
     return "table" if isinstance(value, (dict, BaseModel)) else None
 
 
-def _either(**forms: Any) -> Any:
-    """A value that may be written in one of several forms, told apart by `_form`."""
-    tagged = [Annotated[kind, Tag(name)] for name, kind in forms.items()]
-    union = tagged[0]
-    for kind in tagged[1:]:
-        union = union | kind
-    return Annotated[union, Discriminator(_form)]
+_Text: TypeAlias = Annotated[str, Tag("text")]
+_Number: TypeAlias = Annotated[float, Tag("number")]
+_ByForm = Discriminator(_form)
 
 
 class _Table(BaseModel):
@@ -35,15 +31,23 @@ class _Table(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True, populate_by_name=False, allow_inf_nan=False)
 
 
-Expression = _either(text=str, number=float)
+Expression: TypeAlias = Annotated[_Text | _Number, _ByForm]
 """An expression as text, or a number."""
-Quantity = _either(text=str, number=float)
+
+Quantity: TypeAlias = Annotated[_Text | _Number, _ByForm]
 """A number in SI units, or text with a unit."""
-Vector = Annotated[list[Expression], Field(min_length=2, max_length=3)]
-ExpressionOrVector = _either(text=str, number=float, list=Vector)
-_Row = Annotated[list[Expression], Field(min_length=3, max_length=3)]
-Inertia = _either(text=str, number=float, list=list[_either(text=str, number=float, list=_Row)])  # type: ignore[misc]
-Between = Annotated[list[str], Field(min_length=2, max_length=2, description="The two points it joins.")]
+
+Vector: TypeAlias = Annotated[list[Expression], Field(min_length=2, max_length=3)]
+_List: TypeAlias = Annotated[Vector, Tag("list")]
+
+ExpressionOrVector: TypeAlias = Annotated[_Text | _Number | _List, _ByForm]
+
+_Row: TypeAlias = Annotated[list[Expression], Field(min_length=3, max_length=3), Tag("list")]
+_Rows: TypeAlias = Annotated[list[Annotated[_Text | _Number | _Row, _ByForm]], Tag("list")]
+Inertia: TypeAlias = Annotated[_Text | _Number | _Rows, _ByForm]
+"""A scalar, three principal moments or three rows."""
+
+Between: TypeAlias = Annotated[list[str], Field(min_length=2, max_length=2, description="The two points it joins.")]
 
 
 class CoordinateTable(_Table):
@@ -76,8 +80,9 @@ class PointTable(_Table):
     frame: str | None = Field(None, description="The frame whose axes the offset is given in; fixed axes if left out.")
 
 
-PointValue = _either(list=Vector, table=PointTable)
-PointReference = _either(text=str, list=Vector, table=PointTable)
+_Point: TypeAlias = Annotated[PointTable, Tag("table")]
+PointValue: TypeAlias = Annotated[_List | _Point, _ByForm]
+PointReference: TypeAlias = Annotated[_Text | _List | _Point, _ByForm]
 """The name of a point, or the point itself."""
 
 
@@ -194,19 +199,22 @@ class SimulateTable(_Table):
     inputs: dict[str, Expression] = Field(default_factory=dict, description="Inputs as expressions in t.")
 
 
+Coordinate: TypeAlias = Annotated[_Text | Annotated[CoordinateTable, Tag("table")], _ByForm]
+Parameter: TypeAlias = Annotated[_Text | _Number | Annotated[ParameterTable, Tag("table")], _ByForm]
+Input: TypeAlias = Annotated[_Text | Annotated[InputTable, Tag("table")], _ByForm]
+
+
 class ModelFile(_Table):
     """A mechanical system as a TOML file of the package `lagrangian`."""
 
     name: str = Field(description="The system's name.")
-    coordinates: dict[str, _either(text=str, table=CoordinateTable)] = Field(  # type: ignore[valid-type]
+    coordinates: dict[str, Coordinate] = Field(
         default_factory=dict, description="Generalized coordinates, each with what it measures."
     )
-    parameters: dict[str, _either(text=str, number=float, table=ParameterTable)] = Field(  # type: ignore[valid-type]
+    parameters: dict[str, Parameter] = Field(
         default_factory=dict, description="Constants: a number in SI units, or text with a unit."
     )
-    inputs: dict[str, _either(text=str, table=InputTable)] = Field(  # type: ignore[valid-type]
-        default_factory=dict, description="Signals from outside: 'unit, description'."
-    )
+    inputs: dict[str, Input] = Field(default_factory=dict, description="Signals from outside: 'unit, description'.")
     define: dict[str, Expression] = Field(default_factory=dict, description="Named expressions, in order.")
     points: dict[str, PointValue] = Field(default_factory=dict, description="Named points.")
     frame: list[FrameTable] = Field(default_factory=list, description="Frames.")

@@ -1,12 +1,12 @@
 """How a name may be written: Greek letters or their spelling, subscripts or digits, dots or primes.
 
-A name is looked up exactly first (in Unicode's compatibility form NFKC, so ``θ₁`` is ``θ1``). Where that finds nothing, a Greek
-letter and its spelling are the same, and so are a subscript with and without its underscore:
+A name is looked up exactly first (in Unicode's compatibility form NFKC, so ``θ₁`` is ``θ1``). Where that finds nothing,
+a Greek letter and its spelling are the same, and so are a subscript with and without its underscore:
 
     θ₁ = θ1 = θ_1 = theta1 = theta_1,      Lₐ = La = L_a
 
-Dots stand on a name's first letter or on its last one: ẋ, θ̈₁, x1̇. A letter that carries such a mark in an ordinary language
-(ä, ż) is taken as a dotted letter only where no name is written with it.
+Dots stand on a name's first letter or on its last one: ẋ, θ̈₁, x1̇. A letter that carries such a mark in an ordinary
+language (ä, ż) is taken as a dotted letter only where no name is written with it.
 """
 
 from __future__ import annotations

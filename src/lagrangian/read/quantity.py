@@ -16,9 +16,9 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import NoReturn
 
-from lagrangian.errors import Place
+from lagrangian.errors import ParseError, Place
 from lagrangian.read.source import Source, character, shown
-from lagrangian.read.units import ONE, Dimension, Unit, lookup, similar
+from lagrangian.read.units import ONE, SYMBOLS, Dimension, Unit, lookup, similar
 
 MAX_CHARACTERS = 200
 MAX_EXPONENT = 20
@@ -41,7 +41,7 @@ _TOKEN = re.compile(
 
 @dataclass(frozen=True)
 class Quantity:
-    """A value in SI units (``value``), the unit it was given in (``unit``, empty for a bare number) and its dimension."""
+    """``value`` in SI units, the ``unit`` it was given in (empty for a bare number) and its dimension."""
 
     value: float
     unit: str
@@ -98,6 +98,19 @@ def parse_unit(text: str, what: str = "unit", place: Place | None = None) -> Uni
 def unit_dimension(text: str) -> tuple[Fraction, Fraction, Fraction]:
     """Return the exponents of kg, m and s of a unit; electrical and other dimensions are left out."""
     return parse_unit(text).dimension.mechanical
+
+
+def unit_and_words(text: str) -> tuple[str | None, str]:
+    """Split ``"N, pushes the carts apart"``. What stands before the comma is a unit where it is made of SI symbols."""
+    first, comma, rest = text.partition(",")
+    words = re.findall(r"[^\W\d]+|°", first)
+    if words and all(w in SYMBOLS for w in words) and not re.search(r"[^\W\d]\s+[^\W\d]", first):
+        try:
+            parse_unit(first.strip())
+        except ParseError:
+            return None, text
+        return first.strip(), rest.strip() if comma else ""
+    return None, text
 
 
 class _Reader:

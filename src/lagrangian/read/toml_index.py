@@ -1,7 +1,8 @@
 """Where every key and value of a TOML text stands.
 
-`tomllib` gives values without places. This walks the same text, which `tomllib` accepted before, and notes for each path
-(``("spring", 0, "k")``) where its key and its value start. Where the walk cannot follow, it stops; what it found stays.
+`tomllib` gives values without places. This walks the same text, which `tomllib` accepted before, and notes for each
+path (``("spring", 0, "k")``) where its key and its value start. Where the walk cannot follow, it stops; what it found
+stays.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from typing import TypeAlias
 from lagrangian.errors import Place
 from lagrangian.read.source import Source, printable
 
-Path: TypeAlias = "tuple[str | int, ...]"
+Path: TypeAlias = tuple[str | int, ...]
 
 _SPACE = re.compile(r"(?:[ \t\r\n]|#[^\n]*)*")
 _INLINE_SPACE = re.compile(r"[ \t]*")

@@ -1,7 +1,7 @@
 """What a unit's name means: its factor to SI and its dimension.
 
-The symbols of mechanics are listed here; every other name is looked up in pint, one plain name at a time (pint's own parser
-of unit texts evaluates expressions and never sees what people write).
+The symbols of mechanics are listed here; every other name is looked up in pint, one plain name at a time (pint's own
+parser of unit texts evaluates expressions and never sees what people write).
 """
 
 from __future__ import annotations
@@ -61,14 +61,14 @@ class Unit:
 
     def times(self, other: Unit, power: Fraction) -> Unit:
         """self · other^power; raises OverflowError where the factor leaves the range of numbers."""
-        factor = other.factor**power if power.denominator == 1 else Fraction(float(other.factor) ** float(power))
+        factor = other.factor ** int(power) if power.denominator == 1 else Fraction(float(other.factor) ** float(power))
         return Unit(self.factor * factor, self.dimension.times(other.dimension, power))
 
 
 ONE = Unit(Fraction(1), Dimension())
 
 
-def _unit(factor: str | float, kg: int = 0, m: int = 0, s: int = 0, A: int = 0, K: int = 0) -> Unit:
+def _unit(factor: str, kg: int = 0, m: int = 0, s: int = 0, A: int = 0, K: int = 0) -> Unit:
     exponents = tuple(Fraction(e) for e in (kg, m, s, A, K, 0, 0))
     return Unit(Fraction(factor), Dimension(exponents))
 

@@ -20,7 +20,7 @@ MAX_NESTING = 12
 _STRINGS = re.compile(
     r'"""(?:[^\\]|\\[\s\S])*?"{3,5}' + r"|'''[\s\S]*?'{3,5}" + r'|"(?:[^"\\\n]|\\.)*"' + r"|'[^'\n]*'|#[^\n]*"
 )
-_DOTTED = re.compile(r"(?:[\w-]+[ \t]*\.[ \t]*){%d}" % MAX_NESTING)
+_DOTTED = re.compile(rf"(?:[\w-]+[ \t]*\.[ \t]*){{{MAX_NESTING}}}")
 _PLACE = re.compile(r"\s*\(at line (\d+), column (\d+)\)\Z")
 _END = re.compile(r"\s*\(at end of document\)\Z")
 _KINDS = {bool: "true or false", int: "a number", float: "a number", str: "text", list: "a list", dict: "a table"}
@@ -165,14 +165,14 @@ def _translated(error: ValidationError, data: dict[str, Any], index: Index) -> P
     found = [(_path(e["loc"], data), e) for e in error.errors(include_url=False)]
     found.sort(key=lambda pair: (pair[1]["type"] != "extra_forbidden", index.offset(pair[0])))
     path, first = found[0]
-    kind, where = first["type"], owner(path, data)
-    element = where or None
+    kind, name = first["type"], path[-1]
+    element = owner(path, data) or None
     if kind == "extra_forbidden":
         known = [f.alias or n for n, f in _table_of(path[:-1], data).model_fields.items()]
-        hint = did_you_mean(str(path[-1]), known)
+        hint = did_you_mean(str(name)[:64], known)
         listed = "known: " + ", ".join(known)
         return ParseError(
-            f"unknown field {shown(str(path[-1]))}",
+            f"unknown field {shown(str(name))}",
             element=element or "the file",
             place=index.of_key(path),
             fix=f"{hint} ({listed})" if hint else listed,
@@ -180,10 +180,10 @@ def _translated(error: ValidationError, data: dict[str, Any], index: Index) -> P
         )
     if kind == "missing":
         return ParseError(
-            f"the field '{path[-1]}' is missing",
+            f"the field '{name}' is missing",
             element=element or "the file",
             place=index.of_key(path[:-1]) if len(path) > 1 else index.place(0),
-            fix=f"write {path[-1]} = …: {_description(path, data)}",
+            fix=f"write {name} = …: {_description(path, data)}",
             code="E401",
         )
     field = _label(path)
@@ -284,6 +284,7 @@ def _table_of(path: Path, data: dict[str, Any]) -> type[BaseModel]:
 
     if not path:
         return ModelFile
+    section = str(path[0])
     tables: dict[str, type[BaseModel]] = {
         "coordinates": schema.CoordinateTable,
         "parameters": schema.ParameterTable,
@@ -303,7 +304,7 @@ def _table_of(path: Path, data: dict[str, Any]) -> type[BaseModel]:
     }
     if len(path) >= 3:  # a table inside an element can only be a point
         return schema.PointTable
-    return tables.get(str(path[0]), schema.EnergyTable)
+    return tables.get(section, schema.EnergyTable)
 
 
 def _description(path: Path, data: dict[str, Any]) -> str:

@@ -29,7 +29,7 @@ from lagrangian.read.source import shown
 from lagrangian.read.toml_index import Path
 
 if TYPE_CHECKING:
-    from lagrangian.read.file_load import _Loader
+    from lagrangian.read.file_load import Loader
 
 STANDARD_GRAVITY = 9.81
 """[m/s²] The parameter g unless the file declares it."""
@@ -38,7 +38,7 @@ STANDARD_GRAVITY = 9.81
 class _Reader:
     """Reads the fields of one element's table."""
 
-    def __init__(self, loader: _Loader, kind: type[Element], table: Any, path: Path, at: Path | None) -> None:
+    def __init__(self, loader: Loader, kind: type[Element], table: Any, path: Path, at: Path | None) -> None:
         self.loader, self.table, self.path = loader, table, path
         words = kind.kind.replace("_", " ")
         self.title = f"{words} {shown(table.name)}" if table.name else words
@@ -70,14 +70,14 @@ class _Reader:
         for key in keys:
             value = getattr(self.table, key)
             if value is not None:
-                self.given[key] = self.loader.point(value, self.where(key))
+                self.given[key] = self.loader.geometry.point(value, self.where(key))
 
     def between(self) -> None:
         """Read the two points that an element joins, where given."""
         if self.table.between is not None:
             path = self.where("between")
             self.given["between"] = tuple(
-                self.loader.named_point(name, (*path, i)) for i, name in enumerate(self.table.between)
+                self.loader.geometry.named_point(name, (*path, i)) for i, name in enumerate(self.table.between)
             )
 
     def frames_or_angles(self, *keys: str) -> None:
@@ -85,7 +85,7 @@ class _Reader:
         for key in keys:
             value = getattr(self.table, key)
             if value is not None:
-                self.given[key] = self.loader.frame_or_angle(value, self.where(key), f"{key} of {self.title}")
+                self.given[key] = self.loader.geometry.frame_or_angle(value, self.where(key), f"{key} of {self.title}")
 
     def add(self, kind: type[Element]) -> None:
         """Make the element and hand it to the builder."""
@@ -143,7 +143,7 @@ def _force(r: _Reader) -> None:
     r.points("at", "reaction")
     r.between()
     if r.table.axes is not None:
-        r.given["axes"] = r.loader.frame(r.table.axes, r.where("axes"))
+        r.given["axes"] = r.loader.geometry.frame(r.table.axes, r.where("axes"))
 
 
 def _torque(r: _Reader) -> None:
@@ -189,7 +189,7 @@ KINDS = tuple(_KINDS)
 """The kinds of elements in a file, as its arrays of tables are called."""
 
 
-def add_element(loader: _Loader, kind: str, table: Any, path: Path, at: Path | None = None) -> None:
+def add_element(loader: Loader, kind: str, table: Any, path: Path, at: Path | None = None) -> None:
     """Read one element and add it; ``at`` is given where a whole element is one value of the file."""
     made, fill = _KINDS[kind]
     reader = _Reader(loader, made, table, path, at)
