@@ -162,7 +162,7 @@ def test_message_and_caret(text: str, column: int | None, fragments: list[str]) 
     start = time.perf_counter()
     with pytest.raises(ParseError) as caught:
         parse_expression(text, SCOPE, what="k of spring 's1'")
-    assert time.perf_counter() - start < 1
+    assert time.perf_counter() - start < 3
     message = str(caught.value)
     assert message.count("spring 's1'") == 1
     for fragment in fragments:
@@ -277,7 +277,7 @@ ALPHABET = list("xyma12.,()+-*/^'θ̇²½ ") + [
 ]
 
 
-@settings(max_examples=300, derandomize=True, deadline=2000)
+@settings(max_examples=300, derandomize=True, deadline=5000)
 @example("x\u0307\u0308'")
 @given(st.one_of(st.text(max_size=40), st.lists(st.sampled_from(ALPHABET), max_size=14).map("".join)))
 def test_any_text_gives_an_expression_or_a_parse_error(text: str) -> None:

@@ -232,7 +232,7 @@ def test_message_line_and_caret(text: str, line: int | None, column: int | None,
     start = time.perf_counter()
     with pytest.raises(ModelError) as caught:
         loads(text, "cart.toml")
-    assert time.perf_counter() - start < 2
+    assert time.perf_counter() - start < 4
     message = str(caught.value)
     for fragment in fragments:
         assert fragment in message
@@ -346,7 +346,7 @@ PIECES = [
 ]
 
 
-@settings(max_examples=200, derandomize=True, deadline=2000)
+@settings(max_examples=200, derandomize=True, deadline=5000)
 @given(
     st.integers(0, len(GOOD)),
     st.integers(0, 12),
@@ -360,7 +360,7 @@ def test_a_damaged_file_gives_a_description_or_a_model_error(at: int, length: in
         assert str(error)
 
 
-@settings(max_examples=100, derandomize=True, deadline=2000)
+@settings(max_examples=100, derandomize=True, deadline=5000)
 @given(st.binary(max_size=60))
 def test_any_bytes_give_a_model_error(data: bytes) -> None:
     with pytest.raises(ModelError):

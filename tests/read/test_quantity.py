@@ -108,7 +108,7 @@ def test_what_is_wrong_is_said_and_pointed_at(text: str, column: int | None, fra
         assert caught.value.place is not None and caught.value.place.column == column
 
 
-@settings(max_examples=200, derandomize=True, deadline=2000)
+@settings(max_examples=200, derandomize=True, deadline=5000)
 @given(
     st.one_of(
         st.text(max_size=20),
@@ -123,7 +123,7 @@ def test_any_text_gives_a_finite_value_or_a_parse_error(text: str) -> None:
         assert math.isfinite(parse_quantity(text).value)
     except ParseError as error:
         assert str(error)
-    assert time.perf_counter() - start < 2
+    assert time.perf_counter() - start < 4
 
 
 @settings(max_examples=60, derandomize=True, deadline=None)
