@@ -150,14 +150,23 @@ def _boxed(displays: tuple[Display, ...], anchors: bool) -> Iterator[str]:
     kinds: list[str] = []
     for formula in displays:
         sides = [_terms(side, kinds) for side in formula.sides]
-        equals = '<span class="sign"><math><mo>=</mo></math></span> '
+        equals = '<span class="sign"><math><mo>=</mo></math></span>&#xa0;'
         identity = f' id="{formula.anchor}"' if anchors else ""
         number = f'<span class="tag">({formula.number})</span>' if len(displays) > 1 else ""
-        lines.append(f'<div class="equation"{identity}><div class="terms">{equals.join(sides)}</div>{number}</div>')
+        lines.append(f'<div class="equation"{identity}><div class="terms">{_kept(sides, equals)}</div>{number}</div>')
     yield f'<div class="result" role="group" aria-label="Equations of motion">{"".join(lines)}</div>'
     if kinds:
         shown = "".join(f'<li><span class="swatch {k}"></span>{escape(KINDS[k])}</li>' for k in KINDS if k in kinds)
         yield f'<p class="hint">Point at a term to see the elements it came from.</p><ul class="legend">{shown}</ul>'
+
+
+def _kept(sides: list[str], equals: str) -> str:
+    """The sides with equals signs; a short right-hand side stays with its sign."""
+    text = sides[0]
+    for side in sides[1:]:
+        alone = side.count("<math") == 1
+        text += f'<span class="kept">{equals}{side.strip()}</span> ' if alone else equals + side
+    return text
 
 
 def _terms(side: Math, kinds: list[str]) -> str:

@@ -50,7 +50,8 @@ _SMALL = r"""\small\setlength{\parskip}{0pt}\setlength{\LTpre}{2pt}\setlength{\L
 def to_latex(derivation: Derivation, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
     """Return the derivation as a complete LaTeX article. Raises `ModelError` for an unknown notation."""
     document = lay_out(derivation, notation=notation, brief=brief, full=full)
-    blocks = [_PREAMBLE + r"\begin{document}", rf"\section*{{\Large {words(document.title)}}}"]
+    preamble = _PREAMBLE.replace("margin=22mm", "margin=15mm") if brief else _PREAMBLE
+    blocks = [preamble + r"\begin{document}", rf"\section*{{\Large {words(document.title)}}}"]
     if brief:
         blocks.append(_SMALL)
     for section in document.sections:

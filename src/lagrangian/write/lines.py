@@ -26,10 +26,13 @@ def measure(piece: Token) -> int:
     return columns(token(piece))
 
 
-def chain(sides: tuple[Math, ...], width: int) -> list[Line]:
-    """Cut a chain of equalities: one line if it fits, else a line a side under the first equals sign."""
+def chain(sides: tuple[Math, ...], width: int, *, aligned: bool = False) -> list[Line]:
+    """Cut a chain of equalities: one line if it fits, else a line a side under the first equals sign.
+
+    An ``aligned`` one has its equals sign at the alignment in any case, as one of several chains.
+    """
     whole = equality(sides)
-    if columns(unicode(whole)) <= width:
+    if columns(unicode(whole)) <= width and not aligned:
         return [Line((), False, tuple(tokens(whole)))]
     first, *rest = sides
     left = tuple(tokens(first))
@@ -50,6 +53,12 @@ def chain(sides: tuple[Math, ...], width: int) -> list[Line]:
         for k, cut in enumerate(break_lines(list(tokens(side)), width - 3, measure)):
             lines.append(Line((), k == 0, tuple(cut), True))
     return lines
+
+
+def lines(sides: tuple[Math, ...], width: int) -> list[Line]:
+    """Cut any formula into lines, entry by entry where it is a matrix that is too wide."""
+    parts = chains(sides, width)
+    return [line for part in parts for line in chain(part, width, aligned=len(parts) > 1)]
 
 
 def chains(sides: tuple[Math, ...], width: int) -> list[tuple[Math, ...]]:

@@ -344,11 +344,11 @@ def is_tall(math: Math | None) -> bool:
 
 
 def _loosened(pieces: Sequence[Token], width: int, measure: Callable[[Token], int]) -> list[Token]:
-    """Write a fraction that takes most of a line as 1/b · a, whose numerator can be cut."""
+    """Write a fraction that is longer than a line as 1/b · a, whose numerator can be cut."""
     made: list[Token] = []
     for piece in pieces:
         ratio = piece.math
-        if piece.role == "leaf" and isinstance(ratio, Ratio) and measure(piece) > 0.6 * width:
+        if piece.role == "leaf" and isinstance(ratio, Ratio) and measure(piece) > width - 4:
             over = ratio.over.factors if isinstance(ratio.over, Times) else (ratio.over,)
             made += tokens(Times((Ratio(Number("1"), ratio.under), Word("·"), *over)), 1)
         else:

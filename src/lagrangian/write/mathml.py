@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from html import escape
 
 from lagrangian.write.glyphs import bold
-from lagrangian.write.lines import Line, chain, chains
+from lagrangian.write.lines import Line, lines
 from lagrangian.write.math import (
     GREEK,
     Apply,
@@ -43,10 +43,10 @@ def mathml(math: Math, *, display: bool = False) -> str:
 
 def displayed(sides: tuple[Math, ...], width: int) -> str:
     """Return a formula for display, cut into aligned lines where it is longer than ``width`` columns."""
-    parts = chains(sides, width)
-    if len(parts) == 1 and len(lines := chain(sides, width)) == 1:
-        return f'<math display="block">{row(lines[0].right)}</math>'
-    body = "".join(_line(line) for part in parts for line in chain(part, width))
+    cut = lines(sides, width)
+    if len(cut) == 1:
+        return f'<math display="block">{row(cut[0].right)}</math>'
+    body = "".join(_line(line) for line in cut)
     return f'<math display="block"><mtable displaystyle="true">{body}</mtable></math>'
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from lagrangian.write.lines import Line, chain, chains
+from lagrangian.write.lines import Line, lines
 from lagrangian.write.math import Math
 from lagrangian.write.tex import Tex
 
@@ -12,7 +12,7 @@ WIDTH = 84
 
 def rows(tex: Tex, sides: tuple[Math, ...], width: int = WIDTH) -> list[str]:
     """Return the rows of a formula, each with its alignment point."""
-    return [_row(tex, line) for part in chains(sides, width) for line in chain(part, width)]
+    return [_row(tex, line) for line in lines(sides, width)]
 
 
 def _row(tex: Tex, line: Line) -> str:
@@ -25,20 +25,20 @@ def _row(tex: Tex, line: Line) -> str:
 
 def displayed(tex: Tex, sides: tuple[Math, ...], width: int = WIDTH) -> str:
     """Return a formula for display mathematics: one row as it is, several in ``aligned``."""
-    lines = rows(tex, sides, width)
-    if len(lines) == 1:
-        return lines[0].replace("&", "", 1).strip()
-    return "\\begin{aligned}\n" + " \\\\\n".join(lines) + "\n\\end{aligned}"
+    cut = rows(tex, sides, width)
+    if len(cut) == 1:
+        return cut[0].replace("&", "", 1).strip()
+    return "\\begin{aligned}\n" + " \\\\\n".join(cut) + "\n\\end{aligned}"
 
 
 def boxed(tex: Tex, formulas: list[tuple[tuple[Math, ...], int | None]], width: int = WIDTH) -> list[str]:
     """Return the rows of several results, each numbered on its last row where there are several."""
     made: list[str] = []
     for sides, number in formulas:
-        lines = [_flush(tex, line) for part in chains(sides, width) for line in chain(part, width)]
+        cut = [_flush(tex, line) for line in lines(sides, width)]
         if number is not None and len(formulas) > 1:
-            lines[-1] += f" && ({number})"
-        made += lines
+            cut[-1] += f" && ({number})"
+        made += cut
     return made
 
 
