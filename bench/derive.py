@@ -165,8 +165,9 @@ def main() -> None:
         lines.append(row(name, given.cap, given.repeats))
         print(lines[-1], flush=True)
     if given.append:
-        with (HERE / "RESULTS.md").open("a", encoding="utf-8") as file:
-            file.write("\n".join(["", *lines, ""]))
+        results = HERE / "RESULTS.md"
+        before = results.read_text(encoding="utf-8") if results.exists() else "# Results\n"
+        results.write_text("\n".join([before, *lines, ""]), encoding="utf-8")
 
 
 if __name__ == "__main__":
