@@ -230,7 +230,7 @@ def test_every_function_by_hand(c_function):
     np.testing.assert_allclose([call(row, p)["f"] for row in q], want, rtol=1e-12)
 
 
-def long_chain(links=600):
+def long_chain(links=400):
     """A recursion with one sine and some products a link, and values that reach across the whole program."""
 
     def build(graph, x):

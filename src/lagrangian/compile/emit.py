@@ -17,10 +17,12 @@ from .elementary import sincos
 from .ir import Function, Module, Value
 from .tape import FLAGS, LEAVES, Op, Tape, operands
 
-WHOLE = 3500  # operations that still go into one function: what a value costs to hand on is saved
+WHOLE = 2000  # operations that still go into one function: what a value costs to hand on is saved
 CHUNK = 1000  # operations in each of several functions …
 LONG = 10_000  # … up to this length; beyond it
 SHORT = 300  # gives a few per cent of speed for a third of LLVM's time
+
+COMPANY = 64  # angles whose sines and cosines are computed in a row in vector code
 
 ARITHMETIC = {"add": "fadd", "sub": "fsub", "mul": "fmul", "div": "fdiv"}
 COMPARISON = {"lt": "olt", "le": "ole", "eq": "oeq"}
@@ -125,7 +127,7 @@ class _Printer:
 
     def chunk(self, chunk: Chunk, stores: dict[int, list[int]], *, last: bool) -> None:
         ops = self.tape.ops
-        for group in _angles_first(ops, chunk.members):
+        for group in _angles_together(ops, chunk.members, COMPANY if self.f.lanes > 1 else self.f.module.target.lanes):
             if isinstance(group, list):
                 self._turn(group)
                 done = group
@@ -251,35 +253,51 @@ class _Printer:
         return {a: (wide.lane(Value(wide, s), k), wide.lane(Value(wide, c), k)) for k, a in enumerate(angles)}
 
 
-def _angles_first(ops: list[Op], members: list[int]) -> list[int | list[int]]:
-    """The order in which a chunk is printed: each level of sines and cosines as one group, as early as it can be.
+def _angles_together(ops: list[Op], members: list[int], company: int) -> list[int | list[int]]:
+    """The order in which a chunk is printed: tape order, but sines and cosines in groups of up to ``company`` angles.
 
-    Level of an entry: how many sines or cosines lie one behind another on the way to it. A level's angles, and what
-    they need, come first, then the group, and after the last group everything else in tape order. Calls then find few
-    values alive, and single numbers find company to share a vector call with.
+    A group stands where its first member stands; what its other angles need is computed before it. Its angles must not
+    depend on sines or cosines not yet there. So single numbers find company to share a vector call with, and a call,
+    which saves the values alive around it, comes less often.
     """
     turning = [i for i in members if ops[i][0] in ("sin", "cos")]
-    if not turning:
-        return list(members)
-    here = set(members)
-    level: dict[int, int] = {}
-    for i in members:
-        below = max((level[k] for k in operands(ops[i]) if k in here), default=0)
-        level[i] = below + 1 if ops[i][0] in ("sin", "cos") else below
+    here, done = set(members), set()
     order: list[int | list[int]] = []
-    done: set[int] = set()
-    for wanted in range(1, max(level[i] for i in turning) + 1):
-        group = [i for i in turning if level[i] == wanted]
-        needed: set[int] = set()
-        stack = [ops[i][1] for i in group]
+
+    def missing(i: int) -> set[int] | None:
+        """What entry i still needs; None if a sine or cosine is among it."""
+        found: set[int] = set()
+        stack = [ops[i][1]]
         while stack:
             k = stack.pop()
-            if k in here and k not in done and k not in needed:
-                needed.add(k)
+            if k in here and k not in done and k not in found:
+                if ops[k][0] in ("sin", "cos"):
+                    return None
+                found.add(k)
                 stack.extend(operands(ops[k]))
+        return found
+
+    start = 0
+    for i in members:
+        if i in done:
+            continue
+        if ops[i][0] not in ("sin", "cos"):
+            order.append(i)
+            done.add(i)
+            continue
+        while turning[start] in done:
+            start += 1
+        group, angles, needed = [], set(), set()
+        for k in turning[start : start + 8 * company]:
+            if k in done or (ops[k][1] not in angles and len(angles) == company):
+                continue
+            wanted = missing(k)
+            if wanted is not None:
+                group.append(k)
+                angles.add(ops[k][1])
+                needed |= wanted
         order.extend(sorted(needed))
         order.append(group)
         done |= needed
         done.update(group)
-    order.extend(i for i in members if i not in done)
     return order
