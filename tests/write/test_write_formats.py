@@ -321,7 +321,7 @@ def test_html_for_a_notebook_is_a_fragment(derivations):
     page = Page()
     page.feed(rendered)
     assert page.open == []
-    assert rendered.startswith('<div class="lagrangian">')
+    assert rendered.startswith('<div class="lagrangian" lang="en">')
     assert not {"html", "head", "body", "script", "img"} & set(page.seen)
     assert page.ids == []
 

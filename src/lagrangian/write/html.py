@@ -64,8 +64,10 @@ def to_html_fragment(derivation: Derivation, *, notation: Notation = "lecture", 
     """Return the derivation as a piece of HTML for a notebook: the checklist unless ``brief`` is False."""
     document = lay_out(derivation, notation=notation, brief=brief, details=True)
     body = "\n".join(_section(section, anchors=False) for section in document.sections)
-    scoped = f"@scope (.lagrangian) {{\n{_style().replace(':root', ':scope').replace('body', ':scope')}}}\n"
-    return f'<div class="lagrangian"><style>{scoped}</style>\n<h3>{escape(document.title)}</h3>\n{body}\n</div>'
+    nested = _style().replace(":root", "&").replace("body {", "& {")  # the page's rules, for this piece alone
+    style = f"<style>\n.lagrangian {{\n{nested}}}\n</style>"
+    head = f'<div class="lagrangian" lang="en">{style}\n<div class="{"brief" if brief else "whole"}">'
+    return f"{head}\n<h3>{escape(document.title)}</h3>\n{body}\n</div></div>"
 
 
 def _style() -> str:
