@@ -29,7 +29,7 @@ from lagrangian.dynamics.vectors import (
     transposed,
     zeros,
 )
-from lagrangian.graph import Graph, jvp, reached
+from lagrangian.graph import Graph, Tangents, jvp, operands
 
 
 @dataclass(eq=False)
@@ -94,6 +94,9 @@ class Motion:
         self._along = dict(zip(self.q, self.rates, strict=True))
         if t is not None:
             self._along[t] = graph.one
+        self._rates = Tangents(graph, self._along)
+        self._fixed: dict[int, bool] = {}
+        self._moving = {*self.q, *self.v, *((t,) if t is not None else ())}
         spin = 1 if dimension == 2 else 3
         self.root = Axes(None, identity(graph, dimension), zeros(graph, spin), None, zeros(graph, spin), 0, True)
         none = zeros(graph, dimension)
@@ -106,7 +109,7 @@ class Motion:
 
     def rate(self, ids: Sequence[int]) -> Vector:
         """The total time derivative of nodes that depend on q and t."""
-        return jvp(self.graph, ids, self._along)
+        return self._rates(ids)
 
     def second_rate(self, ids: Sequence[int], vdot: Sequence[int]) -> Vector:
         """The total time derivative of nodes that depend on q, v and t, at v̇ = vdot."""
@@ -304,9 +307,18 @@ class Motion:
 
     def constant(self, ids: Sequence[int]) -> bool:
         """Whether nodes depend on parameters and numbers alone."""
-        nodes = self.graph.nodes
-        moving = {*self.q, *self.v, *((self.t,) if self.t is not None else ())}
-        return not any(i in moving or (nodes[i][0] == "input" and nodes[i][1] == "u") for i in reached(self.graph, ids))
+        nodes, known = self.graph.nodes, self._fixed
+        stack = list(ids)
+        while stack:
+            i = stack[-1]
+            node = nodes[i]
+            waiting = [k for k in operands(node) if k not in known]
+            if i not in known and waiting:
+                stack.extend(waiting)
+                continue
+            known[i] = node[:2] != ("input", "u") and i not in self._moving and all(known[k] for k in operands(node))
+            stack.pop()
+        return all(known[i] for i in ids)
 
     def base(self, axes: Axes) -> tuple[Axes, Matrix]:
         """The nearest axes above (or these) that are not at rest against their parent, and R from ``axes`` to them."""

@@ -1,6 +1,6 @@
 """The expression graph: building, differentiating, evaluating, and `Program`, the waist of the house."""
 
-from lagrangian.graph.autodiff import gradient, hessian, hessian_product, jacobian, jvp, vjp
+from lagrangian.graph.autodiff import Tangents, gradient, hessian, hessian_product, jacobian, jvp, vjp
 from lagrangian.graph.evaluate import evaluate
 from lagrangian.graph.from_sympy import from_sympy
 from lagrangian.graph.graph import Graph, operands
@@ -14,6 +14,7 @@ __all__ = [
     "Output",
     "Program",
     "Scalar",
+    "Tangents",
     "count_operations",
     "count_program",
     "evaluate",

@@ -90,14 +90,34 @@ def jvp(graph: Graph, outputs: Sequence[int], tangents: Mapping[int, int]) -> li
     A tangent is carried as a factor times a base until two bases meet: the tangent of L sin φ becomes (L cos φ)·φ̇ and
     not L·(cos φ·φ̇). The factor then depends on positions alone, and often it is a position that is there already.
     """
-    nodes, zero = graph.nodes, graph.zero
-    moving: dict[int, Tangent] = {x: (graph.one, t) for x, t in tangents.items() if t != zero}
-    for i in reached(graph, outputs, tangents):
-        if i not in tangents:
+    return Tangents(graph, tangents)(outputs)
+
+
+class Tangents:
+    """`jvp` along one direction, asked many times: what was worked out once is kept."""
+
+    def __init__(self, graph: Graph, tangents: Mapping[int, int]) -> None:
+        self._graph = graph
+        self._seen: set[int] = set(tangents)
+        self._moving: dict[int, Tangent] = {x: (graph.one, t) for x, t in tangents.items() if t != graph.zero}
+
+    def __call__(self, outputs: Sequence[int]) -> list[int]:
+        """The tangents of ``outputs``."""
+        graph, seen, moving = self._graph, self._seen, self._moving
+        nodes = graph.nodes
+        fresh: list[int] = []
+        stack = list(outputs)
+        while stack:
+            i = stack.pop()
+            if i not in seen:
+                seen.add(i)
+                fresh.append(i)
+                stack.extend(operands(nodes[i]))
+        for i in sorted(fresh):
             t = _tangent(graph, i, nodes[i], moving)
             if t is not None:
                 moving[i] = t
-    return [graph.mul(*moving[i]) if i in moving else zero for i in outputs]
+        return [graph.mul(*moving[i]) if i in moving else graph.zero for i in outputs]
 
 
 Tangent = tuple[int, int]

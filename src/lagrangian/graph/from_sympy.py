@@ -150,9 +150,12 @@ def _operation(graph: Graph, e: Any, done: Mapping[Any, int]) -> int:
 
 
 def _sum(graph: Graph, terms: list[int]) -> int:
-    """The terms added pairwise in order, those with a sign last, so that they are subtracted."""
-    plus = [t for t in terms if graph.nodes[t][0] != "neg"]
-    minus = [t for t in terms if graph.nodes[t][0] == "neg"]
+    """The terms added one after another, oldest first, those with a sign last, so that they are subtracted.
+
+    In this order θ₁, θ₁ + θ₂, θ₁ + θ₂ + θ₃, … share their beginnings: a chain of relative angles stays linear.
+    """
+    plus = sorted(t for t in terms if graph.nodes[t][0] != "neg")
+    minus = sorted(t for t in terms if graph.nodes[t][0] == "neg")
     return _chain(graph.add, [*plus, *minus])
 
 
