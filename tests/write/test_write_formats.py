@@ -7,6 +7,7 @@ import re
 import shutil
 import subprocess
 from html.parser import HTMLParser
+from pathlib import Path
 
 import pytest
 from sympy import cos, sin
@@ -16,7 +17,17 @@ from lagrangian.derive import formula as data
 from lagrangian.derive.formula import text
 from lagrangian.errors import ModelError
 from lagrangian.model import Builder, Damper, Force, Gravity, Particle, Spring, Torque
-from lagrangian.write import FORMATS, NOTATIONS, to_dict, to_html, to_html_fragment, to_latex, to_markdown, to_text
+from lagrangian.write import (
+    FORMATS,
+    NOTATIONS,
+    html,
+    to_dict,
+    to_html,
+    to_html_fragment,
+    to_latex,
+    to_markdown,
+    to_text,
+)
 from lagrangian.write.glyphs import columns
 from lagrangian.write.layout import lay_out
 
@@ -363,3 +374,13 @@ def test_every_item_is_laid_out(derivations):
     shown = sum(len(s.blocks) for s in document.sections if s.number is not None)
     items = sum(len(s.items) + 2 + bool(s.checked) for s in d.steps)
     assert shown == items
+
+
+def test_the_style_sheet_is_whole():
+    sheet = (Path(html.__file__).parent / "page.css").read_text(encoding="utf-8")
+    assert sheet.count("{") == sheet.count("}")
+    used = set(re.findall(r'class="([\w ]+)"', Path(html.__file__).read_text(encoding="utf-8")))
+    names = {name for group in used for name in group.split()} - {"whole", "lagrangian"}
+    known = set(re.findall(r"\.([a-z]+)", sheet))
+    assert names <= known | {"sign"}, names - known
+    assert ".number, .tag {" in sheet

@@ -39,7 +39,7 @@ KINDS = {
     "damping": "damping",
     "stiffness": "stiffness",
     "gravity": "gravity",
-    "input": "input: Ξ from outside",
+    "input": "input: from outside",
     "other": "other",
 }
 """The kinds of terms, as the legend names them."""
