@@ -15,15 +15,18 @@ from dataclasses import dataclass, field
 
 from lagrangian.dynamics.eliminate import Quadratic, solve
 from lagrangian.dynamics.inertia import AnyLink, Bodies
-from lagrangian.dynamics.motion import Motion
+from lagrangian.dynamics.motion import Accelerations, Motion
 from lagrangian.dynamics.tape import is_linear, make_tape, moving_nodes
-from lagrangian.dynamics.vectors import dot, zeros
+from lagrangian.dynamics.vectors import dot, plus, zeros
 from lagrangian.graph import Graph, count_operations, gradient, hessian, jvp, operands, vjp
 
 Pairs = list[tuple[int, int]]
 
 SMALL = 12
 """Up to so many velocities the dense way is tried as well."""
+
+MANY = 100
+"""Up to so many velocities the way without exchange is tried as well."""
 
 
 @dataclass
@@ -66,12 +69,13 @@ class Mechanics:
 
     # -- what acts ----------------------------------------------------------------------------------------------
 
-    def inertial(self, vdot: Sequence[int], *, gravity: bool = True, regrouped: bool = True) -> Pairs:
-        """(velocity, inertial force − weight) of every link at v̇ = vdot: the ground accelerates with −g."""
-        g = self.graph
-        ground = [g.neg(x) for x in self.down] if gravity else zeros(g, self.motion.dimension)
-        acc = self.motion.accelerations(vdot, ground)
-        return [pair for link in self.links(regrouped=regrouped) for pair in link.wrench(self.motion, acc)]
+    def accelerations(self, vdot: Sequence[int], *, free: bool = False) -> Accelerations:
+        """Accelerations at v̇ = vdot against free fall: the ground accelerates with −g.
+
+        With ``free`` v̇ is chosen where a choice makes components vanish (`Motion.free_rates`).
+        """
+        ground = [self.graph.neg(x) for x in self.down]
+        return self.motion.accelerations(vdot, ground, self.motion.free_rates() if free else None)
 
     def raw_inertial(self, vdot: Sequence[int]) -> Pairs:
         """d/dt ∂T/∂v − ∂T/∂q of raw kinetic co-energies, on the velocities."""
@@ -94,11 +98,12 @@ class Mechanics:
             total = self.graph.add(total, x)
         return total
 
-    def missing(self, vdot: Sequence[int]) -> Pairs:
-        """(velocity, force that is missing) at v̇ = vdot: inertial minus applied."""
+    def missing(self, acc: Accelerations) -> Pairs:
+        """(velocity, force that is missing) at given accelerations: inertial minus applied, weights included."""
         g = self.graph
+        inertial = [pair for link in self.links(regrouped=True) for pair in link.wrench(self.motion, acc)]
         applied = [(rate, g.neg(effort)) for rate, effort in (*self.stores, *self.efforts)]
-        return [*self.inertial(vdot), *self.raw_inertial(vdot), *applied]
+        return [*inertial, *self.raw_inertial(acc.vdot), *applied]
 
     def gathered(self, pairs: Pairs) -> list[int]:
         """Σ effort · ∂rate/∂v_i of (rate, effort) pairs."""
@@ -113,7 +118,7 @@ class Mechanics:
 
     def inverse(self, vdot: Sequence[int]) -> list[int]:
         """The generalized forces that are missing at v̇ = vdot: M v̇ + C v + G − Ξ."""
-        return self.gathered(self.missing(vdot))
+        return self.gathered(self.missing(self.accelerations(vdot)))
 
     def bias(self) -> list[int]:
         """`inverse` at v̇ = 0."""
@@ -221,25 +226,36 @@ class Mechanics:
     # -- forward dynamics ---------------------------------------------------------------------------------------
 
     def forward(self) -> list[int]:
-        """v̇, by the cheapest of the eliminations: along the tape, with and without exchange, or of the mass matrix."""
-        g = self.graph
-        H = self.inertia()
-        linear = self._linear(self.missing(zeros(g, len(self.v))))
-        names = dict(zip(self.v, self.names, strict=True))
-        seeds = list(dict.fromkeys((*H.rows, *linear)))
-        found = [solve(g, make_tape(g, seeds, self.v, exchange=x), H, linear, self.v, names) for x in (True, False)]
+        """v̇, by the cheapest of the eliminations: along the tape, from two references, or of the mass matrix."""
+        found = [self._along_tape(free=True, exchange=True)]
+        if self.motion.free_rates():
+            found.append(self._along_tape(free=False, exchange=True))
+        if len(self.v) <= MANY:
+            found.append(self._along_tape(free=True, exchange=False))
         if len(self.v) <= SMALL:
-            found.append(self._by_mass_matrix(names))
-        return min(found, key=lambda ids: count_operations(g, ids, hoist=["p"]).operations)
+            found.append(self._by_mass_matrix())
+        return min(found, key=lambda ids: count_operations(self.graph, ids, hoist=["p"]).operations)
 
-    def _by_mass_matrix(self, names: dict[int, str]) -> list[int]:
+    def _along_tape(self, *, free: bool, exchange: bool) -> list[int]:
+        """v̇ = reference + what the elimination of the tape adds to it."""
+        g, H = self.graph, self.inertia()
+        acc = self.accelerations(zeros(g, len(self.v)), free=free)
+        linear = self._linear(self.missing(acc))
+        tape = make_tape(g, list(dict.fromkeys((*H.rows, *linear))), self.v, exchange=exchange)
+        return plus(g, acc.vdot, solve(g, tape, H, linear, self.v, self._named))
+
+    @property
+    def _named(self) -> dict[int, str]:
+        return dict(zip(self.v, self.names, strict=True))
+
+    def _by_mass_matrix(self) -> list[int]:
         """Solve M v̇ = −bias by LDLᵀ: the elimination with no tape between the rates and H."""
         g, H = self.graph, Quadratic(self.graph)
         for i, row in enumerate(self.mass_matrix()):
             for k in range(i + 1):
                 H.add(self.v[i], self.v[k], row[k])
         linear = dict(zip(self.v, self.bias(), strict=True))
-        return solve(g, make_tape(g, self.v, self.v), H, linear, self.v, names)
+        return solve(g, make_tape(g, self.v, self.v), H, linear, self.v, self._named)
 
     def _linear(self, pairs: Pairs) -> dict[int, int]:
         """The linear term over velocity nodes, those that depend on v alone."""

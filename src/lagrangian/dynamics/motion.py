@@ -13,7 +13,7 @@ parameter of them: gravity g acts like a ground that accelerates with −g.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from lagrangian.dynamics.vectors import (
@@ -29,7 +29,7 @@ from lagrangian.dynamics.vectors import (
     transposed,
     zeros,
 )
-from lagrangian.graph import Graph, Tangents, jvp, operands
+from lagrangian.graph import Graph, Tangents, jvp, operands, reached
 
 
 @dataclass(eq=False)
@@ -68,8 +68,9 @@ class Place:
 
 @dataclass
 class Accelerations:
-    """α of axes and a of places; in the plane α is one number and a stands in the fixed axes."""
+    """α of axes and a of places at v̇; in the plane α is one number and a stands in the fixed axes."""
 
+    vdot: Vector
     alpha: dict[Axes, Vector]
     a: dict[Place, Vector]
 
@@ -245,9 +246,16 @@ class Motion:
             place = place.parent
         return total
 
-    def accelerations(self, vdot: Sequence[int], ground: Sequence[int]) -> Accelerations:
-        """All accelerations at v̇ = vdot, with the ground accelerating at ``ground`` (fixed axes)."""
-        found = Accelerations({}, {self.ground: list(ground)})
+    def accelerations(
+        self, vdot: Sequence[int], ground: Sequence[int], free: Mapping[int, int] | None = None
+    ) -> Accelerations:
+        """All accelerations at v̇ = vdot, with the ground accelerating at ``ground`` (fixed axes).
+
+        ``free`` (from `free_rates`) maps velocities to their numbers whose v̇ is instead chosen so that the component of
+        α or a they drive vanishes: the equations are linear in v̇, and from there fewer terms are left.
+        """
+        found = Accelerations(list(vdot), {}, {self.ground: list(ground)})
+        free = free or {}
         if self.dimension == 2:
             turning = self.second_rate([a.own[0] for a in self.axes], vdot)
             found.alpha = {a: [x] for a, x in zip(self.axes, turning, strict=True)}
@@ -256,14 +264,50 @@ class Motion:
                 if place.parent is not None:
                     found.a[place] = plus(self.graph, found.a[place.parent], changes[2 * n : 2 * n + 2])
             return found
-        self._alphas(vdot, found)
+        self._alphas(vdot, found, free)
         changes = self.second_rate([x for p in self.places for x in (p.slide or p.offset_rate)], vdot)
         for n, place in enumerate(self.places):
             if place.parent is not None:
-                found.a[place] = self._acceleration(place, changes[3 * n : 3 * n + 3], found)
+                a = self._acceleration(place, found)
+                driven = place.slide or place.offset_rate
+                found.a[place] = self._settled(a, driven, changes[3 * n : 3 * n + 3], found, free)
         return found
 
-    def _alphas(self, vdot: Sequence[int], found: Accelerations) -> None:
+    def _settled(
+        self, a: Vector, driven: Vector, change: Sequence[int], found: Accelerations, free: Mapping[int, int]
+    ) -> Vector:
+        """a + change, component by component, or 0 where the velocity that drives it is free: then v̇ = ∓a."""
+        g, total = self.graph, []
+        for x, drive, c in zip(a, driven, change, strict=True):
+            node = g.nodes[drive]
+            bare, negative = (node[1], True) if node[0] == "neg" else (drive, False)
+            if bare in free:
+                found.vdot[free[bare]] = x if negative else g.neg(x)
+                total.append(g.zero)
+            else:
+                total.append(g.add(x, c))
+        return total
+
+    def free_rates(self) -> dict[int, int]:
+        """Velocities that drive one component of one thing alone (a joint's own turn or slide) → their number."""
+        if self.dimension == 2:
+            return {}
+        nodes = self.graph.nodes
+        entries = [x for axes in self.axes for x in axes.own]
+        entries += [x for place in self.places for x in (place.slide or place.offset_rate)]
+        number = {v: i for i, v in enumerate(self.v)}
+        alone: dict[int, int] = {}
+        mixed: list[int] = []
+        for x in entries:
+            bare = nodes[x][1] if nodes[x][0] == "neg" else x
+            if bare in number:
+                alone[bare] = alone.get(bare, 0) + 1
+            else:
+                mixed.append(x)
+        shared = set(reached(self.graph, mixed))
+        return {v: number[v] for v, count in alone.items() if count == 1 and v not in shared}
+
+    def _alphas(self, vdot: Sequence[int], found: Accelerations, free: Mapping[int, int]) -> None:
         """α = Rᵀ α_parent + (Rᵀ ω_parent) × w + ẇ."""
         g = self.graph
         changes = self.second_rate([w for a in self.axes for w in a.own], vdot)
@@ -274,21 +318,22 @@ class Motion:
             back = transposed(axes.turn)
             carried = times(g, back, found.alpha[axes.parent])
             gyro = cross(g, times(g, back, axes.parent.omega), axes.own)
-            found.alpha[axes] = plus(g, plus(g, carried, gyro), changes[3 * n : 3 * n + 3])
+            total = plus(g, carried, gyro)
+            found.alpha[axes] = self._settled(total, axes.own, changes[3 * n : 3 * n + 3], found, free)
 
-    def _acceleration(self, place: Place, change: Sequence[int], found: Accelerations) -> Vector:
-        """a = a_parent + A r + 2 ω × ṙ + r̈,  A = [α]× + [ω]×²; of a floating place  a = a_ground + ω × v + v̇."""
+    def _acceleration(self, place: Place, found: Accelerations) -> Vector:
+        """a_parent + A r + 2 ω × ṙ (r̈ is to come),  A = [α]× + [ω]×²; of a floating place  a_ground + ω × v."""
         g = self.graph
         axes, parent = place.axes, place.parent
         assert parent is not None
         total = self.turned(found.a[parent], parent.axes, axes)
         if place.slide is not None:
-            return plus(g, plus(g, total, cross(g, axes.omega, place.slide)), change)
+            return plus(g, total, cross(g, axes.omega, place.slide))
         if any(x != g.zero for x in place.offset):
             total = plus(g, total, times(g, self.spin(axes, found), place.offset))
         if any(x != g.zero for x in place.offset_rate):
             total = plus(g, total, scaled(g, g.const(2.0), cross(g, axes.omega, place.offset_rate)))
-        return plus(g, total, change)
+        return total
 
     def spin(self, axes: Axes, found: Accelerations) -> Matrix:
         """A = [α]× + ω ωᵀ − |ω|² 1: what a point fixed in ``axes`` at r accelerates by, A r."""
