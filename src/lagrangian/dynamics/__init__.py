@@ -3,8 +3,8 @@
 `Mechanics` over a `Motion` is the layer below, for what is not described by a model.
 """
 
+from lagrangian.dynamics.bodies import Bodies
 from lagrangian.dynamics.describe import Inputs, describe
-from lagrangian.dynamics.inertia import Bodies
 from lagrangian.dynamics.mechanics import Mechanics
 from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.programs import (

@@ -12,9 +12,10 @@ from typing import Any
 
 import sympy as sp
 
-from lagrangian.dynamics.inertia import Bodies
+from lagrangian.dynamics.bodies import Bodies
 from lagrangian.dynamics.mechanics import Mechanics, Pairs
-from lagrangian.dynamics.motion import Axes, Motion, Place, along_axis
+from lagrangian.dynamics.motion import Axes, Motion, Place
+from lagrangian.dynamics.turns import along_axis
 from lagrangian.dynamics.vectors import Vector, dot, minus, plus, scaled, times, zeros
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, from_sympy, gradient

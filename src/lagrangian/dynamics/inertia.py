@@ -146,6 +146,10 @@ class PlaneLink:
     h: Vector
     J: int
 
+    def plus(self, g: Graph, m: int, h: Vector, J: int) -> PlaneLink:
+        """With more matter."""
+        return PlaneLink(self.axes, self.place, g.add(self.m, m), plus(g, self.h, h), g.add(self.J, J))
+
     def seeds(self, motion: Motion) -> Triples:
         """The (i, k, h) of T = Σ h v_i v_k: ½ m v² + ω (h_x v_y − h_y v_x) + ½ J ω²."""
         g, (vx, vy), w = motion.graph, self.place.velocity, self.axes.omega[0]
@@ -172,79 +176,3 @@ class PlaneLink:
 
 
 AnyLink = Link | PlaneLink
-
-
-class Bodies:
-    """The links of a motion. Bodies that are at rest against each other share one."""
-
-    def __init__(self, motion: Motion) -> None:
-        self.motion = motion
-        self._links: dict[tuple[Axes, Place], Inertia] = {}
-        self._plane: dict[tuple[Axes, Place], PlaneLink] = {}
-
-    def add_in_plane(self, axes: Axes, place: Place, m: int, J: int) -> None:
-        """A body in the plane: mass m, inertia J about its centre ``place``, turning with ``axes``."""
-        g = self.motion.graph
-        anchor, r = self.motion.anchor(place, axes)
-        h = scaled(g, m, r)
-        about = g.add(J, g.add(g.mul(h[0], r[0]), g.mul(h[1], r[1])))
-        old = self._plane.get((axes, anchor))
-        if old is not None:
-            m, h, about = g.add(old.m, m), plus(g, old.h, h), g.add(old.J, about)
-        self._plane[axes, anchor] = PlaneLink(axes, anchor, m, h, about)
-
-    def add(self, axes: Axes, place: Place, m: int, central: Matrix) -> None:
-        """A body in space: mass m, centre of mass at ``place``, inertia ``central`` about it in ``axes``."""
-        motion, g = self.motion, self.motion.graph
-        home, turn = motion.base(axes)
-        anchor, r = motion.anchor(place, home)
-        matter = Inertia.of_body(g, m, zeros(g, 3), central).turned(g, turn).shifted(g, r)
-        self._put(home, anchor, matter)
-
-    def add_point(self, place: Place, m: int) -> None:
-        """A point mass."""
-        if self.motion.dimension == 2:
-            self.add_in_plane(self.motion.root, place, m, self.motion.graph.zero)
-        else:
-            self.add(place.axes, place, m, [zeros(self.motion.graph, 3) for _ in range(3)])
-
-    def _put(self, axes: Axes, place: Place, matter: Inertia) -> None:
-        old = self._links.get((axes, place))
-        self._links[axes, place] = matter if old is None else old.plus(self.motion.graph, matter)
-
-    @property
-    def links(self) -> list[AnyLink]:
-        """The links as they are."""
-        space: list[AnyLink] = [Link(axes, place, matter) for (axes, place), matter in self._links.items()]
-        return [*space, *self._plane.values()]
-
-    def regrouped(self) -> list[AnyLink]:
-        """Links that move alike with fewer numbers, deepest first handing up to their parents.
-
-        A turn about axis k through a place at rest in the parent does not change m, h_k and Σ_kk: a needle of matter on
-        the axis. Moved to the parent it leaves the energies' dependence on the motion, and so every equation, as it is.
-        """
-        motion, g = self.motion, self.motion.graph
-        if motion.dimension == 2:
-            return self.links
-        kept = dict(self._links)
-        for axes in reversed(motion.axes):
-            k = axes.axis
-            if k is None or axes.parent is None:
-                continue
-            home, turn = motion.base(axes.parent)
-            for place in [place for at, place in kept if at is axes]:
-                if place.slide is not None or motion.base(place.axes)[0] is axes:
-                    continue  # the place is not on the axis
-                matter = kept[axes, place]
-                needle, rest = Inertia.none(g), Inertia(g.zero, list(matter.h), [list(row) for row in matter.S])
-                needle.m, needle.h[k], needle.S[k][k] = matter.m, matter.h[k], matter.S[k][k]
-                rest.h[k] = rest.S[k][k] = g.zero
-                kept[axes, place] = rest
-                anchor, r = motion.anchor(place, home)
-                if home is motion.root and anchor is motion.ground:
-                    continue  # the ground carries it
-                moved = needle.turned(g, turn).shifted(g, r)
-                old = kept.get((home, anchor))
-                kept[home, anchor] = moved if old is None else old.plus(g, moved)
-        return [Link(axes, place, matter) for (axes, place), matter in kept.items()]

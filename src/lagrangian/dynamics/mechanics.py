@@ -10,11 +10,13 @@ which is one reverse pass over the velocities with the forces as cotangents.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
+from lagrangian.dynamics.bodies import Bodies
 from lagrangian.dynamics.eliminate import Quadratic, solve
-from lagrangian.dynamics.inertia import AnyLink, Bodies
+from lagrangian.dynamics.inertia import AnyLink
 from lagrangian.dynamics.motion import Accelerations, Motion
 from lagrangian.dynamics.tape import is_linear, make_tape, moving_nodes
 from lagrangian.dynamics.vectors import dot, plus, zeros
@@ -49,7 +51,6 @@ class Mechanics:
     potentials: list[int] = field(default_factory=list)
     kinetics: list[int] = field(default_factory=list)
     losses: list[int] = field(default_factory=list)
-    _links: dict[bool, list[AnyLink]] = field(default_factory=dict)
 
     @property
     def q(self) -> tuple[int, ...]:
@@ -61,11 +62,19 @@ class Mechanics:
         """The velocities: rates of the coordinates, or quasi-velocities."""
         return self.motion.v
 
-    def links(self, *, regrouped: bool) -> list[AnyLink]:
-        """The links, as they are or with what a turn does not change handed to the parents."""
-        if regrouped not in self._links:
-            self._links[regrouped] = self.bodies.regrouped() if regrouped else self.bodies.links
-        return self._links[regrouped]
+    @cached_property
+    def links(self) -> list[AnyLink]:
+        """The bodies as they are."""
+        return self.bodies.links
+
+    @cached_property
+    def groupings(self) -> list[list[AnyLink]]:
+        """Links that move alike: the candidates of every count."""
+        return self.bodies.groupings()
+
+    def cheapest(self, candidates: Iterable[list[int]]) -> list[int]:
+        """The nodes that take the fewest operations, parameters hoisted."""
+        return min(candidates, key=lambda ids: count_operations(self.graph, ids, hoist=["p"]).operations)
 
     # -- what acts ----------------------------------------------------------------------------------------------
 
@@ -98,10 +107,10 @@ class Mechanics:
             total = self.graph.add(total, x)
         return total
 
-    def missing(self, acc: Accelerations) -> Pairs:
+    def missing(self, acc: Accelerations, links: Sequence[AnyLink]) -> Pairs:
         """(velocity, force that is missing) at given accelerations: inertial minus applied, weights included."""
         g = self.graph
-        inertial = [pair for link in self.links(regrouped=True) for pair in link.wrench(self.motion, acc)]
+        inertial = [pair for link in links for pair in link.wrench(self.motion, acc)]
         applied = [(rate, g.neg(effort)) for rate, effort in (*self.stores, *self.efforts)]
         return [*inertial, *self.raw_inertial(acc.vdot), *applied]
 
@@ -118,17 +127,18 @@ class Mechanics:
 
     def inverse(self, vdot: Sequence[int]) -> list[int]:
         """The generalized forces that are missing at v̇ = vdot: M v̇ + C v + G − Ξ."""
-        return self.gathered(self.missing(self.accelerations(vdot)))
+        acc = self.accelerations(vdot)
+        return self.cheapest(self.gathered(self.missing(acc, links)) for links in self.groupings)
 
     def bias(self) -> list[int]:
         """`inverse` at v̇ = 0."""
         return self.inverse(zeros(self.graph, len(self.v)))
 
-    def inertia(self) -> Quadratic:
+    def inertia(self, links: Sequence[AnyLink]) -> Quadratic:
         """H over the velocity nodes: T = ½ Σ H_ik v_i v_k."""
         g, motion = self.graph, self.motion
         H = Quadratic(g)
-        triples = [triple for link in self.links(regrouped=True) for triple in link.seeds(motion)]
+        triples = [triple for link in links for triple in link.seeds(motion)]
         triples = [triple for triple in triples if g.zero not in triple]
         moving = set(moving_nodes(g, {i for pair in triples for i in pair[:2]}, self.v))
         for i, k, h in triples:
@@ -149,18 +159,19 @@ class Mechanics:
 
     def mass_matrix(self) -> list[list[int]]:
         """M, row after row: column j is Σ_ik (∂v_i/∂v) H_ik (∂v_k/∂v_j)."""
+        n = len(self.v)
+        flat = self.cheapest(
+            [x for row in self._mass_matrix(self.inertia(links)) for x in row] for links in self.groupings
+        )
+        return [flat[i * n : (i + 1) * n] for i in range(n)]
+
+    def _mass_matrix(self, H: Quadratic) -> list[list[int]]:
         g, n = self.graph, len(self.v)
-        H = self.inertia()
         seeds = list(H.rows)
         rows = [[g.zero] * n for _ in range(n)]
         for j, v in enumerate(self.v):
             moved = dict(zip(seeds, jvp(g, seeds, {v: g.one}), strict=True))
-            forces = []
-            for i in seeds:
-                total = g.zero
-                for k, h in H.rows[i].items():
-                    total = g.add(total, g.mul(h, moved[k]))
-                forces.append(total)
+            forces = [dot(g, list(H.rows[i].values()), [moved[k] for k in H.rows[i]]) for i in seeds]
             column = vjp(g, seeds, forces, list(self.v))
             for i in range(j + 1):
                 rows[i][j] = rows[j][i] = column[i]
@@ -172,7 +183,7 @@ class Mechanics:
         """T* of all bodies as they are, and of the raw energies."""
         g = self.graph
         total = self.raw_kinetic
-        for link in self.links(regrouped=False):
+        for link in self.links:
             for i, k, h in link.seeds(self.motion):
                 total = g.add(total, g.mul(h, g.mul(i, k)))
         return total
@@ -182,7 +193,7 @@ class Mechanics:
         g, motion = self.graph, self.motion
         total = self._sum(self.potentials)
         if any(x != g.zero for x in self.down):
-            for link in self.links(regrouped=False):
+            for link in self.links:
                 total = g.sub(total, dot(g, self.down, link.moment(motion)))
         return total
 
@@ -227,20 +238,22 @@ class Mechanics:
 
     def forward(self) -> list[int]:
         """v̇, by the cheapest of the eliminations: along the tape, from two references, or of the mass matrix."""
-        found = [self._along_tape(free=True, exchange=True)]
-        if self.motion.free_rates():
-            found.append(self._along_tape(free=False, exchange=True))
-        if len(self.v) <= MANY:
-            found.append(self._along_tape(free=True, exchange=False))
+        found: list[list[int]] = []
+        for links in self.groupings:
+            found.append(self.along_tape(links, free=True, exchange=True))
+            if self.motion.free_rates():
+                found.append(self.along_tape(links, free=False, exchange=True))
+            if len(self.v) <= MANY:
+                found.append(self.along_tape(links, free=True, exchange=False))
         if len(self.v) <= SMALL:
-            found.append(self._by_mass_matrix())
-        return min(found, key=lambda ids: count_operations(self.graph, ids, hoist=["p"]).operations)
+            found.append(self.by_mass_matrix())
+        return self.cheapest(found)
 
-    def _along_tape(self, *, free: bool, exchange: bool) -> list[int]:
+    def along_tape(self, links: Sequence[AnyLink], *, free: bool, exchange: bool) -> list[int]:
         """v̇ = reference + what the elimination of the tape adds to it."""
-        g, H = self.graph, self.inertia()
+        g, H = self.graph, self.inertia(links)
         acc = self.accelerations(zeros(g, len(self.v)), free=free)
-        linear = self._linear(self.missing(acc))
+        linear = self._linear(self.missing(acc, links))
         tape = make_tape(g, list(dict.fromkeys((*H.rows, *linear))), self.v, exchange=exchange)
         return plus(g, acc.vdot, solve(g, tape, H, linear, self.v, self._named))
 
@@ -248,7 +261,7 @@ class Mechanics:
     def _named(self) -> dict[int, str]:
         return dict(zip(self.v, self.names, strict=True))
 
-    def _by_mass_matrix(self) -> list[int]:
+    def by_mass_matrix(self) -> list[int]:
         """Solve M v̇ = −bias by LDLᵀ: the elimination with no tape between the rates and H."""
         g, H = self.graph, Quadratic(self.graph)
         for i, row in enumerate(self.mass_matrix()):

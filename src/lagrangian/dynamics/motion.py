@@ -16,6 +16,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from lagrangian.dynamics.turns import swing
 from lagrangian.dynamics.vectors import (
     Matrix,
     Vector,
@@ -97,6 +98,7 @@ class Motion:
             self._along[t] = graph.one
         self._rates = Tangents(graph, self._along)
         self._fixed: dict[int, bool] = {}
+        self._swings: dict[tuple[int, int], Axes] = {}
         self._moving = {*self.q, *self.v, *((t,) if t is not None else ())}
         spin = 1 if dimension == 2 else 3
         self.root = Axes(None, identity(graph, dimension), zeros(graph, spin), None, zeros(graph, spin), 0, True)
@@ -153,13 +155,28 @@ class Motion:
             step = times(g, axes.turn, offset)
             change = self.rate(step)
             made = Place(parent, self.root, step, change, plus(g, parent.velocity, change))
-            made.given = axes, list(offset)
+            made.given = (axes, list(offset)) if axes is not self.root else self._carried(step)
         else:
             change = self.rate(offset)
             carried = plus(g, self.turned(parent.velocity, parent.axes, axes), cross(g, axes.omega, offset))
             made = Place(parent, axes, list(offset), change, plus(g, carried, change))
         self.places.append(made)
         return made
+
+    def _carried(self, step: Sequence[int]) -> tuple[Axes, Vector]:
+        """The axes that carry a step of fixed length along, and the step in them; the root where there are none."""
+        g = self.graph
+        found = swing(g, step)
+        if found is None or not self.constant([found.length]):
+            return self.root, list(step)
+        c, s = found.direction
+        if (c, s) not in self._swings:
+            rate = self.rate([found.angle])[0]
+            own = [rate if found.forwards else g.neg(rate)]
+            made = Axes(self.root, [[c, g.neg(s)], [s, c]], own, None, own, 1)
+            self.axes.append(made)
+            self._swings[c, s] = made
+        return self._swings[c, s], [found.length, g.zero]
 
     def floating(self, position: Sequence[int], axes: Axes, velocity: Sequence[int]) -> Place:
         """A place at ``position`` (fixed axes) whose velocity has the components ``velocity`` in ``axes``."""
@@ -393,14 +410,3 @@ class Motion:
             r = plus(g, r, step)
             place = place.parent
         return place, r
-
-
-def along_axis(g: Graph, n: Sequence[int], angle: int) -> Matrix:
-    """Rodrigues' rotation about the unit axis n: R = c 1 + s [n]× + (1 − c) n nᵀ."""
-    c, s = g.cos(angle), g.sin(angle)
-    rest = g.sub(g.one, c)
-    hat = [[g.zero, g.neg(n[2]), n[1]], [n[2], g.zero, g.neg(n[0])], [g.neg(n[1]), n[0], g.zero]]
-    return [
-        [g.add(g.add(c if i == j else g.zero, g.mul(s, hat[i][j])), g.mul(rest, g.mul(n[i], n[j]))) for j in range(3)]
-        for i in range(3)
-    ]
