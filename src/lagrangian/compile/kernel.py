@@ -29,6 +29,7 @@ _BATCH = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctype
 _SINGLE_SHORT = ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)
 _SINGLE_LONG = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)
 
+_NONE = (0,)  # the shape of a group without entries
 LONG = 20_000  # nodes from which one state is long
 REMEMBERED = 64  # parameter sets whose shared block is kept
 
@@ -63,7 +64,11 @@ class Kernel:
         hoist = build.options.hoist
         self._late = [k for k, g in enumerate(self._groups) if g.name not in hoist]
         self._early = [k for k, g in enumerate(self._groups) if g.name in hoist]
-        self._early_at = self._early[0] if self._early else len(self._groups)
+        # For the quick way: what fills up a call with fewer groups, one more place for where there is no hoisted group,
+        # and nothing at all where several groups are hoisted.
+        count = len(self._groups) if len(self._early) < 2 else -1
+        self._missing = {n: (None,) * (count + 1 - n) for n in range(count + 1)}
+        self._early_at = self._early[0] if self._early else count
         self._stages: list[Stage] = []
         self._blocks: OrderedDict[bytes, Array] = OrderedDict()
         self._standard: Array | None = None  # the shared block of the default parameters, once used
@@ -102,46 +107,44 @@ class Kernel:
 
     def _quick(self, given: tuple[Any, ...]) -> Any:
         """The answer for one state in float64 vectors of the right length; None if anything needs a closer look."""
-        count = len(given)
-        early = given[self._early_at] if self._early_at < count else None
+        missing = self._missing.get(len(given))
+        if missing is None:
+            return None
+        given += missing
+        early = given[self._early_at]
         if early is None:
             shared = self._standard
-        elif type(early) is ndarray and early.dtype is FLOAT and early.ndim == 1 and len(self._early) == 1:
+        elif type(early) is ndarray and early.dtype is FLOAT and early.ndim == 1:
             shared = self._blocks.get(early.tobytes())
         else:
             return None
-        if shared is None or count > len(self._groups) or len(self._early) > 1:
+        if shared is None:
             return None
         try:
             stage = self._stages.pop()
         except IndexError:  # another thread took it
             return None
         answer = None
-        if self._filled(stage, given, count):
+        for k, part, shape, scalar, default in stage.parts:
+            array = given[k]
+            if type(array) is ndarray:
+                if array.dtype is not FLOAT or array.shape != shape or scalar:
+                    break
+                part[...] = array  # a third of the time of part[:]
+            elif array is None and default is not None:
+                if shape != _NONE:
+                    part[...] = default
+            elif scalar and isinstance(array, float):
+                part[0] = array
+            else:
+                break
+        else:
             if stage.shared is not shared:
                 stage.share(shared)
             if self._single(stage.where) == 0:
                 answer = stage.results[0].copy() if self._lone else self._answer(stage)
         self._stages.append(stage)
         return answer
-
-    @staticmethod
-    def _filled(stage: Stage, given: tuple[Any, ...], count: int) -> bool:
-        """Copy the groups that are plain into the stage; False if one is not."""
-        for k, part, shape, scalar, default in stage.parts:
-            array = given[k] if k < count else None
-            if type(array) is ndarray:
-                if array.dtype is not FLOAT or array.shape != shape or scalar:
-                    return False
-                part[...] = array  # a third of the time of part[:]
-            elif array is None and default is not None:
-                if default.size:
-                    part[...] = default
-            elif scalar and type(array) is float:
-                part[0] = array
-            else:
-                return False
-        return True
 
     def _answer(self, stage: Stage) -> Any:
         """The outputs of a stage, copied."""
