@@ -16,7 +16,7 @@ def blocks(path: str, language: str) -> list[str]:
 
 
 def test_the_readmes_python_runs(tmp_path: pathlib.Path) -> None:
-    (code,) = blocks("README.md", "python")
+    code = "\n".join(blocks("README.md", "python"))
     done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, timeout=120, check=False)
     output = done.stdout.decode("utf-8")
     assert done.returncode == 0, done.stderr.decode("utf-8")
@@ -47,4 +47,4 @@ def test_every_command_of_the_readme_runs(tmp_path: pathlib.Path) -> None:
         assert done.returncode == 0, (command, done.stderr.decode("utf-8"))
         if target:
             (tmp_path / target).write_bytes(done.stdout)
-    assert {p.name for p in tmp_path.iterdir()} == {"carts.toml", "carts.html", "carts.tex"}
+    assert {p.name for p in tmp_path.iterdir()} == {"carts.toml", "carts.html", "carts.tex", "out"}

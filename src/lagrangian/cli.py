@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
 from typing import Annotated
@@ -11,6 +12,7 @@ from typing import Annotated
 import typer
 
 from lagrangian import examples, read, write
+from lagrangian.compiled import sources
 from lagrangian.derivation import Derivation
 from lagrangian.errors import Error, ModelError
 from lagrangian.system import System, load, loads
@@ -104,11 +106,34 @@ def verify(
     seed: Annotated[int, typer.Option(help="Which random states.")] = 1,
 ) -> None:
     """Check the equations by independent routes; exit 1 if one does not hold."""
-    checks = _open(file).derive().verify(states=states, seed=seed)
-    for check in checks:
-        sys.stdout.write(f"{'ok  ' if check.holds else 'FAIL'}  {check.what}: {check.figure}\n")
-    if not all(check.holds for check in checks):
+    derivation = _open(file).derive()
+    verified = replace(derivation, verified=derivation.verify(states=states, seed=seed))
+    sys.stdout.write(write.verdicts(verified))
+    if not all(check.holds for check in verified.verified):
         raise typer.Exit(1)
+
+
+class Language(StrEnum):
+    """What source code is written in."""
+
+    C = "c"
+    PYTHON = "python"
+
+
+@app.command()
+def export(
+    file: File,
+    to: Annotated[Language, typer.Option("--to", help="The language.")],
+    output: Annotated[Path, typer.Option("--output", "-o", help="The folder to write into.")] = Path(),
+    name: Annotated[str, typer.Option(help="What the files and functions are called.")] = "dynamics",
+) -> None:
+    """Write the dynamics as source code that needs nothing of this package."""
+    try:
+        output.mkdir(parents=True, exist_ok=True)
+    except OSError as trouble:
+        raise Error(f"cannot make the folder '{output}': {trouble.strerror}", code="E801") from None
+    for file_name, text in sources(_open(file).model, to.value, name).items():
+        sys.stderr.write(f"wrote {write.write_file(output / file_name, text)}\n")
 
 
 @app.command()

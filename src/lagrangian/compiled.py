@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -177,23 +177,39 @@ _PROGRAMS: dict[str, Callable[[Model], Program]] = {
 }
 _STILL = ("mass_matrix", "gravity")
 
-EXPORTED: Sequence[str] = ("forward", "inverse", "mass_matrix", "energy")
-"""The programs that source files are written of."""
+EXPORTED = ("forward", "inverse", "mass_matrix", "energy")
+"""The programs that a source file is written of."""
+
+LANGUAGES = {"c": ".c", "python": ".py"}
+"""The languages of source files, and how their names end."""
 
 
-def source(model: Model, language: str) -> dict[str, str]:
-    """Return the source files of a system in "c" or "python": file name → text.
+def sources(model: Model, language: str, stem: str) -> dict[str, str]:
+    """Return source code as file name → text: C99 with its header, or Python with NumPy.
 
-    One file (and a header in C) a program: forward dynamics, inverse dynamics, mass matrix, energies.
+    Each holds forward dynamics, inverse dynamics, mass matrix and energies as functions ``stem_forward``, …; nothing
+    else of this package is needed to run them.
     """
-    if language not in ("c", "python"):
-        raise ModelError(f"there is no export to '{language}'", fix="c or python", code="E402")
-    files: dict[str, str] = {}
-    for name in EXPORTED:
-        program = _PROGRAMS[name](model)
-        if language == "c":
-            code, header = machine.to_c(program)
-            files[f"{name}.c"], files[f"{name}.h"] = code, header
-        else:
-            files[f"{name}.py"] = machine.to_numpy(program)
-    return files
+    if language not in LANGUAGES:
+        raise ModelError(f"there is no export to '{language}'", fix=f"one of {', '.join(LANGUAGES)}", code="E402")
+    if not (stem.isascii() and stem.isidentifier()):
+        raise ModelError(
+            f"'{stem}' cannot begin the name of a function", fix="use letters, digits and underscores", code="E702"
+        )
+    programs = {f"{stem}_{name}": _PROGRAMS[name](model) for name in EXPORTED}
+    if language == "python":
+        functions = [_renamed(machine.to_numpy(program), name) for name, program in programs.items()]
+        first = f'"""The dynamics of a system with coordinates {", ".join(c.name for c in model.coordinates)}."""'
+        return {f"{stem}.py": f"{first}\n\nimport numpy as np\n\n\n" + "\n\n".join(functions)}
+    codes, headers = [], []
+    for name, program in programs.items():
+        code, header = machine.to_c(program, name=name)
+        codes.append(code.replace(f'#include "{name}.h"', f'#include "{stem}.h"'))
+        headers.append(header)
+    return {f"{stem}.c": "\n".join(codes), f"{stem}.h": "\n".join(headers)}
+
+
+def _renamed(module: str, name: str) -> str:
+    """The function of a module that holds one, under another name."""
+    body = module[module.index("\ndef ") + 1 :]
+    return f"def {name}" + body[body.index("(") :]

@@ -10,6 +10,8 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import read
+from lagrangian.analyze import check_dimensions
+from lagrangian.compiled import LANGUAGES, Compiled, sources
 from lagrangian.derivation import Derivation, derive_and_verify
 from lagrangian.errors import ModelError, Place
 from lagrangian.model import (
@@ -274,6 +276,26 @@ class System:
     def derive(self) -> Derivation:
         """Return the derivation: the seven steps, the equations, and what was verified."""
         return derive_and_verify(self.model)
+
+    def compile(self, *, lanes: int | None = None, threads: int | None = None) -> Compiled:
+        """Return the system as machine code: `forward`, `inverse`, `mass_matrix`, `energy`, … on arrays of states.
+
+        ``lanes`` states are computed side by side (the machine's widest unless given), ``threads`` cores work on a
+        large batch (all unless given). No compiler is needed.
+        """
+        check_dimensions(self.model)
+        return Compiled(self.model, lanes=lanes, threads=threads)
+
+    def export(self, path: str | Path) -> tuple[Path, ...]:
+        """Write source code of the dynamics: to ``name.c`` (and ``name.h``) or ``name.py``; return what was written."""
+        target = Path(path)
+        languages = {suffix: language for language, suffix in LANGUAGES.items()}
+        if target.suffix not in languages:
+            raise ModelError(
+                f"'{target.name}' names no language by its ending", fix=f"one of {', '.join(languages)}", code="E402"
+            )
+        files = sources(self.model, languages[target.suffix], target.stem)
+        return tuple(write_file(target.parent / name, text) for name, text in files.items())
 
     def to_toml(self) -> str:
         """Return the system as the text of a model file."""

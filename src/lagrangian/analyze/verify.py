@@ -2,15 +2,16 @@
 
 The derived equations came from energies, by Lagrange's equations, in a normal form. Here they meet, at random states,
 
-* the principle of virtual work: Σ_b (m a − F)·∂v/∂ξ̇_i + (I ω̇ + ω × I ω)·∂ω/∂ξ̇_i, differentiated on the graph straight
-  from positions and angles, with no energy of motion and no normal form in it;
+* virtual work, `dynamics.inverse`: Σ_b (m a − F)·∂v/∂ξ̇_i + (I ω̇ + ω × I ω)·∂ω/∂ξ̇_i, differentiated on the graph
+  straight from positions and angles, with no energy of motion and no normal form in it;
+* Lagrange's equations again, `dynamics.inverse_from_lagrangian`, with L differentiated on the graph;
 * what any such equations obey: M symmetric and positive definite, Ṁ − 2C skew-symmetric, power balance;
 * dimensions, where units were given.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import cast
 
@@ -18,12 +19,13 @@ import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import dynamics
 from lagrangian.analyze.dimensions import Mismatch, check_dimensions, check_terms
 from lagrangian.derive import Check, Derivation
 from lagrangian.derive.formula import Name, text
 from lagrangian.derive.sample import Sampler
 from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy, jacobian, jvp, vjp
-from lagrangian.model import Model, RigidBody, time
+from lagrangian.model import Model, time
 
 TOLERANCE = 1e-9
 """Relative difference up to which two numbers count as equal: rounding of long expressions, no more."""
@@ -33,13 +35,18 @@ def verify(derivation: Derivation, *, states: int = 50, seed: int = 1) -> tuple[
     """Return what was checked at ``states`` random states, each with its figure."""
     figures = _figures(derivation, states, seed)
     n = f"{states} random state{'s' if states != 1 else ''}"
-    worst = max(figures.routes)
+    work, energy = max(figures.work), max(figures.energy)
     M, C, Xi = Name("M"), Name("C"), Name("Xi")
     checks = [
         Check(
             text("the equations agree with virtual work, a route without energies"),
-            worst < TOLERANCE,
-            f"largest relative difference {worst:.1e} at {n}",
+            work < TOLERANCE,
+            f"largest relative difference {work:.1e} at {n}",
+        ),
+        Check(
+            text("the equations agree with ", Name("L"), " differentiated by the machine"),
+            energy < TOLERANCE,
+            f"largest relative difference {energy:.1e} at {n}",
         ),
         Check(text(M, " is symmetric"), figures.asymmetry < TOLERANCE, f"largest difference {figures.asymmetry:.1e}"),
         Check(text(M, " is positive definite"), figures.smallest > 0, f"smallest eigenvalue {figures.smallest:.2e}"),
@@ -71,7 +78,7 @@ def _holds_time(expr: sp.Expr) -> bool:
 
 
 def _dimensional(derivation: Derivation) -> Check | None:
-    """Every term of every equation has the dimension of energy over its coordinate; None without units or with bare numbers."""
+    """Every term has the dimension of energy over its coordinate; None without units or with bare numbers."""
     dims = check_dimensions(derivation.model)
     what = text("dimensions: every term of an equation has the same unit")
     if dims is None or dims.loose:
@@ -89,7 +96,8 @@ def _dimensional(derivation: Derivation) -> Check | None:
 class _Figures:
     """The worst that was met."""
 
-    routes: list[float]
+    work: list[float]
+    energy: list[float]
     asymmetry: float = 0.0
     smallest: float = float("inf")
     skew: float = 0.0
@@ -98,25 +106,29 @@ class _Figures:
 
 def _figures(derivation: Derivation, states: int, seed: int) -> _Figures:
     model, n = derivation.model, len(derivation.coordinates)
-    route = _Route(model)
     exprs: list[sp.Expr] = [_residual(e) for e in derivation.equations]
     exprs += [*derivation.mass_matrix.flat(), *derivation.coriolis_matrix.flat(), *derivation.gravity_vector.flat()]
-    exprs += [*derivation.generalized_forces.flat(), *route.exprs]
+    exprs += [*derivation.generalized_forces.flat(), *(c.acceleration for c in model.coordinates)]
+    exprs += [*(c.rate for c in model.coordinates), *(c.symbol for c in model.coordinates)]
+    exprs += [*(p.symbol for p in model.parameters), *(u.symbol for u in model.inputs)]
     sampler = Sampler(model, exprs)
-    program = _program(derivation, route, sampler)
-    found = _Figures([])
+    program = _program(derivation, sampler)
+    routes = (dynamics.inverse(model), dynamics.inverse_from_lagrangian(model))
+    found = _Figures([], [])
     for state, _ in sampler.states(states, seed=seed):
         got = {k: np.array(v, float) for k, v in evaluate(program, {"x": [state[s] for s in sampler.symbols]}).items()}
-        scale = max(1.0, float(np.abs(got["parts"]).max(initial=0.0)))
-        found.routes.append(float(np.abs(got["equations"] - got["work"]).max()) / scale)
         M, C, Mdot = (got[k].reshape(n, n) for k in ("M", "C", "Mdot"))
+        v, a = got["v"], got["a"]
+        scale = max(1.0, float(max(np.abs(M * a).max(), np.abs(C * v).max(), np.abs(got["G"]).max())))
+        by_work, by_energy = (np.array(evaluate(r, _groups(model, state))["r"], float) for r in routes)
+        found.work.append(float(np.abs(got["equations"] - by_work).max()) / scale)
+        found.energy.append(float(np.abs(got["equations"] - by_energy).max()) / scale)
         size = float(np.abs(M).max())
         found.asymmetry = max(found.asymmetry, float(np.abs(M - M.T).max()) / size)
         found.smallest = min(found.smallest, float(np.linalg.eigvalsh((M + M.T) / 2).min()))
         skew = Mdot - 2 * C
         found.skew = max(found.skew, float(np.abs(skew + skew.T).max()) / max(1.0, float(np.abs(C).max())))
         # along a motion: ξ̈ from the derived matrices, then d/dt(ξ̇·∂L/∂ξ̇ − L) = Ξ·ξ̇ − ∂L/∂t
-        v = got["v"]
         a = np.linalg.solve(M, got["Xi"] - C @ v - got["G"])
         balance = got["hdot0"][0] + got["p_a"] @ a - got["Xi"] @ v + got["L_t"][0]
         size = max(1.0, float(np.abs(got["G"]).max() + np.abs(got["Xi"]).max()))
@@ -124,67 +136,16 @@ def _figures(derivation: Derivation, states: int, seed: int) -> _Figures:
     return found
 
 
-class _Route:
-    """Virtual work as expressions: the velocities of everything with mass, what resists them, and the forces."""
-
-    def __init__(self, model: Model) -> None:
-        self.translations: list[tuple[tuple[sp.Expr, ...], sp.Expr]] = []
-        self.rotations: list[tuple[tuple[sp.Expr, ...], sp.ImmutableMatrix]] = []
-        self.raw = sp.S.Zero
-        for element in model.elements:
-            if element in model.bodies:
-                self.translations.append((model.velocity(element.at), element.mass))  # type: ignore[attr-defined]
-                if isinstance(element, RigidBody):
-                    self.rotations.append((element.angular_velocity(model), element.inertia))
-            elif element.ledger == "T*":
-                self.raw += element.kinetic(model)
-        self.potential = sp.Add(*[e.potential(model) for e in model.elements])
-        self.works = [w for e in model.elements for w in e.ends(model)]
-        self.exprs = [x for v, m in self.translations for x in (*v, m)]
-        self.exprs += [x for w, inertia in self.rotations for x in (*w, *inertia.flat())]
-        self.exprs += [self.raw, self.potential] + [x for w in self.works for x in (w.effort, w.rate)]
-
-    def residual(self, g: Graph, node: _Nodes) -> tuple[list[int], list[int]]:
-        """Return Σ (inertial − applied) · ∂velocity/∂ξ̇_i for every coordinate, and pieces that tell its size."""
-        velocities: list[int] = []
-        efforts: list[int] = []
-        for v, m in self.translations:
-            at = [node.of(x) for x in v]
-            velocities += at
-            efforts += [g.mul(node.of(m), a) for a in node.rates(at)]
-        for w, inertia in self.rotations:
-            at = [node.of(x) for x in w]
-            velocities += at
-            efforts += _torque(
-                g,
-                at,
-                node.rates(at),
-                [[node.of(cast("sp.Expr", inertia[i, j])) for j in range(len(at))] for i in range(len(at))],
-            )
-        for work in self.works:
-            velocities.append(node.of(work.rate))
-            efforts.append(g.neg(node.of(work.effort)))
-        total = vjp(g, velocities, efforts, node.v)
-        pull = vjp(g, [node.of(self.potential)], [g.const(1.0)], node.q)
-        if self.raw != 0:
-            momenta = vjp(g, [node.of(self.raw)], [g.const(1.0)], node.v)
-            slopes = vjp(g, [node.of(self.raw)], [g.const(1.0)], node.q)
-            total = [g.add(x, g.sub(p, s)) for x, p, s in zip(total, node.rates(momenta), slopes, strict=True)]
-        return [g.add(x, y) for x, y in zip(total, pull, strict=True)], [*efforts, *pull]
-
-
-def _torque(g: Graph, w: list[int], alpha: list[int], inertia: list[list[int]]) -> list[int]:
-    """I α + ω × I ω in the body's axes; I α in the plane."""
-
-    def times(x: Sequence[int]) -> list[int]:
-        return [_sum(g, [g.mul(i, c) for i, c in zip(row, x, strict=True)]) for row in inertia]
-
-    turning = times(alpha)
-    if len(w) == 1:
-        return turning
-    h = times(w)
-    cross = [g.sub(g.mul(w[i], h[j]), g.mul(w[j], h[i])) for i, j in ((1, 2), (2, 0), (0, 1))]
-    return [g.add(a, b) for a, b in zip(turning, cross, strict=True)]
+def _groups(model: Model, state: Mapping[sp.Basic, float]) -> dict[str, list[float]]:
+    """A state as the groups that the programs of `dynamics` are called with."""
+    return {
+        "q": [state[c.symbol] for c in model.coordinates],
+        "v": [state[c.rate] for c in model.coordinates],
+        "a": [state[c.acceleration] for c in model.coordinates],
+        "u": [state[u.symbol] for u in model.inputs],
+        "p": [state[p.symbol] for p in model.parameters],
+        "t": [state[time]],
+    }
 
 
 def _sum(g: Graph, nodes: Sequence[int]) -> int:
@@ -216,16 +177,11 @@ class _Nodes:
         return jvp(self.g, list(nodes), moving)
 
 
-def _program(derivation: Derivation, route: _Route, sampler: Sampler) -> Program:
+def _program(derivation: Derivation, sampler: Sampler) -> Program:
     model, g = derivation.model, Graph()
     symbols = sampler.symbols
-    for c in model.coordinates:
-        for s in (c.symbol, c.rate, c.acceleration):
-            if s not in symbols:
-                symbols.append(s)
     table: dict[sp.Basic, int] = {s: g.input("x", i) for i, s in enumerate(symbols)}
     node = _Nodes(g, model, table)
-    work, parts = route.residual(g, node)
     M = [node.of(x) for x in derivation.mass_matrix.flat()]
     v = node.v
     # h = ξ̇·∂L/∂ξ̇ − L; its rate at ξ̈ = 0, and what ξ̈ adds
@@ -234,14 +190,13 @@ def _program(derivation: Derivation, route: _Route, sampler: Sampler) -> Program
     h = g.sub(_sum(g, [g.mul(p, x) for p, x in zip(momenta, v, strict=True)]), lagrangian)
     outputs = {
         "equations": [node.of(_residual(e)) for e in derivation.equations],
-        "work": work,
-        "parts": parts,
         "M": M,
         "Mdot": node.rates(M),
         "C": [node.of(x) for x in derivation.coriolis_matrix.flat()],
         "G": [node.of(x) for x in derivation.gravity_vector.flat()],
         "Xi": [node.of(x) for x in derivation.generalized_forces.flat()],
         "v": v,
+        "a": node.a,
         "hdot0": node.rates([h], with_acceleration=False),
         "p_a": vjp(g, [h], [g.const(1.0)], v),
         "L_t": [_partial(g, lagrangian, node.t)],

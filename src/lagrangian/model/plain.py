@@ -26,6 +26,9 @@ class _Plain(StrPrinter):
     def _print_Abs(self, expr: Any) -> str:
         return self._print_Function(expr)
 
+    def _print_Exp1(self, expr: Any) -> Any:
+        return "exp(1)"
+
     def _print_Pow(self, expr: Any, rational: bool = False) -> str:
         return super()._print_Pow(expr, rational=rational).replace("**", "^")
 

@@ -19,7 +19,7 @@ from lagrangian.write.latex import to_latex
 from lagrangian.write.layout import lay_out
 from lagrangian.write.markdown import to_markdown
 from lagrangian.write.quantities import Notation
-from lagrangian.write.text import to_text
+from lagrangian.write.text import to_text, verdicts
 
 
 def to_json(derivation: Derivation, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
@@ -54,5 +54,6 @@ __all__ = [
     "to_latex",
     "to_markdown",
     "to_text",
+    "verdicts",
     "write_file",
 ]

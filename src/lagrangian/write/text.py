@@ -51,6 +51,14 @@ def to_text(
     return "\n".join(line.rstrip().replace(_KEPT, " ") for line in lines) + "\n"
 
 
+def verdicts(derivation: Derivation, *, notation: Notation = "lecture", width: int = 80) -> str:
+    """Return what was verified, a mark and a figure each."""
+    sections = lay_out(derivation, notation=notation).sections
+    blocks = next((s.blocks for s in sections if s.anchor == "verified"), ())
+    lines = [line for block in blocks for line in _block(block, width)]
+    return "\n".join(line.rstrip().replace(_KEPT, " ") for line in lines) + "\n"
+
+
 def _section(section: Section, width: int, brief: bool) -> list[str]:
     number = f"{section.number}  " if section.number is not None else ""
     title = number + "".join(x if isinstance(x, str) else unicode(x) for x in section.title)

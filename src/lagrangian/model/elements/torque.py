@@ -65,8 +65,10 @@ class Torque(Element):
 
     def suggested_name(self) -> str:
         """The symbol of its value."""
-        v = self.value
-        return getattr(v, "name", "") if isinstance(v, sp.Expr) and (v.is_Symbol or v.is_Function) else ""
+        if not isinstance(self.value, sp.Expr):
+            return ""
+        main = -self.value if self.value.could_extract_minus_sign() else self.value
+        return getattr(main, "name", "") if main.is_Symbol or main.is_Function else ""
 
     def uses(self) -> Iterator[Use]:
         """The value may hold anything down to rates; angles hold coordinates and time."""
