@@ -1,5 +1,6 @@
 """What a kernel accepts, refuses and promises, whatever program it holds."""
 
+import gc
 import os
 import pickle
 import threading
@@ -197,6 +198,18 @@ def test_a_prepared_call_reads_its_arrays_anew(kernel):
     own = kernel.prepared(v, v, p={"g": 1.0})
     np.testing.assert_array_equal(own(), kernel(v, v, p={"g": 1.0}))
     assert own() is own() or np.shares_memory(own(), own())
+
+
+def test_a_prepared_call_keeps_its_code():
+    q, v = states(30)
+    batch = compile(PENDULUM, optional=OPTIONAL, keep=False).prepared(q, v)
+    gc.collect()
+    np.testing.assert_array_equal(batch(), compile(PENDULUM, optional=OPTIONAL, keep=False)(q, v))
+
+
+def test_a_prepared_call_with_an_empty_group():
+    k = compile(program(lambda g, x: {"f": [x["a"]]}, q=("a",), u=()), keep=False)
+    assert k.prepared(np.ones((20, 1)), np.ones((20, 0)))().shape == (20, 1)
 
 
 def test_a_prepared_call_copies_nothing(kernel):

@@ -30,6 +30,7 @@ class Engine:
     lanes: int
     work: int  # doubles of work space
     cost: int  # operations a state, roughly
+    owner: object  # what keeps the code in memory
 
 
 class Batch:

@@ -245,7 +245,7 @@ class Kernel:
     def _many(self, arrays: list[Array], lead: tuple[int, ...], shared: Array | None, out: Any) -> Batch:
         """Any number of states."""
         if math.prod(lead) == 0:  # nothing will be computed: no code is needed
-            engine = Engine(lambda *_: -1, (), self._outputs, self.lanes, 0, 0)
+            engine = Engine(lambda *_: -1, (), self._outputs, self.lanes, 0, 0, None)
         else:
             engine = self._engine("batch" if shared is not None else "sweep")
         order = self._late if shared is not None else self._late + self._early
@@ -259,6 +259,7 @@ class Kernel:
             order = self._late if kind == "batch" else self._late + self._early
             found = self._engines[kind] = Engine(
                 call=_BATCH(self.build.loaded(kind).address("batch")),
+                owner=self.build.loaded(kind),
                 groups=tuple(self._groups[k] for k in order),
                 outputs=self._outputs,
                 lanes=self.lanes,
@@ -278,7 +279,8 @@ class Kernel:
         arrays, lead, shared = self._understood(slots)
         batch = self._many(arrays, lead, shared, out)
         for k, row in zip(self._late if shared is not None else self._late + self._early, batch.inputs, strict=True):
-            if isinstance(slots[k], ndarray) and not (batch.direct and np.may_share_memory(slots[k], row)):
+            given_array = slots[k] if isinstance(slots[k], ndarray) and slots[k].size else None
+            if given_array is not None and not (batch.direct and np.may_share_memory(given_array, row)):
                 raise RunError(
                     f"'{self._groups[k].name}' cannot be read in place",
                     code="E501",
