@@ -49,8 +49,8 @@ def chain(n, *, relative):
     return b.model()
 
 
-def graph_chain(n, *, relative):
-    """The same chain with unit masses and lengths as parameters, through the layer below models."""
+def graph_chain(n, *, relative, torques=False):
+    """The same chain through the layer below models; ``torques`` puts an input and a damper on every coordinate."""
     g = Graph()
     q, v = ([g.input(group, i) for i in range(n)] for group in "qv")
     motion = Motion(g, 2, q, v, v)
@@ -63,8 +63,10 @@ def graph_chain(n, *, relative):
         place = motion.place(place, motion.root, step)
         bodies.add_point(place, g.input("p", 2 * i + 1))
     down = [g.zero, g.neg(g.input("p", 2 * n))]
-    m = Mechanics(g, motion, bodies, tuple(f"q{i}" for i in range(n)), down)
-    names = {"q": m.names, "v": m.names, "p": tuple(f"p{i}" for i in range(2 * n + 1))}
+    damping = g.input("p", 2 * n + 1)
+    loads = [(v[i], g.sub(g.input("u", i), g.mul(damping, v[i]))) for i in range(n)] if torques else []
+    m = Mechanics(g, motion, bodies, tuple(f"q{i}" for i in range(n)), down, loads)
+    names = {"q": m.names, "v": m.names, "u": m.names, "p": tuple(f"p{i}" for i in range(2 * n + 2))}
     return Program("chain", g, names, {"a": Output(tuple(m.forward()), (n,))})
 
 

@@ -52,6 +52,12 @@ def test_cost_a_link_is_constant(relative, limit):
     )
 
 
+@pytest.mark.parametrize(("relative", "limit"), [(False, 52), (True, 55)])
+def test_cost_a_link_with_a_torque_and_a_damper_on_every_coordinate(relative, limit):
+    for n in (8, 64):
+        assert count_program(graph_chain(n, relative=relative, torques=True)).operations <= limit * n
+
+
 def test_a_model_costs_what_its_graph_costs():
     for relative in (False, True):
         model = count_program(programs.forward(chain(8, relative=relative)))
@@ -63,7 +69,12 @@ def test_digits_of_a_long_chain(relative):
     """Against the same graph in 40 digits: the elimination itself loses few of the sixteen digits."""
     program = graph_chain(64, relative=relative)
     rng = np.random.default_rng(2)
-    at = {"q": rng.uniform(-1, 1, 64), "v": rng.uniform(-1, 1, 64), "p": [*rng.uniform(0.8, 1.2, 128), 9.81]}
+    at = {
+        "q": rng.uniform(-1, 1, 64),
+        "v": rng.uniform(-1, 1, 64),
+        "u": [0.0] * 64,
+        "p": [*rng.uniform(0.8, 1.2, 128), 9.81, 0.0],
+    }
     exact = run(program, at, digits=40)["a"]
     close = run(program, at)["a"]
     with mpmath.workdps(40):

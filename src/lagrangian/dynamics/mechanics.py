@@ -28,7 +28,7 @@ SMALL = 12
 """Up to so many velocities the dense way is tried as well."""
 
 MANY = 100
-"""Up to so many velocities the way without exchange is tried as well."""
+"""Up to so many velocities all ways along the tape are tried; beyond, the one that is best for long chains."""
 
 
 @dataclass
@@ -239,7 +239,7 @@ class Mechanics:
     def forward(self) -> list[int]:
         """v̇, by the cheapest of the eliminations: along the tape, from two references, or of the mass matrix."""
         found: list[list[int]] = []
-        for links in self.groupings:
+        for links in self.groupings if len(self.v) <= MANY else self.groupings[:1]:
             found.append(self.along_tape(links, free=True, exchange=True))
             if self.motion.free_rates():
                 found.append(self.along_tape(links, free=False, exchange=True))
@@ -254,7 +254,7 @@ class Mechanics:
         g, H = self.graph, self.inertia(links)
         acc = self.accelerations(zeros(g, len(self.v)), free=free)
         linear = self._linear(self.missing(acc, links))
-        tape = make_tape(g, list(dict.fromkeys((*H.rows, *linear))), self.v, exchange=exchange)
+        tape = make_tape(g, list(dict.fromkeys((*H.rows, *linear))), self.v, H.rows if exchange else None)
         return plus(g, acc.vdot, solve(g, tape, H, linear, self.v, self._named))
 
     @property

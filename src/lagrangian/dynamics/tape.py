@@ -8,7 +8,7 @@ a rotation of another pair.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Container, Iterable, Sequence
 from dataclasses import dataclass, field
 
 from lagrangian.errors import ModelError
@@ -97,11 +97,11 @@ def moving_nodes(graph: Graph, ends: Iterable[int], rates: Iterable[int]) -> lis
     return sorted(i for i, moves in state.items() if moves)
 
 
-def make_tape(graph: Graph, seeds: Sequence[int], rates: Sequence[int], *, exchange: bool = True) -> Tape:
+def make_tape(graph: Graph, seeds: Sequence[int], rates: Sequence[int], held: Container[int] | None = None) -> Tape:
     """The tape from ``rates`` to the nodes in ``seeds``.
 
     Products and signs are folded into coefficients; a sum stays a node where several use it or where it is a seed.
-    ``exchange=False`` leaves the rates that only one node uses as they are.
+    A rate that only one node uses is exchanged for it unless it is in ``held``; None holds them all.
     """
     active = moving_nodes(graph, seeds, rates)
     moves = set(active)
@@ -119,8 +119,8 @@ def make_tape(graph: Graph, seeds: Sequence[int], rates: Sequence[int], *, excha
     _place(graph, tape, forms, seeds, leaves)
     idle = leaves.difference(tape.order)
     tape.order[:0] = [r for r in rates if r in idle]
-    if exchange:
-        _mark_exchanges(tape, graph, seeded, leaves)
+    if held is not None:
+        _mark_exchanges(tape, graph, held, leaves)
     return tape
 
 
@@ -210,14 +210,14 @@ def _unit(graph: Graph, c: int, s: int) -> bool:
     return {bare[0][0], bare[1][0]} == {"sin", "cos"} and bare[0][1] == bare[1][1]
 
 
-def _mark_exchanges(tape: Tape, graph: Graph, seeded: set[int], leaves: set[int]) -> None:
+def _mark_exchanges(tape: Tape, graph: Graph, held: Container[int], leaves: set[int]) -> None:
     users: dict[int, list[int]] = {}
     for i, form in tape.forms.items():
         for k in form:
             users.setdefault(k, []).append(i)
     for rate in leaves:
         using = users.get(rate, ())
-        if len(using) == 1 and rate not in seeded and using[0] not in tape.exchanged:
+        if len(using) == 1 and rate not in held and using[0] not in tape.exchanged:
             t = using[0]
             c = tape.forms[t][rate]
             if c in (graph.one, graph.negative) and len(tape.forms[t]) > 1:

@@ -117,11 +117,23 @@ class Tangents:
             t = _tangent(graph, i, nodes[i], moving)
             if t is not None:
                 moving[i] = t
-        return [graph.mul(*moving[i]) if i in moving else graph.zero for i in outputs]
+        return [_value(graph, moving[i]) if i in moving else graph.zero for i in outputs]
 
 
 Tangent = tuple[int, int]
 """(factor, base): their product is the tangent."""
+
+
+def _value(g: Graph, tangent: Tangent) -> int:
+    """factor · base; (x b)·b is x·b², for b² serves every component of a turning vector."""
+    factor, base = tangent
+    node = g.nodes[factor]
+    if node[0] == "neg":
+        return g.neg(_value(g, (node[1], base)))
+    if node[0] == "mul" and base in node[1:] and g.value(base) is None:
+        other = node[1] if node[2] == base else node[2]
+        return g.mul(other, g.mul(base, base))
+    return g.mul(factor, base)
 
 
 def _joined(g: Graph, a: Tangent | None, b: Tangent | None) -> Tangent | None:
@@ -131,7 +143,7 @@ def _joined(g: Graph, a: Tangent | None, b: Tangent | None) -> Tangent | None:
     if a[1] == b[1]:
         factor = g.add(a[0], b[0])
         return None if factor == g.zero else (factor, a[1])
-    total = g.add(g.mul(*a), g.mul(*b))
+    total = g.add(_value(g, a), _value(g, b))
     return None if total == g.zero else (g.one, total)
 
 
@@ -178,7 +190,7 @@ def _branch(g: Graph, node: Node, moving: Mapping[int, Tangent]) -> Tangent | No
         factor = g.select(condition, ta[0] if ta else g.zero, tb[0] if tb else g.zero)
         return factor, bases.pop()
     assert ta is not None and tb is not None
-    return g.one, g.select(condition, g.mul(*ta), g.mul(*tb))
+    return g.one, g.select(condition, _value(g, ta), _value(g, tb))
 
 
 def vjp(graph: Graph, outputs: Sequence[int], cotangents: Sequence[int], inputs: Sequence[int]) -> list[int]:
