@@ -1,0 +1,172 @@
+"""The compiled system against the equations that people read, in every built-in example, and its manners."""
+
+import ctypes
+import importlib.util
+import pathlib
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+import sympy as sp
+from sympy import cos, sin
+
+import lagrangian as lg
+from lagrangian import examples
+
+t = sp.Symbol("t")
+random = np.random.default_rng(5)
+
+
+def system(name: str) -> lg.System:
+    return lg.loads(examples.text(name))
+
+
+def state(s: lg.System, *lead: int) -> dict[str, np.ndarray]:
+    """Random coordinates, rates, inputs and parameters; everything positive, so that masses are masses."""
+    model = s.model
+    sizes = {"q": model.coordinates, "v": model.coordinates, "u": model.inputs, "p": model.parameters}
+    return {key: random.uniform(0.5, 1.5, (*lead, len(entries))) for key, entries in sizes.items()}
+
+
+def by_the_equations(s: lg.System, x: dict[str, np.ndarray], time: float) -> np.ndarray:
+    """q̈ from the derived equations, solved as SymPy hands them over."""
+    d, model = s.derive(), s.model
+    values: dict[sp.Basic, sp.Expr] = {t: sp.Float(time, 30)}
+    for entries, numbers in ((model.parameters, x["p"]), (model.inputs, x["u"])):
+        values |= {e.symbol: sp.Float(n, 30) for e, n in zip(entries, numbers, strict=True)}
+    rates = {c.rate: sp.Float(n, 30) for c, n in zip(model.coordinates, x["v"], strict=True)}
+    places = {c.symbol: sp.Float(n, 30) for c, n in zip(model.coordinates, x["q"], strict=True)}
+    definitions = {e.symbol: e.expression for e in reversed(model.definitions)}
+    a = sp.symbols(f"a0:{len(model.coordinates)}")
+    sides = []
+    for equation in d.equations:
+        side = (equation.lhs - equation.rhs).subs(definitions)
+        side = side.xreplace({c.acceleration: s for c, s in zip(model.coordinates, a, strict=True)})
+        sides.append(sp.expand(side.xreplace(rates).xreplace(places).xreplace(values).evalf(30)))
+    M, rest = sp.linear_eq_to_matrix(sides, a)
+    return np.linalg.solve(np.array(M, float), np.array(rest, float))[:, 0]
+
+
+@pytest.mark.parametrize("name", examples.names())
+def test_forward_dynamics_solves_the_equations_that_people_read(name: str) -> None:
+    s = system(name)
+    x = state(s)
+    a = s.compile().forward(x["q"], x["v"], x["u"], x["p"], 0.3)
+    expected = by_the_equations(s, x, 0.3)
+    np.testing.assert_allclose(a, expected, rtol=1e-9, atol=1e-9 * max(1.0, float(np.abs(expected).max())))
+
+
+@pytest.mark.parametrize(
+    "name", ["lecture-2", "furuta-pendulum", "spring-net", "bead-on-hoop", "spinning-top", "scara"]
+)
+def test_the_methods_fit_together(name: str) -> None:
+    s = system(name)
+    dyn, n = s.compile(), len(s.model.coordinates)
+    x = state(s, 40)
+    q, v, u, p = x["q"], x["v"], x["u"], x["p"]
+    a = dyn.forward(q, v, u, p, 0.1)
+    scale = float(np.abs(dyn.mass_matrix(q, p, 0.1)).max() * max(1.0, np.abs(a).max()))
+    np.testing.assert_allclose(dyn.inverse(q, v, a, u, p, 0.1), 0, atol=1e-11 * scale)
+    M, h = dyn.mass_matrix(q, p, 0.1), dyn.bias(q, v, u, p, 0.1)
+    np.testing.assert_allclose(np.einsum("bij,bj->bi", M, a) + h, 0, atol=1e-11 * scale)
+    np.testing.assert_allclose(M, M.swapaxes(1, 2), atol=1e-14 * scale)
+    assert (np.linalg.eigvalsh(M) > 0).all()
+    np.testing.assert_allclose(dyn.rhs(0.1, np.concatenate([q, v], 1), u, p), np.concatenate([v, a], 1), rtol=1e-12)
+    T, V = dyn.energies(q, v, u, p, 0.1)
+    np.testing.assert_allclose(dyn.energy(q, v, u, p, 0.1), T + V, rtol=1e-14)
+    if name != "bead-on-hoop":  # a motion prescribed in t adds to T* what no rate carries
+        np.testing.assert_allclose(T, np.einsum("bi,bij,bj->b", v, M, v) / 2, rtol=1e-12)
+    assert dyn.coriolis_matrix(q, v, p).shape == (40, n, n)
+
+
+def pendulum() -> lg.System:
+    s = lg.System("pendulum")
+    th = s.coordinates("theta")
+    m, L = s.parameters("m L", m=2.0)
+    tau = s.input("tau")
+    s.particle(m, s.origin + (L * sin(th), -L * cos(th)))
+    s.gravity()
+    s.torque(tau, on=th)
+    return s
+
+
+def test_parameters_and_inputs_go_by_name_by_symbol_or_in_order() -> None:
+    s = pendulum()
+    dyn = s.compile()
+    expected = (3.0 - 2.0 * 9.81 * 0.5 * np.sin(0.4)) / (2.0 * 0.25)
+    for u, p in (
+        ({"tau": 3.0}, {"L": 0.5}),
+        ({s["tau"]: 3.0}, {s["L"]: 0.5}),
+        ([3.0], [2.0, 0.5, 9.81]),
+        (np.array([3.0]), {"L": 0.5, "m": 2.0, "g": 9.81}),
+    ):
+        np.testing.assert_allclose(dyn.forward([0.4], [0.0], u, p), [expected], rtol=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "fragments"),
+    [
+        (([0.4], [0.0]), ["parameter 'L' has no value"]),
+        (([0.4], [0.0], None, {"LL": 1.0, "L": 1.0}), ["unknown parameter 'LL'", "Did you mean 'L'"]),
+        (([0.4, 0.1], [0.0], None, {"L": 1.0}), ["q has 2 values", "1: theta"]),
+        (([float("nan")], [0.0], None, {"L": 1.0}), ["'theta' is nan"]),
+        (([0.4], [0.0], {"tau": float("inf")}, {"L": 1.0}), ["'tau' is inf"]),
+        ((["a"], [0.0], None, {"L": 1.0}), ["'q'"]),
+        (([0.4], [0.0], None, {"L": 0.0}), ["M is singular at theta = 0.4", "'theta' moves no mass"]),
+    ],
+)
+def test_what_does_not_fit_is_named(arguments: tuple, fragments: list[str]) -> None:
+    with pytest.raises(lg.RunError) as caught:
+        pendulum().compile().forward(*arguments)
+    assert all(f in str(caught.value) for f in fragments), str(caught.value)
+
+
+def test_a_singular_configuration_is_named_with_its_coordinates() -> None:
+    """At the pole of spherical angles, turning about the vertical moves nothing."""
+    s = lg.System("spherical")
+    th, ph = s.coordinates("theta phi")
+    m, L = s.parameters("m L", m=1, L=1)
+    s.particle(m, s.origin + (L * sin(th) * cos(ph), L * sin(th) * sin(ph), -L * cos(th)))
+    dyn = s.compile()
+    with pytest.raises(lg.RunError, match=r"singular at theta = 0, phi = 0.3: 'phi' moves no mass"):
+        dyn.forward([0.0, 0.3], [0.1, 0.2])
+    assert np.isfinite(dyn.forward([0.1, 0.3], [0.1, 0.2])).all()
+
+
+def test_python_source_runs_alone_and_agrees(tmp_path: pathlib.Path) -> None:
+    s = system("cart-pole")
+    (path,) = s.export(tmp_path / "cart.py")
+    assert "lagrangian" not in path.read_text(encoding="utf-8")
+    spec = importlib.util.spec_from_file_location("cart", path)
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    x, dyn = state(s, 7), s.compile()
+    got = module.cart_forward(x["q"], x["v"], x["u"], x["p"], 0.0)
+    np.testing.assert_allclose(got, dyn.forward(x["q"], x["v"], x["u"], x["p"]), rtol=1e-12)
+    np.testing.assert_allclose(
+        module.cart_mass_matrix(x["q"], x["v"], x["u"], x["p"], 0.0), dyn.mass_matrix(x["q"], x["p"]), rtol=1e-12
+    )
+
+
+@pytest.mark.skipif(shutil.which("gcc") is None, reason="no C compiler on this machine")
+def test_c_source_compiles_without_a_warning_and_agrees(tmp_path: pathlib.Path) -> None:
+    s = system("furuta-pendulum")
+    s.export(tmp_path / "furuta.c")
+    library = tmp_path / "furuta.so"
+    flags = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", "-O1", "-shared", "-fPIC"]
+    subprocess.run(["gcc", *flags, "-o", str(library), str(tmp_path / "furuta.c"), "-lm"], check=True, timeout=60)
+    function = ctypes.CDLL(str(library)).furuta_forward
+    x, dyn = state(s), s.compile()
+    out = np.empty(2)
+    arrays = [x["q"], x["v"], x["u"], x["p"], np.zeros(1), out]
+    function(*[a.ctypes.data_as(ctypes.c_void_p) for a in arrays])
+    np.testing.assert_allclose(out, dyn.forward(x["q"], x["v"], x["u"], x["p"]), rtol=1e-12)
+
+
+@pytest.mark.parametrize("name", ["x.f90", "x", "1x.c", "a b.py"])
+def test_an_export_that_cannot_be_named_is_refused(name: str, tmp_path: pathlib.Path) -> None:
+    with pytest.raises(lg.ModelError):
+        pendulum().export(tmp_path / name)
+    assert list(tmp_path.iterdir()) == []
