@@ -102,9 +102,11 @@ def emit_batch(module: Module, sizes: Sizes, lanes: int, *, own_shared: bool, bo
     last = f.put(f"sub i64 %stop, {lanes}")
     f.do("br label %loop")
     f.label("loop")
-    f.do("%next = phi i64 [%start, %entry], [%after, %loop]")
-    start_of_first = len(f.lines)  # the second phi names a value printed below
+    start_of_next = len(f.lines)
+    # the phis name values and a block printed below
     f.do(f"%state = call i64 @llvm.smin.i64(i64 %next, i64 {last})")
+    f.do("%begin = icmp eq i64 %next, %start")
+    here_label = ["loop"]  # the basic block that is being printed
     zero = Value(f, f.constant(0.0))
     trouble: Value | None = None
 
@@ -117,7 +119,18 @@ def emit_batch(module: Module, sizes: Sizes, lanes: int, *, own_shared: bool, bo
         here = f.put(f"getelementptr i8, ptr {base}, i64 {f.put(f'mul i64 %state, {row}')}")
         symbol = emit_move(module, lanes, count, gather=kind == "gather")
         passed = f"ptr {here}, i64 {row}, i64 {step}, ptr {at}"
-        answer = f.put(f"call {f.real} {symbol}({passed})")
+        if kind == "scatter":
+            answer = f.put(f"call {f.real} {symbol}({passed})")
+        else:  # what is the same for all states is in its block after the first time
+            new = f.put(f"or i1 %begin, {f.put(f'icmp ne i64 {row}, 0')}")
+            before, label = here_label[0], f"move{len(f.lines)}"
+            f.do(f"br i1 {new}, label %{label}, label %{label}x")
+            f.label(label)
+            moved = f.put(f"call {f.real} {symbol}({passed})")
+            f.do(f"br label %{label}x")
+            f.label(f"{label}x")
+            answer = f.put(f"phi {f.real} [{f.constant(0.0)}, %{before}], [{moved}, %{label}]")
+            here_label[0] = f"{label}x"
         trouble = Value(f, answer) if trouble is None else trouble + Value(f, answer)
 
     slot = 0
@@ -139,7 +152,9 @@ def emit_batch(module: Module, sizes: Sizes, lanes: int, *, own_shared: bool, bo
     clean = f.put("icmp eq i64 %first, -1")
     found = f.put(f"select i1 {clean}, i64 %state, i64 %first")
     first = f.put(f"select i1 {fine}, i64 %first, i64 {found}")
-    f.lines.insert(start_of_first, f"  %first = phi i64 [-1, %entry], [{first}, %loop]")
+    phis = [f"  %first = phi i64 [-1, %entry], [{first}, %{here_label[0]}]"]
+    phis += [f"  %next = phi i64 [%start, %entry], [%after, %{here_label[0]}]"]
+    f.lines[start_of_next:start_of_next] = phis
     f.do(f"%after = add i64 %next, {lanes}")
     f.do("%more = icmp slt i64 %after, %stop")
     f.do("br i1 %more, label %loop, label %end")

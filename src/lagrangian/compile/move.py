@@ -8,7 +8,7 @@ number by number.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 from .ir import Function, Module, Value
 
@@ -26,9 +26,14 @@ def emit_move(module: Module, lanes: int, n: int, *, gather: bool) -> str:
     rows = ["%base"]
     for k in range(1, lanes):
         rows.append(f.put(f"getelementptr i8, ptr %base, i64 {f.put(f'mul i64 %row, {k}')}"))
+    f.do("%columns = icmp eq i64 %row, 8")
+    f.do("br i1 %columns, label %beside, label %apart")
+    mover = _Mover(f, rows, gather)
+    f.label("beside")
+    mover.side_by_side(n)
+    f.label("apart")
     f.do("%plain = icmp eq i64 %step, 8")
     f.do("br i1 %plain, label %near, label %far")
-    mover = _Mover(f, rows, gather)
     f.label("near")
     mover.contiguous(n)
     f.label("far")
@@ -144,30 +149,54 @@ class _Mover:
             stride *= 2
         return vectors
 
+    def side_by_side(self, n: int) -> None:
+        """States next to each other, as in Fortran order or in rows of one entry: whole vectors, entry by entry."""
+        f = self.f
+
+        def move(slot: str) -> Value:
+            place = f.put("getelementptr i8, ptr %base, i64 %sideoffset")
+            whole = 8 * f.lanes
+            source, target, have, want = (place, slot, 8, whole) if self.gather else (slot, place, whole, 8)
+            x = f.put(f"load {f.real}, ptr {source}, align {have}")
+            f.do(f"store {f.real} {x}, ptr {target}, align {want}")
+            return Value(f, x)
+
+        self._entries(n, "beside", "side", move)
+
     def strided(self, n: int) -> None:
         """Any strides: entry by entry, lane by lane."""
         f = self.f
-        f.do("br label %loop")
-        f.label("loop")
-        f.do("%k = phi i64 [0, %far], [%next, %loop]")
-        f.do("%offset = phi i64 [0, %far], [%ahead, %loop]")
-        start_of_sum = len(f.lines)  # the third phi names a value printed below
-        slot = f.put(f"getelementptr {f.real}, ptr %block, i64 %k")
-        places = [f.put(f"getelementptr i8, ptr {row}, i64 %offset") for row in self.rows]
-        if self.gather:
-            x = f.gathered([f.put(f"load double, ptr {place}, align 8") for place in places])
-            f.do(f"store {f.real} {x.name}, ptr {slot}, align {8 * f.lanes}")
-        else:
+
+        def move(slot: str) -> Value:
+            places = [f.put(f"getelementptr i8, ptr {row}, i64 %stepoffset") for row in self.rows]
+            if self.gather:
+                x = f.gathered([f.put(f"load double, ptr {place}, align 8") for place in places])
+                f.do(f"store {f.real} {x.name}, ptr {slot}, align {8 * f.lanes}")
+                return x
             x = Value(f, f.put(f"load {f.real}, ptr {slot}, align {8 * f.lanes}"))
             for lane, place in enumerate(places):
                 f.do(f"store double {f.lane(x, lane)}, ptr {place}, align 8")
-        total = f.fma(x, 0.0, Value(f, "%sum"))
-        f.lines.insert(start_of_sum, f"  %sum = phi {f.real} [{f.constant(0.0)}, %far], [{total.name}, %loop]")
-        f.do("%next = add i64 %k, 1")
-        f.do("%ahead = add i64 %offset, %step")
-        f.do(f"%more = icmp slt i64 %next, {n}")
-        f.do("br i1 %more, label %loop, label %end")
-        f.label("end")
+            return x
+
+        self._entries(n, "far", "step", move)
+
+    def _entries(self, n: int, entry: str, name: str, move: Callable[[str], Value]) -> None:
+        """A loop over entries after the block ``entry``; ``move`` prints one, ``%<name>offset`` bytes into a row."""
+        f = self.f
+        f.do(f"br label %{name}loop")
+        f.label(f"{name}loop")
+        f.do(f"%{name}k = phi i64 [0, %{entry}], [%{name}next, %{name}loop]")
+        f.do(f"%{name}offset = phi i64 [0, %{entry}], [%{name}ahead, %{name}loop]")
+        start_of_sum = len(f.lines)  # the third phi names a value printed below
+        x = move(f.put(f"getelementptr {f.real}, ptr %block, i64 %{name}k"))
+        total = f.fma(x, 0.0, Value(f, f"%{name}sum"))
+        phi = f"  %{name}sum = phi {f.real} [{f.constant(0.0)}, %{entry}], [{total.name}, %{name}loop]"
+        f.lines.insert(start_of_sum, phi)
+        f.do(f"%{name}next = add i64 %{name}k, 1")
+        f.do(f"%{name}ahead = add i64 %{name}offset, %step")
+        f.do(f"%{name}more = icmp slt i64 %{name}next, {n}")
+        f.do(f"br i1 %{name}more, label %{name}loop, label %{name}end")
+        f.label(f"{name}end")
         f.do(f"ret {f.real} {total.name}")
 
 

@@ -31,9 +31,10 @@ def over(count: int, step: int, cost: int, threads: int | None, task: Callable[[
     Ranges begin at multiples of ``step``. ``cost`` is the number of operations of one state; ``threads`` None: all
     cores.
     """
-    wanted = min(threads or cores(), max(1, count * max(1, cost) // GRAIN))
-    if wanted <= 1:
+    portions = count * max(1, cost) // GRAIN
+    if portions < 2 or threads == 1:
         return task(0, count)
+    wanted = min(threads or cores(), portions)
     blocks = -(-count // step)
     size = max(1, -(-blocks // (wanted * PARTS))) * step
     starts = range(0, count, size)
