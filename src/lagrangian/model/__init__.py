@@ -23,9 +23,10 @@ from lagrangian.model.elements import (
     Words,
 )
 from lagrangian.model.geometry import Frame, Point
-from lagrangian.model.model import Coordinate, Definition, Input, Model, Parameter
+from lagrangian.model.model import Model
 from lagrangian.model.names import RESERVED, check_name, time
 from lagrangian.model.plain import plain
+from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter
 
 __all__ = [
     "DEFLECTION",

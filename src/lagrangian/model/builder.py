@@ -14,9 +14,10 @@ from lagrangian.errors import ModelError, Place, did_you_mean
 from lagrangian.model.checks import check_body, check_use
 from lagrangian.model.elements import Element, GeneralizedForce
 from lagrangian.model.geometry import Frame, Point, as_expr, as_vector
-from lagrangian.model.model import Coordinate, Definition, Input, Model, Parameter, written_out
+from lagrangian.model.model import Model, written_out
 from lagrangian.model.names import check_name, moving_symbol, time
 from lagrangian.model.plain import plain
+from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter
 
 E = TypeVar("E", bound=Element)
 MAX_ELEMENTS = 100_000

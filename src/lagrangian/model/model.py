@@ -5,17 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from lagrangian.errors import Place
+from lagrangian.model.elements import Element, Particle, RigidBody, Words
+from lagrangian.model.geometry import Frame, Point
 from lagrangian.model.names import time
-
-if TYPE_CHECKING:
-    from lagrangian.model.elements import Element, Words
-    from lagrangian.model.geometry import Frame, Point
+from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter
 
 
 def written_out(expr: sp.Expr, table: Mapping[Any, Any]) -> sp.Expr:
@@ -23,65 +21,6 @@ def written_out(expr: sp.Expr, table: Mapping[Any, Any]) -> sp.Expr:
     while table and any(expr.has(s) for s in table):
         expr = cast("sp.Expr", expr.subs(list(table.items())).doit(deep=True, integrals=False, sums=False))
     return expr
-
-
-@dataclass(frozen=True)
-class Coordinate:
-    """A generalized coordinate ξ: ``symbol`` is SymPy's ``dynamicsymbols(name)``."""
-
-    name: str
-    symbol: AppliedUndef
-    description: str = ""
-    unit: str | None = None
-    place: Place | None = field(default=None, compare=False)
-
-    @property
-    def rate(self) -> sp.Derivative:
-        """ξ̇."""
-        return sp.Derivative(self.symbol, time)
-
-    @property
-    def acceleration(self) -> sp.Derivative:
-        """ξ̈."""
-        return sp.Derivative(self.symbol, (time, 2))
-
-
-@dataclass(frozen=True)
-class Parameter:
-    """A constant: a plain SymPy symbol with, perhaps, a value in SI units and the unit it was given in."""
-
-    name: str
-    symbol: sp.Symbol
-    value: float | None = None
-    unit: str | None = None
-    description: str = ""
-    place: Place | None = field(default=None, compare=False)
-
-
-@dataclass(frozen=True)
-class Input:
-    """A force, torque or other signal from outside, a function of time that is known only when the system runs."""
-
-    name: str
-    symbol: AppliedUndef
-    description: str = ""
-    unit: str | None = None
-    place: Place | None = field(default=None, compare=False)
-
-
-@dataclass(frozen=True)
-class Definition:
-    """A named expression; where it holds coordinates or time it is ``moving``, and its symbol a function of t."""
-
-    name: str
-    symbol: sp.Expr
-    expression: sp.Expr
-    place: Place | None = field(default=None, compare=False)
-
-    @property
-    def moving(self) -> bool:
-        """Whether it changes with time."""
-        return isinstance(self.symbol, AppliedUndef)
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,10 +44,12 @@ class Model:
     settings: Mapping[str, Any] = field(default_factory=dict)
     _memo: dict[Any, Any] = field(default_factory=dict, repr=False)
 
-    @cached_property
+    @property
     def bodies(self) -> tuple[Any, ...]:
         """Particles and rigid bodies, in order."""
-        return tuple(e for e in self.elements if e.kind in ("particle", "rigid_body"))
+        if "bodies" not in self._memo:
+            self._memo["bodies"] = tuple(e for e in self.elements if isinstance(e, (Particle, RigidBody)))
+        return self._memo["bodies"]
 
     @cached_property
     def values(self) -> dict[sp.Symbol, float]:

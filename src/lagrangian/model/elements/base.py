@@ -6,23 +6,63 @@ from collections.abc import Iterator
 from copy import copy
 from dataclasses import dataclass
 from enum import IntEnum
-from typing import TYPE_CHECKING, ClassVar, Literal, Self, TypeAlias
+from typing import Any, ClassVar, Literal, Protocol, Self, TypeAlias
 
 import sympy as sp
 
 from lagrangian.errors import ModelError, Place
+from lagrangian.model.geometry import Frame, Point
 from lagrangian.model.names import time
-
-if TYPE_CHECKING:
-    from lagrangian.model.geometry import Frame, Point
-    from lagrangian.model.model import Model
-
+from lagrangian.model.symbols import Coordinate
 
 Words: TypeAlias = "tuple[str | sp.Expr, ...]"
 """Words with symbols in them."""
 
 DEFLECTION: Words = ("its deflection",)
 """What an action is on when its ends are not known apart."""
+
+
+class Surroundings(Protocol):
+    """What an element asks of the model it stands in."""
+
+    @property
+    def dimension(self) -> int:
+        """2 in the plane, 3 in space."""
+        ...
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """The generalized coordinates."""
+        ...
+
+    @property
+    def bodies(self) -> tuple[Any, ...]:
+        """Particles and rigid bodies."""
+        ...
+
+    def expand(self, expr: sp.Expr) -> sp.Expr:
+        """An expression with moving definitions written out."""
+        ...
+
+    def position(self, point: Point) -> tuple[sp.Expr, ...]:
+        """Components in the fixed axes."""
+        ...
+
+    def velocity(self, point: Point) -> tuple[sp.Expr, ...]:
+        """Components in the fixed axes, written out."""
+        ...
+
+    def point_words(self, point: Point) -> Words:
+        """A point in words."""
+        ...
+
+    def frame_words(self, frame: Frame) -> Words:
+        """A frame in words."""
+        ...
+
+    def angle_words(self, angle: sp.Expr) -> Words:
+        """An angle in words."""
+        ...
 
 
 class Level(IntEnum):
@@ -102,23 +142,23 @@ class Element:
         """Every frame the element refers to, with the field it came from."""
         return iter(())
 
-    def kinetic(self, model: Model) -> sp.Expr:
+    def kinetic(self, model: Surroundings) -> sp.Expr:
         """Its share of the kinetic co-energy T* [J]; zero unless the element moves with mass."""
         return sp.S.Zero
 
-    def potential(self, model: Model) -> sp.Expr:
+    def potential(self, model: Surroundings) -> sp.Expr:
         """Its share of the potential energy V [J]; zero unless it stores energy by position."""
         return sp.S.Zero
 
-    def works(self, model: Model) -> tuple[Action, ...]:
+    def works(self, model: Surroundings) -> tuple[Action, ...]:
         """Its actions by virtual work, in the fewest terms (a pair of forces is one action on its deflection)."""
         return ()
 
-    def ends(self, model: Model) -> tuple[Action, ...]:
+    def ends(self, model: Surroundings) -> tuple[Action, ...]:
         """The same actions, end by end, as the box rule counts them; the pair is two actions on two bodies."""
         return self.works(model)
 
-    def dissipation(self, model: Model) -> sp.Expr | None:
+    def dissipation(self, model: Surroundings) -> sp.Expr | None:
         """Rayleigh's function D [W], with Ξ_i = −∂D/∂ξ̇_i, or None where the element has none."""
         return None
 
@@ -131,7 +171,7 @@ class Element:
             object.__setattr__(self, key, value)
 
 
-def difference(model: Model, start: Point, end: Point) -> tuple[sp.Expr, ...]:
+def difference(model: Surroundings, start: Point, end: Point) -> tuple[sp.Expr, ...]:
     """The components of r_end − r_start in the fixed axes, with positions written out in the coordinates.
 
     Parents common to both points cancel before anything is expanded.
@@ -160,12 +200,12 @@ def _from(base: Point, point: Point, dimension: int) -> list[sp.Expr]:
     return total
 
 
-def deflection_between(model: Model, start: Point, end: Point) -> sp.Expr:
+def deflection_between(model: Surroundings, start: Point, end: Point) -> sp.Expr:
     """The distance |r_end − r_start| = √(Δx² + Δy² + Δz²) [m]."""
     return sp.sqrt(sum(d**2 for d in difference(model, start, end)))
 
 
-def pair_ends(model: Model, start: Point, end: Point, effort: sp.Expr) -> tuple[Action, Action]:
+def pair_ends(model: Surroundings, start: Point, end: Point, effort: sp.Expr) -> tuple[Action, Action]:
     """A pair of forces that pushes ``start`` and ``end`` apart, end by end: +F e on the end, −F e on the start.
 
     e = (r_end − r_start)/|r_end − r_start|; the rate of an end is its velocity along e.
@@ -185,8 +225,6 @@ def pair_ends(model: Model, start: Point, end: Point, effort: sp.Expr) -> tuple[
 
 def check_ends(element: Element, between: object, deflection: object) -> tuple[Point, Point] | None:
     """Return the two points of ``between``, or None for a deflection; exactly one of both must be given."""
-    from lagrangian.model.geometry import Point
-
     if (between is None) == (deflection is None):
         found = "both" if between is not None else "neither"
         raise element._error(

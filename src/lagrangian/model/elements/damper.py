@@ -4,16 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import sympy as sp
 
-from lagrangian.model.elements.base import DEFLECTION, Action, Element, Level, Use, check_ends, difference, pair_ends
+from lagrangian.model.elements.base import (
+    DEFLECTION,
+    Action,
+    Element,
+    Level,
+    Surroundings,
+    Use,
+    check_ends,
+    difference,
+    pair_ends,
+)
 from lagrangian.model.geometry import Point, as_expr
 from lagrangian.model.names import time
-
-if TYPE_CHECKING:
-    from lagrangian.model.model import Model
 
 RATE = sp.Symbol("rate")
 """In a law: the rate of the deflection δ̇ [m/s or rad/s]."""
@@ -67,7 +74,7 @@ class Damper(Element):
         for point in self.between or ():
             yield "between", point
 
-    def displacement(self, model: Model) -> sp.Expr:
+    def displacement(self, model: Surroundings) -> sp.Expr:
         """δ [m or rad]; along one fixed line the signed separation serves, for a damper does not know its length."""
         if not self.between:
             return model.expand(self.deflection)
@@ -77,20 +84,20 @@ class Damper(Element):
             return moving[0]
         return sp.sqrt(sum(d**2 for d in delta))
 
-    def rate(self, model: Model) -> sp.Expr:
+    def rate(self, model: Surroundings) -> sp.Expr:
         """δ̇ [m/s or rad/s]."""
         return sp.diff(self.displacement(model), time)
 
-    def pull(self, model: Model) -> sp.Expr:
+    def pull(self, model: Surroundings) -> sp.Expr:
         """The force or torque that resists the motion: b δ̇, or the law at δ̇."""
         rate = self.rate(model)
         return self.b * rate if self.b is not None else self.law.subs(RATE, rate)
 
-    def works(self, model: Model) -> tuple[Action, ...]:
+    def works(self, model: Surroundings) -> tuple[Action, ...]:
         """One action −b δ̇ on the deflection."""
         return (Action(-self.pull(model), self.rate(model), DEFLECTION, self.displacement(model)),)
 
-    def ends(self, model: Model) -> tuple[Action, ...]:
+    def ends(self, model: Surroundings) -> tuple[Action, ...]:
         """The pull on each end."""
         if not self.between:
             return self.works(model)
@@ -100,6 +107,6 @@ class Damper(Element):
         pull = self.b * rate if self.b is not None else self.law.subs(RATE, rate)
         return pair_ends(model, self.between[0], self.between[1], -pull)
 
-    def dissipation(self, model: Model) -> sp.Expr | None:
+    def dissipation(self, model: Surroundings) -> sp.Expr | None:
         """D = ½ b δ̇² of a linear damper."""
         return self.b * self.rate(model) ** 2 / 2 if self.b is not None else None

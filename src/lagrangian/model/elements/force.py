@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import sympy as sp
 
@@ -13,6 +13,7 @@ from lagrangian.model.elements.base import (
     Action,
     Element,
     Level,
+    Surroundings,
     Use,
     check_ends,
     deflection_between,
@@ -21,9 +22,6 @@ from lagrangian.model.elements.base import (
 )
 from lagrangian.model.geometry import Frame, Point, as_expr, as_vector
 from lagrangian.model.names import time
-
-if TYPE_CHECKING:
-    from lagrangian.model.model import Model
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -131,12 +129,12 @@ class Force(Element):
         if self.axes is not None:
             yield "axes", self.axes
 
-    def components(self, model: Model) -> tuple[sp.Expr, ...]:
+    def components(self, model: Surroundings) -> tuple[sp.Expr, ...]:
         """The vector in the fixed axes."""
         vector = self.value if self.axes is None else tuple(self.axes.rotation * sp.Matrix(self.value))
         return tuple(model.expand(v) for v in vector)
 
-    def works(self, model: Model) -> tuple[Action, ...]:
+    def works(self, model: Surroundings) -> tuple[Action, ...]:
         """Component by component at the point and its reaction; or one action on the deflection."""
         if self.is_vector:
             return self.ends(model)
@@ -150,7 +148,7 @@ class Force(Element):
             rate = sp.diff(displacement, time)
         return (Action(effort, rate, DEFLECTION, displacement),)
 
-    def ends(self, model: Model) -> tuple[Action, ...]:
+    def ends(self, model: Surroundings) -> tuple[Action, ...]:
         """The force on each end."""
         if self.between:
             return pair_ends(model, self.between[0], self.between[1], model.expand(self.value))

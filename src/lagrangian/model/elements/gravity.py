@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import sympy as sp
 
-from lagrangian.model.elements.base import Element, Level, Use
+from lagrangian.model.elements.base import Element, Level, Surroundings, Use
 from lagrangian.model.geometry import Point, as_expr, as_vector
-
-if TYPE_CHECKING:
-    from lagrangian.model.model import Model
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -56,7 +53,7 @@ class Gravity(Element):
         if self.datum is not None:
             yield "datum", self.datum
 
-    def height(self, model: Model, point: Point) -> sp.Expr:
+    def height(self, model: Surroundings, point: Point) -> sp.Expr:
         """h = −n·(r − r_datum) [m], the height of a point above the datum."""
         zero = model.position(self.datum) if self.datum is not None else (sp.S.Zero,) * model.dimension
         return model.expand(
@@ -66,12 +63,12 @@ class Gravity(Element):
             )
         )
 
-    def shares(self, model: Model) -> Iterator[tuple[Element, sp.Expr, sp.Expr]]:
+    def shares(self, model: Surroundings) -> Iterator[tuple[Element, sp.Expr, sp.Expr]]:
         """For every body: the body, its height h and its m g h."""
         for body in model.bodies:
             h = self.height(model, body.at)
             yield body, h, body.mass * self.g * h
 
-    def potential(self, model: Model) -> sp.Expr:
+    def potential(self, model: Surroundings) -> sp.Expr:
         """Σ m g h."""
         return sum((energy for _, _, energy in self.shares(model)), sp.S.Zero)

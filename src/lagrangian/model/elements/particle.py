@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import sympy as sp
 
-from lagrangian.model.elements.base import Element, Level, Use
+from lagrangian.model.elements.base import Element, Level, Surroundings, Use
 from lagrangian.model.geometry import Point, as_expr
-
-if TYPE_CHECKING:
-    from lagrangian.model.model import Model
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -42,6 +39,6 @@ class Particle(Element):
         """Where it is."""
         yield "at", self.at
 
-    def kinetic(self, model: Model) -> sp.Expr:
+    def kinetic(self, model: Surroundings) -> sp.Expr:
         """½ m (ẋ² + ẏ² + ż²)."""
         return self.mass / 2 * sum((v**2 for v in model.velocity(self.at)), sp.S.Zero)

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import sympy as sp
 
-from lagrangian.model.elements.base import Action, Element, Level, Use
+from lagrangian.model.elements.base import Action, Element, Level, Surroundings, Use
 from lagrangian.model.geometry import as_expr
 from lagrangian.model.names import time
-
-if TYPE_CHECKING:
-    from lagrangian.model.model import Model
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -32,7 +29,7 @@ class Potential(Element):
         """An energy of position."""
         yield Use("value", "potential energy V", self.value, Level.POSITION, inputs=True)
 
-    def potential(self, model: Model) -> sp.Expr:
+    def potential(self, model: Surroundings) -> sp.Expr:
         """V as given."""
         return model.expand(self.value)
 
@@ -53,7 +50,7 @@ class Kinetic(Element):
         """An energy of motion."""
         yield Use("value", "kinetic co-energy T*", self.value, Level.VELOCITY)
 
-    def kinetic(self, model: Model) -> sp.Expr:
+    def kinetic(self, model: Surroundings) -> sp.Expr:
         """T* as given."""
         return model.expand(self.value)
 
@@ -74,7 +71,7 @@ class Dissipation(Element):
         """A function of the rates."""
         yield Use("value", "dissipation function D", self.value, Level.VELOCITY)
 
-    def works(self, model: Model) -> tuple[Action, ...]:
+    def works(self, model: Surroundings) -> tuple[Action, ...]:
         """−∂D/∂ξ̇_i on each coordinate."""
         d = model.expand(self.value)
         return tuple(
@@ -83,7 +80,7 @@ class Dissipation(Element):
             if (effort := sp.diff(d, c.rate)) != 0
         )
 
-    def dissipation(self, model: Model) -> sp.Expr | None:
+    def dissipation(self, model: Surroundings) -> sp.Expr | None:
         """D as given."""
         return model.expand(self.value)
 
@@ -108,7 +105,7 @@ class GeneralizedForce(Element):
         """The value may hold anything down to rates."""
         yield Use("value", "value", self.value, Level.VELOCITY, inputs=True)
 
-    def works(self, model: Model) -> tuple[Action, ...]:
+    def works(self, model: Surroundings) -> tuple[Action, ...]:
         """The force on its coordinate."""
         rate = sp.diff(self.coordinate, time)
         return (Action(model.expand(self.value), rate, (self.coordinate,), self.coordinate),)

@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import sympy as sp
 
-from lagrangian.model.elements.base import Element, Level, Use
+from lagrangian.model.elements.base import Element, Level, Surroundings, Use
 from lagrangian.model.geometry import Frame, Point, as_expr
-
-if TYPE_CHECKING:
-    from lagrangian.model.model import Model
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -100,17 +97,17 @@ class RigidBody(Element):
         """The axes that turn with it."""
         yield "frame", self.frame
 
-    def angular_velocity(self, model: Model) -> tuple[sp.Expr, ...]:
+    def angular_velocity(self, model: Surroundings) -> tuple[sp.Expr, ...]:
         """``(ω,)`` in the plane, three components in the body's axes in space, written out in the coordinates."""
         return tuple(model.expand(w) for w in self.frame.angular_velocity)
 
-    def kinetic_parts(self, model: Model) -> tuple[sp.Expr, sp.Expr]:
+    def kinetic_parts(self, model: Surroundings) -> tuple[sp.Expr, sp.Expr]:
         """½ m v² of the centre of mass, and ½ ωᵀ I ω."""
         omega = sp.Matrix(self.angular_velocity(model))
         translation = self.mass / 2 * sum((v**2 for v in model.velocity(self.at)), sp.S.Zero)
         return translation, (omega.T * self.inertia * omega)[0] / 2
 
-    def kinetic(self, model: Model) -> sp.Expr:
+    def kinetic(self, model: Surroundings) -> sp.Expr:
         """½ m v² + ½ ωᵀ I ω."""
         translation, rotation = self.kinetic_parts(model)
         return translation + rotation

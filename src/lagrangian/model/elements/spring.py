@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import sympy as sp
 from sympy.integrals.manualintegrate import manualintegrate
 
-from lagrangian.model.elements.base import Element, Level, Use, check_ends, deflection_between
+from lagrangian.model.elements.base import Element, Level, Surroundings, Use, check_ends, deflection_between
 from lagrangian.model.geometry import Point, as_expr
-
-if TYPE_CHECKING:
-    from lagrangian.model.model import Model
 
 DELTA = sp.Symbol("delta")
 """In a law: the extension δ − δ₀ [m or rad]."""
@@ -87,12 +84,12 @@ class Spring(Element):
         for point in self.between or ():
             yield "between", point
 
-    def extension(self, model: Model) -> sp.Expr:
+    def extension(self, model: Surroundings) -> sp.Expr:
         """δ − δ₀ [m or rad], positive when stretched."""
         delta = deflection_between(model, *self.between) if self.between else model.expand(self.deflection)
         return delta - model.expand(self.rest)
 
-    def potential(self, model: Model) -> sp.Expr:
+    def potential(self, model: Surroundings) -> sp.Expr:
         """½ k (δ − δ₀)², or the energy of its law at the extension."""
         extension = self.extension(model)
         if self.k is not None:

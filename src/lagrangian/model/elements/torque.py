@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import sympy as sp
 
-from lagrangian.model.elements.base import Action, Element, Level, Use
+from lagrangian.model.elements.base import Action, Element, Level, Surroundings, Use
 from lagrangian.model.geometry import Frame, as_expr, as_vector
 from lagrangian.model.names import time
-
-if TYPE_CHECKING:
-    from lagrangian.model.model import Model
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -85,7 +82,7 @@ class Torque(Element):
             if isinstance(getattr(self, key), Frame):
                 yield key, getattr(self, key)
 
-    def works(self, model: Model) -> tuple[Action, ...]:
+    def works(self, model: Surroundings) -> tuple[Action, ...]:
         """The torque on its angle, its opposite on the reaction's."""
         actions: list[Action] = []
         for sign, target in ((1, self.on), (-1, self.reaction)):
@@ -93,7 +90,7 @@ class Torque(Element):
                 actions.extend(self._actions(model, sign, target))
         return tuple(actions)
 
-    def _actions(self, model: Model, sign: int, target: sp.Expr | Frame) -> Iterator[Action]:
+    def _actions(self, model: Surroundings, sign: int, target: sp.Expr | Frame) -> Iterator[Action]:
         if not isinstance(target, Frame):
             angle = model.expand(target)
             yield Action(sign * model.expand(self.value), sp.diff(angle, time), model.angle_words(angle), angle)
