@@ -230,6 +230,44 @@ def test_every_function_by_hand(c_function):
     np.testing.assert_allclose([call(row, p)["f"] for row in q], want, rtol=1e-12)
 
 
+@pytest.mark.skipif(not HOST.triple.startswith("x86_64"), reason="these are generations of x86-64")
+@pytest.mark.parametrize(("cpu", "lanes", "fma"), [("x86-64", 2, False), ("x86-64-v3", 4, True)])
+def test_older_processors(cpu, lanes, fma):
+    """Code for the first and the third generation, run here: nothing in it needs the widest registers."""
+    if lanes > HOST.lanes or fma > HOST.fma:
+        pytest.skip("this processor is older")
+    target = dataclasses.replace(HOST, cpu=cpu, features="", lanes=lanes, fma=fma)
+    made = program(every_function, q=("a", "b"), p=("c",))
+    kernel = Kernel(Build(made, Options(lanes, keep=False), target), optional={}, threads=1)
+    q, p = np.random.default_rng(4).uniform(-3, 3, (21, 2)), np.array([1.7])
+    want = np.array([oracle(made, {"q": row, "p": p}) for row in q])
+    np.testing.assert_allclose(kernel(q, p), want, rtol=1e-12)
+    np.testing.assert_allclose(kernel(q[3], p), want[3], rtol=1e-12)
+    np.testing.assert_allclose(kernel(q, np.tile(p, (21, 1))), want, rtol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("triple", "cpu", "lanes"),
+    [
+        ("aarch64-unknown-linux-gnu", "", 2),
+        ("x86_64-pc-windows-msvc-elf", "x86-64-v3", 4),
+        ("x86_64-unknown-linux-gnu", "x86-64-v4", 8),
+    ],
+)
+def test_object_code_asks_nobody_for_a_symbol(tmp_path, triple, cpu, lanes):
+    """No linker has to find a C library: on no system is there a name left to resolve."""
+    if shutil.which("nm") is None:
+        pytest.skip("nm is not installed")
+    native.llvm.initialize_all_targets()
+    native.llvm.initialize_all_asmprinters()
+    target = dataclasses.replace(HOST, triple=triple, cpu=cpu, features="", lanes=lanes, fma=True)
+    build = Build(program(every_function, q=("a", "b"), p=("c",)), Options(lanes, keep=False), target)
+    for kind in ("single", "batch", "sweep"):
+        (tmp_path / "x.o").write_bytes(native.object_code(build.text(kind), target, 2))
+        done = subprocess.run(["nm", "-u", "x.o"], cwd=tmp_path, capture_output=True, text=True, check=True)
+        assert not done.stdout.split()
+
+
 def long_chain(links=400):
     """A recursion with one sine and some products a link, and values that reach across the whole program."""
 

@@ -35,6 +35,17 @@ def compile(
     ``optional``: groups that may be left out, with the value their entries then have.
     ``lanes``: states computed side by side in a batch (1, 2, 4, 8; the machine's widest unless given).
     ``threads``: cores used for a large batch (all unless given). ``keep``: keep the code on disk between runs.
+
+    >>> from lagrangian.graph import Graph, Output, Program
+    >>> g = Graph()
+    >>> x, k = g.input("q", 0), g.input("p", 0)
+    >>> inputs, outputs = {"q": ("x",), "p": ("k",)}, {"force": Output((g.mul(k, x),), (1,))}
+    >>> spring = compile(Program("spring", g, inputs, outputs, {"k": 40.0}))
+    >>> spring([0.5])
+    array([20.])
+    >>> spring([[0.5], [0.25]], p={"k": 8.0})
+    array([[4.],
+           [2.]])
     """
     target = native.host()
     width = target.lanes if lanes is None else lanes

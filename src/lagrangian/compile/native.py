@@ -39,7 +39,8 @@ def host() -> Target:
     with _lock:
         _ready()
         features = llvm.get_host_cpu_features()
-        triple = llvm.get_process_triple()
+        # On Windows, too, what LLVM loads into memory is an ELF object.
+        triple = llvm.get_process_triple() + ("-elf" if os.name == "nt" else "")
         flags = features.flatten()
     arm = triple.startswith(("aarch64", "arm64"))
     lanes = 8 if features.get("avx512f") and features.get("avx512dq") else 4 if features.get("avx2") else 2
