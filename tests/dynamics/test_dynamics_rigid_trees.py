@@ -41,8 +41,9 @@ def seven_links():
 def test_seven_joint_arm_takes_few_operations():
     model = arm(seven_links())
     forward, bias = programs.forward(model), programs.bias(model)
-    assert count_program(forward).operations <= 1450
+    assert count_program(forward).operations <= 1350
     assert count_program(bias).operations <= 620
+    assert count_program(programs.mass_matrix(model)).operations <= 520
     at = state(model, 1)
     assert np.abs(newton_euler(seven_links(), at["q"], at["v"], run(forward, at)["a"])).max() < 1e-12 * 100
 

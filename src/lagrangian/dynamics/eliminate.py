@@ -154,14 +154,14 @@ class Solver:
         self.found.append((rate, g.zero, back))
         self.minimise(t, self.names.get(rate, "?"))
 
-    def run(self) -> None:
-        """Go backwards over the tape."""
+    def run(self, *, minimise: bool = True) -> None:
+        """Go backwards over the tape; without ``minimise`` the rates stay, and H over them is the mass matrix."""
         tape = self.tape
         done: set[int] = set()
         for i in reversed(tape.order):
             if i in done:
                 continue
-            if i in tape.exchanged:
+            if i in tape.exchanged and minimise:
                 rate, sign = tape.exchanged[i]
                 self.exchange(i, rate, sign)
                 done.add(rate)
@@ -173,7 +173,7 @@ class Solver:
             elif i in tape.forms:
                 self.substitute(i, tape.forms[i])
                 self.found.append((i, self.graph.zero, tape.forms[i]))
-            else:
+            elif minimise:
                 self.minimise(i, self.names.get(i, "?"))
 
     def accelerations(self) -> dict[int, int]:
@@ -205,3 +205,14 @@ def solve(
     solver.run()
     value = solver.accelerations()
     return [value[r] for r in rates]
+
+
+def condensed(graph: Graph, tape: Tape, H: Quadratic, rates: Sequence[int]) -> list[list[int]]:
+    """The mass matrix M over ``rates``, row after row: H with every step of the tape substituted.
+
+    Links that move together are summed on the way, as composite bodies.
+    """
+    solver = Solver(graph, tape, H.copy(), {}, {})
+    solver.run(minimise=False)
+    rows = solver.H.rows
+    return [[rows.get(i, {}).get(k, graph.zero) for k in rates] for i in rates]

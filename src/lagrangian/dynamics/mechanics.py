@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 
 from lagrangian.dynamics.bodies import Bodies
-from lagrangian.dynamics.eliminate import Quadratic, solve
+from lagrangian.dynamics.eliminate import Quadratic, condensed, solve
 from lagrangian.dynamics.inertia import AnyLink
 from lagrangian.dynamics.motion import Accelerations, Motion
 from lagrangian.dynamics.tape import is_linear, make_tape, moving_nodes
@@ -158,14 +158,22 @@ class Mechanics:
         return (n[1], True) if n[0] == "neg" else (node, False)
 
     def mass_matrix(self) -> list[list[int]]:
-        """M, row after row: column j is Σ_ik (∂v_i/∂v) H_ik (∂v_k/∂v_j)."""
-        n = len(self.v)
-        flat = self.cheapest(
-            [x for row in self._mass_matrix(self.inertia(links)) for x in row] for links in self.groupings
-        )
+        """M, row after row, by columns or by condensing the tape, whichever is cheaper."""
+        return self._mass_matrix
+
+    @cached_property
+    def _mass_matrix(self) -> list[list[int]]:
+        g, n = self.graph, len(self.v)
+        found = []
+        for links in self.groupings:
+            H = self.inertia(links)
+            for rows in (self._by_columns(H), condensed(g, make_tape(g, list(H.rows), self.v), H, self.v)):
+                found.append([x for row in rows for x in row])
+        flat = self.cheapest(found)
         return [flat[i * n : (i + 1) * n] for i in range(n)]
 
-    def _mass_matrix(self, H: Quadratic) -> list[list[int]]:
+    def _by_columns(self, H: Quadratic) -> list[list[int]]:
+        """Column j of M is Σ_ik (∂v_i/∂v) H_ik (∂v_k/∂v_j)."""
         g, n = self.graph, len(self.v)
         seeds = list(H.rows)
         rows = [[g.zero] * n for _ in range(n)]
@@ -237,16 +245,17 @@ class Mechanics:
     # -- forward dynamics ---------------------------------------------------------------------------------------
 
     def forward(self) -> list[int]:
-        """v̇, by the cheapest of the eliminations: along the tape, from two references, or of the mass matrix."""
+        """v̇, by the cheapest of the eliminations: along the tape or of the mass matrix, from either reference."""
+        n = len(self.v)
+        references = (True, False) if self.motion.free_rates() else (True,)
         found: list[list[int]] = []
-        for links in self.groupings if len(self.v) <= MANY else self.groupings[:1]:
-            found.append(self.along_tape(links, free=True, exchange=True))
-            if self.motion.free_rates():
-                found.append(self.along_tape(links, free=False, exchange=True))
-            if len(self.v) <= MANY:
+        for links in self.groupings if n <= MANY else self.groupings[:1]:
+            for free in references:
+                found.append(self.along_tape(links, free=free, exchange=True))
+                if n <= SMALL:
+                    found.append(self.by_mass_matrix(links, free=free))
+            if n <= MANY:
                 found.append(self.along_tape(links, free=True, exchange=False))
-        if len(self.v) <= SMALL:
-            found.append(self.by_mass_matrix())
         return self.cheapest(found)
 
     def along_tape(self, links: Sequence[AnyLink], *, free: bool, exchange: bool) -> list[int]:
@@ -261,14 +270,15 @@ class Mechanics:
     def _named(self) -> dict[int, str]:
         return dict(zip(self.v, self.names, strict=True))
 
-    def by_mass_matrix(self) -> list[int]:
+    def by_mass_matrix(self, links: Sequence[AnyLink], *, free: bool) -> list[int]:
         """Solve M v̇ = −bias by LDLᵀ: the elimination with no tape between the rates and H."""
         g, H = self.graph, Quadratic(self.graph)
         for i, row in enumerate(self.mass_matrix()):
             for k in range(i + 1):
                 H.add(self.v[i], self.v[k], row[k])
-        linear = dict(zip(self.v, self.bias(), strict=True))
-        return solve(g, make_tape(g, self.v, self.v), H, linear, self.v, self._named)
+        acc = self.accelerations(zeros(g, len(self.v)), free=free)
+        linear = dict(zip(self.v, self.gathered(self.missing(acc, links)), strict=True))
+        return plus(g, acc.vdot, solve(g, make_tape(g, self.v, self.v), H, linear, self.v, self._named))
 
     def _linear(self, pairs: Pairs) -> dict[int, int]:
         """The linear term over velocity nodes, those that depend on v alone."""
