@@ -12,11 +12,13 @@ so every state goes through the same code, wherever a range begins and ends.
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from .ir import Function, Module, Value
 from .move import emit_move
 
+Array = tuple[str, str, str]  # operands: address, stride from state to state, stride from entry to entry
 MAGNITUDE = 0x7FFFFFFFFFFFFFFF
 INFINITE = 0x7FF0000000000000
 
@@ -85,84 +87,93 @@ end:
 def emit_batch(module: Module, sizes: Sizes, lanes: int, *, own_shared: bool, body: str, prologue: str) -> None:
     """Print ``batch`` around the ``lanes`` wide ``body``, and around ``prologue`` where every state has its own."""
     f = Function(module, lanes)
-    blocks, offset = {}, 0
-    inputs = sizes.groups + (sizes.hoisted if own_shared else ())
-    for name, size in (
-        ("in", sum(sizes.groups)),
-        ("out", sum(sizes.outputs)),
-        ("early", sum(sizes.hoisted) if own_shared else 0),
-        ("own", sizes.shared if own_shared else 0),
-        ("scratch", sizes.scratch),
-    ):
-        blocks[name] = f.put(f"getelementptr {f.real}, ptr %work, i64 {offset}")
-        offset += size
-    arrays = [_array(f, k) for k in range(len(inputs) + len(sizes.outputs))]
-    shared = blocks["own"] if own_shared else _entry(f, "ptr", 3 * len(arrays))
+    at = _blocks(f, sizes, own_shared)
+    hoisted = sizes.hoisted if own_shared else ()
+    inputs = len(sizes.groups) + len(hoisted)
+    arrays = [_array(f, k) for k in range(inputs + len(sizes.outputs))]
+    shared = at["own"] if own_shared else _entry(f, "ptr", 3 * len(arrays))
     module.declare("llvm.smin.i64", "i64", ["i64", "i64"])
     last = f.put(f"sub i64 %stop, {lanes}")
     f.do("br label %loop")
     f.label("loop")
-    start_of_next = len(f.lines)
-    # the phis name values and a block printed below
+    start_of_loop = len(f.lines)  # its phis name values and a block printed below
     f.do(f"%state = call i64 @llvm.smin.i64(i64 %next, i64 {last})")
     f.do("%begin = icmp eq i64 %next, %start")
-    here_label = ["loop"]  # the basic block that is being printed
-    zero = Value(f, f.constant(0.0))
-    trouble: Value | None = None
-
-    def move(kind: str, array: tuple[str, str, str], count: int, block: str, slot: int) -> None:
-        nonlocal trouble
-        if not count:
-            return
-        at = f.put(f"getelementptr {f.real}, ptr {block}, i64 {slot}")
-        base, row, step = array
-        here = f.put(f"getelementptr i8, ptr {base}, i64 {f.put(f'mul i64 %state, {row}')}")
-        symbol = emit_move(module, lanes, count, gather=kind == "gather")
-        passed = f"ptr {here}, i64 {row}, i64 {step}, ptr {at}"
-        if kind == "scatter":
-            answer = f.put(f"call {f.real} {symbol}({passed})")
-        else:  # what is the same for all states is in its block after the first time
-            new = f.put(f"or i1 %begin, {f.put(f'icmp ne i64 {row}, 0')}")
-            before, label = here_label[0], f"move{len(f.lines)}"
-            f.do(f"br i1 {new}, label %{label}, label %{label}x")
-            f.label(label)
-            moved = f.put(f"call {f.real} {symbol}({passed})")
-            f.do(f"br label %{label}x")
-            f.label(f"{label}x")
-            answer = f.put(f"phi {f.real} [{f.constant(0.0)}, %{before}], [{moved}, %{label}]")
-            here_label[0] = f"{label}x"
-        trouble = Value(f, answer) if trouble is None else trouble + Value(f, answer)
-
-    slot = 0
-    for k, count in enumerate(sizes.groups):
-        move("gather", arrays[k], count, blocks["in"], slot)
-        slot += count
+    moves = _Moves(f)
+    moves.gather(arrays, sizes.groups, at["in"])
     if own_shared:
-        slot = 0
-        for k, count in enumerate(sizes.hoisted, len(sizes.groups)):
-            move("gather", arrays[k], count, blocks["early"], slot)
-            slot += count
-        f.do(f"call void @{prologue}(ptr {blocks['early']}, ptr null, ptr {blocks['own']}, ptr {blocks['scratch']})")
-    f.do(f"call void @{body}(ptr {blocks['in']}, ptr {shared}, ptr {blocks['out']}, ptr {blocks['scratch']})")
-    slot = 0
-    for k, count in enumerate(sizes.outputs, len(inputs)):
-        move("scatter", arrays[k], count, blocks["out"], slot)
-        slot += count
-    fine = f.all_lanes(f.compare("oeq", zero if trouble is None else trouble, 0.0))
+        moves.gather(arrays[len(sizes.groups) :], hoisted, at["early"])
+        f.do(f"call void @{prologue}(ptr {at['early']}, ptr null, ptr {at['own']}, ptr {at['scratch']})")
+    f.do(f"call void @{body}(ptr {at['in']}, ptr {shared}, ptr {at['out']}, ptr {at['scratch']})")
+    moves.scatter(arrays[inputs:], sizes.outputs, at["out"])
+    fine = f.all_lanes(f.compare("oeq", moves.trouble, 0.0))
     clean = f.put("icmp eq i64 %first, -1")
     found = f.put(f"select i1 {clean}, i64 %state, i64 %first")
     first = f.put(f"select i1 {fine}, i64 %first, i64 {found}")
-    phis = [f"  %first = phi i64 [-1, %entry], [{first}, %{here_label[0]}]"]
-    phis += [f"  %next = phi i64 [%start, %entry], [%after, %{here_label[0]}]"]
-    f.lines[start_of_next:start_of_next] = phis
+    f.lines[start_of_loop:start_of_loop] = [
+        f"  %first = phi i64 [-1, %entry], [{first}, %{moves.label}]",
+        f"  %next = phi i64 [%start, %entry], [%after, %{moves.label}]",
+    ]
     f.do(f"%after = add i64 %next, {lanes}")
     f.do("%more = icmp slt i64 %after, %stop")
     f.do("br i1 %more, label %loop, label %end")
     f.label("end")
     f.do(f"ret i64 {first}")
-    f.finish(
-        "batch", "i64", "ptr %table, i64 %start, i64 %stop, ptr %work", f'nounwind "prefer-vector-width"="{lanes * 64}"'
-    )
+    arguments = "ptr %table, i64 %start, i64 %stop, ptr %work"
+    f.finish("batch", "i64", arguments, f'nounwind "prefer-vector-width"="{lanes * 64}"')
+
+
+def _blocks(f: Function, sizes: Sizes, own_shared: bool) -> dict[str, str]:
+    """The addresses of the blocks in the work space, one after the other."""
+    counts = {"in": sum(sizes.groups), "out": sum(sizes.outputs), "scratch": sizes.scratch}
+    if own_shared:
+        counts |= {"early": sum(sizes.hoisted), "own": sizes.shared}
+    offset, found = 0, {}
+    for name, count in counts.items():
+        found[name] = f.put(f"getelementptr {f.real}, ptr %work, i64 {offset}")
+        offset += count
+    return found
+
+
+class _Moves:
+    """The moves of one turn of the loop; ``trouble`` is their sum of 0·x, ``label`` the basic block being printed."""
+
+    def __init__(self, f: Function) -> None:
+        self.f, self.label = f, "loop"
+        self.trouble = Value(f, f.constant(0.0))
+
+    def gather(self, arrays: Sequence[Array], counts: Sequence[int], block: str) -> None:
+        """Arrays → a block; an array that is the same for all states only in a range's first turn."""
+        f = self.f
+        for call, row in self._calls(arrays, counts, block, gather=True):
+            wanted = f.put(f"or i1 %begin, {f.put(f'icmp ne i64 {row}, 0')}")
+            move = f"move{len(f.lines)}"
+            f.do(f"br i1 {wanted}, label %{move}, label %{move}done")
+            f.label(move)
+            moved = f.put(call)
+            f.do(f"br label %{move}done")
+            f.label(f"{move}done")
+            answer = f.put(f"phi {f.real} [{f.constant(0.0)}, %{self.label}], [{moved}, %{move}]")
+            self.label = f"{move}done"
+            self.trouble = self.trouble + Value(f, answer)
+
+    def scatter(self, arrays: Sequence[Array], counts: Sequence[int], block: str) -> None:
+        """A block → arrays."""
+        for call, _ in self._calls(arrays, counts, block, gather=False):
+            self.trouble = self.trouble + Value(self.f, self.f.put(call))
+
+    def _calls(
+        self, arrays: Sequence[Array], counts: Sequence[int], block: str, *, gather: bool
+    ) -> Iterator[tuple[str, str]]:
+        """For each array, the text of the call that moves it, and its stride from state to state."""
+        f, slot = self.f, 0
+        for (base, row, step), count in zip(arrays, counts, strict=False):
+            if count:
+                at = f.put(f"getelementptr {f.real}, ptr {block}, i64 {slot}")
+                here = f.put(f"getelementptr i8, ptr {base}, i64 {f.put(f'mul i64 %state, {row}')}")
+                symbol = emit_move(f.module, f.lanes, count, gather=gather)
+                yield f"call {f.real} {symbol}(ptr {here}, i64 {row}, i64 {step}, ptr {at})", row
+            slot += count
 
 
 def _entry(f: Function, kind: str, index: int) -> str:
@@ -170,6 +181,6 @@ def _entry(f: Function, kind: str, index: int) -> str:
     return f.put(f"load {kind}, ptr {f.put(f'getelementptr i64, ptr %table, i64 {index}')}")
 
 
-def _array(f: Function, k: int) -> tuple[str, str, str]:
+def _array(f: Function, k: int) -> Array:
     """Address and strides of the k-th array of the table."""
     return _entry(f, "ptr", 3 * k), _entry(f, "i64", 3 * k + 1), _entry(f, "i64", 3 * k + 2)
