@@ -131,9 +131,9 @@ Left: TypeAlias = "Name | Partial | Total | Variation | Terms | Minus | Product 
 
 @dataclass(frozen=True)
 class Elided:
-    """An expression too long to read: how many operations it has, and the expression itself for those who want it."""
+    """An expression or matrix too long to read: how many operations it has, and all of it for those who want it."""
 
-    expr: sp.Expr
+    expr: sp.Expr | Matrix
     operations: int
     terms: tuple[sp.Expr, ...] = ()
 

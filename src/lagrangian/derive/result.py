@@ -7,16 +7,13 @@ from typing import cast
 
 import sympy as sp
 
-from lagrangian.derive.context import Context, fit, fit_terms
+from lagrangian.derive.context import READABLE, Context, fit_terms
 from lagrangian.derive.derivation import EquationTerm, LedgerRow, Origin
 from lagrangian.derive.forces import Contribution
-from lagrangian.derive.formula import Heading, Item, Left, Matrix, Name, Product, Table, Terms, formula, text
+from lagrangian.derive.formula import Elided, Heading, Item, Left, Matrix, Name, Product, Table, Terms, formula, text
 from lagrangian.derive.lagrange import LeftSide
 from lagrangian.derive.normal import Form
 from lagrangian.model import Damper, Dissipation, Element, Gravity, Model, Particle, RigidBody, Spring
-
-MATRIX_ENTRIES = 64
-"""Entries above which a matrix is summarised."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -126,7 +123,6 @@ def matrices(context: Context, sides: tuple[LeftSide, ...], xi_of: dict[sp.Expr,
 
 def closing(context: Context, eqs: Equations, mats: Matrices) -> tuple[Item, ...]:
     """The equations of motion, boxed, and the matrix form."""
-    n = len(context.model.coordinates)
     M, C, G, Xi = Name("M"), Name("C"), Name("G"), Name("Xi")
     items: list[Item] = [Heading(text("Equations of motion"))]
     for left, right in zip(eqs.left, eqs.right, strict=True):
@@ -139,17 +135,15 @@ def closing(context: Context, eqs: Equations, mats: Matrices) -> tuple[Item, ...
     q, dq, ddq = Name("q"), Name("q", "", 1), Name("q", "", 2)
     items.append(formula(Terms((Product((M, ddq)), Product((C, dq)), G)), Xi))
     items.append(formula(q, Matrix(tuple((c.symbol,) for c in context.model.coordinates))))
-    if n * n <= MATRIX_ENTRIES:
-        for name, matrix in ((M, mats.M), (C, mats.C), (G, mats.G), (Xi, mats.Xi)):
-            items.append(formula(name, _shown(matrix)))
-    else:
-        items.append(text(f"M and C have {n * n} entries each; the derivation holds them as SymPy matrices."))
+    for name, matrix in ((M, mats.M), (C, mats.C), (G, mats.G), (Xi, mats.Xi)):
+        items.append(formula(name, _shown(matrix)))
     return tuple(items)
 
 
 def _shown(matrix: sp.ImmutableMatrix) -> Left:
-    rows = tuple(tuple(fit(cast("sp.Expr", matrix[i, j])) for j in range(matrix.cols)) for i in range(matrix.rows))
-    return Matrix(rows)
+    rows = tuple(tuple(cast("sp.Expr", matrix[i, j]) for j in range(matrix.cols)) for i in range(matrix.rows))
+    operations = sum(int(sp.count_ops(x)) for row in rows for x in row)
+    return Matrix(rows) if operations <= READABLE else Elided(Matrix(rows), operations)
 
 
 def ledger(model: Model, context: Context) -> tuple[LedgerRow, ...]:

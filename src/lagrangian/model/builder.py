@@ -41,6 +41,8 @@ class Builder:
         self._elements: list[Element] = []
         self._element_names: dict[str, Element] = {}
         self._dimension: tuple[int, str] | None = None
+        self._symbols: set[Any] = {time}
+        self._checked: dict[int, Point | Frame] = {}  # once found right, a point and all it hangs on stay right
         self._frozen: Model | None = None
 
     # -- symbols ------------------------------------------------------------------------------------------------
@@ -73,6 +75,7 @@ class Builder:
         name = self._claim(name, "coordinate", place)
         made = Coordinate(name, moving_symbol(name), description, unit, place)
         self._coordinates[name] = made
+        self._symbols.add(made.symbol)
         return made
 
     def parameter(
@@ -88,6 +91,7 @@ class Builder:
         name = self._claim(name, "parameter", place)
         made = Parameter(name, sp.Symbol(name), self._number(name, value, place), unit, description, place)
         self._parameters[name] = made
+        self._symbols.add(made.symbol)
         return made
 
     @staticmethod
@@ -119,6 +123,7 @@ class Builder:
         name = self._claim(name, "input", place)
         made = Input(name, moving_symbol(name), description, unit, place)
         self._inputs[name] = made
+        self._symbols.add(made.symbol)
         return made
 
     def define(self, name: str, expression: object, *, place: Place | None = None) -> Definition:
@@ -130,15 +135,14 @@ class Builder:
         symbol = moving_symbol(name) if moving else sp.Symbol(name)
         made = Definition(name, symbol, expr, place)
         self._definitions[name] = made
+        self._symbols.add(made.symbol)
         return made
 
     def _check_known(self, expr: sp.Expr, where: str, place: Place | None, local: Iterable[sp.Symbol] = ()) -> None:
         """Refuse a symbol that was not declared, with the nearest name."""
-        known: set[Any] = {time, *local}
-        for table in (self._coordinates, self._parameters, self._inputs, self._definitions):
-            known.update(x.symbol for x in table.values())
+        known = self._symbols
         atoms = {*expr.free_symbols, *expr.atoms(AppliedUndef)}
-        for atom in sorted(atoms - known, key=str):
+        for atom in sorted(atoms - known - {*local}, key=str):
             name = getattr(atom, "name", str(atom.func))
             kind = "moving symbol" if isinstance(atom, AppliedUndef) else "symbol"
             hint = did_you_mean(name, [getattr(k, "name", str(getattr(k, "func", k))) for k in known])
@@ -249,7 +253,7 @@ class Builder:
         self._own(point, what, place)
         chain: list[Point] = []
         at: Point | None = point
-        while at is not None and not at.is_origin:
+        while at is not None and not at.is_origin and id(at) not in self._checked:
             chain.append(at)
             at = at.parent
         for p in chain:
@@ -259,15 +263,19 @@ class Builder:
                 self._check_position(x, f"component {i} of {what}", place)
             if p.frame is not None:
                 self._check_frame(p.frame, f"the frame of {what}", place)
+        self._checked.update((id(p), p) for p in chain)
 
     def _check_frame(self, frame: Frame, what: str, place: Place | None) -> None:
         at: Frame | None = frame
-        while at is not None:
+        chain: list[Frame] = []
+        while at is not None and id(at) not in self._checked:
+            chain.append(at)
             self._own(at, what, place)
             self._fit(at.dimension, what, place)
             self._check_known(at.angle, f"the angle of {what}", place)
             self._check_position(at.angle, f"the angle of {what}", place)
             at = at.parent
+        self._checked.update((id(f), f) for f in chain)
 
     def _check_position(self, expr: sp.Expr, where: str, place: Place | None) -> None:
         """A position holds coordinates, parameters and time; a rate or an input has no place in it."""

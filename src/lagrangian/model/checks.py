@@ -63,7 +63,7 @@ def number(model: Model, expr: sp.Expr) -> float | None:
     full = model.expand(expr, constants=True)
     if full.free_symbols - model.values.keys():
         return None
-    value = cast("sp.Expr", full.xreplace({s: sp.Float(v) for s, v in model.values.items()}))
+    value = cast("sp.Expr", full.xreplace({s: sp.Float(model.values[s]) for s in full.free_symbols}))
     return float(value) if value.is_real else float("nan")
 
 
@@ -80,11 +80,15 @@ def check_body(model: Model, body: Any) -> None:
             raise error(f"its mass must be a finite positive number (got {mass})", "give it a mass above 0", "E101")
         if mass < 0:
             raise error(f"its {shown} is negative", "give it a mass above 0", "E102")
-        moves = any(model.expand(x).has(AppliedUndef, time) for x in model.position(body.at))
-        if mass == 0 and (moves or not isinstance(body, RigidBody)):
+        if mass == 0 and (not isinstance(body, RigidBody) or _moves(model, body)):
             raise error(f"its {shown} is zero", "give it a mass above 0, or leave it out", "E103")
     if isinstance(body, RigidBody):
         _check_inertia(model, body, error)
+
+
+def _moves(model: Model, body: RigidBody) -> bool:
+    """Whether the centre of mass can move."""
+    return any(model.expand(x).has(AppliedUndef, time) for x in model.position(body.at))
 
 
 def _check_inertia(model: Model, body: RigidBody, error: Any) -> None:

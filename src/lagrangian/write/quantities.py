@@ -220,7 +220,7 @@ class Quantities:
             case Elided(expr, operations, terms):
                 if not self.full:
                     return Word(f"⟨{operations} operations⟩")
-                return self.expressions.sum(terms) if terms else self.expressions(expr)
+                return self.expressions.sum(terms) if terms else self(expr)
         return self.expressions(item)
 
     def _terms(self, terms: tuple[Left, ...]) -> Math:
