@@ -162,7 +162,7 @@ SHAPES: dict[str, tuple[list[Any], list[Any], list[Any], list[list[str]]]] = {
         [theta],
         [m * speed(L * sin(theta), A * cos(omega * t) + L * cos(theta)) / 2],
         [m * g * (A * cos(omega * t) + L * cos(theta))],
-        [["L**2*m*theta''", "A*L*m*omega**2*sin(theta)*cos(omega*t)", "-L*g*m*sin(theta)"]],
+        [["L**2*m*theta''", "-L*m*(-A*omega**2*cos(omega*t) + g)*sin(theta)"]],
     ),
     "spring across": (
         [x],
@@ -174,7 +174,7 @@ SHAPES: dict[str, tuple[list[Any], list[Any], list[Any], list[list[str]]]] = {
         [theta],
         [m * ((R - r0) * dot(theta)) ** 2 / 2, J * ((R - r0) / r0 * dot(theta)) ** 2 / 2],
         [-m * g * (R - r0) * cos(theta)],
-        [["theta''*(J + m*r0**2)*(R - r0)**2/r0**2", "g*m*(R - r0)*sin(theta)"]],
+        [["theta''*(R - r0)**2*(J/r0**2 + m)", "g*m*(R - r0)*sin(theta)"]],
     ),
 }
 
@@ -236,7 +236,7 @@ def operations(form: Form) -> int:
 
 @pytest.mark.parametrize(
     ("n", "relative", "most"),
-    [(2, False, 48), (2, True, 62), (3, False, 124), (3, True, 220), (4, False, 240), (4, True, 561)],
+    [(2, False, 48), (2, True, 62), (3, False, 124), (3, True, 240), (4, False, 240), (4, True, 561)],
 )
 def test_length_of_chains(n: int, relative: bool, most: int) -> None:
     _, found = derived(*chain(n, relative))

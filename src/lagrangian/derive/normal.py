@@ -277,7 +277,7 @@ class Algebra:
         self.reader = Reader(self)
         self.writer = Writer(self.generators)
         for expr in expressions:
-            self.form(expr)
+            self.writer.learn(self.form(expr))
 
     def form(self, expr: sp.Expr) -> Form:
         """Return the normal form; raise `OutOfReach` where it would be too long or is not a real expression."""

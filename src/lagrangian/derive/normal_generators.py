@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import TYPE_CHECKING, ClassVar, cast
@@ -61,7 +61,15 @@ class Trig:
     moving: bool
 
 
-Generator = Symbolic | Root | Opaque | Trig
+@dataclass(frozen=True, eq=False)
+class Sum:
+    """A sum of parameters as a letter on the page, such as Lₐ + L_b; forms keep its letters and never hold one."""
+
+    expr: sp.Expr
+    moving: ClassVar[bool] = False
+
+
+Generator = Symbolic | Root | Opaque | Trig | Sum
 Slope = "int | Form | None"
 """A derivative: a monomial, a form, or None for zero."""
 
@@ -140,6 +148,16 @@ class Generators:
             self._index[key] = len(self.table)
             expr = self.trig(harmonic) * (self.sign(harmonic[0]) if harmonic[1] else 1)
             self.table.append(Trig(harmonic, cast("sp.Expr", expr), self.turning(harmonic[0])))
+        return self._index[key]
+
+    def sum_letter(self, base: Mapping[int, Fraction]) -> int:
+        """Return the number of a sum of parameters on the page; ``base`` is its polynomial."""
+        key = ("sum", frozenset(base.items()))
+        if key not in self._index:
+            self._index[key] = len(self.table)
+            self.table.append(
+                Sum(sp.Add(*[sp.Rational(c.numerator, c.denominator) * self.expr(m) for m, c in base.items()]))
+            )
         return self._index[key]
 
     def sign(self, h: Packed) -> int:
@@ -249,6 +267,17 @@ class Generators:
     def turning(self, harmonic: Packed) -> bool:
         """Whether an angle changes with time."""
         return any(self.angle_rate(j) is not None for j, _ in multiples(harmonic))
+
+    def by_coordinates(self, harmonic: Packed) -> bool:
+        """Whether an angle changes with a coordinate, and not with time alone."""
+        inside = {
+            i for j, _ in multiples(harmonic) for p in self.angles[j].parts.values() for m in p for i, _ in digits(m)
+        }
+        return any(self.is_moving(i) and not self._timed(i) for i in inside)
+
+    def _timed(self, i: int) -> bool:
+        entry = self.table[i]
+        return isinstance(entry, Symbolic) and entry.role in ("time", "input")
 
     def denominators(self, form: Form) -> int:
         """Return the monomial that clears every denominator of a form, 0 where it has none."""

@@ -1,21 +1,22 @@
 """From the normal form to what a textbook prints.
 
-The letters are ordered and grouped, each class of terms by itself: inertia, products of rates, damping, stiffness,
-gravity, inputs. In a class the groupings by acceleration, by harmonic, by product of rates and by parameter are tried
-and the shortest is taken; where it is no shorter by much, the lecture's grouping by acceleration stays.
+The letters are ordered and dealt out into classes: inertia, products of rates, damping, stiffness, gravity, inputs.
+Each class is grouped by itself, see `readable_group`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from lagrangian.derive.normal_generators import Generators, Root, Symbolic, Trig
-from lagrangian.derive.normal_monomials import digits, packed, unit
-from lagrangian.derive.readable_factor import FACTOR_TERMS, SEARCH, Flat, Shortener, Tree, lead, order
+from lagrangian.derive.normal_generators import Generators, Root
+from lagrangian.derive.normal_monomials import digits, unit
+from lagrangian.derive.readable_factor import FACTOR_TERMS, SEARCH, Flat, Shortener, Tree, order
+from lagrangian.derive.readable_group import LONG, Grouper, letters, role_of
+from lagrangian.derive.readable_sums import MOST, sums_in, with_sums
 from lagrangian.derive.readable_trig import displayed
 
 if TYPE_CHECKING:
@@ -47,14 +48,6 @@ def _merge_inputs(classes: dict[str, Flat], home_of: Callable[[int], str]) -> No
             classes[home][m] = c
 
 
-def _letters(tree: Tree) -> set[int]:
-    found = {i for i, _ in digits(tree.monomial)}
-    for terms, _ in tree.sums:
-        for t in terms:
-            found |= _letters(t)
-    return found
-
-
 def _with_square(flat: Flat, base: Flat, root: int) -> Flat:
     """Replace c·base by c·root² wherever all terms of it are there: k (d − l)² / 2 can then be seen as a square."""
     first, lead_c = min(base.items(), key=lambda x: order(x[0]))
@@ -74,6 +67,12 @@ class Writer:
     def __init__(self, generators: Generators) -> None:
         self.generators = generators
         self.shortener = Shortener(generators.cost)
+        self.grouper = Grouper(generators, self.shortener)
+        self.sums: list[Flat] = []
+
+    def learn(self, form: Form) -> None:
+        """Remember the sums of parameters that a given energy is written with; other forms may be shorter in them."""
+        self.sums += [s for s in sums_in(form, self.generators) if s not in self.sums][: MOST - len(self.sums)]
 
     def expr(self, form: Form) -> sp.Expr:
         """Return the whole as one expression: by classes, or as one factored product where that is shorter."""
@@ -102,16 +101,11 @@ class Writer:
             root = self.generators.roots[i]
             if root.q == 2 and root.base.size > 1:
                 flat = _with_square(flat, displayed(root.base, self.generators), unit(i))
-        return flat
+        return with_sums(flat, self.sums, self.generators)
 
     def role(self, letter: int) -> str:
-        """Return "trig", "function", or the role of the symbol; a function of parameters alone is a parameter."""
-        entry = self.generators.table[letter]
-        if isinstance(entry, Symbolic):
-            return entry.role
-        if not entry.moving:
-            return "parameter"
-        return "trig" if isinstance(entry, Trig) else "function"
+        """Return the role of a letter, see `role_of`."""
+        return role_of(self.generators, letter)
 
     # -- classes ----------------------------------------------------------------------------------------------------
 
@@ -122,27 +116,31 @@ class Writer:
             classes.setdefault(self.kind(m), {})[m] = c
         constant = classes.pop("constant", {})
         _merge_inputs(classes, self._bare)
-        long = sum(len(p) for p in classes.values()) > 12
+        long = sum(len(p) for p in classes.values()) > LONG
         homes = [kind for kind in ("stiffness", "gravity") if kind in classes] or ["gravity"]
         ways: list[list[tuple[str, Tree]]] = []
         for home in homes if constant else homes[:1]:
             dealt = {**classes, home: {**classes.get(home, {}), **constant}}
             ways.append(
                 [
-                    (self._kind_of(tree, kind), tree)
+                    (kind, tree)
                     for kind in KINDS
                     if dealt.get(kind)
-                    for tree in self._grouped(kind, dealt[kind], long)
+                    for tree in self.grouper.grouped(kind, dealt[kind], long)
                 ]
             )
         best = min(ways, key=lambda way: sum(t.cost + 1 for _, t in way))
-        return sorted(best, key=lambda x: KINDS.index(x[0]))
+        listed = [(kind, self._kind_of(tree, kind), tree) for kind, tree in best]
+        listed.sort(key=lambda x: KINDS.index(x[0] if x[0] == "damping" and x[1] == "velocity" else x[1]))
+        return [(kind, tree) for _, kind, tree in listed]
 
     def _kind_of(self, tree: Tree, kind: str) -> str:
         """The kind of a finished term: a constant or an input alone is not stiffness, though it was dealt with it."""
         if kind not in ("stiffness", "damping"):
             return kind
-        roles = {self.role(i) for i in _letters(tree)}
+        roles = {self.role(i) for i in letters(tree)}
+        if kind == "damping" and roles & {"coordinate", "function", "trig"}:
+            return "velocity"
         if roles & {"coordinate", "rate", "function"}:
             return kind
         return "input" if "input" in roles else "gravity"
@@ -155,7 +153,7 @@ class Writer:
         return "damping" if isinstance(self.generators.power(moving[0][0], 1), sp.Derivative) else "stiffness"
 
     def kind(self, monomial: int) -> str:
-        """Classify a displayed monomial."""
+        """Classify a displayed monomial; what is linear in the rates is dealt with as damping, whatever else moves."""
         rates = moving = 0
         trig = place = False
         for i, e in digits(monomial):
@@ -171,77 +169,10 @@ class Writer:
                 trig = trig or role == "trig"
                 place = place or role == "coordinate" or isinstance(self.generators.table[i], Root)
         if rates:
-            return "damping" if rates == 1 and not moving else "velocity"
+            return "damping" if rates == 1 else "velocity"
         if not moving:
             return "constant"
         return "gravity" if trig else "stiffness" if place else "other"
-
-    def _grouped(self, kind: str, poly: Flat, long: bool) -> list[Tree]:
-        """The terms of one class in the best of the groupings that fit it; of equals, the first."""
-        if len(poly) == 1:
-            return [self.shortener.short(poly)]
-        if kind == "inertia":
-            ways = [self._by(poly, self._role("acceleration"))]
-            if long:
-                ways.append(self._by(poly, self._role("trig")))
-        elif kind == "velocity":
-            ways = [
-                self._by(poly, self._role("trig")),
-                self._by(poly, self._role("rate")),
-                self._by(poly, self._but("trig", "rate"), merge=True),
-            ]
-        elif kind == "input":
-            ways = [self._by(poly, self._role("input"))]
-        elif kind in ("gravity", "other"):
-            ways = [self._by(poly, self._role("trig", "coordinate"))]
-            if any(self.role(i) == "function" for m in poly for i, _ in digits(m)):
-                ways.append(self._whole(poly, spread=True))
-            if len(poly) == 2 and any(self.kind(m) == "constant" for m in poly):
-                ways.append([self.shortener.short(poly)])
-        else:
-            ways = [
-                self._by(poly, self._but("coordinate", "rate", "input", "function"), merge=True),
-                self._whole(poly),
-                self._by(poly, self._role("coordinate", "rate")),
-            ]
-        return min(ways, key=lambda way: sum(t.cost for t in way) + len(way))
-
-    def _role(self, *roles: str) -> Callable[[int], int]:
-        """The part of a monomial made of letters with these roles."""
-        role = self.role
-        return lambda m: int(packed((i, e) for i, e in digits(m) if role(i) in roles))
-
-    def _but(self, *roles: str) -> Callable[[int], int]:
-        role = self.role
-        return lambda m: int(packed((i, e) for i, e in digits(m) if role(i) not in roles))
-
-    def _by(self, poly: Flat, key: Callable[[int], int], *, merge: bool = False) -> list[Tree]:
-        """One tree a group, in the order of first terms; with ``merge``, groups that differ by a factor are one."""
-        groups: dict[int, Flat] = {}
-        for m, c in poly.items():
-            groups.setdefault(key(m), {})[m] = c
-        dealt = list(groups.values())
-        if merge:
-            alike: dict[Hashable, Flat] = {}
-            for g in groups.values():
-                first = g[min(g, key=order)]
-                cofactor = frozenset((m - key(m), c / first) for m, c in g.items())
-                alike.setdefault(cofactor, {}).update(g)
-            dealt = list(alike.values())
-        return [tree for g in sorted(dealt, key=lead) for tree in self._whole(g)]
-
-    def _whole(self, poly: Flat, *, spread: bool = False) -> list[Tree]:
-        """The best factored sum, each of its terms one term; with ``spread`` what they share is put into each.
-
-        k (x₁ − x₂) stays one term; g (m₁ L₁ sin θ₁ + m₂ L₂ sin θ₂) is spread into two.
-        """
-        tree = self.shortener.short(poly)
-        if len(tree.sums) != 1 or tree.sums[0][1] != 1:
-            return [tree]
-        plain = tree.monomial == 0 and (abs(tree.coefficient) == 1 or tree.coefficient.numerator == 1)
-        if not (plain or spread):
-            return [tree]
-        return [self.shortener.times(t, tree.coefficient, tree.monomial) for t in tree.sums[0][0]]
 
     # -- to SymPy ---------------------------------------------------------------------------------------------------
 

@@ -91,7 +91,10 @@ class Shortener:
         if 1 < len(denominators) <= len(poly) <= FACTOR_TERMS:
             scale = lcm(*denominators)
             tree = self._outside({m: c * scale for m, c in poly.items()}, whole=False)
-            best = min(best, self.times(tree, Fraction(1, scale), 0), key=lambda t: t.cost)
+            tree = self.times(tree, Fraction(1, scale), 0)
+            bare = poly.get(common(poly), Fraction(1)).denominator > 1  # ½ (1 + 4 c² x²), not ½ + 2 c² x²
+            if tree.cost < best.cost + bare:
+                best = tree
         if len(poly) > 1 and any(e < 0 for m in poly for _, e in digits(m)):
             over_all = self._outside(poly, whole=True)
             if (over_all.cost, -len(over_all.sums)) < (best.cost, -len(best.sums)):

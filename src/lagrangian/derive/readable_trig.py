@@ -27,10 +27,10 @@ def displayed(form: Form, generators: Generators) -> Flat:
     harmonic = best = _flat(form, generators, split)
     if form.size > SPLIT_TERMS:
         return best
-    best_cost = _cost(best, generators)
+    best_cost = plain_cost(best, generators)
     for j in _candidates(form):
         trial = _flat(form, generators, split | {j})
-        cost = _cost(trial, generators)
+        cost = plain_cost(trial, generators)
         if cost <= best_cost:
             split, best, best_cost = split | {j}, trial, cost
     if not split:
@@ -168,8 +168,8 @@ def _folded(poly: Flat, c: int, s: int) -> Flat:
     return {m: v for m, v in out.items() if v}
 
 
-def _cost(poly: Flat, generators: Generators) -> int:
-    """About the operations of the plain sum."""
+def plain_cost(poly: Flat, generators: Generators) -> int:
+    """About the operations of the plain sum, term by term."""
     total = 0
     for m, c in poly.items():
         total += 1 + (abs(c.numerator) != 1) + (c.denominator != 1)
