@@ -11,7 +11,7 @@ from lagrangian.derive.context import Context, xi
 from lagrangian.derive.derivation import Check, Step
 from lagrangian.derive.formula import Formula, Item, Left, Table, Text, formula, text
 from lagrangian.derive.wiggle import depends
-from lagrangian.model import Element, Frame, Model, Point
+from lagrangian.model import Coordinate, Element, Frame, Model, Point
 
 
 @dataclass(frozen=True)
@@ -31,10 +31,10 @@ def coordinates(context: Context) -> Step:
     items: list[Item] = []
     rows: list[tuple[Text | Formula, ...]] = []
     for i, c in enumerate(model.coordinates):
-        items.append(formula(xi(model, i), c.symbol, note=text(c.description) if c.description else None, brief=True))
+        items.append(formula(xi(model, i), c.symbol, note=_note(c, kinds[c.symbol]), brief=True))
         rows.append((text(c.symbol), text(*_kind_words(kinds[c.symbol])), text(*_wiggle_words(context, i))))
     header = (text("coordinate"), text("measured"), text("wiggle it alone"))
-    items.append(Table(header, tuple(rows), brief=True))
+    items.append(Table(header, tuple(rows)))
     items.append(
         text(
             "Complete: with the coordinates (and t) given, the position of every mass follows; nothing else in the "
@@ -61,6 +61,16 @@ def coordinates(context: Context) -> Step:
         reasons,
         (Check(text("rank of the velocities in the rates"), wiggle.rank == n, f"{wiggle.rank} of {n}"),),
     )
+
+
+def _note(coordinate: Coordinate, kind: Measured) -> Text | None:
+    """What stands beside ξ_i on the checklist: the person's words, and what a relative one is measured from."""
+    parts: list[str | Left] = [coordinate.description] if coordinate.description else []
+    if kind.to is not None:
+        parts += ["; relative to " if parts else "relative to ", kind.to]
+    elif kind.known:
+        parts.append("; absolute" if parts else "absolute")
+    return text(*parts) if parts else None
 
 
 def _kind_words(kind: Measured) -> list[str | Left]:

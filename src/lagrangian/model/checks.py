@@ -63,7 +63,9 @@ def number(model: Model, expr: sp.Expr) -> float | None:
     full = model.expand(expr, constants=True)
     if full.free_symbols - model.values.keys():
         return None
-    value = cast("sp.Expr", full.xreplace({s: sp.Float(model.values[s]) for s in full.free_symbols}))
+    value = cast(
+        "sp.Expr", full.xreplace({s: sp.Float(model.values[s]) for s in model.values.keys() & full.free_symbols})
+    )
     return float(value) if value.is_real else float("nan")
 
 
