@@ -103,7 +103,7 @@ class Grouper:
     def _damping(self, poly: Flat, long: bool) -> Iterable[Way]:
         if any(self.role(i) in ("trig", "coordinate", "function") for m in poly for i, _ in digits(m)):
             yield from self._carried(poly, "rate", long)
-            yield from self._velocity(poly, long)
+            yield self._by(poly, self._only("trig"))
         else:
             yield from self._springs(poly, long)
 
