@@ -3,6 +3,7 @@
 import ast
 import pathlib
 import re
+import shutil
 import subprocess
 import sys
 
@@ -76,4 +77,9 @@ def test_continuous_integration_runs_the_readmes_test_command() -> None:
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     command = re.search(r"<!-- test command -->\n```\n(.+)\n```", readme)
     assert command is not None and "pytest" in command[1]
-    assert "README.md" in (ROOT / ".ci" / "run").read_text(encoding="utf-8")
+    script = (ROOT / ".ci" / "run").read_text(encoding="utf-8")
+    extract = re.search(r"command=\$\((awk '.*' README\.md)\)", script)
+    assert extract is not None and 'bash -euo pipefail -c "$command"' in script
+    if shutil.which("awk"):
+        done = subprocess.run(["sh", "-c", extract[1]], cwd=ROOT, capture_output=True, text=True, check=True)
+        assert done.stdout.strip() == command[1]
