@@ -115,13 +115,14 @@ def measured(model: Model) -> dict[sp.Expr, Measured]:
     directions, carried = _directions(model, symbols), _carriers(model, symbols)
     reach = {s: sum(any(depends(model, x, s) for x in _where(model, b)) for b in model.bodies) for s in symbols}
     found: dict[sp.Expr, Measured] = {}
-    lengths = _lengths(model, symbols)
+    lengths, turns = _lengths(model, symbols), _turns(model, symbols)
     for s in symbols:
         holding = [d for d in directions if s in d]
         if s in carried:
             found[s] = Measured(True, carried[s])
         elif s in lengths:
-            found[s] = Measured(False, _carried_by(model, s, symbols, reach))
+            to = _carried_by(model, s, symbols, reach)
+            found[s] = Measured(to is None and s in turns, to)
         elif holding:
             smallest = min(holding, key=lambda d: (len(d), [symbols.index(x) for x in d]))
             others = [x for x in smallest if x is not s]
@@ -200,6 +201,12 @@ def _lengths(model: Model, symbols: list[sp.Expr]) -> set[sp.Expr]:
             bare = x.replace(lambda e: isinstance(e, (sp.sin, sp.cos)), lambda _: sp.Dummy())
             outside |= {s for s in symbols if bare.has(s)}
     return outside
+
+
+def _turns(model: Model, symbols: list[sp.Expr]) -> set[sp.Expr]:
+    """The coordinates that a frame turns by, one for one: angles, even where something rolls along by R φ."""
+    angles = [model.expand(f.total_angle if f.axis is None else f.angle) for f in _frames(model)]
+    return {s for s in symbols if any(sp.diff(a, s) in (1, -1) for a in angles)}
 
 
 def _carried_by(model: Model, s: sp.Expr, symbols: list[sp.Expr], reach: dict[sp.Expr, int]) -> sp.Expr | None:

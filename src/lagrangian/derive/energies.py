@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import sympy as sp
 
+from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import Context, fit, fit_terms
 from lagrangian.derive.derivation import Step
 from lagrangian.derive.formula import (
@@ -23,7 +24,6 @@ from lagrangian.derive.formula import (
     formula,
     text,
 )
-from lagrangian.derive.normal import Form
 from lagrangian.model import Element, Gravity, Model, Particle, RigidBody, Spring, time
 
 AXES = ("x", "y", "z")
@@ -111,7 +111,10 @@ def kinetic(context: Context, pieces: tuple[Share, ...]) -> Step:
             items.append(formula(share.name, fit(context.readable(share.expr)), note=text("as given")))
     total = _sum(mine, "T*")
     readable = context.algebra.total([s.form for s in mine]).expr()
-    items.append(formula(*_chain(Name("T*"), total, _added(context, mine)), brief=True))
+    if isinstance(last := items[-1] if items else None, Formula) and total == Name("T*") and last.sides[0] == total:
+        items[-1] = replace(last, brief=True)
+    else:
+        items.append(formula(*_chain(Name("T*"), total, _added(context, mine)), brief=True))
     reasons = tuple(text(s.name, f": {s.element.title} has mass and moves") for s in mine)
     return Step(
         2,
@@ -156,16 +159,17 @@ def _motion(context: Context, body: Any, index: dict[Element, str]) -> list[Item
         if v == 0:
             continue
         here = Name(axis, index[body])
-        shown = [here, *([Terms((Name(axis, index[base]), *_terms(step)))] if base is not None else [x])]
-        if base is None and model.expand(x) != x:
+        # a coordinate of the other body that never changes has no line of its own to refer to
+        there = base if base is not None and model.velocity(base.at)[AXES.index(axis)] != 0 else None
+        shown = [here, *([Terms((Name(axis, index[there]), *_terms(step)))] if there is not None else [x])]
+        if there is None and model.expand(x) != x:
             shown.append(fit(context.readable(model.expand(x))))
         if str(here) != str(shown[-1]):
             lines.append(formula(*shown))
         speed = Name(axis, index[body], 1)
-        if base is not None:
+        if there is not None:
             rate = sp.diff(model.expand(step), time)
-            before = () if model.velocity(base.at)[AXES.index(axis)] == 0 else (Name(axis, index[base], 1),)
-            lines.append(formula(speed, Terms((*before, *_terms(context.readable(rate))))))
+            lines.append(formula(speed, Terms((Name(axis, index[there], 1), *_terms(context.readable(rate))))))
         else:
             lines.append(formula(speed, fit(context.readable(v))))
     if not any(v != 0 for v in velocity):
