@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from sympy.core.function import AppliedUndef
 from sympy.physics.mechanics import dynamicsymbols
 
-from lagrangian.derive.normal import Algebra, Form, OutOfReach, equations
+from lagrangian.derive.algebra import Algebra, Form, OutOfReach, equations
 from lagrangian.errors import ModelError
 
 t = dynamicsymbols._t

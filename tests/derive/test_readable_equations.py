@@ -19,8 +19,8 @@ from hypothesis import strategies as st
 from sympy.core.function import AppliedUndef
 from sympy.physics.mechanics import dynamicsymbols
 
-from lagrangian.derive.normal import Algebra, Form, equations
-from lagrangian.derive.readable_factor import Flat, Shortener
+from lagrangian.derive.algebra import Algebra, Form, equations
+from lagrangian.derive.algebra.factor import Flat, Shortener
 
 t = dynamicsymbols._t
 sin, cos = sp.sin, sp.cos
@@ -287,7 +287,7 @@ def test_factored_shapes_expand_to_what_they_came_from(terms: dict[tuple[int, ..
     """Against SymPy's expansion of the tree."""
     from fractions import Fraction
 
-    from lagrangian.derive.normal_monomials import digits, packed
+    from lagrangian.derive.algebra.monomials import digits, packed
 
     letters = sp.symbols("a b c d")
     flat: Flat = {int(packed(enumerate(e))): Fraction(c, 2) for e, c in terms.items()}

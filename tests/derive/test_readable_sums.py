@@ -12,10 +12,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sympy.physics.mechanics import dynamicsymbols
 
-from lagrangian.derive.normal import Algebra, Form, equations
-from lagrangian.derive.normal_monomials import packed
-from lagrangian.derive.readable_factor import Flat
-from lagrangian.derive.readable_sums import sums_in, with_sums
+from lagrangian.derive.algebra import Algebra, Form, equations
+from lagrangian.derive.algebra.factor import Flat
+from lagrangian.derive.algebra.monomials import packed
+from lagrangian.derive.algebra.sums import sums_in, with_sums
 
 t = dynamicsymbols._t
 sin, cos = sp.sin, sp.cos

@@ -7,9 +7,8 @@ from functools import cached_property
 
 import sympy as sp
 
+from lagrangian.derive.algebra import Algebra, Form, Term
 from lagrangian.derive.formula import Elided, Left, Name, Terms
-from lagrangian.derive.normal import Algebra, Form
-from lagrangian.derive.readable import Term
 from lagrangian.derive.wiggle import Wiggle
 from lagrangian.model import Model
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sympy as sp
 
+from lagrangian.derive.algebra import Algebra
 from lagrangian.derive.context import Context
 from lagrangian.derive.coordinates import coordinates
 from lagrangian.derive.derivation import Derivation
@@ -11,7 +12,6 @@ from lagrangian.derive.energies import kinetic, lagrangian, potential, shares
 from lagrangian.derive.forces import contributions, forces
 from lagrangian.derive.holonomy import holonomic
 from lagrangian.derive.lagrange import left_hand_sides, left_sides
-from lagrangian.derive.normal import Algebra
 from lagrangian.derive.result import Shares, closing, equations, ledger, ledger_items, matrices
 from lagrangian.derive.wiggle import study
 from lagrangian.model import Model

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import Context, big_xi, fit
 from lagrangian.derive.coordinates import chain_of, measured
 from lagrangian.derive.derivation import Check, Step
@@ -26,7 +27,6 @@ from lagrangian.derive.formula import (
     formula,
     text,
 )
-from lagrangian.derive.normal import Form
 from lagrangian.model import DEFLECTION, Action, Damper, Dissipation, Element, Words, time
 
 

@@ -6,11 +6,11 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import Context
 from lagrangian.derive.derivation import Step
 from lagrangian.derive.energies import Share
 from lagrangian.derive.formula import Heading, Item, Minus, Name, Partial, Terms, Total, formula, text
-from lagrangian.derive.normal import Form
 from lagrangian.model import Coordinate
 
 

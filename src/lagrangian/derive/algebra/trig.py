@@ -6,12 +6,12 @@ from fractions import Fraction
 from math import comb
 from typing import TYPE_CHECKING
 
-from lagrangian.derive.normal_generators import Generators, Trig
-from lagrangian.derive.normal_monomials import Packed, digits, multiples, packed, turn, unit, whole
-from lagrangian.derive.readable_factor import Flat
+from lagrangian.derive.algebra.factor import Flat
+from lagrangian.derive.algebra.generators import Generators, Trig
+from lagrangian.derive.algebra.monomials import Packed, digits, multiples, packed, turn, unit, whole
 
 if TYPE_CHECKING:
-    from lagrangian.derive.normal import Form, Harmonic
+    from lagrangian.derive.algebra.form import Form, Harmonic
 
 SPLIT_TERMS = 3000
 """Forms of more terms keep their harmonics."""

@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any, cast
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from lagrangian.derive.normal_monomials import LARGEST_EXPONENT, Packed, common, content, turn, unit, whole
+from lagrangian.derive.algebra.form import Form, OutOfReach
+from lagrangian.derive.algebra.monomials import LARGEST_EXPONENT, Packed, common, content, turn, unit, whole
 
 if TYPE_CHECKING:
-    from lagrangian.derive.normal import Algebra, Form
+    from lagrangian.derive.algebra.algebra import Algebra
 
 EXACT_TURNS = 12
 """cos(x + π·p/q) is written out as cos x cos(πp/q) − sin x sin(πp/q) for q up to this, so that thirds cancel."""
@@ -75,8 +76,6 @@ class Reader:
         1/(2 m₁ + 2 m₂) = ½ (m₁ + m₂)⁻¹, √(4x² + 4y²) = 2 √(x² + y²). Out of a root only what is certain to be
         positive comes: a number that is a perfect power.
         """
-        from lagrangian.derive.normal import Form, OutOfReach
-
         algebra = self.algebra
         if not form.parts:
             raise OutOfReach("an expression divides by zero")
@@ -108,8 +107,6 @@ class Reader:
 
     def _trig(self, argument: Form, sine: bool) -> Form:
         """sin or cos of Σ k_j a_j: every term of the argument is a rational multiple of an angle."""
-        from lagrangian.derive.normal import Form
-
         algebra, generators = self.algebra, self.algebra.generators
         h: Packed = 0
         phase = Fraction(0)
@@ -131,8 +128,6 @@ class Reader:
         return self._plain(h, int(sine)) if h else Form(algebra, {} if sine else {(0, 0): {0: 1}})
 
     def _plain(self, h: Packed, s: int) -> Form:
-        from lagrangian.derive.normal import Form
-
         if h == 0:
             return Form(self.algebra, {} if s else {(0, 0): {0: 1}})
         return Form(self.algebra, {(abs(h), s): {0: -1 if s and h < 0 else 1}})
@@ -141,8 +136,6 @@ class Reader:
 
     def _opaque(self, expr: sp.Expr) -> Form:
         """A function of readable arguments is a generator."""
-        from lagrangian.derive.normal import OutOfReach
-
         if expr.has(sp.I, sp.zoo, sp.oo, sp.nan, sp.S.NegativeInfinity):
             raise OutOfReach(f"'{expr}' is not a finite real expression")
         generators = self.algebra.generators

@@ -11,12 +11,12 @@ from collections.abc import Callable, Hashable, Iterable
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lagrangian.derive.normal_generators import Sum, Symbolic, Trig
-from lagrangian.derive.normal_monomials import digits, packed
-from lagrangian.derive.readable_factor import Flat, Shortener, Tree, lead, order, primitive
+from lagrangian.derive.algebra.factor import Flat, Shortener, Tree, lead, order, primitive
+from lagrangian.derive.algebra.generators import Sum, Symbolic, Trig
+from lagrangian.derive.algebra.monomials import digits, packed
 
 if TYPE_CHECKING:
-    from lagrangian.derive.normal_generators import Generators
+    from lagrangian.derive.algebra.generators import Generators
 
 DEEP = 2
 """Parentheses inside one another that are still read easily."""

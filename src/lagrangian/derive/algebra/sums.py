@@ -11,13 +11,13 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lagrangian.derive.normal_generators import Generators, Symbolic
-from lagrangian.derive.normal_monomials import digits, unit
-from lagrangian.derive.readable_factor import Flat, order, primitive
-from lagrangian.derive.readable_trig import plain_cost
+from lagrangian.derive.algebra.factor import Flat, order, primitive
+from lagrangian.derive.algebra.generators import Generators, Symbolic
+from lagrangian.derive.algebra.monomials import digits, unit
+from lagrangian.derive.algebra.trig import plain_cost
 
 if TYPE_CHECKING:
-    from lagrangian.derive.normal import Form
+    from lagrangian.derive.algebra.form import Form
 
 LARGEST = 4
 """Letters that a sum may have."""

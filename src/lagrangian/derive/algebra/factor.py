@@ -13,7 +13,7 @@ from math import gcd, lcm
 
 import sympy as sp
 
-from lagrangian.derive.normal_monomials import common, digits, packed, unit
+from lagrangian.derive.algebra.monomials import common, digits, packed, unit
 
 Flat = dict[int, Fraction]
 """A polynomial over display letters: packed monomial → rational coefficient."""

@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, ClassVar, cast
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from lagrangian.derive.normal_monomials import Packed, digits, multiples, packed, unit
+from lagrangian.derive.algebra.form import Form, Harmonic
+from lagrangian.derive.algebra.monomials import Packed, digits, multiples, packed, unit
 
 if TYPE_CHECKING:
-    from lagrangian.derive.normal import Algebra, Form, Harmonic
+    from lagrangian.derive.algebra.algebra import Algebra
 
 
 @dataclass(frozen=True, eq=False)
@@ -169,8 +170,6 @@ class Generators:
 
         ``scale`` belongs to the angle where it is too long a fraction to count its multiples.
         """
-        from lagrangian.derive.normal import Form
-
         key = (harmonic, monomial, scale)
         if key not in self._angle:
             n, d = (scale.numerator, scale.denominator) if scale else (1, 1)

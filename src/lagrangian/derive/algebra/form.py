@@ -11,20 +11,27 @@ is a generator of its own with its derivative, see `generators`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Collection
 from fractions import Fraction
-from math import lcm
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from lagrangian.derive.normal_generators import Generators, Symbolic
-from lagrangian.derive.normal_monomials import LARGEST_EXPONENT, Packed, Poly, content, digits, multiples, product, unit
-from lagrangian.derive.normal_reading import Reader
+from lagrangian.derive.algebra.monomials import (
+    LARGEST_EXPONENT,
+    Packed,
+    Poly,
+    content,
+    digits,
+    multiples,
+    product,
+    unit,
+)
 from lagrangian.errors import ModelError
 
 if TYPE_CHECKING:
-    from lagrangian.derive.readable import Term
+    from lagrangian.derive.algebra.algebra import Algebra
+    from lagrangian.derive.algebra.readable import Term
 
 LARGEST_FORM = 1_000_000
 """Terms above which a product is refused: such an expression is beyond reading and beyond memory."""
@@ -41,24 +48,6 @@ Rate = Callable[[int], "int | Form | None"]
 
 class OutOfReach(ModelError):
     """An expression has no normal form of reasonable size."""
-
-
-class Described(Protocol):
-    """What the algebra needs of a model: its coordinates, in order, each with a ``symbol``."""
-
-    @property
-    def coordinates(self) -> Collection[HasSymbol]:
-        """The generalized coordinates."""
-        ...
-
-
-class HasSymbol(Protocol):
-    """Something that is written as a symbol."""
-
-    @property
-    def symbol(self) -> sp.Expr:
-        """The symbol, a function of time."""
-        ...
 
 
 class Form:
@@ -261,86 +250,3 @@ def _gather(out: dict[Harmonic, Poly], pieces: list[tuple[Packed, int, Poly, int
         factor = sign * scale
         for m, c in p.items():
             here[m] = here.get(m, 0) + c * factor
-
-
-class Algebra:
-    """The ring that a system's expressions live in; built once for the system.
-
-    ``model`` gives the coordinates, whose order is the order of terms; ``expressions`` are read first, so that the
-    shape of later results does not depend on who asks first.
-    """
-
-    def __init__(self, model: Described, expressions: Iterable[sp.Expr] = ()) -> None:
-        from lagrangian.derive.readable import Writer
-
-        self.generators = Generators(self, [c.symbol for c in model.coordinates])
-        self.reader = Reader(self)
-        self.writer = Writer(self.generators)
-        for expr in expressions:
-            self.writer.learn(self.form(expr))
-
-    def form(self, expr: sp.Expr) -> Form:
-        """Return the normal form; raise `OutOfReach` where it would be too long or is not a real expression."""
-        return self.reader.form(sp.sympify(expr))
-
-    def number(self, value: Packed) -> Form:
-        """Return a rational constant."""
-        return Form(self, {(0, 0): {0: value.numerator}}, value.denominator)
-
-    def monomial(self, packed: int) -> Form:
-        """Return a monomial of generators."""
-        return Form(self, {(0, 0): {packed: 1}})
-
-    def total(self, forms: Iterable[Form]) -> Form:
-        """Return the sum of any number of forms, 0 of none."""
-        forms = [f for f in forms if f.parts]
-        if not forms:
-            return Form(self, {})
-        if len(forms) == 1:
-            return forms[0]
-        den = lcm(*(f.den for f in forms))
-        out: dict[Harmonic, Poly] = {}
-        for f in forms:
-            scale = den // f.den
-            for h, p in f.parts.items():
-                here = out.setdefault(h, {})
-                for m, c in p.items():
-                    here[m] = here.get(m, 0) + c * scale
-        result = Form(self, out, den)
-        if result.size > LARGEST_FORM:
-            raise OutOfReach(f"a sum of {result.size} terms is too long to write out")
-        return result
-
-    def reduced(self, form: Form) -> Form:
-        """Return the form with g^q replaced by b for every generator g = b^(1/q)."""
-        roots = self.generators.roots
-        if not roots:
-            return form
-        keep: dict[Harmonic, Poly] = {}
-        extra: dict[tuple[int, int], dict[Harmonic, Poly]] = {}
-        for h, p in form.parts.items():
-            for m, c in p.items():
-                for i, e in digits(m):
-                    if i in roots and e >= roots[i].q:
-                        times = e // roots[i].q
-                        lower = m - unit(i) * times * roots[i].q
-                        extra.setdefault((i, times), {}).setdefault(h, {})[lower] = c
-                        break
-                else:
-                    keep.setdefault(h, {})[m] = c
-        if not extra:
-            return form
-        replaced = [Form(self, parts, form.den) * roots[i].base ** times for (i, times), parts in extra.items()]
-        return self.total([Form(self, keep, form.den), *replaced])
-
-
-def equations(
-    kinetic: Iterable[Form], potential: Iterable[Form], coordinates: Iterable[sp.Expr], algebra: Algebra
-) -> list[Form]:
-    """Return d/dt(∂T*/∂ξ̇_i) − ∂T*/∂ξ_i + ∂V/∂ξ_i for every coordinate."""
-    T, V = algebra.total(kinetic), algebra.total(potential)
-    sides: list[Form] = []
-    for q in coordinates:
-        momentum = T.diff(sp.Derivative(q, Symbolic.time))
-        sides.append(algebra.total([momentum.total_derivative(), -T.diff(q), V.diff(q)]))
-    return sides

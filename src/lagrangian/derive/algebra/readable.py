@@ -1,7 +1,7 @@
 """From the normal form to what a textbook prints.
 
 The letters are ordered and dealt out into classes: inertia, products of rates, damping, stiffness, gravity, inputs.
-Each class is grouped by itself, see `readable_group`.
+Each class is grouped by itself, see `group`.
 """
 
 from __future__ import annotations
@@ -12,15 +12,15 @@ from typing import TYPE_CHECKING
 
 import sympy as sp
 
-from lagrangian.derive.normal_generators import Generators, Root
-from lagrangian.derive.normal_monomials import digits, unit
-from lagrangian.derive.readable_factor import FACTOR_TERMS, SEARCH, Flat, Shortener, Tree, order
-from lagrangian.derive.readable_group import LONG, Grouper, letters, role_of
-from lagrangian.derive.readable_sums import MOST, sums_in, with_sums
-from lagrangian.derive.readable_trig import displayed
+from lagrangian.derive.algebra.factor import FACTOR_TERMS, SEARCH, Flat, Shortener, Tree, order
+from lagrangian.derive.algebra.generators import Generators, Root
+from lagrangian.derive.algebra.group import LONG, Grouper, letters, role_of
+from lagrangian.derive.algebra.monomials import digits, unit
+from lagrangian.derive.algebra.sums import MOST, sums_in, with_sums
+from lagrangian.derive.algebra.trig import displayed
 
 if TYPE_CHECKING:
-    from lagrangian.derive.normal import Form
+    from lagrangian.derive.algebra.form import Form
 
 KINDS = ("inertia", "velocity", "damping", "stiffness", "gravity", "other", "input")
 """The kinds of terms, in the order in which they are written."""
