@@ -75,6 +75,17 @@ def test_the_schema_is_a_json_schema(capsys: pytest.CaptureFixture[str]) -> None
     assert code == 0 and json.loads(out)["$schema"].startswith("https://json-schema.org/")
 
 
+def test_derive_says_so_where_a_check_does_not_hold(capsys: pytest.CaptureFixture[str], tmp_path: pathlib.Path) -> None:
+    path = tmp_path / "negative.toml"
+    path.write_text(
+        'name = "n"\n[coordinates]\nx = ""\n[parameters]\nm = 1\n[energies]\nT = "-m*x\'^2/2"\n', encoding="utf-8"
+    )
+    code, out, error = call(capsys, "derive", str(path), "--brief")
+    assert code == 1
+    assert "✗ M is positive definite" in out
+    assert "does not hold" in error
+
+
 def test_verify_says_ok_line_by_line(capsys: pytest.CaptureFixture[str], cart: str) -> None:
     code, out, _ = call(capsys, "verify", cart, "--states", "5")
     assert code == 0 and "✗" not in out

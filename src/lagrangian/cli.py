@@ -83,7 +83,7 @@ def derive(
     width: Annotated[int, typer.Option(help="Columns of the text.", min=40, max=400)] = 80,
     output: Output = None,
 ) -> None:
-    """Derive the equations of motion, step by step."""
+    """Derive the equations of motion, step by step; exit 1 if a check does not hold."""
     if (file is None) == (example is None):
         raise typer.BadParameter("name a model file, or a built-in example with --example NAME")
     if example is not None:
@@ -91,7 +91,11 @@ def derive(
     else:
         assert file is not None
         system = _open(file)
-    _put(_written(system.derive(), format, notation, brief, full, width), output)
+    derivation = system.derive()
+    _put(_written(derivation, format, notation, brief, full, width), output)
+    if not all(check.holds for check in derivation.verified):
+        sys.stderr.write("a check at the end of the derivation does not hold; see its ✗\n")
+        raise typer.Exit(1)
 
 
 def _written(derivation: Derivation, format: Format, notation: Notation, brief: bool, full: bool, width: int) -> str:
