@@ -66,6 +66,43 @@ def test_a_bare_number_may_be_a_length() -> None:
     assert s.derive().equations
 
 
+def test_half_a_length_is_a_length() -> None:
+    def rod(L: str) -> lg.System:
+        s = lg.System("rod")
+        th = s.coordinates("theta")
+        m, length = s.parameter("m", "1 kg"), s.parameter("L", L)
+        s.rigid_body(m, m * length**2 / 12, at=s.origin + (length / 2 * cos(th), length / 2 * sin(th)), frame=th)
+        s.gravity()
+        return s
+
+    assert "dimensions" in str(rod("1 m").derive().verified[-1].what)
+    with pytest.raises(ModelError, match="kg"):
+        rod("1 kg").derive()
+
+
+def test_a_bare_stiffness_is_no_error_but_the_terms_are_not_compared() -> None:
+    s = lg.System("bare stiffness")
+    x = s.coordinate("x", unit="m")
+    s.particle(s.parameter("m", "1 kg"), s.origin + (x, 0))
+    s.potential(50 * x**2)
+    assert not any("dimensions" in str(check.what) for check in s.derive().verified)
+
+
+@pytest.mark.parametrize("unit", ["deg", "mm"])
+def test_a_coordinate_in_another_unit_than_si_is_refused(unit: str) -> None:
+    s = lg.System("degrees")
+    x = s.coordinate("x", unit=unit)
+    s.particle(s.parameters("m"), s.origin + (x, 0))
+    with pytest.raises(ModelError, match=f"'x' has the unit {unit}"):
+        s.derive()
+
+
+def test_a_value_is_shown_in_the_unit_it_was_given_in() -> None:
+    s = pendulum(L="250 mm")
+    page = s.derive().to_text()
+    assert "250 mm" in page and "0.25 mm" not in page
+
+
 def test_an_angle_in_a_sine_may_be_a_ratio_of_lengths() -> None:
     s = lg.System("wheel")
     x = s.coordinate("x", unit="m")

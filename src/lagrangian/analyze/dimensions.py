@@ -3,7 +3,8 @@
 Every symbol has a dimension kg^a m^b s^c, known from its unit or unknown. What the model says ("this is a mass", "this
 is added to that", "this is the argument of a sine") are linear equations between the exponents; they are solved one
 after another, and the first that contradicts the others is the error, with the element it stands in. Angles have no
-dimension. A bare number may stand for a quantity ("0.5" for half a metre), so it settles nothing.
+dimension. A bare number may stand for a quantity ("0.5" for half a metre): where that would explain a difference there
+is no error, and then the equations' terms are not compared.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ from lagrangian.model import (
     Gravity,
     Kinetic,
     Model,
+    Parameter,
     Particle,
     Potential,
     RigidBody,
@@ -147,8 +149,8 @@ class Dimensions:
         if not isinstance(expr, sp.sign):
             for argument in cast("tuple[sp.Expr, ...]", expr.args):
                 found = self.of(argument)
-                if found is not None and not _has_scale(argument):
-                    self.equal(found, NONE)
+                if found is not None:
+                    self.settle(found, NONE, argument)
         return NONE
 
     def _power(self, expr: sp.Pow) -> Dim | None:
@@ -162,23 +164,39 @@ class Dimensions:
 
     def _same(self, parts: Any) -> Dim | None:
         first: Dim | None = None
-        loose: list[tuple[sp.Expr, Dim]] = []
-        for part in parts:
+        for part in sorted(parts, key=_number_explains):  # what has no numbers in it sets the dimension
             found = self.of(part)
-            if found is None:
-                continue
-            if _has_scale(part):
-                loose.append((part, found))
-            else:
-                first = found if first is None else self.equal(found, first)
-        if first is None and loose:
-            return loose[0][1]
-        return first
+            if found is not None and first is not None:
+                self.settle(found, first, part)
+            first = found if first is None else first
+        return None if first is None else self.reduce(first)
+
+    def settle(self, found: Dim, wanted: Dim, expr: sp.Expr) -> None:
+        """Take ``found`` = ``wanted`` into account, unless a bare number in ``expr`` may carry what is missing."""
+        try:
+            self.equal(found, wanted)
+        except Mismatch:
+            if not _number_explains(expr):
+                raise
+            self.loose = True
 
 
-def _has_scale(expr: sp.Expr) -> bool:
-    """Whether a number in the expression may carry a unit of its own: a factor that is not ±1."""
-    return any(term.as_coeff_Mul()[0] not in (1, -1) for term in sp.Add.make_args(expr))
+PURE = 12
+"""Up to here numerators and denominators are pure numbers, as in L/2 or m L²/12; 9.81 may well be a quantity."""
+
+
+def _number_explains(expr: sp.Expr) -> bool:
+    """Whether a number in the expression may carry a unit of its own.
+
+    A factor that is not ±1 may, as in ``0.5*sin(theta)`` or ``3*t``, but not a small one beside parameters: ``L/2``.
+    """
+    for term in sp.Add.make_args(expr):
+        number, rest = term.as_coeff_Mul()
+        small = isinstance(number, sp.Rational) and abs(int(number.p)) <= PURE and int(number.q) <= PURE
+        named = any(isinstance(f.as_base_exp()[0], sp.Symbol) and f != time for f in sp.Mul.make_args(rest))
+        if number not in (1, -1) and not (small and named):
+            return True
+    return False
 
 
 def check_dimensions(model: Model) -> Dimensions | None:
@@ -189,6 +207,13 @@ def check_dimensions(model: Model) -> Dimensions | None:
     dims = Dimensions()
     for x in named:
         if x.unit:
+            if not isinstance(x, Parameter) and (scale := read.parse_quantity(f"1 {x.unit}").value) != 1:
+                raise ModelError(
+                    f"'{x.name}' has the unit {x.unit}, which is {scale:.6g} in SI units",
+                    place=x.place,
+                    fix="coordinates and inputs are in SI units, such as rad, m, N; only values of parameters are converted",
+                    code="E408",
+                )
             dims.solved[x.symbol] = Dim(read.unit_dimension(x.unit))
     for definition in model.definitions:
         _settle(dims, definition.symbol, definition.expression, f"definition '{definition.name}'", definition.place)
@@ -201,7 +226,7 @@ def check_dimensions(model: Model) -> Dimensions | None:
 def _settle(dims: Dimensions, symbol: Any, expr: sp.Expr, where: str, place: Place | None) -> None:
     try:
         found = dims.of(expr)
-        if found is not None and not _has_scale(expr):
+        if found is not None and not _number_explains(expr):
             dims.equal(dims.of(symbol) or NONE, found)
     except Mismatch as wrong:
         raise ModelError(
@@ -220,11 +245,11 @@ def _claim(dims: Dimensions, title: str, place: Place | None, what: str, expr: s
             fix="give the terms of a sum the same unit, and functions an angle or a plain number",
             code="E408",
         ) from None
-    if found is None or _has_scale(expr):
+    if found is None:
         dims.loose = dims.loose or expr != 0
         return
     try:
-        dims.equal(found, wanted)
+        dims.settle(found, wanted, expr)
     except Mismatch as wrong:
         raise ModelError(
             f"its {what} {plain(expr)} has the unit {wrong.found}, but {wrong.wanted} is needed",
@@ -312,12 +337,12 @@ def _torque(model: Model, torque: Torque, dims: Dimensions) -> Iterator[Claim]:
 
 def _energy(model: Model, element: Any, dims: Dimensions) -> Iterator[Claim]:
     for term in sp.Add.make_args(element.value):
-        yield "value", sp.Mul(*[f for f in sp.Mul.make_args(term) if not f.is_number]), ENERGY
+        yield "value", term, ENERGY
 
 
 def _dissipation(model: Model, element: Any, dims: Dimensions) -> Iterator[Claim]:
     for term in sp.Add.make_args(element.value):
-        yield "value", sp.Mul(*[f for f in sp.Mul.make_args(term) if not f.is_number]), POWER
+        yield "value", term, POWER
 
 
 def _generalized(model: Model, element: Any, dims: Dimensions) -> Iterator[Claim]:

@@ -4,7 +4,7 @@ from lagrangian.read.expression import parse_expression
 from lagrangian.read.file_load import load, loads
 from lagrangian.read.file_save import dumps
 from lagrangian.read.file_schema import schema
-from lagrangian.read.quantity import Quantity, parse_quantity, unit_dimension
+from lagrangian.read.quantity import Quantity, parse_quantity, unit_dimension, unit_factor
 from lagrangian.read.scope import Scope
 from lagrangian.read.validate import MAX_BYTES, decode
 
@@ -20,4 +20,5 @@ __all__ = [
     "parse_quantity",
     "schema",
     "unit_dimension",
+    "unit_factor",
 ]

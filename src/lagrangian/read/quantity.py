@@ -113,6 +113,11 @@ def unit_and_words(text: str) -> tuple[str | None, str]:
     return None, text
 
 
+def unit_factor(text: str) -> float:
+    """Return what one of a unit is in SI units: 0.001 for mm."""
+    return float(parse_unit(text).factor)
+
+
 class _Reader:
     def __init__(self, source: Source) -> None:
         self.source = source

@@ -5,7 +5,8 @@ also have ``"text"`` (one line of Unicode). Keys at the top:
 
     schema, name, notation      1, the system's name, the notation of the formulas
     coordinates, parameters, inputs, definitions
-                                lists with "name", and "unit", "value", "description", "expression" where there are
+                                lists with "name", and "unit" as given, "value_si", "description", "expression"
+                                where there are
     T, V, L                     expressions: kinetic co-energy, potential energy, Lagrangian
     Xi                          {coordinate: expression}
     equations                   list: "coordinate", "left", "right" (expressions), "terms" (list: expression, "kind",
@@ -65,7 +66,7 @@ class _Data:
             "notation": self.notation,
             "coordinates": [{"name": c.name, "unit": c.unit, "description": c.description} for c in model.coordinates],
             "parameters": [
-                {"name": p.name, "value": p.value, "unit": p.unit, "description": p.description}
+                {"name": p.name, "value_si": p.value, "unit": p.unit, "description": p.description}
                 for p in model.parameters
             ],
             "inputs": [{"name": i.name, "unit": i.unit, "description": i.description} for i in model.inputs],

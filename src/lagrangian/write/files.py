@@ -22,6 +22,8 @@ def write_file(path: str | os.PathLike[str], text: str) -> Path:
         raise Error(f"'{path}' is a folder", fix="name a file in it", code="E801")
     if not folder.is_dir():
         raise Error(f"cannot write '{path}': there is no folder '{folder}'", fix="make the folder first", code="E801")
+    if target.exists() and not target.is_file():
+        return _into(Path(path), text)
     beside: Path | None = None
     try:
         mode = target.stat().st_mode & 0o777 if target.exists() else 0o666 & ~_umask()
@@ -41,6 +43,16 @@ def write_file(path: str | os.PathLike[str], text: str) -> Path:
         if beside is not None:
             beside.unlink(missing_ok=True)
     return Path(path)
+
+
+def _into(device: Path, text: str) -> Path:
+    """Write into a device or a named pipe as it stands: a file must never take its place."""
+    try:
+        with device.open("w", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+    except OSError as problem:
+        raise Error(f"cannot write '{device}': {(problem.strerror or str(problem)).lower()}", code="E801") from problem
+    return device
 
 
 def _umask() -> int:

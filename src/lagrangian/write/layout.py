@@ -9,6 +9,7 @@ import sympy as sp
 from lagrangian.derive import Check, Derivation, EquationTerm, Step
 from lagrangian.derive import formula as data
 from lagrangian.model import Model
+from lagrangian.read import unit_factor
 from lagrangian.write.document import (
     Block,
     Boxed,
@@ -232,7 +233,8 @@ def _symbols(model: Model, write: Quantities) -> Iterator[tuple[Math | str, str,
     for c in model.coordinates:
         yield write.expressions(c.symbol), c.description or "coordinate", f"[{c.unit}]" if c.unit else ""
     for p in model.parameters:
-        value = "" if p.value is None else f"{p.value:.6g}"
+        # the value is kept in SI units; people read it in the unit they gave
+        value = "" if p.value is None else f"{p.value / (unit_factor(p.unit) if p.unit else 1):.6g}"
         unit = f" {p.unit}" if value and p.unit else ""
         yield write.expressions(p.symbol), p.description or "parameter", value + unit
     for i in model.inputs:
