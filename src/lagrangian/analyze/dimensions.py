@@ -211,7 +211,7 @@ def check_dimensions(model: Model) -> Dimensions | None:
                 raise ModelError(
                     f"'{x.name}' has the unit {x.unit}, which is {scale:.6g} in SI units",
                     place=x.place,
-                    fix="coordinates and inputs are in SI units, such as rad, m, N; only values of parameters are converted",
+                    fix="coordinates and inputs are in SI units (rad, m, N); only values of parameters are converted",
                     code="E408",
                 )
             dims.solved[x.symbol] = Dim(read.unit_dimension(x.unit))
