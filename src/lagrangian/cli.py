@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
+import os
 import sys
 from dataclasses import replace
 from enum import StrEnum
@@ -57,6 +59,8 @@ def _open(file: str) -> System:
 
 
 def _standard_input() -> str:
+    if sys.stdin is None:
+        raise Error("standard input is closed", fix="name a model file, or pipe one in", code="E702")
     data = sys.stdin.buffer.read(read.MAX_BYTES + 1)
     return read.decode(data, "<standard input>")
 
@@ -174,17 +178,45 @@ def version() -> None:
 
 def main(arguments: list[str] | None = None) -> int:
     """Run the command; return 0 when all is well, 1 when a check failed, 2 for a mistake in what was given."""
+    if sys.stdout is None:  # closed by the shell, as in `lagrangian … >&-`
+        sys.stderr.write("[E801] standard output is closed\n")
+        return 2
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure") and (stream.encoding or "").lower().replace("-", "") != "utf8":
             stream.reconfigure(encoding="utf-8", errors="replace")  # type: ignore[union-attr]
     try:
         app(args=arguments, prog_name="lagrangian")
     except SystemExit as stop:
-        return stop.code if isinstance(stop.code, int) else 0
+        return _flushed(stop.code if isinstance(stop.code, int) else 0)
+    except OSError as trouble:
+        return _unwritten(trouble)
     except Error as error:
         sys.stderr.write(f"{_kind(error)}{error}\n")
         return 2
-    return 0
+    return _flushed(0)
+
+
+def _flushed(code: int) -> int:
+    """``code``, once what was said has left the house: a full disk shows itself only here."""
+    try:
+        sys.stdout.flush()
+    except BrokenPipeError:  # the reader has seen enough, as in `lagrangian … | head`
+        _dropped()
+    except OSError as trouble:
+        return _unwritten(trouble)
+    return code
+
+
+def _unwritten(trouble: OSError) -> int:
+    _dropped()
+    sys.stderr.write(f"[E801] cannot write to standard output: {(trouble.strerror or str(trouble)).lower()}\n")
+    return 2
+
+
+def _dropped() -> None:
+    """Send what is left in the buffer nowhere, so that Python does not try again, and complain, on its way out."""
+    with contextlib.suppress(OSError, ValueError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _kind(error: Error) -> str:

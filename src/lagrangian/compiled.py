@@ -25,6 +25,9 @@ Values = ArrayLike | Mapping[Any, Any] | None
 SINGULAR = 1e12
 """Condition number of M above which a configuration is called singular."""
 
+NOT_FINITE = "E503"
+"""The code of results that are not finite."""
+
 
 class Compiled:
     """The dynamics M(q) q̈ + C(q, q̇) q̇ + G(q) = Ξ of a system, as kernels of machine code.
@@ -51,8 +54,8 @@ class Compiled:
 
     def program(self, name: str) -> Program:
         """Return the `Program` behind a method: "forward", "inverse", "mass_matrix", "bias", "gravity", …"""
-        if name not in _PROGRAMS:
-            raise RunError(f"there is no program '{name}'", fix=f"one of {', '.join(_PROGRAMS)}", code="E402")
+        if not isinstance(name, str) or name not in _PROGRAMS:
+            raise RunError(f"there is no program {name!r}", fix=f"one of {', '.join(_PROGRAMS)}", code="E402")
         return _PROGRAMS[name](self._model)
 
     def _kernel(self, name: str) -> machine.Kernel:
@@ -117,6 +120,8 @@ class Compiled:
         try:
             return self._kernel("rhs")(x, _named(u), _named(p), t)
         except RunError as trouble:
+            if trouble.code != NOT_FINITE:  # x may then be anything
+                raise
             n = len(self.coordinates)
             raise self._explained(trouble, np.asarray(x)[..., :n], p, t) from None
 
@@ -127,7 +132,7 @@ class Compiled:
 
     def _explained(self, trouble: RunError, q: ArrayLike, p: Values, t: ArrayLike) -> RunError:
         """Where the accelerations are not finite, look whether M is singular there, and say for which coordinates."""
-        if trouble.code != "E503" or not trouble.what.startswith("output"):
+        if trouble.code != NOT_FINITE or not trouble.what.startswith("output"):
             return trouble
         try:
             matrices = np.asarray(self.mass_matrix(q, p, t))

@@ -31,6 +31,7 @@ from lagrangian.model import (
     RigidBody,
     Spring,
     Torque,
+    as_expr,
     plain,
     time,
 )
@@ -240,7 +241,7 @@ class System:
         name: str = "system from energies",
     ) -> System:
         """Return the system of given energies; other symbols in them become parameters, other functions of t inputs."""
-        listed = [coordinates] if isinstance(coordinates, AppliedUndef) else list(coordinates)
+        listed = [coordinates] if isinstance(coordinates, AppliedUndef) else _listed(coordinates, "coordinates")
         system = cls(name)
         for q in listed:
             if not isinstance(q, AppliedUndef) or q.args != (time,):
@@ -253,9 +254,12 @@ class System:
         elif isinstance(Xi, Mapping):
             forces = dict(Xi)
         else:
-            if len(Xi) != len(listed):
-                raise ModelError(f"Xi has {len(Xi)} entries for {len(listed)} coordinates", code="E501")
-            forces = dict(zip(listed, Xi, strict=True))
+            values = _listed(Xi, "Xi")
+            if len(values) != len(listed):
+                raise ModelError(f"Xi has {len(values)} entries for {len(listed)} coordinates", code="E501")
+            forces = dict(zip(listed, values, strict=True))
+        T, V, D = as_expr(T, "T"), as_expr(V, "V"), as_expr(D, "D")
+        forces = {q: as_expr(value, f"Xi of {q}") for q, value in forces.items()}
         everything = sp.Tuple(T, V, D, *forces.values())
         for symbol in sorted(everything.free_symbols - {time}, key=str):
             system.parameter(str(symbol))
@@ -288,7 +292,7 @@ class System:
 
     def export(self, path: str | Path) -> tuple[Path, ...]:
         """Write source code of the dynamics: to ``name.c`` (and ``name.h``) or ``name.py``; return what was written."""
-        target = Path(path)
+        target = _path(path)
         languages = {suffix: language for language, suffix in LANGUAGES.items()}
         if target.suffix not in languages:
             raise ModelError(
@@ -303,7 +307,7 @@ class System:
 
     def save(self, path: str | Path) -> None:
         """Write the system to a model file (whole or not at all)."""
-        write_file(Path(path), self.to_toml())
+        write_file(_path(path), self.to_toml())
 
     def __repr__(self) -> str:
         """Say what the system has so far."""
@@ -312,18 +316,38 @@ class System:
 
 def load(path: str | Path) -> System:
     """Return the system that a model file describes."""
-    builder = read.load(path)
+    builder = read.load(_path(path))
     return System(builder.name, _builder=builder)
 
 
 def loads(text: str, *, name: str | None = None) -> System:
     """Return the system that the text of a model file describes; ``name`` stands for the file in messages."""
+    if not isinstance(text, str):
+        raise ModelError(
+            f"a model file is text (got {type(text).__name__})", fix="load(path) reads a file", code="E406"
+        )
     builder = read.loads(text, name)
     return System(builder.name, _builder=builder)
 
 
 def _split(names: str | Iterable[str]) -> list[str]:
-    return names.replace(",", " ").split() if isinstance(names, str) else list(names)
+    return names.replace(",", " ").split() if isinstance(names, str) else _listed(names, "names")
+
+
+def _listed(things: object, what: str) -> list[Any]:
+    """The things of a list or tuple; anything that cannot be walked is refused."""
+    if isinstance(things, Iterable) and not isinstance(things, str | bytes | Mapping):
+        return list(things)
+    raise ModelError(f"{what} must be a list (got {type(things).__name__})", fix="[first, second, …]", code="E406")
+
+
+def _path(path: object) -> Path:
+    """A path, if it is text or a path."""
+    if isinstance(path, str | Path):
+        return Path(path)
+    raise ModelError(
+        f"the name of a file must be text or a Path (got {type(path).__name__})", fix='such as "arm.toml"', code="E406"
+    )
 
 
 def _many(names: str | Iterable[str], make: Any, *, single: bool | None = None) -> Any:
@@ -338,6 +362,8 @@ def _many(names: str | Iterable[str], make: Any, *, single: bool | None = None) 
 
 def _unit(unit: str | None) -> str | None:
     if unit is not None:
+        if not isinstance(unit, str):
+            raise ModelError(f"a unit must be text (got {type(unit).__name__})", fix='such as "kg"', code="E408")
         read.parse_quantity(f"1 {unit}")
     return unit
 

@@ -49,9 +49,9 @@ def compile(
     """
     target = native.host()
     width = target.lanes if lanes is None else lanes
-    if width not in (1, 2, 4, 8):
+    if type(width) is not int or width not in (1, 2, 4, 8):
         raise RunError(f"lanes must be 1, 2, 4 or 8 (got {lanes!r})", code="E501")
-    if threads is not None and threads < 1:
-        raise RunError(f"threads must be at least 1 (got {threads!r})", code="E501")
+    if threads is not None and (type(threads) is not int or threads < 1):
+        raise RunError(f"threads must be a whole number, at least 1 (got {threads!r})", code="E501")
     build = Build(program, Options(width, tuple(hoist), keep=keep), target)
     return Kernel(build, optional=optional or {}, threads=threads)

@@ -211,8 +211,8 @@ def _energy(context: Context, body: Any, share: Share, index: dict[Element, str]
         pieces.append(Square(body.mass / 2, tuple(Name(axis, index[body], 1) for axis, _ in moving)))
     if isinstance(body, RigidBody):
         omega, inertia = body.angular_velocity(model), body.inertia
-        if len(omega) == 1 and omega[0] != 0:
-            pieces.append(Square(inertia[0, 0] / 2, (Name("omega", index[body]),)))
+        if len(omega) == 1:
+            pieces += [Square(inertia[0, 0] / 2, (Name("omega", index[body]),))] if omega[0] != 0 else []
         elif inertia.is_diagonal():
             for axis, w, moment in zip(AXES, omega, inertia.diagonal(), strict=True):
                 name = Name("omega", f"{axis}{index[body]}" if len(index[body]) <= 2 else f"{axis} {index[body]}")

@@ -2,7 +2,7 @@
 
 from lagrangian.graph.autodiff import Tangents, gradient, hessian, hessian_product, jacobian, jvp, vjp
 from lagrangian.graph.evaluate import evaluate
-from lagrangian.graph.from_sympy import from_sympy
+from lagrangian.graph.from_sympy import from_sympy, unknown_part
 from lagrangian.graph.graph import Graph, operands
 from lagrangian.graph.program import Count, Output, Program, count_operations, count_program, reached
 from lagrangian.graph.scalar import Scalar
@@ -27,5 +27,6 @@ __all__ = [
     "operands",
     "reached",
     "to_sympy",
+    "unknown_part",
     "vjp",
 ]

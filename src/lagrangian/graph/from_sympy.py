@@ -46,6 +46,49 @@ RECIPROCAL: dict[type, str] = {
     sp.coth: "tanh",
 }
 
+OTHERS: tuple[type, ...] = (
+    sp.Add,
+    sp.Mul,
+    sp.Pow,
+    sp.log,
+    sp.atan2,
+    sp.Min,
+    sp.Max,
+    sp.Heaviside,
+    sp.Piecewise,
+    ExprCondPair,
+    sp.core.relational.Relational,
+    sp.And,
+    sp.Or,
+    sp.Not,
+    ITE,
+)
+LEAVES: tuple[type, ...] = (
+    sp.Symbol,
+    sp.Rational,
+    sp.Float,
+    sp.NumberSymbol,
+    BooleanTrue,
+    BooleanFalse,
+    AppliedUndef,
+    sp.Derivative,
+)
+
+
+def unknown_part(expr: sp.Basic) -> sp.Basic | None:
+    """The first subexpression that no graph can hold (a sum over an index, an integral, a matrix, …), or None."""
+    stack, seen = [expr], {expr}
+    while stack:
+        e = stack.pop()
+        if isinstance(e, LEAVES):
+            continue
+        if not (isinstance(e, OTHERS) or type(e) in UNARY or type(e) in RECIPROCAL):
+            return e
+        fresh = [a for a in e.args if a not in seen]
+        seen.update(fresh)
+        stack += fresh
+    return None
+
 
 def from_sympy(
     graph: Graph,

@@ -22,7 +22,7 @@ from lagrangian.model.elements import (
     Torque,
     Words,
 )
-from lagrangian.model.geometry import Frame, Point
+from lagrangian.model.geometry import Frame, Point, as_expr
 from lagrangian.model.model import Model
 from lagrangian.model.names import RESERVED, check_name, time
 from lagrangian.model.plain import plain
@@ -54,6 +54,7 @@ __all__ = [
     "Spring",
     "Torque",
     "Words",
+    "as_expr",
     "check_name",
     "plain",
     "time",

@@ -183,9 +183,11 @@ class Builder:
         place: Place | None = None,
     ) -> Point:
         """Add a named point, at ``offset`` from ``parent`` (the frame's origin, or the origin) in ``frame``'s axes."""
-        what = f"point '{name}'" if name else "a point"
+        what = f"point '{name}'" if isinstance(name, str) else "a point"
         if name is not None:
             name = self._claim_place(name, "point", self._points, place)
+        _check_kind(parent, Point, f"the point that {what} is measured from", place)
+        _check_kind(frame, Frame, f"the frame of {what}", place)
         base = parent if parent is not None else (frame.origin if frame is not None else self.origin)
         made = Point(name, base, as_vector(offset, what, place=place), frame, self, place)
         self._check_point(made, what, place)
@@ -204,9 +206,11 @@ class Builder:
         place: Place | None = None,
     ) -> Frame:
         """Add a frame turned by ``angle`` from ``parent`` about ``axis`` (in space)."""
-        what = f"frame '{name}'" if name else "a frame"
+        what = f"frame '{name}'" if isinstance(name, str) else "a frame"
         if name is not None:
             name = self._claim_place(name, "frame", self._frames, place)
+        _check_kind(parent, Frame, f"the parent of {what}", place)
+        _check_kind(origin, Point, f"the origin of {what}", place)
         expr = as_expr(angle, f"the angle of {what}", place=place)
         turned = None if axis is None else self._axis(axis, what, place)
         if parent is not None and (parent.axis is None) != (turned is None):
@@ -287,6 +291,14 @@ class Builder:
                 fix="a position depends on coordinates, parameters and t only",
                 code="E308",
             )
+        for kink in sorted(full.atoms(sp.Abs, sp.sign, sp.Min, sp.Max, sp.Heaviside), key=str):
+            if kink.has(AppliedUndef, time):
+                raise ModelError(
+                    f"{where} holds {plain(kink)}: where it bends, the velocity would jump",
+                    place=place,
+                    fix="a position has two derivatives; let a force or an energy hold what bends",
+                    code="E308",
+                )
         inputs = {i.symbol: i.name for i in self._inputs.values()}
         for atom in sorted(full.atoms(AppliedUndef) & inputs.keys(), key=str):
             raise ModelError(
@@ -334,7 +346,7 @@ class Builder:
         return element
 
     def _element_name(self, element: Element) -> str:
-        if element.name:
+        if not isinstance(element.name, str) or element.name:
             if not isinstance(element.name, str) or len(element.name) > 200 or not element.name.isprintable():
                 raise ModelError(
                     f"the name of a {element.kind} must be printable text of at most 200 characters",
@@ -389,7 +401,7 @@ class Builder:
             if name in things:
                 return things[name]
         known = [*self._coordinates, *self._parameters, *self._inputs, *self._definitions, *self._points, *self._frames]
-        raise ModelError(f"nothing is named '{name}'", fix=did_you_mean(name, known), code="E402")
+        raise ModelError(f"nothing is named '{name}'", fix=did_you_mean(str(name), known), code="E402")
 
     def summary(self) -> str:
         """What there is, counted."""
@@ -436,3 +448,14 @@ class Builder:
             check_body(made, body)
         self._frozen = made
         return made
+
+
+def _check_kind(given: object, kind: type, what: str, place: Place | None) -> None:
+    """Refuse what is not a point or a frame where one must stand."""
+    if given is not None and not isinstance(given, kind):
+        raise ModelError(
+            f"{what} must be a {kind.__name__.lower()} of this system (got {type(given).__name__})",
+            place=place,
+            fix=f'make one with system.{kind.__name__.lower()}(…), or look it up with system["name"]',
+            code="E412",
+        )

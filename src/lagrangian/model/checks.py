@@ -54,6 +54,12 @@ def check_use(element: Element, use: Use, full: sp.Expr, inputs: Mapping[Any, st
             raise error(
                 f"the {use.what} depends on the coordinate '{atom.func}'", "it must be made of parameters", "E419"
             )
+    if use.key == "deflection" and not full.has(AppliedUndef):
+        raise error(
+            f"it acts on nothing: no coordinate moves its deflection {full}",
+            "write the deflection with coordinates, such as x2 - x1",
+            "E412",
+        )
     if use.level == Level.CONSTANT and full.has(time):
         raise error(f"the {use.what} depends on time", "it must be made of parameters", "E419")
 

@@ -14,11 +14,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import count
+from math import isfinite
+from numbers import Rational, Real
 from typing import TYPE_CHECKING, Any, cast
 
 import sympy as sp
 
 from lagrangian.errors import ModelError, Place
+from lagrangian.graph import unknown_part
 from lagrangian.model.names import time
 
 if TYPE_CHECKING:
@@ -26,6 +29,7 @@ if TYPE_CHECKING:
 
 Scalar: TypeAlias = "sp.Expr | int | float"
 _serial = count(1)
+MAX_BITS = 1100  # of a numerator or denominator: 5e-324, the least double, has 1077
 
 
 def as_expr(value: object, what: str, *, place: Place | None = None) -> sp.Expr:
@@ -35,7 +39,7 @@ def as_expr(value: object, what: str, *, place: Place | None = None) -> sp.Expr:
     """
     if isinstance(value, sp.Expr):
         expr = value
-    elif isinstance(value, bool) or not isinstance(value, (int, float)):
+    elif isinstance(value, bool) or not isinstance(value, Real):
         kind = type(value).__name__
         raise ModelError(
             f"{what} must be a number or a SymPy expression (got {kind})",
@@ -43,12 +47,21 @@ def as_expr(value: object, what: str, *, place: Place | None = None) -> sp.Expr:
             fix="write symbols as SymPy expressions; text belongs in a model file",
             code="E406",
         )
-    elif value != value or value in (float("inf"), float("-inf")):
+    elif not isinstance(value, Rational) and not isfinite(value):
         raise ModelError(f"{what} must be a finite number (got {value})", place=place, code="E101")
     else:
-        expr = sp.Integer(value) if isinstance(value, int) else sp.Rational(repr(value))
+        expr = sp.Rational(str(value))
     if expr.has(sp.I, sp.nan, sp.oo, sp.zoo, -sp.oo):
         raise ModelError(f"{what} must be real and finite (got {expr})", place=place, code="E101")
+    if any(max(abs(r.p), r.q).bit_length() > MAX_BITS for r in expr.atoms(sp.Rational)):
+        raise ModelError(f"{what} holds a number beyond those of a double, 1.8e308", place=place, code="E101")
+    if (part := unknown_part(expr)) is not None:
+        raise ModelError(
+            f"{what} holds {str(part)[:60]}, which the engine does not know ({type(part).__name__})",
+            place=place,
+            fix="write it with sin, cos, exp, log, sqrt, Abs, Piecewise and the like",
+            code="E402",
+        )
     if not expr.is_commutative:
         raise ModelError(f"{what} must be a scalar (got {expr})", place=place, code="E406")
     if expr.has(sp.Float):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from copy import copy
 from dataclasses import dataclass
 from enum import IntEnum
@@ -118,7 +118,11 @@ class Element:
     @property
     def title(self) -> str:
         """The element in words, such as ``spring 'k'``."""
-        return f"{self.kind.replace('_', ' ')} '{self.name}'" if self.name else self.kind.replace("_", " ")
+        return (
+            f"{self.kind.replace('_', ' ')} '{self.name}'"
+            if isinstance(self.name, str) and self.name
+            else self.kind.replace("_", " ")
+        )
 
     def named(self, name: str) -> Self:
         """Return the same element under another name."""
@@ -221,6 +225,18 @@ def pair_ends(model: Surroundings, start: Point, end: Point, effort: sp.Expr) ->
         Action(effort, along(end), model.point_words(end), target=end),
         Action(-effort, along(start), model.point_words(start), target=start),
     )
+
+
+def called(element: Element, key: str, law: Callable[[sp.Symbol], object], argument: sp.Symbol) -> object:
+    """What a law given as a function makes of its argument; what the function itself raises is told as ours."""
+    try:
+        return law(argument)
+    except Exception as cause:
+        raise element._error(
+            f"the function given as {key} cannot take a symbol ({type(cause).__name__}: {cause})",
+            fix=f"{key}=lambda {argument}: an expression in {argument}, made of SymPy functions",
+            code="E406",
+        ) from cause
 
 
 def check_ends(element: Element, between: object, deflection: object) -> tuple[Point, Point] | None:

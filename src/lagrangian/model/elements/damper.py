@@ -15,6 +15,7 @@ from lagrangian.model.elements.base import (
     Level,
     Surroundings,
     Use,
+    called,
     check_ends,
     difference,
     pair_ends,
@@ -53,7 +54,7 @@ class Damper(Element):
         self._set(between=check_ends(self, self.between, self.deflection))
         for key in (*given, *(("deflection",) if self.deflection is not None else ())):
             value = getattr(self, key)
-            value = value(RATE) if callable(value) and key == "law" else value
+            value = called(self, key, value, RATE) if callable(value) and key == "law" else value
             self._set(**{key: as_expr(value, f"the {key} of {self.title}", place=self.place)})
 
     def suggested_name(self) -> str:

@@ -9,7 +9,15 @@ from typing import Any, ClassVar, Literal
 import sympy as sp
 from sympy.integrals.manualintegrate import manualintegrate
 
-from lagrangian.model.elements.base import Element, Level, Surroundings, Use, check_ends, deflection_between
+from lagrangian.model.elements.base import (
+    Element,
+    Level,
+    Surroundings,
+    Use,
+    called,
+    check_ends,
+    deflection_between,
+)
 from lagrangian.model.geometry import Point, as_expr
 
 DELTA = sp.Symbol("delta")
@@ -59,7 +67,7 @@ class Spring(Element):
         self._set(between=check_ends(self, self.between, self.deflection))
         for key in (*given, "rest") + (("deflection",) if self.deflection is not None else ()):
             value = getattr(self, key)
-            value = value(DELTA) if callable(value) and key in ("law", "energy") else value
+            value = called(self, key, value, DELTA) if callable(value) and key in ("law", "energy") else value
             self._set(**{key: as_expr(value, f"the {key} of {self.title}", place=self.place)})
         if self.law is not None:
             self._set(energy=antiderivative(self, self.law, DELTA, "energy, an expression in delta"))
