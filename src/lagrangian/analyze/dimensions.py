@@ -30,6 +30,7 @@ from lagrangian.model import (
     Model,
     Parameter,
     Particle,
+    Point,
     Potential,
     RigidBody,
     Spring,
@@ -97,6 +98,7 @@ class Dimensions:
 
     solved: dict[Any, Dim] = field(default_factory=dict)
     loose: bool = False
+    seen: dict[int, Point] = field(default_factory=dict)
 
     def reduce(self, dim: Dim) -> Dim:
         """The dimension with all that is solved put in."""
@@ -271,7 +273,8 @@ def _claims(model: Model, element: Any, dims: Dimensions) -> Iterator[Claim]:
     """What an element says of its expressions: (what it is, the expression, its dimension)."""
     for key, point in element.points():
         at = point
-        while not at.is_origin:
+        while not at.is_origin and id(at) not in dims.seen:  # what it hangs on was settled when it was first met
+            dims.seen[id(at)] = at
             for x in at.offset:
                 yield f"position ({key})", x, LENGTH
             at = at.parent

@@ -7,6 +7,7 @@ array of shape ``(...)``.
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -100,7 +101,8 @@ def numbers(given: Any, what: str) -> NDArray[np.float64]:
         array = np.asarray(given)
     except ValueError as cause:
         raise RunError(f"{what} is ragged: its rows have different lengths", code="E501") from cause
-    if np.ma.is_masked(given):
+    # nothing can be masked before numpy.ma is loaded, and loading it takes longer than compiling two links
+    if "numpy.ma" in sys.modules and np.ma.is_masked(given):
         raise RunError(f"{what} has masked entries", code="E502", fix="fill them, or leave those states out")
     if array.dtype == object:
         array = _unboxed(array, what)
