@@ -134,6 +134,26 @@ def test_a_singular_configuration_is_named_with_its_coordinates() -> None:
     assert np.isfinite(dyn.forward([0.1, 0.3], [0.1, 0.2])).all()
 
 
+def test_a_points_jacobian_carries_rates_to_its_velocity() -> None:
+    s = lg.System("arm")
+    a, b = s.coordinates("a b")
+    m = s.parameter("m", 1.0)
+    elbow = s.point("elbow", (2 * cos(a), 2 * sin(a)))
+    s.particle(m, elbow)
+    s.particle(m, s.point("tip", (cos(a + b), sin(a + b)), relative_to=elbow))
+    dyn = s.compile()
+    q, v = random.uniform(-1, 1, (9, 2)), random.uniform(-1, 1, (9, 2))
+    tip = dyn.point("tip", q, v)
+    outer = q.sum(1)
+    expected = np.stack([2 * np.cos(q[:, 0]) + np.cos(outer), 2 * np.sin(q[:, 0]) + np.sin(outer)], 1)
+    np.testing.assert_allclose(tip["r"], expected, rtol=1e-13, atol=1e-13)
+    row_x = np.stack([-2 * np.sin(q[:, 0]) - np.sin(outer), -np.sin(outer)], 1)
+    np.testing.assert_allclose(tip["J"][:, 0], row_x, rtol=1e-13, atol=1e-13)
+    np.testing.assert_allclose(np.einsum("bij,bj->bi", tip["J"], v), tip["v"], rtol=1e-13, atol=1e-13)
+    with pytest.raises(lg.ModelError, match="no point 'top'"):
+        dyn.point("top", q)
+
+
 def test_python_source_runs_alone_and_agrees(tmp_path: pathlib.Path) -> None:
     s = system("cart-pole")
     (path,) = s.export(tmp_path / "cart.py")

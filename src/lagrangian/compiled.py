@@ -115,6 +115,22 @@ class Compiled:
         both = self._kernel("energy")(q, v, _named(u), _named(p), t)
         return both["T"], both["V"]
 
+    def point(
+        self, name: str, q: ArrayLike, v: ArrayLike | None = None, p: Values = None, t: ArrayLike = 0.0
+    ) -> dict[str, NDArray[np.float64]]:
+        """Return position ``r`` and velocity ``v`` of a named point, ``(..., d)``, and ``J`` = ∂v/∂q̇, ``(..., d, n)``.
+
+        In the fixed axes, d = 2 in the plane and 3 in space; the rates are 0 unless given. Raises `ModelError` where
+        there is no such point.
+        """
+        key = f"point {name}"
+        if key not in self._kernels:
+            program = dynamics.point_jacobian(self._model, name)
+            optional = {"u": 0.0, "t": 0.0, "v": 0.0}
+            made = machine.compile(program, optional=optional, lanes=self._lanes, threads=self._threads)
+            self._kernels[key] = made
+        return self._kernels[key](q, v, None, _named(p), t)
+
     def rhs(self, t: ArrayLike, x: ArrayLike, u: Values = None, p: Values = None) -> NDArray[np.float64]:
         """Return ẋ of x = [q; v] in declared order, shape ``(..., 2n)``: the right-hand side that solvers want."""
         try:

@@ -57,6 +57,14 @@ CASES = {
         lambda b: b.s.particle(b.m, b.s.origin + (b.x, sp.Function("z")(sp.Symbol("t")))),
         ["unknown moving symbol 'z'", "declare"],
     ),
+    "a symbol with assumptions of its own": (
+        lambda b: b.s.particle(sp.Symbol("m", positive=True), b.A),
+        ["'m'", "not the symbol that was declared", "declaration returned"],
+    ),
+    "a static symbol for a coordinate": (
+        lambda b: b.s.point("P", (sp.Symbol("x"), 0)),
+        ["'x'", "not the symbol that was declared"],
+    ),
     "mass as text": (lambda b: b.s.particle("m", b.A), ["mass", "str", "SymPy"]),
     "mass missing": (lambda b: b.s.particle(None, b.A), ["mass", "NoneType"]),
     "particle at nothing": (lambda b: b.s.particle(b.m, None), ["must be at a point"]),

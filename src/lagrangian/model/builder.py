@@ -145,7 +145,15 @@ class Builder:
         for atom in sorted(atoms - known - {*local}, key=str):
             name = getattr(atom, "name", str(atom.func))
             kind = "moving symbol" if isinstance(atom, AppliedUndef) else "symbol"
-            hint = did_you_mean(name, [getattr(k, "name", str(getattr(k, "func", k))) for k in known])
+            names = [getattr(k, "name", str(getattr(k, "func", k))) for k in known]
+            if name in names:
+                raise ModelError(
+                    f"'{name}' in {where} is not the symbol that was declared under that name",
+                    place=place,
+                    fix=f'use the one that the declaration returned, or system["{name}"]',
+                    code="E402",
+                )
+            hint = did_you_mean(name, names)
             fix = hint or f'declare it: coordinates("{name}"), parameters("{name}") or input("{name}")'
             raise ModelError(f"unknown {kind} '{name}' in {where}", place=place, fix=fix, code="E402")
 
