@@ -67,8 +67,8 @@ def fit_terms(terms: tuple[sp.Expr, ...]) -> Left:
     return Elided(sp.Add(*terms, evaluate=False) if terms else sp.S.Zero, operations, terms)
 
 
-def xi(model: Model, index: int) -> Name:
-    """The lecture's name of a coordinate, ξ_i; with one coordinate just ξ₁."""
+def xi(index: int) -> Name:
+    """The lecture's name of a coordinate, ξ_i."""
     return Name("xi", str(index + 1))
 
 

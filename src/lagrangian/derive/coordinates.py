@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import cast
 
@@ -31,7 +32,7 @@ def coordinates(context: Context) -> Step:
     items: list[Item] = []
     rows: list[tuple[Text | Formula, ...]] = []
     for i, c in enumerate(model.coordinates):
-        items.append(formula(xi(model, i), c.symbol, note=_note(c, kinds[c.symbol]), brief=True))
+        items.append(formula(xi(i), c.symbol, note=_note(c, kinds[c.symbol]), brief=True))
         rows.append((text(c.symbol), text(*_kind_words(kinds[c.symbol])), text(*_wiggle_words(context, i))))
     header = (text("coordinate"), text("measured"), text("wiggle it alone"))
     items.append(Table(header, tuple(rows)))
@@ -224,7 +225,7 @@ def _carried_by(model: Model, s: sp.Expr, symbols: list[sp.Expr], reach: dict[sp
     return min(candidates, key=lambda x: (reach[x], -symbols.index(x)), default=None)
 
 
-def chain_of(kinds: dict[sp.Expr, Measured], symbol: sp.Expr) -> list[sp.Expr]:
+def chain_of(relative: Mapping[sp.Expr, sp.Expr | None], symbol: sp.Expr) -> list[sp.Expr]:
     """The coordinates that are, directly or through others, measured from ``symbol``: its children."""
-    children = [s for s, k in kinds.items() if k.to == symbol]
-    return children + [g for c in children for g in chain_of(kinds, c)]
+    children = [s for s, to in relative.items() if to == symbol]
+    return children + [g for c in children for g in chain_of(relative, c)]

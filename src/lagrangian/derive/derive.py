@@ -36,7 +36,7 @@ def derive(model: Model) -> Derivation:
     sides = left_sides(context, pieces)
     step5 = left_hand_sides(context, sides)
     found = contributions(context)
-    step6 = forces(context, found)
+    step6 = forces(context, found, step1.expressions["relative"])
 
     Xi = step6.expressions["Xi"]
     result, mats, book = equations(context, sides, found), matrices(context, sides, Xi), ledger(model, context)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import sympy as sp
 
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import Context, big_xi, fit
-from lagrangian.derive.coordinates import chain_of, measured
+from lagrangian.derive.coordinates import chain_of
 from lagrangian.derive.derivation import Check, Step
 from lagrangian.derive.ends import find_ends
 from lagrangian.derive.formula import (
@@ -32,10 +33,14 @@ from lagrangian.model import DEFLECTION, Action, Damper, Dissipation, Element, W
 
 @dataclass(frozen=True, eq=False)
 class Contribution:
-    """What one element adds to one Ξ_i: by virtual work, by the box, and the box's story in words."""
+    """What one element adds to one Ξ_i: by virtual work, by the box, and the box's story in words.
+
+    ``pieces`` is the virtual work action by action, before anything cancels.
+    """
 
     element: Element
     index: int
+    pieces: tuple[Form, ...]
     virtual: Form
     box: Form
     story: Text
@@ -56,9 +61,9 @@ def contributions(context: Context) -> tuple[Contribution, ...]:
         works = element.works(model)
         ends = find_ends(model, element)
         for i, c in enumerate(model.coordinates):
-            virtual = algebra.form(_along(works, c.rate))
-            box = algebra.form(_along(ends, c.rate))
-            found.append(Contribution(element, i, virtual, box, _story(context, element, ends, i, virtual)))
+            pieces = tuple(algebra.form(_along((work,), c.rate)) for work in works)
+            virtual, box = algebra.total(pieces), algebra.form(_along(ends, c.rate))
+            found.append(Contribution(element, i, pieces, virtual, box, _story(context, element, ends, i, virtual)))
     return tuple(found)
 
 
@@ -96,8 +101,11 @@ def _and(words: list[Words]) -> Words:
     return tuple(part for w in words for part in (*w, " and "))[:-1]
 
 
-def forces(context: Context, found: tuple[Contribution, ...]) -> Step:
-    """Every Ξ_i with its table, the dampers by Rayleigh's function and as fake springs, and the reasons."""
+def forces(context: Context, found: tuple[Contribution, ...], relative: Mapping[sp.Expr, sp.Expr | None]) -> Step:
+    """Every Ξ_i with its table, the dampers by Rayleigh's function and as fake springs, and the reasons.
+
+    ``relative`` tells what each coordinate is measured from, as step 1 found it.
+    """
     model = context.model
     items: list[Item] = []
     acting = [e for e in model.elements if e.ledger == "Ξ"]
@@ -112,9 +120,9 @@ def forces(context: Context, found: tuple[Contribution, ...]) -> Step:
         mine = [f for f in found if f.index == i]
         total = context.algebra.total([f.virtual for f in mine])
         xi_of[c.symbol] = total.expr()
-        items += _coordinate(context, i, mine) if acting else []
+        items += _coordinate(context, i, mine, relative) if acting else []
         items.append(formula(big_xi(i), fit(xi_of[c.symbol]), brief=True))
-        reasons.append(_reason(i, c.symbol, mine, xi_of[c.symbol]))
+        reasons.append(_reason(i, mine, xi_of[c.symbol]))
         difference = context.algebra.total([f.virtual - f.box for f in mine])
         if acting:
             checks.append(
@@ -178,20 +186,26 @@ def _product(effort: sp.Expr, what: Left) -> Left:
     return Product((fit(effort), what))
 
 
-def _coordinate(context: Context, index: int, mine: list[Contribution]) -> list[Item]:
+def _coordinate(
+    context: Context, index: int, mine: list[Contribution], relative: Mapping[sp.Expr, sp.Expr | None]
+) -> list[Item]:
     """The box of ξ_i and the table of who is in it."""
     model = context.model
     c = model.coordinates[index]
     moved = context.wiggle.moved[index]
-    kinds = measured(model)
-    children = chain_of(kinds, c.symbol)
+    children = chain_of(relative, c.symbol)
     listed = ", ".join(b.title for b in moved) if len(moved) <= 6 else f"{len(moved)} bodies"
     parts: list[str | Left] = ["Wiggle only ", c.symbol, f". In the box: {listed or 'what moves with it'}"]
     if children:
         ride = ["child", "rides"] if len(children) == 1 else ["children", "ride"]
         parts += [f" (with its {ride[0]} ", *[p for s in children for p in (s, ", ")][:-1], f", which {ride[1]} along)"]
     rows = tuple(
-        (text(f.element.title), f.story, text(_pieces(context, f.element, c.rate)), text(fit(f.virtual.expr())))
+        (
+            text(f.element.title),
+            f.story,
+            text(Terms(tuple(fit(p.expr()) for p in f.pieces if not p.is_zero))),
+            text(fit(f.virtual.expr())),
+        )
         for f in mine
     )
     header = (text("element"), text("the box"), text("virtual work"), text("adds"))
@@ -202,13 +216,7 @@ def _coordinate(context: Context, index: int, mine: list[Contribution]) -> list[
     ]
 
 
-def _pieces(context: Context, element: Element, rate: sp.Expr) -> Left:
-    """Effort · ∂displacement/∂ξ_i, action by action, before anything cancels."""
-    pieces = [context.algebra.form(a.effort * sp.diff(a.rate, rate)) for a in element.works(context.model)]
-    return Terms(tuple(fit(p.expr()) for p in pieces if not p.is_zero))
-
-
-def _reason(index: int, symbol: sp.Expr, mine: list[Contribution], value: sp.Expr) -> Text:
+def _reason(index: int, mine: list[Contribution], value: sp.Expr) -> Text:
     if not mine:
         return text(big_xi(index), " = 0: no force, torque or damper was described")
     counted = [f for f in mine if not f.virtual.is_zero] or mine

@@ -34,14 +34,13 @@ class _Rows:
 
 @dataclass(frozen=True, eq=False)
 class Wiggle:
-    """``moved[i]`` are the bodies in the box of coordinate i, ``turned[i]`` those of them that turn.
+    """``moved[i]`` are the bodies in the box of coordinate i.
 
     ``rank`` is the rank of the velocities of all that has mass; it equals the number of coordinates, or `study` has
     refused the coordinates by name.
     """
 
     moved: tuple[tuple[Element, ...], ...]
-    turned: tuple[tuple[Element, ...], ...]
     rank: int
 
 
@@ -65,11 +64,10 @@ def study(model: Model) -> Wiggle:
         rank = _rank(stacked)
         if rank > best:
             best, worst = rank, stacked
-    moved = tuple(_bodies(model, blocks, seen[:, i], None) for i in range(n))
-    turned = tuple(_bodies(model, blocks, seen[:, i], True) for i in range(n))
+    moved = tuple(_bodies(blocks, seen[:, i]) for i in range(n))
     if best < n:
         _refuse(model, blocks, seen, worst)
-    return Wiggle(moved, turned, best)
+    return Wiggle(moved, best)
 
 
 def _blocks(model: Model) -> list[_Rows]:
@@ -111,10 +109,10 @@ def _rank(matrix: np.ndarray) -> int:
     return int((singular > SMALL * singular[0]).sum())
 
 
-def _bodies(model: Model, blocks: Sequence[_Rows], seen: np.ndarray, turning: bool | None) -> tuple[Element, ...]:
+def _bodies(blocks: Sequence[_Rows], seen: np.ndarray) -> tuple[Element, ...]:
     chosen: list[Element] = []
     for block, moves in zip(blocks, seen, strict=True):
-        if moves and (turning is None or block.turning) and block.body not in chosen:
+        if moves and block.body not in chosen:
             chosen.append(block.body)
     return tuple(chosen)
 

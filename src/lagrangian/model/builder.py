@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
-from dataclasses import replace
 from typing import Any, TypeVar
 
 import sympy as sp
@@ -109,14 +108,6 @@ class Builder:
         if not math.isfinite(number):
             raise ModelError(f"parameter '{name}' must be a finite number (got {number})", place=place, code="E101")
         return number
-
-    def set_value(self, name: str, value: float) -> None:
-        """Give a declared parameter another value (SI units)."""
-        if name not in self._parameters:
-            raise ModelError(f"there is no parameter '{name}'", fix=did_you_mean(name, self._parameters), code="E402")
-        self._frozen = None
-        old = self._parameters[name]
-        self._parameters[name] = replace(old, value=self._number(name, value, old.place))
 
     def input(self, name: str, *, description: str = "", unit: str | None = None, place: Place | None = None) -> Input:
         """Add a signal from outside."""

@@ -13,7 +13,7 @@ from math import gcd, lcm
 
 import sympy as sp
 
-from lagrangian.derive.algebra.monomials import common, digits, packed, unit
+from lagrangian.derive.algebra.monomials import common, digits, packed
 
 Flat = dict[int, Fraction]
 """A polynomial over display letters: packed monomial → rational coefficient."""
@@ -284,9 +284,3 @@ def lead(poly: Flat) -> tuple[tuple[int, int], ...]:
 def ordered(poly: Flat) -> list[tuple[int, Fraction]]:
     """The terms in the order of their monomials."""
     return sorted(poly.items(), key=lambda x: order(x[0]))
-
-
-def times_letter(poly: Flat, letter: int, exponent: int = 1) -> Flat:
-    """Return a polynomial times a letter."""
-    step = unit(letter) * exponent
-    return {m + step: c for m, c in poly.items()}
