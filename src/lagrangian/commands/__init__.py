@@ -1,0 +1,1 @@
+"""One file a verb of the command; `terminal` is what they share."""

@@ -1,0 +1,56 @@
+"""What every command shares with the terminal: how a model is opened, and how results are put out."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from lagrangian import examples, read, write
+from lagrangian.errors import Error
+from lagrangian.system import System, load, loads
+
+File = Annotated[str, typer.Argument(help="A model file; - is standard input.", show_default=False)]
+OptionalFile = Annotated[str | None, typer.Argument(help="A model file; - is standard input.", show_default=False)]
+Example = Annotated[
+    str | None, typer.Option("--example", "-e", help="Use a built-in example instead of a file.", show_default=False)
+]
+Output = Annotated[
+    Path | None, typer.Option("--output", "-o", help="Write here instead of standard output.", show_default=False)
+]
+
+
+def open_system(file: str | None, example: str | None = None) -> System:
+    """Return the system of a model file (``-`` is standard input) or of a built-in example; one of the two is given."""
+    if (file is None) == (example is None):
+        raise typer.BadParameter("name a model file, or a built-in example with --example NAME")
+    if example is not None:
+        return loads(examples.text(example), name=f"<example {example}>")
+    assert file is not None
+    if file == "-":
+        return loads(_standard_input(), name="<standard input>")
+    return load(file)
+
+
+def _standard_input() -> str:
+    if sys.stdin is None:
+        raise Error("standard input is closed", fix="name a model file, or pipe one in", code="E702")
+    data = sys.stdin.buffer.read(read.MAX_BYTES + 1)
+    return read.decode(data, "<standard input>")
+
+
+def put(text: str, output: Path | None) -> None:
+    """Write text, ended by a newline, to a file (whole or not at all) or to standard output."""
+    text = text if text.endswith("\n") else text + "\n"
+    if output is None:
+        sys.stdout.write(text)
+        sys.stdout.flush()
+    else:
+        write.write_file(output, text)
+
+
+def say(words: str) -> None:
+    """Talk: a line on standard error."""
+    sys.stderr.write(words + "\n")

@@ -1,0 +1,1 @@
+"""Kernel → trajectories: integrators in machine code, events, ensembles. Knows no mechanics."""
