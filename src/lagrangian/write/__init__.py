@@ -19,6 +19,7 @@ from lagrangian.write.latex import to_latex
 from lagrangian.write.layout import lay_out
 from lagrangian.write.markdown import to_markdown
 from lagrangian.write.quantities import Notation
+from lagrangian.write.report import ReportFormat, report_fragment, write_report
 from lagrangian.write.text import to_text, verdicts
 
 
@@ -46,7 +47,9 @@ __all__ = [
     "NOTATIONS",
     "Document",
     "Notation",
+    "ReportFormat",
     "lay_out",
+    "report_fragment",
     "to_dict",
     "to_html",
     "to_html_fragment",
@@ -56,4 +59,5 @@ __all__ = [
     "to_text",
     "verdicts",
     "write_file",
+    "write_report",
 ]

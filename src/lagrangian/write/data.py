@@ -34,7 +34,7 @@ from lagrangian.derive import Check, Derivation
 from lagrangian.derive import formula as data
 from lagrangian.model import plain
 from lagrangian.write.glyphs import unicode
-from lagrangian.write.layout import operations
+from lagrangian.write.items import operations
 from lagrangian.write.math import equality
 from lagrangian.write.quantities import Notation, Quantities
 from lagrangian.write.tex import WEB

@@ -47,26 +47,34 @@ KINDS = {
 
 def to_html(derivation: Derivation, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
     """Return the derivation as a self-contained HTML page. Raises `ModelError` for an unknown notation."""
-    document = lay_out(derivation, notation=notation, brief=brief, full=full, details=True)
+    return page(lay_out(derivation, notation=notation, brief=brief, full=full, details=True), "equations of motion")
+
+
+def page(document: Document, subject: str) -> str:
+    """Return a document as a self-contained HTML page; ``subject`` stands in its title beside the document's own."""
     title = escape(document.title)
     body = "\n".join(_section(section) for section in document.sections)
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         '<meta name="color-scheme" content="light dark">\n'
-        f"<title>{title}: equations of motion</title>\n<style>\n{_style()}</style>\n</head>\n<body>\n"
-        f'<main class="{"brief" if brief else "whole"}">\n<header><h1>{title}</h1></header>\n'
+        f"<title>{title}: {escape(subject)}</title>\n<style>\n{_style()}</style>\n</head>\n<body>\n"
+        f'<main class="{"brief" if document.brief else "whole"}">\n<header><h1>{title}</h1></header>\n'
         f"{_contents(document)}{body}\n</main>\n</body>\n</html>\n"
     )
 
 
 def to_html_fragment(derivation: Derivation, *, notation: Notation = "lecture", brief: bool = True) -> str:
     """Return the derivation as a piece of HTML for a notebook: the checklist unless ``brief`` is False."""
-    document = lay_out(derivation, notation=notation, brief=brief, details=True)
+    return fragment(lay_out(derivation, notation=notation, brief=brief, details=True))
+
+
+def fragment(document: Document) -> str:
+    """Return a document as a piece of HTML that brings its own style."""
     body = "\n".join(_section(section, anchors=False) for section in document.sections)
     nested = _style().replace(":root", "&").replace("body {", "& {")  # the page's rules, for this piece alone
     style = f"<style>\n.lagrangian {{\n{nested}}}\n</style>"
-    head = f'<div class="lagrangian" lang="en">{style}\n<div class="{"brief" if brief else "whole"}">'
+    head = f'<div class="lagrangian" lang="en">{style}\n<div class="{"brief" if document.brief else "whole"}">'
     return f"{head}\n<h3>{escape(document.title)}</h3>\n{body}\n</div></div>"
 
 

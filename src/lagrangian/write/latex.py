@@ -5,7 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from lagrangian.derive import Derivation
-from lagrangian.write.document import Block, Boxed, Details, Display, Heading, Inline, Paragraph, Table, Verdicts
+from lagrangian.write.document import (
+    Block,
+    Boxed,
+    Details,
+    Display,
+    Document,
+    Heading,
+    Inline,
+    Paragraph,
+    Table,
+    Verdicts,
+)
 from lagrangian.write.glyphs import columns, unicode
 from lagrangian.write.layout import lay_out
 from lagrangian.write.quantities import Notation
@@ -49,15 +60,19 @@ _SMALL = r"""\small\setlength{\parskip}{0pt}\setlength{\LTpre}{2pt}\setlength{\L
 
 def to_latex(derivation: Derivation, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
     """Return the derivation as a complete LaTeX article. Raises `ModelError` for an unknown notation."""
-    document = lay_out(derivation, notation=notation, brief=brief, full=full)
-    preamble = _PREAMBLE.replace("margin=22mm", "margin=15mm") if brief else _PREAMBLE
+    return page(lay_out(derivation, notation=notation, brief=brief, full=full))
+
+
+def page(document: Document) -> str:
+    """Return a document as a complete LaTeX article."""
+    preamble = _PREAMBLE.replace("margin=22mm", "margin=15mm") if document.brief else _PREAMBLE
     blocks = [preamble + r"\begin{document}", rf"\section*{{\Large {words(document.title)}}}"]
-    if brief:
+    if document.brief:
         blocks.append(_SMALL)
     for section in document.sections:
         number = f"{section.number}\\quad " if section.number is not None else ""
         title = f"{number}{inline(section.title)}"
-        blocks.append(rf"\medskip\textbf{{{title}}}" if brief else rf"\section*{{{title}}}")
+        blocks.append(rf"\medskip\textbf{{{title}}}" if document.brief else rf"\section*{{{title}}}")
         blocks += _blocks(section.blocks)
     blocks.append(r"\end{document}")
     text = blocks[0]

@@ -6,7 +6,18 @@ import re
 from collections.abc import Iterator
 
 from lagrangian.derive import Derivation
-from lagrangian.write.document import Block, Boxed, Details, Display, Heading, Inline, Paragraph, Table, Verdicts
+from lagrangian.write.document import (
+    Block,
+    Boxed,
+    Details,
+    Display,
+    Document,
+    Heading,
+    Inline,
+    Paragraph,
+    Table,
+    Verdicts,
+)
 from lagrangian.write.layout import lay_out
 from lagrangian.write.quantities import Notation
 from lagrangian.write.tex import WEB
@@ -20,7 +31,11 @@ def to_markdown(
     derivation: Derivation, *, notation: Notation = "lecture", brief: bool = False, full: bool = False
 ) -> str:
     """Return the derivation as Markdown. Raises `ModelError` for an unknown notation."""
-    document = lay_out(derivation, notation=notation, brief=brief, full=full)
+    return page(lay_out(derivation, notation=notation, brief=brief, full=full))
+
+
+def page(document: Document) -> str:
+    """Return a document as Markdown."""
     blocks = [f"# {escape(document.title)}"]
     for section in document.sections:
         number = f"{section.number}. " if section.number is not None else ""

@@ -11,6 +11,7 @@ from lagrangian.write.document import (
     Boxed,
     Details,
     Display,
+    Document,
     Heading,
     Inline,
     Paragraph,
@@ -43,11 +44,15 @@ def to_text(
     """
     if width < NARROWEST:
         raise ModelError(f"a width of {width} columns is too narrow", fix=f"use {NARROWEST} or more", code="E406")
-    document = lay_out(derivation, notation=notation, brief=brief, full=full)
+    return page(lay_out(derivation, notation=notation, brief=brief, full=full), width)
+
+
+def page(document: Document, width: int) -> str:
+    """Return a document as Unicode text of at most ``width`` columns."""
     title = " ".join(clean(document.title).split())
     lines = [*wrap((title,), width), "═" * min(width, max(columns(title), 1))]
     for section in document.sections:
-        lines += ["", *_section(section, width, brief)]
+        lines += ["", *_section(section, width, document.brief)]
     return "\n".join(line.rstrip().replace(_KEPT, " ") for line in lines) + "\n"
 
 

@@ -1,0 +1,59 @@
+"""A report of an analysis written out: text, Markdown, LaTeX, HTML, JSON."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
+
+from lagrangian.errors import ModelError, did_you_mean
+from lagrangian.write import html, latex, markdown, text
+from lagrangian.write.document import Block, Document, Section
+from lagrangian.write.items import Items
+from lagrangian.write.quantities import Notation
+
+if TYPE_CHECKING:
+    from lagrangian.analyze.report import Part, Report
+
+ReportFormat: TypeAlias = Literal["text", "markdown", "latex", "html", "json"]
+"""What a report is written as."""
+
+
+def lay_out_report(report: Report, *, notation: Notation = "lecture", details: bool = False) -> Document:
+    """Return the document of a report. Raises `ModelError` for an unknown notation."""
+    items = Items(report.model, notation, brief=False, full=False, details=details)
+    sections = [
+        Section(f"part-{k}", items.inline(part.title), tuple(_blocks(items, part, f"part-{k}")))
+        for k, part in enumerate(report.parts, 1)
+    ]
+    return Document(report.title, tuple(sections))
+
+
+def _blocks(items: Items, part: Part, anchor: str) -> Iterator[Block]:
+    yield from items.items(part.items, anchor)
+    if part.checks:
+        yield items.checks(part.checks)
+
+
+def write_report(
+    report: Report, format: ReportFormat = "text", *, notation: Notation = "lecture", width: int = 80
+) -> str:
+    """Return a report in a format; JSON is its data. Raises `ModelError` for an unknown format or notation."""
+    if format not in get_args(ReportFormat):
+        known = get_args(ReportFormat)
+        raise ModelError(
+            f"there is no format '{format}'", fix=did_you_mean(str(format), known) or f"one of {', '.join(known)}"
+        )
+    if format == "json":
+        return json.dumps(report.data, ensure_ascii=False, indent=1, allow_nan=False) + "\n"
+    document = lay_out_report(report, notation=notation, details=format == "html")
+    if format == "text":
+        return text.page(document, width)
+    if format == "html":
+        return html.page(document, "analysis")
+    return latex.page(document) if format == "latex" else markdown.page(document)
+
+
+def report_fragment(report: Report, *, notation: Notation = "lecture") -> str:
+    """Return a report as a piece of HTML for a notebook."""
+    return html.fragment(lay_out_report(report, notation=notation, details=True))
