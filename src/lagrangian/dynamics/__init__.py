@@ -4,9 +4,12 @@
 """
 
 from lagrangian.dynamics.bodies import Bodies
+from lagrangian.dynamics.closed import SUPPLY, closed, observe_closed
 from lagrangian.dynamics.describe import Inputs, describe
 from lagrangian.dynamics.mechanics import Mechanics
 from lagrangian.dynamics.motion import Motion
+from lagrangian.dynamics.observe import observe
+from lagrangian.dynamics.power import power
 from lagrangian.dynamics.programs import (
     bias,
     coriolis,
@@ -22,11 +25,13 @@ from lagrangian.dynamics.programs import (
 )
 
 __all__ = [
+    "SUPPLY",
     "Bodies",
     "Inputs",
     "Mechanics",
     "Motion",
     "bias",
+    "closed",
     "coriolis",
     "describe",
     "energy",
@@ -36,6 +41,9 @@ __all__ = [
     "inverse_from_lagrangian",
     "loss",
     "mass_matrix",
+    "observe",
+    "observe_closed",
     "point_jacobian",
+    "power",
     "rhs",
 ]

@@ -1,0 +1,116 @@
+"""Feedback compiled in: inputs replaced by expressions of time and state.
+
+    ẋ = f(x, u, p, t),  u_k = g_k(x, t, p, the inputs that stay free)
+
+The replacement is made in the graph, after the equations were solved for the accelerations: an input stays a signal
+from outside for everything that differentiates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import sympy as sp
+
+from lagrangian.dynamics.observe import Observed, holds_acceleration, observed
+from lagrangian.dynamics.power import supplied
+from lagrangian.dynamics.programs import _program
+from lagrangian.errors import ModelError, did_you_mean
+from lagrangian.graph import Graph, Output, Program, operands, reached
+from lagrangian.model import Input, Model, Point, as_expr, plain
+
+Feedback = Mapping[Any, sp.Expr]
+
+SUPPLY = "∫ power"
+"""The name of the state that sums up the energy supplied; no coordinate can be called so."""
+
+
+def closed(model: Model, feedback: Feedback, *, supply: bool = False) -> Program:
+    """x, u, p, t → ẋ with the inputs in ``feedback`` (by symbol) replaced; those that stay free are the group u.
+
+    With ``supply`` one more state is carried along, the energy supplied since the start, ∫ (Ξ·q̇ − ∂L/∂t) dt
+    (`lagrangian.dynamics.power`); where nothing can be supplied it is left out.
+    Raises `ModelError` for what is no input, for a circle of inputs, and for accelerations in an expression: those
+    depend on the inputs themselves (an algebraic loop).
+    """
+    seen = Observed(model)
+    ids = [*seen.mechanics.motion.rates, *seen.vdot]
+    names: tuple[str, ...] = ()
+    if supply:
+        power = supplied(seen)
+        if power != seen.graph.zero:
+            ids.append(power)
+            names = (SUPPLY,)
+    made = _with_feedback(seen, {"xdot": Output(tuple(ids), (len(ids),))}, feedback, "closed")
+    return replace(made, inputs={**made.inputs, "x": (*made.inputs["x"], *names)})
+
+
+def observe_closed(model: Model, outputs: Mapping[str, sp.Expr | Point], feedback: Feedback) -> Program:
+    """`observe` with inputs replaced as in `closed`; an input in ``feedback`` reads as its expression."""
+    seen = Observed(model)
+    return _with_feedback(seen, observed(seen, outputs), feedback, "observe")
+
+
+def _with_feedback(seen: Observed, outputs: Mapping[str, Output], feedback: Feedback, name: str) -> Program:
+    model, graph = seen.model, seen.graph
+    free = [u for u in model.inputs if u.symbol not in feedback]
+    known = {graph.input("u", k): graph.input("u", free.index(u)) for k, u in enumerate(model.inputs) if u in free}
+    # free inputs first get their new places; what replaces an input is renumbered along with the rest
+    for u, expr in _in_order(model, feedback):
+        node = seen.node(expr, f"the input '{u.name}'")
+        known[graph.input("u", model.inputs.index(u))] = _replaced(graph, [node], known)[0]
+    changed = {key: Output(tuple(_replaced(graph, output.ids, known)), output.shape) for key, output in outputs.items()}
+    made = _program(model, name, graph, changed, groups=("x",))
+    return replace(made, inputs={**made.inputs, "u": tuple(u.name for u in free)})
+
+
+def _in_order(model: Model, feedback: Feedback) -> list[tuple[Input, sp.Expr]]:
+    """The replaced inputs with their expressions written out, each after those it reads."""
+    inputs = {u.symbol: u for u in model.inputs}
+    waiting: dict[Any, sp.Expr] = {}
+    for symbol, given in feedback.items():
+        if symbol not in inputs:
+            name = plain(symbol) if isinstance(symbol, sp.Basic) else str(symbol)
+            names = [u.name for u in model.inputs]
+            fix = did_you_mean(name, names) or f"inputs: {', '.join(names) or 'none'}"
+            raise ModelError(f"'{name}' is not an input of system '{model.name}'", fix=fix, code="E402")
+        expr = model.expand(as_expr(given, f"the input '{inputs[symbol].name}'"))
+        if holds_acceleration(expr):
+            raise ModelError(
+                f"the input '{inputs[symbol].name}' depends on an acceleration, which depends on the input",
+                fix="feed back coordinates and rates; solve an algebraic loop by hand",
+                code="E418",
+            )
+        waiting[symbol] = expr
+    done: list[tuple[Input, sp.Expr]] = []
+    while waiting:
+        ready = [s for s, e in waiting.items() if not any(e.has(other) for other in waiting)]
+        if not ready:
+            circle = " → ".join(inputs[s].name for s in waiting)
+            raise ModelError(f"inputs depend on each other in a circle: {circle}", code="E413")
+        done += [(inputs[s], waiting.pop(s)) for s in ready]
+    return done
+
+
+def _replaced(graph: Graph, ids: Sequence[int] | Iterable[int], known: Mapping[int, int]) -> list[int]:
+    """The nodes ``ids`` with every node of ``known`` replaced by what it is there."""
+    ends = list(ids)
+    value = dict(known)
+    for i in reached(graph, ends, known):
+        if i in value:
+            continue
+        node = graph.nodes[i]
+        below = operands(node)
+        new = tuple(value[k] for k in below)
+        value[i] = i if new == below else _made(graph, node, new)
+    return [value[i] for i in ends]
+
+
+def _made(graph: Graph, node: tuple[Any, ...], new: tuple[int, ...]) -> int:
+    """The operation of ``node`` on other operands."""
+    if node[0] == "powi":
+        return graph.powi(new[0], node[2])
+    method: Any = getattr(graph, node[0] + "_" if node[0] in ("and", "or", "not") else node[0])
+    return method(*new)

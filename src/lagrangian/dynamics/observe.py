@@ -1,0 +1,133 @@
+"""What a run can be asked for: expressions of a moving system as one program over its state.
+
+x = [q; v], inputs u, parameters p and time t go in; coordinates, rates, accelerations (by forward dynamics, only where
+one is asked for), definitions, positions of points and anything made of them come out.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import cached_property
+from typing import Any
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian.dynamics.describe import Inputs, _symbols, described
+from lagrangian.dynamics.programs import _program
+from lagrangian.errors import ModelError, did_you_mean
+from lagrangian.graph import Graph, Output, Program, from_sympy
+from lagrangian.model import Model, Point, as_expr, plain, time
+
+
+class Observed:
+    """A model described over x = [q; v] in one graph, and the nodes of expressions in it."""
+
+    def __init__(self, model: Model) -> None:
+        if not model.coordinates:
+            raise ModelError(f"system '{model.name}' has no coordinate: nothing can move", code="E201")
+        self.model, self.graph = model, Graph()
+        self.inputs = Inputs.of(self.graph, model, state=True)
+        self.mechanics, self.places = described(model, self.graph, self.inputs)
+        self._still = self._table()
+        self._memo: dict[Any, int] = {}
+
+    def _table(self) -> dict[Any, int]:
+        """Symbols, rates and definitions with their rates; what needs no accelerations."""
+        motion = self.mechanics.motion
+        table = _symbols(self.model, self.inputs)
+        for definition in self.model.definitions:
+            node = table[definition.symbol] = from_sympy(self.graph, definition.expression, table)
+            if definition.moving:
+                table[sp.Derivative(definition.symbol, time)] = motion.rate([node])[0]
+        return table
+
+    @cached_property
+    def vdot(self) -> list[int]:
+        """v̇ by forward dynamics."""
+        return self.mechanics.forward()
+
+    @cached_property
+    def _accelerated(self) -> dict[Any, int]:
+        """The table with the accelerations of coordinates and the second rates of definitions."""
+        motion, table = self.mechanics.motion, dict(self._still)
+        rates = motion.second_rate(motion.rates, self.vdot)
+        table.update((c.acceleration, a) for c, a in zip(self.model.coordinates, rates, strict=True))
+        for definition in self.model.definitions:
+            if definition.moving:
+                rate = table[sp.Derivative(definition.symbol, time)]
+                table[sp.Derivative(definition.symbol, (time, 2))] = motion.second_rate([rate], self.vdot)[0]
+        return table
+
+    def node(self, expr: Any, what: str) -> int:
+        """The node of an expression; ``what`` names it in messages. Raises `ModelError` for what is not known."""
+        worked = self.plain_derivatives(as_expr(expr, what))
+        table = self._accelerated if holds_acceleration(worked) else self._still
+        self._check(worked, table, what)
+        return from_sympy(self.graph, worked, table, self._memo)
+
+    def plain_derivatives(self, expr: sp.Expr) -> sp.Expr:
+        """The expression with every derivative of more than a symbol worked out."""
+        if any(not isinstance(d.expr, AppliedUndef) for d in expr.atoms(sp.Derivative)):
+            return expr.doit(integrals=False, sums=False)  # type: ignore[return-value]
+        return expr
+
+    def point(self, point: Point) -> list[int]:
+        """The components of a point's position, in the fixed axes."""
+        if point.is_origin:
+            return [self.graph.zero] * self.model.dimension
+        if point in self.places:
+            return self.mechanics.motion.position(self.places[point])
+        return [self.node(x, "a point's component") for x in self.model.position(point)]
+
+    def _check(self, expr: sp.Expr, table: Mapping[Any, int], what: str) -> None:
+        for atom in sorted(_symbols_in(expr) - table.keys(), key=str):
+            name = plain(atom)
+            if isinstance(atom, sp.Derivative) and atom.expr in {u.symbol for u in self.model.inputs}:
+                raise ModelError(
+                    f"{what} holds {name}, the rate of an input, which is not known",
+                    fix="ask for it where the input is an expression: its rate is one too",
+                    code="E417",
+                )
+            fix = did_you_mean(name, self.model.symbols) or f"known: {', '.join(list(self.model.symbols)[:12])}"
+            raise ModelError(f"unknown symbol '{name}' in {what}", fix=fix, code="E402")
+
+
+def _symbols_in(expr: sp.Expr) -> set[Any]:
+    """Symbols, functions of time and derivatives, each of these as a whole."""
+    found: set[Any] = set()
+    stack: list[Any] = [expr]
+    while stack:
+        e = stack.pop()
+        if isinstance(e, (sp.Symbol, AppliedUndef, sp.Derivative)):
+            found.add(e)
+        else:
+            stack.extend(e.args)
+    return found
+
+
+def holds_acceleration(expr: sp.Expr) -> bool:
+    """Whether a derivative of second or higher order stands in an expression."""
+    return any(d.derivative_count >= 2 for d in expr.atoms(sp.Derivative))
+
+
+def observe(model: Model, outputs: Mapping[str, sp.Expr | Point]) -> Program:
+    """x, u, p, t → each of ``outputs`` by name: one number an expression, shape (d,) a point's position.
+
+    Expressions are made of coordinates, rates, accelerations, inputs, parameters, definitions and t. Raises
+    `ModelError` for a symbol the model does not have.
+    """
+    seen = Observed(model)
+    return _program(model, "observe", seen.graph, observed(seen, outputs), groups=("x",))
+
+
+def observed(seen: Observed, outputs: Mapping[str, sp.Expr | Point]) -> dict[str, Output]:
+    """The nodes of what is asked for, as outputs."""
+    found: dict[str, Output] = {}
+    for name, asked in outputs.items():
+        if isinstance(asked, Point):
+            ids = seen.point(asked)
+            found[name] = Output(tuple(ids), (len(ids),))
+        else:
+            found[name] = Output((seen.node(asked, f"'{name}'"),), ())
+    return found

@@ -1,0 +1,64 @@
+"""The energy balance of a moving system, from its Lagrangian:
+
+    h = q̇·∂L/∂q̇ − L,        dh/dt = Ξ·q̇ − ∂L/∂t
+
+h is T* + V where no motion is prescribed. A potential that reads an input (a winch, a driven spring's end) changes
+with a signal whose rate nobody knows: it is left out of h, and its force counts among those that supply power.
+"""
+
+from __future__ import annotations
+
+from lagrangian.dynamics.observe import Observed
+from lagrangian.dynamics.programs import _program
+from lagrangian.dynamics.vectors import dot
+from lagrangian.graph import Graph, Output, Program, gradient, reached
+from lagrangian.model import Model
+
+
+def power(model: Model) -> Program:
+    """x, u, p, t → h [J] and P = Ξ·q̇ − ∂L/∂t [W], with dh/dt = P along every motion; T and V [J] beside them."""
+    seen = Observed(model)
+    outputs = {
+        "h": Output((balanced(seen),), ()),
+        "P": Output((supplied(seen),), ()),
+        "T": Output((seen.mechanics.kinetic(),), ()),
+        "V": Output((seen.mechanics.potential(),), ()),
+    }
+    return _program(model, "power", seen.graph, outputs, groups=("x",))
+
+
+def balanced(seen: Observed) -> int:
+    """h = Σ v_i ∂T/∂v_i − T + V, without the potentials that read inputs."""
+    g, m = seen.graph, seen.mechanics
+    T = m.kinetic()
+    momenta = gradient(g, T, m.v)
+    return g.add(g.sub(dot(g, m.v, momenta), T), _own_potential(seen))
+
+
+def supplied(seen: Observed) -> int:
+    """P = Ξ·v − ∂L/∂t − ∂V_u/∂q·q̇ of the potentials V_u that read inputs."""
+    g, m = seen.graph, seen.mechanics
+    total = dot(g, m.gathered(m.efforts), m.v)
+    own = g.sub(m.kinetic(), _own_potential(seen))
+    total = g.sub(total, gradient(g, own, [seen.inputs.t])[0])
+    for driven in _driven(seen):
+        total = g.sub(total, dot(g, gradient(g, driven, m.q), m.motion.rates))
+    return total
+
+
+def _own_potential(seen: Observed) -> int:
+    """V without what reads inputs."""
+    g = seen.graph
+    total = seen.mechanics.potential()
+    for driven in _driven(seen):
+        total = g.sub(total, driven)
+    return total
+
+
+def _driven(seen: Observed) -> list[int]:
+    """The potentials that read an input."""
+    return [V for V in seen.mechanics.potentials if _reads_inputs(seen.graph, V)]
+
+
+def _reads_inputs(graph: Graph, node: int) -> bool:
+    return any(graph.nodes[i][:2] == ("input", "u") for i in reached(graph, [node]))
