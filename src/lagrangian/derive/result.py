@@ -95,22 +95,14 @@ def matrices(context: Context, sides: tuple[LeftSide, ...], xi_of: dict[sp.Expr,
     coordinates, algebra = context.model.coordinates, context.algebra
     n = len(coordinates)
     M = [[sides[i].momentum.diff(coordinates[j].rate) for j in range(n)] for i in range(n)]
-    slope = [[[M[i][j].diff(c.symbol) for c in coordinates] for j in range(n)] for i in range(n)]
-    half = sp.Rational(1, 2)
-    C: list[list[Form]] = []
-    for i in range(n):
-        row: list[Form] = []
-        for j in range(n):
-            pieces = [
-                (slope[i][j][k] + slope[i][k][j] - slope[j][k][i]) * algebra.form(half * coordinates[k].rate)
-                for k in range(n)
-            ]
-            row.append(algebra.total(pieces))
-        C.append(row)
+    C = _christoffel(context, M)
     G = []
     for i, side in enumerate(sides):
         inertia = [
-            M[i][j] * algebra.form(c.acceleration) + C[i][j] * algebra.form(c.rate) for j, c in enumerate(coordinates)
+            entry * algebra.form(moving)
+            for j, c in enumerate(coordinates)
+            for entry, moving in ((M[i][j], c.acceleration), (C[i][j], c.rate))
+            if entry.parts
         ]
         G.append(side.whole - algebra.total(inertia))
     return Matrices(
@@ -119,6 +111,23 @@ def matrices(context: Context, sides: tuple[LeftSide, ...], xi_of: dict[sp.Expr,
         sp.ImmutableMatrix(n, 1, lambda i, _: G[i].expr()),
         sp.ImmutableMatrix(n, 1, list(xi_of.values())),
     )
+
+
+def _christoffel(context: Context, M: list[list[Form]]) -> list[list[Form]]:
+    """C, gathered from the slopes ∂M_ab/∂ξ_k that are there: each stands in C_ab, in C_ak, and in C_ka with a minus."""
+    coordinates, algebra = context.model.coordinates, context.algebra
+    n = len(coordinates)
+    halves = [algebra.form(sp.Rational(1, 2) * c.rate) for c in coordinates]
+    pieces: list[list[list[Form]]] = [[[] for _ in range(n)] for _ in range(n)]
+    for a, row in enumerate(M):
+        for b, entry in enumerate(row):
+            for k, c in enumerate(coordinates if entry.parts else ()):
+                if (slope := entry.diff(c.symbol)).parts:
+                    pieces[a][b].append(slope * halves[k])
+                    turned = slope * halves[b]
+                    pieces[a][k].append(turned)
+                    pieces[k][a].append(-turned)
+    return [[algebra.total(entry) for entry in row] for row in pieces]
 
 
 def closing(context: Context, eqs: Equations, mats: Matrices) -> tuple[Item, ...]:

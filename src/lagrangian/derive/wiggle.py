@@ -50,7 +50,9 @@ def study(model: Model) -> Wiggle:
     rates = [c.rate for c in model.coordinates]
     entries: list[sp.Expr] = []
     for block in blocks:
-        entries += [sp.diff(r, v) for r in block.rates for v in rates]
+        for r in block.rates:
+            there = r.atoms(sp.Derivative)
+            entries += [sp.diff(r, v) if v in there else sp.S.Zero for v in rates]
         entries += block.weight.flat()
     sampler = Sampler(model, entries)
     n, best = len(rates), -1
@@ -171,4 +173,4 @@ def _figure(x: float) -> str:
 
 def depends(model: Model, expr: sp.Expr, symbol: sp.Expr) -> bool:
     """Whether ``expr`` changes with a coordinate (decided by its derivative, not by how it is written)."""
-    return sp.diff(expr, symbol) != 0
+    return expr.has(symbol) and sp.diff(expr, symbol) != 0

@@ -1,8 +1,9 @@
-"""The named symbols of a system: coordinates, parameters, inputs, definitions."""
+"""The named symbols of a system: coordinates, velocities, parameters, inputs, definitions."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -13,23 +14,46 @@ from lagrangian.model.names import time
 
 @dataclass(frozen=True)
 class Coordinate:
-    """A generalized coordinate ξ: ``symbol`` is SymPy's ``dynamicsymbols(name)``."""
+    """A generalized coordinate ξ: ``symbol`` is SymPy's ``dynamicsymbols(name)``.
+
+    ``start`` is its value in the configuration from which runs start unless told: 1 for the last entry of a quaternion.
+    """
 
     name: str
     symbol: AppliedUndef
     description: str = ""
     unit: str | None = None
     place: Place | None = field(default=None, compare=False)
+    start: float = 0.0
 
-    @property
+    @cached_property
     def rate(self) -> sp.Derivative:
         """ξ̇."""
         return sp.Derivative(self.symbol, time)
 
-    @property
+    @cached_property
     def acceleration(self) -> sp.Derivative:
         """ξ̈."""
         return sp.Derivative(self.symbol, (time, 2))
+
+
+@dataclass(frozen=True)
+class Velocity:
+    """A velocity: the rate of a coordinate, named ``ξ'``, or a quasi-velocity, which is the rate of none.
+
+    The symbol of a quasi-velocity is a function of time; ``rate`` is the name of its own rate.
+    """
+
+    name: str
+    symbol: AppliedUndef | sp.Derivative
+    description: str = ""
+    unit: str | None = None
+    place: Place | None = field(default=None, compare=False)
+
+    @property
+    def rate(self) -> str:
+        """The name of its rate: ``ξ''`` of ``ξ'``."""
+        return f"{self.name}'"
 
 
 @dataclass(frozen=True)
