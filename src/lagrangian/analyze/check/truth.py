@@ -1,0 +1,138 @@
+"""What is right: a system's own equations and energies, at random states and in normal form; made once."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+from typing import Any, cast
+from weakref import WeakKeyDictionary
+
+import mpmath
+import numpy as np
+import sympy as sp
+
+from lagrangian.analyze.check.numbers import DIGITS, Array, Compiled, States
+from lagrangian.derive import Derivation
+from lagrangian.derive.algebra import Algebra, Form, OutOfReach
+from lagrangian.model import Model
+
+LONGEST = 4000
+"""Terms that an expression may have multiplied out before it is compared by numbers instead of its normal form."""
+
+
+class Truth:
+    """The right equations of a derivation, ready to be compared with."""
+
+    def __init__(self, derivation: Derivation) -> None:
+        self.derivation = derivation
+        self.model: Model = derivation.model
+        self.n = len(derivation.coordinates)
+        self.T, self.V = self.expand(derivation.T), self.expand(derivation.V)
+        self.Xi = tuple(self.expand(derivation.Xi[q]) for q in derivation.coordinates)
+        self.rows = tuple(self.expand(cast("sp.Expr", e.lhs) - cast("sp.Expr", e.rhs)) for e in derivation.equations)
+        self.states = States(self.model, 2 * self.n + 6)
+
+    @property
+    def L(self) -> sp.Expr:
+        """T* − V."""
+        return self.T - self.V
+
+    def expand(self, expr: sp.Expr) -> sp.Expr:
+        """An expression with every definition of the model written out."""
+        return self.model.expand(sp.sympify(expr), constants=True)
+
+    @cached_property
+    def algebra(self) -> Algebra:
+        """The ring in which answers are compared exactly; the derivation's own stays as it was."""
+        return Algebra(self.model, (self.T, self.V, *self.Xi))
+
+    def form(self, expr: sp.Expr) -> Form | None:
+        """The normal form of an expression, or None where it would be too long."""
+        if terms(expr) > LONGEST:
+            return None
+        try:
+            return self.algebra.form(expr)
+        except (OutOfReach, OverflowError, ValueError):
+            return None
+
+    @cached_property
+    def forms(self) -> tuple[Form | None, ...]:
+        """The normal forms of the right equations, left minus right."""
+        return tuple(self.form(r) for r in self.rows)
+
+    @cached_property
+    def compiled(self) -> Compiled:
+        """The right equations as one graph."""
+        return Compiled(self.rows)
+
+    @cached_property
+    def W(self) -> Array:
+        """The right equations at every state, shape (n, size): left minus right."""
+        return self.compiled.at(self.states)
+
+    @cached_property
+    def _motion(self) -> Compiled:
+        d = self.derivation
+        bias = [r.xreplace({c.acceleration: sp.S.Zero for c in self.model.coordinates}) for r in self.rows]
+        inertia: list[Any] = list(d.mass_matrix.flat())
+        return Compiled([*map(self.expand, inertia), *bias])
+
+    @cached_property
+    def accelerations(self) -> dict[sp.Basic, Array]:
+        """The true accelerations M⁻¹ (Ξ − C ξ̇ − G) at every state; not a number where M is singular."""
+        values = self._motion.at(self.states)
+        n, size = self.n, self.states.size
+        M = values[: n * n].reshape(n, n, size).transpose(2, 0, 1)
+        h = values[n * n :].T
+        a = np.full((size, n), np.nan)
+        for s in range(size):
+            if np.isfinite(M[s]).all() and np.linalg.cond(M[s]) < 1e12:
+                a[s] = np.linalg.solve(M[s], -h[s])
+        return {c.acceleration: a[:, i] for i, c in enumerate(self.model.coordinates)}
+
+    def accelerations_exactly(self, index: int) -> dict[sp.Basic, Any]:
+        """The true accelerations at one state, with 50 digits."""
+        values, n = self._motion.exactly(self.states, index), self.n
+        with mpmath.workdps(DIGITS):
+            M = mpmath.matrix(n, n)
+            for k in range(n * n):
+                M[k // n, k % n] = values[k]
+            a = mpmath.lu_solve(M, mpmath.matrix([-x for x in values[n * n :]]))
+            return {c.acceleration: a[i] for i, c in enumerate(self.model.coordinates)}
+
+
+def terms(expr: sp.Basic) -> int:
+    """How many terms an expression has at most when it is multiplied out."""
+    known: dict[sp.Basic, int] = {}
+    for e in sp.postorder_traversal(expr):
+        if e in known:
+            continue
+        parts = [known[a] for a in e.args]
+        if isinstance(e, sp.Add):
+            known[e] = sum(parts)
+        elif isinstance(e, sp.Mul):
+            known[e] = _product(parts)
+        elif isinstance(e, sp.Pow) and isinstance(e.exp, sp.Integer) and parts[0] > 1:
+            known[e] = _product([parts[0]] * min(abs(int(e.exp)), 64))
+        else:
+            known[e] = max([1, *parts]) if isinstance(e, sp.Pow) else 1
+            if isinstance(e, sp.Function) and parts and max(parts) > LONGEST:
+                known[e] = max(parts)
+    return known[expr]
+
+
+def _product(counts: Sequence[int]) -> int:
+    total = 1
+    for c in counts:
+        total = min(total * c, 10**12)
+    return total
+
+
+_TRUTHS: WeakKeyDictionary[Derivation, Truth] = WeakKeyDictionary()
+
+
+def truth_of(derivation: Derivation) -> Truth:
+    """What is right of a derivation, made once."""
+    if derivation not in _TRUTHS:
+        _TRUTHS[derivation] = Truth(derivation)
+    return _TRUTHS[derivation]
