@@ -1,0 +1,176 @@
+"""Which runs an ensemble consists of: every run's initial state, inputs and parameters, made when they are needed.
+
+Runs are numbered 0 … count − 1 in C order over a shape, such as (50, 20, 1000) for two axes of a grid and 1000 samples.
+An entry of a run is a constant, comes from an array that broadcasts to the shape, or is drawn from a distribution by
+the run's place along the last axis. Nothing of the size of the whole is kept.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.errors import RunError
+
+Array: TypeAlias = NDArray[np.float64]
+
+MOST_RUNS = 10**12
+"""Most runs of one ensemble: what is beyond is a slip of a zero or two."""
+
+GROUPS = ("x", "u", "p")
+_WORDS = 4  # 64-bit words that one step of Philox's counter gives
+_BATCH = 1 << 16  # samples drawn together
+
+
+@dataclass(frozen=True)
+class Law:
+    """A distribution: its quantile function and what its numbers are called.
+
+    ``quantile(u, a, b)`` maps 0 < u < 1 to the value below which a share u of draws lies.
+    """
+
+    quantile: Callable[[Array, float, float], Array]
+    arguments: tuple[str, str]
+
+
+def _normal(u: Array, mean: float, deviation: float) -> Array:
+    from scipy.special import ndtri
+
+    return mean + deviation * ndtri(u)
+
+
+def _lognormal(u: Array, mu: float, sigma: float) -> Array:
+    return np.exp(_normal(u, mu, sigma))
+
+
+def _uniform(u: Array, low: float, high: float) -> Array:
+    return low + (high - low) * u
+
+
+LAWS: Mapping[str, Law] = {
+    "normal": Law(_normal, ("mean", "standard deviation")),
+    "uniform": Law(_uniform, ("lowest", "highest")),
+    "lognormal": Law(_lognormal, ("mean of the logarithm", "standard deviation of the logarithm")),
+}
+"""Distributions by name; numbers mean what they mean in NumPy."""
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """Draws of one entry: sample k of seed s is the same number in whatever order and portions samples are asked for.
+
+    Philox counts through the samples (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", 2011), keyed by the
+    seed and the entry's name, so that another drawn entry changes nothing of this one; a word becomes u = (w + ½)/2⁵³
+    of its upper 53 bits, and u a value by the law's quantile function.
+    """
+
+    name: str
+    law: str
+    a: float
+    b: float
+    seed: int
+
+    def sample(self, index: NDArray[np.int64]) -> Array:
+        """The values of the samples in ``index``, which lie close together or fill whole ranges."""
+        if index.size == 0:
+            return np.empty(0)
+        first = int(index.min()) // _WORDS
+        last = int(index.max()) // _WORDS
+        key = int.from_bytes(hashlib.blake2b(self.name.encode(), digest_size=8).digest(), "little")
+        bits = np.random.Philox(key=np.array([self.seed, key], np.uint64)).advance(first)
+        words = np.asarray(bits.random_raw((last - first + 1) * _WORDS), np.uint64)
+        u = ((words >> np.uint64(11)).astype(np.float64) + 0.5) * 2.0**-53
+        return LAWS[self.law].quantile(u, self.a, self.b)[index - first * _WORDS]
+
+
+@dataclass(frozen=True)
+class Column:
+    """Entry ``index`` of a group ("x", "u", "p") and where its values come from: an array, or draws."""
+
+    group: str
+    index: int
+    name: str
+    source: Array | Drawn
+
+
+@dataclass(frozen=True)
+class Rows:
+    """The runs of a range: x (n, nx); u (nu,) or (n, nu); p (np,) or (n, np), one dimension where all runs agree."""
+
+    x: Array
+    u: Array
+    p: Array
+
+    def __len__(self) -> int:
+        return len(self.x)
+
+
+@dataclass(frozen=True)
+class Design:
+    """Runs over ``shape``, its axes named ``dims``: constants ``base`` by group, and the columns that vary.
+
+    Raises `RunError` where an array does not broadcast to the shape, a number is not finite, or there are no runs.
+    """
+
+    dims: tuple[str, ...]
+    shape: tuple[int, ...]
+    base: Mapping[str, Array]
+    columns: Sequence[Column] = ()
+    count: int = field(init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "count", math.prod(self.shape))
+        if self.count == 0:
+            empty = [d for d, n in zip(self.dims, self.shape, strict=True) if n == 0]
+            raise RunError(f"there is no run: '{empty[0]}' is empty", code="E501", fix="give at least one value")
+        if self.count > MOST_RUNS:
+            sizes = " × ".join(f"{d}: {n}" for d, n in zip(self.dims, self.shape, strict=True))
+            raise RunError(
+                f"{self.count} runs are too many ({sizes})", code="E501", fix=f"at most {MOST_RUNS}: take fewer values"
+            )
+        for column in self.columns:
+            if not isinstance(column.source, Drawn):
+                self._check(column.name, column.source)
+
+    def _check(self, name: str, values: Array) -> None:
+        try:
+            np.broadcast_to(values, self.shape)
+        except ValueError:
+            raise RunError(
+                f"'{name}' has shape {values.shape}, which does not broadcast to {self.shape}",
+                code="E501",
+                fix="make the shapes of all arrays equal, or 1 along an axis",
+            ) from None
+        if not np.isfinite(values).all():
+            where = np.argwhere(~np.isfinite(values))[0]
+            at = f" at {tuple(int(k) for k in where)}" if values.ndim else ""
+            raise RunError(f"'{name}' is {values[tuple(where)]}{at}", code="E502", fix="give finite numbers")
+
+    def values(self, column: Column, start: int, stop: int) -> Array:
+        """What a column holds in runs start … stop − 1."""
+        index = np.unravel_index(np.arange(start, stop), self.shape) if self.shape else ()
+        if isinstance(column.source, Drawn):
+            drawn = column.source.sample(index[-1])
+            if not np.isfinite(drawn).all():
+                raise RunError(
+                    f"a draw of '{column.name}' is not finite",
+                    code="E502",
+                    fix="take a narrower distribution",
+                )
+            return drawn
+        spread = np.broadcast_to(column.source, self.shape)
+        return np.array(spread[index]).reshape(stop - start)
+
+    def rows(self, start: int, stop: int) -> Rows:
+        """Runs start … stop − 1."""
+        varying = {c.group for c in self.columns} | {"x"}
+        arrays = {g: np.tile(self.base[g], (stop - start, 1)) if g in varying else self.base[g] for g in GROUPS}
+        for column in self.columns:
+            arrays[column.group][:, column.index] = self.values(column, start, stop)
+        return Rows(arrays["x"], arrays["u"], arrays["p"])

@@ -1,0 +1,236 @@
+"""What is done with a run of an ensemble: how it is integrated, and which few numbers are kept of it.
+
+A run is sampled at the times asked for; expressions are evaluated along it by compiled code; what is kept of each is
+a reduction over time, or the samples themselves. Everything here treats a chunk of runs at once.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.compile import Kernel, compile
+from lagrangian.compile.workers import over
+from lagrangian.errors import RunError
+from lagrangian.simulate.design import Rows
+
+if TYPE_CHECKING:
+    from lagrangian.graph import Program
+
+Array: TypeAlias = NDArray[np.float64]
+Values: TypeAlias = dict[str, NDArray[Any]]
+
+STATES = 1 << 15  # states that are observed together
+LEAST = 8  # and no fewer, so that machine code never pads
+NOT_FINITE = "E503"
+
+
+def _mean(y: Array, t: Array) -> Array:
+    """Time average by the trapezoidal rule: (1/(t₁ − t₀)) ∫ y dt."""
+    length = t[..., -1] - t[..., 0]
+    area = np.trapezoid(y, t, axis=-1) if hasattr(np, "trapezoid") else np.trapz(y, t, axis=-1)  # type: ignore
+    return np.where(length > 0, area / np.where(length > 0, length, 1.0), y[..., 0])
+
+
+REDUCTIONS: Mapping[str, Callable[[Array, Array], Array]] = {
+    "final": lambda y, _: y[..., -1],
+    "max": lambda y, _: y.max(axis=-1),
+    "min": lambda y, _: y.min(axis=-1),
+    "mean": _mean,
+    "rms": lambda y, t: np.sqrt(_mean(y * y, t)),
+    "range": lambda y, _: y.max(axis=-1) - y.min(axis=-1),
+}
+"""What can be kept of an expression y (n, S) at times t (S,) or (n, S), by name."""
+
+
+@dataclass(frozen=True)
+class Kept:
+    """One result of every run: ``name``, the output ``of`` which it is made, and the reduction (None: the samples)."""
+
+    name: str
+    of: str
+    reduction: str | None
+
+
+@dataclass(frozen=True)
+class EventsKept:
+    """Of event ``index``: how often it happened, and when for the first ``times`` times."""
+
+    name: str
+    index: int
+    times: int
+
+
+@dataclass(frozen=True)
+class Study:
+    """What is done with every run of an ensemble; small, and can be sent to another process.
+
+    ``program`` is x, u, p, t → ẋ; ``outputs`` a program over the same groups with one number an output; ``times`` (S,)
+    the samples. ``options`` go to the solver as they are (rtol, atol, step, …); ``u`` may be signals there.
+    """
+
+    program: Program
+    method: str
+    times: Array
+    outputs: Program
+    kept: tuple[Kept, ...]
+    events: Any = None
+    events_kept: tuple[EventsKept, ...] = ()
+    signals: Any = None
+    options: Mapping[str, Any] = field(default_factory=dict)
+
+    @property
+    def whole(self) -> bool:
+        """Whether more than the last sample of a run is needed."""
+        return any(k.reduction != "final" for k in self.kept)
+
+    @property
+    def bytes_per_run(self) -> int:
+        """Memory that one run of a chunk takes, roughly: its samples, and what is kept of it."""
+        samples = len(self.times) if self.whole else 1
+        stored = sum(1 if k.reduction else len(self.times) for k in self.kept)
+        stored += sum(1 + e.times for e in self.events_kept)
+        states = len(self.program.inputs["x"])
+        return 8 * (samples * states + stored + states + 8)
+
+    def fields(self) -> dict[str, tuple[str, tuple[int, ...]]]:
+        """What `run` gives by name: type, and shape behind the axis of runs."""
+        made: dict[str, tuple[str, tuple[int, ...]]] = {}
+        for k in self.kept:
+            made[k.name] = ("float64", () if k.reduction else (len(self.times),))
+        for e in self.events_kept:
+            made[f"count {e.name}"] = ("int32", ())
+            made[f"time {e.name}"] = ("float64", (e.times,) if e.times > 1 else ())
+        made["reached"] = ("float64", ())
+        made["status"] = ("int8", ())
+        return made
+
+    @cached_property
+    def _kernel(self) -> Kernel | None:
+        """The code of the outputs; None where each is an entry of the state and nothing needs computing."""
+        if all(entry is not None for entry in self._entries.values()):
+            return None
+        return compile(self.outputs, threads=1)
+
+    @cached_property
+    def _entries(self) -> dict[str, int | None]:
+        """For each output the entry of x that it is, if it is nothing else."""
+        nodes = self.outputs.graph.nodes
+        first = {name: nodes[output.ids[0]] for name, output in self.outputs.outputs.items()}
+        return {name: node[2] if node[:2] == ("input", "x") else None for name, node in first.items()}
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {k: v for k, v in self.__dict__.items() if not k.startswith("_")}
+
+    def run(self, solver: Any, rows: Rows, threads: int | None = None) -> Values:
+        """Integrate the runs in ``rows`` and keep of them what is wanted: arrays (n, …) by name.
+
+        A run that fails keeps NaN everywhere and its status. A run that a terminal event ends is reduced over what it
+        reached.
+        """
+        u = self.signals if self.signals is not None else rows.u
+        times = self.times if self.whole else self.times[[0, -1]]
+        solution = solver.solve(rows.x, times, u=u, p=rows.p, store=self.whole, **self.options)
+        made: Values = {n: np.empty((len(rows), *shape), dtype) for n, (dtype, shape) in self.fields().items()}
+        made["status"][:], made["reached"][:] = solution.status, solution.reached
+        self._events(solution, made)
+        size = max(LEAST, STATES // (len(self.times) if self.whole else 1))  # runs that are observed together
+
+        def reduced(start: int, stop: int) -> int:
+            for k in range(start, stop, size):
+                self._reduced(solution, rows, slice(k, min(stop, k + size)), made)
+            return -1
+
+        over(len(rows), size, 50 * (len(self.times) if self.whole else 1), threads, reduced)
+        failed = solution.status < 0
+        for k in self.kept:
+            made[k.name][failed] = np.nan
+        return made
+
+    def _reduced(self, solution: Any, rows: Rows, part: slice, made: Values) -> None:
+        """What is kept of the runs in ``part``."""
+        states, times, beyond = self._samples(solution, rows, part)
+        y = self._observed(states, times, rows, part)
+        for k in self.kept:
+            if k.reduction is None:
+                made[k.name][part] = y[k.of] if beyond is None else np.where(beyond, np.nan, y[k.of])
+            else:
+                made[k.name][part] = REDUCTIONS[k.reduction](y[k.of], times)
+
+    def _samples(self, solution: Any, rows: Rows, part: slice) -> tuple[Array, Array, NDArray[np.bool_] | None]:
+        """States (n, S, nx), times (S,) or (n, S), and which samples lie beyond the end of their run.
+
+        Behind its end a run stands still in its last state: maxima and averages over time then need to know nothing.
+        A run that failed stands in its first state, so that everything observed is finite; it is dropped later.
+        """
+        status, reached = solution.status[part], solution.reached[part]
+        last = np.where((status < 0)[:, None], rows.x[part], solution.final[part])
+        if not self.whole:
+            at = np.where(status < 0, self.times[0], reached)
+            return last[:, None, :], at[:, None], None
+        states = solution.states[part]
+        if (status == 0).all():
+            return states, self.times, None
+        ended = np.where(status < 0, self.times[0], reached)
+        beyond = self.times > ended[:, None]
+        beyond[status < 0] = True
+        return np.where(beyond[..., None], last[:, None, :], states), np.minimum(self.times, ended[:, None]), beyond
+
+    def _observed(self, states: Array, times: Array, rows: Rows, part: slice) -> dict[str, Array]:
+        """Each output along each run, (n, S)."""
+        found = {name: states[..., entry] for name, entry in self._entries.items() if entry is not None}
+        if self._kernel is None:
+            return found
+        shape = states.shape[:-1]
+        fill = max(0, math.ceil(LEAST / shape[1]) - shape[0])
+        if fill:
+            pad = lambda a: np.concatenate([a, np.repeat(a[-1:], fill, axis=0)])  # noqa: E731
+            states, times = pad(states), pad(times) if times.ndim == 2 else times
+        u, p = self._along(rows.u, part, fill), self._along(rows.p, part, fill)
+        if self.signals is not None:
+            u = signals_at(self.signals, times)
+        lead = states.shape[:-1]
+        out = {name: np.empty(lead) for name in self.outputs.outputs}
+        try:
+            self._kernel(x=states, u=u, p=p, t=times, out=out)
+        except RunError as trouble:  # what is not finite stays so, and is counted; everything else is computed
+            if trouble.code != NOT_FINITE:
+                raise
+        return {name: values[: shape[0]] for name, values in out.items()}
+
+    @staticmethod
+    def _along(values: Array, part: slice, fill: int) -> Array:
+        """Inputs or parameters, one a run, in a shape that goes with (n, S) states."""
+        if values.ndim == 1:
+            return values
+        own = values[part]
+        return np.concatenate([own, np.repeat(own[-1:], fill, axis=0)])[:, None, :]
+
+    def _events(self, solution: Any, made: Values) -> None:
+        """Counts and first times of the events that are kept."""
+        for e in self.events_kept:
+            mine = solution.event_index == e.index
+            made[f"count {e.name}"][:] = mine.sum(axis=1)
+            order = np.argsort(~mine, axis=1, kind="stable")[:, : e.times]
+            times = np.full((len(mine), e.times), np.nan)
+            times[:, : order.shape[1]] = np.where(
+                np.take_along_axis(mine, order, axis=1), np.take_along_axis(solution.event_time, order, axis=1), np.nan
+            )
+            made[f"time {e.name}"][:] = times if e.times > 1 else times[:, 0]
+
+
+def signals_at(signals: Any, times: Array) -> Array:
+    """Piecewise linear inputs at ``times`` (…), shape (…, nu); at a knot the piece that begins there."""
+    k = np.searchsorted(signals.knots, times, side="right") - 1
+    return signals.start[k] + signals.slope[k] * (times - signals.knots[k])[..., None]
+
+
+def names_of(kept: Sequence[Kept]) -> tuple[str, ...]:
+    """The outputs that are needed, each once."""
+    return tuple(dict.fromkeys(k.of for k in kept))
