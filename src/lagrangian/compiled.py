@@ -44,6 +44,7 @@ class Compiled:
         self._model, self._lanes, self._threads = model, lanes, threads
         self._kernels: dict[str, machine.Kernel] = {}
         self.coordinates = tuple(c.name for c in model.coordinates)
+        self.velocities = tuple(v.name for v in model.velocities)
         self.inputs = tuple(u.name for u in model.inputs)
         self.parameters = tuple(p.name for p in model.parameters)
         self._kernel("forward")  # a coordinate without mass is found now, not at the first call

@@ -10,6 +10,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import read
+from lagrangian.analysis import Linearization, linearize
 from lagrangian.analyze import check_dimensions
 from lagrangian.compiled import LANGUAGES, Compiled, sources
 from lagrangian.derivation import Derivation, derive_and_verify
@@ -139,6 +140,15 @@ class System:
     ) -> Frame:
         """Return axes turned by ``angle`` from ``parent``'s: in the plane, or about ``axis`` in space."""
         return self._builder.frame(name, angle, axis=axis, parent=parent, origin=origin)
+
+    def floating_frame(self, name: str) -> Frame:
+        """Return axes that float in space: with ``base = floating_frame("base")`` its origin moves and it turns freely.
+
+        Coordinates base_x, base_y, base_z (origin, fixed axes) and the quaternion base_qx, base_qy, base_qz, base_qw;
+        velocities base_vx, base_vy, base_vz and base_wx, base_wy, base_wz (of the origin and of the turn, in the
+        frame's own axes). ``base.origin`` is the point base_origin. `compile` handles it; `derive` does not.
+        """
+        return self._builder.floating_frame(name)
 
     # -- elements -----------------------------------------------------------------------------------------------
 
@@ -289,6 +299,14 @@ class System:
         """
         check_dimensions(self.model)
         return Compiled(self.model, lanes=lanes, threads=threads)
+
+    def linearize(self, at: Any = None, **options: Any) -> Linearization:
+        """Return A, B, C, D about an equilibrium, with poles, modes and the verdict on stability.
+
+        ``at``: values of coordinates and rates by name or symbol (0 where not given), or an `Equilibrium`. Options:
+        ``inputs``, ``params``, ``outputs``, ``time``, ``operating_point``; see `lagrangian.analyze.linearize`.
+        """
+        return linearize(self.model, at, **options)
 
     def export(self, path: str | Path) -> tuple[Path, ...]:
         """Write source code of the dynamics: to ``name.c`` (and ``name.h``) or ``name.py``; return what was written."""

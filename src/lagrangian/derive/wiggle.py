@@ -15,7 +15,7 @@ import sympy as sp
 
 from lagrangian.derive.sample import Sampler
 from lagrangian.errors import ModelError
-from lagrangian.model import Element, Model, RigidBody
+from lagrangian.model import Element, Frame, Model, RigidBody
 
 SMALL = 1e-9
 """Relative size under which a singular value or a column counts as zero."""
@@ -46,6 +46,8 @@ class Wiggle:
 
 def study(model: Model) -> Wiggle:
     """Return what moves with what; raise `ModelError` for dependent, missing and idle coordinates, by name."""
+    for frame in model.floating:
+        _refuse_quaternion(frame)
     blocks = _blocks(model)
     rates = [c.rate for c in model.coordinates]
     entries: list[sp.Expr] = []
@@ -117,6 +119,20 @@ def _bodies(blocks: Sequence[_Rows], seen: np.ndarray) -> tuple[Element, ...]:
         if moves and block.body not in chosen:
             chosen.append(block.body)
     return tuple(chosen)
+
+
+def _refuse_quaternion(frame: Frame) -> None:
+    """Raise the error for coordinates that are dependent as they stand: the four entries of a quaternion."""
+    assert frame.floating is not None
+    listed = ", ".join(c.name for c in frame.floating.coordinates[3:])
+    raise ModelError(
+        f"frame '{frame.name}' floats with a quaternion: its four entries {listed} tell three angles, so they are "
+        "dependent, and its velocities are not the rates of its coordinates",
+        place=frame.place,
+        fix="compile, simulate, verify and export take it as it is; to read equations describe the turn by three "
+        "angles instead: frame(yaw, axis=(0, 0, 1)), then frame(pitch, axis=(0, 1, 0), parent=…), then a third",
+        code="E202",
+    )
 
 
 def _refuse(model: Model, blocks: Sequence[_Rows], seen: np.ndarray, stacked: np.ndarray) -> None:

@@ -13,6 +13,7 @@ from typing import Any
 import sympy as sp
 
 from lagrangian.dynamics.bodies import Bodies
+from lagrangian.dynamics.floating import Float, floating_body, floating_rates
 from lagrangian.dynamics.mechanics import Mechanics, Pairs
 from lagrangian.dynamics.motion import Axes, Motion, Place
 from lagrangian.dynamics.turns import along_axis
@@ -26,7 +27,7 @@ from lagrangian.model.elements.spring import DELTA
 
 @dataclass
 class Inputs:
-    """The input nodes of a program over a model: one id a coordinate, rate, parameter, input, and time."""
+    """The input nodes of a program over a model: one id a coordinate, velocity, parameter, input, and time."""
 
     q: list[int]
     v: list[int]
@@ -39,7 +40,7 @@ class Inputs:
         """Groups q, v, u, p, t; with ``state``, x = [q; v] in place of q and v."""
         n = len(model.coordinates)
         q = [graph.input("x" if state else "q", i) for i in range(n)]
-        v = [graph.input("x", n + i) if state else graph.input("v", i) for i in range(n)]
+        v = [graph.input("x", n + i) if state else graph.input("v", i) for i in range(len(model.velocities))]
         u = [graph.input("u", i) for i in range(len(model.inputs))]
         p = [graph.input("p", i) for i in range(len(model.parameters))]
         return cls(q, v, u, p, graph.input("t", 0))
@@ -77,15 +78,16 @@ def describe(model: Model, graph: Graph, inputs: Inputs) -> Mechanics:
 
 def described(model: Model, graph: Graph, inputs: Inputs) -> tuple[Mechanics, dict[Point, Place]]:
     """The mechanics of a model, and where its points went."""
-    motion = Motion(graph, model.dimension, inputs.q, inputs.v, inputs.v, inputs.t)
-    d = Description(model, graph, inputs, motion, _symbols(model, inputs))
+    rates, floats = velocities(model, graph, inputs)
+    motion = Motion(graph, model.dimension, inputs.q, inputs.v, rates, inputs.t)
+    d = Description(model, graph, inputs, motion, _symbols(model, inputs, rates))
     for definition in model.definitions:
         node = d.table[definition.symbol] = d.node(definition.expression)
         if definition.moving and definition.symbol != time:
             d.table[sp.Derivative(definition.symbol, time)] = motion.rate([node])[0]
-    _geometry(d)
-    names = tuple(c.name for c in model.coordinates)
-    m = Mechanics(graph, motion, Bodies(motion), names, zeros(graph, model.dimension))
+    _geometry(d, floats)
+    down = zeros(graph, model.dimension)
+    m = Mechanics(graph, motion, Bodies(motion), moved(model), down, floats=tuple(floats.values()))
     for element in model.elements:
         try:
             ELEMENTS.get(element.kind, _any)(d, m, element)
@@ -97,10 +99,30 @@ def described(model: Model, graph: Graph, inputs: Inputs) -> tuple[Mechanics, di
     return m, d.places
 
 
-def _symbols(model: Model, inputs: Inputs) -> dict[Any, int]:
+def velocities(model: Model, graph: Graph, inputs: Inputs) -> tuple[list[int], dict[Frame, Float]]:
+    """The rates q̇ = N(q) v, in the order of q, and where q and v hold what each floating frame floats by."""
+    q_at = {c.name: i for i, c in enumerate(model.coordinates)}
+    v_at = {v.name: i for i, v in enumerate(model.velocities)}
+    floats: dict[Frame, Float] = {}
+    rates = [inputs.v[v_at[f"{name}'"]] if f"{name}'" in v_at else graph.zero for name in q_at]
+    for frame in model.floating:
+        assert frame.floating is not None
+        i, k = q_at[frame.floating.coordinates[0].name], v_at[frame.floating.velocities[0].name]
+        floats[frame] = Float(i, k)
+        rates[i : i + 7] = floating_rates(graph, inputs.q[i : i + 7], inputs.v[k : k + 6])
+    return rates, floats
+
+
+def moved(model: Model) -> tuple[str, ...]:
+    """For every velocity the name of what moves by it: the coordinate, or the quasi-velocity itself."""
+    return tuple(v.name.removesuffix("'") for v in model.velocities)
+
+
+def _symbols(model: Model, inputs: Inputs, rates: Sequence[int]) -> dict[Any, int]:
     table: dict[Any, int] = {time: inputs.t}
-    for c, q, v in zip(model.coordinates, inputs.q, inputs.v, strict=True):
-        table[c.symbol], table[c.rate] = q, v
+    for c, q, rate in zip(model.coordinates, inputs.q, rates, strict=True):
+        table[c.symbol], table[c.rate] = q, rate
+    table.update((v.symbol, node) for v, node in zip(model.velocities, inputs.v, strict=True))
     table.update((p.symbol, node) for p, node in zip(model.parameters, inputs.p, strict=True))
     table.update((u.symbol, node) for u, node in zip(model.inputs, inputs.u, strict=True))
     return table
@@ -109,8 +131,11 @@ def _symbols(model: Model, inputs: Inputs) -> dict[Any, int]:
 # -- geometry ---------------------------------------------------------------------------------------------------
 
 
-def _geometry(d: Description) -> None:
+def _geometry(d: Description, floats: Mapping[Frame, Float]) -> None:
     """All points and frames that the model names or its elements use, parents first."""
+    q, v = d.inputs.q, d.inputs.v
+    for frame, at in floats.items():
+        d.axes[frame], d.places[frame.origin] = floating_body(d.motion, q[at.q : at.q + 7], v[at.v : at.v + 6])
     things: dict[int, Any] = {}
     waiting: list[Any] = [*d.model.points, *d.model.frames]
     for element in d.model.elements:
@@ -123,6 +148,8 @@ def _geometry(d: Description) -> None:
         things[id(thing)] = thing
         waiting += [thing.parent, getattr(thing, "frame", None), getattr(thing, "origin", None)]
     for thing in sorted(things.values(), key=lambda x: x.serial):
+        if thing in d.axes or thing in d.places:
+            continue
         if hasattr(thing, "angle"):
             d.axes[thing] = _axes(d, thing)
         elif thing.is_origin:
@@ -307,7 +334,7 @@ def _dissipation(d: Description, m: Mechanics, e: Any) -> None:
     """Ξ_i = −∂D/∂ξ̇_i."""
     g = d.graph
     slope = gradient(g, d.node(e.value), d.inputs.v)
-    m.efforts.extend(_on_coordinates(d, [g.neg(x) for x in slope]))
+    m.efforts.extend((v, g.neg(x)) for v, x in zip(d.inputs.v, slope, strict=True) if x != g.zero)
     m.losses.append(dot(g, slope, d.inputs.v))
 
 

@@ -5,22 +5,38 @@ velocity of the body's origin and angular velocity, both in the body's axes.
 
     ṗ = R(e) v,        ė = ½ e ∘ (ω, 0)
 
-e is used as it is: it is of unit length to the precision its integration keeps.
+e may have any length but 0, which ė leaves as it is: R is that of e/|e|.
+The equations of motion that follow from an energy T(q, u) are those of Euler, Poincaré and Hamel,
+
+    d/dt ∂T/∂u − ad_uᵀ ∂T/∂u − Nᵀ ∂T/∂q = …        ad_uᵀ (f, m) = (f × ω, f × v + m × ω)
+
+with ad_u the Lie bracket of two velocities, ad_u (v', ω') = (ω × v' − ω' × v, ω × ω'); for one body they are
+Kirchhoff's, ṗ + ω × p and ḣ + ω × h + v × p. Source: J. E. Marsden, T. S. Ratiu, Introduction to Mechanics and
+Symmetry, 2nd ed., 1999, §13.5 (Euler–Poincaré) and §14.2 (rigid body motion); signs checked by the tests.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from lagrangian.dynamics.motion import Axes, Motion, Place
-from lagrangian.dynamics.vectors import Matrix, times
+from lagrangian.dynamics.vectors import Matrix, cross, dot, minus, plus, times
 from lagrangian.graph import Graph
 
 
+@dataclass(frozen=True)
+class Float:
+    """Where a body that floats has its seven coordinates in q and its six velocities in u."""
+
+    q: int
+    v: int
+
+
 def quaternion_rotation(g: Graph, e: Sequence[int]) -> Matrix:
-    """R of the unit quaternion (x, y, z, w): v_fixed = R v_body."""
+    """R of the quaternion (x, y, z, w), whatever its length: v_fixed = R v_body."""
     x, y, z, w = e
-    two = g.const(2.0)
+    two = g.div(g.const(2.0), dot(g, e, e))
     X, Y, Z = (g.mul(two, c) for c in (x, y, z))
     xx, yy, zz = g.mul(X, x), g.mul(Y, y), g.mul(Z, z)
     xy, xz, yz = g.mul(X, y), g.mul(X, z), g.mul(Y, z)
@@ -50,3 +66,16 @@ def floating_body(motion: Motion, q: Sequence[int], u: Sequence[int]) -> tuple[A
     """Axes and origin of a body that floats, with q = (p, e) and u = (v, ω) among the motion's coordinates."""
     axes = motion.turned_axes(motion.root, quaternion_rotation(motion.graph, q[3:7]), list(u[3:6]))
     return axes, motion.floating(q[:3], axes, u[:3])
+
+
+def bracket(g: Graph, a: Sequence[int], b: Sequence[int]) -> list[int]:
+    """ad_a b of two velocities (v, ω) of a body."""
+    v, w = a[:3], a[3:]
+    moved = minus(g, cross(g, w, b[:3]), cross(g, b[3:], v))
+    return [*moved, *cross(g, w, b[3:])]
+
+
+def transported(g: Graph, u: Sequence[int], force: Sequence[int]) -> list[int]:
+    """ad_uᵀ (f, m): f × ω and f × v + m × ω."""
+    v, w, f, m = u[:3], u[3:], force[:3], force[3:]
+    return [*cross(g, f, w), *plus(g, cross(g, f, v), cross(g, m, w))]

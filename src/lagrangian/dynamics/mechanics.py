@@ -16,10 +16,11 @@ from functools import cached_property
 
 from lagrangian.dynamics.bodies import Bodies
 from lagrangian.dynamics.eliminate import Quadratic, condensed, solve
+from lagrangian.dynamics.floating import Float, bracket, transported
 from lagrangian.dynamics.inertia import AnyLink
 from lagrangian.dynamics.motion import Accelerations, Motion
 from lagrangian.dynamics.tape import is_linear, make_tape, moving_nodes
-from lagrangian.dynamics.vectors import dot, plus, zeros
+from lagrangian.dynamics.vectors import dot, minus, plus, zeros
 from lagrangian.graph import Graph, count_operations, gradient, hessian, jvp, operands, vjp
 
 Pairs = list[tuple[int, int]]
@@ -35,7 +36,8 @@ MANY = 100
 class Mechanics:
     """A mechanical system as nodes of ``graph``.
 
-    ``names`` are the names of the velocities v; q̇ = ``motion.rates``. ``down`` is the acceleration of gravity in the
+    ``names`` say what moves by each velocity v; q̇ = ``motion.rates``; ``floats`` are the bodies among them that move by
+    quasi-velocities. ``down`` is the acceleration of gravity in the
     fixed axes. ``efforts`` are (rate, effort) pairs: their power is Σ rate · effort and Ξ_i = Σ effort · ∂rate/∂v_i.
     ``stores`` are the (rate, effort) pairs of what is kept in ``potentials``. ``kinetics`` are raw kinetic co-energies,
     ``losses`` the powers taken by dampers.
@@ -51,6 +53,7 @@ class Mechanics:
     potentials: list[int] = field(default_factory=list)
     kinetics: list[int] = field(default_factory=list)
     losses: list[int] = field(default_factory=list)
+    floats: tuple[Float, ...] = ()
 
     @property
     def q(self) -> tuple[int, ...]:
@@ -90,11 +93,18 @@ class Mechanics:
         """d/dt ∂T/∂v − ∂T/∂q of raw kinetic co-energies, on the velocities."""
         if not self.kinetics:
             return []
+        return list(zip(self.v, self._lagrange(self.raw_kinetic, vdot), strict=True))
+
+    def _lagrange(self, L: int, vdot: Sequence[int]) -> list[int]:
+        """d/dt ∂L/∂v − Nᵀ ∂L/∂q, minus ad_uᵀ ∂L/∂u for quasi-velocities (`floating` has the formula)."""
         g, motion = self.graph, self.motion
-        T = self.raw_kinetic
-        momentum = motion.second_rate(gradient(g, T, self.v), vdot)
-        force = vjp(g, list(motion.rates), gradient(g, T, self.q), list(self.v))
-        return [(v, g.sub(p, f)) for v, p, f in zip(self.v, momentum, force, strict=True)]
+        momenta = gradient(g, L, self.v)
+        rates = motion.second_rate(momenta, vdot)
+        forces = vjp(g, list(motion.rates), gradient(g, L, self.q), list(self.v))
+        for at in self.floats:
+            own = slice(at.v, at.v + 6)
+            forces[own] = plus(g, forces[own], transported(g, self.v[own], momenta[own]))
+        return minus(g, rates, forces)
 
     @property
     def raw_kinetic(self) -> int:
@@ -217,30 +227,46 @@ class Mechanics:
     def coriolis(self) -> list[list[int]]:
         """C by Christoffel's symbols, so that Ṁ − 2C is skew:  C = ½ (Ṁ + P − Pᵀ),  P_ij = ∂(M v)_i/∂q_j.
 
-        For velocities that are rates of the coordinates.
+        Along quasi-velocities q̇ = N u the derivatives are those along the columns of N, P = ∂(M u)/∂q N, and the
+        velocities' brackets join them (Koszul's formula for the connection of M):
+
+            C = ½ (Ṁ + P − Pᵀ + M A − (M A)ᵀ − B),   A = ad_u,   B_ij = (M u)·[e_j, e_i]
         """
         g, n = self.graph, len(self.v)
         M = self.mass_matrix()
-        half = g.const(0.5)
-        change = jvp(g, [x for row in M for x in row], dict(zip(self.q, self.v, strict=True)))
+        change = jvp(g, [x for row in M for x in row], dict(zip(self.q, self.motion.rates, strict=True)))
         momentum = [dot(g, row, self.v) for row in M]
-        columns = [jvp(g, momentum, {q: g.one}) for q in self.q]
-        return [
-            [g.mul(half, g.add(change[i * n + j], g.sub(columns[j][i], columns[i][j]))) for j in range(n)]
-            for i in range(n)
-        ]
+        columns = self._along_velocities(momentum)
+        total = [[g.add(change[i * n + j], g.sub(columns[j][i], columns[i][j])) for j in range(n)] for i in range(n)]
+        for at in self.floats:
+            own = range(at.v, at.v + 6)
+            basis = [[g.one if i == k else g.zero for i in range(6)] for k in range(6)]
+            u, h = [self.v[i] for i in own], [momentum[i] for i in own]
+            A = [bracket(g, u, e) for e in basis]  # A[j] is column j
+            for j, column in zip(own, A, strict=True):
+                for i in range(n):
+                    x = dot(g, [M[i][k] for k in own], column)
+                    total[i][j] = g.add(total[i][j], x)
+                    total[j][i] = g.sub(total[j][i], x)
+                for i in own:
+                    twist = bracket(g, basis[j - at.v], basis[i - at.v])
+                    total[i][j] = g.sub(total[i][j], dot(g, h, twist))
+        return [[g.mul(g.const(0.5), x) for x in row] for row in total]
+
+    def _along_velocities(self, ids: Sequence[int]) -> list[list[int]]:
+        """The derivatives of nodes that depend on q, with v held, along each velocity: ∂/∂q N e_j."""
+        g = self.graph
+        moved: list[list[int]] = []
+        for v in self.v:
+            along = jvp(g, list(self.motion.rates), {v: g.one})
+            moved.append(jvp(g, ids, {q: x for q, x in zip(self.q, along, strict=True) if x != g.zero}))
+        return moved
 
     def inverse_from_lagrangian(self, vdot: Sequence[int]) -> list[int]:
-        """d/dt ∂L/∂v − ∂L/∂q − Ξ of L = T − V, the independent route to `inverse`.
-
-        For velocities that are rates of the coordinates.
-        """
+        """d/dt ∂L/∂v − ∂L/∂q − Ξ of L = T − V, the independent route to `inverse`."""
         g = self.graph
         L = g.sub(self.kinetic(), self.potential())
-        momentum = self.motion.second_rate(gradient(g, L, self.v), vdot)
-        force = gradient(g, L, self.q)
-        applied = self.gathered(self.efforts)
-        return [g.sub(g.sub(p, f), x) for p, f, x in zip(momentum, force, applied, strict=True)]
+        return minus(g, self._lagrange(L, vdot), self.gathered(self.efforts))
 
     # -- forward dynamics ---------------------------------------------------------------------------------------
 

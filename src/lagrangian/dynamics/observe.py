@@ -35,7 +35,7 @@ class Observed:
     def _table(self) -> dict[Any, int]:
         """Symbols, rates and definitions with their rates; what needs no accelerations."""
         motion = self.mechanics.motion
-        table = _symbols(self.model, self.inputs)
+        table = _symbols(self.model, self.inputs, motion.rates)
         for definition in self.model.definitions:
             node = table[definition.symbol] = from_sympy(self.graph, definition.expression, table)
             if definition.moving:

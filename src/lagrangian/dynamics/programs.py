@@ -36,12 +36,12 @@ def _start(model: Model, *, state: bool = False) -> tuple[Graph, Inputs, Mechani
 def _program(
     model: Model, name: str, graph: Graph, outputs: Mapping[str, Output], *, groups: Sequence[str] = ("q", "v")
 ) -> Program:
-    q = tuple(c.name for c in model.coordinates)
+    q, v = tuple(c.name for c in model.coordinates), tuple(v.name for v in model.velocities)
     names = {
         "q": q,
-        "v": tuple(f"{x}'" for x in q),
-        "a": tuple(f"{x}''" for x in q),
-        "x": (*q, *(f"{x}'" for x in q)),
+        "v": v,
+        "a": tuple(v.rate for v in model.velocities),
+        "x": (*q, *v),
         "u": tuple(u.name for u in model.inputs),
         "p": tuple(p.name for p in model.parameters),
         "t": ("t",),
@@ -69,9 +69,9 @@ def forward(model: Model) -> Program:
 
 
 def rhs(model: Model) -> Program:
-    """x, u, p, t → ẋ of x = [q; v], shape (2n,)."""
-    graph, inputs, m = _start(model, state=True)
-    return _program(model, "rhs", graph, {"xdot": _vector([*inputs.v, *m.forward()])}, groups=("x",))
+    """x, u, p, t → ẋ = [q̇; v̇] of x = [q; v], shape (n_q + n_v,)."""
+    graph, _, m = _start(model, state=True)
+    return _program(model, "rhs", graph, {"xdot": _vector([*m.motion.rates, *m.forward()])}, groups=("x",))
 
 
 def inverse(model: Model) -> Program:

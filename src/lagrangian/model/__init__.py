@@ -22,11 +22,12 @@ from lagrangian.model.elements import (
     Torque,
     Words,
 )
+from lagrangian.model.floating import Floating
 from lagrangian.model.geometry import Frame, Point, as_expr
 from lagrangian.model.model import Model
 from lagrangian.model.names import RESERVED, check_name, time
 from lagrangian.model.plain import plain
-from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter
+from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, Velocity
 
 __all__ = [
     "DEFLECTION",
@@ -39,6 +40,7 @@ __all__ = [
     "Definition",
     "Dissipation",
     "Element",
+    "Floating",
     "Force",
     "Frame",
     "GeneralizedForce",
@@ -53,6 +55,7 @@ __all__ = [
     "RigidBody",
     "Spring",
     "Torque",
+    "Velocity",
     "Words",
     "as_expr",
     "check_name",

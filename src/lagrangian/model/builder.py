@@ -12,11 +12,12 @@ from sympy.core.function import AppliedUndef
 from lagrangian.errors import ModelError, Place, did_you_mean
 from lagrangian.model.checks import check_body, check_use
 from lagrangian.model.elements import Element, GeneralizedForce
+from lagrangian.model.floating import Floating
 from lagrangian.model.geometry import Frame, Point, as_expr, as_vector
 from lagrangian.model.model import Model, written_out
 from lagrangian.model.names import check_name, moving_symbol, time
 from lagrangian.model.plain import plain
-from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter
+from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, Velocity
 
 E = TypeVar("E", bound=Element)
 MAX_ELEMENTS = 100_000
@@ -32,6 +33,7 @@ class Builder:
         self.origin = Point("origin", None, (), None, self)
         self.settings: dict[str, Any] = {}
         self._coordinates: dict[str, Coordinate] = {}
+        self._velocities: dict[str, Velocity] = {}  # quasi-velocities; rates of coordinates need no declaration
         self._parameters: dict[str, Parameter] = {}
         self._inputs: dict[str, Input] = {}
         self._definitions: dict[str, Definition] = {}
@@ -51,6 +53,7 @@ class Builder:
         name = check_name(name, what, place=place)
         tables: tuple[tuple[str, Mapping[str, Any]], ...] = (
             ("coordinate", self._coordinates),
+            ("velocity", self._velocities),
             ("parameter", self._parameters),
             ("input", self._inputs),
             ("definition", self._definitions),
@@ -212,7 +215,7 @@ class Builder:
         _check_kind(origin, Point, f"the origin of {what}", place)
         expr = as_expr(angle, f"the angle of {what}", place=place)
         turned = None if axis is None else self._axis(axis, what, place)
-        if parent is not None and (parent.axis is None) != (turned is None):
+        if parent is not None and (parent.dimension == 2) != (turned is None):
             raise ModelError(
                 f"{what} and its parent must both have an axis (space) or both have none (plane)",
                 place=place,
@@ -226,6 +229,25 @@ class Builder:
         if name is not None:
             self._frames[name] = made
         return made
+
+    def floating_frame(self, name: str, *, place: Place | None = None) -> Frame:
+        """Add a frame that floats in space: seven coordinates, six quasi-velocities (`Floating`), and its origin.
+
+        They are named after it: ``name_x``, ``name_qx``, ``name_vx``, ``name_wx`` …, and the point ``name_origin``.
+        """
+        name = self._claim_place(name, "frame", self._frames, place)
+        self._fit(3, f"frame '{name}'", place)
+        made = Floating.named(name, place)
+        at = self._claim_place(f"{name}_origin", "point", self._points, place)
+        for x in (*made.coordinates, *made.velocities):
+            self._claim(x.name, "coordinate" if x in made.coordinates else "velocity", place)
+        self._coordinates.update((c.name, c) for c in made.coordinates)
+        self._velocities.update((v.name, v) for v in made.velocities)
+        self._symbols.update(x.symbol for x in (*made.coordinates, *made.velocities))
+        origin = self._points[at] = Point(at, self.origin, made.position, None, self, place)
+        frame = self._frames[name] = Frame(name, None, None, sp.S.Zero, origin, self, place, floating=made)
+        self._checked.update({id(origin): origin, id(frame): frame})
+        return frame
 
     @staticmethod
     def _axis(axis: object, what: str, place: Place | None) -> tuple[sp.Expr, ...]:
@@ -283,9 +305,11 @@ class Builder:
     def _check_position(self, expr: sp.Expr, where: str, place: Place | None) -> None:
         """A position holds coordinates, parameters and time; a rate or an input has no place in it."""
         full = self._written_out(expr)
-        for d in sorted(full.atoms(sp.Derivative), key=str):
+        rates = [f"{d.expr.func}'" for d in full.atoms(sp.Derivative)]
+        rates += [v.name for v in self._velocities.values() if full.has(v.symbol)]
+        for rate in sorted(rates):
             raise ModelError(
-                f"{where} holds a rate, {d.expr.func}'",
+                f"{where} holds a rate, {rate}",
                 place=place,
                 fix="a position depends on coordinates, parameters and t only",
                 code="E308",
@@ -339,7 +363,9 @@ class Builder:
             )
         for use in element.uses():
             self._check_known(use.expr, f"the {use.what} of {element.title}", element.place, use.local)
-            check_use(element, use, self._written_out(use.expr), {i.symbol: i.name for i in self._inputs.values()})
+            inputs = {i.symbol: i.name for i in self._inputs.values()}
+            velocities = {v.symbol: v.name for v in self._velocities.values()}
+            check_use(element, use, self._written_out(use.expr), inputs, velocities)
         self._elements.append(element)
         self._element_names[element.name] = element
         return element
@@ -393,7 +419,7 @@ class Builder:
 
     def lookup(self, name: str) -> Any:
         """Return the symbol of that name, or else the point, frame or element."""
-        for table in (self._coordinates, self._parameters, self._inputs, self._definitions):
+        for table in (self._coordinates, self._velocities, self._parameters, self._inputs, self._definitions):
             if name in table:
                 return table[name].symbol
         for things in (self._points, self._frames, self._element_names):

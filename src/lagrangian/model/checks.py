@@ -19,14 +19,19 @@ RELATIVE_TOLERANCE = 1e-9
 """How far a principal moment may exceed the sum of the other two: rounding of a thin rod's."""
 
 
-def check_use(element: Element, use: Use, full: sp.Expr, inputs: Mapping[Any, str]) -> None:
-    """Refuse an expression (``full``: definitions written out) that reaches further down than its place allows."""
+def check_use(
+    element: Element, use: Use, full: sp.Expr, inputs: Mapping[Any, str], velocities: Mapping[Any, str]
+) -> None:
+    """Refuse an expression (``full``: definitions written out) that reaches further down than its place allows.
+
+    ``inputs`` and ``velocities`` (quasi-velocities) are symbols with their names.
+    """
 
     def error(what: str, fix: str, code: str) -> ModelError:
         return ModelError(what, element=element.title, place=element.place, fix=fix, code=code)
 
     for d in sorted(full.atoms(sp.Derivative), key=str):
-        base, order = d.expr, d.derivative_count
+        base, order = d.expr, d.derivative_count + (d.expr in velocities)
         name = str(base.func)
         if base in inputs:
             raise error(
@@ -36,7 +41,7 @@ def check_use(element: Element, use: Use, full: sp.Expr, inputs: Mapping[Any, st
             )
         if order >= 2:
             raise error(
-                f"the {use.what} holds an acceleration, {name}{chr(39) * order}",
+                f"the {use.what} holds an acceleration, {name}{chr(39) * int(d.derivative_count)}",
                 "energies and forces depend on coordinates, rates and t; accelerations come out of the equations",
                 "E418",
             )
@@ -44,6 +49,9 @@ def check_use(element: Element, use: Use, full: sp.Expr, inputs: Mapping[Any, st
             holds = "coordinates" if use.level == Level.POSITION else "parameters"
             raise error(f"the {use.what} holds a rate, {name}'", f"it may depend on {holds} only, not on rates", "E419")
     for atom in sorted(full.atoms(AppliedUndef), key=str):
+        if atom in velocities and use.level < Level.VELOCITY:
+            holds = "coordinates" if use.level == Level.POSITION else "parameters"
+            raise error(f"the {use.what} holds a velocity, {atom.func}", f"it may depend on {holds} only", "E419")
         if atom in inputs and not use.inputs:
             raise error(
                 f"the {use.what} holds the input '{inputs[atom]}'",

@@ -22,6 +22,7 @@ import sympy as sp
 
 from lagrangian.errors import ModelError, Place
 from lagrangian.graph import unknown_part
+from lagrangian.model.floating import Floating
 from lagrangian.model.names import time
 
 if TYPE_CHECKING:
@@ -144,7 +145,8 @@ class Point:
 class Frame:
     """Axes turned by ``angle`` from the parent's axes, about ``axis`` (given in the parent's axes; None in the plane).
 
-    ``origin`` is the point that ``frame.point`` measures from; it is the parent's origin unless given.
+    ``origin`` is the point that ``frame.point`` measures from; it is the parent's origin unless given. A frame that
+    floats has neither angle nor axis but ``floating``, and its origin moves with it.
     """
 
     name: str | None
@@ -155,11 +157,12 @@ class Frame:
     owner: object = field(default=None, repr=False)
     place: Place | None = field(default=None, repr=False)
     serial: int = field(default_factory=lambda: next(_serial), repr=False)
+    floating: Floating | None = None
 
     @property
     def dimension(self) -> int:
         """2 in the plane, 3 in space."""
-        return 2 if self.axis is None else 3
+        return 2 if self.axis is None and self.floating is None else 3
 
     def point(self, *offset: Any, at: Point | None = None) -> Point:
         """Return the point whose components are ``offset`` in this frame's axes, from its origin or from ``at``."""
@@ -175,7 +178,9 @@ class Frame:
 
     @cached_property
     def local_rotation(self) -> sp.ImmutableMatrix:
-        """R(axis, angle), from this frame's axes to its parent's."""
+        """R(axis, angle), or that of the quaternion, from this frame's axes to its parent's."""
+        if self.floating is not None:
+            return self.floating.rotation
         c, s = sp.cos(self.angle), sp.sin(self.angle)
         if self.axis is None:
             return sp.ImmutableMatrix([[c, -s], [s, c]])
@@ -190,7 +195,7 @@ class Frame:
         """The rotation from this frame's axes to the fixed axes."""
         if self.parent is None:
             return self.local_rotation
-        if self.axis is None:  # rotations in the plane add their angles
+        if self.dimension == 2:  # rotations in the plane add their angles
             c, s = sp.cos(self.total_angle), sp.sin(self.total_angle)
             return sp.ImmutableMatrix([[c, -s], [s, c]])
         return sp.ImmutableMatrix(self.parent.rotation * self.local_rotation)
@@ -198,7 +203,7 @@ class Frame:
     @cached_property
     def total_angle(self) -> sp.Expr:
         """In the plane: the angle from the fixed axes, the sum over the parents."""
-        if self.axis is not None:
+        if self.dimension == 3:
             raise ModelError("a frame in space has no single angle from the fixed axes", code="E414")
         return self.angle + (self.parent.total_angle if self.parent is not None else 0)
 
@@ -206,8 +211,11 @@ class Frame:
     def angular_velocity(self) -> tuple[sp.Expr, ...]:
         """The angular velocity: ``(ω,)`` in the plane; in space three components in this frame's own axes.
 
-        ω = Rᵀ ω_parent + n φ̇   (the axis n is the same in the frame's and in its parent's axes).
+        ω = Rᵀ ω_parent + n φ̇   (the axis n is the same in the frame's and in its parent's axes); where the frame floats
+        they are its own quasi-velocities.
         """
+        if self.floating is not None:
+            return self.floating.angular_velocity
         rate = sp.diff(self.angle, time)
         if self.axis is None:
             return (sp.diff(self.total_angle, time),)

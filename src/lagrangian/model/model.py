@@ -13,7 +13,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian.model.elements import Element, Particle, RigidBody, Words
 from lagrangian.model.geometry import Frame, Point
 from lagrangian.model.names import time
-from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter
+from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, Velocity
 
 
 def written_out(expr: sp.Expr, table: Mapping[Any, Any]) -> sp.Expr:
@@ -52,14 +52,31 @@ class Model:
         return self._memo["bodies"]
 
     @cached_property
+    def floating(self) -> tuple[Frame, ...]:
+        """The frames that float, in order."""
+        return tuple(f for f in self.frames if f.floating is not None)
+
+    @cached_property
+    def velocities(self) -> tuple[Velocity, ...]:
+        """The velocities v in the order of the coordinates: their rates, and six quasi-velocities a floating frame."""
+        floats = {c.name: f.floating for f in self.floating if f.floating is not None for c in f.floating.coordinates}
+        found: dict[str, Velocity] = {}
+        for c in self.coordinates:
+            floating = floats.get(c.name)
+            own = (Velocity(f"{c.name}'", c.rate, place=c.place),) if floating is None else floating.velocities
+            found.update((v.name, v) for v in own)
+        return tuple(found.values())
+
+    @cached_property
     def values(self) -> dict[sp.Symbol, float]:
         """The parameters that have a value, by symbol."""
         return {p.symbol: p.value for p in self.parameters if p.value is not None}
 
     @cached_property
     def symbols(self) -> dict[str, sp.Expr]:
-        """Every name with its symbol: coordinates, parameters, inputs, definitions."""
-        named = (*self.coordinates, *self.parameters, *self.inputs, *self.definitions)
+        """Every name with its symbol: coordinates, quasi-velocities, parameters, inputs, definitions."""
+        quasi = [v for f in self.floating if f.floating is not None for v in f.floating.velocities]
+        named = (*self.coordinates, *quasi, *self.parameters, *self.inputs, *self.definitions)
         return {x.name: x.symbol for x in named}
 
     def expand(self, expr: sp.Expr, *, constants: bool = False) -> sp.Expr:
@@ -106,7 +123,7 @@ class Model:
                 return (body.title,)
         if frame.name:
             return (f"frame '{frame.name}'",)
-        return ("the frame turned by ", self.expand(frame.total_angle if frame.axis is None else frame.angle))
+        return ("the frame turned by ", self.expand(frame.total_angle if frame.dimension == 2 else frame.angle))
 
     def angle_words(self, angle: sp.Expr) -> Words:
         """An angle in words: the body in the plane whose orientation it is, else the angle itself."""

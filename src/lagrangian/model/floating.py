@@ -1,0 +1,72 @@
+"""What lets a frame float: seven coordinates with a quaternion among them, and six quasi-velocities.
+
+    q = (x, y, z, qx, qy, qz, qw)      u = (vx, vy, vz, wx, wy, wz)
+
+Position of the frame's origin in the fixed axes, and the quaternion, scalar part last, that turns the frame's axes into
+the fixed axes; any length but 0 will do. Velocity of the origin and angular velocity, both with components in the
+frame's own axes. Pinocchio's free-flyer has the same order and axes.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import sympy as sp
+
+from lagrangian.errors import Place
+from lagrangian.model.names import moving_symbol
+from lagrangian.model.symbols import Coordinate, Velocity
+
+
+@dataclass(frozen=True)
+class Floating:
+    """The coordinates q and the quasi-velocities u of a frame that floats."""
+
+    coordinates: tuple[Coordinate, ...]
+    velocities: tuple[Velocity, ...]
+
+    @classmethod
+    def named(cls, name: str, place: Place | None = None) -> Floating:
+        """Those of the frame ``name``: ``name_x``, ``name_qx``, ``name_vx``, ``name_wx`` and so on."""
+        rows: list[tuple[str, str, str | None]] = [(k, f"{k} of the origin of {name}", "m") for k in "xyz"]
+        rows += [(f"q{k}", f"quaternion of {name}, part along {k}", None) for k in "xyz"]
+        rows += [("qw", f"quaternion of {name}, scalar part", None)]
+        rates = [(f"v{k}", f"velocity of the origin of {name} along its own {k}", "m/s") for k in "xyz"]
+        rates += [(f"w{k}", f"angular velocity of {name} about its own {k}", "rad/s") for k in "xyz"]
+        return cls(
+            tuple(
+                Coordinate(f"{name}_{key}", moving_symbol(f"{name}_{key}"), words, unit, place, float(key == "qw"))
+                for key, words, unit in rows
+            ),
+            tuple(
+                Velocity(f"{name}_{key}", moving_symbol(f"{name}_{key}"), words, unit, place)
+                for key, words, unit in rates
+            ),
+        )
+
+    @property
+    def position(self) -> tuple[sp.Expr, ...]:
+        """x, y, z."""
+        return tuple(c.symbol for c in self.coordinates[:3])
+
+    @property
+    def quaternion(self) -> tuple[sp.Expr, ...]:
+        """qx, qy, qz, qw."""
+        return tuple(c.symbol for c in self.coordinates[3:])
+
+    @property
+    def velocity(self) -> tuple[sp.Expr, ...]:
+        """vx, vy, vz, in the frame's axes."""
+        return tuple(v.symbol for v in self.velocities[:3])
+
+    @property
+    def angular_velocity(self) -> tuple[sp.Expr, ...]:
+        """wx, wy, wz, in the frame's axes."""
+        return tuple(v.symbol for v in self.velocities[3:])
+
+    @property
+    def rotation(self) -> sp.ImmutableMatrix:
+        """R of the quaternion e:  R = 1 + 2/|e|² (w [r]× + [r]×²),  r = (x, y, z)."""
+        x, y, z, w = self.quaternion
+        hat = sp.Matrix([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+        return sp.ImmutableMatrix(sp.eye(3) + 2 / (x**2 + y**2 + z**2 + w**2) * (w * hat + hat * hat))
