@@ -1,6 +1,7 @@
-"""Is it right? Verification by independent routes, and dimensions."""
+"""Is it right, and what does it do? Verification by independent routes, dimensions, linearization."""
 
 from lagrangian.analyze.dimensions import check_dimensions
+from lagrangian.analyze.linearize import Linearization, linearize
 from lagrangian.analyze.verify import verify
 
-__all__ = ["check_dimensions", "verify"]
+__all__ = ["Linearization", "check_dimensions", "linearize", "verify"]

@@ -1,0 +1,67 @@
+"""What `System.linearize`, `equilibria`, `conserved` … return: the data of `analyze`, with the ways of writing it."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, fields
+from typing import Any
+
+from lagrangian import analyze, write
+from lagrangian.analyze.linear_report import linear_report
+from lagrangian.analyze.report import Report
+from lagrangian.model import Model
+from lagrangian.write import Notation
+
+
+class Written:
+    """What has a report can be written: as text, Markdown, LaTeX, HTML, and plain data."""
+
+    def report(self) -> Report:
+        """Return the report: words, formulas, tables."""
+        raise TypeError(f"{type(self).__name__} has no report")
+
+    def to_text(self, *, notation: Notation = "lecture", width: int = 80) -> str:
+        """Return Unicode text for a terminal of ``width`` columns."""
+        return write.write_report(self.report(), "text", notation=notation, width=width)
+
+    def to_markdown(self, *, notation: Notation = "lecture") -> str:
+        """Return Markdown with LaTeX mathematics."""
+        return write.write_report(self.report(), "markdown", notation=notation)
+
+    def to_latex(self, *, notation: Notation = "lecture") -> str:
+        """Return a LaTeX article that compiles as it is."""
+        return write.write_report(self.report(), "latex", notation=notation)
+
+    def to_html(self, *, notation: Notation = "lecture") -> str:
+        """Return one self-contained HTML page."""
+        return write.write_report(self.report(), "html", notation=notation)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data for JSON."""
+        return dict(self.report().data)
+
+    def to_json(self) -> str:
+        """Return `to_dict` as JSON text."""
+        return json.dumps(self.to_dict(), ensure_ascii=False, indent=1, allow_nan=False) + "\n"
+
+    def _repr_html_(self) -> str:
+        return write.report_fragment(self.report())
+
+    def __str__(self) -> str:
+        """Read as text."""
+        return self.to_text()
+
+
+@dataclass(frozen=True, eq=False)
+class Linearization(Written, analyze.Linearization):
+    """δẋ = A δx + B δu, δy = C δx + D δu, with names, poles, modes and the verdict; see `analyze.Linearization`."""
+
+    def report(self) -> Report:
+        """Return the report."""
+        return linear_report(self)
+
+
+def linearize(model: Model, at: Any, **options: Any) -> Linearization:
+    """Return the linearization of a model about a point; see `analyze.linearize`."""
+    data = analyze.linearize(model, at, **options)
+    return Linearization(**{f.name: getattr(data, f.name) for f in fields(data)})

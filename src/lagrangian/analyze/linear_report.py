@@ -1,0 +1,165 @@
+"""A linearization as a report: the point, the matrices, poles and modes, the verdict."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import sympy as sp
+
+from lagrangian.analyze.figures import complex_figure, figure, matrix, or_none, plain_numbers
+from lagrangian.analyze.linearize import Linearization
+from lagrangian.analyze.report import Part, Report
+from lagrangian.derive.formula import Item, Matrix, Name, Table, formula, text
+from lagrangian.model import Model
+
+LARGEST = 16
+"""Columns up to which a matrix is written out."""
+
+
+def symbol(model: Model, name: str) -> Any:
+    """What a name of a state or an output means to a reader: the coordinate, its rate, or the name itself."""
+    for c in model.coordinates:
+        if name == c.name:
+            return c.symbol
+        if name == f"{c.name}'":
+            return c.rate
+    found = model.symbols.get(name)
+    return name if found is None else found
+
+
+def linear_report(linear: Linearization) -> Report:
+    """Return the report of a linearization."""
+    parts = [_point(linear), _matrices(linear)]
+    if linear.mass is not None and len(linear.mass) <= LARGEST:
+        parts.append(_second_order(linear))
+    parts.append(_modes(linear))
+    return Report(f"{linear.model.name}: linearization", linear.model, tuple(parts), linear_data(linear))
+
+
+def _point(linear: Linearization) -> Part:
+    model = linear.model
+    rows = [(text(symbol(model, name)), text(figure(value))) for name, value in linear.at.items()]
+    rows += [(text(symbol(model, name)), text(figure(value))) for name, value in linear.inputs_at.items()]
+    kind = {
+        "rest": "A rest: the largest acceleration there is ",
+        "steady motion": "A steady motion: the largest acceleration is ",
+        "operating point": "Not a rest: the largest acceleration there is ",
+    }[linear.kind]
+    items: list[Item] = [Table((text("state, input"), text("value")), tuple(rows))]
+    items.append(text(f"{kind}{linear.residual:.1e}."))
+    items += [text(note[0].upper() + note[1:] + ".") for note in linear.notes]
+    return Part(text("The point"), tuple(items))
+
+
+def _column(linear: Linearization, names: Sequence[str]) -> Any:
+    return Matrix(tuple((_entry(linear, name),) for name in names))
+
+
+def _entry(linear: Linearization, name: str) -> Any:
+    found = symbol(linear.model, name)
+    return found if isinstance(found, sp.Basic) else Name(found)
+
+
+def _matrices(linear: Linearization) -> Part:
+    items: list[Item] = []
+    x, u, y = Name("x"), Name("u"), Name("y")
+    drift = linear.kind == "operating point"
+    words = "δẋ = A δx + B δu" + (" + f" if drift else "") + ", δy = C δx + D δu, with x, u, y in this order:"
+    items.append(text(words))
+    items.append(formula(x, _column(linear, linear.states)))
+    if linear.inputs:
+        items.append(formula(u, _column(linear, linear.inputs)))
+    items.append(formula(y, _column(linear, linear.outputs)))
+    shown = [("A", linear.A), ("B", linear.B), ("C", linear.C), ("D", linear.D)]
+    if drift:
+        shown.append(("f", linear.drift.reshape(-1, 1)))
+    for name, found in shown:
+        if found.shape[1] and found.shape[1] <= LARGEST:
+            items.append(formula(Name(name), matrix(found)))
+    if len(linear.states) > LARGEST:
+        items.append(text(f"Matrices of more than {LARGEST} columns are in the data, not here."))
+    return Part(text("The linear system"), tuple(items))
+
+
+def _second_order(linear: Linearization) -> Part:
+    matrices = (("M", linear.mass), ("D", linear.damping), ("K", linear.stiffness), ("S", linear.input_matrix))
+    items: list[Item] = [text("M δq̈ + D δq̇ + K δq = S δu, with q and u in this order:")]
+    items.append(formula(Name("q"), _column(linear, linear.coordinates)))
+    items += [formula(Name(name), matrix(found)) for name, found in matrices if found is not None and found.size]
+    return Part(text("Small motions"), tuple(items))
+
+
+def _modes(linear: Linearization) -> Part:
+    header = (text("pole [1/s]"), text("frequency [rad/s]"), text("damping ratio"), text("period [s]"), text("shape"))
+    rows = []
+    for mode in linear.modes:
+        pole = complex_figure(mode.pole)
+        if mode.pair:
+            pole = pole.replace(" + ", " ± ") if mode.pole.real else f"±{pole}"
+        parts: list[Any] = []
+        for name, x in mode.shape.items():
+            parts += [", " if parts else "", _entry(linear, name), f" {complex_figure(_rounded(x))}"]
+        rows.append(
+            (
+                text(pole),
+                text(figure(mode.frequency)),
+                text(figure(mode.damping)),
+                text(figure(mode.period)),
+                text(*parts),
+            )
+        )
+    verdict = linear.stability
+    items: tuple[Item, ...] = (
+        Table(header, tuple(rows)),
+        text(f"Verdict: {verdict.verdict}. {verdict.reason[0].upper()}{verdict.reason[1:]}."),
+    )
+    return Part(text("Poles and modes"), items)
+
+
+def _rounded(z: complex) -> complex:
+    return complex(float(f"{z.real:.4g}"), float(f"{z.imag:.4g}"))
+
+
+def linear_data(linear: Linearization) -> dict[str, Any]:
+    """A linearization as plain data."""
+    return {
+        "system": linear.model.name,
+        "kind": linear.kind,
+        "at": dict(linear.at),
+        "inputs_at": dict(linear.inputs_at),
+        "outputs_at": dict(linear.outputs_at),
+        "parameters": dict(linear.parameters),
+        "time": linear.time,
+        "residual": linear.residual,
+        "states": list(linear.states),
+        "inputs": list(linear.inputs),
+        "outputs": list(linear.outputs),
+        "A": linear.A.tolist(),
+        "B": linear.B.tolist(),
+        "C": linear.C.tolist(),
+        "D": linear.D.tolist(),
+        "drift": linear.drift.tolist(),
+        "mass": None if linear.mass is None else linear.mass.tolist(),
+        "damping": None if linear.damping is None else linear.damping.tolist(),
+        "stiffness": None if linear.stiffness is None else linear.stiffness.tolist(),
+        "input_matrix": None if linear.input_matrix is None else linear.input_matrix.tolist(),
+        "poles": plain_numbers(linear.poles),
+        "modes": [
+            {
+                "pole": plain_numbers([mode.pole])[0],
+                "frequency": mode.frequency,
+                "damping_ratio": or_none(mode.damping),
+                "period": or_none(mode.period),
+                "pair": mode.pair,
+                "shape": dict(zip(mode.shape, plain_numbers(mode.shape.values()), strict=True)),
+            }
+            for mode in linear.modes
+        ],
+        "stability": {
+            "verdict": linear.stability.verdict,
+            "stable": linear.stable,
+            "reason": linear.stability.reason,
+        },
+        "notes": list(linear.notes),
+    }

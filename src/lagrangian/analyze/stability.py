@@ -1,0 +1,109 @@
+"""What poles, and where they do not decide, energy, say of the stability of a rest or a steady motion.
+
+Lyapunov's first method: all Re λ < 0 is asymptotically stable, one Re λ > 0 unstable; poles on the imaginary axis leave
+it open. Lagrange–Dirichlet: where h = T₂ − T₀ + V has a strict minimum and nothing supplies power, the rest is stable.
+Sources: Hahn, Stability of Motion (1967), §§ 25, 28; Meirovitch, Methods of Analytical Dynamics (1970), §§ 6.7, 6.10.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian import dynamics
+from lagrangian.analyze.jacobians import Arrays, values
+from lagrangian.analyze.modes import SYMMETRIC, Spectrum
+from lagrangian.model import Model
+
+Array = NDArray[np.float64]
+
+SAMPLES = 40
+"""Random motions near the rest at which the power of what is not conservative is looked at."""
+
+
+@dataclass(frozen=True)
+class Stability:
+    """A verdict, and why.
+
+    Verdicts: "asymptotically stable", "stable" (in Lyapunov's sense), "unstable", "marginal" (the linearization does
+    not decide), "depends on time" (poles say nothing of coefficients that change). ``pole`` is the one that decides.
+    """
+
+    verdict: str
+    reason: str
+    pole: complex | None = None
+
+    @property
+    def stable(self) -> bool | None:
+        """True or False where it is known, else None."""
+        return {"asymptotically stable": True, "stable": True, "unstable": False}.get(self.verdict)
+
+    def __str__(self) -> str:
+        """Read as a sentence."""
+        return f"{self.verdict}: {self.reason}"
+
+
+def shown(pole: complex) -> str:
+    """A pole in words for a sentence: ``-0.5 ± 2i``."""
+    if abs(pole.imag) == 0:
+        return f"{pole.real + 0.0:.6g}"
+    real = f"{pole.real:.6g} " if pole.real else ""
+    return f"{real}± {abs(pole.imag):.6g}i"
+
+
+def judge(found: Spectrum, coordinates: tuple[str, ...], minimum: bool) -> Stability:
+    """The verdict of a spectrum over x = [q; q̇]; ``minimum`` says that energy decides."""
+    sides = found.sides
+    if not len(sides):
+        return Stability("marginal", "nothing moves")
+    if (sides > 0).any():
+        k = int(np.argmax(np.where(sides > 0, found.poles.real, -np.inf)))
+        pole = complex(found.poles[k])
+        return Stability("unstable", f"the pole {shown(pole)} has a positive real part: {_growth(pole)}", pole)
+    if (sides < 0).all():
+        k = int(np.argmax(found.poles.real))
+        pole = complex(found.poles[k])
+        return Stability(
+            "asymptotically stable", f"all poles have negative real parts, the slowest is {shown(pole)}", pole
+        )
+    if minimum:
+        return Stability(
+            "stable", "the energy has a strict minimum there and nothing supplies power (Lagrange–Dirichlet)"
+        )
+    k = int(np.argmin(np.where(sides == 0, np.abs(found.poles), np.inf)))
+    pole = complex(found.poles[k])
+    if pole:
+        where = f"the pole {shown(pole)} is on the imaginary axis"
+    else:
+        shape = np.abs(found.vectors[: len(coordinates), k])
+        moved = [name for name, x in zip(coordinates, shape, strict=True) if x > 1e-9 * shape.max()]
+        where = f"there is a pole at 0: nothing brings {_listed(moved)} back"
+    return Stability("marginal", f"{where}; the linearization does not decide", pole)
+
+
+def _growth(pole: complex) -> str:
+    return f"it doubles every {np.log(2) / pole.real:.3g} s"
+
+
+def _listed(names: list[str]) -> str:
+    return names[0] if len(names) == 1 else ", ".join(names[:-1]) + " and " + names[-1]
+
+
+def energy_decides(model: Model, second: Arrays, q: Array, u: Array, p: Array, t: float) -> bool:
+    """Whether K is symmetric and positive definite at the rest q, M too, and no random motion near it gains energy."""
+    K, M = second["K"], second["M"]
+    size = float(np.abs(K).max(initial=0.0))
+    if not size or float(np.abs(K - K.T).max()) > SYMMETRIC * size:
+        return False
+    if np.linalg.eigvalsh((K + K.T) / 2).min() <= SYMMETRIC * size or np.linalg.eigvalsh((M + M.T) / 2).min() <= 0:
+        return False
+    program = dynamics.power(model)
+    source = np.random.default_rng(1)
+    for _ in range(SAMPLES):
+        x = np.concatenate([q + 0.1 * source.standard_normal(len(q)), source.standard_normal(len(q))])
+        got = values(program, x=x, u=u, p=p, t=t + 10 * source.random())
+        if not got["P"] <= 1e-12 * max(1.0, abs(float(got["T"])) + abs(float(got["V"]))):
+            return False
+    return True

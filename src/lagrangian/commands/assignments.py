@@ -1,0 +1,20 @@
+"""Options of the form ``name=value``, given once each: ``--at x2=0 --at "theta=12 deg"``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import typer
+
+
+def assignments(given: Sequence[str] | None, option: str) -> dict[str, str]:
+    """Return name → value as text. Raises `typer.BadParameter` for what is not ``name=value`` and for a name twice."""
+    found: dict[str, str] = {}
+    for item in given or ():
+        name, equals, value = (part.strip() for part in item.partition("="))
+        if not (name and equals and value):
+            raise typer.BadParameter(f"'{item}' is not name=value, as in {option} x=0.1 or {option} \"x=10 mm\"")
+        if name in found:
+            raise typer.BadParameter(f"'{name}' is given twice with {option}")
+        found[name] = value
+    return found

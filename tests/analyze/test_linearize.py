@@ -1,0 +1,128 @@
+"""A, B, C, D against difference quotients of 50 digits, python-control and published figures."""
+
+import mpmath
+import numpy as np
+import pytest
+
+import lagrangian as lg
+from lagrangian import dynamics, examples
+from lagrangian.errors import ModelError, RunError
+from lagrangian.graph import evaluate
+
+DIGITS = 50
+STEP = mpmath.mpf(10) ** -15
+
+
+def built_in(name: str) -> lg.System:
+    return lg.loads(examples.text(name))
+
+
+def quotient(program, groups: dict[str, list[float]], by: str) -> np.ndarray:
+    """∂ẋ/∂(group) by central differences of 50-digit evaluations: error of the order 1e-30."""
+    columns = []
+    with mpmath.workdps(DIGITS):
+        for k in range(len(groups[by])):
+            ends = []
+            for sign in (1, -1):
+                moved = [mpmath.mpf(x) for x in groups[by]]
+                moved[k] += sign * STEP
+                ends.append(evaluate(program, {**groups, by: moved}, digits=DIGITS)["xdot"])
+            columns.append([float((a - b) / (2 * STEP)) for a, b in zip(*ends, strict=True)])
+    return np.array(columns).T.reshape(len(program.inputs["x"]), len(groups[by]))
+
+
+@pytest.mark.parametrize("name", examples.names())
+def test_a_and_b_are_the_difference_quotient_of_the_motion(name: str) -> None:
+    system = built_in(name)
+    program = dynamics.rhs(system.model)
+    source = np.random.default_rng(3)
+    x = source.uniform(0.4, 1.2, len(program.inputs["x"]))
+    u = source.uniform(-1, 1, len(program.inputs["u"]))
+    found = system.linearize(
+        dict(zip(program.inputs["x"], x, strict=True)),
+        inputs=dict(zip(program.inputs["u"], u, strict=True)),
+        operating_point=True,
+        time=0.3,
+    )
+    groups = {"x": x.tolist(), "u": u.tolist(), "p": [p.value for p in system.model.parameters], "t": [0.3]}
+    for got, by in ((found.A, "x"), (found.B, "u")):
+        wanted = quotient(program, groups, by)
+        assert np.abs(got - wanted).max(initial=0.0) <= 1e-10 * max(1.0, np.abs(wanted).max(initial=0.0))
+    rates = np.array([float(r) for r in evaluate(program, groups)["xdot"]])
+    assert np.allclose(found.drift, rates, rtol=1e-13, atol=1e-13)
+    assert found.states == tuple(program.inputs["x"])
+
+
+def test_the_cart_pole_of_the_michigan_tutorial() -> None:
+    """Control Tutorials for MATLAB and Simulink (University of Michigan), Inverted Pendulum: System Modeling.
+
+    M = 0.5 kg, m = 0.2 kg, b = 0.1 N/m/s, l = 0.3 m, I = 0.006 kg m²; their states are x, ẋ, φ, φ̇ with φ from upright.
+    https://ctms.engin.umich.edu/CTMS/?example=InvertedPendulum&section=SystemModeling
+    """
+    found = built_in("cart-pole").linearize(params={"M": 0.5, "g": 9.8}, outputs=["x", "theta"])
+    published_A = [[0, 1, 0, 0], [0, -0.1818, 2.6727, 0], [0, 0, 0, 1], [0, -0.4545, 31.1818, 0]]
+    published_B = [[0], [1.8182], [0], [4.5455]]
+    order = [found.states.index(s) for s in ("x", "x'", "theta", "theta'")]
+    turn = np.diag([1, 1, -1, -1])  # the tutorial counts the pole's angle the other way
+    assert np.allclose(turn @ found.A[np.ix_(order, order)] @ turn, published_A, atol=5e-5)
+    assert np.allclose(turn @ found.B[order], published_B, atol=5e-5)
+    assert found.stable is False
+
+
+def test_a_point_that_is_no_equilibrium_is_refused() -> None:
+    with pytest.raises(RunError, match=r"no equilibrium.*theta'' = "):
+        built_in("pendulum").linearize({"theta": 1.0})
+
+
+def test_a_rest_typed_with_few_digits_is_moved_onto_it_and_says_so() -> None:
+    found = built_in("pendulum").linearize({"theta": 3.14159})
+    assert found.at["theta"] == pytest.approx(np.pi, abs=1e-15)
+    assert "moved by" in found.notes[0]
+    assert found.stable is False
+
+
+def test_values_may_have_units_and_keys_may_be_symbols() -> None:
+    system = built_in("pendulum")
+    theta = system["theta"]
+    found = system.linearize({theta: "180 deg", theta.diff(): 0})
+    assert found.at == {"theta": pytest.approx(np.pi), "theta'": 0.0}
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [
+        ({"thet": 0}, "Did you mean 'theta'"),
+        ({"theta": 1j}, "real number"),
+        ({"theta": float("nan")}, "nan"),
+        ({"theta": "3 kg"}, "unit"),
+        ({"theta": "three"}, "three"),
+    ],
+)
+def test_bad_values_are_named(given: dict[str, object], message: str) -> None:
+    with pytest.raises((RunError, ModelError), match=message):
+        built_in("pendulum").linearize(given)
+
+
+def test_a_parameter_without_a_value_is_listed() -> None:
+    system = lg.System("s")
+    x = system.coordinates("x")
+    m, k, _ = system.parameters("m k c")
+    system.particle(m, at=system.origin + (x, 0))
+    system.spring(k, deflection=x)
+    with pytest.raises(RunError, match="Missing: m, k, c"):
+        system.linearize()
+
+
+def test_a_singular_mass_matrix_is_said() -> None:
+    with pytest.raises(RunError, match="mass matrix"):
+        built_in("spherical-pendulum").linearize()
+
+
+def test_outputs_may_be_any_expression() -> None:
+    system = built_in("two-carts")
+    x1, x2, F = system["x1"], system["x2"], system["F"]
+    found = system.linearize(outputs={"far": x1 + x2, "push": 2 * F, "a": x1.diff().diff()})
+    assert found.outputs == ("far", "push", "a")
+    assert found.C[0].tolist() == [1, 1, 0, 0]
+    assert found.D.T.tolist() == [[0, 2, found.B[2, 0]]]
+    assert np.allclose(found.C[2], found.A[2], atol=1e-14)
