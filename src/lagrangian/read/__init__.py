@@ -1,5 +1,6 @@
-"""Reading what people wrote: expressions, quantities with units, model files; and writing model files."""
+"""Reading what people wrote: expressions, quantities with units, model files, answers; and writing model files."""
 
+from lagrangian.read.answers import Answer, AnswerLine, Unknown, parse_answer
 from lagrangian.read.expression import parse_expression
 from lagrangian.read.file_load import load, loads
 from lagrangian.read.file_save import dumps
@@ -10,12 +11,16 @@ from lagrangian.read.validate import MAX_BYTES, decode
 
 __all__ = [
     "MAX_BYTES",
+    "Answer",
+    "AnswerLine",
     "Quantity",
     "Scope",
+    "Unknown",
     "decode",
     "dumps",
     "load",
     "loads",
+    "parse_answer",
     "parse_expression",
     "parse_quantity",
     "schema",

@@ -82,13 +82,13 @@ def parse_expression(
 def read_source(source: Source, scope: Mapping[str, sp.Basic]) -> sp.Expr:
     """Return the SymPy expression of a text that knows its place."""
     names = scope if isinstance(scope, Scope) else Scope(scope)
-    value = _Reader(source, names).value(parse(source))
+    value = Reader(source, names).value(parse(source))
     if value.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
         raise source.error("its value is not finite", 0, fix="look for a division by zero", code="E705")
     return value
 
 
-class _Reader:
+class Reader:
     """Walks a syntax tree; every method takes a node and returns what it means."""
 
     def __init__(self, source: Source, scope: Scope) -> None:
@@ -96,6 +96,7 @@ class _Reader:
         self.roots = 0
 
     def fail(self, message: str, node: Node, *, fix: str | None = None, code: str = "E701") -> NoReturn:
+        """Raise the error that points at a node."""
         raise self.source.error(message, _start(node), fix=fix, code=code)
 
     def value(self, node: Node) -> sp.Expr:

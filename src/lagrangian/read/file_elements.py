@@ -87,6 +87,11 @@ class _Reader:
             if value is not None:
                 self.given[key] = self.loader.geometry.frame_or_angle(value, self.where(key), f"{key} of {self.title}")
 
+    def axes(self) -> None:
+        """Read the frame whose axes a vector is given in, where given."""
+        if self.table.axes is not None:
+            self.given["axes"] = self.loader.geometry.frame(self.table.axes, self.where("axes"))
+
     def add(self, kind: type[Element]) -> None:
         """Make the element and hand it to the builder."""
         self.loader.builder.add(kind(**self.given))
@@ -142,13 +147,13 @@ def _force(r: _Reader) -> None:
     r.expressions("deflection")
     r.points("at", "reaction")
     r.between()
-    if r.table.axes is not None:
-        r.given["axes"] = r.loader.geometry.frame(r.table.axes, r.where("axes"))
+    r.axes()
 
 
 def _torque(r: _Reader) -> None:
     r.scalar_or_vector("value")
     r.frames_or_angles("on", "reaction")
+    r.axes()
 
 
 def _energy(r: _Reader) -> None:
@@ -157,7 +162,7 @@ def _energy(r: _Reader) -> None:
 
 def _generalized_force(r: _Reader) -> None:
     name = r.table.coordinate
-    coordinates = {c: r.loader.scope[c] for c in r.loader.coordinate_names}
+    coordinates = {c: r.loader.scope[c] for c in r.loader.generalized_names}
     found = [n for n in r.loader.scope.meanings(name)[0] if n in coordinates]
     if len(found) != 1:
         raise ParseError(

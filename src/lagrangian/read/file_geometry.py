@@ -33,7 +33,7 @@ class Geometry:
     def __init__(self, loader: Loader) -> None:
         self.loader, self.file, self.index, self.data = loader, loader.file, loader.index, loader.data
         self.points: dict[str, Point] = {"origin": loader.builder.origin}
-        self.frames: dict[str, Frame] = {}
+        self.frames: dict[str, Frame] = {}  # those that float are there from the start, with their origins
         self.frame_numbers: dict[str, int] = {}
         self.making: list[str] = []
 
@@ -114,6 +114,14 @@ class Geometry:
         what = f"frame '{name}'"
         parent = self.frame(table.parent, (*own, "parent")) if table.parent is not None else None
         origin = self.named_point(table.origin, (*own, "origin")) if table.origin is not None else None
+        if table.angle is None:
+            raise ParseError(
+                "the field 'angle' is missing",
+                element=what,
+                place=self.index.of_key(own),
+                fix="write angle = …: the angle from its parent's axes; or floating = true",
+                code="E401",
+            )
         angle = self.loader.expression(table.angle, (*own, "angle"), f"angle of {what}")
         axis = self.loader.vector(table.axis, (*own, "axis"), f"the axis of {what}") if table.axis is not None else None
         place = self.index.of_key(own)

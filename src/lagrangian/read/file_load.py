@@ -15,6 +15,7 @@ from lagrangian.model.geometry import as_expr
 from lagrangian.read import file_schema as schema
 from lagrangian.read.expression import read_source
 from lagrangian.read.file_elements import KINDS, add_element
+from lagrangian.read.file_floating import Floating
 from lagrangian.read.file_geometry import Geometry
 from lagrangian.read.letters import normal, spelled, twin
 from lagrangian.read.quantity import Quantity, parse_unit, read_quantity, unit_and_words
@@ -62,9 +63,9 @@ class Loader:
         self.geometry = Geometry(self)
 
     @property
-    def coordinate_names(self) -> list[str]:
-        """The coordinates, in order."""
-        return [normal(name) for name in self.file.coordinates]
+    def generalized_names(self) -> list[str]:
+        """What a generalized force may act on: the coordinates, and the velocities of floating frames."""
+        return list(dict.fromkeys(x.name for x in (*self.builder.coordinates, *self.builder.floating)))
 
     def _unnamed(self) -> NoReturn:
         place = self.index.of_value(("name",))
@@ -95,6 +96,9 @@ class Loader:
             raise
 
     def _coordinates(self) -> None:
+        """Declare the coordinates, those of floating frames where they belong among them."""
+        floating = Floating(self)
+        floating.declare(None)
         for name, value in self.file.coordinates.items():
             path, place = ("coordinates", name), self.index.of_key(("coordinates", name))
             table = schema.CoordinateTable(description=value, unit=None) if isinstance(value, str) else value
@@ -106,6 +110,8 @@ class Loader:
                 place,
             )
             self.scope.add(made.name, made.symbol)
+            floating.declare(made.name)
+        floating.finish()
 
     def _parameters(self) -> None:
         for name, value in self.file.parameters.items():
@@ -285,12 +291,13 @@ class Loader:
                 self._refuse(path, f"expected a time, got {shown(duration.unit)}", "write '10 s'", "E408")
             if duration.value < 0:
                 self._refuse(path, f"the duration is negative ({duration.value:g} s)", "give 0 or more", "E406")
-        coordinates = list(self.file.coordinates)
+        floating = [x.name for x in self.builder.floating]
+        coordinates = [*self.file.coordinates, *floating]
         for name, value in table.initial.items():
             path = ("simulate", "initial", name)
             self._quantity(value, path, f"the initial value of '{name[:64]}'")
             base = name.removesuffix("'")
-            if normal(base) not in map(normal, coordinates):
+            if normal(base) not in map(normal, coordinates) or (base != name and normal(base) in floating):
                 self._refuse(
                     path,
                     f"there is no coordinate {shown(base)}",

@@ -16,7 +16,7 @@ from typing import Any
 import sympy as sp
 
 from lagrangian.errors import ModelError, ParseError
-from lagrangian.model import Element, Frame, Model, Parameter, Point, plain
+from lagrangian.model import Element, Floating, Frame, Model, Parameter, Point, plain
 from lagrangian.model.elements.damper import RATE
 from lagrangian.model.elements.spring import DELTA
 from lagrangian.read.expression import parse_expression
@@ -173,7 +173,9 @@ class _Writer:
         """Write every section."""
         model = self.model
         self.lines = [f"name = {_text(model.name)}"]
-        self._section("coordinates", ((c.name, _described(c.description, c.unit)) for c in model.coordinates))
+        floating = {c.name for f in model.floating if f.floating for c in f.floating.coordinates}
+        declared = [c for c in model.coordinates if c.name not in floating]
+        self._section("coordinates", ((c.name, _described(c.description, c.unit)) for c in declared))
         self._section("parameters", ((p.name, _parameter(p)) for p in model.parameters))
         self._section("inputs", ((i.name, _input(i.description, i.unit)) for i in model.inputs))
         self._section(
@@ -182,7 +184,8 @@ class _Writer:
         )
         for key, frame in self.frame_table.items():
             self._frame_table(self.frames[key], frame)
-        points = [p for p in self._all_points() if id(p) in self.points]
+        given = {id(f.origin) for f in model.floating}
+        points = [p for p in self._all_points() if id(p) in self.points and id(p) not in given]
         self._section("points", ((self.points[id(p)], self.offset(p, f"point '{p.name}'")) for p in points))
         for element in model.elements:
             self._element(element)
@@ -196,7 +199,12 @@ class _Writer:
 
     def _frame_table(self, name: str, frame: Frame) -> None:
         what = f"frame '{name}'"
-        rows = [("name", _text(name)), ("angle", self.expression(frame.angle, f"the angle of {what}"))]
+        rows = [("name", _text(name))]
+        if frame.floating is not None:
+            rows += [("floating", "true"), *self._after(frame.floating)]
+            self.lines += ["", "[[frame]]", *(f"{key} = {value}" for key, value in rows)]
+            return
+        rows.append(("angle", self.expression(frame.angle, f"the angle of {what}")))
         if frame.axis is not None:
             rows.append(("axis", self.vector(frame.axis, f"the axis of {what}")))
         if frame.parent is not None:
@@ -205,6 +213,15 @@ class _Writer:
         if frame.origin is not default:
             rows.append(("origin", self.point(frame.origin, what)))
         self.lines += ["", "[[frame]]", *(f"{key} = {value}" for key, value in rows)]
+
+    def _after(self, floating: Floating) -> list[tuple[str, str]]:
+        """What the coordinates of a floating frame follow, unless they come first."""
+        number = self.model.coordinates.index(floating.coordinates[0])
+        if number == 0:
+            return []
+        before = self.model.coordinates[number - 1]
+        frames = {c.name: f.name for f in self.model.floating if f.floating for c in f.floating.coordinates}
+        return [("after", _text(frames.get(before.name) or before.name))]
 
     def _element(self, element: Element) -> None:
         """Write an element: its fields in their order, those that were not given left out."""

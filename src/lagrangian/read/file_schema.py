@@ -87,13 +87,27 @@ PointReference: TypeAlias = Annotated[_Text | _List | _Point, _ByForm]
 
 
 class FrameTable(_Table):
-    """Axes that turn."""
+    """Axes that turn, or float."""
+
+    model_config = ConfigDict(
+        json_schema_extra={
+            "anyOf": [{"required": ["angle"]}, {"required": ["floating"], "properties": {"floating": {"const": True}}}]
+        }
+    )
 
     name: str = Field(description="The frame's name.")
-    angle: Expression = Field(description="The angle from its parent's axes.")
+    angle: Expression | None = Field(None, description="The angle from its parent's axes.")
     axis: Vector | None = Field(None, description="The axis it turns about, in its parent's axes; in space only.")
     parent: str | None = Field(None, description="The frame it turns from; the fixed axes if left out.")
     origin: str | None = Field(None, description="The point its points are measured from.")
+    floating: bool = Field(
+        False,
+        description="It floats in space, instead of an angle: coordinates NAME_x, NAME_y, NAME_z and the quaternion "
+        "NAME_qx … NAME_qw; velocities NAME_vx … and NAME_wx … in its own axes; its origin is the point NAME_origin.",
+    )
+    after: str | None = Field(
+        None, description="The coordinate, or the floating frame, that its coordinates follow; first if left out."
+    )
 
 
 class ElementTable(_Table):
@@ -165,6 +179,7 @@ class TorqueTable(ElementTable):
     value: ExpressionOrVector = Field(description="The torque; in space it may be a vector in the fixed axes.")
     on: Expression = Field(description="The angle it turns, as an expression, or a frame.")
     reaction: Expression | None = Field(None, description="The angle or frame that feels its opposite.")
+    axes: str | None = Field(None, description="The frame whose axes the three components are given in.")
 
 
 class EnergyTable(ElementTable):
@@ -176,7 +191,7 @@ class EnergyTable(ElementTable):
 class GeneralizedForceTable(ElementTable):
     """A generalized force Ξ on one coordinate."""
 
-    coordinate: str = Field(description="The coordinate.")
+    coordinate: str = Field(description="The coordinate, or the velocity of a floating frame.")
     value: Expression = Field(description="The force, as an expression.")
 
 

@@ -58,7 +58,7 @@ class Scope(Mapping[str, sp.Basic]):
     def hint(self, written: str) -> str | None:
         """Say what was probably meant by a name that is unknown."""
         base, _ = undotted(written)
-        for order, stem in _rate_stems(base):
+        for order, stem in rate_stems(base):
             if stem in self._names:
                 return f"write {stem}{chr(39) * order} for the {'rate' if order == 1 else 'acceleration'} of {stem}"
         if base == "e":
@@ -70,7 +70,8 @@ class Scope(Mapping[str, sp.Basic]):
         return did_you_mean(base, self._names) or did_you_mean(spelled(base), self._names)
 
 
-def _rate_stems(name: str) -> Iterator[tuple[int, str]]:
+def rate_stems(name: str) -> Iterator[tuple[int, str]]:
+    """The orders and names that a spelled-out derivative can mean: ``x1_ddot`` is the acceleration of ``x1``."""
     for suffix, order in _RATE_SUFFIXES:
         if name.endswith(suffix) and len(name) > len(suffix):
             yield order, name.removesuffix(suffix)

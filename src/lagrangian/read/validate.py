@@ -225,7 +225,13 @@ def _wanted(error: Any) -> str:
         if expected is None:
             return "an expression (text) or a number"
         return " or ".join(_WORDS[tag.strip().strip("'")] for tag in expected.split(","))
-    table = {"string_type": "text", "list_type": "a list", "dict_type": "a table", "model_type": "a table"}
+    table = {
+        "bool_type": "true or false",
+        "string_type": "text",
+        "list_type": "a list",
+        "dict_type": "a table",
+        "model_type": "a table",
+    }
     return table.get(kind, "a number" if "float" in kind else "another kind of value")
 
 

@@ -1,0 +1,78 @@
+"""The syntax tree of an answer: lark's nodes, named as in ``expression.lark``, with a few more.
+
+rate        (x1 + x2)', d/dt(…), diff(…, t):   what is differentiated, and how often
+partial     ∂L/∂ξ̇, diff(L, x1'):               what, and by what (a name)
+matrix      rows of entries;  transpose  of one
+power_of    sin²(x): the call, and the exponent
+"""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+from lark import Token, Tree
+from lark.tree import Meta
+
+Node: TypeAlias = Any
+"""A tree or one of its tokens; lark's own types say no more of a node's children."""
+
+MAX_DEPTH = 50
+"""Deepest nesting of brackets, fractions, roots and dots over brackets."""
+
+
+def leaf(kind: str, text: str, start: int) -> Token:
+    """Return a token that knows where it stands."""
+    return Token(kind, text, start_pos=start)
+
+
+def node(kind: str, start: int, *children: Node) -> Tree:
+    """Return a node that knows where it begins."""
+    meta = Meta()
+    meta.start_pos, meta.empty = start, False
+    return Tree(kind, list(children), meta)
+
+
+def start_of(item: Node) -> int:
+    """Where a node or token begins."""
+    return (item.start_pos or 0) if isinstance(item, Token) else item.meta.start_pos
+
+
+def number(text: str, start: int) -> Tree:
+    """Return the node of a number."""
+    return node("number", start, leaf("NUMBER", text, start))
+
+
+def name(text: str, start: int, primes: int = 0) -> Tree:
+    """Return the node of a name with its primes or dots."""
+    return node("name", start, leaf("NAME", text, start), leaf("PRIMES", "'" * primes, start) if primes else None)
+
+
+def inside(tree: Node) -> Node:
+    """Return what is left of a tree when nodes that only wrap another are taken off."""
+    while isinstance(tree, Tree) and tree.data in ("sum", "product", "signed", "power", "postfix"):
+        inner = [c for c in tree.children if c is not None]
+        if len(inner) != 1:
+            return tree
+        tree = inner[0]
+    return tree
+
+
+def squared_name(tree: Node) -> Token | None:
+    """Return the name where a tree is the square of one: v^2, v²."""
+    tree = inside(tree)
+    if not isinstance(tree, Tree) or tree.data not in ("power", "postfix"):
+        return None
+    base, *rest = [c for c in tree.children if c is not None]
+    found = only_name(base)
+    last = inside(rest[-1])
+    exponent = last.children[0] if isinstance(last, Tree) and last.data == "number" else last
+    return found[0] if found is not None and not found[1] and exponent in ("2", "²") and len(rest) <= 2 else None
+
+
+def only_name(tree: Node) -> tuple[Token, int] | None:
+    """Return the name and its primes where a tree is one name and nothing else, whatever wraps it."""
+    tree = inside(tree)
+    if not isinstance(tree, Tree) or tree.data != "name":
+        return None
+    token, primes = tree.children
+    return token, len(primes or "")  # type: ignore[return-value]

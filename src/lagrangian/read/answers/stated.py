@@ -1,0 +1,82 @@
+"""The names of what a derivation states: T*, V, L, D, a Ξ, a momentum; each gives way to a symbol of the model.
+
+L is a length in many systems and the Lagrangian in every derivation: a line ``L = …`` states the Lagrangian, since a
+parameter has its value already, and everywhere else L is what the model says.
+"""
+
+from __future__ import annotations
+
+import re
+
+from lagrangian.model import Model
+from lagrangian.read.letters import find, key, normal, spelled
+
+ENERGY_NAMES = {
+    "T": "T",
+    "T*": "T",
+    "K": "T",
+    "KE": "T",
+    "Ek": "T",
+    "Ekin": "T",
+    "V": "V",
+    "U": "V",
+    "P": "V",
+    "PE": "V",
+    "Ep": "V",
+    "Epot": "V",
+    "L": "L",
+    "ℒ": "L",
+    "Lagrangian": "L",
+    "D": "D",
+    "ℱ": "D",
+    "R": "D",
+}
+"""How people call the energies, without underscores."""
+
+_CAREFUL = frozenset(["K", "P", "R", "U"])
+"""Letters that are taken for an energy only where a line states them."""
+
+_FORCE = re.compile(r"(?:Xi|Q)_?\(?(?P<index>\w*)\)?\Z")
+_MOMENTUM = re.compile(r"p_?(?P<index>\w+)\Z")
+
+
+def energy_of(name: str, model: Model, *, lhs: bool = False) -> str | None:
+    """Return which energy a name is, "T", "V", "L" or "D", or None. ``lhs``: the name stands alone left of an =."""
+    plain = str(name).replace("_", "")
+    kind = ENERGY_NAMES.get(plain) or ENERGY_NAMES.get(normal(plain))
+    if kind is None or (not lhs and plain in _CAREFUL):
+        return None
+    taken = find(name, model.symbols)
+    if not taken:
+        return kind
+    constants = {p.name for p in model.parameters}
+    return kind if lhs and taken[0] in constants else None
+
+
+def force_of(name: str, model: Model) -> str | None:
+    """Return the coordinate whose generalized force a name is: Xi_x1, Ξ₁, Q_theta; None where it is none."""
+    if find(name, model.symbols):
+        return None
+    match = _FORCE.match(spelled(name))
+    return None if match is None else _coordinate(match["index"], model)
+
+
+def momentum_of(name: str, model: Model) -> str | None:
+    """Return the coordinate whose momentum a name is: p_theta, p1."""
+    if find(name, model.symbols):
+        return None
+    match = _MOMENTUM.match(spelled(name))
+    return None if match is None else _coordinate(match["index"], model)
+
+
+def _coordinate(index: str, model: Model) -> str | None:
+    """The coordinate of an index: by its name, by its number, by the end of its name; the only one needs none."""
+    names = [c.name for c in model.coordinates]
+    if not index:
+        return names[0] if len(names) == 1 else None
+    if found := find(index, names):
+        return found[0] if len(found) == 1 else None
+    if index.isdigit() and 1 <= int(index[:6]) <= len(names):
+        return names[int(index) - 1]
+    ending = [n for n in names if key(n).endswith(key(index))]
+    return ending[0] if len(ending) == 1 else None

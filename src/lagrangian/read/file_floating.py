@@ -1,0 +1,61 @@
+"""Frames of a model file that float: they bring coordinates, so they are declared among these."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from lagrangian.errors import ParseError, did_you_mean
+from lagrangian.read.letters import normal
+from lagrangian.read.source import shown
+
+if TYPE_CHECKING:
+    from lagrangian.read.file_load import Loader
+
+
+class Floating:
+    """The floating frames of one file, each waiting for the coordinate, or the frame, that it comes ``after``."""
+
+    def __init__(self, loader: Loader) -> None:
+        self.loader = loader
+        tables = enumerate(loader.file.frame)
+        self.waiting = {n: None if t.after is None else normal(t.after) for n, t in tables if t.floating}
+        self._refuse_after_without_floating()
+
+    def _refuse_after_without_floating(self) -> None:
+        for number, table in enumerate(self.loader.file.frame):
+            for key in ("angle", "axis", "parent", "origin") if table.floating else ("after",):
+                if getattr(table, key) is not None:
+                    what = "it floats, so it has no" if table.floating else "it does not float, so it needs no"
+                    raise ParseError(
+                        f"{what} '{key}'",
+                        element=f"frame {shown(table.name)}",
+                        place=self.loader.index.of_key(("frame", number, key)),
+                        fix=f"leave '{key}' out" + (", or 'floating'" if table.floating else ""),
+                        code="E412",
+                    )
+
+    def declare(self, after: str | None) -> None:
+        """Declare the frames that come after a coordinate or a frame (None: those that come first), in order."""
+        loader = self.loader
+        for number in [n for n, name in self.waiting.items() if name == after]:
+            del self.waiting[number]
+            name, place = loader.file.frame[number].name, loader.index.of_key(("frame", number))
+            frame = loader.placed(lambda n=name, p=place: loader.builder.floating_frame(n, place=p), place)
+            for x in (*frame.floating.coordinates, *frame.floating.velocities):
+                loader.scope.add(x.name, x.symbol)
+            loader.geometry.frames[frame.name] = frame
+            loader.geometry.points[frame.origin.name] = frame.origin
+            self.declare(frame.name)
+
+    def finish(self) -> None:
+        """Refuse frames that come after what there is not."""
+        for number, after in self.waiting.items():
+            tables = self.loader.file.frame
+            known = [*self.loader.file.coordinates, *(t.name for t in tables if t.floating)]
+            raise ParseError(
+                f"there is no coordinate or floating frame {shown(str(after))} that it could come after",
+                element=f"frame {shown(tables[number].name)}",
+                place=self.loader.index.of_value(("frame", number, "after")),
+                fix=did_you_mean(str(after)[:64], known) or "leave 'after' out: then its coordinates come first",
+                code="E402",
+            )
