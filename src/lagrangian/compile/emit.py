@@ -10,6 +10,7 @@ function.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from .elementary import function as elementary_function
@@ -110,6 +111,20 @@ def emit(
     return cut.scratch
 
 
+def emit_inline(
+    f: Function, tape: Tape, inputs: Mapping[int, Value], shared: str, *, own_shared: bool = False
+) -> list[Value]:
+    """Print a whole tape into ``f``, its ``in`` slots read from registers; return its outputs.
+
+    ``shared`` is the address of the shared block. For short tapes in other people's loops.
+    """
+    printer = _Printer(f.module, f.lanes, tape, plan(tape, max(1, len(tape.ops))), own_shared)
+    printer.f, printer.shared = f, shared
+    printer.names = {i: inputs[op[1]].name for i, op in enumerate(tape.ops) if op[0] == "in"}
+    printer.chunk(printer.cut.chunks[0], {}, last=False)
+    return [Value(f, printer.name(i)) for i in tape.outputs]
+
+
 def _attributes(lanes: int) -> str:
     # Wide vectors are asked for by name: some processors' tuning avoids them. No call to a stack probe: on Windows that
     # would be a symbol somebody has to provide, and frames here are far smaller than the guard's reach.
@@ -122,6 +137,7 @@ class _Printer:
     def __init__(self, module: Module, lanes: int, tape: Tape, cut: Plan, own_shared: bool) -> None:
         self.f = Function(module, lanes)
         self.tape, self.cut, self.own_shared = tape, cut, own_shared
+        self.shared = "%shared"
         self.names: dict[int, str] = {}
         self.flags: dict[int, str] = {}
 
@@ -165,7 +181,7 @@ class _Printer:
         if op[0] == "in":
             return f.load("%in", op[1]).name
         if op[0] == "shared":
-            return f.load("%shared", op[1], uniform=not self.own_shared).name
+            return f.load(self.shared, op[1], uniform=not self.own_shared).name
         if i in self.flags:
             return f.select(self.flags[i], 1.0, 0.0).name
         return f.load("%scratch", self.cut.slots[i]).name

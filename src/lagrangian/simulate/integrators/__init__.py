@@ -1,0 +1,14 @@
+"""Methods of integration, printed into machine code around a right-hand side."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from .method import Method
+from .rk4 import RK4
+
+METHODS: Mapping[str, Method] = MappingProxyType({m.name: m for m in (RK4,)})
+"""Every method of integration that is printed into machine code, by name."""
+
+__all__ = ["METHODS", "Method"]

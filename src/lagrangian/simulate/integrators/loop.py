@@ -1,0 +1,333 @@
+"""The loop around a method: every lane has its own run, time and step; lanes that are done take the next run.
+
+    head     step length, trial step, error, new state where the step is good
+    inspect  requested times and events inside the step, where there are any
+    service  lane by lane: stop points, ends of runs, next runs
+    begin    derivative and first step length of lanes that begin
+
+All that lasts from step to step is in the work space, so that the loop can be left and entered again (service).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from lagrangian.compile.ir import Function, Module, Value
+
+from . import layout as at
+from .evaluate import Tapes
+from .layout import Lanes
+from .method import Method, Step
+from .printer import Printer, Vec
+from .service import Service
+
+if TYPE_CHECKING:
+    from lagrangian.graph import Program
+
+SAFETY = 0.9
+
+# log2(1 + z) on 0 … 1 and 2^z on −½ … ½, least squares on Chebyshev points
+LOG2 = (1.439093e-05, 1.44159208, -0.707253434, 0.411561482, -0.189832447, 0.0439286278)
+EXP2 = (1.00000008, 0.693121034, 0.240221074, 0.0559220356, 0.0096760371)
+
+
+@dataclass(frozen=True)
+class Variant:
+    """What, beside program and method, decides the machine code of an integrator."""
+
+    lanes: int
+    own: bool  # every run has its own parameters
+    signals: bool
+
+
+class Loop:
+    """Prints the function ``run(ptr table, ptr work, i64 budget)`` and ``facts(ptr)``, what Python must know."""
+
+    def __init__(self, module: Module, program: Program, method: Method, variant: Variant) -> None:
+        size = len(program.inputs["x"])
+        self.p = p = Printer(module, variant.lanes, size)
+        self.f, self.method, self.variant = p.f, method, variant
+        self.inputs = len(program.inputs.get("u", ()))
+        self.signals = variant.signals and self.inputs > 0
+        own = variant.own and bool(program.inputs.get("p"))
+        self.lanes = Lanes(p, self.inputs, len(program.inputs.get("p", ())))
+        copies = method.evaluations + method.dense_evaluations + 2
+        self.tapes = Tapes(p, program, "body", own=own, copies=copies)
+        self.new_x, self.new_lost, self.new_k = p.block(), p.block(), p.block()
+        self.inlet = () if p.unrolled else (Vec(slot=self.tapes.start("body", "x")),)
+        self.service = Service(p, self.lanes, method, size=size, inputs=self.inputs, signals=self.signals)
+
+    def print(self) -> None:
+        """Print both functions."""
+        p, f = self.p, self.f
+        self.shared = p.entry(at.TABLE.index("shared"), "ptr")
+        self.rtol = f.broadcast(p.entry(at.TABLE.index("rtol"), "double"))
+        self.atol = Vec(pointer=p.entry(at.TABLE.index("atol"), "ptr"))
+        self.max_step = f.broadcast(p.entry(at.TABLE.index("max_step"), "double"))
+        self.max_steps = p.entry(at.TABLE.index("max_steps"))
+        p.set_word("%budget", at.BUDGET)
+        self.service.prepare()
+        f.do("br label %service")
+        self._head()
+        self.service.print(self.tapes)
+        self._begin()
+        attributes = f'nounwind "prefer-vector-width"="{p.lanes * 64}" "no-stack-arg-probe"'
+        f.finish("run", "i64", "ptr %table, ptr %work, i64 %budget", attributes)
+        facts = (p.slots, len(self.tapes.low.prologue.outputs), p.lanes)
+        lines = ["define void @facts(ptr %out) {"]
+        for k, x in enumerate(facts):
+            lines += [f"  %a{k} = getelementptr i64, ptr %out, i64 {k}", f"  store i64 {x}, ptr %a{k}"]
+        f.module.define("facts", "\n".join([*lines, "  ret void", "}"]))
+
+    # The right-hand side -----------------------------------------------------------------------------------------
+
+    def inputs_at(self, t: Value) -> Vec:
+        """The inputs u at time t, in every lane."""
+        p, lanes = self.p, self.lanes
+        if not self.signals:
+            return Vec(slot=lanes.u)
+        since = t - p.load(lanes.knot_time)
+        return Vec(values=tuple(p.f.fma(p.load(lanes.slope, k), since, p.load(lanes.u, k)) for k in range(self.inputs)))
+
+    def rate(self, t: Value, x: Vec, into: Vec | None = None) -> Vec:
+        """The derivative at time t and state x; a long vector is written to ``into``, or to new slots."""
+        p = self.p
+        values = {"x": x, "u": self.inputs_at(t)}
+        if p.unrolled:
+            return Vec(values=self.tapes.evaluate(self.shared, values, t))
+        target = into if into is not None else p.block()
+        self.tapes.evaluate(self.shared, values, t, target.slot)
+        return target
+
+    # One step ----------------------------------------------------------------------------------------------------
+
+    def _head(self) -> None:
+        p, f, lanes = self.p, self.f, self.lanes
+        f.label("head")
+        budget = f.put(f"sub i64 {p.word(at.BUDGET)}, 1")
+        p.set_word(budget, at.BUDGET)
+        f.do(f"br i1 {f.put(f'icmp slt i64 {budget}, 0')}, label %pause, label %step")
+        f.label("pause")
+        f.do(f"ret i64 {at.PAUSED}")
+        f.label("step")
+        t, stop = p.load(lanes.t), p.load(lanes.stop)
+        running = p.whole_is(p.load_whole(lanes.state), at.RUNNING)
+        if self.method.adaptive:
+            self._adaptive(t, stop, running)
+        else:
+            self._fixed(t, stop, running)
+
+    def _step(self, t: Value, h: Value) -> Step:
+        lanes = self.lanes
+        return Step(
+            self.p, t, h, lanes.x, lanes.lost, lanes.k, self.rate, self.rtol, self.atol,
+            self.new_x, self.new_lost, self.new_k, self.inlet,
+        )  # fmt: skip
+
+    def _fixed(self, t: Value, stop: Value, running: str) -> None:
+        """Steps of equal length up to a stop point; ``left`` counts them down."""
+        p, f, lanes = self.p, self.f, self.lanes
+        h, left = p.load(lanes.h), p.load(lanes.left) - 1.0
+        new_t = f.fma(-left, h, stop)
+        s = self._step(t, h)
+        self.method.trial(s)
+        (trouble,) = p.fold(lambda total, x: (f.fma(x, 0.0, total),), [0.0], s.new_x)
+        fine = f.compare("oeq", trouble, 0.0)
+        good = f.logic("and", running, fine)
+        self._commit(s, good, new_t)
+        p.store(f.select(good, left, p.load(lanes.left)), lanes.left)
+        arrived = f.logic("and", good, f.compare("ole", left, 0.0))
+        broken = f.logic("and", running, f.opposite(fine))
+        self._attend(running, arrived, broken, self._constant(at.NOT_FINITE))
+
+    def _adaptive(self, t: Value, stop: Value, running: str) -> None:
+        """A step as long as the last one's error allows, the stop point never crossed."""
+        p, f, lanes, method = self.p, self.f, self.lanes, self.method
+        wanted, rest = p.load(lanes.h), stop - t
+        last = f.compare("ole", rest, wanted)
+        half = f.compare("olt", rest, wanted + wanted)
+        new_t = f.select(last, stop, t + f.select(half, rest * 0.5, wanted))
+        h = new_t - t  # so that the sum of the steps is exact
+        s = self._step(t, h)
+        error = method.trial(s)
+        assert error is not None and method.error_order is not None
+        good = f.logic("and", running, f.compare("ole", error, 1.0))
+        inside = f.logic("and", good, f.compare("ole", p.load(lanes.next), new_t))
+        with p.when(p.any(inside)):
+            p.store(new_t, lanes.end)
+            self._samples(s, good)
+        # the next step's length
+        low, high = method.limits
+        factor = rough_power(f, error, -1.0 / method.error_order) * SAFETY
+        if method.memory:
+            factor = factor * rough_power(f, p.load(lanes.error), method.memory)
+        factor = f.select(f.compare("ogt", factor, high), high, factor)
+        factor = f.select(f.compare("olt", factor, low), low, factor)
+        finite = f.compare("olt", error, float("inf"))
+        retry = f.select(finite, f.select(f.compare("ogt", factor, 0.9), 0.9, factor), 0.5)
+        longer = h * factor
+        longer = f.select(
+            f.compare("olt", longer, wanted), f.select(f.compare("olt", h, wanted), wanted, longer), longer
+        )
+        next_h = f.select(good, longer, h * retry)
+        next_h = f.select(f.compare("ogt", next_h, self.max_step), self.max_step, next_h)
+        bad = f.logic("and", running, f.opposite(good))
+        stuck = f.logic("and", bad, f.compare("ole", t + next_h * 0.125, t))
+        p.store(f.select(running, next_h, wanted), lanes.h)
+        if method.memory:
+            held = f.select(f.compare("olt", error, 1e-4), 1e-4, error)
+            p.store(f.select(good, held, p.load(lanes.error)), lanes.error)
+        self._commit(s, good, new_t)
+        rejected = p.load_whole(lanes.rejected)
+        one = f.put(f"zext {f.flag} {bad} to {f.whole}")
+        p.store_whole(f.put(f"add {f.whole} {rejected}, {one}"), lanes.rejected)
+        code = p.whole_select(finite, self._constant(at.UNDERFLOW), self._constant(at.NOT_FINITE))
+        self._attend(running, f.logic("and", good, last), stuck, code)
+
+    def _constant(self, x: int) -> str:
+        return self.f.integer(x)
+
+    def _commit(self, s: Step, good: str, new_t: Value) -> None:
+        """The new state where the step is good."""
+        p, f, lanes = self.p, self.f, self.lanes
+
+        def keep(new: Value, old: Value) -> Value:
+            return f.select(good, new, old)
+
+        p.map(keep, s.new_x, lanes.x, into=(lanes.x,))
+        p.map(keep, s.new_lost, lanes.lost, into=(lanes.lost,))
+        if self.method.follows:
+            p.map(keep, s.new_k, lanes.k, into=(lanes.k,))
+        p.store(f.select(good, new_t, s.t), lanes.t)
+        one = f.put(f"zext {f.flag} {good} to {f.whole}")
+        p.store_whole(f.put(f"add {f.whole} {p.load_whole(lanes.steps)}, {one}"), lanes.steps)
+
+    def _attend(self, running: str, arrived: str, broken: str, code: str) -> None:
+        """Go on with the next step, or to the service where a lane arrived at a stop point or cannot go on."""
+        p, f, lanes = self.p, self.f, self.lanes
+        tried = f.put(f"add {f.whole} {p.load_whole(lanes.steps)}, {p.load_whole(lanes.rejected)}")
+        limit = self._whole_broadcast(self.max_steps)
+        spent = f.put(f"icmp sge {f.whole} {tried}, {limit}")
+        spent = f.logic("and", f.logic("and", running, spent), f.opposite(arrived))
+        over = f.logic("or", broken, spent)
+        f.do(f"br i1 {p.any(f.logic('or', arrived, over))}, label %mark, label %head")
+        f.label("mark")
+        state = p.load_whole(lanes.state)
+        state = p.whole_select(arrived, self._constant(at.STOPPED), state)
+        p.store_whole(p.whole_select(over, self._constant(at.ENDED), state), lanes.state)
+        code = p.whole_select(broken, code, self._constant(at.TOO_MANY))
+        p.store_whole(p.whole_select(over, code, p.load_whole(lanes.code)), lanes.code)
+        f.do("br label %service")
+
+    def _whole_broadcast(self, x: str) -> str:
+        f = self.f
+        if f.lanes == 1:
+            return x
+        first = f.put(f"insertelement {f.whole} poison, i64 {x}, i32 0")
+        return f.put(f"shufflevector {f.whole} {first}, {f.whole} poison, <{f.lanes} x i32> zeroinitializer")
+
+    # Requested times ---------------------------------------------------------------------------------------------
+
+    def _samples(self, s: Step, good: str) -> None:
+        """Write the states at the requested times in the step, up to ``lanes.end``."""
+        p, f, lanes, method = self.p, self.f, self.lanes, self.method
+        coefficients = method.interpolant(s)
+        inside = f.logic("and", good, f.compare("ole", p.load(lanes.next), p.load(lanes.end)))
+        p.store_whole(f.put(f"zext {f.flag} {good} to {f.whole}"), lanes.good)
+        spent = f.put(f"zext {f.flag} {inside} to {f.whole}")
+        spent = f.whole_op("mul", spent, method.dense_evaluations)
+        p.store_whole(f.put(f"add {f.whole} {p.load_whole(lanes.extra)}, {spent}"), lanes.extra)
+        with p.forever() as leave:
+            following, end = p.load(lanes.next), p.load(lanes.end)
+            inside = f.logic("and", good, f.compare("ole", following, end))
+            leave(f.put(f"xor i1 {p.any(inside)}, true"))
+            theta = (following - s.t) / s.h
+            whole = f.compare("oge", theta, 1.0)
+            between = method.between(s, coefficients, theta)
+            p.map(
+                lambda x, new, *c: f.select(whole, new, between(x, *c)),
+                s.x, s.new_x, *coefficients, into=(lanes.sampled,),
+            )  # fmt: skip
+            self.service.write_samples()
+
+    # Lanes that begin --------------------------------------------------------------------------------------------
+
+    def _begin(self) -> None:
+        """The derivative of lanes that begin or whose right-hand side changed; the first step length of the former."""
+        p, f, lanes, method = self.p, self.f, self.lanes, self.method
+        f.label("begin")
+        state = p.load_whole(lanes.state)
+        new = p.whole_is(state, at.NEW)
+        fresh = f.logic("or", new, p.whole_is(state, at.BENT))
+        if method.follows:
+            t = p.load(lanes.t)
+            k = self.rate(t, lanes.x, self.new_k)
+            p.map(lambda a, b: f.select(fresh, a, b), k, lanes.k, into=(lanes.k,))
+            h = self._first_step(t, k)
+            p.store(f.select(new, h, p.load(lanes.h)), lanes.h)
+            p.store(f.select(new, 1e-4, p.load(lanes.error)), lanes.error)
+            spent = [f.put(f"zext {f.flag} {flag} to {f.whole}") for flag in (new, fresh)]
+            spent = f.put(f"add {f.whole} {spent[0]}, {spent[1]}")
+            p.store_whole(f.put(f"add {f.whole} {p.load_whole(lanes.extra)}, {spent}"), lanes.extra)
+            (trouble,) = p.fold(lambda total, a: (f.fma(a, 0.0, total),), [0.0], lanes.k)
+            broken = f.logic("and", fresh, f.compare("une", trouble, 0.0))
+            p.store_whole(p.whole_select(fresh, self._constant(at.RUNNING), state), lanes.state)
+            f.do(f"br i1 {p.any(broken)}, label %lost, label %head")
+            f.label("lost")
+            state = p.load_whole(lanes.state)
+            p.store_whole(p.whole_select(broken, self._constant(at.ENDED), state), lanes.state)
+            code = self._constant(at.NOT_FINITE)
+            p.store_whole(p.whole_select(broken, code, p.load_whole(lanes.code)), lanes.code)
+            f.do("br label %service")
+        else:
+            p.store_whole(p.whole_select(fresh, self._constant(at.RUNNING), state), lanes.state)
+            f.do("br label %head")
+
+    def _first_step(self, t: Value, k: Vec) -> Value:
+        """A first step length from the sizes of x, ẋ and ẍ (Hairer, Nørsett, Wanner I, section II.4)."""
+        p, f, method = self.p, self.f, self.method
+        assert method.error_order is not None
+        lanes = self.lanes
+
+        def sizes(a: Value, b: Value, x: Value, k: Value, atol: Value) -> tuple[Value, Value]:
+            scale = f.fma(f.intrinsic("fabs", x), self.rtol, atol)
+            x, k = x / scale, k / scale
+            return f.fma(x, x, a), f.fma(k, k, b)
+
+        d0, d1 = p.fold(sizes, [0.0, 0.0], lanes.x, k, self.atol)
+        d0, d1 = (f.intrinsic("sqrt", d * (1.0 / p.size)) for d in (d0, d1))
+        small = f.logic("or", f.compare("olt", d0, 1e-5), f.compare("olt", d1, 1e-5))
+        h = f.select(small, 1e-6, d0 * 0.01 / d1)
+        (ahead,) = p.map(lambda x, k: f.fma(h, k, x), lanes.x, k, into=self.inlet)
+        k2 = self.rate(t + h, ahead)
+
+        def bend(a: Value, x: Value, k: Value, k2: Value, atol: Value) -> tuple[Value]:
+            d = (k2 - k) / f.fma(f.intrinsic("fabs", x), self.rtol, atol)
+            return (f.fma(d, d, a),)
+
+        (d2,) = p.fold(bend, [0.0], lanes.x, k, k2, self.atol)
+        d2 = f.intrinsic("sqrt", d2 * (1.0 / p.size)) / h
+        greater = f.select(f.compare("ogt", d2, d1), d2, d1)
+        flat = f.compare("ole", greater, 1e-15)
+        second = rough_power(f, 0.01 / f.select(flat, 1.0, greater), 1.0 / method.error_order)
+        second = f.select(flat, f.select(f.compare("ogt", h * 1e-3, 1e-6), h * 1e-3, 1e-6), second)
+        hundred = h * 100.0
+        best = f.select(f.compare("olt", second, hundred), second, hundred)
+        best = f.select(f.compare("olt", best, float("inf")), best, h)  # the trial point may lie outside the domain
+        return f.select(f.compare("ogt", best, self.max_step), self.max_step, best)
+
+
+def rough_power(f: Function, x: Value, exponent: float) -> Value:
+    """``x^exponent`` for x ≥ 0 to about four digits: enough for a step length, and the same in every lane width."""
+    bits = f.bits(x)
+    whole = f.whole_op("lshr", bits, 52)
+    mantissa = f.number(f.whole_op("or", f.whole_op("and", bits, 0xFFFFFFFFFFFFF), 0x3FF0000000000000))
+    e = f.number(f.whole_op("add", whole, 0x4338000000000000)) - (6755399441055744.0 + 1023.0)
+    log = f.polynomial(mantissa - 1.0, LOG2) + e
+    y = log * exponent
+    y = f.select(f.compare("ogt", y, 900.0), 900.0, f.select(f.compare("olt", y, -900.0), -900.0, y))
+    turned = y + 6755399441055744.0
+    fraction = y - (turned - 6755399441055744.0)
+    scale = f.number(f.whole_op("shl", f.whole_op("add", f.bits(turned), 1023), 52))
+    return f.polynomial(fraction, EXP2) * scale

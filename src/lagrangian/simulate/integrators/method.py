@@ -1,0 +1,118 @@
+"""What a method of integration is, and what it is given to print one step."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from lagrangian.compile.ir import Value
+
+from .printer import Printer, Vec
+
+Rate = Callable[..., Vec]  # (t, x, into) → f(t, x)
+
+
+@dataclass
+class Step:
+    """One step in every lane: from ``x`` at ``t``, where the derivative is ``k``, over ``h``.
+
+    ``lost`` is what the sums so far have lost to rounding (Kahan); ``atol`` holds one number an entry, ``rtol`` is one.
+    """
+
+    p: Printer
+    t: Value
+    h: Value
+    x: Vec
+    lost: Vec
+    k: Vec
+    rate: Rate
+    rtol: Value
+    atol: Vec
+    new_x: Vec  # slots for what trial() finds
+    new_lost: Vec
+    new_k: Vec
+    inlet: tuple[Vec, ...]  # where the state must be written for ``rate`` to read it in place, if vectors are long
+    stages: list[Vec] = field(default_factory=list)  # derivatives computed in the step, the first being k
+
+    def advance(self, increment: Callable[..., Value], *given: Vec) -> None:
+        """Set ``new_x`` to x plus an increment, the rounding of the sum kept in ``new_lost``."""
+
+        def add(x: Value, lost: Value, *rest: Value) -> tuple[Value, Value]:
+            d = increment(*rest) + lost
+            new = x + d
+            return new, d - (new - x)
+
+        self.new_x, self.new_lost = self.p.map(add, self.x, self.lost, *given, into=(self.new_x, self.new_lost))
+
+    def scale(self, x: Value, new: Value, atol: Value) -> Value:
+        """The tolerance of an entry: ``atol + rtol max(|x|, |new|)``."""
+        f = self.p.f
+        a, b = f.intrinsic("fabs", x), f.intrinsic("fabs", new)
+        return f.fma(f.select(f.compare("ogt", a, b), a, b), self.rtol, atol)
+
+
+class Method(ABC):
+    """A one-step method: prints a trial step and the polynomial between the ends of a step.
+
+    ``order``: of the results; ``error_order``: the error estimate is of the order h^error_order, which the step size
+    is chosen by; None for a fixed step. ``evaluations``: of the derivative in a step. ``follows``: the last derivative
+    is that at the step's end and the first of the next step.
+    """
+
+    name: str
+    title: str
+    source: str
+    order: int
+    error_order: int | None = None
+    evaluations: int
+    dense_evaluations: int = 0
+    follows: bool = False
+    limits: tuple[float, float] = (0.2, 10.0)  # how much the step size may change from step to step
+    memory: float = 0.0  # weight of the previous step's error (PI control)
+
+    @property
+    def adaptive(self) -> bool:
+        """Whether the method chooses its steps."""
+        return self.error_order is not None
+
+    @property
+    def dense_order(self) -> int:
+        """The order of the values between the ends of a step."""
+        return 3
+
+    @abstractmethod
+    def trial(self, s: Step) -> Value | None:
+        """Print a step; return the size of its error, 1 being the tolerance (None: fixed step).
+
+        Sets ``s.new_x``, ``s.new_lost`` and, if the method ``follows``, ``s.new_k``.
+        """
+
+    def interpolant(self, s: Step) -> list[Vec]:
+        """Print what the polynomial inside the step needs, after a trial; return its coefficients.
+
+        The value at t + θ h is ``x + θ (F0 + (1 − θ)(F1 + θ (F2 + (1 − θ)(F3 + …))))``. The first three are Hermite's
+        cubic: Δx, h k − Δx, 2 Δx − h (k + k_new).
+        """
+        if not self.follows:
+            s.new_k = s.rate(s.t + s.h, s.new_x, s.new_k)
+
+        def hermite(x: Value, new: Value, k: Value, new_k: Value) -> tuple[Value, Value, Value]:
+            change = new - x
+            return change, s.h * k - change, change + change - s.h * (k + new_k)
+
+        return list(s.p.map(hermite, s.x, s.new_x, s.k, s.new_k))
+
+    def between(self, s: Step, coefficients: list[Vec], theta: Value) -> Callable[..., Value]:
+        """The value at θ of an entry, from x and its coefficients."""
+        rest = 1.0 - theta
+
+        def value(x: Value, *entries: Value) -> Value:
+            total: Value | None = None
+            for k in range(len(entries) - 1, -1, -1):
+                inner = entries[k] if total is None else entries[k] + total
+                total = inner * (rest if k % 2 else theta)
+            assert total is not None
+            return x + total
+
+        return value

@@ -1,0 +1,71 @@
+"""The machine code of an integrator: made, kept on disk, called."""
+
+from __future__ import annotations
+
+import ctypes
+import hashlib
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.compile import Build, Options, aligned, native
+from lagrangian.compile.stage import address
+
+from .integrators.loop import Loop, Variant
+from .integrators.method import Method
+
+if TYPE_CHECKING:
+    from lagrangian.compile.ir import Module
+    from lagrangian.graph import Program
+
+_RUN = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64)
+_TAPE = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)
+
+
+@cache
+def _printer_version() -> str:
+    """A sum over this room's sources: any change may change the code."""
+    total = hashlib.sha256()
+    for source in sorted((Path(__file__).parent / "integrators").glob("*.py")):
+        total.update(source.read_bytes())
+    return total.hexdigest()
+
+
+class Machine:
+    """An integrator in memory: what is called, and how much work space it wants."""
+
+    def __init__(self, build: Build, method: Method, variant: Variant) -> None:
+        def printer(module: Module, build: Build) -> None:
+            Loop(module, build.program, method, variant).print()
+
+        name = f"{method.name} {variant!r} {_printer_version()}"
+        self.variant = variant
+        self._loaded = build.extended(name, printer)
+        self.call = _RUN(self._loaded.address("run"))
+        facts = (ctypes.c_int64 * 3)()
+        ctypes.CFUNCTYPE(None, ctypes.c_void_p)(self._loaded.address("facts"))(ctypes.addressof(facts))
+        self.slots, self._shared, _ = facts
+        self._parameters = len(build.program.inputs.get("p", ()))
+
+    def space(self) -> NDArray[np.float64]:
+        """Work space for a range of runs, every lane empty."""
+        space = aligned(self.slots * self.variant.lanes)
+        space[:] = 0.0
+        return space
+
+    def shared(self, p: NDArray[np.float64]) -> NDArray[np.float64]:
+        """What follows from one parameter set for all runs."""
+        block, given = aligned(self._shared), aligned(self._parameters)
+        if not self.variant.own:
+            given[:] = p
+            scratch = aligned(self.slots * self.variant.lanes)
+            _TAPE(self._loaded.address("body_prologue_1"))(address(given), None, address(block), address(scratch))
+        return block
+
+
+def build_of(program: Program, lanes: int, keep: bool) -> Build:
+    """The build that the modules of a program's integrators belong to."""
+    return Build(program, Options(lanes, ("p",), keep=keep), native.host())

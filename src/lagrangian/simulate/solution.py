@@ -1,0 +1,54 @@
+"""What comes back from an integration."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .integrators import layout
+
+Array = NDArray[np.float64]
+Whole = NDArray[np.int64]
+
+STATUS: Mapping[int, str] = MappingProxyType(
+    {
+        layout.REACHED: "the end was reached",
+        layout.TERMINAL: "a terminal event ended the run",
+        layout.UNDERFLOW: "the step size fell below the resolution of time",
+        layout.NOT_FINITE: "the derivative or the state is not finite",
+        layout.TOO_MANY: "the limit on the number of steps was reached",
+        layout.ZENO: "events accumulate: the limit on their number was reached, or no time passes between them",
+        layout.NO_CONVERGENCE: "the implicit stages do not converge",
+        layout.LATE: "the time allowed for computing was over",
+    }
+)
+"""What the numbers in ``Solution.status`` mean; negative ones are failures."""
+
+
+@dataclass
+class Solution:
+    """N runs at S requested times.
+
+    ``states`` (N, S, nx): NaN after the end of a run that stopped early (with ``store=False`` there are none, S = 0).
+    ``status`` (N,): a key of `STATUS`. ``reached`` (N,): the time of ``final`` (N, nx), the last state. ``steps``,
+    ``rejected``, ``evaluations`` (N,): accepted and rejected steps, evaluations of the derivative. ``event_count``
+    (N,), and for the e-th event of a run ``event_index`` (N, E), −1 where there is none, ``event_time`` (N, E) and
+    ``event_state`` (N, E, nx), the state before a reset, NaN where there is none; E is the greatest count.
+    """
+
+    times: Array
+    states: Array
+    status: Whole
+    reached: Array
+    final: Array
+    steps: Whole
+    rejected: Whole
+    evaluations: Whole
+    event_count: Whole
+    event_index: Whole
+    event_time: Array
+    event_state: Array

@@ -1,0 +1,235 @@
+"""Solver: a right-hand side and a method, compiled together; arrays of initial states in, runs out."""
+
+from __future__ import annotations
+
+import math
+import threading
+import time
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from lagrangian.compile import native, workers
+from lagrangian.compile.arguments import Group
+from lagrangian.compile.stage import address
+from lagrangian.errors import RunError, did_you_mean
+
+from . import check
+from .integrators import METHODS, layout
+from .integrators.loop import Variant
+from .machine import Machine, build_of
+from .problem import Events, Signals
+from .solution import Solution
+
+if TYPE_CHECKING:
+    from lagrangian.graph import Program
+
+Array = NDArray[np.float64]
+
+BUDGET = 20_000_000
+"""Operations between two looks at the clock: some hundredths of a second."""
+
+GROUPS = frozenset({"x", "u", "p", "t"})
+
+
+class Solver:
+    """Integrates ``ẋ = f(x, u, p, t)`` by a method whose steps are printed around f in one piece of machine code.
+
+    ``program`` has the groups ``x`` (nx), ``u`` (nu), ``p`` (np) and ``t``, as far as it needs them, and one output of
+    shape (nx,). ``method`` is a name in `METHODS`. Many runs are computed ``lanes`` side by side, each with its own
+    time and step length, on ``threads`` cores; a run's result depends on neither. ``keep``: keep the code on disk.
+    """
+
+    def __init__(
+        self,
+        program: Program,
+        method: str = "dop853",
+        *,
+        events: Events | None = None,
+        lanes: int | None = None,
+        threads: int | None = None,
+        keep: bool = True,
+    ) -> None:
+        if method not in METHODS:
+            hint = did_you_mean(str(method), METHODS) or f"known: {', '.join(METHODS)}"
+            raise RunError(f"there is no method '{method}'", code="E402", fix=hint)
+        check.lanes_wanted(lanes)
+        check.threads_wanted(threads)
+        size = len(program.inputs.get("x", ()))
+        shapes = [output.shape for output in program.outputs.values()]
+        if size == 0 or shapes != [(size,)]:
+            raise RunError(
+                f"program '{program.name}' is no right-hand side: {size} states, outputs {shapes}",
+                code="E501",
+                fix="a group 'x' and one output of its length",
+            )
+        if strange := set(program.inputs) - GROUPS:
+            raise RunError(f"group '{strange.pop()}' is none of x, u, p, t", code="E402")
+        self.program, self.method, self.events = program, METHODS[method], events
+        self.threads, self._lanes = threads, lanes
+        self._keep = keep
+        self._machines: dict[Variant, Machine] = {}
+        self._groups = {
+            name: Group(name, tuple(entries), tuple(program.defaults.get(e) if name == "p" else None for e in entries))
+            for name, entries in {**{"u": (), "p": ()}, **program.inputs}.items()
+        }
+
+    def __repr__(self) -> str:
+        """Say what there is."""
+        return f"<Solver {self.program.name!r} by {self.method.name}>"
+
+    def __reduce__(self) -> Any:
+        """A solver sent to another process is compiled there."""
+        return _rebuilt, (self.program, self.method.name, self.events, self._lanes, self.threads, self._keep)
+
+    def solve(
+        self,
+        x0: ArrayLike,
+        times: ArrayLike,
+        *,
+        u: Any = None,
+        p: Any = None,
+        rtol: float = 1e-9,
+        atol: ArrayLike = 1e-12,
+        step: float | None = None,
+        max_steps: int = 10_000_000,
+        max_step: float = math.inf,
+        max_events: int = 1000,
+        deadline: float | None = None,
+        store: bool = True,
+    ) -> Solution:
+        """Integrate from ``x0`` (nx,) or (N, nx) at ``times[0]``; return the states at ``times`` (S,).
+
+        ``u``: constant inputs, (nu,) or (N, nu), or `Signals`. ``p``: parameters, (np,) or (N, np); None: the
+        program's defaults. ``rtol``, ``atol``: an adaptive method keeps its estimate of a step's error below
+        ``atol + rtol |x|``. ``step``: the longest step of a method with fixed steps; stop points (requested times,
+        knots of the inputs) are met exactly by equal steps between them. ``max_steps``, ``max_events``: a run ends
+        there. ``deadline`` [s]: all runs end after that time of computing. ``store=False``: only final states.
+
+        Raises `RunError` where something does not fit; what fails on the way ends a run with a status (`STATUS`).
+        """
+        task = _Task(self, x0, times, u, p, store)
+        task.accuracy(rtol, atol, step, max_steps, max_step, max_events)
+        return task.run(None if deadline is None else check.number(deadline, "deadline"))
+
+    def machine(self, count: int, own: bool, signals: bool) -> Machine:
+        """The machine code for so many runs."""
+        lanes = 1 if count == 1 else self._lanes or native.host().lanes
+        variant = Variant(lanes, own or lanes == 1, signals)
+        found = self._machines.get(variant)
+        if found is None:
+            found = Machine(build_of(self.program, lanes, self._keep), self.method, variant)
+            self._machines[variant] = found
+        return found
+
+
+def _rebuilt(
+    program: Program, method: str, events: Events | None, lanes: int | None, threads: int | None, keep: bool
+) -> Solver:
+    return Solver(program, method, events=events, lanes=lanes, threads=threads, keep=keep)
+
+
+class _Task:
+    """One call of `Solver.solve`: its arrays, and the table of their addresses."""
+
+    def __init__(self, solver: Solver, x0: Any, times: Any, u: Any, p: Any, store: bool) -> None:
+        self.solver, groups = solver, solver._groups
+        self.times = check.instants(times)
+        x0 = check.rows(groups["x"], x0, "state")
+        signals = None
+        if isinstance(u, Signals):
+            signals = u.checked(len(groups["u"].entries), float(self.times[0]))
+            u = np.zeros(len(groups["u"].entries))
+        inputs, parameters = check.rows(groups["u"], u, "input"), check.rows(groups["p"], p, "parameter")
+        given = (x0, inputs, parameters)
+        counts = {len(a) for a in given if a.ndim == 2}
+        if len(counts) > 1:
+            shapes = ", ".join(f"{n} {a.shape}" for n, a in zip(("x0", "u", "p"), given, strict=True))
+            raise RunError(f"the numbers of runs differ: {shapes}", code="E501", fix="one row each, or one for all")
+        self.count = counts.pop() if counts else 1
+        self.machine = solver.machine(self.count, parameters.ndim == 2, signals is not None)
+        size, count, samples = x0.shape[-1], self.count, len(self.times)
+        self.states = np.full((count, samples if store else 0, size), math.nan)
+        self.final = np.array(np.broadcast_to(x0, (count, size)))
+        if store and count:
+            self.states[:, 0] = x0
+        self.status = np.full(count, layout.LATE)
+        self.reached = np.full(count, self.times[0])
+        self.counts = {n: np.zeros(count, np.int64) for n in ("steps", "rejected", "evaluations", "event_count")}
+        self.shared = self.machine.shared(parameters) if parameters.ndim == 1 else np.empty(0)
+        if not store:
+            self.times_used = self.times[[0, -1]]
+        else:
+            self.times_used = self.times
+        place, row = (self.states, 8 * size * samples) if store else (self.final, 8 * size)
+        self.table: dict[str, Any] = {
+            "x0": x0, "x0_row": x0.strides[0] if x0.ndim == 2 else 0,
+            "u": inputs, "u_row": inputs.strides[0] if inputs.ndim == 2 else 0,
+            "p": parameters, "p_row": parameters.strides[0] if parameters.ndim == 2 else 0,
+            "shared": self.shared, "times": self.times_used, "samples": len(self.times_used),
+            "states": place, "states_row": row, "states_step": 8 * size if store else 0,
+            "final": self.final, "status": self.status, "reached": self.reached, **self.counts,
+        }  # fmt: skip
+        if signals is not None:
+            self.table |= {"knots": signals.knots, "knot_count": len(signals.knots)}
+            self.table |= {"knot_start": signals.start, "knot_slope": signals.slope}
+
+    def accuracy(self, rtol: Any, atol: Any, step: Any, max_steps: Any, max_step: Any, max_events: Any) -> None:
+        """Check and note what decides step lengths and ends of runs."""
+        method, size = self.solver.method, self.final.shape[1]
+        relative, absolute = check.tolerances(rtol, atol, size)
+        if method.adaptive and step is not None:
+            raise RunError(f"method '{method.name}' chooses its steps", code="E501", fix="give rtol and atol, no step")
+        if not method.adaptive and step is None:
+            raise RunError(f"method '{method.name}' needs a step", code="E501", fix="give step, in the unit of time")
+        self.table |= {
+            "rtol": relative,
+            "atol": absolute,
+            "step": 0.0 if step is None else check.step_length(step, self.times),
+            "max_step": check.number(max_step, "max_step", infinite=True),
+            "max_steps": check.whole(max_steps, "max_steps"),
+            "max_events": check.whole(max_events, "max_events"),
+        }
+
+    def run(self, deadline: float | None) -> Solution:
+        """Compute."""
+        entries = [self.table.get(name, 0) for name in layout.TABLE]
+        self._table = np.empty(len(entries), np.int64)
+        for k, x in enumerate(entries):
+            if isinstance(x, float):
+                self._table[k : k + 1] = np.array([x]).view(np.int64)
+            else:
+                self._table[k] = address(x) if isinstance(x, np.ndarray) else x
+        self._deadline = math.inf if deadline is None else time.monotonic() + deadline
+        self._halt = threading.Event()
+        nodes = len(self.solver.program.graph.nodes) * self.solver.method.evaluations
+        self._budget = max(100, BUDGET // max(1, nodes * self.machine.variant.lanes))
+        try:
+            if self.count:
+                workers.over(self.count, self.machine.variant.lanes, 100 * nodes, self.solver.threads, self._range)
+        except BaseException:
+            self._halt.set()  # the other threads stop at their next pause
+            raise
+        return self._solution()
+
+    def _range(self, start: int, stop: int) -> int:
+        """Compute runs start … stop − 1."""
+        space = self.machine.space()
+        words = space.view(np.int64)
+        words[layout.CURSOR], words[layout.LAST] = start, stop
+        here, table = address(space), address(self._table)
+        while not self._halt.is_set():
+            if self.machine.call(table, here, self._budget) == layout.DONE:
+                break
+            if time.monotonic() > self._deadline:
+                words[layout.QUIT], words[layout.CURSOR] = 1, stop
+        return -1
+
+    def _solution(self) -> Solution:
+        size = self.final.shape[1]
+        return Solution(
+            self.times if self.states.shape[1] else np.empty(0), self.states, self.status, self.reached, self.final,
+            self.counts["steps"], self.counts["rejected"], self.counts["evaluations"], self.counts["event_count"],
+            np.empty((self.count, 0), np.int64), np.empty((self.count, 0)), np.empty((self.count, 0, size)),
+        )  # fmt: skip
