@@ -214,9 +214,14 @@ class System:
             Force(value=value, at=at, reaction=reaction, axes=axes, between=between, deflection=deflection, name=name)
         )
 
-    def torque(self, value: object, on: object = None, reaction: object = None, *, name: str = "") -> Torque:
-        """Add a torque on an angle or a frame, its opposite on ``reaction`` (the ground when left out)."""
-        return self._builder.add(Torque(value=value, on=on, reaction=reaction, name=name))
+    def torque(
+        self, value: object, on: object = None, reaction: object = None, *, axes: Frame | None = None, name: str = ""
+    ) -> Torque:
+        """Add a torque on an angle or a frame, its opposite on ``reaction`` (the ground when left out).
+
+        Three components stand in the axes of the frame ``axes`` (the fixed axes when left out).
+        """
+        return self._builder.add(Torque(value=value, on=on, reaction=reaction, axes=axes, name=name))
 
     def potential(self, V: object, *, name: str = "") -> Potential:
         """Add a potential energy [J] you already have."""
@@ -231,7 +236,7 @@ class System:
         return self._builder.add(Dissipation(value=D, name=name))
 
     def generalized_force(self, coordinate: object, value: object, *, name: str = "") -> GeneralizedForce:
-        """Add a generalized force Ξ on one coordinate."""
+        """Add a generalized force Ξ on one coordinate, or on one velocity of a floating frame."""
         return self._builder.add(GeneralizedForce(coordinate=coordinate, value=value, name=name))
 
     @property

@@ -203,7 +203,7 @@ def _number_explains(expr: sp.Expr) -> bool:
 
 def check_dimensions(model: Model) -> Dimensions | None:
     """Raise `ModelError` where a unit does not fit; return the solved dimensions, or None when no unit was given."""
-    named = (*model.coordinates, *model.parameters, *model.inputs)
+    named = (*model.coordinates, *model.velocities, *model.parameters, *model.inputs)
     if not any(x.unit for x in named):
         return None
     dims = Dimensions()
@@ -350,7 +350,8 @@ def _dissipation(model: Model, element: Any, dims: Dimensions) -> Iterator[Claim
 
 def _generalized(model: Model, element: Any, dims: Dimensions) -> Iterator[Claim]:
     along = dims.of(element.coordinate)
-    yield "value", element.value, ENERGY.times(along or NONE, Fraction(-1))
+    rate = any(element.coordinate == v.symbol for v in model.velocities)  # then their product is a power
+    yield "value", element.value, (POWER if rate else ENERGY).times(along or NONE, Fraction(-1))
 
 
 _CLAIMS: dict[type, Callable[[Model, Any, Dimensions], Iterator[Claim]]] = {

@@ -304,7 +304,7 @@ def _torque(d: Description, m: Mechanics, e: Any) -> None:
         if motion.dimension == 2:
             value, source = [d.node(e.value)], axes
         elif isinstance(e.value, tuple):
-            value, source = d.nodes(e.value), motion.root
+            value, source = d.nodes(e.value), motion.root if e.axes is None else d.axes[e.axes]
         else:  # about the axis of the frame that is acted on
             source = d.axes[e.on]
             value = scaled(g, d.node(e.value), d.nodes(e.on.axis))
@@ -339,7 +339,8 @@ def _dissipation(d: Description, m: Mechanics, e: Any) -> None:
 
 
 def _generalized_force(d: Description, m: Mechanics, e: Any) -> None:
-    m.efforts.append((d.table[sp.Derivative(e.coordinate, time)], d.node(e.value)))
+    rate = d.table.get(sp.Derivative(e.coordinate, time), d.table[e.coordinate])  # a quasi-velocity is a rate itself
+    m.efforts.append((rate, d.node(e.value)))
 
 
 def _any(d: Description, m: Mechanics, e: Any) -> None:

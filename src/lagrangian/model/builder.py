@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping
 from typing import Any, TypeVar
 
@@ -10,13 +9,12 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian.errors import ModelError, Place, did_you_mean
-from lagrangian.model.checks import check_body, check_use
+from lagrangian.model.checks import check_acted_on, check_body, check_kind, check_position, check_use, checked_number
 from lagrangian.model.elements import Element, GeneralizedForce
 from lagrangian.model.floating import Floating
 from lagrangian.model.geometry import Frame, Point, as_expr, as_vector
 from lagrangian.model.model import Model, written_out
 from lagrangian.model.names import check_name, moving_symbol, time
-from lagrangian.model.plain import plain
 from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, Velocity
 
 E = TypeVar("E", bound=Element)
@@ -91,26 +89,10 @@ class Builder:
     ) -> Parameter:
         """Add a constant, with its value in SI units where it has one."""
         name = self._claim(name, "parameter", place)
-        made = Parameter(name, sp.Symbol(name), self._number(name, value, place), unit, description, place)
+        made = Parameter(name, sp.Symbol(name), checked_number(name, value, place), unit, description, place)
         self._parameters[name] = made
         self._symbols.add(made.symbol)
         return made
-
-    @staticmethod
-    def _number(name: str, value: object, place: Place | None) -> float | None:
-        if value is None:
-            return None
-        if isinstance(value, complex) or (isinstance(value, sp.Expr) and not value.is_real):
-            raise ModelError(f"parameter '{name}' must be a real number (got {value})", place=place, code="E101")
-        try:
-            number = float(value)  # type: ignore[arg-type]
-        except (TypeError, ValueError, OverflowError):
-            raise ModelError(f"parameter '{name}' must be a number (got {value!r})", place=place, code="E406") from None
-        if isinstance(value, bool):
-            raise ModelError(f"parameter '{name}' must be a number (got {value})", place=place, code="E406")
-        if not math.isfinite(number):
-            raise ModelError(f"parameter '{name}' must be a finite number (got {number})", place=place, code="E101")
-        return number
 
     def input(self, name: str, *, description: str = "", unit: str | None = None, place: Place | None = None) -> Input:
         """Add a signal from outside."""
@@ -188,8 +170,8 @@ class Builder:
         what = f"point '{name}'" if isinstance(name, str) else "a point"
         if name is not None:
             name = self._claim_place(name, "point", self._points, place)
-        _check_kind(parent, Point, f"the point that {what} is measured from", place)
-        _check_kind(frame, Frame, f"the frame of {what}", place)
+        check_kind(parent, Point, f"the point that {what} is measured from", place)
+        check_kind(frame, Frame, f"the frame of {what}", place)
         base = parent if parent is not None else (frame.origin if frame is not None else self.origin)
         made = Point(name, base, as_vector(offset, what, place=place), frame, self, place)
         self._check_point(made, what, place)
@@ -211,8 +193,8 @@ class Builder:
         what = f"frame '{name}'" if isinstance(name, str) else "a frame"
         if name is not None:
             name = self._claim_place(name, "frame", self._frames, place)
-        _check_kind(parent, Frame, f"the parent of {what}", place)
-        _check_kind(origin, Point, f"the origin of {what}", place)
+        check_kind(parent, Frame, f"the parent of {what}", place)
+        check_kind(origin, Point, f"the origin of {what}", place)
         expr = as_expr(angle, f"the angle of {what}", place=place)
         turned = None if axis is None else self._axis(axis, what, place)
         if parent is not None and (parent.dimension == 2) != (turned is None):
@@ -303,33 +285,9 @@ class Builder:
         self._checked.update((id(f), f) for f in chain)
 
     def _check_position(self, expr: sp.Expr, where: str, place: Place | None) -> None:
-        """A position holds coordinates, parameters and time; a rate or an input has no place in it."""
-        full = self._written_out(expr)
-        rates = [f"{d.expr.func}'" for d in full.atoms(sp.Derivative)]
-        rates += [v.name for v in self._velocities.values() if full.has(v.symbol)]
-        for rate in sorted(rates):
-            raise ModelError(
-                f"{where} holds a rate, {rate}",
-                place=place,
-                fix="a position depends on coordinates, parameters and t only",
-                code="E308",
-            )
-        for kink in sorted(full.atoms(sp.Abs, sp.sign, sp.Min, sp.Max, sp.Heaviside), key=str):
-            if kink.has(AppliedUndef, time):
-                raise ModelError(
-                    f"{where} holds {plain(kink)}: where it bends, the velocity would jump",
-                    place=place,
-                    fix="a position has two derivatives; let a force or an energy hold what bends",
-                    code="E308",
-                )
         inputs = {i.symbol: i.name for i in self._inputs.values()}
-        for atom in sorted(full.atoms(AppliedUndef) & inputs.keys(), key=str):
-            raise ModelError(
-                f"{where} holds the input '{inputs[atom]}', whose velocity is not known",
-                place=place,
-                fix="prescribe the motion as an expression in t, or make it a coordinate",
-                code="E417",
-            )
+        velocities = {v.symbol: v.name for v in self._velocities.values()}
+        check_position(self._written_out(expr), where, inputs, velocities, place)
 
     def _written_out(self, expr: sp.Expr) -> sp.Expr:
         return written_out(expr, {d.symbol: d.expression for d in self._definitions.values()})
@@ -350,17 +308,9 @@ class Builder:
             vector = getattr(element, key, None)
             if isinstance(vector, tuple):
                 self._fit(len(vector), f"the {key} of {element.title}", element.place)
-        if isinstance(element, GeneralizedForce) and element.coordinate not in {
-            c.symbol for c in self._coordinates.values()
-        }:
-            name = plain(element.coordinate)
-            raise ModelError(
-                f"'{name}' is not a coordinate",
-                element=element.title,
-                place=element.place,
-                fix=did_you_mean(name, self._coordinates),
-                code="E402",
-            )
+        if isinstance(element, GeneralizedForce):
+            floats = [f.floating for f in self._frames.values() if f.floating is not None]
+            check_acted_on(element, (*self.coordinates, *self._velocities.values()), floats)
         for use in element.uses():
             self._check_known(use.expr, f"the {use.what} of {element.title}", element.place, use.local)
             inputs = {i.symbol: i.name for i in self._inputs.values()}
@@ -399,6 +349,17 @@ class Builder:
         while f"{base} {number}" in self._element_names:
             number += 1
         return f"{base} {number}"
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """What was declared so far, in order."""
+        return tuple(self._coordinates.values())
+
+    @property
+    def floating(self) -> tuple[Coordinate | Velocity, ...]:
+        """The coordinates and velocities of floating frames, in order."""
+        frames = [f.floating for f in self._frames.values() if f.floating is not None]
+        return tuple(x for f in frames for x in (*f.coordinates, *f.velocities))
 
     @property
     def elements(self) -> tuple[Element, ...]:
@@ -473,14 +434,3 @@ class Builder:
             check_body(made, body)
         self._frozen = made
         return made
-
-
-def _check_kind(given: object, kind: type, what: str, place: Place | None) -> None:
-    """Refuse what is not a point or a frame where one must stand."""
-    if given is not None and not isinstance(given, kind):
-        raise ModelError(
-            f"{what} must be a {kind.__name__.lower()} of this system (got {type(given).__name__})",
-            place=place,
-            fix=f'make one with system.{kind.__name__.lower()}(…), or look it up with system["name"]',
-            code="E412",
-        )

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Mapping, Sequence
 from typing import Any, cast
 
 import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from lagrangian.errors import ModelError
+from lagrangian.errors import ModelError, Place, did_you_mean
 from lagrangian.model.elements.base import Element, Level, Use
+from lagrangian.model.elements.raw import GeneralizedForce
 from lagrangian.model.elements.rigid_body import RigidBody
+from lagrangian.model.floating import Floating
 from lagrangian.model.model import Model
 from lagrangian.model.names import time
+from lagrangian.model.plain import plain
+from lagrangian.model.symbols import Coordinate, Velocity
 
 RELATIVE_TOLERANCE = 1e-9
 """How far a principal moment may exceed the sum of the other two: rounding of a thin rod's."""
@@ -135,4 +140,85 @@ def _check_inertia(model: Model, body: RigidBody, error: Any) -> None:
             f"{moments[0]:.6g} + {moments[1]:.6g} ≥ {moments[2]:.6g}",
             "the two smaller principal moments add up to at least the largest",
             "E105",
+        )
+
+
+def checked_number(name: str, value: object, place: Place | None) -> float | None:
+    """The value of a parameter as a number, or None where it has none; anything else is refused."""
+    if value is None:
+        return None
+    if isinstance(value, complex) or (isinstance(value, sp.Expr) and not value.is_real):
+        raise ModelError(f"parameter '{name}' must be a real number (got {value})", place=place, code="E101")
+    try:
+        number = float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
+        raise ModelError(f"parameter '{name}' must be a number (got {value!r})", place=place, code="E406") from None
+    if isinstance(value, bool):
+        raise ModelError(f"parameter '{name}' must be a number (got {value})", place=place, code="E406")
+    if not math.isfinite(number):
+        raise ModelError(f"parameter '{name}' must be a finite number (got {number})", place=place, code="E101")
+    return number
+
+
+def check_position(
+    full: sp.Expr, where: str, inputs: Mapping[Any, str], velocities: Mapping[Any, str], place: Place | None
+) -> None:
+    """Refuse a position (``full``: definitions written out) that holds more than coordinates, parameters and time."""
+    rates = [f"{d.expr.func}'" for d in full.atoms(sp.Derivative)]
+    for rate in sorted([*rates, *(name for v, name in velocities.items() if full.has(v))]):
+        raise ModelError(
+            f"{where} holds a rate, {rate}",
+            place=place,
+            fix="a position depends on coordinates, parameters and t only",
+            code="E308",
+        )
+    for kink in sorted(full.atoms(sp.Abs, sp.sign, sp.Min, sp.Max, sp.Heaviside), key=str):
+        if kink.has(AppliedUndef, time):
+            raise ModelError(
+                f"{where} holds {plain(kink)}: where it bends, the velocity would jump",
+                place=place,
+                fix="a position has two derivatives; let a force or an energy hold what bends",
+                code="E308",
+            )
+    for atom in sorted(full.atoms(AppliedUndef) & inputs.keys(), key=str):
+        raise ModelError(
+            f"{where} holds the input '{inputs[atom]}', whose velocity is not known",
+            place=place,
+            fix="prescribe the motion as an expression in t, or make it a coordinate",
+            code="E417",
+        )
+
+
+def check_acted_on(
+    element: GeneralizedForce, known: Sequence[Coordinate | Velocity], floats: Sequence[Floating]
+) -> None:
+    """Refuse a generalized force on what is neither coordinate nor velocity, or on an entry of a quaternion."""
+    name = plain(element.coordinate)
+    for floating in floats:
+        if element.coordinate in floating.quaternion:
+            raise ModelError(
+                f"'{name}' is an entry of a quaternion: no force acts along it alone",
+                element=element.title,
+                place=element.place,
+                fix=f"act on {' or '.join(v.name for v in floating.velocities[3:])}, by a moment about its own axis",
+                code="E402",
+            )
+    if element.coordinate not in [x.symbol for x in known]:
+        raise ModelError(
+            f"'{name}' is not a coordinate",
+            element=element.title,
+            place=element.place,
+            fix=did_you_mean(name, [x.name for x in known]),
+            code="E402",
+        )
+
+
+def check_kind(given: object, kind: type, what: str, place: Place | None) -> None:
+    """Refuse what is not a point or a frame where one must stand."""
+    if given is not None and not isinstance(given, kind):
+        raise ModelError(
+            f"{what} must be a {kind.__name__.lower()} of this system (got {type(given).__name__})",
+            place=place,
+            fix=f'make one with system.{kind.__name__.lower()}(…), or look it up with system["name"]',
+            code="E412",
         )

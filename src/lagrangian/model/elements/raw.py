@@ -87,7 +87,7 @@ class Dissipation(Element):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class GeneralizedForce(Element):
-    """A generalized force Ξ_i [N or N m] on one coordinate."""
+    """A generalized force Ξ_i [N or N m] on one coordinate, or on one velocity of a floating frame."""
 
     coordinate: Any
     value: Any

@@ -19,12 +19,13 @@ class Torque(Element):
 
     ``on`` is the angle (an expression in the coordinates) or the frame it turns; ``reaction`` is the angle or frame
     that feels its opposite, the ground when left out. On a frame in space a scalar turns it about the frame's own axis;
-    a vector has three components in the fixed axes.
+    a vector has three components in the axes of the frame ``axes``, the fixed axes when left out.
     """
 
     value: Any
     on: Any = None
     reaction: Any = None
+    axes: Any = None
 
     kind: ClassVar[str] = "torque"
     ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "Ξ"
@@ -46,6 +47,14 @@ class Torque(Element):
             )
         if isinstance(self.value, (tuple, list, sp.MatrixBase)):
             self._vector()
+        elif isinstance(self.on, Frame) and self.on.floating is not None:
+            raise self._error(
+                f"frame '{self.on.name}' floats: it has no axis that one value could turn it about",
+                fix="give three components, torque((tx, ty, tz), on=frame, axes=frame)",
+                code="E414",
+            )
+        elif self.axes is not None:
+            raise self._error("axes are for a torque with three components", fix="leave axes out", code="E412")
         else:
             self._set(value=as_expr(self.value, f"the value of {self.title}", place=self.place))
 
@@ -58,6 +67,8 @@ class Torque(Element):
                 fix="torque((tx, ty, tz), on=frame), or one value on an angle",
                 code="E414",
             )
+        if self.axes is not None and not isinstance(self.axes, Frame):
+            raise self._error("axes must be a frame", fix="axes=frame, or leave it out", code="E412")
         self._set(value=value)
 
     def suggested_name(self) -> str:
@@ -77,8 +88,8 @@ class Torque(Element):
                 yield Use(key, f"angle in {key}", angle, Level.POSITION)
 
     def frames(self) -> Iterator[tuple[str, Frame]]:
-        """What it turns."""
-        for key in ("on", "reaction"):
+        """What it turns, and whose axes it is given in."""
+        for key in ("on", "reaction", "axes"):
             if isinstance(getattr(self, key), Frame):
                 yield key, getattr(self, key)
 
@@ -103,7 +114,7 @@ class Torque(Element):
         if isinstance(self.value, tuple):
             # components of ω in the fixed axes: R ω_body
             omega = tuple(target.rotation * sp.Matrix(target.angular_velocity))
-            efforts = self.value
+            efforts = self.value if self.axes is None else tuple(self.axes.rotation * sp.Matrix(self.value))
         else:
             # about the axis of the frame that is acted on: n·ω, both turned into the fixed axes
             assert self.on.axis is not None
