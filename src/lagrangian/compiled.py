@@ -25,6 +25,9 @@ Values = ArrayLike | Mapping[Any, Any] | None
 SINGULAR = 1e12
 """Condition number of M above which a configuration is called singular."""
 
+NO_LENGTH = 1e-150
+"""Length of a quaternion below which its square is no number to divide by."""
+
 NOT_FINITE = "E503"
 """The code of results that are not finite."""
 
@@ -33,7 +36,9 @@ class Compiled:
     """The dynamics M(q) q̈ + C(q, q̇) q̇ + G(q) = Ξ of a system, as kernels of machine code.
 
     Every method takes arrays of shape ``(..., n)``, any number of leading dimensions that broadcast together, in the
-    declared order of the coordinates, and answers in one call. ``u`` are the inputs, 0 unless given; ``p`` the
+    declared order of ``coordinates`` and ``velocities``, and answers in one call. These are as many, v the rates of q,
+    unless a frame floats: then q holds seven entries for it, a quaternion of any length but 0 among them, v six, and
+    accelerations, forces, M, C, G and J stand along v; q̇ comes from `rhs`. ``u`` are the inputs, 0 unless given; ``p`` the
     parameters, as declared unless given; both by name (a mapping) or in declared order. ``t`` is time [s].
     Code is made at the first call of each method and kept on disk between runs.
 
@@ -45,6 +50,7 @@ class Compiled:
         self._kernels: dict[str, machine.Kernel] = {}
         self.coordinates = tuple(c.name for c in model.coordinates)
         self.velocities = tuple(v.name for v in model.velocities)
+        self._floats = [f.floating for f in model.floating if f.floating is not None]
         self.inputs = tuple(u.name for u in model.inputs)
         self.parameters = tuple(p.name for p in model.parameters)
         self._kernel("forward")  # a coordinate without mass is found now, not at the first call
@@ -82,38 +88,42 @@ class Compiled:
         self, q: ArrayLike, v: ArrayLike, a: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
     ) -> NDArray[np.float64]:
         """Return the generalized forces that the motion needs beyond those described: M a + C v + G − Ξ(u)."""
-        return self._kernel("inverse")(q, v, a, _named(u), _named(p), t)
+        return self._run("inverse", q, p, t, q, v, a, _named(u))
 
     def mass_matrix(self, q: ArrayLike, p: Values = None, t: ArrayLike = 0.0) -> NDArray[np.float64]:
         """Return M(q), shape ``(..., n, n)``."""
-        return self._kernel("mass_matrix")(q, None, None, _named(p), t)
+        return self._run("mass_matrix", q, p, t, q, None, None)
 
     def bias(
         self, q: ArrayLike, v: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
     ) -> NDArray[np.float64]:
         """Return C v + G − Ξ(u): what `inverse` gives at a = 0."""
-        return self._kernel("bias")(q, v, _named(u), _named(p), t)
+        return self._run("bias", q, p, t, q, v, _named(u))
 
     def coriolis_matrix(self, q: ArrayLike, v: ArrayLike, p: Values = None, t: ArrayLike = 0.0) -> NDArray[np.float64]:
-        """Return C(q, v) by Christoffel's symbols, shape ``(..., n, n)``: Ṁ − 2C is skew-symmetric."""
-        return self._kernel("coriolis")(q, v, None, _named(p), t)
+        """Return C(q, v) by Christoffel's symbols, shape ``(..., n, n)``: Ṁ − 2C is skew-symmetric, C v is the bias.
+
+        Along the velocities of a floating frame the symbols are those of M's connection in these directions, whose
+        brackets do not vanish; both properties stay.
+        """
+        return self._run("coriolis", q, p, t, q, v, None)
 
     def gravity(self, q: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0) -> NDArray[np.float64]:
-        """Return ∂V/∂q: weights, springs and potentials."""
-        return self._kernel("gravity")(q, None, _named(u), _named(p), t)
+        """Return ∂V/∂q, shape ``(..., n)``: weights, springs and potentials (Nᵀ ∂V/∂q where q̇ = N v)."""
+        return self._run("gravity", q, p, t, q, None, _named(u))
 
     def energy(
         self, q: ArrayLike, v: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
     ) -> NDArray[np.float64]:
         """Return T* + V [J], shape ``(...)``."""
-        both = self._kernel("energy")(q, v, _named(u), _named(p), t)
+        both = self._run("energy", q, p, t, q, v, _named(u))
         return both["T"] + both["V"]
 
     def energies(
         self, q: ArrayLike, v: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return T* and V [J], each of shape ``(...)``."""
-        both = self._kernel("energy")(q, v, _named(u), _named(p), t)
+        both = self._run("energy", q, p, t, q, v, _named(u))
         return both["T"], both["V"]
 
     def point(
@@ -130,10 +140,10 @@ class Compiled:
             optional = {"u": 0.0, "t": 0.0, "v": 0.0}
             made = machine.compile(program, optional=optional, lanes=self._lanes, threads=self._threads)
             self._kernels[key] = made
-        return self._kernels[key](q, v, None, _named(p), t)
+        return self._run(key, q, p, t, q, v, None)
 
     def rhs(self, t: ArrayLike, x: ArrayLike, u: Values = None, p: Values = None) -> NDArray[np.float64]:
-        """Return ẋ of x = [q; v] in declared order, shape ``(..., 2n)``: the right-hand side that solvers want."""
+        """Return ẋ of x = [q; v] in declared order, shape ``(..., n_q + n_v)``: the right-hand side solvers want."""
         try:
             return self._kernel("rhs")(x, _named(u), _named(p), t)
         except RunError as trouble:
@@ -142,21 +152,38 @@ class Compiled:
             n = len(self.coordinates)
             raise self._explained(trouble, np.asarray(x)[..., :n], p, t) from None
 
+    def _run(self, name: str, q: ArrayLike, p: Values, t: ArrayLike, *given: Any) -> Any:
+        """Call a kernel; where its answer is not finite, say why."""
+        try:
+            return self._kernel(name)(*given, _named(p), t)
+        except RunError as trouble:
+            raise self._explained(trouble, q, p, t) from None
+
     @cached_property
     def operations(self) -> int:
         """Operations of machine code that one q̈ takes."""
         return self._kernel("forward").operations
 
     def _explained(self, trouble: RunError, q: ArrayLike, p: Values, t: ArrayLike) -> RunError:
-        """Where the accelerations are not finite, look whether M is singular there, and say for which coordinates."""
+        """Where an answer is not finite, look for a quaternion without length, and whether M is singular there."""
         if trouble.code != NOT_FINITE or not trouble.what.startswith("output"):
             return trouble
+        for floating in self._floats:
+            first = self.coordinates.index(floating.coordinates[3].name)
+            lengths = np.linalg.norm(np.asarray(q, float)[..., first : first + 4], axis=-1)
+            if lengths.min() < NO_LENGTH:
+                listed = ", ".join(c.name for c in floating.coordinates[3:])
+                return RunError(
+                    f"the quaternion {listed} has the length {lengths.min():.3g}: it tells no orientation",
+                    fix="(0, 0, 0, 1) is no turn at all; any length but 0 will do",
+                    code="E503",
+                )
         try:
-            matrices = np.asarray(self.mass_matrix(q, p, t))
+            matrices = np.asarray(self._kernel("mass_matrix")(q, None, None, _named(p), t))
         except RunError:
             return trouble
-        flat = matrices.reshape(-1, *matrices.shape[-2:])
-        states = np.broadcast_to(np.asarray(q, float), (*matrices.shape[:-2], flat.shape[-1])).reshape(len(flat), -1)
+        flat, n = matrices.reshape(-1, *matrices.shape[-2:]), len(self.coordinates)
+        states = np.broadcast_to(np.asarray(q, float), (*matrices.shape[:-2], n)).reshape(len(flat), -1)
         for state, M in zip(states, flat, strict=True):
             _, singular, right = np.linalg.svd(M)
             if singular[-1] * SINGULAR <= singular[0]:
@@ -172,7 +199,8 @@ class Compiled:
         return ", ".join(shown[:8]) + (", …" if len(shown) > 8 else "")
 
     def _moved(self, direction: NDArray[np.float64]) -> str:
-        involved = [n for n, x in zip(self.coordinates, direction, strict=True) if abs(x) > 1e-6]
+        moved = [name.removesuffix("'") for name in self.velocities]
+        involved = [n for n, x in zip(moved, direction, strict=True) if abs(x) > 1e-6]
         return (
             f"'{involved[0]}'"
             if len(involved) == 1

@@ -128,7 +128,7 @@ def loss(model: Model) -> Program:
 
 
 def point_jacobian(model: Model, name: str) -> Program:
-    """q, v, u, p, t → position r and velocity ṙ of a named point, shape (d,), and J with ṙ = J q̇ + ∂r/∂t, (d, n).
+    """q, v, u, p, t → position r and velocity ṙ of a named point, shape (d,), and J with ṙ = J v + ∂r/∂t, (d, n).
 
     All in the fixed axes. Raises `ModelError` where there is no such point.
     """
@@ -138,8 +138,8 @@ def point_jacobian(model: Model, name: str) -> Program:
     graph = Graph()
     inputs = Inputs.of(graph, model)
     m, places = described(model, graph, inputs)
-    position = m.motion.position(places[points[name]])
-    velocity = m.motion.rate(position)
+    place = places[points[name]]
+    position, velocity = m.motion.position(place), m.motion.turned(place.velocity, place.axes, m.motion.root)
     columns = [jvp(graph, velocity, {v: graph.one}) for v in inputs.v]
     rows = [[column[i] for column in columns] for i in range(model.dimension)]
     outputs = {"r": _vector(position), "v": _vector(velocity), "J": _matrix(rows)}
