@@ -1,0 +1,54 @@
+"""Events of a moving system: functions whose zeros are looked for, and what they do to the state.
+
+    g_k(x, u, p, t) = 0:  x⁺ = after_k(x⁻, u, p, t)
+
+An impact replaces velocities, say θ̇⁺ = −e θ̇⁻; everything that is not replaced stays as it was.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import sympy as sp
+
+from lagrangian.dynamics.closed import SUPPLY, Feedback, with_feedback
+from lagrangian.dynamics.observe import Observed
+from lagrangian.errors import ModelError, did_you_mean
+from lagrangian.graph import Output, Program
+from lagrangian.model import Model, plain
+
+Impact = tuple[str, sp.Expr, Mapping[Any, sp.Expr]]
+"""An event: what it is called, its function, and state → value after it."""
+
+
+def impacts(model: Model, events: Sequence[Impact], feedback: Feedback, *, supply: bool = False) -> Program:
+    """x, u, p, t → ``g`` (ne,) and, where an event changes the state, ``after`` (ne, nx): the state after event k.
+
+    With ``supply`` x ends with the energy supplied (`lagrangian.dynamics.closed`), which no event changes.
+    Raises `ModelError` for symbols that are not known and for what is no state.
+    """
+    seen = Observed(model)
+    motion = seen.mechanics.motion
+    states: dict[Any, int] = {c.symbol: i for i, c in enumerate(model.coordinates)}
+    states.update((v.symbol, len(states) + i) for i, v in enumerate(model.velocities))
+    before = [*motion.q, *motion.v, *([seen.graph.input("x", len(states))] if supply else [])]
+    g, rows = [], []
+    for name, function, reset in events:
+        g.append(seen.node(function, f"event '{name}'"))
+        row = list(before)
+        for state, value in reset.items():
+            if state not in states:
+                shown = plain(state) if isinstance(state, sp.Basic) else str(state)
+                known = [plain(s) for s in states]
+                raise ModelError(
+                    f"event '{name}' sets '{shown}', which is no state",
+                    fix=did_you_mean(shown, known) or f"states: {', '.join(known[:12])}",
+                    code="E402",
+                )
+            row[states[state]] = seen.node(value, f"'{plain(state)}' after event '{name}'")
+        rows.append(row)
+    outputs = {"g": Output(tuple(g), (len(g),))}
+    if any(reset for _, _, reset in events):
+        outputs["after"] = Output(tuple(x for row in rows for x in row), (len(rows), len(before)))
+    return with_feedback(seen, outputs, feedback, "events", (SUPPLY,) if supply else ())
