@@ -271,6 +271,17 @@ def test_nothing_is_lost_between_the_form_and_the_page(n: int) -> None:
             assert abs(values[0] - values[1]) < 1e-30
 
 
+def test_a_sum_of_angles_is_split_as_one_where_its_double_stands() -> None:
+    """The waist's inertia of a three-joint arm: in cos θ₂ and cos(θ₂ + θ₃), no double angle, the reach one square."""
+    ring = Algebra(Described((Named(theta), Named(phi))))
+    reach = L * cos(theta) + l * cos(theta + phi)
+    inertia = J + k1 * sin(theta) ** 2 + k2 * sin(theta + phi) ** 2 + m * reach**2
+    shown = ring.form(sp.expand_trig(inertia).expand()).expr()
+    assert {a.args[0] for a in shown.atoms(sp.sin, sp.cos)} == {theta, theta + phi}
+    (term,) = ring.form(inertia * dot(psi, 2)).terms()
+    assert reach**2 in term.expr.atoms(sp.Pow)
+
+
 def test_kinds() -> None:
     ring = Algebra(Described((Named(x), Named(theta))))
     expr = (

@@ -21,7 +21,8 @@ def displayed(form: Form, generators: Generators) -> Flat:
     """Return the form in letters for the page, with the angles split whose splitting makes it shorter.
 
     One choice for the whole, so that sin²θ and sin θ cos θ stand together; but terms with the same rates (or none) go
-    back to harmonics where that is fewer terms, as J − I cos 2ψ against J − I + 2 I sin²ψ.
+    back to harmonics where that is fewer terms, as J − I cos 2ψ against J − I + 2 I sin²ψ. A sum of angles is split as
+    one angle where its double stands: cos(2θ₁ + θ₂) + cos θ₂ is 2 cos θ₁ cos(θ₁ + θ₂) beside cos²(θ₁ + θ₂).
     """
     split: frozenset[int] = frozenset()
     harmonic = best = _flat(form, generators, split)
@@ -55,18 +56,27 @@ def _by_motion(flat: Flat, generators: Generators) -> dict[int, Flat]:
 
 
 def _candidates(form: Form) -> list[int]:
-    """Angles with a double multiple, or with both signs against the same others: cos(a + b) beside cos(a − b)."""
+    """The harmonics to split by: sums of angles whose double is there; angles with a double multiple, or with both
+    signs against the same others, cos(a + b) beside cos(a − b)."""
     harmonics = {h for h, _ in form.parts}
     found: set[int] = set()
     for h in harmonics:
         pairs = multiples(h)
+        whole_numbers = all(isinstance(k, int) for _, k in pairs)
+        if len(pairs) > 1 and whole_numbers and all(k % 2 == 0 for _, k in pairs) and _pivot(half := int(h) // 2):
+            found.add(half)
         for j, k in pairs:
             if len(pairs) == 1:
                 if isinstance(k, int) and abs(k) > 1:
-                    found.add(j)
+                    found.add(turn(j))
             elif abs(whole(h - 2 * k * turn(j))) in harmonics and isinstance(k, int):
-                found.add(j)
-    return sorted(found)
+                found.add(turn(j))
+    return sorted(found, key=lambda h: (-len(multiples(h)), h))
+
+
+def _pivot(harmonic: int) -> tuple[int, int] | None:
+    """The last angle that stands once in a harmonic, with its sign: splitting by the harmonic takes its place."""
+    return next(((j, int(k)) for j, k in reversed(multiples(harmonic)) if abs(k) == 1), None)
 
 
 def _flat(form: Form, generators: Generators, split: frozenset[int]) -> Flat:
@@ -78,8 +88,8 @@ def _flat(form: Form, generators: Generators, split: frozenset[int]) -> Flat:
                 key = m + trig
                 out[key] = out.get(key, Fraction(0)) + Fraction(c, form.den) * k
     out = {m: c for m, c in out.items() if c}
-    for j in sorted(split):
-        out = _folded(out, generators.trig_letter((turn(j), 0)), generators.trig_letter((turn(j), 1)))
+    for angle in sorted(split):
+        out = _folded(out, generators.trig_letter((angle, 0)), generators.trig_letter((angle, 1)))
     return out
 
 
@@ -88,20 +98,33 @@ def _expanded(harmonic: Harmonic, generators: Generators, split: frozenset[int])
     h, s = harmonic
     if h == 0:
         return {0: Fraction(1)}
-    own = [(j, k) for j, k in multiples(h) if j in split and isinstance(k, int)]
-    rest: Packed = whole(h - sum(k * turn(j) for j, k in own))
+    rest, own = _divided(h, split)
     sign = -1 if rest < 0 else 1
     cos_sum: dict[int, Fraction] = {unit(generators.trig_letter((abs(rest), 0))) if rest else 0: Fraction(1)}
     sin_sum: dict[int, Fraction] = {}
     if rest:
         sin_sum[unit(generators.trig_letter((abs(rest), 1)))] = Fraction(sign * generators.sign(abs(rest)))
-    for j, k in own:
-        c, v = _multiple(generators.trig_letter((turn(j), 0)), generators.trig_letter((turn(j), 1)), k)
+    for angle, k in own:
+        c, v = _multiple(generators.trig_letter((angle, 0)), generators.trig_letter((angle, 1)), k)
+        if generators.sign(angle) < 0:
+            v = {m: -x for m, x in v.items()}
         cos_sum, sin_sum = (
             _plus(_times(cos_sum, c), _times(sin_sum, v), -1),
             _plus(_times(sin_sum, c), _times(cos_sum, v), 1),
         )
     return sin_sum if s else cos_sum
+
+
+def _divided(h: Packed, split: frozenset[int]) -> tuple[Packed, list[tuple[int, int]]]:
+    """h = rest + Σ k·angle over the angles and sums of angles that are split, longest sums first."""
+    own: list[tuple[int, int]] = []
+    for angle in sorted(split, key=lambda a: (-len(multiples(a)), a)):
+        pivot = _pivot(angle)
+        k = dict(multiples(h)).get(pivot[0], 0) if pivot else 0
+        if pivot and k and isinstance(k, int):
+            own.append((angle, k * pivot[1]))
+            h = whole(h - k * pivot[1] * angle)
+    return h, own
 
 
 def _multiple(c: int, s: int, k: int) -> tuple[dict[int, Fraction], dict[int, Fraction]]:
