@@ -2,17 +2,22 @@
 
 from lagrangian.derivation import Derivation
 from lagrangian.errors import Error, MissingExtra, ModelError, ParseError, Place, RunError
+from lagrangian.events import Event, event
 from lagrangian.system import System, load, loads
+from lagrangian.trajectory import Trajectory
 
 __all__ = [
     "Derivation",
     "Error",
+    "Event",
     "MissingExtra",
     "ModelError",
     "ParseError",
     "Place",
     "RunError",
     "System",
+    "Trajectory",
+    "event",
     "load",
     "loads",
 ]

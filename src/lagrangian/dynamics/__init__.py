@@ -4,8 +4,9 @@
 """
 
 from lagrangian.dynamics.bodies import Bodies
-from lagrangian.dynamics.closed import SUPPLY, closed, observe_closed
+from lagrangian.dynamics.closed import SUPPLY, closed, observe_closed, power_closed
 from lagrangian.dynamics.describe import Inputs, describe
+from lagrangian.dynamics.impacts import impacts
 from lagrangian.dynamics.mechanics import Mechanics
 from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.observe import observe
@@ -21,6 +22,7 @@ from lagrangian.dynamics.programs import (
     loss,
     mass_matrix,
     point_jacobian,
+    rates,
     rhs,
 )
 
@@ -37,6 +39,7 @@ __all__ = [
     "energy",
     "forward",
     "gravity",
+    "impacts",
     "inverse",
     "inverse_from_lagrangian",
     "loss",
@@ -45,5 +48,7 @@ __all__ = [
     "observe_closed",
     "point_jacobian",
     "power",
+    "power_closed",
+    "rates",
     "rhs",
 ]

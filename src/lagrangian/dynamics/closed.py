@@ -15,7 +15,7 @@ from typing import Any
 import sympy as sp
 
 from lagrangian.dynamics.observe import Observed, holds_acceleration, observed
-from lagrangian.dynamics.power import supplied
+from lagrangian.dynamics.power import balance, supplied
 from lagrangian.dynamics.programs import _program
 from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.graph import Graph, Output, Program, operands, reached
@@ -43,17 +43,25 @@ def closed(model: Model, feedback: Feedback, *, supply: bool = False) -> Program
         if power != seen.graph.zero:
             ids.append(power)
             names = (SUPPLY,)
-    made = _with_feedback(seen, {"xdot": Output(tuple(ids), (len(ids),))}, feedback, "closed")
-    return replace(made, inputs={**made.inputs, "x": (*made.inputs["x"], *names)})
+    return with_feedback(seen, {"xdot": Output(tuple(ids), (len(ids),))}, feedback, "closed", names)
 
 
 def observe_closed(model: Model, outputs: Mapping[str, sp.Expr | Point], feedback: Feedback) -> Program:
     """`observe` with inputs replaced as in `closed`; an input in ``feedback`` reads as its expression."""
     seen = Observed(model)
-    return _with_feedback(seen, observed(seen, outputs), feedback, "observe")
+    return with_feedback(seen, observed(seen, outputs), feedback, "observe")
 
 
-def _with_feedback(seen: Observed, outputs: Mapping[str, Output], feedback: Feedback, name: str) -> Program:
+def power_closed(model: Model, feedback: Feedback) -> Program:
+    """`lagrangian.dynamics.power.power` with inputs replaced as in `closed`."""
+    seen = Observed(model)
+    return with_feedback(seen, balance(seen), feedback, "power")
+
+
+def with_feedback(
+    seen: Observed, outputs: Mapping[str, Output], feedback: Feedback, name: str, states: Sequence[str] = ()
+) -> Program:
+    """The program of ``outputs`` with inputs replaced; ``states`` are the names of states beyond [q; v]."""
     model, graph = seen.model, seen.graph
     free = [u for u in model.inputs if u.symbol not in feedback]
     known = {graph.input("u", k): graph.input("u", free.index(u)) for k, u in enumerate(model.inputs) if u in free}
@@ -63,7 +71,8 @@ def _with_feedback(seen: Observed, outputs: Mapping[str, Output], feedback: Feed
         known[graph.input("u", model.inputs.index(u))] = _replaced(graph, [node], known)[0]
     changed = {key: Output(tuple(_replaced(graph, output.ids, known)), output.shape) for key, output in outputs.items()}
     made = _program(model, name, graph, changed, groups=("x",))
-    return replace(made, inputs={**made.inputs, "u": tuple(u.name for u in free)})
+    groups = {**made.inputs, "x": (*made.inputs["x"], *states), "u": tuple(u.name for u in free)}
+    return replace(made, inputs=groups)
 
 
 def _in_order(model: Model, feedback: Feedback) -> list[tuple[Input, sp.Expr]]:
@@ -77,7 +86,7 @@ def _in_order(model: Model, feedback: Feedback) -> list[tuple[Input, sp.Expr]]:
             fix = did_you_mean(name, names) or f"inputs: {', '.join(names) or 'none'}"
             raise ModelError(f"'{name}' is not an input of system '{model.name}'", fix=fix, code="E402")
         expr = model.expand(as_expr(given, f"the input '{inputs[symbol].name}'"))
-        if holds_acceleration(expr):
+        if holds_acceleration(expr, model):
             raise ModelError(
                 f"the input '{inputs[symbol].name}' depends on an acceleration, which depends on the input",
                 fix="feed back coordinates and rates; solve an algebraic loop by hand",

@@ -53,6 +53,9 @@ class Observed:
         motion, table = self.mechanics.motion, dict(self._still)
         rates = motion.second_rate(motion.rates, self.vdot)
         table.update((c.acceleration, a) for c, a in zip(self.model.coordinates, rates, strict=True))
+        for velocity, rate in zip(self.model.velocities, self.vdot, strict=True):
+            if not isinstance(velocity.symbol, sp.Derivative):  # a quasi-velocity's own rate
+                table[sp.Derivative(velocity.symbol, time)] = rate
         for definition in self.model.definitions:
             if definition.moving:
                 rate = table[sp.Derivative(definition.symbol, time)]
@@ -62,7 +65,7 @@ class Observed:
     def node(self, expr: Any, what: str) -> int:
         """The node of an expression; ``what`` names it in messages. Raises `ModelError` for what is not known."""
         worked = self.plain_derivatives(as_expr(expr, what))
-        table = self._accelerated if holds_acceleration(worked) else self._still
+        table = self._accelerated if holds_acceleration(worked, self.model) else self._still
         self._check(worked, table, what)
         return from_sympy(self.graph, worked, table, self._memo)
 
@@ -106,9 +109,10 @@ def _symbols_in(expr: sp.Expr) -> set[Any]:
     return found
 
 
-def holds_acceleration(expr: sp.Expr) -> bool:
-    """Whether a derivative of second or higher order stands in an expression."""
-    return any(d.derivative_count >= 2 for d in expr.atoms(sp.Derivative))
+def holds_acceleration(expr: sp.Expr, model: Model) -> bool:
+    """Whether a second derivative stands in an expression, or the rate of a quasi-velocity."""
+    quasi = {v.symbol for v in model.velocities if not isinstance(v.symbol, sp.Derivative)}
+    return any(d.derivative_count >= 2 or d.expr in quasi for d in expr.atoms(sp.Derivative))
 
 
 def observe(model: Model, outputs: Mapping[str, sp.Expr | Point]) -> Program:

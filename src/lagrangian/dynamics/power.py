@@ -18,13 +18,18 @@ from lagrangian.model import Model
 def power(model: Model) -> Program:
     """x, u, p, t → h [J] and P = Ξ·q̇ − ∂L/∂t [W], with dh/dt = P along every motion; T and V [J] beside them."""
     seen = Observed(model)
-    outputs = {
-        "h": Output((balanced(seen),), ()),
-        "P": Output((supplied(seen),), ()),
-        "T": Output((seen.mechanics.kinetic(),), ()),
-        "V": Output((seen.mechanics.potential(),), ()),
+    return _program(model, "power", seen.graph, balance(seen), groups=("x",))
+
+
+def balance(seen: Observed) -> dict[str, Output]:
+    """h, P, T and V as outputs."""
+    found = {
+        "h": balanced(seen),
+        "P": supplied(seen),
+        "T": seen.mechanics.kinetic(),
+        "V": seen.mechanics.potential(),
     }
-    return _program(model, "power", seen.graph, outputs, groups=("x",))
+    return {name: Output((node,), ()) for name, node in found.items()}
 
 
 def balanced(seen: Observed) -> int:

@@ -1,0 +1,129 @@
+"""Zero crossings of event functions on a step's dense output, for runs made step by step in Python."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+
+Array = NDArray[np.float64]
+Control = Callable[[float, Array], Array]
+
+WITHIN = 4
+"""Places inside a step where events are looked at: of two crossings in one step both are seen if one lies between."""
+
+FINEST = 60
+"""After an event its function is 0: it is looked at after h/2^60, h/2^59, … of the next step to see where it goes."""
+
+AHEAD = 1e-8
+"""How far along ẋ, in seconds, a function is looked at to see where it is bound after its event."""
+
+
+@dataclass(frozen=True)
+class Hit:
+    """An event that happened: its number, time, the state before it, and after it where it changes the state."""
+
+    index: int
+    time: float
+    before: Array
+    after: Array | None
+    terminal: bool
+
+
+class Crossings:
+    """Watches the functions g of a kernel (outputs ``g`` (ne,) and, with resets, ``after`` (ne, nx)) along a run.
+
+    ``side`` is the sign each g had last, 0 right after its own event: it then has to leave zero before it can cross.
+    ``settled`` is the number of an event whose state change sends its function back, but so weakly that it would cross
+    again within one step, unseen: what touches has come to rest there.
+    """
+
+    def __init__(
+        self, kernel: Any, p: Array, direction: Sequence[int], terminal: Sequence[bool], reset: Sequence[bool]
+    ) -> None:
+        self.kernel, self.p = kernel, p
+        self.direction, self.terminal, self.reset = list(direction), list(terminal), list(reset)
+        count = len(self.direction)
+        self.side: Array = np.zeros(count)
+        self.came_from: Array = np.zeros(count)  # the side before the last event of each
+        self.bound: Array = np.zeros(count)  # the side it is bound for after it
+        self.last = np.full(count, -np.inf)  # its time
+        self.settled: int | None = None
+        self.field: Control = lambda t, x: x
+
+    def start(self, t: float, x: Array, u: Control, field: Control) -> None:
+        """Look at the functions where a stretch of ẋ = field(t, x) begins; one that just had its event may leave 0."""
+        self.field = field
+        self.side = np.where(self.last == t, 0.0, np.sign(self._g(t, x, u)))
+        self.bound = self._heading(t, x, u)
+
+    def _heading(self, t: float, x: Array, u: Control) -> Array:
+        """The sides the functions are bound for from a state, along ẋ."""
+        rate = self.field(t, x)
+        return np.sign(self._g(t + AHEAD, x + AHEAD * rate, u)) if np.all(np.isfinite(rate)) else self.side
+
+    def between(self, start: float, end: float, dense: Any, u: Control) -> list[Hit]:
+        """The events of a step in order of time, up to and with the first that stops the run or changes the state."""
+        fractions = np.arange(1, WITHIN + 2) / (WITHIN + 1)
+        if not self.side.all():
+            fractions = np.concatenate([2.0 ** -np.arange(FINEST, 2, -1), fractions])
+        places = np.unique(np.minimum(start + (end - start) * fractions, end))
+        sent = (self.last == start) & np.array(self.reset) & (self.bound != -self.came_from)
+        before, found = start, []
+        for place in places[places > start]:
+            now = np.sign(self._g(place, dense(place), u))
+            astray = sent & (self.side == 0) & (now == -self.came_from)  # rounding, or sent back too weakly
+            if place == places[-1] and astray.any():
+                self.settled = int(np.flatnonzero(astray)[0])
+                return found
+            for hit in self._crossed(before, place, now, dense, u):
+                if hit.after is not None and self._heading(hit.time, hit.before, u)[hit.index] == self.side[hit.index]:
+                    self.settled = hit.index  # the crossing is finer than the dense output
+                    return found
+                found.append(hit)
+                if hit.terminal or hit.after is not None:
+                    return found
+            moved = np.where(self.last == place, 0.0, self.side)
+            self.side = np.where((now != 0) & ~astray, now, moved)
+            before = place
+        return found
+
+    def _crossed(self, before: float, place: float, now: Array, dense: Any, u: Control) -> list[Hit]:
+        """The events between two places, in order of time."""
+        wanted = np.array([not d or d == -s for d, s in zip(self.direction, self.side, strict=True)], bool)
+        crossed = np.flatnonzero((self.side != 0) & (now != self.side) & wanted)
+        times = sorted((self._located(int(k), before, place, dense, u), int(k)) for k in crossed)
+        hits: list[Hit] = []
+        for time, k in times:
+            state = np.array(dense(time))
+            after = np.array(self._outputs(time, state, u)["after"][k]) if self.reset[k] else None
+            self.last[k], self.came_from[k] = time, self.side[k]
+            hits.append(Hit(k, time, state, after, bool(self.terminal[k])))
+            if self.terminal[k] or after is not None:
+                break
+        return hits
+
+    def _located(self, k: int, a: float, b: float, dense: Any, u: Control) -> float:
+        """The time in (a, b] at which function k is 0, to the last bits."""
+
+        def g(t: float) -> float:
+            return float(self._g(t, dense(t), u)[k])
+
+        high, low = g(b), g(a)
+        if high == 0:
+            return float(b)
+        if low == 0 or (low > 0) == (high > 0):  # rounding at the beginning of the step
+            return float(a)
+        root: Any = brentq(g, a, b, xtol=4e-300, rtol=4 * np.finfo(np.float64).eps, maxiter=200)
+        return float(root)
+
+    def _outputs(self, t: float, x: Array, u: Control) -> dict[str, Array]:
+        answer = self.kernel(np.ascontiguousarray(x), u(t, x), self.p, t)
+        return answer if isinstance(answer, dict) else {"g": answer}
+
+    def _g(self, t: float, x: Array, u: Control) -> Array:
+        return np.asarray(self._outputs(float(t), x, u)["g"])

@@ -1,0 +1,350 @@
+"""``system.simulate``: from a description to a run."""
+
+from __future__ import annotations
+
+import inspect
+import math
+import time as clock
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian import compile as machine
+from lagrangian import dynamics
+from lagrangian.analyze.dimensions import SECOND
+from lagrangian.analyze.given import Given, number
+from lagrangian.driving import Driving, check_covers, driving
+from lagrangian.errors import RunError, did_you_mean
+from lagrangian.events import Event
+from lagrangian.graph import Output, Program, jacobian
+from lagrangian.model import Model
+from lagrangian.simulate.crossings import Crossings, Hit
+from lagrangian.simulate.scipy_methods import IMPLICIT, SCIPY, Bounds, Outcome, integrate_scipy
+from lagrangian.trajectory import Occurrences, Trajectory
+
+Array = NDArray[np.float64]
+
+SAMPLES = 1001
+"""Times at which a run is sampled unless told otherwise."""
+
+MAX_STORED = 1 << 28
+"""Numbers a run may store: 2 GiB."""
+
+DEFAULT = "dop853"
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """Everything a run needs, understood and checked."""
+
+    model: Model
+    program: Program
+    drive: Driving
+    times: Array
+    x0: Array
+    p: Array
+    method: str
+    rtol: float
+    atol: float
+    step: float | None
+    events: tuple[Event, ...]
+    bounds: Bounds
+
+
+def simulate(
+    model: Model,
+    duration: Any = None,
+    *,
+    initial: Mapping[Any, Any] | Sequence[float] | None = None,
+    params: Mapping[Any, Any] | None = None,
+    inputs: Mapping[Any, Any] | None = None,
+    times: Any = None,
+    samples: int | None = None,
+    start: Any = 0.0,
+    method: str | None = None,
+    step: Any = None,
+    rtol: float = 1e-9,
+    atol: float = 1e-12,
+    events: Sequence[Event] | Event = (),
+    max_step: Any = math.inf,
+    max_steps: int = 10_000_000,
+    max_events: int = 1000,
+    timeout: float | None = None,
+    **by_name: Any,
+) -> Trajectory:
+    """Run a model; see `lagrangian.System.simulate`.
+
+    Values for states by name may stand beside the options: ``theta1=0.2``.
+    """
+    settings = dict(model.settings)
+    drive = driving(model, inputs, settings.get("inputs", {}))
+    program = dynamics.closed(model, drive.feedback, supply=True)
+    given = Given.of(model, dynamics.rhs(model))
+    instants = _times(duration, times, samples, start, settings)
+    check_covers(drive, float(instants[0]), float(instants[-1]))
+    if instants.size * len(program.inputs["x"]) > MAX_STORED:
+        raise RunError(
+            f"{instants.size} samples of {len(program.inputs['x'])} states are more than a run may store",
+            fix=f"at most {MAX_STORED // len(program.inputs['x'])} samples",
+            code="E505",
+        )
+    bounds = Bounds(
+        _count(max_steps, "max_steps"),
+        _count(max_events, "max_events"),
+        _positive(max_step, "max_step", infinite=True),
+        None if timeout is None else clock.monotonic() + _positive(timeout, "timeout"),
+    )
+    task = Task(
+        model,
+        program,
+        drive,
+        instants,
+        _initial(given, model, program, settings.get("initial", {}), initial, by_name),
+        given.parameter_values(params),
+        _method(method, drive, step),
+        _tolerance(rtol, "rtol"),
+        _tolerance(atol, "atol"),
+        None if step is None else _positive(step, "step"),
+        _events(events),
+        bounds,
+    )
+    return _trajectory(task, _run_scipy(task))
+
+
+# -- what was given ---------------------------------------------------------------------------------------------
+
+
+def _times(duration: Any, times: Any, samples: int | None, start: Any, settings: Mapping[str, Any]) -> Array:
+    """The times of the samples, the start first."""
+    begin = number(start, "start", SECOND)
+    if times is not None:
+        return _listed_times(times, begin, duration, samples)
+    if duration is None:
+        duration = settings.get("duration")
+    if duration is None:
+        raise RunError(
+            "how long to run is not said", fix="simulate(10.0), or duration = '10 s' under [simulate]", code="E401"
+        )
+    length = number(duration, "duration", SECOND)
+    if length < 0:
+        raise RunError(f"the duration is negative ({length:g} s)", fix="give 0 or more", code="E501")
+    count = SAMPLES if samples is None else _count(samples, "samples", least=2)
+    if length == 0:
+        return np.array([begin])
+    if begin + length == begin:
+        raise RunError(f"a duration of {length:g} s cannot be told from none at t = {begin:g}", code="E501")
+    return np.linspace(begin, begin + length, count)
+
+
+def _listed_times(times: Any, begin: float, duration: Any, samples: int | None) -> Array:
+    if duration is not None or samples is not None:
+        raise RunError("times say it all: give no duration and no samples beside them", code="E501")
+    try:
+        array = np.array(times, dtype=np.float64)
+    except (TypeError, ValueError):
+        raise RunError("times must be an array of numbers", fix="np.linspace(0, 10, 1001)", code="E501") from None
+    if array.ndim != 1 or not array.size:
+        raise RunError(f"times must be one row of numbers (got shape {array.shape})", code="E501")
+    if not np.all(np.isfinite(array)):
+        raise RunError(f"time number {int(np.flatnonzero(~np.isfinite(array))[0]) + 1} is not finite", code="E502")
+    if np.any(np.diff(array) <= 0):
+        place = int(np.flatnonzero(np.diff(array) <= 0)[0])
+        raise RunError(
+            f"the times are out of order: {array[place]:g} is followed by {array[place + 1]:g}",
+            fix="sort them, each once",
+            code="E501",
+        )
+    if array[0] < begin:
+        raise RunError(f"times begin at {array[0]:g}, before the start at {begin:g}", fix="start=…", code="E501")
+    return array if array[0] == begin else np.concatenate([[begin], array])
+
+
+def _initial(
+    given: Given, model: Model, program: Program, fallback: Mapping[str, Any], initial: Any, by_name: Mapping[str, Any]
+) -> Array:
+    """x at the start: what is given over what the file says over the resting configuration."""
+    values = dict.fromkeys(given.states.names, 0.0)
+    values.update({c.name: c.start for c in model.coordinates})
+    values.update(given.states.values(dict(fallback)))
+    listed = given.states.values(initial)
+    for name in by_name:
+        if name not in given.states.names:
+            _not_a_state(model, name, given.states.names)
+        if name in listed and initial is not None:
+            raise RunError(f"'{name}' is given twice, by itself and in initial", code="E404")
+    values.update(listed)
+    values.update(given.states.values(by_name))
+    extra = len(program.inputs["x"]) - len(values)
+    return np.array([*values.values(), *[0.0] * extra])
+
+
+def _not_a_state(model: Model, name: str, states: Sequence[str]) -> NoReturn:
+    """A keyword that is neither an option nor a state."""
+    if any(p.name == name for p in model.parameters):
+        fix = f"it is a parameter: params={{'{name}': …}}"
+    elif any(u.name == name for u in model.inputs):
+        fix = f"it is an input: inputs={{'{name}': …}}"
+    else:
+        options = [p for p in inspect.signature(simulate).parameters if p not in ("model", "by_name")]
+        fix = did_you_mean(name, [*states, *options]) or f"states: {', '.join(states[:12])}"
+    raise RunError(f"there is no option and no state '{name[:64]}'", fix=fix, code="E402")
+
+
+def _method(method: str | None, drive: Driving, step: Any) -> str:
+    if method is None:
+        return "DOP853"
+    if not isinstance(method, str) or method not in SCIPY:
+        known = [*SCIPY]
+        fix = did_you_mean(str(method), known) or f"one of {', '.join(known)}"
+        raise RunError(f"there is no method {method!r:.40}", fix=fix, code="E402")
+    return method
+
+
+def _tolerance(value: Any, what: str) -> float:
+    real = number(value, what)
+    if real <= 0:
+        raise RunError(f"{what} must be above 0 (got {real:g})", fix="such as 1e-9", code="E501")
+    return real
+
+
+def _positive(value: Any, what: str, *, infinite: bool = False) -> float:
+    if infinite and isinstance(value, float) and value == math.inf:
+        return value
+    real = number(value, what, SECOND)
+    if real <= 0:
+        raise RunError(f"{what} must be above 0 (got {real:g})", fix="a time in seconds", code="E501")
+    return real
+
+
+def _count(value: Any, what: str, *, least: int = 1) -> int:
+    if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
+        raise RunError(f"{what} must be a whole number, at least {least} (got {value!r:.30})", code="E501")
+    return int(value)
+
+
+def _events(given: Sequence[Event] | Event) -> tuple[Event, ...]:
+    listed = (given,) if isinstance(given, Event) else tuple(given)
+    for e in listed:
+        if not isinstance(e, Event):
+            raise RunError(
+                f"an event is made with lagrangian.event(…) (got {type(e).__name__})",
+                fix="events=[lagrangian.event(theta, terminal=True)]",
+                code="E501",
+            )
+    titles = [e.title for e in listed]
+    for title in titles:
+        if titles.count(title) > 1:
+            raise RunError(f"two events are called '{title}'", fix="give them names", code="E404")
+    return listed
+
+
+# -- running ----------------------------------------------------------------------------------------------------
+
+
+def _jacobian(program: Program) -> Program:
+    """x, u, p, t → ∂ẋ/∂x, shape (nx, nx)."""
+    g, n = program.graph, len(program.inputs["x"])
+    x = [g.input("x", i) for i in range(n)]
+    entries = jacobian(g, program.outputs["xdot"].ids, x)
+    ids = tuple(entries.get((i, k), g.zero) for i in range(n) for k in range(n))
+    return Program("jacobian", g, program.inputs, {"J": Output(ids, (n, n))}, program.defaults)
+
+
+def _run_scipy(task: Task) -> Outcome:
+    drive, times = task.drive, task.times
+    rhs = machine.compile(task.program)
+    slope = None
+    if task.method in IMPLICIT and not drive.calls_python:
+        slope = machine.compile(_jacobian(task.program))
+    crossings = None
+    if task.events:
+        supply = dynamics.SUPPLY in task.program.inputs["x"]
+        listed = [(e.title, e.expression, e.reset) for e in task.events]
+        kernel = machine.compile(dynamics.impacts(task.model, listed, drive.feedback, supply=supply))
+        crossings = Crossings(
+            kernel,
+            task.p,
+            [e.direction for e in task.events],
+            [e.terminal for e in task.events],
+            [bool(e.reset) for e in task.events],
+        )
+    return integrate_scipy(
+        task.method,
+        rhs,
+        task.x0,
+        times,
+        drive.legs(float(times[0]), float(times[-1])),
+        task.p,
+        jacobian=slope,
+        crossings=crossings,
+        rtol=task.rtol,
+        atol=task.atol,
+        bounds=task.bounds,
+    )
+
+
+# -- what came of it --------------------------------------------------------------------------------------------
+
+
+def _trajectory(task: Task, outcome: Outcome) -> Trajectory:
+    model, n = task.model, len(task.model.coordinates) + len(task.model.velocities)
+    t, x = outcome.times, outcome.states
+    if outcome.status != 0 and outcome.reached > t[-1]:  # what was reached last is kept too
+        t, x = np.append(t, outcome.reached), np.vstack([x, outcome.final])
+    supplied = x[:, n] if x.shape[1] > n else np.zeros(len(t))
+    return Trajectory(
+        model=model,
+        t=t,
+        y=np.ascontiguousarray(x[:, :n].T),
+        status=outcome.status,
+        success=outcome.status >= 0,
+        message=_message(task, outcome),
+        method=task.method,
+        nfev=outcome.evaluations,
+        steps=outcome.steps,
+        rejected=outcome.rejected,
+        p=task.p,
+        u=task.drive.at(t, x[:, :n]),
+        feedback=task.drive.feedback,
+        events=_occurrences(task, outcome.hits, n),
+        supplied=supplied,
+        jumps=_jumps(task, outcome.hits, t, n),
+        settings={"rtol": task.rtol, "atol": task.atol},
+    )
+
+
+def _occurrences(task: Task, hits: Sequence[Hit], n: int) -> dict[str, Occurrences]:
+    found: dict[str, Occurrences] = {}
+    for k, e in enumerate(task.events):
+        own = [h for h in hits if h.index == k]
+        states = np.array([h.before[:n] for h in own]).reshape(len(own), n).T
+        found[e.title] = Occurrences(np.array([h.time for h in own]), states)
+    return found
+
+
+def _jumps(task: Task, hits: Sequence[Hit], t: Array, n: int) -> Array:
+    """What events that change the state have changed h by, until each time."""
+    total = np.zeros(len(t))
+    changed = [h for h in hits if h.after is not None]
+    if not changed:
+        return total
+    kernel = machine.compile(dynamics.power_closed(task.model, task.drive.feedback))
+    at = np.array([h.time for h in changed])
+    before = np.array([h.before[:n] for h in changed])
+    after = np.array([h.after[:n] for h in changed if h.after is not None])
+    h0, h1 = (kernel(x, task.drive.at(at, x), task.p, at)["h"] for x in (before, after))
+    for time, gain in zip(at, h1 - h0, strict=True):
+        total[t > time] += gain
+    return total
+
+
+def _message(task: Task, outcome: Outcome) -> str:
+    """How the run ended, with time, state and reason where it ended early."""
+    if outcome.status == 0:
+        return f"the end of the interval was reached, t = {outcome.reached:g} s"
+    if outcome.status == 1:
+        return f"event '{task.events[outcome.hits[-1].index].title}' ended the run at t = {outcome.reached:.9g} s"
+    return f"stopped at t = {outcome.reached:.9g} s: {outcome.reason or outcome.status}"

@@ -1,0 +1,198 @@
+"""A run: what `system.simulate` returns."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrangian import compile as machine
+from lagrangian import dynamics, read
+from lagrangian.errors import ModelError, did_you_mean
+from lagrangian.model import Model, Point
+
+if TYPE_CHECKING:
+    from lagrangian.graph import Program
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Audit:
+    """How well a run keeps its energy balance h(t) = h(0) + energy supplied, h = q̇·∂L/∂q̇ − L.
+
+    ``figure`` is the largest difference relative to the energy that moves in the run (the largest of T*, of the change
+    of V, and of the energy supplied); ``time`` is where it is largest. float(audit) is the figure.
+    """
+
+    figure: float
+    time: float
+    conserved: bool
+
+    def __float__(self) -> float:
+        return self.figure
+
+    def __str__(self) -> str:
+        """Read as ``energy drift 3.1e-12`` or ``power balance 3.1e-12``."""
+        return f"{'energy drift' if self.conserved else 'power balance'} {self.figure:.1e}"
+
+
+@dataclass(frozen=True)
+class Occurrences:
+    """When an event happened: ``t`` (k,) and the states just before it, ``y`` (n_states, k)."""
+
+    t: Array
+    y: Array
+
+    def __len__(self) -> int:
+        return len(self.t)
+
+
+@dataclass(eq=False)
+class Trajectory:
+    """A run of a system, as SciPy's solvers return one, and everything that can be asked of it by name.
+
+    ``t`` (S,) are the times [s], ``y`` (n_states, S) the states x = [q; v] in declared order, ``states`` their names.
+    ``run["theta1"]``, ``run["theta1'"]``, ``run["theta1''"]`` and ``run[expression]`` are arrays (S,), in SI units.
+    ``success`` is whether the run came to its end (or to a terminal event), ``message`` says how it ended; a run that
+    failed keeps what it reached. ``nfev`` counts evaluations of the right-hand side, ``method`` is what integrated.
+    """
+
+    model: Model = field(repr=False)
+    t: Array
+    y: Array
+    status: int
+    success: bool
+    message: str
+    method: str
+    nfev: int
+    steps: int
+    rejected: int
+    p: Array
+    u: Array
+    feedback: dict[Any, sp.Expr]
+    events: Mapping[str, Occurrences]
+    supplied: Array
+    jumps: Array
+    settings: Mapping[str, Any]
+    _kernels: dict[Any, machine.Kernel] = field(default_factory=dict, repr=False)
+
+    # -- asking -------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def states(self) -> tuple[str, ...]:
+        """The names of the states, coordinates first."""
+        return (*(c.name for c in self.model.coordinates), *(v.name for v in self.model.velocities))
+
+    @property
+    def params(self) -> dict[str, float]:
+        """The parameters the run was made with."""
+        return {p.name: float(value) for p, value in zip(self.model.parameters, self.p, strict=True)}
+
+    def __getitem__(self, asked: Any) -> Array:
+        """Return a quantity at every time: a state by name, an expression (SymPy or text), or a point's path (S, d)."""
+        if isinstance(asked, str):
+            if asked in self.states:
+                return self.y[self.states.index(asked)]
+            asked = read.parse_expression(asked, read.Scope(self.model.symbols), what="what is asked of the run")
+        return self.observe({"asked": asked})["asked"]
+
+    def observe(self, outputs: Mapping[str, Any]) -> dict[str, Array]:
+        """Return several expressions or points at once, by name."""
+        return self._evaluated(dynamics.observe_closed(self.model, outputs, self.feedback))
+
+    def _evaluated(self, program: Program) -> dict[str, Array]:
+        kernel = machine.compile(program)
+        answer = kernel(np.ascontiguousarray(self.y.T), self.u, self.p, self.t)
+        return answer if isinstance(answer, dict) else {next(iter(program.outputs)): answer}
+
+    # -- energies -----------------------------------------------------------------------------------------------
+
+    @cached_property
+    def _power(self) -> dict[str, Array]:
+        return self._evaluated(dynamics.power_closed(self.model, self.feedback))
+
+    @property
+    def kinetic(self) -> Array:
+        """T* [J], shape (S,)."""
+        return self._power["T"]
+
+    @property
+    def potential(self) -> Array:
+        """V [J], shape (S,)."""
+        return self._power["V"]
+
+    @property
+    def energy(self) -> Array:
+        """T* + V [J], shape (S,)."""
+        return self.kinetic + self.potential
+
+    @property
+    def power(self) -> Array:
+        """The power supplied from outside, Ξ·q̇ − ∂L/∂t [W], shape (S,)."""
+        return self._power["P"]
+
+    @cached_property
+    def imbalance(self) -> Array:
+        """h(t) − h(0) − the energy supplied until t [J], shape (S,): what `audit` judges."""
+        h = self._power["h"]
+        return h - h[0] - self.supplied - self.jumps if len(h) else h
+
+    @cached_property
+    def audit(self) -> Audit:
+        """The energy balance as a figure."""
+        conserved = not self.supplied.any()
+        if not len(self.t):
+            return Audit(0.0, 0.0, conserved)
+        V = self.potential
+        scale = max(np.max(np.abs(self.kinetic)), np.max(V) - np.min(V), np.max(np.abs(self.supplied)))
+        worst = int(np.argmax(np.abs(self.imbalance)))
+        largest = abs(float(self.imbalance[worst]))
+        return Audit(largest / float(scale) if largest else 0.0, float(self.t[worst]), conserved)
+
+    @cached_property
+    def points(self) -> Mapping[str, Array]:
+        """Paths of the named points, (S, d) each, in the fixed axes [m]."""
+        return Paths(self)
+
+    # -- showing ------------------------------------------------------------------------------------------------
+
+    def __repr__(self) -> str:
+        """Say what ran, how, how far, and how well energy is balanced."""
+        span = f"t = {self.t[0]:g} … {self.t[-1]:g} s" if len(self.t) else "nothing"
+        end = "" if self.success else f"; FAILED: {self.message}"
+        return (
+            f"<Trajectory {self.model.name!r}: {span}, {len(self.t)} samples, {self.method}, {self.steps} steps, "
+            f"{self.audit}{end}>"
+        )
+
+
+class Paths(Mapping[str, Array]):
+    """The paths of a run's named points, worked out when asked for."""
+
+    def __init__(self, run: Trajectory) -> None:
+        self._run = run
+        self._points: dict[str, Point] = {p.name: p for p in run.model.points if p.name}
+
+    def __getitem__(self, name: Any) -> Array:
+        if isinstance(name, Point):
+            return self._run[name]
+        if name not in self._points:
+            known = ", ".join(self._points) or "the system names none"
+            fix = did_you_mean(str(name), self._points) or f"points: {known}"
+            raise ModelError(f"there is no point '{name}'", fix=fix, code="E412")
+        return self._run[self._points[name]]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._points
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._points)
+
+    def __len__(self) -> int:
+        return len(self._points)
