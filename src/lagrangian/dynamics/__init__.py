@@ -4,6 +4,7 @@
 """
 
 from lagrangian.dynamics.bodies import Bodies
+from lagrangian.dynamics.canonical import canonical, canonical_impacts, momenta, velocities
 from lagrangian.dynamics.closed import SUPPLY, closed, observe_closed, power_closed
 from lagrangian.dynamics.describe import Inputs, describe
 from lagrangian.dynamics.impacts import impacts
@@ -33,6 +34,8 @@ __all__ = [
     "Mechanics",
     "Motion",
     "bias",
+    "canonical",
+    "canonical_impacts",
     "closed",
     "coriolis",
     "describe",
@@ -44,6 +47,7 @@ __all__ = [
     "inverse_from_lagrangian",
     "loss",
     "mass_matrix",
+    "momenta",
     "observe",
     "observe_closed",
     "point_jacobian",
@@ -51,4 +55,5 @@ __all__ = [
     "power_closed",
     "rates",
     "rhs",
+    "velocities",
 ]

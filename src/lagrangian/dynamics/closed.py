@@ -68,8 +68,8 @@ def with_feedback(
     # free inputs first get their new places; what replaces an input is renumbered along with the rest
     for u, expr in _in_order(model, feedback):
         node = seen.node(expr, f"the input '{u.name}'")
-        known[graph.input("u", model.inputs.index(u))] = _replaced(graph, [node], known)[0]
-    changed = {key: Output(tuple(_replaced(graph, output.ids, known)), output.shape) for key, output in outputs.items()}
+        known[graph.input("u", model.inputs.index(u))] = replaced(graph, [node], known)[0]
+    changed = {key: Output(tuple(replaced(graph, output.ids, known)), output.shape) for key, output in outputs.items()}
     made = _program(model, name, graph, changed, groups=("x",))
     groups = {**made.inputs, "x": (*made.inputs["x"], *states), "u": tuple(u.name for u in free)}
     return replace(made, inputs=groups)
@@ -103,8 +103,8 @@ def _in_order(model: Model, feedback: Feedback) -> list[tuple[Input, sp.Expr]]:
     return done
 
 
-def _replaced(graph: Graph, ids: Sequence[int] | Iterable[int], known: Mapping[int, int]) -> list[int]:
-    """The nodes ``ids`` with every node of ``known`` replaced by what it is there."""
+def replaced(graph: Graph, ids: Iterable[int], known: Mapping[int, int]) -> list[int]:
+    """The nodes ``ids`` with every node of ``known`` replaced by what it is there, all at once."""
     ends = list(ids)
     value = dict(known)
     for i in reached(graph, ends, known):

@@ -29,9 +29,14 @@ def impacts(model: Model, events: Sequence[Impact], feedback: Feedback, *, suppl
     Raises `ModelError` for symbols that are not known and for what is no state.
     """
     seen = Observed(model)
-    motion = seen.mechanics.motion
+    return with_feedback(seen, impact_outputs(seen, events, supply), feedback, "events", (SUPPLY,) if supply else ())
+
+
+def impact_outputs(seen: Observed, events: Sequence[Impact], supply: bool) -> dict[str, Output]:
+    """``g`` and ``after`` as outputs over [q; v] and, with ``supply``, the energy supplied."""
+    model, motion = seen.model, seen.mechanics.motion
     states: dict[Any, int] = {c.symbol: i for i, c in enumerate(model.coordinates)}
-    states.update((v.symbol, len(states) + i) for i, v in enumerate(model.velocities))
+    states.update({v.symbol: len(model.coordinates) + i for i, v in enumerate(model.velocities)})
     before = [*motion.q, *motion.v, *([seen.graph.input("x", len(states))] if supply else [])]
     g, rows = [], []
     for name, function, reset in events:
@@ -39,16 +44,17 @@ def impacts(model: Model, events: Sequence[Impact], feedback: Feedback, *, suppl
         row = list(before)
         for state, value in reset.items():
             if state not in states:
-                shown = plain(state) if isinstance(state, sp.Basic) else str(state)
-                known = [plain(s) for s in states]
-                raise ModelError(
-                    f"event '{name}' sets '{shown}', which is no state",
-                    fix=did_you_mean(shown, known) or f"states: {', '.join(known[:12])}",
-                    code="E402",
-                )
+                raise _no_state(name, state, list(states))
             row[states[state]] = seen.node(value, f"'{plain(state)}' after event '{name}'")
         rows.append(row)
     outputs = {"g": Output(tuple(g), (len(g),))}
     if any(reset for _, _, reset in events):
         outputs["after"] = Output(tuple(x for row in rows for x in row), (len(rows), len(before)))
-    return with_feedback(seen, outputs, feedback, "events", (SUPPLY,) if supply else ())
+    return outputs
+
+
+def _no_state(event: str, state: Any, states: Sequence[Any]) -> ModelError:
+    shown = plain(state) if isinstance(state, sp.Basic) else str(state)
+    known = [plain(s) for s in states]
+    fix = did_you_mean(shown, known) or f"states: {', '.join(known[:12])}"
+    return ModelError(f"event '{event}' sets '{shown}', which is no state", fix=fix, code="E402")
