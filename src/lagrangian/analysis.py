@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields
 from typing import Any
 
 from lagrangian import analyze, write
+from lagrangian.analyze.equilibria_report import equilibria_report
 from lagrangian.analyze.linear_report import linear_report
 from lagrangian.analyze.report import Report
 from lagrangian.model import Model
@@ -61,7 +62,22 @@ class Linearization(Written, analyze.Linearization):
         return linear_report(self)
 
 
+@dataclass(frozen=True, eq=False)
+class Equilibria(Written, analyze.Equilibria):
+    """The rests of a system, a sequence of `analyze.Equilibrium`."""
+
+    def report(self) -> Report:
+        """Return the report."""
+        return equilibria_report(self)
+
+
 def linearize(model: Model, at: Any, **options: Any) -> Linearization:
     """Return the linearization of a model about a point; see `analyze.linearize`."""
     data = analyze.linearize(model, at, **options)
     return Linearization(**{f.name: getattr(data, f.name) for f in fields(data)})
+
+
+def equilibria(model: Model, **options: Any) -> Equilibria:
+    """Return the rests of a model; see `analyze.equilibria`."""
+    data = analyze.equilibria(model, **options)
+    return Equilibria(**{f.name: getattr(data, f.name) for f in fields(data)})

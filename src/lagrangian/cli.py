@@ -8,7 +8,7 @@ import sys
 
 import typer
 
-from lagrangian.commands import derive, export, linearize, start, verify
+from lagrangian.commands import derive, equilibria, export, linearize, start, verify
 from lagrangian.errors import Error, ModelError
 
 app = typer.Typer(
@@ -23,6 +23,7 @@ app.command()(derive.derive)
 app.command()(verify.verify)
 app.command()(export.export)
 app.command()(linearize.linearize)
+app.command()(equilibria.equilibria)
 app.command()(start.new)
 app.command("examples")(start.list_examples)
 app.command()(start.schema)

@@ -10,7 +10,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import read
-from lagrangian.analysis import Linearization, linearize
+from lagrangian.analysis import Equilibria, Linearization, equilibria, linearize
 from lagrangian.analyze import check_dimensions
 from lagrangian.compiled import LANGUAGES, Compiled, sources
 from lagrangian.derivation import Derivation, derive_and_verify
@@ -304,6 +304,13 @@ class System:
         """
         check_dimensions(self.model)
         return Compiled(self.model, lanes=lanes, threads=threads)
+
+    def equilibria(self, **options: Any) -> Equilibria:
+        """Return where the system can stay at rest: all equilibria found in a box, each with its stability.
+
+        Options: ``inputs``, ``params``, ``box={name: (low, high)}``, ``samples``; see `lagrangian.analyze.equilibria`.
+        """
+        return equilibria(self.model, **options)
 
     def linearize(self, at: Any = None, **options: Any) -> Linearization:
         """Return A, B, C, D about an equilibrium, with poles, modes and the verdict on stability.

@@ -7,8 +7,8 @@ h = C q̇ + G − Ξ.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -18,14 +18,18 @@ from numpy.typing import NDArray
 from lagrangian import dynamics
 from lagrangian.analyze.given import Given, Named
 from lagrangian.analyze.jacobians import Arrays, forces, rates, reads, values
-from lagrangian.analyze.modes import Mode, Spectrum, modes, spectrum
-from lagrangian.analyze.outputs import Measured, measured
+from lagrangian.analyze.modes import EPSILON, SLACK, Mode, Spectrum, modes, spectrum
+from lagrangian.analyze.outputs import measured
 from lagrangian.analyze.rest import Rest, rest
-from lagrangian.analyze.stability import Stability, energy_decides, judge
+from lagrangian.analyze.stability import Stability, has_minimum, judge, loses_power
 from lagrangian.errors import RunError
+from lagrangian.graph import Program
 from lagrangian.model import Model
 
 Array = NDArray[np.float64]
+
+PERTURBED = 1e-12
+"""Relative change of parameters and point by which rounding errors are estimated."""
 
 TIMES = (0.0, 0.37, 1.91, 7.13)
 """[s] Times at which coefficients that read t are compared."""
@@ -39,7 +43,9 @@ class Linearization:
     ``parameters`` are the values there by name. ``kind`` is "rest", "steady motion" (only coordinates that nothing
     depends on move) or "operating point", where ``drift`` = f(x₀, u₀) adds to δẋ. ``residual`` is the largest |q̈|.
     ``mass``, ``damping``, ``stiffness``, ``input_matrix`` are M, D, K and S of the second-order form about a rest, else
-    None. ``notes`` say what else there is to know of the point.
+    None. ``notes`` say what else there is to know of the point, ``free`` names what nothing depends on, ``changing``
+    says that A or B changes with time, ``minimum`` that energy has a strict minimum there and nothing supplies power.
+    ``noise`` are the rounding errors in A and in M⁻¹K.
     """
 
     model: Model
@@ -65,7 +71,8 @@ class Linearization:
     notes: tuple[str, ...] = ()
     free: tuple[str, ...] = ()
     changing: bool = False
-    _minimum: bool = field(default=False, repr=False)
+    minimum: bool = False
+    noise: tuple[float, float] = (0.0, 0.0)
 
     @property
     def coordinates(self) -> tuple[str, ...]:
@@ -76,8 +83,8 @@ class Linearization:
     def spectrum(self) -> Spectrum:
         """The eigenvalues of A with the bounds of their rounding errors."""
         if self.mass is not None and self.damping is not None and self.stiffness is not None:
-            return spectrum(self.A, (self.mass, self.damping, self.stiffness))
-        return spectrum(self.A)
+            return spectrum(self.A, (self.mass, self.damping, self.stiffness), self.noise)
+        return spectrum(self.A, None, self.noise)
 
     @property
     def poles(self) -> NDArray[np.complex128]:
@@ -107,7 +114,7 @@ class Linearization:
             return Stability("depends on time", "A changes with time, and poles at one moment decide nothing")
         if self.kind == "operating point":
             return Stability("marginal", "the point is not a rest; poles tell how neighbours part, for a short while")
-        return judge(self.spectrum, self.states[: len(self.coordinates)], self._minimum)
+        return judge(self.spectrum, self.states[: len(self.coordinates)], self.minimum)
 
     @property
     def stable(self) -> bool | None:
@@ -121,7 +128,7 @@ def linearize(
     *,
     inputs: Named | None = None,
     params: Named | None = None,
-    outputs: Sequence[Any] | Mapping[str, Any] | None = None,
+    outputs: Any = None,
     time: object = 0.0,
     operating_point: bool = False,
 ) -> Linearization:
@@ -132,47 +139,120 @@ def linearize(
     is refused unless ``operating_point`` asks for it; what is within rounding of one is moved onto it and says so.
     Raises `RunError` for names and values that do not fit, and where M is singular.
     """
-    program = rates(model)
-    given = Given.of(model, program)
+    linearizer = Linearizer(model)
+    given = Given.of(model, linearizer.rates)
     t = given.time_value(time)
-    here = rest(model, program, given, at, inputs, params, t, operating_point)
-    found = _finite(program_values(program, here, t), here)
-    y = measured(model, outputs, program)
-    seen = values(y.program, x=here.x, u=here.u, p=here.p, t=t)
-    second = None if here.kind == "operating point" else _second_order(model, here, t)
-    return Linearization(
-        model=model,
-        A=found["A"],
-        B=found["B"],
-        C=seen["C"],
-        D=seen["D"],
-        states=program.inputs["x"],
-        inputs=program.inputs["u"],
-        outputs=y.names,
-        at=dict(zip(program.inputs["x"], here.x.tolist(), strict=True)),
-        inputs_at=dict(zip(program.inputs["u"], here.u.tolist(), strict=True)),
-        outputs_at=dict(zip(y.names, seen["y"].tolist(), strict=True)),
-        parameters=dict(zip(program.inputs["p"], here.p.tolist(), strict=True)),
-        kind=here.kind,
-        drift=found["xdot"],
-        residual=here.residual,
-        mass=None if second is None else second["M"],
-        damping=None if second is None else second["D"],
-        stiffness=None if second is None else second["K"],
-        input_matrix=None if second is None else -second["S"],
-        time=t,
-        notes=here.notes,
-        free=here.free,
-        changing=_changes(program, here),
-        _minimum=second is not None
-        and here.kind == "rest"
-        and energy_decides(model, second, here.x[: len(second["K"])], here.u, here.p, t),
-    )
+    here = rest(model, linearizer.rates, given, at, inputs, params, t, operating_point)
+    return linearizer.about(here, t, outputs)
 
 
-def program_values(program: Any, here: Rest, t: float) -> Arrays:
-    """The outputs of a program over x at a point."""
-    return values(program, x=here.x, u=here.u, p=here.p, t=t)
+@dataclass(frozen=True, eq=False)
+class Linearizer:
+    """The programs behind linearizations of one model, made once."""
+
+    model: Model
+
+    @cached_property
+    def rates(self) -> Program:
+        """ẋ, A and B."""
+        return rates(self.model)
+
+    @cached_property
+    def forces(self) -> Program:
+        """h, K, D and S."""
+        return forces(self.model)
+
+    @cached_property
+    def mass(self) -> Program:
+        """M."""
+        return dynamics.mass_matrix(self.model)
+
+    @cached_property
+    def power(self) -> Program:
+        """The power of what is not conservative."""
+        return dynamics.power(self.model)
+
+    def at_rest(self, x: Array, u: Array, p: Array) -> Linearization:
+        """The linearization about what is known to be a rest."""
+        return self.about(Rest(self.rates.inputs["x"], x, u, p, "rest", 0.0), 0.0, None)
+
+    def about(self, here: Rest, t: float, outputs: Any) -> Linearization:
+        """The linearization about a point of known kind."""
+        program = self.rates
+        found = _finite(values(program, x=here.x, u=here.u, p=here.p, t=t), here)
+        y = measured(self.model, outputs, program)
+        seen = _finite(values(y.program, x=here.x, u=here.u, p=here.p, t=t), here)
+        second = None if here.kind == "operating point" else self._second_order(here, t)
+        noise, noise_of_K = self._noise(here, t, found, second)
+        return Linearization(
+            model=self.model,
+            A=found["A"],
+            B=found["B"],
+            C=seen["C"],
+            D=seen["D"],
+            states=program.inputs["x"],
+            inputs=program.inputs["u"],
+            outputs=y.names,
+            at=dict(zip(program.inputs["x"], here.x.tolist(), strict=True)),
+            inputs_at=dict(zip(program.inputs["u"], here.u.tolist(), strict=True)),
+            outputs_at=dict(zip(y.names, seen["y"].tolist(), strict=True)),
+            parameters=dict(zip(program.inputs["p"], here.p.tolist(), strict=True)),
+            kind=here.kind,
+            drift=found["xdot"],
+            residual=here.residual,
+            mass=None if second is None else second["M"],
+            damping=None if second is None else second["D"],
+            stiffness=None if second is None else second["K"],
+            input_matrix=None if second is None else -second["S"],
+            time=t,
+            notes=here.notes,
+            free=here.free,
+            changing=self._changes(here),
+            minimum=here.kind == "rest" and second is not None and self._minimum(second, here, noise_of_K),
+            noise=noise,
+        )
+
+    def _second_order(self, here: Rest, t: float) -> Arrays | None:
+        """M, D, K, S about a rest, where velocities are the rates of the coordinates."""
+        n = len(self.forces.inputs["q"])
+        if n != len(self.forces.inputs["v"]):
+            return None
+        point = {"q": here.x[:n], "v": here.x[n:], "u": here.u, "p": here.p, "t": t}
+        return values(self.forces, **point) | values(self.mass, **point)
+
+    def _noise(self, here: Rest, t: float, found: Arrays, second: Arrays | None) -> tuple[tuple[float, float], float]:
+        """The rounding errors in A and M⁻¹K, and in K: how they change when all digits behind the twelfth do.
+
+        Where terms cancel, as at a bifurcation, they are much larger than ε times what is left.
+        """
+        source = np.random.default_rng(5)
+        dA = dK = dMK = 0.0
+        for _ in range(3):
+            x, p = (v * (1 + PERTURBED * source.uniform(-1, 1, len(v))) for v in (here.x, here.p))
+            moved = replace(here, x=x, p=p)
+            near = values(self.rates, x=x, u=here.u, p=p, t=t)
+            dA = max(dA, _largest(near["A"] - found["A"]))
+            if second is not None and (other := self._second_order(moved, t)) is not None:
+                dK = max(dK, _largest(other["K"] - second["K"]))
+                n = len(second["K"])
+                dMK = max(dMK, _largest(near["A"][n:, :n] - found["A"][n:, :n]))
+        digits = SLACK * EPSILON / PERTURBED
+        return (dA * digits, dMK * digits), dK * digits
+
+    def _minimum(self, second: Arrays, here: Rest, noise: float) -> bool:
+        n = len(second["K"])
+        return has_minimum(second["M"], second["K"], noise) and loses_power(self.power, here.x[:n], here.u, here.p)
+
+    def _changes(self, here: Rest) -> bool:
+        """Whether A or B differs between a few times."""
+        if not reads(self.rates, "A", "t") and not reads(self.rates, "B", "t"):
+            return False
+        first, *others = (values(self.rates, x=here.x, u=here.u, p=here.p, t=t) for t in TIMES)
+        return any(
+            np.abs(other[k] - first[k]).max(initial=0.0) > 1e-9 * max(1.0, np.abs(first[k]).max(initial=0.0))
+            for other in others
+            for k in ("A", "B")
+        )
 
 
 def _finite(found: Arrays, here: Rest) -> Arrays:
@@ -186,26 +266,5 @@ def _finite(found: Arrays, here: Rest) -> Arrays:
     return found
 
 
-def _second_order(model: Model, here: Rest, t: float) -> Arrays | None:
-    """M, D, K, S about a rest, where velocities are the rates of the coordinates."""
-    program = forces(model)
-    n = len(program.inputs["q"])
-    if n != len(program.inputs["v"]):
-        return None
-    point = {"q": here.x[:n], "v": here.x[n:], "u": here.u, "p": here.p, "t": t}
-    return values(program, **point) | values(dynamics.mass_matrix(model), **point)
-
-
-def _changes(program: Any, here: Rest) -> bool:
-    """Whether A or B differs between a few times."""
-    if not reads(program, "A", "t") and not reads(program, "B", "t"):
-        return False
-    first, *others = (program_values(program, here, t) for t in TIMES)
-    return any(
-        np.abs(other[k] - first[k]).max(initial=0.0) > 1e-9 * max(1.0, np.abs(first[k]).max(initial=0.0))
-        for other in others
-        for k in ("A", "B")
-    )
-
-
-__all__ = ["Linearization", "Measured", "linearize"]
+def _largest(a: Array) -> float:
+    return float(np.abs(a).max(initial=0.0))

@@ -69,17 +69,23 @@ class Spectrum:
         return np.where(np.abs(real) <= self.errors, 0, np.sign(real)).astype(np.int64)
 
 
-def spectrum(A: Array, second_order: tuple[Array, Array, Array] | None = None) -> Spectrum:
-    """The spectrum of A (n×n); ``second_order`` is (M, D, K) where A is made of them."""
+def spectrum(
+    A: Array, second_order: tuple[Array, Array, Array] | None = None, noise: tuple[float, float] = (0.0, 0.0)
+) -> Spectrum:
+    """The spectrum of A (n×n); ``second_order`` is (M, D, K) where A is made of them.
+
+    ``noise`` are the rounding errors in the entries of A and of M⁻¹K, where these are known to be larger than ε.
+    """
     if A.shape[0] == 0:
         return Spectrum(np.zeros(0, complex), np.zeros(0), np.zeros((0, 0), complex))
     if second_order is not None and is_conservative(*second_order):
-        return _undamped(second_order[0], second_order[2])
+        return _undamped(second_order[0], second_order[2], noise[1])
     balanced, scaling = scipy.linalg.matrix_balance(A, permute=False, separate=False)
     found: Any = scipy.linalg.eig(balanced, left=True, right=True)
     poles, left, right = (np.asarray(x, np.complex128) for x in found)
     cosine = np.abs(np.einsum("ik,ik->k", left.conj(), right))
-    errors = SLACK * EPSILON * np.linalg.norm(balanced, 2) / np.maximum(cosine, np.sqrt(EPSILON))
+    error = SLACK * EPSILON * float(np.linalg.norm(balanced, 2)) + noise[0]
+    errors = error / np.maximum(cosine, np.sqrt(EPSILON))
     real = np.where(np.abs(poles.real) <= errors, 0.0, poles.real)
     imag = np.where(np.abs(poles) <= errors, 0.0, poles.imag)
     return _sorted(real + 1j * imag, errors, scaling @ right)
@@ -97,10 +103,10 @@ def is_conservative(M: Array, D: Array, K: Array) -> bool:
     )
 
 
-def _undamped(M: Array, K: Array) -> Spectrum:
+def _undamped(M: Array, K: Array, noise: float) -> Spectrum:
     """λ = ±√(−κ) with K φ = κ M φ; what is zero up to rounding is zero."""
     kappa, shapes = scipy.linalg.eigh((K + K.T) / 2, (M + M.T) / 2)
-    bound = SLACK * EPSILON * float(np.abs(kappa).max(initial=0.0))
+    bound = SLACK * EPSILON * float(np.abs(kappa).max(initial=0.0)) + noise
     kappa = np.where(np.abs(kappa) <= bound, 0.0, kappa)
     roots = np.sqrt(-kappa.astype(complex))
     poles = np.concatenate([roots, -roots])

@@ -12,10 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian import dynamics
-from lagrangian.analyze.jacobians import Arrays, values
+from lagrangian.analyze.jacobians import values
 from lagrangian.analyze.modes import SYMMETRIC, Spectrum
-from lagrangian.model import Model
+from lagrangian.graph import Program
 
 Array = NDArray[np.float64]
 
@@ -91,19 +90,22 @@ def _listed(names: list[str]) -> str:
     return names[0] if len(names) == 1 else ", ".join(names[:-1]) + " and " + names[-1]
 
 
-def energy_decides(model: Model, second: Arrays, q: Array, u: Array, p: Array, t: float) -> bool:
-    """Whether K is symmetric and positive definite at the rest q, M too, and no random motion near it gains energy."""
-    K, M = second["K"], second["M"]
+def has_minimum(M: Array, K: Array, noise: float) -> bool:
+    """Whether K, known up to ``noise``, is symmetric and positive definite, and M positive definite."""
     size = float(np.abs(K).max(initial=0.0))
-    if not size or float(np.abs(K - K.T).max()) > SYMMETRIC * size:
+    if size <= noise or float(np.abs(K - K.T).max()) > SYMMETRIC * size:
         return False
-    if np.linalg.eigvalsh((K + K.T) / 2).min() <= SYMMETRIC * size or np.linalg.eigvalsh((M + M.T) / 2).min() <= 0:
-        return False
-    program = dynamics.power(model)
+    return bool(
+        np.linalg.eigvalsh((K + K.T) / 2).min() > 1e-13 * size + noise and np.linalg.eigvalsh((M + M.T) / 2).min() > 0
+    )
+
+
+def loses_power(power: Program, q: Array, u: Array, p: Array) -> bool:
+    """Whether no random motion near the rest q gains energy: dh/dt = P ≤ 0."""
     source = np.random.default_rng(1)
     for _ in range(SAMPLES):
         x = np.concatenate([q + 0.1 * source.standard_normal(len(q)), source.standard_normal(len(q))])
-        got = values(program, x=x, u=u, p=p, t=t + 10 * source.random())
+        got = values(power, x=x, u=u, p=p, t=10 * source.random())
         if not got["P"] <= 1e-12 * max(1.0, abs(float(got["T"])) + abs(float(got["V"]))):
             return False
     return True

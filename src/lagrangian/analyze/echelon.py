@@ -1,0 +1,39 @@
+"""Null spaces in a form that people can name: reduced row echelon, the earliest columns leading."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+DUST = 1e-8
+
+
+def null_space(matrix: Array, tolerance: float = 1e-11) -> Array:
+    """Rows that span {c : matrix c = 0}, orthonormal: (k, n). Singular values count relative to the largest."""
+    n = matrix.shape[1]
+    _, values, rows = np.linalg.svd(matrix, full_matrices=True) if matrix.size else (None, np.zeros(0), np.eye(n))
+    full = np.zeros(n)
+    full[: len(values)] = values
+    return rows[full <= tolerance * max(float(full.max(initial=0.0)), 1e-300)]
+
+
+def reduced(rows: Array) -> tuple[Array, list[int]]:
+    """The reduced row echelon form of independent rows, and its leading columns; dust is swept to 0."""
+    rows = rows.copy()
+    leading: list[int] = []
+    for k in range(rows.shape[1]):
+        r = len(leading)
+        if r == len(rows):
+            break
+        best = r + int(np.argmax(np.abs(rows[r:, k])))
+        if abs(rows[best, k]) <= DUST * float(np.abs(rows[r:]).max()):
+            continue
+        rows[[r, best]] = rows[[best, r]]
+        rows[r] /= rows[r, k]
+        others = np.arange(len(rows)) != r
+        rows[others] -= rows[others, k : k + 1] * rows[r]
+        leading.append(k)
+    size = np.abs(rows).max(axis=1, initial=0.0, keepdims=True)
+    return np.where(np.abs(rows) <= DUST * size, 0.0, rows), leading

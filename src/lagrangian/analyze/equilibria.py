@@ -1,0 +1,328 @@
+"""Where a system can stay at rest: h(q) = G(q) − Ξ(q, u) = 0 at q̇ = 0, all roots that can be found in a box.
+
+Many starts, damped Newton steps with the exact ∂h/∂q, until every root was met several times and a round of starts
+finds nothing new. Directions that h does not depend on are held; roots that are not isolated are one family.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import product
+from typing import Any, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian import compile as machine
+from lagrangian.analyze.box import Box, make_box
+from lagrangian.analyze.echelon import null_space, reduced
+from lagrangian.analyze.families import Family, split
+from lagrangian.analyze.given import Given, Named
+from lagrangian.analyze.jacobians import reads, values
+from lagrangian.analyze.linearize import TIMES, Linearizer
+from lagrangian.analyze.rest import point_words
+from lagrangian.analyze.roots import EXACT, Forces, Search, distinct, starts
+from lagrangian.analyze.stability import Stability
+from lagrangian.errors import RunError
+from lagrangian.graph import Graph, Output, Program
+from lagrangian.model import Model
+
+Array = NDArray[np.float64]
+
+ROUND = 256
+"""Starts a round."""
+
+ROUNDS = 16
+ENOUGH = 5
+"""Times that every root should be met."""
+
+SINGULAR = 1e-13
+"""Eigenvalue of M, in widths of the box and over the largest, that counts as none."""
+
+LARGE = 1e100
+"""What stands for a value that is not finite."""
+
+
+@dataclass(frozen=True)
+class Equilibrium:
+    """A rest: values of all states by name (rates 0), with the inputs and parameters it belongs to.
+
+    ``residual`` is the largest |h| in units of h's own size in the box, ``stability`` the verdict. ``moves`` names the
+    coordinates that change along a family of rests, of which this is the one nearest to 0; ``dimension`` is the
+    family's, 0 where the rest is isolated. ``starts`` of the search led here.
+    """
+
+    at: Mapping[str, float]
+    inputs: Mapping[str, float]
+    parameters: Mapping[str, float]
+    residual: float
+    stability: Stability
+    starts: int = 0
+    moves: tuple[str, ...] = ()
+    dimension: int = 0
+
+    def __getitem__(self, name: str) -> float:
+        """The value of a coordinate or rate."""
+        return self.at[name]
+
+    def __str__(self) -> str:
+        """Read as a line."""
+        shown = {name: value for name, value in self.at.items() if not name.endswith("'")}
+        return f"{point_words(tuple(shown), np.array(list(shown.values())))}: {self.stability.verdict}"
+
+
+@dataclass(frozen=True, eq=False)
+class Equilibria(Sequence[Equilibrium]):
+    """The rests that were found, sorted by the values of the coordinates.
+
+    ``box`` is where the search started, by coordinate; ``free`` the directions that nothing depends on, each as
+    coordinate → share, held at ``held``; ``starts`` how many starts there were; ``sure`` whether every rest was met
+    several times and the last round found nothing new.
+    """
+
+    model: Model
+    found: tuple[Equilibrium, ...]
+    box: Mapping[str, tuple[float, float]]
+    free: tuple[Mapping[str, float], ...]
+    held: Mapping[str, float]
+    starts: int
+    sure: bool
+    notes: tuple[str, ...] = field(default=())
+
+    @overload
+    def __getitem__(self, index: int) -> Equilibrium: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Equilibrium, ...]: ...
+    def __getitem__(self, index: int | slice) -> Equilibrium | tuple[Equilibrium, ...]:
+        """The rest at an index."""
+        return self.found[index]
+
+    def __len__(self) -> int:
+        """How many there are."""
+        return len(self.found)
+
+    def __iter__(self) -> Iterator[Equilibrium]:
+        """One after the other."""
+        return iter(self.found)
+
+
+def equilibria(
+    model: Model,
+    *,
+    inputs: Named | None = None,
+    params: Named | None = None,
+    box: Mapping[Any, Any] | None = None,
+    samples: int | None = None,
+) -> Equilibria:
+    """Return the rests of a model at constant inputs, all that can be found from starts in a box.
+
+    ``box``: coordinate → (low, high), numbers or text with units. Angles take (−π, π] unless given, lengths a few times
+    the largest length among the parameters; rests beyond a side that was not given are kept. ``samples``: how many
+    starts; as many as it takes unless given. Where forces depend on time, only what rests at all times is kept.
+    Raises `RunError` for values and names that do not fit.
+    """
+    if samples is not None and (type(samples) is not int or not 1 <= samples <= 1_000_000):
+        raise RunError(f"samples must be a whole number from 1 (got {samples!r})", code="E501")
+    task = _prepared(model, inputs, params, box)
+    found, hits, count, sure = _sought(task, samples)
+    isolated, families = split(task.search, found, task.box.low, task.box.high)
+    proper = [q for q in isolated if not task.is_singular(q)]
+    listed = [task.equilibrium(q, hits) for q in proper]
+    listed += [task.equilibrium(f.root, hits, f) for f in families if not task.is_singular(f.root)]
+    left_out = [q for q in isolated if task.is_singular(q)]
+    kept = sorted((e for e in listed if e is not None), key=lambda e: [round(e.at[n], 9) + 0.0 for n in task.box.names])
+    return Equilibria(
+        model=model,
+        found=tuple(kept),
+        box=task.box.sides,
+        free=task.free,
+        held={task.box.names[k]: float(task.search.base[k]) for k in task.held},
+        starts=count,
+        sure=sure,
+        notes=_notes(task, kept, sure, left_out, len(listed) - len(kept)),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Task:
+    """One search: the model at given inputs and parameters, its box, and what nothing depends on."""
+
+    model: Model
+    box: Box
+    search: Search
+    free: tuple[dict[str, float], ...]
+    held: list[int]
+    linearizer: Linearizer
+    u: Array
+    p: Array
+
+    def equilibrium(self, q: Array, hits: Mapping[bytes, int], family: Family | None = None) -> Equilibrium | None:
+        """A root with its verdict; None where it is outside the box, or no rest at other times."""
+        count = hits.get(q.tobytes(), 0)
+        q, inside = self.box.placed(q)
+        if not inside or not self._rests_always(q):
+            return None
+        q = np.where(np.abs(q) < 1e-14 * self.search.width, 0.0, q)
+        x = np.concatenate([q, np.zeros(len(q))])
+        names = self.box.names
+        return Equilibrium(
+            at=dict(zip(self.linearizer.rates.inputs["x"], x.tolist(), strict=True)),
+            inputs=dict(zip((i.name for i in self.model.inputs), self.u.tolist(), strict=True)),
+            parameters=dict(zip((p.name for p in self.model.parameters), self.p.tolist(), strict=True)),
+            residual=float(self.search.residual(q[None])[0]),
+            stability=self.linearizer.at_rest(x, self.u, self.p).stability,
+            starts=count,
+            moves=() if family is None else tuple(names[k] for k in family.moving),
+            dimension=0 if family is None else family.dimension,
+        )
+
+    def is_singular(self, q: Array) -> bool:
+        """Whether M is singular at q: there h = 0 says nothing, for these coordinates do not describe what is near."""
+        M = values(self.linearizer.mass, q=q, v=np.zeros_like(q), u=self.u, p=self.p, t=0.0)["M"]
+        if not np.isfinite(M).all():
+            return True
+        sized = np.linalg.eigvalsh(M * np.outer(self.search.width, self.search.width))
+        return bool(sized.min() < SINGULAR * np.abs(sized).max())
+
+    def _rests_always(self, q: Array) -> bool:
+        program = self.linearizer.forces
+        if not reads(program, "h", "t"):
+            return True
+        for t in TIMES:
+            h = values(program, q=q, v=np.zeros_like(q), u=self.u, p=self.p, t=t)["h"]
+            if np.abs(h / self.search.scale).max(initial=0.0) > 1e3 * EXACT:
+                return False
+        return True
+
+
+def _prepared(model: Model, inputs: Named | None, params: Named | None, asked: Mapping[Any, Any] | None) -> _Task:
+    linearizer = Linearizer(model)
+    given = Given.of(model, linearizer.rates)
+    u, p = given.input_values(inputs), given.parameter_values(params)
+    program = linearizer.forces
+    if len(program.inputs["q"]) != len(program.inputs["v"]):
+        raise RunError(
+            f"system '{model.name}' has a floating frame, whose quaternion is no set of independent coordinates",
+            fix="describe the turn by angles (frames about axes) to search for rests",
+            code="E416",
+        )
+    forces = _kernel(program, u, p)
+    box = make_box(given, program.inputs["q"], asked, _turning(linearizer, u, p))
+    h, K = forces(starts(64, box.low, box.high))
+    scale, width = _scale(h), box.high - box.low
+    good = K[(K != 0).any(axis=(1, 2)) & (np.abs(h) < LARGE).all(axis=1)]
+    directions, held = reduced(null_space((good / scale[:, None] * width).reshape(-1, len(width))) * width)
+    seek = np.array([k for k in range(len(width)) if k not in held], np.int64)
+    free = tuple({box.names[k]: float(x) for k, x in enumerate(row) if x} for row in directions)
+    return _Task(model, box, Search(forces, box.centre(), seek, scale, width, box.turns), free, held, linearizer, u, p)
+
+
+def _turning(linearizer: Linearizer, u: Array, p: Array) -> NDArray[np.bool_]:
+    """The coordinates of which h, ∂h/∂q and M are the same after a whole turn."""
+    n = len(linearizer.forces.inputs["q"])
+    source = np.random.default_rng(4)
+    same, fixed = np.ones(n, bool), np.ones(n, bool)
+    for _ in range(3):
+        q = source.uniform(-1, 1, n)
+        here = _all_forces(linearizer, q, u, p)
+        for k in range(n):
+            for shift, found in ((2 * np.pi, same), (1.0, fixed)):
+                there = _all_forces(linearizer, q + shift * (np.arange(n) == k), u, p)
+                found[k] &= np.allclose(here, there, rtol=1e-9, atol=1e-9 * float(np.abs(here).max(initial=0.0)))
+    return same & ~fixed
+
+
+def _all_forces(linearizer: Linearizer, q: Array, u: Array, p: Array) -> Array:
+    groups = {"q": q, "v": np.zeros_like(q), "u": u, "p": p, "t": 0.0}
+    got = values(linearizer.forces, **groups)
+    return np.concatenate([got["h"], got["K"].ravel(), values(linearizer.mass, **groups)["M"].ravel()])
+
+
+def _sought(task: _Task, samples: int | None) -> tuple[Array, dict[bytes, int], int, bool]:
+    """Distinct roots, how many starts led to each, how many starts there were, and whether that is enough."""
+    search, box = task.search, task.box
+    found = np.empty((0, len(search.base)))
+    before, count, sure = -1, 0, False
+    roots, hits = distinct(search, found)
+    for _ in range(ROUNDS if samples is None else 1):
+        many = ROUND if samples is None else samples
+        q = starts(many, box.low, box.high, skip=count)
+        if count == 0:
+            q = np.concatenate([q, _corners(task)])
+        q[:, task.held] = search.base[task.held]
+        found = np.concatenate([found, search.roots(q)])
+        count += len(q)
+        roots, hits = distinct(search, found)
+        sure = len(roots) == before and (not len(hits) or int(hits.min()) >= ENOUGH)
+        if sure or (count >= 4 * ROUND and len(roots) > count // 8):  # on a family every start finds its own
+            break
+        before = len(roots)
+    return roots, {r.tobytes(): int(n) for r, n in zip(roots, hits, strict=True)}, count, sure
+
+
+def _corners(task: _Task) -> Array:
+    """Angles at 0 or half a turn, all else at the centre: what hangs or stands."""
+    angles = [int(k) for k in np.flatnonzero(task.box.turns) if k in task.search.seek][:8]
+    grid = np.array(list(product((0.0, np.pi), repeat=len(angles))))
+    made = np.tile(task.box.centre(), (len(grid), 1))
+    made[:, angles] = grid
+    return made
+
+
+def _notes(
+    task: _Task, found: Sequence[Equilibrium], sure: bool, left_out: Sequence[Array], outside: int
+) -> tuple[str, ...]:
+    """What a reader should know besides the list."""
+    listed = []
+    if left_out:
+        where = point_words(task.box.names, left_out[0]) + (" and elsewhere" if len(left_out) > 1 else "")
+        listed.append(f"the mass matrix is singular at {where}: these coordinates fail there, and it is left out")
+    for direction in task.free:
+        names = list(direction)
+        what = f"{names[0]} is free" if len(names) == 1 else f"{', '.join(names)} are free together"
+        listed.append(f"{what}: no force depends on it, any shift is as good; {names[0]} is held")
+    if outside:
+        why = "or do not rest at other times" if reads(task.linearizer.forces, "h", "t") else "that was given"
+        listed.append(f"{outside} more lie outside the box {why}")
+    if not found:
+        h, _ = task.search.forces(starts(256, task.box.low, task.box.high))
+        one_sided = [n for n, row in zip(task.box.names, h.T, strict=True) if (row > 0).all() or (row < 0).all()]
+        why = f": the force on {one_sided[0]} has one sign everywhere, nothing balances it" if one_sided else ""
+        listed.append(f"there is no rest in the box{why}")
+    elif not sure and not any(e.dimension for e in found):
+        listed.append("some were met by few starts: there may be more; raise samples, or narrow the box")
+    return tuple(listed)
+
+
+def _scale(h: Array) -> Array:
+    """The size of every entry of h over the starts; entries that are always 0 get that of the others."""
+    good = np.abs(h[(np.abs(h) < LARGE).all(axis=1)])
+    size = np.median(good, axis=0) + 1e-3 * good.max(axis=0) if len(good) else np.zeros(h.shape[1])
+    largest = float(size.max(initial=0.0)) or 1.0
+    return np.where(size > 1e-12 * largest, size, largest)
+
+
+def _kernel(program: Program, u: Array, p: Array) -> Forces:
+    """h and K at rest in machine code; where they are not finite h is `LARGE` and K is 0, so that no step leads on."""
+    g = program.graph
+    outputs = {
+        name: Output(tuple(_guarded(g, i) for i in program.outputs[name].ids), program.outputs[name].shape)
+        for name in ("h", "K")
+    }
+    kernel = machine.compile(Program("rest", g, program.inputs, outputs, program.defaults))
+
+    def forces(q: Array) -> tuple[Array, Array]:
+        got = kernel(q, np.zeros_like(q), u, p, 0.0)
+        h, K = np.array(got["h"]), np.array(got["K"])
+        bad = (np.abs(h) >= LARGE).any(axis=1) | (np.abs(K) >= LARGE).any(axis=(1, 2))
+        h[bad], K[bad] = LARGE, 0.0
+        return h, K
+
+    return forces
+
+
+def _guarded(g: Graph, i: int) -> int:
+    """The node where it is finite, else `LARGE`: a comparison with what is not a number is false."""
+    limit = g.const(LARGE)
+    return g.select(g.lt(g.abs(i), limit), i, limit)
