@@ -73,7 +73,7 @@ class Truth:
     @cached_property
     def _motion(self) -> Compiled:
         d = self.derivation
-        bias = [r.xreplace({c.acceleration: sp.S.Zero for c in self.model.coordinates}) for r in self.rows]
+        bias: list[Any] = [r.xreplace({c.acceleration: sp.S.Zero for c in self.model.coordinates}) for r in self.rows]
         inertia: list[Any] = list(d.mass_matrix.flat())
         return Compiled([*map(self.expand, inertia), *bias])
 

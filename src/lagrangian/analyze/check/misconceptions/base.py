@@ -1,0 +1,209 @@
+"""What a misconception is: one deliberate mistake, and what it adds to the energies, the forces and the equations.
+
+Lagrange's equations are linear in T*, V and Ξ, so that a system derived with a mistake differs from the right one by
+what the mistake adds:  wrong row i = right row i + d/dt ∂ΔT/∂ξ̇_i − ∂ΔT/∂ξ_i + ∂ΔV/∂ξ_i − ΔΞ_i + Δrow_i.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, Protocol, cast
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian.derive import Derivation
+from lagrangian.derive.formula import Text
+from lagrangian.model import Action, Coordinate, Element, Gravity, Model, Particle, RigidBody, Spring, time
+
+ENERGIES = frozenset({"T", "V", "L", "Xi"})
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Variant:
+    """One way to make a mistake in one system: what it adds, and what the person did, in words.
+
+    ``T`` and ``V`` are what it adds to the energies, ``only`` the equations that feel it (all unless given); ``Xi``
+    what it adds to the generalized forces and ``rows`` to the left-hand sides, by the number of the coordinate.
+    ``stated`` are the lines of an answer that show it beside the equations.
+    """
+
+    what: Text
+    T: sp.Expr = sp.S.Zero
+    V: sp.Expr = sp.S.Zero
+    Xi: Mapping[int, sp.Expr] = field(default_factory=dict)
+    rows: Mapping[int, sp.Expr] = field(default_factory=dict)
+    only: frozenset[int] | None = None
+    element: Element | None = None
+    coordinate: int | None = None
+    stated: frozenset[str] = ENERGIES
+
+
+class Misconception(Protocol):
+    """A module of this folder: the step it belongs to, why it is wrong, and its variants in a system."""
+
+    STEP: int
+    WHY: Text
+
+    @property
+    def wrong(self) -> Callable[[Ingredients], Iterator[Variant]]:
+        """Every way to make this mistake in a system."""
+        ...
+
+
+class Ingredients:
+    """What a system's equations are made of, as a misconception takes it apart; definitions are written out."""
+
+    def __init__(self, derivation: Derivation) -> None:
+        self.derivation = derivation
+        self.model: Model = derivation.model
+        self.coordinates: tuple[Coordinate, ...] = self.model.coordinates
+        self.n = len(self.coordinates)
+        self.q: list[Any] = [c.symbol for c in self.coordinates]
+        self.v: list[Any] = [c.rate for c in self.coordinates]
+        self.a: list[Any] = [c.acceleration for c in self.coordinates]
+
+    def expand(self, expr: Any) -> sp.Expr:
+        """An expression with definitions written out."""
+        return self.model.expand(sp.sympify(expr), constants=True)
+
+    @cached_property
+    def T(self) -> sp.Expr:
+        """The kinetic co-energy."""
+        return self.expand(self.derivation.T)
+
+    @cached_property
+    def V(self) -> sp.Expr:
+        """The potential energy."""
+        return self.expand(self.derivation.V)
+
+    @cached_property
+    def Xi(self) -> list[sp.Expr]:
+        """The generalized forces."""
+        return [self.expand(self.derivation.Xi[q]) for q in self.q]
+
+    @cached_property
+    def momenta(self) -> list[sp.Expr]:
+        """∂T*/∂ξ̇_i."""
+        return [self.T.diff(v) for v in self.v]
+
+    @cached_property
+    def bodies(self) -> tuple[Any, ...]:
+        """Particles and rigid bodies."""
+        return self.model.bodies
+
+    def position(self, body: Any) -> tuple[sp.Expr, ...]:
+        """Where a body is, in the fixed axes."""
+        return tuple(self.expand(x) for x in self.model.position(body.at))
+
+    def parent(self, body: Any) -> tuple[sp.Expr, ...]:
+        """Where the point is from which a body's place is measured."""
+        zero = (sp.S.Zero,) * self.model.dimension
+        if body.at.parent is None or body.at.parent.is_origin:
+            return zero
+        return tuple(self.expand(x) for x in self.model.position(body.at.parent))
+
+    def velocity(self, body: Any) -> tuple[sp.Expr, ...]:
+        """How fast a body's centre of mass moves, in the fixed axes."""
+        return tuple(self.rate(x) for x in self.position(body))
+
+    def omega(self, body: Any) -> tuple[sp.Expr, ...]:
+        """A rigid body's angular velocity; nothing for a particle."""
+        return tuple(self.expand(w) for w in body.angular_velocity(self.model)) if isinstance(body, RigidBody) else ()
+
+    def translation(self, body: Any) -> sp.Expr:
+        """½ m v²."""
+        return half_square(self.expand(body.mass), self.velocity(body))
+
+    def rotation(self, body: Any) -> sp.Expr:
+        """½ ωᵀ I ω."""
+        if not isinstance(body, RigidBody):
+            return sp.S.Zero
+        return self.rotating(body, self.omega(body))
+
+    def rotating(self, body: RigidBody, omega: tuple[sp.Expr, ...]) -> sp.Expr:
+        """½ ωᵀ I ω with another ω."""
+        w = sp.Matrix(omega)
+        return self.expand((w.T * body.inertia * w)[0] / 2)
+
+    def kinetic(self, element: Element) -> sp.Expr:
+        """An element's share of T*."""
+        if isinstance(element, (Particle, RigidBody)):
+            return self.translation(element) + self.rotation(element)
+        return self.expand(element.kinetic(self.model))
+
+    def weights(self) -> Iterator[tuple[Gravity, Any, sp.Expr]]:
+        """Gravity, body and m g h for every body that gravity pulls; heights that do not move are left out."""
+        for element in self.model.elements:
+            if isinstance(element, Gravity):
+                for body, _, energy in element.shares(self.model):
+                    energy = self.expand(energy)
+                    if self.moves(energy):
+                        yield element, body, energy
+
+    def springs(self) -> Iterator[tuple[Spring, sp.Expr, sp.Expr]]:
+        """Spring, extension δ − δ₀ and energy for every spring."""
+        for element in self.model.elements:
+            if isinstance(element, Spring):
+                yield (
+                    element,
+                    self.expand(element.extension(self.model)),
+                    self.expand(element.potential(self.model)),
+                )
+
+    @cached_property
+    def acting(self) -> tuple[Element, ...]:
+        """Forces, torques and dampers."""
+        return tuple(e for e in self.model.elements if e.ledger == "Ξ")
+
+    def actions(self, element: Element) -> tuple[Action, ...]:
+        """An element's actions by virtual work."""
+        return element.works(self.model)
+
+    def xi(self, actions: tuple[Action, ...], i: int) -> sp.Expr:
+        """Σ effort · ∂rate/∂ξ̇_i."""
+        return self.expand(sp.Add(*[a.effort * sp.diff(a.rate, self.v[i]) for a in actions]))
+
+    def share(self, element: Element, i: int) -> sp.Expr:
+        """What an element adds to Ξ_i."""
+        return self.xi(self.actions(element), i)
+
+    def shares(self, element: Element) -> dict[int, sp.Expr]:
+        """What an element adds to every Ξ, where it adds anything."""
+        found = {i: self.share(element, i) for i in range(self.n)}
+        return {i: x for i, x in found.items() if x != 0}
+
+    def rate(self, expr: sp.Expr) -> sp.Expr:
+        """d/dt."""
+        return cast("sp.Expr", sp.diff(expr, time))
+
+    def moves(self, expr: sp.Expr) -> bool:
+        """Whether a coordinate stands in an expression."""
+        return expr.has(*self.q)
+
+    def angles(self, expr: sp.Expr) -> list[sp.Expr]:
+        """What sines and cosines are taken of, where it moves."""
+        found = {cast("sp.Expr", f.args[0]) for f in expr.atoms(sp.sin, sp.cos)}
+        return sorted((a for a in found if a.has(AppliedUndef)), key=sp.default_sort_key)
+
+
+def put(expr: Any, table: Mapping[Any, Any]) -> sp.Expr:
+    """An expression with symbols exchanged for others, all at once."""
+    return cast("sp.Expr", expr.xreplace(dict(table)))
+
+
+def letters(expr: sp.Expr) -> list[Any]:
+    """The constants in an expression, by name."""
+    return sorted((s for s in expr.free_symbols if s != time), key=str)
+
+
+def half_square(mass: sp.Expr, velocity: tuple[sp.Expr, ...]) -> sp.Expr:
+    """½ m (v_x² + v_y² + …)."""
+    return mass / 2 * sp.Add(*[v**2 for v in velocity])
+
+
+def negative(forces: Mapping[int, sp.Expr], times: Any = 1) -> dict[int, sp.Expr]:
+    """The forces with their sign turned, times a factor."""
+    return {i: -times * x for i, x in forces.items()}

@@ -1,0 +1,24 @@
+"""−½bξ̇: the half of Rayleigh's function left in the force."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lagrangian.analyze.check.misconceptions.base import Ingredients, Variant
+from lagrangian.derive.formula import Name, text
+from lagrangian.model import Damper, Dissipation
+
+STEP = 6
+WHY = text("D = ½bδ̇² is differentiated by the rate: the force is bδ̇, without the ½.")
+
+
+def wrong(s: Ingredients) -> Iterator[Variant]:
+    """Every damper with half its force, and with twice its force."""
+    for element in s.acting:
+        if isinstance(element, (Damper, Dissipation)):
+            shares = s.shares(element)
+            for times, word in ((-1, "half"), (2, "twice")):
+                what = text(
+                    f"{element.title[:1].upper() + element.title[1:]} adds {word} its force to ", Name("Xi"), "."
+                )
+                yield Variant(what=what, Xi={i: times * x / 2 for i, x in shares.items()}, element=element)

@@ -1,0 +1,24 @@
+"""An element counted twice."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lagrangian.analyze.check.misconceptions.base import Ingredients, Variant
+from lagrangian.derive.formula import text
+
+STEP = 3
+WHY = text("Every element belongs to exactly one of T*, V and Ξ, once: what is in V is not in Ξ as well.")
+
+
+def wrong(s: Ingredients) -> Iterator[Variant]:
+    """Every spring, weight, force and torque twice."""
+    for spring, _, V in s.springs():
+        yield Variant(
+            what=text(f"{spring.title[:1].upper() + spring.title[1:]} is counted twice."), V=V, element=spring
+        )
+    for gravity, body, V in s.weights():
+        yield Variant(what=text(f"The weight of {body.title} is counted twice."), V=V, element=gravity)
+    for element in s.acting:
+        what = text(f"{element.title[:1].upper() + element.title[1:]} is counted twice.")
+        yield Variant(what=what, Xi=s.shares(element), element=element)
