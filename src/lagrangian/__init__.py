@@ -3,11 +3,13 @@
 from lagrangian.derivation import Derivation
 from lagrangian.errors import Error, MissingExtra, ModelError, ParseError, Place, RunError
 from lagrangian.events import Event, event
+from lagrangian.runs import Ensemble
 from lagrangian.system import System, load, loads
 from lagrangian.trajectory import Trajectory
 
 __all__ = [
     "Derivation",
+    "Ensemble",
     "Error",
     "Event",
     "MissingExtra",

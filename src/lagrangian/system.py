@@ -36,6 +36,11 @@ from lagrangian.model import (
     plain,
     time,
 )
+from lagrangian.runs import Ensemble
+from lagrangian.simulation import simulate as run_model
+from lagrangian.sweeping import ensemble as run_ensemble
+from lagrangian.sweeping import sweep as run_sweep
+from lagrangian.trajectory import Trajectory
 from lagrangian.write import write_file
 
 STANDARD_GRAVITY = 9.81
@@ -319,6 +324,84 @@ class System:
         ``inputs``, ``params``, ``outputs``, ``time``, ``operating_point``; see `lagrangian.analyze.linearize`.
         """
         return linearize(self.model, at, **options)
+
+    def simulate(self, duration: Any = None, *, initial: Any = None, **options: Any) -> Trajectory:
+        """Run the system for ``duration`` [s] and return a `lagrangian.Trajectory`; `lagrangian.simulation` has more.
+
+        >>> from lagrangian import examples
+        >>> run = loads(examples.text("pendulum")).simulate(2.0, theta=0.5, params={"b": 0.0})
+        >>> run.success, float(run.audit) < 1e-8
+        (True, True)
+
+        Initial values by name, ``theta1=0.2``, or in ``initial={"theta1'": 0.1, theta2: "12 deg"}``; 0 where not given.
+        ``params`` and ``inputs`` are mappings by name or symbol; an input is a number, text, an expression of time and
+        state, a table ``(times, values[, "hold"])`` or a Python function f(t, x). ``times`` or ``samples`` say where
+        the run is kept. ``method``, ``rtol``, ``atol``, ``step`` choose the integration, ``events`` come from
+        `lagrangian.event`; ``max_steps`` and ``timeout`` [s] bound it. Raises `RunError` or `ModelError` for what
+        is wrong before the run; a run that fails on its way is returned as far as it went.
+        """
+        return run_model(self.model, duration, initial=initial, **options)
+
+    def ensemble(
+        self,
+        duration: Any = None,
+        *,
+        initial: Mapping[Any, Any] | None = None,
+        params: Mapping[Any, Any] | None = None,
+        inputs: Mapping[Any, Any] | None = None,
+        dims: Sequence[str] | None = None,
+        **options: Any,
+    ) -> Ensemble:
+        """Run the system once for every entry of arrays that broadcast together; return a `lagrangian.Ensemble`.
+
+        >>> from lagrangian import examples
+        >>> runs = loads(examples.text("pendulum")).ensemble(2.0, theta=[0.1, 0.2, 0.3], method="rk4", step=0.01)
+        >>> runs["final theta"].shape
+        (3,)
+
+        ``initial``, ``params``, ``inputs``: name or symbol → number, text with a unit, or array; ``dims`` names the
+        axes. ``outputs``: expressions, by name or alone, ("theta1", "max theta1"); ``reduce``: what is kept of each
+        over time (`lagrangian.simulate.study.REDUCTIONS`), None for the samples at ``times`` (a number of them, or the
+        times). ``method``, ``rtol``, ``atol``, ``step``, ``events`` as in `simulate`; ``memory`` [bytes] bounds what is
+        held at a time, ``threads`` the cores; ``progress(done, all)`` is called on the way. ``store="name.zarr"`` keeps
+        results on disk as they come, ``resume=True`` goes on after an end of any kind; ``scheduler`` is the address of
+        a Dask scheduler. A run that fails is NaN, with a status, and counted. Raises `RunError` for what does not fit.
+        """
+        return run_ensemble(self.model, duration, initial, params, inputs, dims, options)
+
+    def sweep(
+        self,
+        duration: Any = None,
+        grid: Mapping[Any, Any] | Iterable[str] | str = (),
+        *,
+        initial: Mapping[Any, Any] | None = None,
+        params: Mapping[Any, Any] | None = None,
+        inputs: Mapping[Any, Any] | None = None,
+        samples: int | None = None,
+        seed: int = 0,
+        **options: Any,
+    ) -> Ensemble:
+        """Run the system for every combination of values, each for every sample of what is drawn.
+
+        >>> from lagrangian import examples
+        >>> pendulum = loads(examples.text("pendulum"))
+        >>> runs = pendulum.sweep(2.0, ["L=0.5:2:4", "theta~normal(0, 0.1)"], samples=5, method="rk4", step=0.01)
+        >>> runs.dims, runs.shape
+        (('L', 'sample'), (4, 5))
+
+        ``grid``: texts as here, or name or symbol → values, an array or text: parameters, coordinates and rates at the
+        start, inputs. The same ``seed`` draws the same samples. Everything else as in `ensemble`.
+        """
+        return run_sweep(self.model, duration, grid, initial, params, inputs, samples, seed, options)
+
+    def in_coordinates(self, change: Mapping[Any, Any], *, name: str | None = None) -> System:
+        """Return the same system in other coordinates: ``{x2: x1 + x2r}`` says what the old x2 is in kept and new ones.
+
+        Keys are coordinates or their names, values SymPy expressions or text; a coordinate that is not named is kept.
+        Given the other way round, ``{"x2r": "x2 - x1"}``, it is solved where it is linear.
+        """
+        builder = carried(self.model, change, name=name)
+        return System(builder.name, _builder=builder)
 
     def export(self, path: str | Path) -> tuple[Path, ...]:
         """Write source code of the dynamics: to ``name.c`` (and ``name.h``) or ``name.py``; return what was written."""

@@ -22,7 +22,7 @@ from lagrangian.read.quantity import Quantity, read_quantity
 from lagrangian.read.source import Source, printable, shown
 
 MAX_CHARACTERS = 10_000
-MAX_COUNT = 100_000_000
+MAX_COUNT = 10_000_000
 """Most values of one range."""
 
 LAWS = {"normal": 2, "uniform": 2, "lognormal": 2}

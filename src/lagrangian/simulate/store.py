@@ -143,6 +143,7 @@ def create(path: Path, plan: Plan, *, overwrite: bool = False) -> Store:
 
 def _fill(zarr: Any, path: Path, plan: Plan) -> None:
     kept = {"format": FORMAT, "block": list(plan.portions.block), "results": list(plan.results), "task": plan.task}
+    kept["coordinates"] = list(plan.coordinates)
     group = zarr.create_group(path, attributes={**plan.words, KEY: kept})
     for name, variable in plan.results.items():
         extra = variable.shape[len(plan.portions.block) :]

@@ -1,0 +1,181 @@
+"""Many runs: what `system.ensemble` and `system.sweep` return."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.errors import MissingExtra, RunError, did_you_mean
+from lagrangian.simulate import STATUS
+from lagrangian.simulate.store import KEY, NOT_RUN, read
+from lagrangian.varying import TIME
+
+SHOWN = 20
+"""Failures listed unless more are asked for."""
+
+UNDONE = "not run yet"
+
+
+@dataclass(frozen=True)
+class Failure:
+    """A run that failed: its place along the axes, what varied there, when and why it ended."""
+
+    index: tuple[int, ...]
+    values: Mapping[str, float]
+    reached: float
+    reason: str
+
+    def __str__(self) -> str:
+        """Read as ``k = 10, m2 = 3: stopped at t = 0.5 s: the limit on the number of steps was reached``."""
+        where = ", ".join(f"{name} = {x:.6g}" for name, x in self.values.items()) or f"run {self.index}"
+        return f"{where}: stopped at t = {self.reached:.6g} s: {self.reason}"
+
+
+class Ensemble(Mapping[str, NDArray[Any]]):
+    """The results of many runs by name, arrays over the ensemble's axes; NaN where a run failed.
+
+    ``dims`` and ``shape`` are the axes; ``coordinates`` what varied along them: name → (axes, values); ``times`` the
+    times of samples. ``runs["max theta1"]`` is an array of that shape, ``runs["theta1"]`` is short for it where only
+    one thing is kept of theta1; samples have the axis of time last. ``status`` says how each run ended.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        arrays: Mapping[str, Any],
+        dims: Mapping[str, tuple[str, ...]],
+        coordinates: Mapping[str, tuple[tuple[str, ...], NDArray[np.float64]]],
+        words: Mapping[str, Mapping[str, Any]],
+        settings: Mapping[str, Any],
+    ) -> None:
+        self.name, self._arrays, self._dims, self._words = name, arrays, dims, words
+        self.coordinates, self.settings = coordinates, settings
+        self.dims, self.shape = dims["status"], tuple(arrays["status"].shape)
+
+    @classmethod
+    def of_store(cls, path: str | Path) -> Ensemble:
+        """The results in a store, finished or not; arrays are read from disk when they are asked for."""
+        group = read(Path(path))
+        kept = group.attrs[KEY]
+        members = {name: group[name] for name in [*kept["results"], *kept["coordinates"]]}
+        dims = {name: tuple(array.metadata.dimension_names) for name, array in members.items()}
+        coordinates = {name: (dims[name], np.asarray(members[name][...])) for name in kept["coordinates"]}
+        arrays = {name: members[name] for name in kept["results"]}
+        words = {name: dict(array.attrs) for name, array in members.items()}
+        return cls(kept["task"]["system"], arrays, dims, coordinates, words, kept["task"])
+
+    # -- results ------------------------------------------------------------------------------------------------
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        if name in self._arrays:
+            return np.asarray(self._arrays[name][...])
+        short = [full for full in self._arrays if full.partition(" ")[2] == name]
+        if len(short) == 1:
+            return np.asarray(self._arrays[short[0]][...])
+        if name in self.coordinates:
+            return self.coordinates[name][1]
+        known = [*self._arrays, *self.coordinates]
+        fix = f"one of {', '.join(short)}" if short else did_you_mean(name, known) or f"known: {', '.join(known)}"
+        raise RunError(f"nothing called '{name}' was kept", fix=fix, code="E402")
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._arrays)
+
+    def __len__(self) -> int:
+        return len(self._arrays)
+
+    @property
+    def times(self) -> NDArray[np.float64]:
+        """The times of the samples [s]; empty where no samples were kept."""
+        return self.coordinates[TIME][1] if TIME in self.coordinates else np.empty(0)
+
+    @property
+    def count(self) -> int:
+        """How many runs there are."""
+        return int(np.prod(self.shape))
+
+    # -- how it went --------------------------------------------------------------------------------------------
+
+    @property
+    def status(self) -> NDArray[np.int8]:
+        """How each run ended: 0 the end was reached, 1 a terminal event, negative a failure."""
+        return self["status"]
+
+    @property
+    def success(self) -> bool:
+        """Whether every run came to its end, or to a terminal event."""
+        return bool((self.status >= 0).all())
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How many runs ended how, in words."""
+        values, counts = np.unique(self.status, return_counts=True)
+        return {_reason(int(v)): int(n) for v, n in sorted(zip(values, counts, strict=True), key=lambda x: -x[1])}
+
+    def failures(self, most: int = SHOWN) -> list[Failure]:
+        """The first runs that failed, with what varied there and why they ended."""
+        status = self.status
+        places = np.flatnonzero((status < 0) & (status != NOT_RUN))[:most]
+        reached = self["reached"]
+        found = []
+        for place in places:
+            index = tuple(int(k) for k in np.unravel_index(place, self.shape)) if self.shape else ()
+            found.append(Failure(index, self._at(index), float(reached[index]), _reason(int(status[index]))))
+        return found
+
+    def _at(self, index: tuple[int, ...]) -> dict[str, float]:
+        """What varied, at one run."""
+        place = dict(zip(self.dims, index, strict=True))
+        return {
+            name: float(values[tuple(place[d] for d in dims)])
+            for name, (dims, values) in self.coordinates.items()
+            if set(dims) <= set(place)
+        }
+
+    def __repr__(self) -> str:
+        """Say how many runs there are, along which axes, how they ended and what was kept."""
+        sizes = " × ".join(f"{d} {n}" for d, n in zip(self.dims, self.shape, strict=True))
+        ends = ", ".join(f"{n} {words}" for words, n in self.counts.items())
+        kept = ", ".join(n for n in self if n not in ("status", "reached"))
+        return f"<Ensemble {self.name!r}: {self.count} runs ({sizes}), {self.settings['method']}; {ends}; {kept}>"
+
+    # -- taking it elsewhere ------------------------------------------------------------------------------------
+
+    def to_xarray(self) -> Any:
+        """Return an ``xarray.Dataset`` with units and long names."""
+        xarray = _imported("xarray")
+        made = xarray.Dataset(
+            {n: (self._dims[n], self[n], dict(self._words.get(n, {}))) for n in self},
+            {n: (dims, values, dict(self._words.get(n, {}))) for n, (dims, values) in self.coordinates.items()},
+            {"title": f"{self.name}: {self.count} runs", "method": self.settings["method"]},
+        )
+        for name, array in made.variables.items():
+            array.attrs.setdefault("long_name", str(name))
+        return made
+
+    def to_pandas(self) -> Any:
+        """Return a ``pandas.DataFrame``: what varied and what was kept, a row a run (with samples, a run and time)."""
+        _imported("pandas")
+        data = self.to_xarray()
+        frame = data.reset_coords().to_dataframe(dim_order=list(data.sizes)).reset_index()
+        axes = [d for d in data.sizes if d not in data.coords]
+        first = [c for c in [*axes, *self.coordinates] if c in frame.columns]
+        return frame[[*first, *(c for c in frame.columns if c not in first)]]
+
+
+def _reason(status: int) -> str:
+    return UNDONE if status == NOT_RUN else STATUS.get(status, f"status {status}")
+
+
+def _imported(name: str) -> Any:
+    import importlib
+
+    try:
+        return importlib.import_module(name)
+    except ImportError:
+        raise MissingExtra(f"{name} is not installed", fix="pip install 'lagrangian[data]'") from None

@@ -1,0 +1,444 @@
+"""``system.ensemble`` and ``system.sweep``: from a description to many runs."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrangian import dynamics, read
+from lagrangian.analyze.dimensions import SECOND
+from lagrangian.analyze.given import key_name, number
+from lagrangian.driving import Driving, check_covers, driving
+from lagrangian.errors import ModelError, RunError, did_you_mean
+from lagrangian.events import Event
+from lagrangian.graph import Program
+from lagrangian.model import Model, plain
+from lagrangian.runs import Ensemble
+from lagrangian.simulate import METHODS, Events, Signals
+from lagrangian.simulate.design import Design
+from lagrangian.simulate.ensemble import Executor, Here, Memory, Progress, carry_out
+from lagrangian.simulate.portions import MEMORY, Portions, cut
+from lagrangian.simulate.store import Plan, Variable, create, resume
+from lagrangian.simulate.study import REDUCTIONS, EventsKept, Kept, Study
+from lagrangian.varying import EVENT, TIME, Varying, from_arrays, from_grid
+
+Array: TypeAlias = NDArray[np.float64]
+Outputs: TypeAlias = Mapping[str, Any] | Iterable[Any] | str | sp.Expr | None
+
+TIMES = 1001
+"""Times at which each run is sampled unless told otherwise."""
+
+SHARE = 0.5
+"""Part of the machine's memory that results without a store may take."""
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """Everything about the runs but what varies; see `lagrangian.System.ensemble`."""
+
+    duration: Any = None
+    inputs: Mapping[Any, Any] | None = None
+    outputs: Outputs = None
+    reduce: str | Sequence[str] | None = ("final",)
+    times: Any = TIMES
+    start: Any = 0.0
+    method: str = "dop853"
+    rtol: float = 1e-9
+    atol: float = 1e-12
+    step: Any = None
+    max_step: Any = math.inf
+    max_steps: int = 10_000_000
+    max_events: int = 1000
+    events: Sequence[Event] | Event = ()
+    event_times: int = 1
+
+
+@dataclass(frozen=True)
+class Way:
+    """How the runs are done and where results go."""
+
+    memory: int = MEMORY
+    threads: int | None = None
+    progress: Progress | None = None
+    store: str | Path | None = None
+    resume: bool = False
+    overwrite: bool = False
+    scheduler: Any = None
+
+
+def ensemble(
+    model: Model,
+    duration: Any,
+    initial: Mapping[Any, Any] | None,
+    params: Mapping[Any, Any] | None,
+    inputs: Mapping[Any, Any] | None,
+    dims: Sequence[str] | None,
+    options: Mapping[str, Any],
+) -> Ensemble:
+    """Many runs from arrays; see `lagrangian.System.ensemble`."""
+    wanted, way, more = _options(model, options, duration)
+    varied, driven = _split_inputs(inputs)
+    initial = {**(initial or {}), **more}
+    varying = from_arrays(model, {"x": initial, "p": params, "u": varied}, dims)
+    return _done(model, varying, wanted, driven, way)
+
+
+def sweep(
+    model: Model,
+    duration: Any,
+    grid: Mapping[Any, Any] | Iterable[str] | str,
+    initial: Mapping[Any, Any] | None,
+    params: Mapping[Any, Any] | None,
+    inputs: Mapping[Any, Any] | None,
+    samples: int | None,
+    seed: int,
+    options: Mapping[str, Any],
+) -> Ensemble:
+    """Every combination of values; see `lagrangian.System.sweep`."""
+    wanted, way, more = _options(model, options, duration)
+    initial = {**(initial or {}), **more}
+    varying = from_grid(model, grid, {"x": initial, "p": params}, samples, seed)
+    return _done(model, varying, wanted, dict(inputs or {}), way)
+
+
+def _options(model: Model, options: Mapping[str, Any], duration: Any) -> tuple[Wanted, Way, dict[str, Any]]:
+    """Options of the runs, of the way they are done, and initial values given by name: ``theta1=0.2``."""
+    names = {"wanted": set(Wanted.__dataclass_fields__) - {"duration", "inputs"}, "way": set(Way.__dataclass_fields__)}
+    known = names["wanted"] | names["way"]
+    states = {s.name for s in (*model.coordinates, *model.velocities)}
+    for name in options:
+        if name not in known | states:
+            raise RunError(
+                f"there is no option and no coordinate '{name[:64]}'",
+                fix=did_you_mean(name, known | states) or f"options: {', '.join(sorted(known))}",
+                code="E402",
+            )
+    wanted = Wanted(duration=duration, **{k: v for k, v in options.items() if k in names["wanted"]})
+    way = Way(**{k: v for k, v in options.items() if k in names["way"]})
+    return wanted, way, {k: v for k, v in options.items() if k not in known}
+
+
+def _split_inputs(inputs: Mapping[Any, Any] | None) -> tuple[dict[Any, Any], dict[Any, Any]]:
+    """Inputs that are arrays of constants, one a run; and the others: numbers, expressions, tables."""
+    varied, driven = {}, {}
+    for key, value in (inputs or {}).items():
+        array = (isinstance(value, np.ndarray) and value.ndim > 0) or isinstance(value, list)
+        (varied if array else driven)[key] = value
+    return varied, driven
+
+
+# -- what every run does ----------------------------------------------------------------------------------------
+
+
+def _done(model: Model, varying: Varying, wanted: Wanted, inputs: dict[Any, Any], way: Way) -> Ensemble:
+    """Do the runs, or what is missing of them."""
+    drive = _drive(model, varying, inputs)
+    times = _times(model, wanted)
+    check_covers(drive, float(times[0]), float(times[-1]))
+    study = _study(model, wanted, drive, times)
+    design = varying.design()
+    task = _task(model, varying, wanted, drive, study)
+    executor, workers = _executor(way)
+    portions = cut(design.shape, study.bytes_per_run, memory=_bytes(way.memory), workers=workers)
+    plan = _plan(model, varying, study, portions, task)
+    if way.store is None:
+        if way.resume or way.overwrite:
+            raise RunError("resume and overwrite are about a store", fix='store="sweep.zarr"', code="E501")
+        return _in_memory(study, design, plan, executor, way.progress)
+    path = Path(way.store)
+    if path.suffix != ".zarr":
+        raise RunError(f"the store '{path.name}' must end in .zarr", fix='store="sweep.zarr"', code="E801")
+    with resume(path, plan) if way.resume and path.exists() else create(path, plan, overwrite=way.overwrite) as sink:
+        carry_out(study, design, sink.portions, sink, executor=executor, progress=way.progress)
+    return Ensemble.of_store(path)
+
+
+def _in_memory(study: Study, design: Design, plan: Plan, executor: Executor, progress: Progress | None) -> Ensemble:
+    size = sum(np.dtype(v.dtype).itemsize * math.prod(v.shape) for v in plan.results.values())
+    if size > SHARE * _machine_memory():
+        raise RunError(
+            f"the results of {design.count} runs take {size / 2**30:.3g} GiB",
+            fix='keep less of each run, or write to a store: store="sweep.zarr"',
+            code="E505",
+        )
+    sink = Memory(study, plan.portions)
+    carry_out(study, design, plan.portions, sink, executor=executor, progress=progress)
+    coordinates = {
+        name: (variable.dims, np.concatenate([np.atleast_1d(a) for a in parts]).reshape(variable.shape))
+        for name, (variable, parts) in plan.coordinates.items()
+    }
+    dims = {name: variable.dims for name, variable in plan.results.items()}
+    words = {name: variable.words for name, variable in plan.results.items()}
+    words.update({name: variable.words for name, (variable, _) in plan.coordinates.items()})
+    return Ensemble(str(plan.task["system"]), sink.arrays, dims, coordinates, words, plan.task)
+
+
+def _machine_memory() -> float:
+    try:
+        return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+    except (AttributeError, ValueError, OSError):  # not told on this system: 4 GiB are nearly always there
+        return 4.0 * 2**30
+
+
+def _bytes(memory: Any) -> int:
+    if isinstance(memory, bool) or not isinstance(memory, (int, np.integer)) or memory < 1:
+        raise RunError(f"memory must be a number of bytes (got {memory!r:.30})", fix="256 * 2**20", code="E501")
+    return int(memory)
+
+
+def _executor(way: Way) -> tuple[Executor, int]:
+    """Who computes, and how many chunks are held at a time."""
+    if way.scheduler is None:
+        return Here(way.threads), 1
+    from lagrangian.simulate.remote import Dask
+
+    dask = Dask(way.scheduler)
+    return dask, dask.held
+
+
+def _drive(model: Model, varying: Varying, inputs: dict[Any, Any]) -> Driving:
+    """The inputs that do not vary; one given twice is refused."""
+    varied = {name for group, name in varying.columns if group == "u"}
+    for key in inputs:
+        if key_name(key) in varied:
+            raise RunError(f"input '{key_name(key)}' varies and is given too", fix="one of the two", code="E404")
+    settings = {k: v for k, v in model.settings.get("inputs", {}).items() if k not in varied}
+    drive = driving(model, inputs, settings)
+    if drive.calls_python:
+        raise RunError(
+            "an input of an ensemble cannot be a Python function",
+            fix="give an expression of time and state, a table, or numbers; or run one at a time with simulate",
+            code="E501",
+        )
+    if varied and not drive.constant:
+        raise RunError(
+            f"input '{min(varied)}' varies from run to run while another is a table",
+            fix="give the table as an expression of time, with a parameter for what varies",
+            code="E501",
+        )
+    for u, source in zip(drive.free, drive.sources, strict=True):
+        if isinstance(source, float):
+            varying.entries.base["u"][u.name] = source
+    feedback = {plain(symbol) for symbol in drive.feedback}
+    varying.entries.base["u"] = {n: v for n, v in varying.entries.base["u"].items() if n not in feedback}
+    return drive
+
+
+def _times(model: Model, wanted: Wanted) -> Array:
+    """The times of the samples, the start first."""
+    begin = number(wanted.start, "start", SECOND)
+    given = wanted.times
+    duration = model.settings.get("duration") if wanted.duration is None else wanted.duration
+    if np.ndim(given) == 0:
+        if isinstance(given, bool) or not isinstance(given, (int, np.integer)) or not 2 <= given <= 10**8:
+            raise RunError(
+                f"times must be how many there are, at least 2, or the times themselves (got {given!r:.30})",
+                code="E501",
+            )
+        if duration is None:
+            raise RunError(
+                "how long to run is not said", fix="a duration, or duration = '10 s' under [simulate]", code="E401"
+            )
+        length = number(duration, "duration", SECOND)
+        if not (length > 0 and begin + length > begin):
+            raise RunError(f"the duration must be above 0 (got {length:g} s)", fix="such as 10.0", code="E501")
+        return np.linspace(begin, begin + length, int(given))
+    if wanted.duration is not None:
+        raise RunError("times say how long to run: give no duration beside them", code="E501")
+    array = np.array([number(t, "a time", SECOND) for t in given])
+    array = array if array.size and array[0] == begin else np.concatenate([[begin], array])
+    if array.size < 2 or np.any(np.diff(array) <= 0):
+        raise RunError("times must increase from the start on", fix="sort them, each once", code="E501")
+    return array
+
+
+def _study(model: Model, wanted: Wanted, drive: Driving, times: Array) -> Study:
+    if wanted.method not in METHODS:
+        fix = did_you_mean(str(wanted.method), METHODS) or f"one of {', '.join(METHODS)}"
+        raise RunError(f"there is no method {wanted.method!r:.40} for ensembles", fix=fix, code="E402")
+    expressions, kept = _kept(model, wanted.outputs, wanted.reduce)
+    events, events_kept = _events(model, wanted, drive)
+    signals = None if drive.constant else Signals(*drive.pieces(float(times[0]), float(times[-1])))
+    adaptive = METHODS[wanted.method].adaptive
+    options = {"rtol": wanted.rtol, "atol": wanted.atol} if adaptive else {}
+    if wanted.step is not None:
+        options["step"] = number(wanted.step, "step", SECOND)
+    bounds = {"max_step": wanted.max_step, "max_steps": wanted.max_steps, "max_events": wanted.max_events}
+    return Study(
+        program=dynamics.closed(model, drive.feedback),
+        method=wanted.method,
+        times=times,
+        outputs=dynamics.observe_closed(model, expressions, drive.feedback),
+        kept=kept,
+        events=events,
+        events_kept=events_kept,
+        signals=signals,
+        options={**options, **bounds},
+    )
+
+
+def _kept(
+    model: Model, outputs: Outputs, reduce: str | Sequence[str] | None
+) -> tuple[dict[str, sp.Expr], tuple[Kept, ...]]:
+    """The expressions to observe by name, and what is kept of each."""
+    reductions = [None] if reduce is None else [reduce] if isinstance(reduce, str) else list(reduce)
+    for r in reductions:
+        _reduction(r)
+    if not reductions:
+        raise RunError("reduce names nothing to keep", fix='reduce=("final",), or reduce=None for samples', code="E501")
+    expressions: dict[str, sp.Expr] = {}
+    kept: dict[str, Kept] = {}
+    for name, asked in _named(model, outputs):
+        own, expr, title = _asked(model, name, asked)
+        if expressions.setdefault(title, expr) != expr:
+            raise RunError(f"two outputs are called '{title}'", fix="give them other names", code="E404")
+        for r in reductions if own is None else [own]:
+            result = title if r is None else f"{r} {title}"
+            if "/" in result:
+                raise RunError(
+                    f"'{result}' cannot be the name of a result, for its '/'", fix="name it: half=theta/2", code="E702"
+                )
+            kept[result] = Kept(result, title, r)
+    if not kept:
+        raise RunError("nothing is observed", fix="outputs=['theta1']", code="E401")
+    return expressions, tuple(kept.values())
+
+
+def _reduction(name: Any) -> None:
+    if name is not None and name not in REDUCTIONS:
+        fix = did_you_mean(str(name), REDUCTIONS) or f"one of {', '.join(REDUCTIONS)}"
+        raise RunError(f"there is no reduction {name!r:.40}", fix=fix, code="E402")
+
+
+def _named(model: Model, outputs: Outputs) -> list[tuple[str | None, Any]]:
+    """Outputs with the names they were given, if any."""
+    if outputs is None:
+        return [(None, s.symbol) for s in (*model.coordinates, *model.velocities)]
+    if isinstance(outputs, Mapping):
+        return [(str(name), asked) for name, asked in outputs.items()]
+    if isinstance(outputs, str | sp.Expr):
+        return [(None, outputs)]
+    return [(None, asked) for asked in outputs]
+
+
+def _asked(model: Model, name: str | None, asked: Any) -> tuple[str | None, sp.Expr, str]:
+    """The reduction that an output asks for itself ("max theta1"), its expression, and its name."""
+    if isinstance(asked, sp.Expr):
+        return None, asked, name or plain(asked)
+    if not isinstance(asked, str):
+        raise RunError(f"an output is text or an expression (got {type(asked).__name__})", code="E501")
+    first, space, rest = asked.strip().partition(" ")
+    own = first if space and first in REDUCTIONS else None
+    text = rest.strip() if own else asked.strip()
+    try:
+        expr = read.parse_expression(text, read.Scope(model.symbols), what=f"output '{text[:40]}'")
+    except ModelError as trouble:
+        if space and rest[:1].isidentifier() and first.isidentifier() and first not in model.symbols:
+            raise RunError(
+                f"there is no reduction '{first[:40]}'",
+                fix=did_you_mean(first, REDUCTIONS) or f"one of {', '.join(REDUCTIONS)}",
+                code="E402",
+            ) from None
+        raise trouble
+    return own, expr, name or text
+
+
+def _events(model: Model, wanted: Wanted, drive: Driving) -> tuple[Events | None, tuple[EventsKept, ...]]:
+    listed = (wanted.events,) if isinstance(wanted.events, Event) else tuple(wanted.events)
+    if not listed:
+        return None, ()
+    strange = [e for e in listed if not isinstance(e, Event)]
+    if strange:
+        raise RunError(
+            f"an event is made with lagrangian.event(…) (got {type(strange[0]).__name__})",
+            fix="events=[lagrangian.event(theta, terminal=True)]",
+            code="E501",
+        )
+    titles = [e.title for e in listed]
+    if len(set(titles)) < len(titles):
+        raise RunError("two events have one name", fix="give them names", code="E404")
+    times = wanted.event_times
+    if isinstance(times, bool) or not isinstance(times, int) or not 1 <= times <= 10_000:
+        raise RunError(f"event_times is how many times are kept, at least 1 (got {times!r:.30})", code="E501")
+    program = dynamics.impacts(model, [(e.title, e.expression, e.reset) for e in listed], drive.feedback)
+    directions, terminal = tuple(e.direction for e in listed), tuple(e.terminal for e in listed)
+    made = Events(program, directions, terminal, tuple(bool(e.reset) for e in listed))
+    return made, tuple(EventsKept(title, k, times) for k, title in enumerate(titles))
+
+
+# -- what is written of it --------------------------------------------------------------------------------------
+
+
+def _plan(model: Model, varying: Varying, study: Study, portions: Portions, task: dict[str, Any]) -> Plan:
+    fields = study.fields()
+    dims = varying.dims(fields)
+    results = {}
+    for name, (dtype, extra) in fields.items():
+        more = () if not extra else (EVENT,) if name.startswith("time ") else (TIME,)
+        results[name] = Variable(dtype, (*dims, *more), (*portions.shape, *extra), _words(study, name))
+    coordinates: dict[str, Any] = dict(varying.coordinates(fields))
+    if any(k.reduction is None for k in study.kept):
+        words = {"units": "s", "long_name": "time"}
+        coordinates[TIME] = Variable("float64", (TIME,), study.times.shape, words), [study.times]
+    return Plan(portions, results, coordinates, task, {"title": model.name})
+
+
+def _words(study: Study, name: str) -> dict[str, Any]:
+    kept = {k.name: k for k in study.kept}
+    if name in kept and kept[name].reduction is not None:
+        return {"long_name": f"{kept[name].reduction} of {kept[name].of}"}
+    if name == "status":
+        return {"long_name": "how the run ended: 0 its end, 1 a terminal event, negative a failure, -128 not run yet"}
+    if name == "reached":
+        return {"long_name": "time of the last state", "units": "s"}
+    return {"long_name": name, "units": "s"} if name.startswith("time ") else {"long_name": name}
+
+
+def _task(model: Model, varying: Varying, wanted: Wanted, drive: Driving, study: Study) -> dict[str, Any]:
+    """What is done, as plain data: two tasks with equal data give the same bits."""
+    from lagrangian import __version__
+
+    times = study.times
+    return {
+        "version": __version__,
+        "system": model.name,
+        "equations": digest(study.program),
+        **varying.task(),
+        "inputs": {
+            **{plain(symbol): str(expr) for symbol, expr in drive.feedback.items()},
+            **{u.name: _source(s) for u, s in zip(drive.free, drive.sources, strict=True)},
+        },
+        "times": f"{len(times)} from {times[0]!r} to {times[-1]!r} #{_hash(times.tobytes())}",
+        "method": study.method,
+        "options": {k: v if np.isfinite(v) else str(v) for k, v in study.options.items()},
+        "kept": [k.name for k in study.kept],
+        "outputs": digest(study.outputs),
+        "events": "none"
+        if study.events is None
+        else f"{[e.name for e in study.events_kept]} {digest(study.events.program)}",
+    }
+
+
+def _source(source: Any) -> Any:
+    if isinstance(source, float):
+        return source
+    return f"table #{_hash(source.times.tobytes() + source.values.tobytes() + bytes([source.hold]))}"
+
+
+def digest(program: Program) -> str:
+    """A short text that differs where two programs compute something different."""
+    said: list[Any] = [sorted(program.inputs.items()), [(n, o.ids, o.shape) for n, o in program.outputs.items()]]
+    return _hash(repr([*said, program.graph.nodes]).encode())
+
+
+def _hash(data: bytes) -> str:
+    return hashlib.blake2b(data, digest_size=8).hexdigest()

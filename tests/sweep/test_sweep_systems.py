@@ -1,0 +1,225 @@
+"""Ensembles and sweeps of described systems, against closed forms and against single runs."""
+
+import numpy as np
+import pytest
+import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+
+import lagrangian as lg
+from lagrangian import examples
+
+
+@pytest.fixture(scope="module")
+def oscillator() -> lg.System:
+    """m ẍ = −k x + F; x(0) = 0.5 unless varied."""
+    system = lg.System("oscillator")
+    x = system.coordinate("x", unit="m")
+    m, k = system.parameters("m k", m="1 kg", k="4 N/m")
+    F = system.input("F", unit="N")
+    cart = system.point("A", (x, 0))
+    system.particle(m, at=cart)
+    system.spring(k, deflection=x)
+    system.force(F, deflection=x)
+    return system
+
+
+FINE = {"method": "rk4", "step": 0.005}
+
+
+def test_an_ensemble_of_arrays_against_the_closed_form(oscillator: lg.System) -> None:
+    a, m = np.linspace(0.1, 1, 7), np.array([[1.0], [2.0], [4.0]])
+    times = np.linspace(0, 3, 31)
+    runs = oscillator.ensemble(
+        initial={"x": a},
+        params={"m": m},
+        times=times,
+        reduce=None,
+        outputs={"x": "x", "E": "m*x'^2/2 + k*x^2/2"},
+        **FINE,
+    )
+    assert runs.dims == ("run_0", "run_1")
+    w = np.sqrt(4 / m)[..., None]
+    np.testing.assert_allclose(runs["x"], a[None, :, None] * np.cos(w * times), atol=1e-8)
+    np.testing.assert_allclose(runs["E"], np.broadcast_to(2 * a[None, :, None] ** 2, (3, 7, 31)), rtol=1e-7)
+    assert runs.times.tolist() == times.tolist()
+    assert runs.success
+    assert runs.counts == {"the end was reached": 21}
+
+
+def test_inputs_vary_too_and_expressions_are_fed_back(oscillator: lg.System) -> None:
+    forces = np.array([0.0, 1.0, 2.0])
+    runs = oscillator.ensemble(2.0, inputs={"F": forces}, outputs="x", **FINE)
+    np.testing.assert_allclose(runs["x"], forces / 4 * (1 - np.cos(4.0)), atol=1e-8)
+    x = oscillator["x"]
+    damped = oscillator.ensemble(2.0, x=[0.5, 1.0], inputs={"F": -2 * x.diff()}, outputs=["x", "F"], **FINE)
+    w = np.sqrt(3.0)
+    decay = np.exp(-2.0) * (np.cos(w * 2) + np.sin(w * 2) / w)
+    np.testing.assert_allclose(damped["final x"], np.array([0.5, 1.0]) * decay, atol=1e-8)
+    rate = np.exp(-2.0) * (-(w + 1 / w) * np.sin(w * 2))
+    np.testing.assert_allclose(damped["final F"], -2 * np.array([0.5, 1.0]) * rate, atol=1e-7)
+
+
+def test_a_table_drives_every_run(oscillator: lg.System) -> None:
+    runs = oscillator.ensemble(
+        2.0, params={"k": [4.0, 9.0]}, inputs={"F": ([0.0, 1.0], [1.0, 0.0], "hold")}, outputs=["x", "F"], **FINE
+    )
+    w = np.array([2.0, 3.0])
+    exact = (np.cos(w) - np.cos(2 * w)) / w**2
+    np.testing.assert_allclose(runs["final x"], exact, atol=1e-8)
+    assert runs["final F"].tolist() == [0, 0]
+
+
+def test_a_sweep_is_every_combination_and_every_sample(oscillator: lg.System) -> None:
+    runs = oscillator.sweep(
+        2.0,
+        ["k=1 N/m:4N/m:4", "m=1,2", "x~uniform(0.1, 1)"],
+        samples=50,
+        seed=7,
+        outputs=["x", "max x"],
+        inputs={"F": 0.0},
+        **FINE,
+    )
+    assert runs.dims == ("k", "m", "sample")
+    assert runs.shape == (4, 2, 50)
+    k, m, x0 = runs["k"], runs["m"], runs.coordinates["x"][1]
+    assert k.tolist() == [1, 2, 3, 4]
+    assert (x0 > 0.1).all()
+    assert (x0 < 1).all()
+    w = np.sqrt(k[:, None] / m[None, :])[..., None]
+    np.testing.assert_allclose(runs["final x"], x0 * np.cos(2 * w), atol=1e-8)
+    np.testing.assert_allclose(runs["max x"], np.broadcast_to(x0, runs.shape), atol=1e-8)
+    again = oscillator.sweep(2.0, {"x": "uniform(0.1, 1)", oscillator["m"]: [1, 2]}, samples=50, seed=7, **FINE)
+    assert again.coordinates["x"][1].tolist() == x0.tolist()
+    other = oscillator.sweep(2.0, {"x": "uniform(0.1, 1)"}, samples=50, seed=8, **FINE)
+    assert other.coordinates["x"][1].tolist() != x0.tolist()
+
+
+def test_the_same_bits_whatever_the_chunks_and_threads() -> None:
+    system = lg.loads(examples.text("double-pendulum"))
+    bits = set()
+    for memory, threads in ((2**28, 1), (2**28, 2), (300_000, 2), (100_000, 1), (1, 1)):
+        runs = system.sweep(
+            1.0,
+            ["theta1=0.1:3:13", "m1~normal(1,0.1)"],
+            samples=11,
+            times=11,
+            outputs=["max theta1", "rms theta2'", "final theta1''"],
+            memory=memory,
+            threads=threads,
+            **FINE,
+        )
+        bits.add(b"".join(runs[name].tobytes() for name in runs))
+    assert len(bits) == 1
+
+
+@settings(max_examples=8, derandomize=True, deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_random_double_pendulums_against_scipy(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    system = lg.loads(examples.text("double-pendulum"))
+    dyn = system.compile()
+    n = 4
+    x0 = rng.uniform(-2, 2, (n, 4))
+    p = {name: rng.uniform(0.5, 2, n) for name in ("m1", "m2", "L1", "L2")}
+    initial = dict(zip(["theta1", "theta2", "theta1'", "theta2'"], x0.T, strict=True))
+    runs = system.ensemble(1.0, initial=initial, params=p, method="rk4", step=1e-3, outputs=["theta1", "max theta2"])
+    for k in range(n):
+        own = {name: values[k] for name, values in p.items()}
+        times = np.linspace(0, 1, 1001)
+        done = solve_ivp(
+            lambda t, x, own=own: dyn.rhs(t, x, p=own), (0, 1), x0[k], "DOP853", times, rtol=1e-10, atol=1e-10
+        )
+        assert runs["final theta1"][k] == pytest.approx(done.y[0, -1], abs=1e-7)
+        assert runs["max theta2"][k] == pytest.approx(done.y[1].max(), abs=1e-6)
+
+
+def test_a_run_that_fails_is_counted_and_told_and_harms_no_other(oscillator: lg.System) -> None:
+    runs = oscillator.sweep(2.0, {"k": [4.0, -4e6, 4.0]}, x=0.5, outputs=["max x"], **FINE)
+    assert not runs.success
+    assert np.isnan(runs["x"]).tolist() == [False, True, False]
+    assert runs["max x"][0] == runs["max x"][2] == 0.5
+    failures = runs.failures()
+    assert [f.index for f in failures] == [(1,)]
+    assert failures[0].values == {"k": -4e6}
+    assert "not finite" in str(failures[0])
+    assert sum(runs.counts.values()) == 3
+    assert "1 the derivative" in repr(runs)
+
+
+def test_what_is_observed_may_not_be_finite(oscillator: lg.System) -> None:
+
+    runs = oscillator.ensemble(1.0, x=[0.0, 1.0], outputs={"inverse": "1/x"}, times=3, **FINE)
+    assert runs.success
+    assert np.isfinite(runs["inverse"]).tolist() == [False, True]
+    assert runs["inverse"][1] == pytest.approx(1 / np.cos(2.0))
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda s: s.ensemble(1.0, x=[1.0, 2.0], params={"k": [1.0, 2.0, 3.0]}), "do not fit together"),
+        (lambda s: s.ensemble(1.0, x=[1.0, np.nan]), "'x' is nan at"),
+        (lambda s: s.ensemble(1.0, params={"kk": [1.0]}), "no parameter 'kk'"),
+        (lambda s: s.ensemble(1.0, initial={"y": [1.0]}), "no coordinate or rate 'y'"),
+        (lambda s: s.ensemble(1.0, y=[1.0]), "no option and no coordinate 'y'"),
+        (lambda s: s.ensemble(1.0, x=[]), "'run' is empty"),
+        (lambda s: s.ensemble(-1.0, x=[1.0]), "duration must be above 0"),
+        (lambda s: s.ensemble(x=[1.0]), "how long to run is not said"),
+        (lambda s: s.ensemble(1.0, x=[1.0], method="rk5"), "no method 'rk5'"),
+        (lambda s: s.ensemble(1.0, x=[1.0], method="rk4"), "needs a step"),
+        (lambda s: s.ensemble(1.0, x=[1.0], rtol=0.0, method="dop853"), "rtol"),
+        (lambda s: s.ensemble(1.0, x=[1.0], outputs="maxi x", **FINE), "no reduction 'maxi'"),
+        (lambda s: s.ensemble(1.0, x=[1.0], outputs="y", **FINE), "unknown"),
+        (lambda s: s.ensemble(1.0, x=[1.0], outputs="x/2", **FINE), "cannot be the name of a result"),
+        (lambda s: s.ensemble(1.0, x=[1.0], reduce=("biggest",), **FINE), "no reduction 'biggest'"),
+        (lambda s: s.ensemble(1.0, x=[1.0], inputs={"F": lambda t, x: 0.0}, **FINE), "cannot be a Python function"),
+        (lambda s: s.ensemble(times=[0, 2, 1], x=[1.0], **FINE), "must increase"),
+        (lambda s: s.ensemble(1.0, x=[1.0], memory=0, **FINE), "memory"),
+        (lambda s: s.ensemble(1.0, x=[1.0], resume=True, **FINE), "about a store"),
+        (lambda s: s.ensemble(1.0, x=[1.0], store="a.txt", **FINE), "must end in .zarr"),
+        (lambda s: s.sweep(1.0, ["k=1:2:3", "k=1"]), "varied twice"),
+        (lambda s: s.sweep(1.0, []), "nothing is varied"),
+        (lambda s: s.sweep(1.0, ["kay=1:2:3"]), "no parameter, coordinate, rate or input 'kay'"),
+        (lambda s: s.sweep(1.0, ["k=1 kg:2 kg:3"]), "is given in kg"),
+        (lambda s: s.sweep(1.0, ["k~normal(1,0.1)"]), "how many samples"),
+        (lambda s: s.sweep(1.0, ["k=1:2:3"], samples=10), "nothing is drawn"),
+        (lambda s: s.sweep(1.0, ["k~normal(1,0.1)"], samples=-1), "samples must be"),
+        (lambda s: s.sweep(1.0, ["k~normal(1,0.1)"], samples=3, seed=-1), "a seed is"),
+        (lambda s: s.sweep(1.0, {"k": np.ones((2, 2))}), "one row"),
+        (lambda s: s.sweep(1.0, {"k": [1.0]}, inputs={"G": 1.0}), "no input 'G'"),
+        (lambda s: s.sweep(1.0, ["k=1:2:10000000", "m=1:2:10000000"]), "too many"),
+    ],
+)
+def test_what_is_wrong_is_told_before_anything_runs(oscillator: lg.System, call, message: str) -> None:
+    with pytest.raises((lg.RunError, lg.ModelError, lg.Error), match=message):
+        call(oscillator)
+
+
+def test_values_missing_are_listed_unless_they_vary() -> None:
+    system = lg.System("free")
+    x = system.coordinate("x")
+    m, k = system.parameters("m k")
+    system.particle(m, at=system.origin + (x, 0))
+    system.spring(k, deflection=x)
+    with pytest.raises(lg.RunError, match="Missing: m, k"):
+        system.ensemble(1.0, x=[1.0], **FINE)
+    runs = system.sweep(1.0, {"m": [1.0, 2.0]}, params={"k": 1.0}, x=1.0, outputs=[x, sp.sin(x)], **FINE)
+    np.testing.assert_allclose(runs["final x"], np.cos(1 / np.sqrt([1.0, 2.0])), atol=1e-9)
+
+
+def test_tables_for_others(oscillator: lg.System) -> None:
+    runs = oscillator.sweep(1.0, ["k=1:4:4", "m~normal(1,0.01)"], samples=3, x=1.0, outputs=["x", "max x"], **FINE)
+    data = runs.to_xarray()
+    assert data["final x"].dims == ("k", "sample")
+    assert data["k"].attrs["units"] == "kg/s^2"
+    assert data["m"].dims == ("sample",)
+    frame = runs.to_pandas()
+    assert list(frame.columns) == ["sample", "k", "m", "final x", "max x", "reached", "status"]
+    assert len(frame) == 12
+    kept = oscillator.ensemble(1.0, x=[0.1, 0.2], reduce=None, times=5, **FINE)
+    data = kept.to_xarray()
+    assert data["x"].dims == ("run", "time")
+    assert data["x(0)"].dims == ("run",)
+    assert len(kept.to_pandas()) == 10
