@@ -12,8 +12,11 @@ from sympy.core.function import AppliedUndef
 from lagrangian import read
 from lagrangian.analysis import Equilibria, Linearization, equilibria, linearize
 from lagrangian.analyze import check_dimensions
+from lagrangian.analyze.change import carried
+from lagrangian.analyze.motion import verify_motion
 from lagrangian.compiled import LANGUAGES, Compiled, sources
 from lagrangian.derivation import Derivation, derive_and_verify
+from lagrangian.derive import Check
 from lagrangian.errors import ModelError, Place
 from lagrangian.model import (
     Builder,
@@ -300,6 +303,15 @@ class System:
     def derive(self) -> Derivation:
         """Return the derivation: the seven steps, the equations, and what was verified."""
         return derive_and_verify(self.model)
+
+    def verify(self, *, states: int = 50, seed: int = 1) -> tuple[Check, ...]:
+        """Check the equations by independent routes at random states; every check carries its figure.
+
+        Derived equations as `Derivation.verify` does; where a frame floats, what is compiled instead.
+        """
+        if self.model.floating:
+            return tuple(c for part in verify_motion(self.model, states=states, seed=seed).parts for c in part.checks)
+        return self.derive().verify(states=states, seed=seed)
 
     def compile(self, *, lanes: int | None = None, threads: int | None = None) -> Compiled:
         """Return the system as machine code: `forward`, `inverse`, `mass_matrix`, `energy`, … on arrays of states.
