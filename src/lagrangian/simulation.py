@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import inspect
 import math
-import time as clock
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import Any, NoReturn
 
 import numpy as np
@@ -17,12 +15,15 @@ from lagrangian import dynamics
 from lagrangian.analyze.dimensions import SECOND
 from lagrangian.analyze.given import Given, number
 from lagrangian.driving import Driving, check_covers, driving
+from lagrangian.ending import message
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.events import Event
-from lagrangian.graph import Output, Program, jacobian
+from lagrangian.graph import Program
+from lagrangian.integrating import Task, remembered, right_hand_side, run
 from lagrangian.model import Model
-from lagrangian.simulate.crossings import Crossings, Hit
-from lagrangian.simulate.scipy_methods import IMPLICIT, SCIPY, Bounds, Outcome, integrate_scipy
+from lagrangian.simulate import METHODS
+from lagrangian.simulate.crossings import Hit
+from lagrangian.simulate.scipy_methods import SCIPY, Bounds, Outcome
 from lagrangian.trajectory import Occurrences, Trajectory
 
 Array = NDArray[np.float64]
@@ -33,25 +34,14 @@ SAMPLES = 1001
 MAX_STORED = 1 << 28
 """Numbers a run may store: 2 GiB."""
 
-DEFAULT = "dop853"
+DEFAULT, IN_PYTHON = "dop853", "DOP853"
+"""The methods taken unless told: in machine code, and for inputs that are Python functions."""
 
+SHARE = 1e-3
+"""Share of the run's tolerances for one step of a method of ours or one chosen by itself: errors add up."""
 
-@dataclass(frozen=True, eq=False)
-class Task:
-    """Everything a run needs, understood and checked."""
-
-    model: Model
-    program: Program
-    drive: Driving
-    times: Array
-    x0: Array
-    p: Array
-    method: str
-    rtol: float
-    atol: float
-    step: float | None
-    events: tuple[Event, ...]
-    bounds: Bounds
+FINEST = 100 * float(np.finfo(float).eps)
+"""The least relative tolerance of a step that doubles can hold."""
 
 
 def simulate(
@@ -81,8 +71,8 @@ def simulate(
     """
     settings = dict(model.settings)
     drive = driving(model, inputs, settings.get("inputs", {}))
-    program = dynamics.closed(model, drive.feedback, supply=True)
-    given = Given.of(model, dynamics.rhs(model))
+    program = right_hand_side(model, drive)
+    given = Given.of(model, remembered(model, "states", lambda: dynamics.rhs(model)))
     instants = _times(duration, times, samples, start, settings)
     check_covers(drive, float(instants[0]), float(instants[-1]))
     if instants.size * len(program.inputs["x"]) > MAX_STORED:
@@ -95,23 +85,24 @@ def simulate(
         _count(max_steps, "max_steps"),
         _count(max_events, "max_events"),
         _positive(max_step, "max_step", infinite=True),
-        None if timeout is None else clock.monotonic() + _positive(timeout, "timeout"),
+        None if timeout is None else _positive(timeout, "timeout"),
     )
+    name = _method(method, drive, step)
+    share = 1.0 if method in SCIPY else SHARE
     task = Task(
         model,
-        program,
         drive,
         instants,
         _initial(given, model, program, settings.get("initial", {}), initial, by_name),
         given.parameter_values(params),
-        _method(method, drive, step),
-        _tolerance(rtol, "rtol"),
-        _tolerance(atol, "atol"),
+        name,
+        max(_tolerance(rtol, "rtol") * share, FINEST),
+        _tolerance(atol, "atol") * share,
         None if step is None else _positive(step, "step"),
         _events(events),
         bounds,
     )
-    return _trajectory(task, _run_scipy(task))
+    return _trajectory(task, run(task), {"rtol": rtol, "atol": atol})
 
 
 # -- what was given ---------------------------------------------------------------------------------------------
@@ -194,12 +185,25 @@ def _not_a_state(model: Model, name: str, states: Sequence[str]) -> NoReturn:
 
 
 def _method(method: str | None, drive: Driving, step: Any) -> str:
+    """The method that will run, or a `RunError` where it does not go with what is asked."""
     if method is None:
-        return "DOP853"
-    if not isinstance(method, str) or method not in SCIPY:
-        known = [*SCIPY]
+        method = IN_PYTHON if drive.calls_python else DEFAULT
+    known = [*METHODS, *SCIPY]
+    if not isinstance(method, str) or method not in known:
         fix = did_you_mean(str(method), known) or f"one of {', '.join(known)}"
         raise RunError(f"there is no method {method!r:.40}", fix=fix, code="E402")
+    if method in METHODS and drive.calls_python:
+        called = [u.name for u, s in zip(drive.free, drive.sources, strict=True) if callable(s)]
+        raise RunError(
+            f"method '{method}' runs in machine code and cannot ask a Python function for input '{called[0]}'",
+            fix="give the input as an expression or a table, or take one of SciPy's methods: " + ", ".join(SCIPY),
+            code="E501",
+        )
+    fixed = method in METHODS and not METHODS[method].adaptive
+    if fixed and step is None:
+        raise RunError(f"method '{method}' has steps of one length", fix="give step=0.01", code="E401")
+    if not fixed and step is not None:
+        raise RunError(f"method '{method}' chooses its steps", fix="give rtol and atol, or max_step", code="E501")
     return method
 
 
@@ -241,67 +245,21 @@ def _events(given: Sequence[Event] | Event) -> tuple[Event, ...]:
     return listed
 
 
-# -- running ----------------------------------------------------------------------------------------------------
-
-
-def _jacobian(program: Program) -> Program:
-    """x, u, p, t → ∂ẋ/∂x, shape (nx, nx)."""
-    g, n = program.graph, len(program.inputs["x"])
-    x = [g.input("x", i) for i in range(n)]
-    entries = jacobian(g, program.outputs["xdot"].ids, x)
-    ids = tuple(entries.get((i, k), g.zero) for i in range(n) for k in range(n))
-    return Program("jacobian", g, program.inputs, {"J": Output(ids, (n, n))}, program.defaults)
-
-
-def _run_scipy(task: Task) -> Outcome:
-    drive, times = task.drive, task.times
-    rhs = machine.compile(task.program)
-    slope = None
-    if task.method in IMPLICIT and not drive.calls_python:
-        slope = machine.compile(_jacobian(task.program))
-    crossings = None
-    if task.events:
-        supply = dynamics.SUPPLY in task.program.inputs["x"]
-        listed = [(e.title, e.expression, e.reset) for e in task.events]
-        kernel = machine.compile(dynamics.impacts(task.model, listed, drive.feedback, supply=supply))
-        crossings = Crossings(
-            kernel,
-            task.p,
-            [e.direction for e in task.events],
-            [e.terminal for e in task.events],
-            [bool(e.reset) for e in task.events],
-        )
-    return integrate_scipy(
-        task.method,
-        rhs,
-        task.x0,
-        times,
-        drive.legs(float(times[0]), float(times[-1])),
-        task.p,
-        jacobian=slope,
-        crossings=crossings,
-        rtol=task.rtol,
-        atol=task.atol,
-        bounds=task.bounds,
-    )
-
-
 # -- what came of it --------------------------------------------------------------------------------------------
 
 
-def _trajectory(task: Task, outcome: Outcome) -> Trajectory:
-    model, n = task.model, len(task.model.coordinates) + len(task.model.velocities)
+def _trajectory(task: Task, outcome: Outcome, settings: Mapping[str, Any]) -> Trajectory:
+    n = task.size
     t, x = outcome.times, outcome.states
     if outcome.status != 0 and outcome.reached > t[-1]:  # what was reached last is kept too
         t, x = np.append(t, outcome.reached), np.vstack([x, outcome.final])
-    supplied = x[:, n] if x.shape[1] > n else np.zeros(len(t))
     return Trajectory(
-        model=model,
+        model=task.model,
         t=t,
         y=np.ascontiguousarray(x[:, :n].T),
         status=outcome.status,
         success=outcome.status >= 0,
-        message=_message(task, outcome),
+        message=message(task, outcome),
         method=task.method,
         nfev=outcome.evaluations,
         steps=outcome.steps,
@@ -310,9 +268,9 @@ def _trajectory(task: Task, outcome: Outcome) -> Trajectory:
         u=task.drive.at(t, x[:, :n]),
         feedback=task.drive.feedback,
         events=_occurrences(task, outcome.hits, n),
-        supplied=supplied,
+        supplied=x[:, n] if x.shape[1] > n else np.zeros(len(t)),
         jumps=_jumps(task, outcome.hits, t, n),
-        settings={"rtol": task.rtol, "atol": task.atol},
+        settings=dict(settings),
     )
 
 
@@ -339,12 +297,3 @@ def _jumps(task: Task, hits: Sequence[Hit], t: Array, n: int) -> Array:
     for time, gain in zip(at, h1 - h0, strict=True):
         total[t > time] += gain
     return total
-
-
-def _message(task: Task, outcome: Outcome) -> str:
-    """How the run ended, with time, state and reason where it ended early."""
-    if outcome.status == 0:
-        return f"the end of the interval was reached, t = {outcome.reached:g} s"
-    if outcome.status == 1:
-        return f"event '{task.events[outcome.hits[-1].index].title}' ended the run at t = {outcome.reached:.9g} s"
-    return f"stopped at t = {outcome.reached:.9g} s: {outcome.reason or outcome.status}"

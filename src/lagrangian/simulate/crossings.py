@@ -8,7 +8,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq
 
 Array = NDArray[np.float64]
 Control = Callable[[float, Array], Array]
@@ -109,6 +108,8 @@ class Crossings:
 
     def _located(self, k: int, a: float, b: float, dense: Any, u: Control) -> float:
         """The time in (a, b] at which function k is 0, to the last bits."""
+
+        from scipy.optimize import brentq
 
         def g(t: float) -> float:
             return float(self._g(t, dense(t), u)[k])

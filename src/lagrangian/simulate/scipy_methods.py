@@ -16,7 +16,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import integrate
 
 from lagrangian.errors import RunError
 from lagrangian.simulate.crossings import Crossings, Hit
@@ -24,14 +23,7 @@ from lagrangian.simulate.crossings import Crossings, Hit
 Array = NDArray[np.float64]
 Control = Callable[[float, Array], Array]
 
-SCIPY: dict[str, type[integrate.OdeSolver]] = {
-    "RK45": integrate.RK45,
-    "RK23": integrate.RK23,
-    "DOP853": integrate.DOP853,
-    "Radau": integrate.Radau,
-    "BDF": integrate.BDF,
-    "LSODA": integrate.LSODA,
-}
+SCIPY = ("RK45", "RK23", "DOP853", "Radau", "BDF", "LSODA")
 """SciPy's methods by the names that `scipy.integrate.solve_ivp` gives them."""
 
 IMPLICIT = frozenset({"Radau", "BDF", "LSODA"})
@@ -71,12 +63,12 @@ class Outcome:
 
 @dataclass
 class Bounds:
-    """What ends a run that does not end by itself: steps, events, and the time of `time.monotonic`."""
+    """What ends a run that does not end by itself: steps, events, and seconds of computing."""
 
     max_steps: int = 10_000_000
     max_events: int = 1000
     max_step: float = math.inf
-    deadline: float | None = None
+    seconds: float | None = None
 
 
 class _NotFiniteError(Exception):
@@ -163,7 +155,10 @@ class _March:
         atol: float | Array,
         bounds: Bounds,
     ) -> None:
-        self.make, self.f, self.crossings, self.bounds = SCIPY[method], f, crossings, bounds
+        from scipy import integrate  # takes longer to load than most runs: commands that run nothing do without
+
+        self.make: Callable[..., Any] = getattr(integrate, method)
+        self.f, self.crossings, self.bounds = f, crossings, bounds
         self.options: dict[str, Any] = {"rtol": rtol, "atol": atol, "max_step": bounds.max_step}
         if method in IMPLICIT and f.jacobian is not None:
             self.options["jac"] = f.slope
@@ -171,6 +166,7 @@ class _March:
         self.times, self.states = times, np.empty((len(times), len(x0)))
         self.states[0], self.stored = self.x, 1
         self.status, self.reason, self.steps = 0, "", 0
+        self.deadline = math.inf if bounds.seconds is None else clock.monotonic() + bounds.seconds
         self.hits: list[Hit] = []
 
     def over(self, leg: Leg) -> bool:
@@ -200,7 +196,7 @@ class _March:
     def _within_bounds(self) -> bool:
         if self.steps >= self.bounds.max_steps:
             self.status = -3
-        elif self.bounds.deadline is not None and clock.monotonic() > self.bounds.deadline:
+        elif clock.monotonic() > self.deadline:
             self.status = -6
         return self.status == 0
 

@@ -1,0 +1,119 @@
+"""How a run ended, in words: the time, the state, the reason, and what may help."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian import compile as machine
+from lagrangian import dynamics
+from lagrangian.errors import RunError
+from lagrangian.graph import evaluate
+from lagrangian.integrating import Task, remembered, right_hand_side
+from lagrangian.simulate import STATUS
+from lagrangian.simulate.scipy_methods import IMPLICIT, SCIPY, Outcome
+
+Array = NDArray[np.float64]
+
+SINGULAR = 1e-10
+"""Least over greatest singular value of M below which a configuration is called singular."""
+
+SHOWN = 8
+"""States written out in a message."""
+
+UNDERFLOW, NOT_FINITE, TOO_MANY, ZENO, NO_CONVERGENCE, LATE = -1, -2, -3, -4, -5, -6
+
+
+def message(task: Task, outcome: Outcome) -> str:
+    """One sentence for a run that came to its end; time, state, reason and advice for one that did not."""
+    slow = (
+        " (an input is a Python function: SciPy's solver asked it at every evaluation)"
+        if task.drive.calls_python
+        else ""
+    )
+    if outcome.status == 0:
+        return f"the end of the interval was reached, t = {outcome.reached:g} s{slow}"
+    if outcome.status == 1:
+        name = task.events[outcome.hits[-1].index].title
+        return f"event '{name}' ended the run at t = {outcome.reached:.9g} s{slow}"
+    reason, fix = _reason(task, outcome)
+    return f"stopped at t = {outcome.reached:.9g} s: {reason}; state {_state(task, outcome.final)}. Fix: {fix}"
+
+
+def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
+    said = outcome.reason or STATUS.get(outcome.status, "")
+    match outcome.status:
+        case s if s in (UNDERFLOW, NOT_FINITE):
+            singular = _singular(task, outcome)
+            if singular:
+                return singular, "choose other coordinates near this configuration"
+            broken = _not_finite(task, outcome)
+            if broken:
+                return broken, "look for a division by zero or a root of a negative number there"
+            return f"[E504] {said}", _gentler(task, outcome)
+        case s if s == TOO_MANY:
+            return f"[E505] gave up after {outcome.steps} steps", "a shorter run, a larger max_steps, or method='Radau'"
+        case s if s == ZENO:
+            name = task.events[outcome.hits[-1].index].title if outcome.hits else task.events[0].title
+            return (
+                f"[E505] event '{name}' repeats itself without end: {len(outcome.hits)} events, "
+                "each sooner after the last",
+                "let what touches come to rest with a terminal event, or raise max_events",
+            )
+        case s if s == LATE:
+            return f"[E505] the time allowed for computing was over after {outcome.steps} steps", "a larger timeout"
+        case _:
+            return f"[E504] {said}", "a shorter step"
+
+
+def _state(task: Task, x: Array) -> str:
+    names = [*(c.name for c in task.model.coordinates), *(v.name for v in task.model.velocities)]
+    shown = [f"{name} = {value:.6g}" for name, value in zip(names, x, strict=False)]
+    return ", ".join(shown[:SHOWN]) + (", …" if len(shown) > SHOWN else "")
+
+
+def _singular(task: Task, outcome: Outcome) -> str:
+    """Whether M is singular where the run stopped, and which coordinates move nothing there."""
+    model, n = task.model, len(task.model.coordinates)
+    kernel = remembered(model, "mass_matrix", lambda: machine.compile(dynamics.mass_matrix(model), optional={"v": 0.0}))
+    u = np.zeros(len(model.inputs))
+    try:
+        M = kernel(np.array(outcome.final[:n]), None, u, task.p, outcome.reached)
+    except RunError:
+        return ""
+    _, values, right = np.linalg.svd(M)
+    if values[-1] > SINGULAR * values[0]:
+        return ""
+    names = [v.name.removesuffix("'") for v in model.velocities]
+    moved = [f"'{name}'" for name, x in zip(names, right[-1], strict=True) if abs(x) > 1e-6]
+    what = moved[0] if len(moved) == 1 else "moving " + ", ".join(moved) + " together"
+    return f"[E203] the mass matrix is singular there: {what} moves no mass"
+
+
+def _rates(task: Task, outcome: Outcome) -> tuple[tuple[str, ...], Array]:
+    """ẋ where the run stopped, as far as it can be computed, with the names of the states."""
+    program = right_hand_side(task.model, task.drive)
+    x = np.zeros(len(program.inputs["x"]))
+    x[: len(outcome.final)] = outcome.final
+    u = task.drive.at(np.array([outcome.reached]), outcome.final[np.newaxis, : task.size])[0]
+    found = evaluate(program, {"x": list(x), "u": list(u), "p": list(task.p), "t": [outcome.reached]})
+    return program.inputs["x"][: task.size], np.array(found["xdot"][: task.size], float)
+
+
+def _not_finite(task: Task, outcome: Outcome) -> str:
+    """Which rates are not finite at the last state."""
+    try:
+        names, rates = _rates(task, outcome)
+    except RunError as trouble:  # an input that is a function gave no number there
+        return f"[{trouble.code}] {trouble.what}"
+    broken = [f"the rate of '{n}' is {r}" for n, r in zip(names, rates, strict=True) if not np.isfinite(r)]
+    return f"[E503] {', '.join(broken[:3])}" if broken else ""
+
+
+def _gentler(task: Task, outcome: Outcome) -> str:
+    """What may help a run whose steps became too small."""
+    names, rates = _rates(task, outcome)
+    fast = names[int(np.argmax(np.abs(rates) / (np.abs(outcome.final[: task.size]) + task.atol)))]
+    if task.method in SCIPY and task.method in IMPLICIT:
+        return f"looser tolerances; '{fast}' changes fastest there"
+    return f"method='Radau' if the system is stiff; '{fast}' changes fastest there"
