@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 import lagrangian as lg
 from lagrangian import compile as machine
 from lagrangian.dynamics import Bodies, Mechanics, Motion
-from lagrangian.dynamics.floating import floating_body, floating_rates
 from lagrangian.graph import Graph, Output, Program
 from lagrangian.model import Frame, Point
 
@@ -186,19 +185,24 @@ def humanoid_tree() -> Tree:
 
 
 def described(tree: Tree) -> lg.System:
-    """A tree on the ground as a system: a frame a joint, a rigid body a link, a torque input a joint."""
+    """A tree as a system: a frame a joint, a rigid body a link, an input a velocity, the base's wrench in its axes."""
     s = lg.System(tree.name)
     frames: list[Frame] = []
     joints: list[Point] = []
+    base = s.floating_frame("base") if tree.floats else None
+    if base and tree.floats:
+        wrench = s.inputs([f"w{i}" for i in range(6)])
+        s.rigid_body(tree.floats.mass, _rows(tree.floats), base.point(*tree.floats.centre), base)
+        s.force(wrench[:3], at=base.origin, axes=base)
+        s.torque(wrench[3:], on=base, axes=base)
     for i, link in enumerate(tree.links):
         q, u = s.coordinate(f"q{i}"), s.input(f"u{i}")
-        parent = frames[link.parent] if link.parent >= 0 else None
-        joint = parent.point(*link.offset, at=joints[link.parent]) if parent else s.origin + link.offset
+        parent, above = (frames[link.parent], joints[link.parent]) if link.parent >= 0 else (base, None)
+        joint = parent.point(*link.offset, at=above) if parent else s.origin + link.offset
         if link.quarter:
             parent = s.frame(link.quarter * sp.pi / 2, axis=(1, 0, 0), parent=parent, origin=joint)
         frame = s.frame(q, axis=[int(link.axis == k) for k in range(3)], parent=parent, origin=joint)
-        body = link.body
-        s.rigid_body(body.mass, [list(row) for row in body.inertia], frame.point(*body.centre, at=joint), frame)
+        s.rigid_body(link.body.mass, _rows(link.body), frame.point(*link.body.centre, at=joint), frame)
         s.torque(u, on=q)
         frames.append(frame)
         joints.append(joint)
@@ -206,31 +210,11 @@ def described(tree: Tree) -> lg.System:
     return s
 
 
-def floating_program(tree: Tree) -> Program:
-    """q, v, u → v̇ of a tree that floats, through the layer below systems."""
-    assert tree.floats is not None
-    g = Graph()
-    q, v, u = ([g.input(name, i) for i in range(n)] for name, n in (("q", tree.nq), ("v", tree.nv), ("u", tree.nv)))
-    motion = Motion(g, 3, q, v, [*floating_rates(g, q[:7], v[:6]), *v[6:]])
-    bodies = Bodies(motion)
-    base = floating_body(motion, q[:7], v[:6])
-    made = [base]
-    for link, angle in zip(tree.links, q[7:], strict=True):
-        axes, place = made[link.parent + 1]
-        joint = motion.place(place, axes, [g.const(x) for x in link.offset])
-        made.append((motion.turned_about(axes, link.axis, angle), joint))
-    for (axes, place), body in zip(made, (tree.floats, *(link.body for link in tree.links)), strict=True):
-        centre = motion.place(place, axes, [g.const(x) for x in body.centre])
-        bodies.add(axes, centre, g.const(body.mass), [[g.const(x) for x in row] for row in body.inertia])
-    names = {"q": tuple(f"q{i}" for i in range(tree.nq))}
-    names |= {key: tuple(f"{key}{i}" for i in range(tree.nv)) for key in "vu"}
-    m = Mechanics(
-        g, motion, bodies, names["v"], [g.zero, g.zero, g.const(-GRAVITY)], efforts=list(zip(v, u, strict=True))
-    )
-    return Program(tree.name, g, names, {"a": Output(tuple(m.forward()), (tree.nv,))})
+def _rows(body: Body) -> list[list[float]]:
+    return [list(row) for row in body.inertia]
 
 
 def kernel_of(tree: Tree) -> machine.Kernel:
     """Forward dynamics of a tree, compiled for one core."""
-    program = floating_program(tree) if tree.floats else described(tree).compile(threads=1).program("forward")
+    program = described(tree).compile(threads=1).program("forward")
     return machine.compile(program, optional={"u": 0.0, "t": 0.0}, threads=1)

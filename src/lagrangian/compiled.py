@@ -38,8 +38,8 @@ class Compiled:
     Every method takes arrays of shape ``(..., n)``, any number of leading dimensions that broadcast together, in the
     declared order of ``coordinates`` and ``velocities``, and answers in one call. These are as many, v the rates of q,
     unless a frame floats: then q holds seven entries for it, a quaternion of any length but 0 among them, v six, and
-    accelerations, forces, M, C, G and J stand along v; q̇ comes from `rhs`. ``u`` are the inputs, 0 unless given; ``p`` the
-    parameters, as declared unless given; both by name (a mapping) or in declared order. ``t`` is time [s].
+    accelerations, forces, M, C, G and J stand along v; `rates` gives q̇. ``u`` are the inputs, 0 unless given; ``p``
+    the parameters, as declared unless given; both by name (a mapping) or in declared order. ``t`` is time [s].
     Code is made at the first call of each method and kept on disk between runs.
 
     Raises `RunError` for a shape, a type, a name or a value that does not fit, and where M is singular.
@@ -142,6 +142,10 @@ class Compiled:
             self._kernels[key] = made
         return self._run(key, q, p, t, q, v, None)
 
+    def rates(self, q: ArrayLike, v: ArrayLike) -> NDArray[np.float64]:
+        """Return q̇ = N(q) v, shape ``(..., n_q)``: v itself, but for frames that float."""
+        return self._run("rates", q, None, 0.0, q, v, None)
+
     def rhs(self, t: ArrayLike, x: ArrayLike, u: Values = None, p: Values = None) -> NDArray[np.float64]:
         """Return ẋ of x = [q; v] in declared order, shape ``(..., n_q + n_v)``: the right-hand side solvers want."""
         try:
@@ -224,6 +228,7 @@ _PROGRAMS: dict[str, Callable[[Model], Program]] = {
     "coriolis": dynamics.coriolis,
     "energy": dynamics.energy,
     "rhs": dynamics.rhs,
+    "rates": dynamics.rates,
 }
 _STILL = ("mass_matrix", "gravity")
 
@@ -237,8 +242,8 @@ LANGUAGES = {"c": ".c", "python": ".py"}
 def sources(model: Model, language: str, stem: str) -> dict[str, str]:
     """Return source code as file name → text: C99 with its header, or Python with NumPy.
 
-    Each holds forward dynamics, inverse dynamics, mass matrix and energies as functions ``stem_forward``, …; nothing
-    else of this package is needed to run them.
+    Each holds forward dynamics, inverse dynamics, mass matrix and energies as functions ``stem_forward``, …, and where
+    a frame floats the rates of its coordinates; nothing else of this package is needed to run them.
     """
     if language not in LANGUAGES:
         raise ModelError(f"there is no export to '{language}'", fix=f"one of {', '.join(LANGUAGES)}", code="E402")
@@ -246,7 +251,8 @@ def sources(model: Model, language: str, stem: str) -> dict[str, str]:
         raise ModelError(
             f"'{stem}' cannot begin the name of a function", fix="use letters, digits and underscores", code="E702"
         )
-    programs = {f"{stem}_{name}": _PROGRAMS[name](model) for name in EXPORTED}
+    exported = (*EXPORTED, "rates") if model.floating else EXPORTED
+    programs = {f"{stem}_{name}": _PROGRAMS[name](model) for name in exported}
     if language == "python":
         functions = [_renamed(machine.to_numpy(program), name) for name, program in programs.items()]
         first = f'"""The dynamics of a system with coordinates {", ".join(c.name for c in model.coordinates)}."""'

@@ -203,8 +203,11 @@ def _number_explains(expr: sp.Expr) -> bool:
 
 def check_dimensions(model: Model) -> Dimensions | None:
     """Raise `ModelError` where a unit does not fit; return the solved dimensions, or None when no unit was given."""
+    own = {
+        x for f in model.floating if f.floating is not None for x in (*f.floating.coordinates, *f.floating.velocities)
+    }
     named = (*model.coordinates, *model.velocities, *model.parameters, *model.inputs)
-    if not any(x.unit for x in named):
+    if not any(x.unit for x in named if x not in own):
         return None
     dims = Dimensions()
     for x in named:

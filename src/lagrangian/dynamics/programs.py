@@ -3,6 +3,7 @@
     inverse        r(q, v, a, u, p, t) = M a + C v + G − Ξ       the generalized force that is missing
     forward        a(q, v, u, p, t), the solution of r = 0
     rhs            ẋ of x = [q; v]
+    rates          q̇ = N(q) v
     mass_matrix    M(q, p, t)
     bias           r at a = 0
     gravity        G = ∂V/∂q
@@ -72,6 +73,12 @@ def rhs(model: Model) -> Program:
     """x, u, p, t → ẋ = [q̇; v̇] of x = [q; v], shape (n_q + n_v,)."""
     graph, _, m = _start(model, state=True)
     return _program(model, "rhs", graph, {"xdot": _vector([*m.motion.rates, *m.forward()])}, groups=("x",))
+
+
+def rates(model: Model) -> Program:
+    """q, v, u, p, t → q̇ = N(q) v, shape (n_q,): v itself, but for frames that float."""
+    graph, _, m = _start(model)
+    return _program(model, "rates", graph, {"qdot": _vector(m.motion.rates)})
 
 
 def inverse(model: Model) -> Program:
