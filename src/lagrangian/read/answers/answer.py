@@ -10,7 +10,7 @@ import sympy as sp
 from lagrangian.errors import Place
 
 Kind: TypeAlias = Literal[
-    "equation", "T", "V", "L", "D", "Xi", "p", "p-rate", "slope", "definition", "identity", "statement"
+    "equation", "T", "V", "L", "D", "Xi", "p", "p-rate", "slope", "left", "definition", "identity", "statement"
 ]
 """What a line states:
 
@@ -19,6 +19,7 @@ Kind: TypeAlias = Literal[
     T, V, L, D  the kinetic co-energy, the potential energy, the Lagrangian, Rayleigh's dissipation function
     Xi          the generalized force Ξ of the coordinate ``name``
     p           ∂L/∂ξ̇ of the coordinate ``name``;  p-rate: d/dt ∂L/∂ξ̇;  slope: ∂L/∂ξ
+    left        d/dt ∂L/∂ξ̇ − ∂L/∂ξ of the coordinate ``name``, worked out
     definition  a name of the person's own, or a coordinate of the model in new ones
     identity    lhs = rhs holds whatever the motion: the rate of a name that was defined before
     statement   a general truth that holds nothing of this system: d/dt ∂L/∂ξ̇ − ∂L/∂ξ = Ξ, before L was given

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import cast
 
 import sympy as sp
@@ -16,7 +16,7 @@ from lagrangian.read.answers.answer import AnswerLine, Kind
 from lagrangian.read.answers.meaning import Budget, Meaning
 from lagrangian.read.answers.names import Names, Value
 from lagrangian.read.answers.nodes import Node, inside, only_name, squared_name, start_of
-from lagrangian.read.answers.placeholders import ENERGIES, generalized_force, is_placeholder
+from lagrangian.read.answers.placeholders import ENERGIES, generalized_force, is_force, is_placeholder, is_vector
 from lagrangian.read.answers.stated import energy_of, force_of, momentum_of
 from lagrangian.read.letters import key, undotted
 from lagrangian.read.source import Source
@@ -88,7 +88,12 @@ class Lines:
         reader = Meaning(statement.source, self.names, self.budget)
         if subject is not None and subject.token is not None and subject.kind in ("definition", "identity"):
             self._waiting.pop(key(undotted(subject.token)[0]), None)
-        self._made[i] = self._about(subject, sides, reader) if subject else self._equations(sides, reader)
+        before = set(self.names.unknown)
+        lines = self._about(subject, sides, reader) if subject else self._equations(sides, reader)
+        if all(line.kind == "statement" for line in lines):  # a general truth may use letters of its own: ξ_i
+            for new in set(self.names.unknown) - before:
+                del self.names.unknown[new]
+        self._made[i] = lines
 
     def _turned(self, sides: list[Tree]) -> tuple[Subject | None, list[Tree]]:
         """The subject of a statement and its sides, the subject first: on the left, on the right, a Ξ anywhere."""
@@ -110,6 +115,17 @@ class Lines:
         if (token := squared_name(side)) is not None and not self._taken(token):
             return Subject("definition", str(token), token, square=True)
         return self._derivative_of_energy(inside(side))
+
+    def _left_side(self, side: Tree) -> Subject | None:
+        """d/dt ∂L/∂ξ̇ − ∂L/∂ξ, in words of L alone."""
+        side = inside(side)
+        terms = [inside(x) for x in side.children if isinstance(x, Tree)] if side.data == "sum" else []
+        if len(terms) != 2 or [str(x) for x in side.children if isinstance(x, Token)] != ["-"]:
+            return None
+        first, second = (self._derivative_of_energy(x) for x in terms)
+        if first is None or second is None or (first.kind, second.kind) != ("p-rate", "slope"):
+            return None
+        return Subject("left", first.name) if first.name == second.name else None
 
     def _taken(self, token: Token) -> bool:
         return bool(self.names.scope.meanings(token)[0])
@@ -166,9 +182,9 @@ class Lines:
         kind: Kind = subject.kind
         name = subject.name
         lhs: sp.Expr | None = None
+        if _general(value):
+            return self._make("statement", None, value, None, sides[0], side, reader)
         if kind in ENERGIES:
-            if any(is_placeholder(x) for x in value.atoms(AppliedUndef)):
-                return self._make("statement", None, value, None, sides[0], side, reader)
             self.names.stated[kind] = value
         elif kind == "definition":
             assert subject.token is not None
@@ -202,8 +218,12 @@ class Lines:
         if token is None or subject.order:
             reader.fail("one quantity cannot equal a matrix", side, fix="write the entries out, one a line")
         names = [c.name for c in self.model.coordinates]
-        if key(token) in ("Xi", "Q") and value.shape == (len(names), 1):
-            return [self._make("Xi", None, x, n, side, side, reader) for n, x in zip(names, value, strict=True)]
+        if key(token) in ("Xi", "Q", "bold Xi", "bold Q") and value.shape == (len(names), 1):
+            own = Subject("Xi")
+            return [
+                self._stated(replace(own, name=n), x, [side, side], side, reader)
+                for n, x in zip(names, value, strict=True)
+            ]
         self.names.define(token, value)
         return []
 
@@ -219,14 +239,18 @@ class Lines:
 
     def _equation(self, left: Value, right: Value, a: Tree, b: Tree, reader: Meaning) -> list[AnswerLine]:
         pairs = [(left, right)]
+        if is_vector(left) or is_vector(right):
+            return []
         if isinstance(left, MatrixBase) or isinstance(right, MatrixBase):
             pairs = _rows(left, right, b, reader)
         return [self._judged(reader.finite(x, a), reader.finite(y, b), a, b, reader) for x, y in pairs]
 
     def _judged(self, left: sp.Expr, right: sp.Expr, a: Tree, b: Tree, reader: Meaning) -> AnswerLine:
         kind: Kind = "equation"
-        held = left.atoms(AppliedUndef) | right.atoms(AppliedUndef)
-        if held & set(ENERGIES.values()):
+        for side, value in ((a, right), (b, left)):
+            if (subject := self._left_side(side)) is not None and _accelerates(value):
+                return self._make("left", None, value, subject.name, a, b, reader)
+        if _general(left) or _general(right):
             kind = "statement"
         elif (found := only_name(a)) is not None and not found[1] and self._change(found[0], right):
             return self._make("definition", None, right, str(found[0]), a, b, reader)
@@ -248,6 +272,11 @@ class Lines:
         source = reader.source
         start = min(start_of(a), start_of(b))
         return AnswerLine(kind, lhs, rhs, name, source.at(start), " ".join(source.text.split()))
+
+
+def _general(value: sp.Expr) -> bool:
+    """Whether energies or variations that have no value here stand in it."""
+    return any(is_placeholder(x) and not is_force(x) for x in value.atoms(AppliedUndef))
 
 
 def _accelerates(value: sp.Expr) -> bool:

@@ -10,8 +10,8 @@ from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.model.names import time
 from lagrangian.read.answers.names import Names, Value
-from lagrangian.read.answers.nodes import Node
-from lagrangian.read.answers.placeholders import ENERGIES
+from lagrangian.read.answers.nodes import Node, only_name
+from lagrangian.read.answers.placeholders import ENERGIES, is_vector, variation
 from lagrangian.read.expression import MAX_ORDER, Reader
 from lagrangian.read.letters import key, undotted
 from lagrangian.read.source import Source
@@ -81,22 +81,31 @@ class Meaning(Reader):
         return value
 
     def _partial(self, node: Node) -> sp.Expr:
-        """∂L/∂ξ or ∂L/∂ξ̇; of an energy that was not given it stays as it is."""
+        """∂L/∂ξ or ∂L/∂ξ̇; of an energy that was not given it stays as it is, and so it does by a general ξ_i."""
         what, by = node.children
         kind = {"ℒ": "L"}.get(what, str(what))
-        variable = self.value(by)
-        if not isinstance(variable, (AppliedUndef, sp.Derivative)):
-            self.fail("energies are differentiated by a coordinate or its rate", by, fix="write ∂L/∂x1'")
         energy = self.names.energy(kind)
-        if energy is None:
-            return cast("sp.Expr", sp.Derivative(ENERGIES[kind], variable))
+        if energy is None and kind not in ENERGIES:
+            energy = self._meaning(what)[1]
+            if not energy.args or isinstance(energy, AppliedUndef):
+                self.fail(f"'{what}' is no energy that was given", what, fix="write ∂L/∂x1', or what it is before")
+        variable = self.value(by)
+        if not isinstance(variable, (AppliedUndef, sp.Derivative, sp.Symbol)):
+            self.fail("energies are differentiated by a coordinate or its rate", by, fix="write ∂L/∂x1'")
+        moving = isinstance(variable, (AppliedUndef, sp.Derivative))
+        if energy is None or not moving or self.names.is_unknown(variable):
+            return cast("sp.Expr", sp.Derivative(ENERGIES.get(kind, ENERGIES["L"]), variable))
         self._spend(energy, node)
         return self.names.model.expand(energy).diff(variable)
+
+    def _variation(self, node: Node) -> sp.Expr:
+        found = only_name(node.children[1])
+        return variation(str(found[0]) if found else "")
 
     # -- matrices ----------------------------------------------------------------------------------------------------
 
     def _matrix(self, node: Node) -> Value:
-        rows = [row.children for row in node.children]
+        rows = [row.children for row in node.children[1:]]
         if len({len(row) for row in rows}) != 1:
             counts = " and ".join(str(n) for n in sorted({len(row) for row in rows}))
             self.fail(f"the rows of this matrix have {counts} entries", node, fix="give every row as many entries")
@@ -108,7 +117,7 @@ class Meaning(Reader):
         return sp.ImmutableMatrix(values)
 
     def _transpose(self, node: Node) -> Value:
-        value = self.value(node.children[0])
+        value = self.value(node.children[1])
         return value.T if isinstance(value, MatrixBase) else value
 
     def _sum(self, node: Node) -> Value:
@@ -117,6 +126,8 @@ class Meaning(Reader):
         values += [(s, t, self.value(t)) for s, t in zip(rest[::2], rest[1::2], strict=True)]
         if not any(isinstance(v, MatrixBase) for _, _, v in values):
             return super()._sum(node)
+        if (general := next((v for _, _, v in values if is_vector(v)), None)) is not None:
+            return general
         total: Value = None
         for sign, term, value in values:
             value = self._signed_value(sign, value)
@@ -136,6 +147,8 @@ class Meaning(Reader):
         values += [(o, c, self.value(c)) for o, c in zip(rest[::2], rest[1::2], strict=True)]
         if not any(isinstance(v, MatrixBase) for _, _, v in values):
             return super()._product(node)
+        if (general := next((v for _, _, v in values if is_vector(v)), None)) is not None:
+            return general
         total: Value = sp.S.One
         for operator, child, value in values:
             if operator is not None and operator == "/":

@@ -15,7 +15,7 @@ from lagrangian.model import Model
 from lagrangian.model.names import moving_symbol, time
 from lagrangian.read.answers.answer import Unknown
 from lagrangian.read.answers.nodes import Node, start_of
-from lagrangian.read.answers.placeholders import ENERGIES, generalized_force
+from lagrangian.read.answers.placeholders import ENERGIES, generalized_force, vector
 from lagrangian.read.answers.stated import energy_of, force_of
 from lagrangian.read.letters import key, spelled, undotted
 from lagrangian.read.scope import Scope, rate_stems
@@ -96,6 +96,9 @@ class Names:
             self.later(key(base))
         if (mine := self.own.get(key(base))) is not None:
             return *mine, dots
+        if base in ("bold Xi", "bold Q"):
+            column = [generalized_force(c.name) for c in self.model.coordinates]
+            return base, sp.ImmutableMatrix(column), dots
         if (kind := energy_of(base, self.model)) is not None:
             given = self.energy(kind)
             return kind, ENERGIES[kind] if given is None else given, dots
@@ -105,6 +108,10 @@ class Names:
             return "pi", sp.pi, dots
         if base == "t":
             return "t", time, dots
+        if base.startswith("bold "):  # a letter in bold type that stands for no matrix of this answer
+            if not self.scope.meanings(base[5:])[0]:
+                return base, vector(base[5:]), dots
+            return self.meaning(Token("NAME", base[5:], start_pos=start_of(token)), source)
         for order, stem in rate_stems(base):
             if (found := self._rate_of(stem)) is not None:
                 return *found, order + dots
@@ -115,6 +122,11 @@ class Names:
         if kind == "L" and "L" not in self.stated and {"T", "V"} <= self.stated.keys():
             return self.stated["T"] - self.stated["V"]
         return self.stated.get(kind)
+
+    def is_unknown(self, symbol: sp.Basic) -> bool:
+        """Whether a symbol, or what it is the rate of, is unknown to the model."""
+        of = symbol.args[0] if isinstance(symbol, sp.Derivative) else symbol
+        return any(u.symbol == of for u in self.unknown.values())
 
     def _rate_of(self, stem: str) -> tuple[str, Value] | None:
         """What changes with time and is called ``stem``."""

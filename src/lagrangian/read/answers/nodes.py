@@ -8,6 +8,7 @@ power_of    sin²(x): the call, and the exponent
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any, TypeAlias
 
 from lark import Token, Tree
@@ -45,6 +46,16 @@ def number(text: str, start: int) -> Tree:
 def name(text: str, start: int, primes: int = 0) -> Tree:
     """Return the node of a name with its primes or dots."""
     return node("name", start, leaf("NAME", text, start), leaf("PRIMES", "'" * primes, start) if primes else None)
+
+
+def wrapped(kind: str, start: int, child: Tree) -> Tree:
+    """Return a node around one other; its own token keeps it from being taken for a mere wrapping."""
+    return node(kind, start, leaf("MARK", kind, start), child)
+
+
+def matrix(start: int, rows: Sequence[Sequence[Tree]]) -> Tree:
+    """Return the node of a matrix."""
+    return node("matrix", start, leaf("MARK", "matrix", start), *(node("row", start, *row) for row in rows))
 
 
 def inside(tree: Node) -> Node:

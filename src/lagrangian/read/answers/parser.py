@@ -31,7 +31,7 @@ class Parser(ABC):
     def __init__(self, source: Source, tokens: list[Token]) -> None:
         self.source, self.tokens = source, tokens
         self.i = 0
-        self.depth = 0
+        self.opened: list[int] = []
 
     # -- what a notation says ------------------------------------------------------------------------------------
 
@@ -69,15 +69,24 @@ class Parser(ABC):
         return self.take() if self.next.kind in kinds else None
 
     def deeper(self, start: int) -> None:
-        """Count one more bracket, and refuse too many."""
-        self.depth += 1
-        if self.depth > MAX_DEPTH:
+        """Note a bracket that opens, and refuse too many inside each other."""
+        self.opened.append(start)
+        if len(self.opened) > MAX_DEPTH:
             raise self.source.error(
                 f"brackets are nested more than {MAX_DEPTH} deep",
                 start,
                 fix="give the inner parts names on lines of their own: h = …",
                 code="E703",
             )
+
+    def unclosed(self) -> ParseError | None:
+        """Return the error for a bracket that is open where the side ends."""
+        if not self.opened or self.next.kind not in ("=", "end"):
+            return None
+        at = self.opened[-1]
+        return self.source.error(
+            f"this '{self.source.text[at]}' is never closed", at, fix="close it on the same side of ="
+        )
 
     # -- grammar ---------------------------------------------------------------------------------------------------
 

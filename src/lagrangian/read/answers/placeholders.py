@@ -16,6 +16,28 @@ def generalized_force(coordinate: str) -> AppliedUndef:
     return moving_symbol(f"\u27e8Xi {coordinate}\u27e9")
 
 
+def variation(name: str) -> AppliedUndef:
+    """Return the placeholder of a virtual displacement or virtual work: δθ, δW."""
+    return moving_symbol(f"\u27e8delta {name}\u27e9")
+
+
+def vector(name: str) -> AppliedUndef:
+    """Return the placeholder of a matrix or column that was not given: M, q."""
+    return moving_symbol(f"\u27e8vector {name}\u27e9")
+
+
+def is_vector(value: object) -> bool:
+    """Whether a value holds the placeholder of a matrix."""
+    return isinstance(value, sp.Expr) and any(
+        x.func.__name__.startswith("\u27e8vector ") for x in value.atoms(AppliedUndef)
+    )
+
+
+def is_force(symbol: sp.Basic) -> bool:
+    """Whether a symbol stands for a Ξ that was not given."""
+    return isinstance(symbol, AppliedUndef) and symbol.func.__name__.startswith("\u27e8Xi ")
+
+
 def is_placeholder(symbol: sp.Basic) -> bool:
-    """Whether a symbol stands for an energy or a Ξ that was not given."""
+    """Whether a symbol stands for an energy, a Ξ, a variation or a matrix."""
     return isinstance(symbol, AppliedUndef) and symbol.func.__name__.startswith("\u27e8")

@@ -7,11 +7,12 @@ x1'  x1''  ẋ₁  dx1/dt  d2x1/dt2  d^2 x1/dt^2  d/dt(…)  d(…)/dt  diff(…
 from __future__ import annotations
 
 import re
+
 from lark import Tree
 
 from lagrangian.errors import ParseError
 from lagrangian.model.names import FUNCTIONS
-from lagrangian.read.answers.nodes import Node, leaf, name, node, number, only_name
+from lagrangian.read.answers.nodes import Node, leaf, matrix, name, node, number, only_name
 from lagrangian.read.answers.parser import Parser, Token
 from lagrangian.read.explain import explain
 from lagrangian.read.source import Source
@@ -81,6 +82,8 @@ class PlainParser(Parser):
     def stopped(self, wants_operand: bool) -> ParseError:
         """Say what is wrong at the next token."""
         token = self.next
+        if (error := self.unclosed()) is not None:
+            return error
         if token.kind == "=":
             return self.source.error(
                 "nothing stands on one side of '='", token.start, fix="write 0 for a side that is zero"
@@ -171,7 +174,7 @@ class PlainParser(Parser):
         inner = self.sum()
         if not self.accept(")"):
             raise self.stopped(False)
-        self.depth -= 1
+        self.opened.pop()
         return inner
 
     def _matrix(self) -> Tree:
@@ -189,14 +192,14 @@ class PlainParser(Parser):
             if not self.accept("]"):
                 raise self.stopped(False)
             break
-        self.depth -= 1
+        self.opened.pop()
         if len(rows) == 1:
             inner = rows[0]
             if len(inner) == 1:
                 return inner[0]
             nested = [_entries(x) for x in inner]
             rows = [n if n is not None else [x] for n, x in zip(nested, inner, strict=True)]
-        return node("matrix", start, *(node("row", start, *row) for row in rows))
+        return matrix(start, rows)
 
     # -- names and calls -------------------------------------------------------------------------------------------
 
@@ -228,7 +231,7 @@ class PlainParser(Parser):
             arguments.append(self.sum())
         if not self.accept(")"):
             raise self.stopped(False)
-        self.depth -= 1
+        self.opened.pop()
         return arguments
 
     def _powered_call(self, token: Token) -> Tree:
@@ -290,7 +293,7 @@ class PlainParser(Parser):
                 raise self.stopped(False)
         if not self.accept(")"):
             raise self.stopped(False)
-        self.depth -= 1
+        self.opened.pop()
         if not order and made.data != "partial":
             raise self.source.error(
                 f"{token.text} needs what to differentiate by", token.start, fix=f"write {token.text}(x1, t)"
@@ -320,5 +323,5 @@ def _entries(tree: Tree) -> list[Tree] | None:
     """The entries of a list inside a list."""
     if tree.data != "matrix":
         return None
-    rows: list[Node] = list(tree.children)
+    rows: list[Node] = list(tree.children[1:])
     return [row.children[0] for row in rows] if all(len(r.children) == 1 for r in rows) else None

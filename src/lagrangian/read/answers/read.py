@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
+from functools import partial
 
 from lagrangian.errors import Place
 from lagrangian.model import Model
 from lagrangian.read.answers.answer import Answer
+from lagrangian.read.answers.latex import LatexParser
+from lagrangian.read.answers.latex_rows import latex_rows
 from lagrangian.read.answers.lines import Lines, Statement
+from lagrangian.read.answers.parser import Parser
 from lagrangian.read.answers.plain import PlainParser
 from lagrangian.read.answers.rows import MAX_STATEMENTS, Row, plain_rows
 from lagrangian.read.source import Source
@@ -28,19 +33,20 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
     source = Source(text, "the answer", Place(name) if name else None)
     source.check_text(MAX_ANSWER, "an equation, such as m*x'' + k*x = F")
     latex = bool(_LATEX.search(text))
-    rows = plain_rows(text)
+    rows = latex_rows(text) if latex else plain_rows(text)
     if not rows:
         raise source.error("no equation and no energy stands here", 0, fix="write an equation, such as m*x'' + k*x = 0")
     if len(rows) > MAX_STATEMENTS:
         what = f"more than {MAX_STATEMENTS} statements"
         raise source.error(what, rows[MAX_STATEMENTS].start, fix="give the answer in several parts", code="E703")
     lines = Lines(model)
-    statements = [_parsed(source, row) for row in rows]
+    parser = partial(LatexParser, known=lines.names.known) if latex else PlainParser
+    statements = [_parsed(source, row, parser) for row in rows]
     return Answer(lines.read(statements), "latex" if latex else "text", tuple(lines.names.unknown.values()))
 
 
-def _parsed(source: Source, row: Row) -> Statement:
+def _parsed(source: Source, row: Row, parser: Callable[[Source], Parser]) -> Statement:
     """Parse one statement; its places are those of the whole answer."""
     start = row.start + len(row.text) - len(row.text.lstrip())
     own = Source(row.text.strip(), source.what, source.place, lambda offset: source.at(start + offset))
-    return Statement(tuple(PlainParser(own).sides()), own)
+    return Statement(tuple(parser(own).sides()), own)

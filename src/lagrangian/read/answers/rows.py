@@ -54,7 +54,7 @@ def plain_rows(text: str) -> list[Row]:
             head = _DOTTED.sub(lambda m: " " * len(m.group()), open_row.text)
             gap = offset - open_row.start - len(head)
             rows[-1] = open_row = Row(open_row.start, head + " " * gap + _after(bare))
-        elif (stripped := _before(bare)).strip() and not _prose(stripped):
+        elif (stripped := _before(bare)).strip() and not plain_words(stripped):
             open_row = Row(offset, _after(stripped))
             rows.append(open_row)
         offset += len(line)
@@ -77,22 +77,23 @@ def _after(line: str) -> str:
     return line
 
 
-def _prose(line: str) -> bool:
+def plain_words(line: str) -> bool:
     """Whether a line is words: nothing in it that an expression or equation has."""
     words = re.findall(r"[^\W\d_]{2,}", line)
     return len(words) >= 2 and not _STATEMENT_SIGN.search(line)
 
 
 def _continues(before: str, line: str) -> bool:
-    if _OPEN_END.search(before) or _OPEN_START.match(line) or _depth(before) > 0:
+    if incomplete(before) or _OPEN_START.match(line):
         return True
     if not _MINUS_START.match(line):
         return False
     return ("=" in before) != ("=" in line) or (line[:1].isspace() and "=" not in line)
 
 
-def _depth(text: str) -> int:
-    return sum((c in "([") - (c in ")]") for c in text)
+def incomplete(text: str) -> bool:
+    """Whether something must follow: an operator stands at the end, or a bracket is open."""
+    return bool(_OPEN_END.search(text)) or sum((c in "([") - (c in ")]") for c in text) > 0
 
 
 def pieces(row: Row, separators: str, *, always: bool = False) -> list[Row]:
