@@ -17,23 +17,36 @@ def problem(build, *, x, u=(), p=None, t=True):
     return Program("test", graph, groups, {"xdot": Output(ids, (len(ids),))}, p)
 
 
-def van_der_pol():
-    return problem(lambda s: [s["v"], s["mu"] * (1 - s["q"] * s["q"]) * s["v"] - s["q"]], x="qv", p={"mu": 1.0})
+def kepler():
+    """Two bodies, GM = 1: from (1 − e, 0) with speed √((1 + e)/(1 − e)) the period is 2π."""
+
+    def build(s):
+        r2 = s["x"] * s["x"] + s["y"] * s["y"]
+        cube = r2 * r2.apply("sqrt")
+        return [s["vx"], s["vy"], -(s["x"] / cube), -(s["y"] / cube)]
+
+    return problem(build, x=("x", "y", "vx", "vy"))
+
+
+def start(e):
+    return np.array([1 - e, 0.0, 0.0, np.sqrt((1 + e) / (1 - e))])
 
 
 def run(solver, x0, times, h, **more):
     """With steps of length h: fixed, or adaptive with tolerances that never shorten them."""
     if solver.method.adaptive:
-        return solver.solve(x0, times, rtol=1e3, atol=1e3, max_step=h, **more)
+        return solver.solve(x0, times, rtol=1e6, atol=1e6, max_step=h, **more)
     return solver.solve(x0, times, step=h, **more)
 
 
-@pytest.mark.parametrize("name", METHODS)
+COUNTS = {"rk4": (400, 800), "tsit5": (200, 400), "dop853": (40, 80), "gauss4": (100, 200)}
+"""Steps in a period: enough for the leading term of the error, few enough to stay above rounding."""
+
+
+@pytest.mark.parametrize("name", [n for n in METHODS if n in COUNTS])
 def test_the_order_of_convergence_is_the_methods(name):
-    solver = Solver(van_der_pol(), name, keep=False)
-    exact = Solver(van_der_pol(), "rk4", keep=False).solve([2.0, 0.0], [0.0, 1.0], step=2e-4).final[0]
-    assert solver.solve([2.0, 0.0], [0.0, 1.0], **({} if solver.method.adaptive else {"step": 0.1})).status[0] == 0
-    lengths = 0.05 / 2 ** np.arange(4)
-    errors = [np.linalg.norm(run(solver, [2.0, 0.0], [0.0, 1.0], h).final[0] - exact) for h in lengths]
-    slopes = np.diff(np.log(errors)) / np.diff(np.log(lengths))
-    assert abs(slopes[-1] - solver.method.order) < 0.1
+    solver = Solver(kepler(), name, keep=False)
+    x0 = start(0.2)
+    errors = [np.linalg.norm(run(solver, x0, [0, 2 * np.pi], 2 * np.pi / n).final[0] - x0) for n in COUNTS[name]]
+    slope = np.log(errors[0] / errors[1]) / np.log(2)
+    assert abs(slope - solver.method.order) < 0.1

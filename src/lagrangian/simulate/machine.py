@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.compile import Build, Options, aligned, native
+from lagrangian.compile.build import fingerprint
 from lagrangian.compile.stage import address
 
 from .integrators.loop import Loop, Variant
@@ -20,6 +21,8 @@ from .integrators.method import Method
 if TYPE_CHECKING:
     from lagrangian.compile.ir import Module
     from lagrangian.graph import Program
+
+    from .problem import Events
 
 _RUN = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64)
 _TAPE = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)
@@ -37,18 +40,17 @@ def _printer_version() -> str:
 class Machine:
     """An integrator in memory: what is called, and how much work space it wants."""
 
-    def __init__(self, build: Build, method: Method, variant: Variant) -> None:
+    def __init__(self, build: Build, method: Method, variant: Variant, events: Events | None = None) -> None:
         def printer(module: Module, build: Build) -> None:
-            Loop(module, build.program, method, variant).print()
+            Loop(module, build.program, method, variant, events).print()
 
-        name = f"{method.name} {variant!r} {_printer_version()}"
+        name = f"{method.name} {variant!r} {_printer_version()} {_fingerprint(events, build)}"
         self.variant = variant
         self._loaded = build.extended(name, printer)
         self.call = _RUN(self._loaded.address("run"))
-        facts = (ctypes.c_int64 * 3)()
+        facts = (ctypes.c_int64 * 4)()
         ctypes.CFUNCTYPE(None, ctypes.c_void_p)(self._loaded.address("facts"))(ctypes.addressof(facts))
-        self.slots, self._shared, _ = facts
-        self._parameters = len(build.program.inputs.get("p", ()))
+        self.slots, *self._shared = facts
 
     def space(self) -> NDArray[np.float64]:
         """Work space for a range of runs, every lane empty."""
@@ -56,14 +58,33 @@ class Machine:
         space[:] = 0.0
         return space
 
-    def shared(self, p: NDArray[np.float64]) -> NDArray[np.float64]:
-        """What follows from one parameter set for all runs."""
-        block, given = aligned(self._shared), aligned(self._parameters)
-        if not self.variant.own:
-            given[:] = p
-            scratch = aligned(self.slots * self.variant.lanes)
-            _TAPE(self._loaded.address("body_prologue_1"))(address(given), None, address(block), address(scratch))
-        return block
+    def shared(self, p: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+        """What follows from one parameter set for all runs, for the table."""
+        blocks = {}
+        for (entry, name), count in zip(_BLOCKS.items(), self._shared, strict=True):
+            block = blocks[entry] = aligned(count)
+            if count and not self.variant.own:
+                given = aligned(len(p))
+                given[:] = p
+                scratch = aligned(self.slots * self.variant.lanes)
+                _TAPE(self._loaded.address(name))(address(given), None, address(block), address(scratch))
+        return blocks
+
+
+_BLOCKS = {
+    "shared": "body_prologue_1",
+    "guard_shared": "guard_prologue_1",
+    "after_shared": "after_prologue_1",
+}
+"""Entries of the table and the functions that fill what they point to."""
+
+
+def _fingerprint(events: Events | None, build: Build) -> str:
+    """What stands for the events in the name of the code."""
+    if events is None:
+        return ""
+    what = (events.direction, events.terminal, events.reset)
+    return f"{fingerprint(events.program, build.options, build.target)} {what}"
 
 
 def build_of(program: Program, lanes: int, keep: bool) -> Build:

@@ -58,9 +58,16 @@ class Events:
     terminal: tuple[bool, ...]
     reset: tuple[bool, ...]
 
-    def checked(self, size: int) -> Events:
-        """The same, or a `RunError` that says what does not fit a state of ``size`` entries."""
-        outputs = self.program.outputs
+    def checked(self, rates: Program) -> Events:
+        """The same, or a `RunError` that says what does not fit the right-hand side ``rates``."""
+        outputs, size = self.program.outputs, len(rates.inputs["x"])
+        for group, names in self.program.inputs.items():
+            if names and tuple(names) != tuple(rates.inputs.get(group, ("t",) if group == "t" else ())):
+                raise RunError(
+                    f"group '{group}' of the events is not that of the right-hand side",
+                    code="E501",
+                    fix="name the same entries in the same order",
+                )
         if "g" not in outputs or len(outputs["g"].shape) != 1:
             raise RunError("the program of the events needs an output 'g' of shape (number of events,)", code="E501")
         count = outputs["g"].shape[0]

@@ -17,6 +17,7 @@ from lagrangian.errors import RunError, did_you_mean
 
 from . import check
 from .integrators import METHODS, layout
+from .integrators.events import ROUNDS
 from .integrators.loop import Variant
 from .machine import Machine, build_of
 from .problem import Events, Signals
@@ -66,7 +67,8 @@ class Solver:
             )
         if strange := set(program.inputs) - GROUPS:
             raise RunError(f"group '{strange.pop()}' is none of x, u, p, t", code="E402")
-        self.program, self.method, self.events = program, METHODS[method], events
+        self.program, self.method = program, METHODS[method]
+        self.events = None if events is None else events.checked(program)
         self.threads, self._lanes = threads, lanes
         self._keep = keep
         self._machines: dict[Variant, Machine] = {}
@@ -116,10 +118,10 @@ class Solver:
     def machine(self, count: int, own: bool, signals: bool) -> Machine:
         """The machine code for so many runs."""
         lanes = 1 if count == 1 else self._lanes or native.host().lanes
-        variant = Variant(lanes, own or lanes == 1, signals)
+        variant = Variant(lanes, own or lanes == 1, signals, self.events is not None)
         found = self._machines.get(variant)
         if found is None:
-            found = Machine(build_of(self.program, lanes, self._keep), self.method, variant)
+            found = Machine(build_of(self.program, lanes, self._keep), self.method, variant, self.events)
             self._machines[variant] = found
         return found
 
@@ -157,7 +159,7 @@ class _Task:
         self.status = np.full(count, layout.LATE)
         self.reached = np.full(count, self.times[0])
         self.counts = {n: np.zeros(count, np.int64) for n in ("steps", "rejected", "evaluations", "event_count")}
-        self.shared = self.machine.shared(parameters) if parameters.ndim == 1 else np.empty(0)
+        self.shared = self.machine.shared(parameters) if parameters.ndim == 1 else {}
         if not store:
             self.times_used = self.times[[0, -1]]
         else:
@@ -167,7 +169,7 @@ class _Task:
             "x0": x0, "x0_row": x0.strides[0] if x0.ndim == 2 else 0,
             "u": inputs, "u_row": inputs.strides[0] if inputs.ndim == 2 else 0,
             "p": parameters, "p_row": parameters.strides[0] if parameters.ndim == 2 else 0,
-            "shared": self.shared, "times": self.times_used, "samples": len(self.times_used),
+            **self.shared, "times": self.times_used, "samples": len(self.times_used),
             "states": place, "states_row": row, "states_step": 8 * size if store else 0,
             "final": self.final, "status": self.status, "reached": self.reached, **self.counts,
         }  # fmt: skip
@@ -203,6 +205,7 @@ class _Task:
                 self._table[k] = address(x) if isinstance(x, np.ndarray) else x
         self._deadline = math.inf if deadline is None else time.monotonic() + deadline
         self._halt = threading.Event()
+        self._events: list[Array] = []
         nodes = len(self.solver.program.graph.nodes) * self.solver.method.evaluations
         self._budget = max(100, BUDGET // max(1, nodes * self.machine.variant.lanes))
         try:
@@ -219,17 +222,44 @@ class _Task:
         words = space.view(np.int64)
         words[layout.CURSOR], words[layout.LAST] = start, stop
         here, table = address(space), address(self._table)
+        log = self._log(words)
         while not self._halt.is_set():
-            if self.machine.call(table, here, self._budget) == layout.DONE:
+            why = self.machine.call(table, here, self._budget)
+            if why == layout.DONE:
                 break
+            if why == layout.FULL:
+                self._keep(words, log)
             if time.monotonic() > self._deadline:
                 words[layout.QUIT], words[layout.CURSOR] = 1, stop
+        self._keep(words, log)
         return -1
 
+    def _log(self, words: NDArray[np.int64]) -> Array:
+        """Room for events, told to the machine code."""
+        count = 0 if self.solver.events is None else len(self.solver.events.direction)
+        room = max(1024, 2 * ROUNDS * count * self.machine.variant.lanes) if count else 0
+        log = np.empty((room, 3 + self.final.shape[1]))
+        words[layout.LOG], words[layout.ROOM] = address(log), room
+        return log
+
+    def _keep(self, words: NDArray[np.int64], log: Array) -> None:
+        """Move the events logged so far out of the way."""
+        if words[layout.LOGGED]:
+            self._events.append(log[: words[layout.LOGGED]].copy())
+            words[layout.LOGGED] = 0
+
     def _solution(self) -> Solution:
-        size = self.final.shape[1]
+        size, count = self.final.shape[1], self.count
+        log = np.concatenate([np.empty((0, 3 + size)), *self._events])
+        log = log[np.argsort(log[:, 0], kind="stable")]  # a run's events stay in order
+        runs = log[:, 0].astype(np.int64)
+        each = self.counts["event_count"]
+        most = int(each.max(initial=0))
+        place = np.arange(len(runs)) - np.searchsorted(runs, runs)
+        index = np.full((count, most), -1)
+        when, where = np.full((count, most), math.nan), np.full((count, most, size), math.nan)
+        index[runs, place], when[runs, place], where[runs, place] = log[:, 1].astype(np.int64), log[:, 2], log[:, 3:]
         return Solution(
             self.times if self.states.shape[1] else np.empty(0), self.states, self.status, self.reached, self.final,
-            self.counts["steps"], self.counts["rejected"], self.counts["evaluations"], self.counts["event_count"],
-            np.empty((self.count, 0), np.int64), np.empty((self.count, 0)), np.empty((self.count, 0, size)),
+            self.counts["steps"], self.counts["rejected"], self.counts["evaluations"], each, index, when, where,
         )  # fmt: skip

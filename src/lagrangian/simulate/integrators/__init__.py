@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
+from .dop853 import DOP853
 from .method import Method
 from .rk4 import RK4
+from .tsit5 import TSIT5
 
-METHODS: Mapping[str, Method] = MappingProxyType({m.name: m for m in (RK4,)})
+METHODS: Mapping[str, Method] = MappingProxyType({m.name: m for m in (RK4, TSIT5, DOP853)})
 """Every method of integration that is printed into machine code, by name."""
 
 __all__ = ["METHODS", "Method"]

@@ -9,16 +9,18 @@ from .printer import Printer, Vec
 TABLE = (
     "x0", "x0_row", "u", "u_row", "p", "p_row", "shared", "times", "samples", "states", "states_row", "states_step",
     "final", "status", "reached", "steps", "rejected", "evaluations", "event_count", "rtol", "atol", "step",
-    "max_step", "max_steps", "knots", "knot_count", "knot_start", "knot_slope", "log", "log_room", "max_events",
+    "max_step", "max_steps", "knots", "knot_count", "knot_start", "knot_slope", "max_events",
     "guard_shared", "after_shared",
 )  # fmt: skip
 """Entries of the table: addresses, strides in bytes, counts, and ``rtol``, ``step``, ``max_step`` as doubles."""
 
-CURSOR, LAST, LOGGED, BUDGET, QUIT = range(5)
-"""Words of the work space's head: next run, end of the range, events logged, steps left, whether to give up."""
+CURSOR, LAST, LOGGED, BUDGET, QUIT, LOG, ROOM = range(7)
+"""Words of the work space's head: next run, end of the range, events logged, steps left, whether to give up,
+address of the log and how many events it has room for."""
 
-EMPTY, NEW, BENT, RUNNING, ENDED, STOPPED = range(6)
-"""What a lane does: nothing; begins; goes on after the right-hand side changed; runs; is over; reached a stop point."""
+EMPTY, NEW, BENT, RUNNING, ENDED, STOPPED, CUT = range(7)
+"""What a lane does: nothing; begins; goes on after the right-hand side changed; runs; is over; reached a stop point;
+left a step at an event."""
 
 REACHED, TERMINAL, UNDERFLOW, NOT_FINITE, TOO_MANY, ZENO, NO_CONVERGENCE, LATE = 0, 1, -1, -2, -3, -4, -5, -6
 """How a run ended."""

@@ -15,8 +15,10 @@ from typing import TYPE_CHECKING
 
 from lagrangian.compile.ir import Function, Module, Value
 
+from . import events
 from . import layout as at
 from .evaluate import Tapes
+from .events import Watch
 from .layout import Lanes
 from .method import Method, Step
 from .printer import Printer, Vec
@@ -24,6 +26,7 @@ from .service import Service
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program
+    from lagrangian.simulate.problem import Events
 
 SAFETY = 0.9
 
@@ -39,12 +42,15 @@ class Variant:
     lanes: int
     own: bool  # every run has its own parameters
     signals: bool
+    events: bool = False
 
 
 class Loop:
     """Prints the function ``run(ptr table, ptr work, i64 budget)`` and ``facts(ptr)``, what Python must know."""
 
-    def __init__(self, module: Module, program: Program, method: Method, variant: Variant) -> None:
+    def __init__(
+        self, module: Module, program: Program, method: Method, variant: Variant, watched: Events | None = None
+    ) -> None:
         size = len(program.inputs["x"])
         self.p = p = Printer(module, variant.lanes, size)
         self.f, self.method, self.variant = p.f, method, variant
@@ -57,6 +63,9 @@ class Loop:
         self.new_x, self.new_lost, self.new_k = p.block(), p.block(), p.block()
         self.inlet = () if p.unrolled else (Vec(slot=self.tapes.start("body", "x")),)
         self.service = Service(p, self.lanes, method, size=size, inputs=self.inputs, signals=self.signals)
+        self.watch: Watch | None = None
+        if watched is not None:
+            self.watch = Watch(p, self.lanes, method, self.service, watched, own=own)
 
     def print(self) -> None:
         """Print both functions."""
@@ -68,13 +77,19 @@ class Loop:
         self.max_steps = p.entry(at.TABLE.index("max_steps"))
         p.set_word("%budget", at.BUDGET)
         self.service.prepare()
+        if self.watch is not None:
+            self.watch.prepare()
         f.do("br label %service")
         self._head()
-        self.service.print(self.tapes)
+        self.service.print(self.tapes, self.watch)
         self._begin()
         attributes = f'nounwind "prefer-vector-width"="{p.lanes * 64}" "no-stack-arg-probe"'
         f.finish("run", "i64", "ptr %table, ptr %work, i64 %budget", attributes)
-        facts = (p.slots, len(self.tapes.low.prologue.outputs), p.lanes)
+        sizes = [0, 0]
+        if self.watch is not None:
+            tapes = (self.watch.guard, self.watch.after)
+            sizes = [0 if t is None else len(t.low.prologue.outputs) for t in tapes]
+        facts = (p.slots, len(self.tapes.low.prologue.outputs), *sizes)
         lines = ["define void @facts(ptr %out) {"]
         for k, x in enumerate(facts):
             lines += [f"  %a{k} = getelementptr i64, ptr %out, i64 {k}", f"  store i64 {x}, ptr %a{k}"]
@@ -107,10 +122,15 @@ class Loop:
         f.label("head")
         budget = f.put(f"sub i64 {p.word(at.BUDGET)}, 1")
         p.set_word(budget, at.BUDGET)
-        f.do(f"br i1 {f.put(f'icmp slt i64 {budget}, 0')}, label %pause, label %step")
+        f.do(f"br i1 {f.put(f'icmp slt i64 {budget}, 0')}, label %pause, label %go")
         f.label("pause")
         f.do(f"ret i64 {at.PAUSED}")
-        f.label("step")
+        f.label("go")
+        if self.watch is not None:
+            f.do(f"br i1 {self.watch.full()}, label %full, label %step")
+            f.label("full")
+            f.do(f"ret i64 {at.FULL}")
+            f.label("step")
         t, stop = p.load(lanes.t), p.load(lanes.stop)
         running = p.whole_is(p.load_whole(lanes.state), at.RUNNING)
         if self.method.adaptive:
@@ -133,9 +153,11 @@ class Loop:
         s = self._step(t, h)
         self.method.trial(s)
         (trouble,) = p.fold(lambda total, x: (f.fma(x, 0.0, total),), [0.0], s.new_x)
+        gs, trouble = self._watched(s, new_t, trouble)
         fine = f.compare("oeq", trouble, 0.0)
         good = f.logic("and", running, fine)
-        self._commit(s, good, new_t)
+        self._inspect(s, good, new_t, gs)
+        self._commit(s, good, new_t, gs)
         p.store(f.select(good, left, p.load(lanes.left)), lanes.left)
         arrived = f.logic("and", good, f.compare("ole", left, 0.0))
         broken = f.logic("and", running, f.opposite(fine))
@@ -151,13 +173,25 @@ class Loop:
         h = new_t - t  # so that the sum of the steps is exact
         s = self._step(t, h)
         error = method.trial(s)
-        assert error is not None and method.error_order is not None
+        assert error is not None
+        gs, error = self._watched(s, new_t, error)
         good = f.logic("and", running, f.compare("ole", error, 1.0))
-        inside = f.logic("and", good, f.compare("ole", p.load(lanes.next), new_t))
-        with p.when(p.any(inside)):
-            p.store(new_t, lanes.end)
-            self._samples(s, good)
-        # the next step's length
+        self._inspect(s, good, new_t, gs)
+        next_h, finite = self._next_step(h, wanted, error, good)
+        bad = f.logic("and", running, f.opposite(good))
+        stuck = f.logic("and", bad, f.compare("ole", t + next_h * 0.125, t))
+        p.store(f.select(running, next_h, wanted), lanes.h)
+        self._commit(s, good, new_t, gs)
+        rejected = p.load_whole(lanes.rejected)
+        one = f.put(f"zext {f.flag} {bad} to {f.whole}")
+        p.store_whole(f.put(f"add {f.whole} {rejected}, {one}"), lanes.rejected)
+        code = p.whole_select(finite, self._constant(at.UNDERFLOW), self._constant(at.NOT_FINITE))
+        self._attend(running, f.logic("and", good, last), stuck, code)
+
+    def _next_step(self, h: Value, wanted: Value, error: Value, good: str) -> tuple[Value, str]:
+        """The next step's length; and where the error was a number at all."""
+        p, f, lanes, method = self.p, self.f, self.lanes, self.method
+        assert method.error_order is not None
         low, high = method.limits
         factor = rough_power(f, error, -1.0 / method.error_order) * SAFETY
         if method.memory:
@@ -167,30 +201,64 @@ class Loop:
         finite = f.compare("olt", error, float("inf"))
         retry = f.select(finite, f.select(f.compare("ogt", factor, 0.9), 0.9, factor), 0.5)
         longer = h * factor
-        longer = f.select(
-            f.compare("olt", longer, wanted), f.select(f.compare("olt", h, wanted), wanted, longer), longer
-        )
+        cut = f.logic("and", f.compare("olt", longer, wanted), f.compare("olt", h, wanted))
+        longer = f.select(cut, wanted, longer)  # a step shortened to meet a stop point says nothing against the wanted
         next_h = f.select(good, longer, h * retry)
         next_h = f.select(f.compare("ogt", next_h, self.max_step), self.max_step, next_h)
-        bad = f.logic("and", running, f.opposite(good))
-        stuck = f.logic("and", bad, f.compare("ole", t + next_h * 0.125, t))
-        p.store(f.select(running, next_h, wanted), lanes.h)
         if method.memory:
             held = f.select(f.compare("olt", error, 1e-4), 1e-4, error)
             p.store(f.select(good, held, p.load(lanes.error)), lanes.error)
-        self._commit(s, good, new_t)
-        rejected = p.load_whole(lanes.rejected)
-        one = f.put(f"zext {f.flag} {bad} to {f.whole}")
-        p.store_whole(f.put(f"add {f.whole} {rejected}, {one}"), lanes.rejected)
-        code = p.whole_select(finite, self._constant(at.UNDERFLOW), self._constant(at.NOT_FINITE))
-        self._attend(running, f.logic("and", good, last), stuck, code)
+        return next_h, finite
+
+    def _watched(self, s: Step, new_t: Value, trouble: Value) -> tuple[tuple[Value, ...], Value]:
+        """g at the step's end, and the error, which is not finite where some g is not."""
+        if self.watch is None:
+            return (), trouble
+        gs = self.watch.value(self.inputs_at, new_t, s.new_x)
+        for g in gs:
+            trouble = self.f.fma(g, 0.0, trouble)
+        return gs, trouble
 
     def _constant(self, x: int) -> str:
         return self.f.integer(x)
 
-    def _commit(self, s: Step, good: str, new_t: Value) -> None:
+    def _inspect(self, s: Step, good: str, new_t: Value, gs: tuple[Value, ...]) -> None:
+        """Requested times and events inside the step."""
+        p, f, lanes, watch = self.p, self.f, self.lanes, self.watch
+        wants = None
+        if self.method.adaptive:
+            wants = f.logic("and", good, f.compare("ole", p.load(lanes.next), new_t))
+        suspects = None
+        if watch is not None:
+            suspects = f.logic("and", good, watch.suspicious(s, self.inputs_at, gs))
+            wants = suspects if wants is None else f.logic("or", wants, suspects)
+            p.store_whole(self._constant(0), watch.cut)
+        if wants is None:
+            return
+        with p.when(p.any(wants)):
+            coefficients = self.method.interpolant(s)
+            spent = f.whole_op("mul", f.put(f"zext {f.flag} {wants} to {f.whole}"), self.method.dense_evaluations)
+            p.store_whole(f.put(f"add {f.whole} {p.load_whole(lanes.extra)}, {spent}"), lanes.extra)
+            p.store(new_t, lanes.end)
+            if watch is not None and suspects is not None:
+                with p.when(p.any(suspects)):
+                    watch.find(s, coefficients, self.inputs_at, suspects, new_t)
+                if not self.method.adaptive:  # requested times are stop points, unless a lane never gets there
+                    free = p.whole_is(p.load_whole(watch.cut), 0)
+                    p.store(f.select(free, -float("inf"), p.load(lanes.end)), lanes.end)
+            self._samples(s, good, coefficients)
+
+    def _commit(self, s: Step, good: str, new_t: Value, gs: tuple[Value, ...]) -> None:
         """The new state where the step is good."""
-        p, f, lanes = self.p, self.f, self.lanes
+        p, f, lanes, watch = self.p, self.f, self.lanes, self.watch
+        if watch is not None:
+            stays = p.whole_is(p.load_whole(watch.cut), 0)
+            new_t = f.select(stays, new_t, p.load(lanes.end))
+            (s.new_x,) = p.map(lambda new, kept: f.select(stays, new, kept), s.new_x, watch.kept, into=(self.new_x,))
+            (s.new_lost,) = p.map(lambda lost: f.select(stays, lost, 0.0), s.new_lost, into=(self.new_lost,))
+            for k, g in enumerate(gs):
+                armed = p.load(watch.armed, k)
+                p.store(f.select(f.logic("and", good, stays), g, armed), watch.armed, k)
 
         def keep(new: Value, old: Value) -> Value:
             return f.select(good, new, old)
@@ -205,19 +273,34 @@ class Loop:
 
     def _attend(self, running: str, arrived: str, broken: str, code: str) -> None:
         """Go on with the next step, or to the service where a lane arrived at a stop point or cannot go on."""
-        p, f, lanes = self.p, self.f, self.lanes
+        p, f, lanes, watch = self.p, self.f, self.lanes, self.watch
         tried = f.put(f"add {f.whole} {p.load_whole(lanes.steps)}, {p.load_whole(lanes.rejected)}")
-        limit = self._whole_broadcast(self.max_steps)
-        spent = f.put(f"icmp sge {f.whole} {tried}, {limit}")
+        spent = f.put(f"icmp sge {f.whole} {tried}, {self._whole_broadcast(self.max_steps)}")
         spent = f.logic("and", f.logic("and", running, spent), f.opposite(arrived))
         over = f.logic("or", broken, spent)
-        f.do(f"br i1 {p.any(f.logic('or', arrived, over))}, label %mark, label %head")
+        any_flag = f.logic("or", arrived, over)
+        cut = ""
+        if watch is not None:
+            cut = f.opposite(p.whole_is(p.load_whole(watch.cut), 0))
+            any_flag = f.logic("or", any_flag, cut)
+        f.do(f"br i1 {p.any(any_flag)}, label %mark, label %head")
         f.label("mark")
-        state = p.load_whole(lanes.state)
-        state = p.whole_select(arrived, self._constant(at.STOPPED), state)
-        p.store_whole(p.whole_select(over, self._constant(at.ENDED), state), lanes.state)
+        state, codes = p.load_whole(lanes.state), p.load_whole(lanes.code)
         code = p.whole_select(broken, code, self._constant(at.TOO_MANY))
-        p.store_whole(p.whole_select(over, code, p.load_whole(lanes.code)), lanes.code)
+        changes = [(arrived, at.STOPPED, ""), (over, at.ENDED, code)]
+        if watch is not None:
+            held = p.load_whole(watch.cut)
+            for why, becomes, how in (
+                (events.RESET, at.CUT, ""),
+                (events.ENDS, at.ENDED, self._constant(at.TERMINAL)),
+                (events.HEAPS, at.ENDED, self._constant(at.ZENO)),
+            ):
+                changes.append((p.whole_is(held, why), becomes, how))
+        for flag, becomes, how in changes:
+            state = p.whole_select(flag, self._constant(becomes), state)
+            codes = p.whole_select(flag, how, codes) if how else codes
+        p.store_whole(state, lanes.state)
+        p.store_whole(codes, lanes.code)
         f.do("br label %service")
 
     def _whole_broadcast(self, x: str) -> str:
@@ -229,15 +312,10 @@ class Loop:
 
     # Requested times ---------------------------------------------------------------------------------------------
 
-    def _samples(self, s: Step, good: str) -> None:
+    def _samples(self, s: Step, good: str, coefficients: list[Vec]) -> None:
         """Write the states at the requested times in the step, up to ``lanes.end``."""
         p, f, lanes, method = self.p, self.f, self.lanes, self.method
-        coefficients = method.interpolant(s)
-        inside = f.logic("and", good, f.compare("ole", p.load(lanes.next), p.load(lanes.end)))
         p.store_whole(f.put(f"zext {f.flag} {good} to {f.whole}"), lanes.good)
-        spent = f.put(f"zext {f.flag} {inside} to {f.whole}")
-        spent = f.whole_op("mul", spent, method.dense_evaluations)
-        p.store_whole(f.put(f"add {f.whole} {p.load_whole(lanes.extra)}, {spent}"), lanes.extra)
         with p.forever() as leave:
             following, end = p.load(lanes.next), p.load(lanes.end)
             inside = f.logic("and", good, f.compare("ole", following, end))
@@ -260,6 +338,7 @@ class Loop:
         state = p.load_whole(lanes.state)
         new = p.whole_is(state, at.NEW)
         fresh = f.logic("or", new, p.whole_is(state, at.BENT))
+        trouble = Value(f, f.constant(0.0))
         if method.follows:
             t = p.load(lanes.t)
             k = self.rate(t, lanes.x, self.new_k)
@@ -271,18 +350,17 @@ class Loop:
             spent = f.put(f"add {f.whole} {spent[0]}, {spent[1]}")
             p.store_whole(f.put(f"add {f.whole} {p.load_whole(lanes.extra)}, {spent}"), lanes.extra)
             (trouble,) = p.fold(lambda total, a: (f.fma(a, 0.0, total),), [0.0], lanes.k)
-            broken = f.logic("and", fresh, f.compare("une", trouble, 0.0))
-            p.store_whole(p.whole_select(fresh, self._constant(at.RUNNING), state), lanes.state)
-            f.do(f"br i1 {p.any(broken)}, label %lost, label %head")
-            f.label("lost")
-            state = p.load_whole(lanes.state)
-            p.store_whole(p.whole_select(broken, self._constant(at.ENDED), state), lanes.state)
-            code = self._constant(at.NOT_FINITE)
-            p.store_whole(p.whole_select(broken, code, p.load_whole(lanes.code)), lanes.code)
-            f.do("br label %service")
-        else:
-            p.store_whole(p.whole_select(fresh, self._constant(at.RUNNING), state), lanes.state)
-            f.do("br label %head")
+        if self.watch is not None:
+            trouble = trouble + self.watch.arm(self.inputs_at, self.rate, new)
+        broken = f.logic("and", fresh, f.compare("une", trouble, 0.0))
+        p.store_whole(p.whole_select(fresh, self._constant(at.RUNNING), state), lanes.state)
+        f.do(f"br i1 {p.any(broken)}, label %lost, label %head")
+        f.label("lost")
+        state = p.load_whole(lanes.state)
+        p.store_whole(p.whole_select(broken, self._constant(at.ENDED), state), lanes.state)
+        code = self._constant(at.NOT_FINITE)
+        p.store_whole(p.whole_select(broken, code, p.load_whole(lanes.code)), lanes.code)
+        f.do("br label %service")
 
     def _first_step(self, t: Value, k: Vec) -> Value:
         """A first step length from the sizes of x, ẋ and ẍ (Hairer, Nørsett, Wanner I, section II.4)."""

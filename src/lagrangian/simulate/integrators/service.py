@@ -5,11 +5,16 @@ Stop points are the end of the run, the knots of the inputs and, for a fixed ste
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 from . import layout as at
 from .evaluate import Tapes
 from .layout import Lanes
 from .method import Method
 from .printer import Printer
+
+if TYPE_CHECKING:
+    from .events import Watch
 
 NEVER = "0x7FF0000000000000"  # +∞
 
@@ -64,14 +69,14 @@ class Service:
     def copy_in(self, row: str, slot: int, count: int, lane: str) -> None:
         """A row of numbers → one lane of ``count`` slots."""
         with self.p.repeat(count) as i:
-            self.p.set(self.element(row, i), slot, self._moved(lane, i))
+            self.p.set(self.element(row, i), slot, self.moved(lane, i))
 
     def copy_out(self, slot: int, row: str, count: int, lane: str) -> None:
         """One lane of ``count`` slots → a row of numbers."""
         with self.p.repeat(count) as i:
-            self.put(self.p.get(slot, self._moved(lane, i)), row, i)
+            self.put(self.p.get(slot, self.moved(lane, i)), row, i)
 
-    def _moved(self, lane: str, i: str) -> str:
+    def moved(self, lane: str, i: str) -> str:
         """The lane of slot i further: slots lie ``lanes`` numbers apart."""
         return self.add(lane, self.f.put(f"mul i64 {i}, {self.p.lanes}"))
 
@@ -107,7 +112,7 @@ class Service:
 
     # The service itself ------------------------------------------------------------------------------------------
 
-    def print(self, tapes: Tapes) -> None:
+    def print(self, tapes: Tapes, watch: Watch | None) -> None:
         """Print the service: at its end the function returns, or goes on to ``begin`` or ``head``."""
         p, f, lanes = self.p, self.f, self.lanes
         f.label("service")
@@ -118,7 +123,10 @@ class Service:
                 self._end(lane, at.LATE)
             stopped = self.compare("eq", p.get(lanes.state, lane, "i64"), str(at.STOPPED))
             with p.when(stopped):
-                self._stop(lane)
+                self._stop(lane, at.BENT if self.signals else at.RUNNING)
+            if watch is not None:
+                with p.when(self.compare("eq", p.get(lanes.state, lane, "i64"), str(at.CUT))):
+                    self._stop(lane, at.NEW)
             ended = self.compare("eq", p.get(lanes.state, lane, "i64"), str(at.ENDED))
             with p.when(ended):
                 self._finish(lane)
@@ -126,10 +134,14 @@ class Service:
             there = self.compare("slt", p.word(at.CURSOR), p.word(at.LAST))
             with p.when(f.put(f"and i1 {empty}, {there}")):
                 self._take(lane)
+                if watch is not None:
+                    watch.forget(lane)
         if tapes.own:
             state = p.load_whole(lanes.state)
             with p.when(p.any(p.whole_is(state, at.NEW))):
                 tapes.prologue(lanes.p_in)
+                if watch is not None:
+                    watch.prologues()
         state = p.load_whole(lanes.state)
         fresh = f.logic("or", p.whole_is(state, at.NEW), p.whole_is(state, at.BENT))
         f.do(f"br i1 {p.any(f.opposite(p.whole_is(state, at.EMPTY)))}, label %some, label %none")
@@ -142,10 +154,10 @@ class Service:
         self.p.set(str(at.ENDED), self.lanes.state, lane, "i64")
         self.p.set(str(code), self.lanes.code, lane, "i64")
 
-    def _stop(self, lane: str) -> None:
+    def _stop(self, lane: str, state: int) -> None:
         """A lane has arrived at its stop point: sample, knot, end of the run, next stop point."""
         p, f, lanes = self.p, self.f, self.lanes
-        p.set(str(at.BENT if self.signals else at.RUNNING), lanes.state, lane, "i64")
+        p.set(str(state), lanes.state, lane, "i64")
         t = p.get(lanes.t, lane)
         if not self.method.adaptive:
             with p.when(self.compare("oge", t, p.get(lanes.next, lane), "double")):
@@ -226,7 +238,7 @@ class Service:
         p.set(run, lanes.run, lane, "i64")
         self.copy_in(self.row(self["x0"], self["x0_row"], run), lanes.x.slot, self.size, lane)
         with p.repeat(self.size) as i:
-            p.set("0.0", lanes.lost.slot, self._moved(lane, i))
+            p.set("0.0", lanes.lost.slot, self.moved(lane, i))
         if self.inputs and not self.signals:
             self.copy_in(self.row(self["u"], self["u_row"], run), lanes.u, self.inputs, lane)
         if lanes.parameters:

@@ -1,0 +1,301 @@
+"""Events: sign changes of g over a step, found on the values inside the step to the last bit of time.
+
+An event is *armed* with the sign that g had; it has happened where g has the other sign, in a direction that counts.
+"Some armed event has happened by θ" is bisected, so that several events cost no more than one: what is found is the
+place of a crossing, and every event that crossed there counts. A run that goes on has its events armed anew. Where g
+is zero but for rounding, as after the reset that an event caused, the sign is that of g a little further along ẋ.
+
+Crossings that come in pairs within one step show at its middle, by Hermite's cubic.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING
+
+from lagrangian.compile.ir import Value, hexadecimal
+from lagrangian.graph import Program
+
+from . import layout as at
+from .evaluate import Tapes
+from .layout import Lanes
+from .method import Method, Step
+from .printer import Printer, Vec
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from lagrangian.simulate.problem import Events
+
+    from .service import Service
+
+ROUNDS = 16
+"""Times of events in one step after which the step is cut."""
+
+SOON = 2.0**-50
+"""Part of t within which two resets count as one time."""
+
+GLANCE = 2.0**-10
+"""Part of a step by which one looks ahead for the side that g turns to from 0."""
+
+RESET, ENDS, HEAPS = 1, 2, 3
+"""Why a lane leaves a step: to go on from another state, because a terminal event happened, because too many did."""
+
+
+def parts(events: Events) -> tuple[Program, Program | None]:
+    """The programs of g and, if anything resets, of the states after."""
+    program = events.program
+    made = [
+        Program(name, program.graph, program.inputs, {name: program.outputs[name]}, program.defaults)
+        for name in ("g", "after")
+        if name in program.outputs
+    ]
+    return made[0], made[1] if any(events.reset) else None
+
+
+class Watch:
+    """Prints what looks for events; ``count`` of them."""
+
+    def __init__(
+        self, p: Printer, lanes: Lanes, method: Method, service: Service, events: Events, *, own: bool
+    ) -> None:
+        self.p, self.f, self.lanes, self.method, self.service = p, p.f, lanes, method, service
+        self.events, self.count = events, len(events.direction)
+        guard, after = parts(events)
+        own = own and bool(guard.inputs.get("p"))
+        self.guard = Tapes(p, guard, "guard", own=own, copies=6)
+        self.after = None if after is None else Tapes(p, after, "after", own=own, copies=6)
+        self.armed, self.mood, self.fired, self.found = (p.reserve(self.count) for _ in range(4))
+        self.low, self.high, self.busy, self.cut, self.rounds = (p.reserve(1) for _ in range(5))
+        self.latest, self.same, self.when = (p.reserve(1) for _ in range(3))
+        self.there, self.kept, self.states = p.block(), p.block(), p.reserve(self.count * p.size)
+
+    def prepare(self) -> None:
+        """Print, at the start of the function, what is read from the table."""
+        p = self.p
+        self.guard_shared = p.entry(at.TABLE.index("guard_shared"), "ptr")
+        self.after_shared = p.entry(at.TABLE.index("after_shared"), "ptr")
+        self.log, self.room = p.word(at.LOG, "ptr"), p.word(at.ROOM)
+        self.most = p.entry(at.TABLE.index("max_events"))
+
+    def full(self) -> str:
+        """Whether one more step might log more events than there is room for."""
+        wanted = self.service.add(self.p.word(at.LOGGED), ROUNDS * self.count * self.p.lanes)
+        return self.service.compare("sgt", wanted, self.room)
+
+    def prologues(self) -> None:
+        """Print what follows from every lane's parameters."""
+        for tapes in (self.guard, self.after):
+            if tapes is not None and tapes.own:
+                tapes.prologue(self.lanes.p_in)
+
+    def value(self, inputs: Callable[[Value], Vec], t: Value, x: Vec) -> tuple[Value, ...]:
+        """g of every event."""
+        found = self.guard.evaluate(self.guard_shared, {"x": x, "u": inputs(t)}, t)
+        assert found is not None
+        return found
+
+    def arm(self, inputs: Callable[[Value], Vec], rate: Callable[..., Vec], new: str) -> Value:
+        """Arm the events of lanes that begin; return a number that is 0 unless some g is not finite."""
+        p, f, lanes = self.p, self.f, self.lanes
+        t = p.load(lanes.t)
+        total, doubt = Value(f, f.constant(0.0)), ""
+        for k, g in enumerate(self.value(inputs, t, lanes.x)):
+            total = f.fma(g, 0.0, total)
+            mood, old = p.load(self.mood, k), p.load(self.armed, k)
+            here = f.logic("and", new, f.compare("oeq", mood, 0.0))
+            p.store(f.select(here, g, old), self.armed, k)
+            unclear = f.logic("or", f.compare("oeq", mood, 1.0), f.logic("and", here, f.compare("oeq", g, 0.0)))
+            unclear = f.logic("and", new, unclear)
+            p.store(f.select(unclear, 1.0, 0.0), self.mood, k)
+            doubt = f.logic("or", doubt, unclear) if doubt else unclear
+        with p.when(p.any(doubt)):
+            little = p.load(lanes.h) * GLANCE
+            k = lanes.k if self.method.follows else rate(t, lanes.x)
+            (ahead,) = p.map(lambda x, k: f.fma(little, k, x), lanes.x, k, into=(self.there,))
+            for k, g in enumerate(self.value(inputs, t + little, ahead)):
+                known = f.logic("and", f.compare("oeq", p.load(self.mood, k), 1.0), f.compare("one", g, 0.0))
+                p.store(f.select(known, g, p.load(self.armed, k)), self.armed, k)
+        for k in range(self.count):
+            p.store(f.select(new, 0.0, p.load(self.mood, k)), self.mood, k)
+        return total
+
+    def forget(self, lane: str) -> None:
+        """Print what a lane that takes a new run starts from."""
+        p = self.p
+        for k in range(self.count):
+            p.set("0.0", self.mood + k, lane)
+        p.set("0xFFF0000000000000", self.latest, lane)
+        p.set("0", self.same, lane, "i64")
+
+    def happened(self, k: int, g: Value) -> str:
+        """Where armed event k has happened by the time g is this."""
+        f = self.f
+        armed, direction = self.p.load(self.armed, k), self.events.direction[k]
+        fell = f.logic("and", f.compare("ogt", armed, 0.0), f.compare("ole", g, 0.0))
+        rose = f.logic("and", f.compare("olt", armed, 0.0), f.compare("oge", g, 0.0))
+        return fell if direction < 0 else rose if direction > 0 else f.logic("or", fell, rose)
+
+    def some(self, gs: Sequence[Value]) -> str:
+        """Where some armed event has happened."""
+        found = [self.happened(k, g) for k, g in enumerate(gs)]
+        flag = found[0]
+        for other in found[1:]:
+            flag = self.f.logic("or", flag, other)
+        return flag
+
+    # A step ------------------------------------------------------------------------------------------------------
+
+    def suspicious(self, s: Step, inputs: Callable[[Value], Vec], ends: Sequence[Value]) -> str:
+        """Where something happened by the end of the step or, roughly, by its middle."""
+        p, f = self.p, self.f
+        flag = self.some(ends)
+        if not self.method.follows:  # the derivative at the end is not known yet
+            return flag
+
+        def middle(x: Value, new: Value, k: Value, new_k: Value) -> Value:
+            return (x + new) * 0.5 + s.h * 0.125 * (k - new_k)
+
+        (half,) = p.map(middle, s.x, s.new_x, s.k, s.new_k)
+        return f.logic("or", flag, self.some(self.value(inputs, s.t + s.h * 0.5, half)))
+
+    def find(self, s: Step, coefficients: list[Vec], inputs: Callable[[Value], Vec], good: str, new_t: Value) -> None:
+        """Print the search through a step. Events are logged. Where ``self.cut`` is not 0 afterwards, a lane leaves the
+        step at the time in ``lanes.end`` with the state in ``self.kept``.
+        """
+        p, f, lanes = self.p, self.f, self.lanes
+
+        def place(theta: Value) -> tuple[Vec, Value]:
+            whole = f.compare("oge", theta, 1.0)
+            between = self.method.between(s, coefficients, theta)
+
+            def entry(x: Value, new: Value, *rest: Value) -> Value:
+                return f.select(whole, new, between(x, *rest))
+
+            p.map(entry, s.x, s.new_x, *coefficients, into=(self.there,))
+            return Vec(slot=self.there.slot), f.select(whole, new_t, f.fma(theta, s.h, s.t))
+
+        def some_at(theta: Value) -> str:
+            x, t = place(theta)
+            return self.some(self.value(inputs, t, x))
+
+        p.store(new_t, lanes.end)
+        p.store(0.0, self.low)
+        for slot in (self.cut, self.rounds):
+            p.store_whole(f.integer(0), slot)
+        middle, end = (some_at(Value(f, f.constant(theta))) for theta in (0.5, 1.0))
+        p.store(f.select(middle, 0.5, 1.0), self.high)
+        self._note(f.logic("and", good, f.logic("or", middle, end)), self.busy)
+        with p.forever() as leave:
+            busy = self._noted(self.busy)
+            leave(f.put(f"xor i1 {p.any(busy)}, true"))
+            with p.forever() as found:
+                low, high = p.load(self.low), p.load(self.high)
+                half = (low + high) * 0.5
+                apart = f.compare("olt", f.fma(low, s.h, s.t), f.fma(high, s.h, s.t))
+                apart = f.logic("and", apart, f.logic("and", f.compare("ogt", half, low), f.compare("olt", half, high)))
+                apart = f.logic("and", apart, busy)
+                found(f.put(f"xor i1 {p.any(apart)}, true"))
+                before = some_at(half)
+                p.store(f.select(f.logic("and", apart, before), half, high), self.high)
+                p.store(f.select(f.logic("and", apart, f.opposite(before)), half, low), self.low)
+            self._handle(place, inputs)
+            p.store(p.load(self.high), self.low)
+            p.store(1.0, self.high)
+            free = p.whole_is(p.load_whole(self.cut), 0)
+            again = f.logic("and", f.logic("and", busy, free), some_at(Value(f, f.constant(1.0))))
+            self._note(again, self.busy)
+
+    def _note(self, flag: str, slot: int) -> None:
+        self.p.store_whole(self.f.put(f"zext {self.f.flag} {flag} to {self.f.whole}"), slot)
+
+    def _noted(self, slot: int) -> str:
+        return self.f.opposite(self.p.whole_is(self.p.load_whole(slot), 0))
+
+    def _handle(self, place: Callable[[Value], tuple[Vec, Value]], inputs: Callable[[Value], Vec]) -> None:
+        """At the places found, lane by lane: log, arm anew, reset, end."""
+        p = self.p
+        x, t = place(p.load(self.high))
+        p.store(t, self.when)
+        for k, g in enumerate(self.value(inputs, t, x)):
+            self._note(self.happened(k, g), self.fired + k)
+            p.store(g, self.found + k)
+        if self.after is not None:
+            self.after.evaluate(self.after_shared, {"x": x, "u": inputs(t)}, t, self.states)
+        with p.repeat(p.lanes) as lane:
+            busy = self.service.compare("ne", p.get(self.busy, lane, "i64"), "0")
+            with p.when(busy):
+                for k in range(self.count):
+                    with p.when(self.service.compare("ne", p.get(self.fired + k, lane, "i64"), "0")):
+                        self._happen(k, lane)
+                self._settle(lane)
+
+    def _happen(self, k: int, lane: str) -> None:
+        """Event k in a lane."""
+        p, lanes, service = self.p, self.lanes, self.service
+        self._write(k, lane)
+        p.set(service.add(p.get(lanes.events, lane, "i64"), 1), lanes.events, lane, "i64")
+        if not self.events.reset[k]:
+            p.set(p.get(self.found + k, lane), self.armed + k, lane)
+            if self.events.terminal[k]:
+                self._keep(self.there.slot, lane)
+                p.set(str(ENDS), self.cut, lane, "i64")
+            return
+        free = service.compare("eq", p.get(self.cut, lane, "i64"), "0")
+        with p.when(self.f.put(f"xor i1 {free}, true")):  # another reset comes first: this one waits, still armed
+            p.set("2.0", self.mood + k, lane)
+        with p.when(free):
+            p.set("1.0", self.mood + k, lane)
+            self._keep(self.states + k * p.size, lane)
+            p.set(str(ENDS if self.events.terminal[k] else RESET), self.cut, lane, "i64")
+
+    def _keep(self, slot: int | None, lane: str) -> None:
+        """A lane of a vector → the state the lane goes on from."""
+        p = self.p
+        assert slot is not None and self.kept.slot is not None
+        with p.repeat(p.size) as i:
+            moved = self.service.moved(lane, i)
+            p.set(p.get(slot, moved), self.kept.slot, moved)
+
+    def _write(self, k: int, lane: str) -> None:
+        """Log an event: run, event, time, state."""
+        p, f, service = self.p, self.f, self.service
+        at_row = f.put(f"mul i64 {p.word(at.LOGGED)}, {8 * (3 + p.size)}")
+        row = f.put(f"getelementptr i8, ptr {self.log}, i64 {at_row}")
+        run = f.put(f"sitofp i64 {p.get(self.lanes.run, lane, 'i64')} to double")
+        for place, x in enumerate((run, f"{float(k)}", p.get(self.when, lane))):
+            service.put(x, row, str(place))
+        rest = f.put(f"getelementptr double, ptr {row}, i64 3")
+        assert self.there.slot is not None
+        service.copy_out(self.there.slot, rest, p.size, lane)
+        p.set_word(service.add(p.word(at.LOGGED), 1), at.LOGGED)
+
+    def _settle(self, lane: str) -> None:
+        """After the events of one time in a lane: do they accumulate, is the step to be cut."""
+        p, f, service = self.p, self.f, self.service
+        t = p.get(self.when, lane)
+        with p.when(service.compare("eq", p.get(self.cut, lane, "i64"), str(RESET))):
+            gap = f.put(f"fsub double {t}, {p.get(self.latest, lane)}")
+            limit = f.put(f"fmul double {t}, {hexadecimal(SOON)}")
+            size = f.module.declare("llvm.fabs.f64", "double", ["double"])
+            soon = service.compare("ole", gap, f.put(f"call double {size}(double {limit})"), "double")
+            more = f.put(f"select i1 {soon}, i64 {service.add(p.get(self.same, lane, 'i64'), 1)}, i64 0")
+            p.set(more, self.same, lane, "i64")
+            p.set(t, self.latest, lane)
+            with p.when(service.compare("sgt", more, str(self.count + 2))):
+                p.set(str(HEAPS), self.cut, lane, "i64")
+        rounds = service.add(p.get(self.rounds, lane, "i64"), 1)
+        p.set(rounds, self.rounds, lane, "i64")
+        many = service.compare("sge", rounds, str(ROUNDS))
+        free = service.compare("eq", p.get(self.cut, lane, "i64"), "0")
+        with p.when(f.put(f"and i1 {many}, {free}")):
+            self._keep(self.there.slot, lane)
+            p.set(str(RESET), self.cut, lane, "i64")
+        ended = service.compare("eq", p.get(self.cut, lane, "i64"), str(ENDS))
+        over = service.compare("sge", p.get(self.lanes.events, lane, "i64"), self.most)
+        with p.when(f.put(f"and i1 {over}, {f.put(f'xor i1 {ended}, true')}")):
+            with p.when(service.compare("eq", p.get(self.cut, lane, "i64"), "0")):
+                self._keep(self.there.slot, lane)
+            p.set(str(HEAPS), self.cut, lane, "i64")
+        with p.when(service.compare("ne", p.get(self.cut, lane, "i64"), "0")):
+            p.set(t, self.lanes.end, lane)
