@@ -26,7 +26,7 @@ from lagrangian.runs import Ensemble
 from lagrangian.simulate import METHODS, Events, Signals
 from lagrangian.simulate.design import Design
 from lagrangian.simulate.ensemble import Executor, Here, Memory, Progress, carry_out
-from lagrangian.simulate.portions import MEMORY, Portions, cut
+from lagrangian.simulate.portions import FEW, MEMORY, Portions, cut
 from lagrangian.simulate.store import Plan, Variable, create, resume
 from lagrangian.simulate.study import REDUCTIONS, EventsKept, Kept, Study
 from lagrangian.varying import EVENT, TIME, Varying, from_arrays, from_grid
@@ -147,8 +147,8 @@ def _done(model: Model, varying: Varying, wanted: Wanted, inputs: dict[Any, Any]
     study = _study(model, wanted, drive, times)
     design = varying.design()
     task = _task(model, varying, wanted, drive, study)
-    executor, workers = _executor(way)
-    portions = cut(design.shape, study.bytes_per_run, memory=_bytes(way.memory), workers=workers)
+    executor, cutting = _executor(way)
+    portions = cut(design.shape, study.bytes_per_run, memory=_bytes(way.memory), **cutting)
     plan = _plan(model, varying, study, portions, task)
     if way.store is None:
         if way.resume or way.overwrite:
@@ -195,14 +195,14 @@ def _bytes(memory: Any) -> int:
     return int(memory)
 
 
-def _executor(way: Way) -> tuple[Executor, int]:
-    """Who computes, and how many chunks are held at a time."""
+def _executor(way: Way) -> tuple[Executor, dict[str, int]]:
+    """Who computes, and what that asks of the chunks."""
     if way.scheduler is None:
-        return Here(way.threads), 1
+        return Here(way.threads), {}
     from lagrangian.simulate.remote import Dask
 
     dask = Dask(way.scheduler)
-    return dask, dask.held
+    return dask, {"held": dask.held, "few": max(FEW, 8 * dask.threads)}
 
 
 def _drive(model: Model, varying: Varying, inputs: dict[Any, Any]) -> Driving:

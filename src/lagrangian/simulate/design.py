@@ -154,7 +154,7 @@ class Design:
 
     def values(self, column: Column, start: int, stop: int) -> Array:
         """What a column holds in runs start … stop − 1."""
-        index: tuple[NDArray[Any], ...] = np.unravel_index(np.arange(start, stop), self.shape) if self.shape else ()
+        index: Any = np.unravel_index(np.arange(start, stop), self.shape) if self.shape else ()
         if isinstance(column.source, Drawn):
             drawn = column.source.sample(index[-1])
             if not np.isfinite(drawn).all():

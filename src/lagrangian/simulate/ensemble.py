@@ -6,8 +6,6 @@ its own row of the design and nothing of its neighbours.
 
 from __future__ import annotations
 
-import threading
-from collections import OrderedDict
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any, Protocol
 
@@ -15,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.errors import RunError
-from lagrangian.simulate.design import Design, Rows
+from lagrangian.simulate.design import Design
 from lagrangian.simulate.portions import Portions
 from lagrangian.simulate.study import Study, Values
 
@@ -84,22 +82,6 @@ def solver_of(study: Study, threads: int | None) -> Any:
     from lagrangian.simulate import Solver
 
     return Solver(study.program, study.method, events=study.events, threads=threads)
-
-
-_solvers: OrderedDict[str, tuple[Study, Any]] = OrderedDict()
-_lock = threading.Lock()
-REMEMBERED = 4  # studies that a worker process keeps compiled
-
-
-def work(key: str, study: Study, rows: Rows) -> Values:
-    """One chunk in a worker process, which compiles a study when it first meets its ``key``."""
-    with _lock:
-        if key not in _solvers:
-            _solvers[key] = study, solver_of(study, 1)
-            while len(_solvers) > REMEMBERED:
-                _solvers.popitem(last=False)
-        known, solver = _solvers[key]
-    return known.run(solver, rows, 1)
 
 
 def carry_out(

@@ -49,15 +49,15 @@ class Portions:
         return start, start + math.prod(part.stop - part.start for part in box)
 
 
-def cut(shape: tuple[int, ...], bytes_per_run: int, *, memory: int = MEMORY, workers: int = 1) -> Portions:
-    """Chunks of ``shape`` so that ``workers`` of them together hold at most ``memory`` bytes.
+def cut(shape: tuple[int, ...], bytes_per_run: int, *, memory: int = MEMORY, held: int = 1, few: int = FEW) -> Portions:
+    """Chunks of ``shape`` so that ``held`` of them together take at most ``memory`` bytes.
 
-    Chunks are no larger than that a kill loses little: a large ensemble has at least about a hundred. Results do not
+    Chunks are no larger than that a kill loses little: a large ensemble has at least about ``few``. Results do not
     depend on how they are cut.
     """
     count = math.prod(shape)
-    fits = max(1, memory // (workers * bytes_per_run))
-    target = min(fits, MOST, max(FEWEST, -(-count // FEW)))
+    fits = max(1, memory // (held * bytes_per_run))
+    target = min(fits, MOST, max(FEWEST, -(-count // few)))
     block = [1] * len(shape)
     room = target
     for axis in reversed(range(len(shape))):

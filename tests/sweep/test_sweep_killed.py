@@ -1,0 +1,70 @@
+"""A sweep killed without warning, at any moment, and carried on: nothing is lost and nothing done twice."""
+
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import time
+
+import numpy as np
+import pytest
+
+import lagrangian as lg
+from lagrangian import examples
+
+SCRIPT = """
+import lagrangian as lg
+from lagrangian import examples
+from test_sweep_killed import GRID, HOW
+lg.loads(examples.text("double-pendulum")).sweep(20.0, GRID, **HOW, store="a.zarr", resume=True)
+"""
+GRID = ["theta1=0.1:3:50", "m1~normal(1,0.1)"]
+HOW = {
+    "samples": 200,
+    "method": "rk4",
+    "step": 0.01,
+    "outputs": ["max theta1", "final theta2'"],
+    "times": 51,
+    "seed": 5,
+}
+
+
+@pytest.fixture(scope="module")
+def whole() -> lg.Ensemble:
+    return lg.loads(examples.text("double-pendulum")).sweep(20.0, GRID, **HOW)
+
+
+@pytest.mark.parametrize("share", [0.0, 0.3, 0.7])
+def test_killed_and_resumed_is_the_same_as_never_killed(
+    tmp_path: pathlib.Path, whole: lg.Ensemble, share: float
+) -> None:
+    path = {**os.environ, "PYTHONPATH": str(pathlib.Path(__file__).parent)}
+    process = subprocess.Popen([sys.executable, "-c", SCRIPT], cwd=tmp_path, env=path)
+    marks = tmp_path / "a.zarr" / "done" / "c" / "0"
+    deadline = time.monotonic() + 60
+    while time.monotonic() < deadline and process.poll() is None:
+        if marks.exists() and (data := marks.read_bytes()) and sum(data) >= share * len(data):
+            break
+        time.sleep(0.001)
+    process.send_signal(signal.SIGKILL)
+    process.wait()
+    done = np.frombuffer(marks.read_bytes(), np.uint8)
+    assert share * len(done) <= done.sum() < len(done)
+    store = tmp_path / "a.zarr"
+    before = {p: p.stat().st_mtime_ns for k in np.flatnonzero(done) for p in store.glob(f"*/c/{k}/0")}
+    counted: list[tuple[int, int]] = []
+    system = lg.loads(examples.text("double-pendulum"))
+    halfway = lg.Ensemble.of_store(store)
+    assert halfway.counts.get("not run yet", 0) > 0
+    again = system.sweep(20.0, GRID, **HOW, store=store, resume=True, progress=lambda *at: counted.append(at))
+    for name in whole:
+        np.testing.assert_array_equal(again[name], whole[name])
+    assert again.coordinates["m1"][1].tolist() == whole.coordinates["m1"][1].tolist()
+    assert counted[0][0] == pytest.approx(done.mean() * 10_000, abs=300)
+    assert counted[-1] == (10_000, 10_000)
+    assert all(p.stat().st_mtime_ns == t for p, t in before.items())
+    with pytest.raises(lg.RunError, match=r"holds another task: varied m1 was .* seed 5, is .* seed 6"):
+        system.sweep(20.0, GRID, **{**HOW, "seed": 6}, store=store, resume=True)
+    with pytest.raises(lg.Error, match="exists"):
+        system.sweep(20.0, GRID, **HOW, store=store)
