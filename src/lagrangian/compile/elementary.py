@@ -47,8 +47,7 @@ def sincos(module: Module, lanes: int) -> str:
     n = round(2x/π), r = x − n π/2 by Cody and Waite's method: π/2 is held in three parts and each subtraction is one
     fused operation, so what is lost is half an ulp of r. (Without fused operations: four short parts, whose products
     with n are exact, and the rounding of the second subtraction carried on.) The quadrant n mod 4 swaps the two and
-    sets signs. Arguments beyond the reduction's reach, infinities and NaN in any lane send all lanes to the C
-    library.
+    sets signs. Arguments beyond the reduction's reach, infinities and NaN are left to the C library.
     """
     name = f"sincos_{lanes}"
     if module.defines(name):
@@ -56,9 +55,7 @@ def sincos(module: Module, lanes: int) -> str:
     f = Function(module, lanes)
     x = Value(f, "%x")
     reach = 2.0**30 if module.target.fma else 2.0**20
-    f.do(f"br i1 {f.all_lanes(f.compare('ole', f.intrinsic('fabs', x), reach))}, label %near, label %far")
-
-    f.label("near")
+    within = f.compare("ole", f.intrinsic("fabs", x), reach)
     turned = f.fma(x, 2 / math.pi, SHIFT)
     n = turned - SHIFT
     r = _reduced(f, x, n)
@@ -72,11 +69,13 @@ def sincos(module: Module, lanes: int) -> str:
     cos_sign = f.whole_op("shl", f.whole_op("and", f.whole_op("add", quadrant, 1), 2), 62)
     s = f.number(f.whole_op("xor", f.bits(f.select(odd, cos_r, sin_r)), sin_sign))
     c = f.number(f.whole_op("xor", f.bits(f.select(odd, sin_r, cos_r)), cos_sign))
+    f.do(f"br i1 {f.all_lanes(within)}, label %near, label %far")
+    f.label("near")
     _return_two(f, s, c)
 
-    f.label("far")
+    f.label("far")  # a lane's result must not depend on what stands beside it
     far_s, far_c = (_lanewise(f, LIBM.index(k), [x]) for k in ("sin", "cos"))
-    _return_two(f, far_s, far_c)
+    _return_two(f, f.select(within, s, far_s), f.select(within, c, far_c))
     f.finish(name, f"internal {{ {f.real}, {f.real} }}", f"{f.real} %x", "noinline nounwind")
     return "@" + name
 

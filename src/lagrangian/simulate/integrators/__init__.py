@@ -6,11 +6,12 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from .dop853 import DOP853
+from .gauss4 import GAUSS4
 from .method import Method
 from .rk4 import RK4
 from .tsit5 import TSIT5
 
-METHODS: Mapping[str, Method] = MappingProxyType({m.name: m for m in (RK4, TSIT5, DOP853)})
+METHODS: Mapping[str, Method] = MappingProxyType({m.name: m for m in (RK4, TSIT5, DOP853, GAUSS4)})
 """Every method of integration that is printed into machine code, by name."""
 
 __all__ = ["METHODS", "Method"]

@@ -61,6 +61,8 @@ class Loop:
         copies = method.evaluations + method.dense_evaluations + 2
         self.tapes = Tapes(p, program, "body", own=own, copies=copies)
         self.new_x, self.new_lost, self.new_k = p.block(), p.block(), p.block()
+        self.own_blocks = tuple(p.block() for _ in range(method.blocks))
+        self.own_slots = tuple(p.reserve(1) for _ in range(method.slots))
         self.inlet = () if p.unrolled else (Vec(slot=self.tapes.start("body", "x")),)
         self.service = Service(p, self.lanes, method, size=size, inputs=self.inputs, signals=self.signals)
         self.watch: Watch | None = None
@@ -138,30 +140,39 @@ class Loop:
         else:
             self._fixed(t, stop, running)
 
-    def _step(self, t: Value, h: Value) -> Step:
+    def _step(self, t: Value, h: Value, running: str) -> Step:
         lanes = self.lanes
         return Step(
             self.p, t, h, lanes.x, lanes.lost, lanes.k, self.rate, self.rtol, self.atol,
-            self.new_x, self.new_lost, self.new_k, self.inlet,
+            self.new_x, self.new_lost, self.new_k, self.inlet, running, self._spend, self.own_blocks, self.own_slots,
         )  # fmt: skip
+
+    def _spend(self, flag: str, count: int) -> None:
+        """Count evaluations beyond those of every step."""
+        f, extra = self.f, self.lanes.extra
+        spent = f.whole_op("mul", f.put(f"zext {f.flag} {flag} to {f.whole}"), count)
+        self.p.store_whole(f.put(f"add {f.whole} {self.p.load_whole(extra)}, {spent}"), extra)
 
     def _fixed(self, t: Value, stop: Value, running: str) -> None:
         """Steps of equal length up to a stop point; ``left`` counts them down."""
         p, f, lanes = self.p, self.f, self.lanes
         h, left = p.load(lanes.h), p.load(lanes.left) - 1.0
         new_t = f.fma(-left, h, stop)
-        s = self._step(t, h)
-        self.method.trial(s)
+        s = self._step(t, h, running)
+        unsettled = self.method.trial(s)
         (trouble,) = p.fold(lambda total, x: (f.fma(x, 0.0, total),), [0.0], s.new_x)
         gs, trouble = self._watched(s, new_t, trouble)
-        fine = f.compare("oeq", trouble, 0.0)
+        finite = fine = f.compare("oeq", trouble, 0.0)
+        if unsettled is not None:
+            fine = f.logic("and", fine, f.compare("oeq", unsettled, 0.0))
         good = f.logic("and", running, fine)
         self._inspect(s, good, new_t, gs)
         self._commit(s, good, new_t, gs)
         p.store(f.select(good, left, p.load(lanes.left)), lanes.left)
         arrived = f.logic("and", good, f.compare("ole", left, 0.0))
         broken = f.logic("and", running, f.opposite(fine))
-        self._attend(running, arrived, broken, self._constant(at.NOT_FINITE))
+        code = p.whole_select(finite, self._constant(at.NO_CONVERGENCE), self._constant(at.NOT_FINITE))
+        self._attend(running, arrived, broken, code)
 
     def _adaptive(self, t: Value, stop: Value, running: str) -> None:
         """A step as long as the last one's error allows, the stop point never crossed."""
@@ -171,7 +182,7 @@ class Loop:
         half = f.compare("olt", rest, wanted + wanted)
         new_t = f.select(last, stop, t + f.select(half, rest * 0.5, wanted))
         h = new_t - t  # so that the sum of the steps is exact
-        s = self._step(t, h)
+        s = self._step(t, h, running)
         error = method.trial(s)
         assert error is not None
         gs, error = self._watched(s, new_t, error)
@@ -237,8 +248,7 @@ class Loop:
             return
         with p.when(p.any(wants)):
             coefficients = self.method.interpolant(s)
-            spent = f.whole_op("mul", f.put(f"zext {f.flag} {wants} to {f.whole}"), self.method.dense_evaluations)
-            p.store_whole(f.put(f"add {f.whole} {p.load_whole(lanes.extra)}, {spent}"), lanes.extra)
+            self._spend(wants, self.method.dense_evaluations)
             p.store(new_t, lanes.end)
             if watch is not None and suspects is not None:
                 with p.when(p.any(suspects)):
@@ -346,10 +356,14 @@ class Loop:
             h = self._first_step(t, k)
             p.store(f.select(new, h, p.load(lanes.h)), lanes.h)
             p.store(f.select(new, 1e-4, p.load(lanes.error)), lanes.error)
-            spent = [f.put(f"zext {f.flag} {flag} to {f.whole}") for flag in (new, fresh)]
-            spent = f.put(f"add {f.whole} {spent[0]}, {spent[1]}")
-            p.store_whole(f.put(f"add {f.whole} {p.load_whole(lanes.extra)}, {spent}"), lanes.extra)
+            self._spend(new, 1)
+            self._spend(fresh, 1)
             (trouble,) = p.fold(lambda total, a: (f.fma(a, 0.0, total),), [0.0], lanes.k)
+        elif method.blocks:
+            k = self.rate(p.load(lanes.t), lanes.x)
+            self._spend(fresh, 1)
+            for block in self.own_blocks:
+                p.map(lambda a, b: f.select(fresh, a, b), k, block, into=(block,))
         if self.watch is not None:
             trouble = trouble + self.watch.arm(self.inputs_at, self.rate, new)
         broken = f.logic("and", fresh, f.compare("une", trouble, 0.0))

@@ -33,6 +33,10 @@ class Step:
     new_lost: Vec
     new_k: Vec
     inlet: tuple[Vec, ...]  # where the state must be written for ``rate`` to read it in place, if vectors are long
+    running: str  # lanes that take part
+    spend: Callable[[str, int], None]  # (flag, n): n more evaluations of the derivative where the flag holds
+    memory: tuple[Vec, ...] = ()  # vectors and slots of the method's own, kept from step to step
+    slots: tuple[int, ...] = ()
     stages: list[Vec] = field(default_factory=list)  # derivatives computed in the step, the first being k
 
     def advance(self, increment: Callable[..., Value], *given: Vec) -> None:
@@ -69,6 +73,8 @@ class Method(ABC):
     dense_evaluations: int = 0
     follows: bool = False
     limits: tuple[float, float] = (0.2, 10.0)  # how much the step size may change from step to step
+    blocks: int = 0  # vectors of its own, f(t, x) in each at first
+    slots: int = 0  # single numbers of its own
     memory: float = 0.0  # weight of the previous step's error (PI control)
 
     @property
@@ -83,7 +89,9 @@ class Method(ABC):
 
     @abstractmethod
     def trial(self, s: Step) -> Value | None:
-        """Print a step; return the size of its error, 1 being the tolerance (None: fixed step).
+        """Print a step; return the size of its error, 1 being the tolerance.
+
+        For fixed steps: nothing, or a number that is not 0 where stages do not converge.
 
         Sets ``s.new_x``, ``s.new_lost`` and, if the method ``follows``, ``s.new_k``.
         """
