@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 from dataclasses import dataclass, fields
+from functools import cached_property
 from typing import Any
 
 from lagrangian import analyze, write
+from lagrangian.analyze import LinearizationAlong, Regulator, SymbolicLinearization, linearize_along
 from lagrangian.analyze.equilibria_report import equilibria_report
 from lagrangian.analyze.linear_report import linear_report
 from lagrangian.analyze.report import Report
@@ -57,9 +59,25 @@ class Written:
 class Linearization(Written, analyze.Linearization):
     """δẋ = A δx + B δu, δy = C δx + D δu, with names, poles, modes and the verdict; see `analyze.Linearization`."""
 
-    def report(self) -> Report:
-        """Return the report."""
-        return linear_report(self)
+    def report(self, *, symbols: bool = False) -> Report:
+        """Return the report; with ``symbols`` also its matrices in symbols."""
+        return linear_report(self, self.symbolic if symbols else None)
+
+    @cached_property
+    def symbolic(self) -> SymbolicLinearization:
+        """M, D, K, S, A, B as SymPy, parameters as letters; raises `RunError` where they are too long to write."""
+        return analyze.symbolic(self)
+
+    def to_control(self) -> Any:
+        """Return python-control's StateSpace with the names of states, inputs and outputs."""
+        return analyze.to_control(self)
+
+    def lqr(self, Q: Any, R: Any) -> Regulator:
+        """Return the linear-quadratic regulator u = u₀ − K (x − x₀), by python-control.
+
+        ``Q`` weighs states, ``R`` inputs: a matrix, one number, or weights by name.
+        """
+        return analyze.lqr(self, Q, R)
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,3 +99,6 @@ def equilibria(model: Model, **options: Any) -> Equilibria:
     """Return the rests of a model; see `analyze.equilibria`."""
     data = analyze.equilibria(model, **options)
     return Equilibria(**{f.name: getattr(data, f.name) for f in fields(data)})
+
+
+__all__ = ["Equilibria", "Linearization", "LinearizationAlong", "equilibria", "linearize", "linearize_along"]

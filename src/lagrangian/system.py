@@ -10,7 +10,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import read
-from lagrangian.analysis import Equilibria, Linearization, equilibria, linearize
+from lagrangian.analysis import Equilibria, Linearization, LinearizationAlong, equilibria, linearize, linearize_along
 from lagrangian.analyze import check_dimensions
 from lagrangian.analyze.change import carried
 from lagrangian.analyze.motion import verify_motion
@@ -322,20 +322,45 @@ class System:
         check_dimensions(self.model)
         return Compiled(self.model, lanes=lanes, threads=threads)
 
-    def equilibria(self, **options: Any) -> Equilibria:
-        """Return where the system can stay at rest: all equilibria found in a box, each with its stability.
+    def equilibria(
+        self,
+        *,
+        inputs: Mapping[Any, Any] | None = None,
+        params: Mapping[Any, Any] | None = None,
+        box: Mapping[Any, Any] | None = None,
+        samples: int | None = None,
+    ) -> Equilibria:
+        """Return where the system can stay at rest: all equilibria found in a ``box`` of {name: (low, high)}."""
+        return equilibria(self.model, inputs=inputs, params=params, box=box, samples=samples)
 
-        Options: ``inputs``, ``params``, ``box={name: (low, high)}``, ``samples``; see `lagrangian.analyze.equilibria`.
-        """
-        return equilibria(self.model, **options)
-
-    def linearize(self, at: Any = None, **options: Any) -> Linearization:
+    def linearize(
+        self,
+        at: Any = None,
+        *,
+        inputs: Mapping[Any, Any] | None = None,
+        params: Mapping[Any, Any] | None = None,
+        outputs: Any = None,
+        time: Any = 0.0,
+        operating_point: bool = False,
+    ) -> Linearization:
         """Return A, B, C, D about an equilibrium, with poles, modes and the verdict on stability.
 
-        ``at``: values of coordinates and rates by name or symbol (0 where not given), or an `Equilibrium`. Options:
-        ``inputs``, ``params``, ``outputs``, ``time``, ``operating_point``; see `lagrangian.analyze.linearize`.
+        ``at``: values of coordinates and rates by name or symbol (0 where not given), or an `Equilibrium`. ``outputs``:
+        expressions, listed or by name. ``operating_point`` takes a point that is no equilibrium as it is.
         """
-        return linearize(self.model, at, **options)
+        found: dict[str, Any] = {"inputs": inputs, "params": params, "outputs": outputs}
+        return linearize(self.model, at, **found, time=time, operating_point=operating_point)
+
+    def linearize_along(
+        self,
+        trajectory: Any,
+        *,
+        inputs: Mapping[Any, Any] | None = None,
+        params: Mapping[Any, Any] | None = None,
+        outputs: Any = None,
+    ) -> LinearizationAlong:
+        """Return A(t), B(t), C(t), D(t) along a run, or along (times, states)."""
+        return linearize_along(self.model, trajectory, inputs=inputs, params=params, outputs=outputs)
 
     def simulate(self, duration: Any = None, *, initial: Any = None, **options: Any) -> Trajectory:
         """Run the system for ``duration`` [s] and return a `lagrangian.Trajectory`; `lagrangian.simulation` has more.

@@ -1,16 +1,26 @@
-"""Is it right, and what does it do? Verification by independent routes, dimensions, linearization."""
+"""Is it right, and what does it do? Verification, dimensions, rests, linearization."""
 
+from lagrangian.analyze.along import LinearizationAlong, linearize_along
 from lagrangian.analyze.dimensions import check_dimensions
 from lagrangian.analyze.equilibria import Equilibria, Equilibrium, equilibria
 from lagrangian.analyze.linearize import Linearization, linearize
+from lagrangian.analyze.regulate import Regulator, lqr, to_control
+from lagrangian.analyze.symbolic import SymbolicLinearization, symbolic
 from lagrangian.analyze.verify import verify
 
 __all__ = [
     "Equilibria",
     "Equilibrium",
     "Linearization",
+    "LinearizationAlong",
+    "Regulator",
+    "SymbolicLinearization",
     "check_dimensions",
     "equilibria",
     "linearize",
+    "linearize_along",
+    "lqr",
+    "symbolic",
+    "to_control",
     "verify",
 ]

@@ -29,7 +29,10 @@ def equilibria_report(found: Equilibria) -> Report:
             for k, e in enumerate(found)
         )
         items.append(Table(header, rows))
-        items += [text(f"{k}: {e.stability.reason[0].upper()}{e.stability.reason[1:]}.{_family(e)}") for k, e in enumerate(found)]
+        items += [
+            text(f"{k}: {e.stability.reason[0].upper()}{e.stability.reason[1:]}.{_family(e)}")
+            for k, e in enumerate(found)
+        ]
     items += [text(note[0].upper() + note[1:] + ".") for note in found.notes]
     sides: list[Any] = []
     for name, letter in zip(names, letters, strict=True):

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, cast
 
 import sympy as sp
 
 from lagrangian.analyze.figures import complex_figure, figure, matrix, or_none, plain_numbers
 from lagrangian.analyze.linearize import Linearization
+from lagrangian.analyze.reach import Reach
 from lagrangian.analyze.report import Part, Report
+from lagrangian.analyze.symbolic import SymbolicLinearization
 from lagrangian.derive.formula import Item, Matrix, Name, Table, formula, text
 from lagrangian.model import Model
 
@@ -28,12 +30,15 @@ def symbol(model: Model, name: str) -> Any:
     return name if found is None else found
 
 
-def linear_report(linear: Linearization) -> Report:
-    """Return the report of a linearization."""
+def linear_report(linear: Linearization, symbols: SymbolicLinearization | None = None) -> Report:
+    """Return the report of a linearization, with its matrices in symbols where they are given."""
     parts = [_point(linear), _matrices(linear)]
     if linear.mass is not None and len(linear.mass) <= LARGEST:
         parts.append(_second_order(linear))
     parts.append(_modes(linear))
+    parts.append(_reach(linear))
+    if symbols is not None:
+        parts.append(_symbols(linear, symbols))
     return Report(f"{linear.model.name}: linearization", linear.model, tuple(parts), linear_data(linear))
 
 
@@ -117,6 +122,63 @@ def _modes(linear: Linearization) -> Part:
     return Part(text("Poles and modes"), items)
 
 
+def _reach(linear: Linearization) -> Part:
+    """What inputs reach and outputs tell."""
+    items: list[Item] = []
+    if linear.inputs:
+        items.append(text(_sentence("Controllability", linear.controllability, "not controllable", "stabilizable")))
+    else:
+        items.append(text("There is no input to control it with."))
+    items.append(text(_sentence("Observability", linear.observability, "not observable", "detectable")))
+    return Part(text("Control"), tuple(items))
+
+
+def _sentence(what: str, reach: Reach, lacking: str, enough: str) -> str:
+    words = f"{what}: rank {reach.rank} of {reach.order}"
+    missed = []
+    for m in reach.missing:
+        shares = " + ".join(f"{complex_figure(_rounded(x))}·{name}" for name, x in m.combination.items())
+        missed.append(f"; {lacking}: the pole {complex_figure(m.pole)} of {shares}")
+    for one in dict.fromkeys(missed):
+        words += one + (f" ({missed.count(one)} times)" if missed.count(one) > 1 else "")
+    return words + ("." if reach.complete else f"; {enough if reach.enough else 'not ' + enough}.")
+
+
+def _symbols(linear: Linearization, found: SymbolicLinearization) -> Part:
+    items: list[Item] = [text("About ", *_exact_point(found), ":")]
+    named = [("M", found.M), ("D", found.D), ("K", found.K), ("S", found.S), ("A", found.A), ("B", found.B)]
+    for name, m in named:
+        if m.cols:
+            rows = tuple(tuple(cast("sp.Expr", m[i, j]) for j in range(m.cols)) for i in range(m.rows))
+            items.append(formula(Name(name), Matrix(rows)))
+    if found.conditions:
+        items.append(text("where at the rest"))
+        items += [formula(cast("sp.Expr", eq.lhs), sp.S.Zero) for eq in found.conditions]
+    return Part(text("In symbols"), tuple(items))
+
+
+def _exact_point(found: SymbolicLinearization) -> list[Any]:
+    parts: list[Any] = []
+    for symbol_, value in found.point.items():
+        parts += [", " if parts else "", symbol_, " = ", value]
+    return parts
+
+
+def _reach_data(reach: Reach) -> dict[str, Any]:
+    return {
+        "order": reach.order,
+        "rank": reach.rank,
+        "complete": reach.complete,
+        "missing": [
+            {
+                "pole": plain_numbers([m.pole])[0],
+                "combination": dict(zip(m.combination, plain_numbers(m.combination.values()), strict=True)),
+            }
+            for m in reach.missing
+        ],
+    }
+
+
 def _rounded(z: complex) -> complex:
     return complex(float(f"{z.real:.4g}"), float(f"{z.imag:.4g}"))
 
@@ -161,5 +223,7 @@ def linear_data(linear: Linearization) -> dict[str, Any]:
             "stable": linear.stable,
             "reason": linear.stability.reason,
         },
+        "controllability": _reach_data(linear.controllability) if linear.inputs else None,
+        "observability": _reach_data(linear.observability),
         "notes": list(linear.notes),
     }

@@ -20,6 +20,7 @@ from lagrangian.analyze.given import Given, Named
 from lagrangian.analyze.jacobians import Arrays, forces, rates, reads, values
 from lagrangian.analyze.modes import EPSILON, SLACK, Mode, Spectrum, modes, spectrum
 from lagrangian.analyze.outputs import measured
+from lagrangian.analyze.reach import Reach, controllable, observable
 from lagrangian.analyze.rest import Rest, rest
 from lagrangian.analyze.stability import Stability, has_minimum, judge, loses_power
 from lagrangian.errors import RunError
@@ -115,6 +116,16 @@ class Linearization:
         if self.kind == "operating point":
             return Stability("marginal", "the point is not a rest; poles tell how neighbours part, for a short while")
         return judge(self.spectrum, self.states[: len(self.coordinates)], self.minimum)
+
+    @property
+    def controllability(self) -> Reach:
+        """What the inputs reach, and the modes they do not. Raises `RunError` where there is no input."""
+        return controllable(self.A, self.B, self.states)
+
+    @property
+    def observability(self) -> Reach:
+        """What the outputs tell, and the modes they do not show."""
+        return observable(self.A, self.C, self.states)
 
     @property
     def stable(self) -> bool | None:

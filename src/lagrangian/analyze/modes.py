@@ -128,21 +128,17 @@ def _order(poles: NDArray[np.complex128]) -> NDArray[np.int64]:
 
 
 def modes(found: Spectrum, coordinates: tuple[str, ...]) -> tuple[Mode, ...]:
-    """One mode a real pole or conjugate pair, its shape by the names of the coordinates."""
+    """One mode a real pole, conjugate pair or double 0, its shape by the names of the coordinates."""
     listed: list[Mode] = []
     for k, pole in enumerate(found.poles):
-        if pole.imag < -found.errors[k] or (pole.imag < 0 and pole.conjugate() in found.poles):
+        if pole.imag < 0:
             continue
         size = abs(pole)
-        listed.append(
-            Mode(
-                complex(pole),
-                float(size),
-                float(-pole.real / size) if size else float("nan"),
-                _shape(found.vectors[: len(coordinates), k], coordinates),
-                bool(pole.imag > 0),
-            )
-        )
+        ratio = float(-pole.real / size) if size else float("nan")
+        shape = _shape(found.vectors[: len(coordinates), k], coordinates)
+        if not size and any(m.pole == 0 and m.shape == shape for m in listed):  # standing still and drifting
+            continue
+        listed.append(Mode(complex(pole), float(size), ratio, shape, bool(pole.imag > 0)))
     return tuple(listed)
 
 

@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from lagrangian import write
 from lagrangian.commands.assignments import assignments
 from lagrangian.commands.terminal import Example, OptionalFile, Output, open_system, put
 
@@ -24,6 +25,7 @@ def linearize(
     operating_point: Annotated[
         bool, typer.Option("--operating-point", help="Take a point that is no equilibrium as it is.")
     ] = False,
+    symbols: Annotated[bool, typer.Option("--symbols", help="Add the matrices with parameters as letters.")] = False,
     json: Annotated[bool, typer.Option("--json", help="Write data.")] = False,
     width: Annotated[int, typer.Option(help="Columns of the text.", min=40, max=400)] = 80,
     output: Output = None,
@@ -36,7 +38,7 @@ def linearize(
         outputs=_outputs(outputs),
         operating_point=operating_point,
     )
-    put(found.to_json() if json else found.to_text(width=width), output)
+    put(write.write_report(found.report(symbols=symbols), "json" if json else "text", width=width), output)
 
 
 def _outputs(given: list[str] | None) -> dict[str, str] | None:

@@ -1,0 +1,95 @@
+"""Quotients of normal forms, and the inverse of a small mass matrix in them, written as a textbook would."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import cast
+
+import sympy as sp
+
+from lagrangian.derive.algebra import Algebra, Form, OutOfReach
+
+LARGEST = 4
+"""Rows of a block of M up to which its inverse is written out."""
+
+TERMS = 3000
+"""Terms of a determinant up to which it is written out."""
+
+
+@dataclass(frozen=True, eq=False)
+class Ratio:
+    """over / under, in normal form."""
+
+    over: Form
+    under: Form
+
+    def expr(self) -> sp.Expr:
+        """The quotient, common factors cancelled, as a textbook would write it."""
+        return written(self.over.expr() / self.under.expr(), self.over.algebra)
+
+
+def written(expr: sp.Expr, algebra: Algebra) -> sp.Expr:
+    """A quotient with common factors cancelled, numerator and denominator each made readable."""
+    if expr == 0:
+        return sp.S.Zero
+    over, under = sp.fraction(sp.cancel(sp.together(expr)))
+    lower = algebra.form(under).expr()
+    upper = algebra.form(over).expr()
+    number, lower = lower.as_coeff_Mul()
+    return cast("sp.Expr", upper / number / lower)
+
+
+def blocks(matrix: Sequence[Sequence[Form]]) -> list[list[int]]:
+    """The rows of a symmetric matrix that hang together by entries that are not 0."""
+    n = len(matrix)
+    left, found = list(range(n)), []
+    while left:
+        block, fresh = [], [left[0]]
+        while fresh:
+            i = fresh.pop()
+            if i in block:
+                continue
+            block.append(i)
+            fresh += [j for j in left if j not in block and not matrix[i][j].is_zero]
+        found.append(sorted(block))
+        left = [i for i in left if i not in block]
+    return found
+
+
+def determinant(matrix: Sequence[Sequence[Form]], algebra: Algebra) -> Form:
+    """The determinant, by expansion along the first row."""
+    if not matrix:
+        return algebra.number(1)
+    terms = []
+    for j, entry in enumerate(matrix[0]):
+        if not entry.parts:
+            continue
+        minor = determinant([[*row[:j], *row[j + 1 :]] for row in matrix[1:]], algebra)
+        terms.append(entry * minor if j % 2 == 0 else -(entry * minor))
+    total = algebra.total(terms)
+    if total.size > TERMS:
+        raise OutOfReach(f"a determinant of {total.size} terms is too long to write out")
+    return total
+
+
+def inverse(matrix: Sequence[Sequence[Form]], algebra: Algebra) -> list[list[Ratio]]:
+    """The inverse of a symmetric matrix, block by block: adjugate over determinant.
+
+    Raises `OutOfReach` where a block has more than `LARGEST` rows or its determinant too many terms.
+    """
+    n = len(matrix)
+    one, zero = algebra.number(1), algebra.number(0)
+    result = [[Ratio(zero, one) for _ in range(n)] for _ in range(n)]
+    for block in blocks(matrix):
+        if len(block) > LARGEST:
+            raise OutOfReach(f"the inverse of a mass matrix with {len(block)} coupled rows is too long to write out")
+        part = [[matrix[i][j] for j in block] for i in block]
+        under = determinant(part, algebra)
+        for a, i in enumerate(block):
+            for b, j in enumerate(block):
+                if a <= b:
+                    minor = [[x for k, x in enumerate(row) if k != b] for m, row in enumerate(part) if m != a]
+                    over = determinant(minor, algebra)
+                    result[i][j] = result[j][i] = Ratio(over if (a + b) % 2 == 0 else -over, under)
+    return result

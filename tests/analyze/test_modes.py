@@ -1,0 +1,271 @@
+"""Poles, modes, stability, what inputs reach: against closed forms and python-control."""
+
+import builtins
+import math
+from typing import Any
+
+import control
+import numpy as np
+import pytest
+import scipy.linalg
+import sympy as sp
+
+import lagrangian as lg
+from lagrangian import examples
+from lagrangian.errors import MissingExtra, RunError
+
+
+def built_in(name: str) -> lg.System:
+    return lg.loads(examples.text(name))
+
+
+def row_of_masses(n: int, *, b: float = 0.0) -> lg.System:
+    """n equal masses between two walls, n + 1 equal springs."""
+    system = lg.System("row")
+    x = [system.coordinate(f"x{k + 1}") for k in range(n)]
+    m, k, c = system.parameters("m k c", m=2.0, k=50.0, c=b)
+    for q in x:
+        system.particle(m, at=system.origin + (q, 0))
+    for left, right in zip([sp.S.Zero, *x], [*x, sp.S.Zero], strict=True):
+        system.spring(k, deflection=right - left)
+        if b:
+            system.damper(c, deflection=right - left)
+    return system
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 6])
+def test_a_row_of_masses_has_the_textbooks_modes(n: int) -> None:
+    """ω_j = 2 √(k/m) sin(jπ/2(n+1)), φ_ij ∝ sin(ijπ/(n+1)); Goldstein, Classical Mechanics (3rd ed.), ch. 6."""
+    found = row_of_masses(n).linearize()
+    assert len(found.modes) == n
+    for j, mode in enumerate(found.modes, 1):
+        assert mode.frequency == pytest.approx(2 * 5 * math.sin(j * math.pi / (2 * (n + 1))), rel=1e-12)
+        assert mode.damping == 0 and mode.pair and mode.is_real
+        shape = np.sin(j * np.pi * np.arange(1, n + 1) / (n + 1))
+        got = np.array([mode.shape[f"x{i + 1}"].real for i in range(n)])
+        assert np.abs(got).max() == pytest.approx(1)
+        assert abs(shape @ got) == pytest.approx(np.linalg.norm(shape) * np.linalg.norm(got), rel=1e-12)
+    assert found.stability.verdict == "stable"
+
+
+def test_stiffness_proportional_damping_gives_the_closed_form_ratios() -> None:
+    """With D = (c/k) K: ζ_j = c ω_j / (2 k)."""
+    found = row_of_masses(3, b=4.0).linearize()
+    for j, mode in enumerate(found.modes, 1):
+        omega = 10 * math.sin(j * math.pi / 8)
+        assert mode.frequency == pytest.approx(omega, rel=1e-12)
+        assert mode.damping == pytest.approx(4.0 * omega / (2 * 50.0), rel=1e-12)
+    assert found.stability.verdict == "asymptotically stable"
+    assert found.stable is True
+
+
+def test_poles_of_an_overdamped_oscillator_are_real() -> None:
+    system = lg.System("slow")
+    x = system.coordinates("x")
+    m, k, b = system.parameters("m k b", m=1, k=1, b=4)
+    system.particle(m, at=system.origin + (x, 0))
+    system.spring(k, deflection=x)
+    system.damper(b, deflection=x)
+    found = system.linearize()
+    assert np.allclose(sorted(found.poles.real), [-2 - math.sqrt(3), -2 + math.sqrt(3)], rtol=1e-14)
+    assert [mode.pair for mode in found.modes] == [False, False]
+    assert np.allclose(found.damping_ratios, 1)
+
+
+@pytest.mark.parametrize(
+    "name", ["lecture-1", "acrobot", "cart-pole", "quarter-car", "three-masses", "furuta-pendulum"]
+)
+def test_poles_are_those_of_python_control(name: str) -> None:
+    found = built_in(name).linearize()
+    system = found.to_control()
+    assert system.state_labels == list(found.states) and system.input_labels == list(found.inputs)
+    with np.errstate(invalid="ignore"):  # its damping ratio of a pole at 0 is 0/0
+        wn, zeta, poles = control.damp(system, doprint=False)
+    assert _matched(found.poles, poles) < 1e-7
+    assert _matched(found.frequencies, wn) < 1e-7
+    moving = np.abs(poles) > 1e-6
+    assert _matched(found.damping_ratios[found.frequencies > 1e-6], np.asarray(zeta)[moving]) < 1e-7
+    assert np.linalg.matrix_rank(control.obsv(system.A, system.C)) == found.observability.rank
+
+
+def _matched(a: Any, b: Any) -> float:
+    """The largest difference after pairing nearest numbers."""
+    from scipy.optimize import linear_sum_assignment
+
+    cost = np.abs(np.asarray(a)[:, None] - np.asarray(b)[None, :])
+    return float(cost[linear_sum_assignment(cost)].max(initial=0.0))
+
+
+def test_the_mass_normal_form_is_the_first_order_one() -> None:
+    found = built_in("quarter-car").linearize()
+    assert found.mass is not None and found.stiffness is not None
+    assert found.damping is not None and found.input_matrix is not None
+    assert np.allclose(found.A[2:, :2], -np.linalg.solve(found.mass, found.stiffness), rtol=1e-12)
+    assert np.allclose(found.A[2:, 2:], -np.linalg.solve(found.mass, found.damping), rtol=1e-12)
+    assert np.allclose(found.B[2:], np.linalg.solve(found.mass, found.input_matrix), rtol=1e-12)
+
+
+def test_a_cart_that_may_stand_anywhere_is_marginal_and_named() -> None:
+    found = built_in("two-carts").linearize()
+    assert found.stability.verdict == "marginal" and found.stable is None
+    assert "brings x1 back" in found.stability.reason
+    assert found.free == ("x1",)
+
+
+def test_the_rest_at_a_pitchfork_is_not_decided_by_rounding() -> None:
+    system = built_in("bead-on-hoop")
+    found = system.linearize(params={"Omega": math.sqrt(9.81 / 0.3)})
+    assert found.stability.verdict == "marginal"
+
+
+def test_the_upright_pendulum_is_unstable_by_its_pole() -> None:
+    found = built_in("pendulum").linearize({"theta": math.pi})
+    assert found.stable is False
+    assert found.stability.pole is not None and found.stability.pole.real > 0
+
+
+def test_coefficients_that_change_with_time_are_not_judged_by_poles() -> None:
+    found = built_in("kapitza-pendulum").linearize()
+    assert found.changing and found.stability.verdict == "depends on time"
+
+
+def test_a_follower_force_is_judged_by_poles_not_by_energy() -> None:
+    """A circulatory K: symmetric part positive definite, and yet flutter (Ziegler). M = 1, K = [[2, 3], [-3, 2]]."""
+    system = lg.System("flutter")
+    x, y = system.coordinates("x y")
+    system.particle(1, at=system.origin + (x, y))
+    system.potential(x**2 + y**2)
+    system.generalized_force(x, -3 * y)
+    system.generalized_force(y, 3 * x)
+    found = system.linearize()
+    assert found.stable is False
+    # λ² = −2 ± 3i
+    wanted = [s * np.sqrt(complex(-2, t)) for s in (1, -1) for t in (3, -3)]
+    assert _matched(found.poles, wanted) < 1e-12
+
+
+def test_gyroscopic_stabilisation_of_a_sleeping_top_is_found_by_poles() -> None:
+    """Upright the top sleeps where (C ω)² > 4 A m g l; Goldstein (3rd ed.), § 5.7. Angles about fixed x and y."""
+    for spin, sleeps in ((150.0, True), (60.0, False)):
+        found = _top().linearize({"psi'": spin})
+        assert found.kind == "steady motion" and found.free == ("psi",)
+        A, C, mgl = 0.0006 + 0.5 * 0.08**2, 0.0008, 0.5 * 9.81 * 0.08
+        assert ((C * spin) ** 2 > 4 * A * mgl) == sleeps
+        assert (found.stable is not False) == sleeps
+        rates = sorted(f for f in found.frequencies if f > 1e-6)
+        if sleeps:  # A λ² ∓ i C ω λ − m g l = 0
+            root = math.sqrt((C * spin) ** 2 - 4 * A * mgl)
+            wanted = sorted([(C * spin - root) / (2 * A), (C * spin + root) / (2 * A)] * 2)
+            assert rates == pytest.approx(wanted, rel=1e-9)
+
+
+def _top() -> lg.System:
+    system = lg.System("top")
+    a, b, psi = system.coordinates("a b psi")
+    first = system.frame(a, axis=(1, 0, 0))
+    second = system.frame(b, axis=(0, 1, 0), parent=first)
+    third = system.frame(psi, axis=(0, 0, 1), parent=second)
+    centre = second.point(0, 0, sp.Rational(8, 100))
+    system.rigid_body(0.5, (0.0006, 0.0006, 0.0008), at=centre, frame=third)
+    system.gravity(direction=(0, 0, -1))
+    return system
+
+
+# -- what inputs reach ---------------------------------------------------------------------------------------------
+
+
+def test_two_carts_pushed_apart_keep_their_centre_of_mass() -> None:
+    found = built_in("lecture-3a").linearize().controllability
+    assert (found.rank, found.order, found.complete, found.enough) == (2, 4, False, False)
+    momentum = found.missing[0].combination
+    assert set(momentum) == {"x1'", "x2'"}
+    assert all(m.pole == 0 for m in found.missing)
+
+
+@pytest.mark.parametrize("name", ["acrobot", "ball-and-beam", "cart-pole", "segway", "furuta-pendulum", "lecture-2"])
+def test_ranks_are_those_of_python_controls_matrices(name: str) -> None:
+    system = built_in(name)
+    found = system.linearize(system.equilibria()[0])
+    assert found.controllability.rank == np.linalg.matrix_rank(control.ctrb(found.A, found.B), tol=1e-8)
+
+
+def test_the_staircase_finds_planted_uncontrollable_modes_whatever_the_units() -> None:
+    from lagrangian.analyze.reach import controllable
+
+    source = np.random.default_rng(8)
+    for hidden in (1, 2, 3):
+        n = 6
+        A = source.standard_normal((n, n))
+        B = source.standard_normal((n, 2))
+        A[n - hidden :, : n - hidden] = 0
+        B[n - hidden :] = 0
+        planted = np.linalg.eigvals(A[n - hidden :, n - hidden :])
+        turn = np.linalg.qr(source.standard_normal((n, n)))[0]
+        units = np.diag(10.0 ** source.uniform(-4, 4, n))
+        T = units @ turn
+        found = controllable(T @ A @ np.linalg.inv(T), T @ B, tuple(f"s{k}" for k in range(n)))
+        assert found.rank == n - hidden
+        assert _matched([m.pole for m in found.missing], [p for p in planted if p.imag >= 0]) < 1e-6
+
+
+def test_a_mode_that_the_output_does_not_show_is_named() -> None:
+    system = row_of_masses(3)
+    found = system.linearize(outputs=["x2"]).observability
+    (missing,) = found.missing
+    assert missing.pole.imag == pytest.approx(10 * math.sin(math.pi / 4))
+    assert missing.combination["x1'"] == pytest.approx(-missing.combination["x3'"])
+
+
+def test_a_system_without_inputs_has_no_controllability() -> None:
+    with pytest.raises(RunError, match="no input"):
+        _ = built_in("double-pendulum").linearize().controllability
+
+
+# -- python-control ------------------------------------------------------------------------------------------------
+
+
+def test_the_regulator_solves_riccatis_equation_and_its_law_stabilises() -> None:
+    linear = built_in("cart-pole").linearize()
+    found = linear.lqr({"x": 10, "theta": 100}, 0.5)
+    Q, R = np.diag([10.0, 100, 0, 0]), np.array([[0.5]])
+    S = scipy.linalg.solve_continuous_are(linear.A, linear.B, Q, R)
+    assert np.allclose(found.K, np.linalg.solve(R, linear.B.T @ S), rtol=1e-8)
+    assert _matched(found.poles, np.linalg.eigvals(linear.A - linear.B @ found.K)) < 1e-8
+    assert (found.poles.real < 0).all()
+    (law,) = found.law.values()
+    x = linear.model.coordinates[0].symbol
+    assert float(-sp.diff(law, x)) == pytest.approx(found.K[0, 0], rel=1e-15)
+
+
+def test_what_no_feedback_stabilises_is_named() -> None:
+    with pytest.raises(RunError, match="not controllable"):
+        built_in("lecture-3a").linearize().lqr(1, 1)
+
+
+@pytest.mark.parametrize(
+    ("Q", "R", "message"),
+    [
+        (np.eye(3), 1, r"\(4, 4\)"),
+        ({"thta": 1}, 1, "Did you mean 'theta'"),
+        (1, -1, "positive definite"),
+        (-1, 1, "semidefinite"),
+        (np.triu(np.ones((4, 4))), 1, "symmetric"),
+        ("x", 1, "Q"),
+    ],
+)
+def test_bad_weights_are_named(Q: object, R: object, message: str) -> None:
+    with pytest.raises((RunError, lg.ModelError), match=message):
+        built_in("cart-pole").linearize().lqr(Q, R)
+
+
+def test_a_missing_python_control_is_answered_with_the_line_that_installs_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    real = builtins.__import__
+
+    def without(name: str, *rest: Any, **named: Any) -> Any:
+        if name == "control":
+            raise ImportError(name)
+        return real(name, *rest, **named)
+
+    monkeypatch.setattr(builtins, "__import__", without)
+    with pytest.raises(MissingExtra, match=r"pip install 'lagrangian\[control\]'"):
+        built_in("cart-pole").linearize().to_control()
