@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import inspect
 import math
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -17,14 +18,17 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian import read
+from lagrangian.analyze.dimensions import Dim
 from lagrangian.analyze.given import key_name, number
-from lagrangian.errors import ModelError, RunError, did_you_mean
+from lagrangian.errors import ModelError, ParseError, RunError, did_you_mean
 from lagrangian.model import Input, Model
 from lagrangian.simulate.scipy_methods import Leg
 
 Array = NDArray[np.float64]
 Given = float | str | sp.Expr | tuple[Any, ...] | Callable[[float, Array], float]
 """An input: a number, text, an expression, a table (times, values[, "hold" or "linear"]), or a function f(t, x)."""
+
+_CALL = re.compile(r"[^\W\d]\w*\s*\(")
 
 HOLD, LINEAR = "hold", "linear"
 MAX_KNOTS = 1_000_000
@@ -46,13 +50,16 @@ class Table:
         return self.values[np.clip(place, 0, len(self.values) - 1)]
 
 
+Source = float | Table | Callable[[float, Array], float]
+
+
 @dataclass(frozen=True, eq=False)
 class Driving:
     """Every input of a model: ``feedback`` by symbol; the rest, in order, are ``free`` with a source each."""
 
     feedback: dict[Any, sp.Expr] = field(default_factory=dict)
     free: tuple[Input, ...] = ()
-    sources: tuple[float | Table | Callable[[float, Array], float], ...] = ()
+    sources: tuple[Source, ...] = ()
 
     @property
     def calls_python(self) -> bool:
@@ -134,9 +141,15 @@ def _asked(name: str, function: Callable[[float, Array], Any], t: float, x: Arra
     return real
 
 
-def driving(model: Model, given: Mapping[Any, Any] | None, fallback: Mapping[str, Any]) -> Driving:
+def driving(
+    model: Model,
+    given: Mapping[Any, Any] | None,
+    fallback: Mapping[str, Any],
+    dims: Mapping[str, Dim | None] | None = None,
+) -> Driving:
     """The inputs of a run from what was given by name or symbol; ``fallback`` is what the model's file says; else 0.
 
+    ``dims`` are the dimensions of the inputs, by name, that a value with a unit must have.
     Raises `RunError` or `ModelError` for unknown names, tables that do not fit, functions that cannot be called.
     """
     inputs = {u.name: u for u in model.inputs}
@@ -151,7 +164,7 @@ def driving(model: Model, given: Mapping[Any, Any] | None, fallback: Mapping[str
     free: list[Input] = []
     sources: list[Any] = []
     for name, u in inputs.items():
-        source = _source(model, name, named.get(name, 0.0))
+        source = _source(model, u, (dims or {}).get(name), named.get(name, 0.0))
         if isinstance(source, sp.Expr):
             feedback[u.symbol] = source
         else:
@@ -172,11 +185,11 @@ def _items(given: Mapping[Any, Any] | None) -> list[tuple[Any, Any]]:
     return list(given.items())
 
 
-def _source(model: Model, name: str, given: Any) -> float | sp.Expr | Table | Callable[[float, Array], float]:
+def _source(model: Model, u: Input, dim: Dim | None, given: Any) -> Source | sp.Expr:
     """A signal as the kind it is."""
-    what = f"input '{name}'"
+    what = f"input '{u.name}'"
     if isinstance(given, str):
-        return _text(model, what, given)
+        return _text(model, what, given, dim)
     if isinstance(given, sp.Expr) and not given.is_number:
         return given
     if isinstance(given, (tuple, list)):
@@ -186,15 +199,16 @@ def _source(model: Model, name: str, given: Any) -> float | sp.Expr | Table | Ca
     return number(given, what)
 
 
-def _text(model: Model, what: str, text: str) -> float | sp.Expr:
-    """An expression in the model's names, or else a number with a unit."""
-    scope = read.Scope(model.symbols)
+def _text(model: Model, what: str, text: str, dim: Dim | None) -> float | sp.Expr:
+    """An expression in the model's names, or else a number with a unit; what looks like a call is no unit."""
     try:
-        expr = read.parse_expression(text, scope, what=what)
+        expr = read.parse_expression(text, read.Scope(model.symbols), what=what)
     except ModelError as trouble:
+        if _CALL.search(text):
+            raise
         try:
-            return number(text, what)
-        except ModelError:
+            return number(text, what, dim)
+        except ParseError:
             raise trouble from None
     return float(expr) if expr.is_number else expr
 

@@ -70,9 +70,10 @@ def simulate(
     Values for states by name may stand beside the options: ``theta1=0.2``.
     """
     settings = dict(model.settings)
-    drive = driving(model, inputs, settings.get("inputs", {}))
-    program = right_hand_side(model, drive)
     given = Given.of(model, remembered(model, "states", lambda: dynamics.rhs(model)))
+    dims = dict(zip(given.inputs.names, given.inputs.dims, strict=True))
+    drive = driving(model, inputs, settings.get("inputs", {}), dims)
+    program = right_hand_side(model, drive)
     instants = _times(duration, times, samples, start, settings)
     check_covers(drive, float(instants[0]), float(instants[-1]))
     if instants.size * len(program.inputs["x"]) > MAX_STORED:
@@ -190,7 +191,8 @@ def _method(method: str | None, drive: Driving, step: Any) -> str:
         method = IN_PYTHON if drive.calls_python else DEFAULT
     known = [*METHODS, *SCIPY]
     if not isinstance(method, str) or method not in known:
-        fix = did_you_mean(str(method), known) or f"one of {', '.join(known)}"
+        same = [name for name in known if name.lower() == str(method).lower()]
+        fix = f"write '{same[0]}'" if same else did_you_mean(str(method), known) or f"one of {', '.join(known)}"
         raise RunError(f"there is no method {method!r:.40}", fix=fix, code="E402")
     if method in METHODS and drive.calls_python:
         called = [u.name for u, s in zip(drive.free, drive.sources, strict=True) if callable(s)]

@@ -12,11 +12,18 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian import compile as machine
-from lagrangian import dynamics, read
+from lagrangian import dynamics, read, showing
 from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.model import Model, Point
+from lagrangian.write import tables
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
+    import pandas
+    import xarray
+    from matplotlib.figure import Figure
+
     from lagrangian.graph import Program
 
 Array = NDArray[np.float64]
@@ -100,7 +107,15 @@ class Trajectory:
             if asked in self.states:
                 return self.y[self.states.index(asked)]
             asked = read.parse_expression(asked, read.Scope(self.model.symbols), what="what is asked of the run")
+        if isinstance(asked, sp.Expr) and (at := self._places.get(asked)) is not None:
+            return self.y[at]
         return self.observe({"asked": asked})["asked"]
+
+    @cached_property
+    def _places(self) -> dict[Any, int]:
+        """Where the symbols of the states stand in ``y``."""
+        symbols = [*(c.symbol for c in self.model.coordinates), *(v.symbol for v in self.model.velocities)]
+        return {symbol: i for i, symbol in enumerate(symbols)}
 
     def observe(self, outputs: Mapping[str, Any]) -> dict[str, Array]:
         """Return several expressions or points at once, by name."""
@@ -159,6 +174,35 @@ class Trajectory:
     def points(self) -> Mapping[str, Array]:
         """Paths of the named points, (S, d) each, in the fixed axes [m]."""
         return Paths(self)
+
+    # -- handing on ---------------------------------------------------------------------------------------------
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Return an `xarray.Dataset` over ``t``: states, inputs, energies, points; units as attributes."""
+        return tables.to_xarray(showing.table(self))
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """Return a `pandas.DataFrame` indexed by ``t`` with the same columns."""
+        return tables.to_pandas(showing.table(self))
+
+    def to_csv(self) -> str:
+        """Return the same columns as CSV text: a line of names, then a line a sample."""
+        return tables.to_csv(showing.table(self))
+
+    def save(self, path: str | Path, *, overwrite: bool = False) -> Path:
+        """Write the run to a ``.csv``, ``.nc`` (NetCDF), ``.parquet`` or ``.npz`` file, whole or not at all.
+
+        Raises `Error` where the file exists, unless ``overwrite``, or where it cannot be written.
+        """
+        return tables.save(showing.table(self), path, overwrite=overwrite)
+
+    def plot(self, *quantities: Any, energy: bool | None = None, audit: bool = False) -> Figure:
+        """Return a matplotlib figure of ``quantities`` (names, text or SymPy expressions) over time.
+
+        Of the coordinates, the inputs that act and the energies where none is named. ``energy`` adds or leaves out the
+        energies; ``audit`` adds what the energy balance is off by. Angles are drawn in degrees, or in turns if many.
+        """
+        return showing.plot(self, quantities, energy=energy, audit=audit)
 
     # -- showing ------------------------------------------------------------------------------------------------
 

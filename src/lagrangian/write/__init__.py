@@ -13,7 +13,7 @@ from typing import Any
 from lagrangian.derive import Derivation
 from lagrangian.write.data import to_dict
 from lagrangian.write.document import Document
-from lagrangian.write.files import write_file
+from lagrangian.write.files import write_file, write_with
 from lagrangian.write.html import to_html, to_html_fragment
 from lagrangian.write.latex import to_latex
 from lagrangian.write.layout import lay_out
@@ -60,4 +60,5 @@ __all__ = [
     "verdicts",
     "write_file",
     "write_report",
+    "write_with",
 ]

@@ -4,17 +4,34 @@ from __future__ import annotations
 
 import os
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 
 from lagrangian.errors import Error
 
 
 def write_file(path: str | os.PathLike[str], text: str) -> Path:
-    """Write ``text`` as UTF-8 to ``path`` and return the path.
+    """Write ``text`` as UTF-8 to ``path`` and return the path; a device or pipe is written into as it stands.
 
-    The text is written to a file beside it, which then takes its place: a reader sees the old text or the new one, and
-    a full disk leaves the old one. The permissions of a file that was there are kept. Raises `Error` for a folder that
-    is missing, a path that is a folder, a place where writing is not allowed, and a full disk.
+    Raises `Error` as `write_with` does.
+    """
+    target = Path(os.path.realpath(path))
+    if target.exists() and not target.is_file() and not target.is_dir():
+        return _into(Path(path), text)
+
+    def fill(beside: Path) -> None:
+        with beside.open("w", encoding="utf-8", newline="\n") as file:
+            file.write(text)
+
+    return write_with(path, fill)
+
+
+def write_with(path: str | os.PathLike[str], fill: Callable[[Path], object]) -> Path:
+    """Let ``fill`` write a file beside ``path``, which then takes its place; return the path.
+
+    A reader sees the old file or the new one, and a full disk leaves the old one. The permissions of a file that was
+    there are kept. Raises `Error` for a folder that is missing, a path that is no file, a place where writing is not
+    allowed, and a full disk.
     """
     target = Path(os.path.realpath(path))
     folder = target.parent
@@ -23,15 +40,15 @@ def write_file(path: str | os.PathLike[str], text: str) -> Path:
     if not folder.is_dir():
         raise Error(f"cannot write '{path}': there is no folder '{folder}'", fix="make the folder first", code="E801")
     if target.exists() and not target.is_file():
-        return _into(Path(path), text)
+        raise Error(f"'{path}' is a device: only text is written into one", fix="name a file", code="E801")
     beside: Path | None = None
     try:
         mode = target.stat().st_mode & 0o777 if target.exists() else 0o666 & ~_umask()
         handle, name = tempfile.mkstemp(dir=folder, prefix=f".{target.name[:100]}.", suffix=".part")
+        os.close(handle)
         beside = Path(name)
-        with os.fdopen(handle, "w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
-            file.flush()
+        fill(beside)
+        with beside.open("rb+") as file:
             os.fsync(file.fileno())
         beside.chmod(mode)
         beside.replace(target)

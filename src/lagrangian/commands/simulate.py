@@ -1,0 +1,118 @@
+"""``lagrangian simulate``: one run, its summary, its data, its picture."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated, Any
+
+import numpy as np
+import typer
+
+from lagrangian import showing
+from lagrangian.commands.terminal import Example, OptionalFile, open_system, put, say
+from lagrangian.errors import ModelError
+from lagrangian.trajectory import Trajectory
+from lagrangian.write import write_with
+from lagrangian.write.tables import ENDINGS, check_target
+
+PICTURES = (".png", ".pdf", ".svg", ".jpg")
+
+
+def simulate(
+    file: OptionalFile = None,
+    example: Example = None,
+    duration: Annotated[
+        str | None, typer.Option("--duration", "-d", help="How long [s]; else what the file says.", show_default=False)
+    ] = None,
+    set_: Annotated[
+        list[str] | None,
+        typer.Option("--set", "-s", help="A parameter: k=80 or 'm1=2 kg'. Any number of times.", show_default=False),
+    ] = None,
+    init: Annotated[
+        list[str] | None,
+        typer.Option("--init", help="An initial value: 'theta1=30 deg', \"x'=0.1\".", show_default=False),
+    ] = None,
+    input_: Annotated[
+        list[str] | None,
+        typer.Option("--input", "-i", help="An input: tau=2, 'tau=3*sin(t)', \"F=-k*x\".", show_default=False),
+    ] = None,
+    method: Annotated[str | None, typer.Option(help="rk4, tsit5, dop853, …, Radau, BDF, LSODA.")] = None,
+    step: Annotated[str | None, typer.Option(help="Step [s] of a method with steps of one length.")] = None,
+    rtol: Annotated[float, typer.Option(help="Relative tolerance.")] = 1e-9,
+    atol: Annotated[float, typer.Option(help="Absolute tolerance.")] = 1e-12,
+    samples: Annotated[int | None, typer.Option(help="Times kept, evenly spaced.", show_default="1001")] = None,
+    timeout: Annotated[float | None, typer.Option(help="Seconds of computing allowed.")] = None,
+    plot: Annotated[
+        Path | None, typer.Option("--plot", help="Draw a picture: .png, .pdf or .svg.", show_default=False)
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("--output", "-o", help="Write .csv, .nc, .parquet or .npz; - is CSV on standard output."),
+    ] = None,
+    force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
+) -> None:
+    """Run the system; print a summary. Exit 1 if the run could not be finished (what was reached is kept)."""
+    for path, endings in ((plot, PICTURES), (output, [*ENDINGS])):
+        if path is not None and str(path) != "-":
+            check_target(path, list(endings), overwrite=force)
+    run = open_system(file, example).simulate(
+        duration,
+        initial=_pairs("--init", init),
+        params=_pairs("--set", set_),
+        inputs=_pairs("--input", input_),
+        method=method,
+        step=step,
+        rtol=rtol,
+        atol=atol,
+        samples=samples,
+        timeout=timeout,
+    )
+    if plot is not None:
+        figure = run.plot()
+        kind = plot.suffix.lower().removeprefix(".")
+        write_with(plot, lambda beside: figure.savefig(beside, format=kind, dpi=150))
+        say(f"wrote {plot}")
+    if output is not None and str(output) != "-":
+        say(f"wrote {run.save(output, overwrite=force)}")
+    put(run.to_csv() if output is not None and str(output) == "-" else summary(run), None)
+    if not run.success:
+        say(run.message)
+        raise typer.Exit(1)
+
+
+def _pairs(option: str, given: list[str] | None) -> dict[str, Any]:
+    """``name=value`` texts as a mapping; the values stay text, which the run reads."""
+    found: dict[str, Any] = {}
+    for text in given or ():
+        name, sign, value = text.partition("=")
+        name, value = name.strip(), value.strip()
+        if not sign or not name or not value:
+            raise typer.BadParameter(f"{option} takes name=value (got '{text[:80]}')")
+        if name in found:
+            raise ModelError(f"'{name[:64]}' is given twice with {option}", fix="give it once", code="E404")
+        found[name] = value
+    return found
+
+
+def summary(run: Trajectory) -> str:
+    """A run on a screen: how it went, and where every state began, ended and stayed between."""
+    lines = [
+        f"{run.model.name}: t = {run.t[0]:g} … {run.t[-1]:g} s, {len(run.t)} samples",
+        f"  {run.method}: {run.steps} steps, {run.rejected} rejected, {run.nfev} evaluations",
+        f"  {run.audit}",
+        f"  {run.message}",
+        "",
+    ]
+    rows: list[tuple[str, ...]] = [("", "start", "end", "least", "greatest", "")]
+    for column in showing.table(run).columns:
+        if "." not in column.name:
+            values, unit = column.values, column.unit
+            if unit == "rad":
+                values, unit = np.degrees(values), "deg"
+            numbers = (values[0], values[-1], values.min(), values.max())
+            rows.append((column.name, *(f"{x:.6g}" for x in numbers), unit))
+    wide = [max(len(row[k]) for row in rows) for k in range(6)]
+    for row in rows:
+        cells = [row[0].ljust(wide[0]), *(row[k].rjust(wide[k]) for k in range(1, 5)), row[5]]
+        lines.append(("  " + "  ".join(cells)).rstrip())
+    return "\n".join(lines)

@@ -1,0 +1,160 @@
+"""Quantities over time as a figure of stacked panels with one time axis.
+
+Nothing of matplotlib's global state is touched: a `Figure` is made, returned, and shown by whoever wants to see it.
+"""
+
+from __future__ import annotations
+
+import importlib
+import io
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.errors import MissingExtra
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Array = NDArray[np.float64]
+
+WIDTH, HEIGHT, LEAST = 7.2, 1.9, 3.2
+"""Inches: the figure's width, a panel's height, and the least height of a figure."""
+
+_SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+
+IN_LEGEND = 8
+"""Curves that a legend lists in one column."""
+
+
+@dataclass(frozen=True, eq=False)
+class Series:
+    """One curve: its label as LaTeX (``tex``) and as text, and its values at the times of the figure."""
+
+    tex: str
+    text: str
+    values: Array
+    style: str = "-"
+
+
+@dataclass(frozen=True, eq=False)
+class Panel:
+    """Curves of one unit; ``what`` they are together, such as "angle"."""
+
+    what: str
+    unit: str
+    series: tuple[Series, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Marks:
+    """Instants drawn as thin lines through all panels: events."""
+
+    label: str
+    times: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """What a figure shows."""
+
+    title: str
+    t: Array
+    panels: tuple[Panel, ...]
+    marks: tuple[Marks, ...] = field(default_factory=tuple)
+    footer: str = ""
+
+
+def draw(picture: Picture) -> Figure:
+    """The figure: panels below each other, labels with units, legends where a panel has several curves."""
+    figure_class = _figure_class()
+    height = max(LEAST, HEIGHT * len(picture.panels) + 0.7)
+    figure = figure_class(figsize=(WIDTH, height), layout="constrained")
+    rows: Any = figure.subplots(len(picture.panels), 1, sharex=True, squeeze=False)[:, 0]
+    for axes, panel in zip(rows, picture.panels, strict=True):
+        _panel(axes, picture.t, panel)
+        for number, marks in enumerate(picture.marks):
+            for time in marks.times:
+                axes.axvline(time, color="0.55", linewidth=0.7, linestyle=("--", ":", "-.")[number % 3], zorder=0)
+    if len(picture.t) > 1:
+        rows[-1].set_xlim(picture.t[0], picture.t[-1])
+    rows[-1].set_xlabel(r"$t$ [s]")
+    figure.suptitle(_safe(picture.title), fontsize="medium")
+    if picture.footer:
+        figure.supxlabel(_safe(picture.footer), fontsize="x-small", color="0.4", x=0.99, ha="right")
+    return figure
+
+
+def _panel(axes: Any, t: Array, panel: Panel) -> None:
+    unit = f" [{_raised(panel.unit)}]" if panel.unit else ""
+    names = [_math(s) for s in panel.series]
+    for s, name in zip(panel.series, names, strict=True):
+        axes.plot(t, s.values, s.style if len(t) > 1 else "o", label=name, linewidth=1.3)
+    if len(names) == 1:
+        axes.set_ylabel(names[0] + unit)
+    else:
+        axes.set_ylabel(_safe(panel.what) + unit if panel.what else unit.strip() or "value")
+        columns = 1 + (len(names) - 1) // IN_LEGEND
+        axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5), frameon=False, ncols=columns, fontsize="small")
+    axes.grid(True, color="0.9", linewidth=0.6)
+    axes.margins(y=0.08)
+    for side in ("top", "right"):
+        axes.spines[side].set_visible(False)
+    axes.ticklabel_format(axis="y", scilimits=(-4, 5), useMathText=True)
+    spread = max((float(np.ptp(s.values)) for s in panel.series if len(s.values)), default=0.0)
+    middle = max((float(np.max(np.abs(s.values))) for s in panel.series if len(s.values)), default=0.0)
+    if spread <= 1e-9 * middle:  # a constant is drawn as one, not as its rounding
+        axes.set_ylim(-1.2 * middle, 1.2 * middle) if middle else axes.set_ylim(-1.0, 1.0)
+
+
+def _math(series: Series) -> str:
+    """A label that matplotlib can typeset: its LaTeX, or the text where it knows less LaTeX than that."""
+    from matplotlib.mathtext import MathTextParser
+
+    written = f"${series.tex}$"
+    try:
+        MathTextParser("agg").parse(written)
+    except ValueError:
+        return _safe(series.text)
+    return written
+
+
+def _raised(unit: str) -> str:
+    """A unit with its exponents raised: m^2 → m²."""
+    return re.sub(r"\^(-?\d+)", lambda m: m.group(1).translate(_SUPERSCRIPTS), unit)
+
+
+def _safe(text: str) -> str:
+    """Text in which matplotlib finds no mathematics."""
+    return text.replace("$", r"\$")
+
+
+def _figure_class() -> type[Figure]:
+    """A `Figure` that notebooks show by themselves."""
+    try:
+        base = importlib.import_module("matplotlib.figure").Figure
+    except ImportError:
+        raise MissingExtra(
+            "plots need the package 'matplotlib'", fix="pip install 'lagrangian[plot]'", code="E801"
+        ) from None
+    return type("Figure", (base,), {"_repr_png_": _png})
+
+
+def _png(figure: Any) -> bytes:
+    out = io.BytesIO()
+    figure.savefig(out, format="png", dpi=110)
+    return out.getvalue()
+
+
+def joined(panels: Sequence[Panel]) -> tuple[Panel, ...]:
+    """Panels of the same unit and meaning as one, in order of their first."""
+    found: dict[tuple[str, str], Panel] = {}
+    for panel in panels:
+        key = (panel.what, panel.unit)
+        before = found[key].series if key in found else ()
+        found[key] = Panel(panel.what, panel.unit, (*before, *panel.series))
+    return tuple(found.values())

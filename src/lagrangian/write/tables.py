@@ -1,0 +1,162 @@
+"""Columns of numbers with names and units → CSV, NetCDF, Parquet, NPZ, and xarray and pandas objects."""
+
+from __future__ import annotations
+
+import csv
+import importlib
+import io
+import json
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.errors import Error, MissingExtra, ModelError, did_you_mean
+from lagrangian.write.files import write_file, write_with
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Column:
+    """A row of numbers with its name, unit (SI; empty where there is none) and what it is in words."""
+
+    name: str
+    values: Array
+    unit: str = ""
+    words: str = ""
+
+    @property
+    def attributes(self) -> dict[str, str]:
+        """``units`` and ``long_name``, as the CF conventions call them."""
+        return {"units": self.unit or "1", "long_name": self.words or self.name}
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """Columns over one index column of the same length, and what is to be known of them all."""
+
+    index: Column
+    columns: tuple[Column, ...]
+    attributes: Mapping[str, Any]
+
+    @property
+    def plain_attributes(self) -> dict[str, str | float | int]:
+        """The attributes as files hold them: numbers and text, anything else as JSON."""
+        return {
+            key: value if isinstance(value, (str, float, int)) and not isinstance(value, bool) else _json(value)
+            for key, value in self.attributes.items()
+        }
+
+
+def _json(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False)
+
+
+def needed(module: str, extra: str = "data") -> Any:
+    """An optional package, or `MissingExtra` with the line that installs it."""
+    try:
+        return importlib.import_module(module)
+    except ImportError:
+        raise MissingExtra(
+            f"this needs the package '{module}'", fix=f"pip install 'lagrangian[{extra}]'", code="E801"
+        ) from None
+
+
+def to_xarray(table: Table) -> xarray.Dataset:
+    """An `xarray.Dataset` over the index, a variable a column, units and long names as attributes."""
+    xr = needed("xarray")
+    at = table.index.name
+    return xr.Dataset(
+        {c.name: (at, c.values, c.attributes) for c in table.columns},
+        coords={at: (at, table.index.values, table.index.attributes)},
+        attrs=table.plain_attributes,
+    )
+
+
+def to_pandas(table: Table) -> pandas.DataFrame:
+    """A `pandas.DataFrame` indexed by the index; units and words stand in ``frame.attrs``."""
+    pd = needed("pandas")
+    index = pd.Index(table.index.values, name=table.index.name)
+    frame = pd.DataFrame({c.name: c.values for c in table.columns}, index=index)
+    frame.attrs.update(table.plain_attributes)
+    frame.attrs["units"] = {c.name: c.unit for c in (table.index, *table.columns)}
+    return frame
+
+
+def to_csv(table: Table) -> str:
+    """Text with a line of names and a line a sample; numbers with all their digits."""
+    out = io.StringIO()
+    listed = (table.index, *table.columns)
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow([c.name for c in listed])
+    writer.writerows(zip(*[map(repr, c.values.tolist()) for c in listed], strict=True))
+    return out.getvalue()
+
+
+def _csv(path: Path, table: Table) -> None:
+    write_file(path, to_csv(table))
+
+
+def _netcdf(path: Path, table: Table) -> None:
+    needed("h5netcdf")
+    needed("h5py")
+    dataset = to_xarray(table)
+    write_with(path, lambda beside: dataset.to_netcdf(beside, engine="h5netcdf"))
+
+
+def _parquet(path: Path, table: Table) -> None:
+    pa, pq = needed("pyarrow"), needed("pyarrow.parquet")
+    listed = (table.index, *table.columns)
+    fields = [pa.field(c.name, pa.float64(), metadata=c.attributes) for c in listed]
+    schema = pa.schema(fields, metadata={k: str(v) for k, v in table.plain_attributes.items()})
+    made = pa.Table.from_arrays([pa.array(c.values) for c in listed], schema=schema)
+    write_with(path, lambda beside: pq.write_table(made, beside))
+
+
+def _npz(path: Path, table: Table) -> None:
+    arrays: dict[str, Any] = {c.name: c.values for c in (table.index, *table.columns)}
+    arrays["attributes"] = _json(dict(table.plain_attributes))
+    arrays["units"] = _json({c.name: c.unit for c in (table.index, *table.columns)})
+
+    def fill(beside: Path) -> None:
+        with beside.open("wb") as file:
+            np.savez(file, **arrays)
+
+    write_with(path, fill)
+
+
+ENDINGS: Mapping[str, Callable[[Path, Table], None]] = {
+    ".csv": _csv,
+    ".nc": _netcdf,
+    ".parquet": _parquet,
+    ".npz": _npz,
+}
+"""How a file is written, by the ending of its name."""
+
+
+def check_target(path: Path, endings: Sequence[str], *, overwrite: bool) -> None:
+    """Refuse an ending that nothing is written to, and a file that is there already unless it may be replaced."""
+    if path.suffix.lower() not in endings:
+        fix = did_you_mean(path.suffix.lower(), endings) or f"one of {', '.join(endings)}"
+        raise ModelError(f"'{path.name}' names no kind of file by its ending", fix=fix, code="E402")
+    if path.is_file() and not overwrite:
+        raise Error(f"'{path}' exists already", fix="choose another name, or overwrite=True (--force)", code="E802")
+
+
+def save(table: Table, path: str | Path, *, overwrite: bool = False) -> Path:
+    """Write a table to a file of the kind its name ends with, whole or not at all; return the path.
+
+    Raises `Error` where a file is there already (unless ``overwrite``), or nothing can be written there.
+    """
+    target = Path(path)
+    check_target(target, list(ENDINGS), overwrite=overwrite)
+    ENDINGS[target.suffix.lower()](target, table)
+    return target
