@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+import csv
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.errors import MissingExtra, RunError, did_you_mean
+from lagrangian.errors import RunError, did_you_mean
 from lagrangian.simulate import STATUS
 from lagrangian.simulate.store import KEY, NOT_RUN, read
 from lagrangian.varying import TIME
+from lagrangian.write.files import write_with
+from lagrangian.write.tables import check_target, needed
 
 SHOWN = 20
 """Failures listed unless more are asked for."""
+
+ROWS = 1 << 15
+"""Rows that are written together."""
 
 UNDONE = "not run yet"
 
@@ -125,11 +131,11 @@ class Ensemble(Mapping[str, NDArray[Any]]):
         found = []
         for place in places:
             index = tuple(int(k) for k in np.unravel_index(place, self.shape)) if self.shape else ()
-            found.append(Failure(index, self._at(index), float(reached[index]), _reason(int(status[index]))))
+            found.append(Failure(index, self.at(index), float(reached[index]), _reason(int(status[index]))))
         return found
 
-    def _at(self, index: tuple[int, ...]) -> dict[str, float]:
-        """What varied, at one run."""
+    def at(self, index: tuple[int, ...]) -> dict[str, float]:
+        """What varied, at one run: name → value."""
         place = dict(zip(self.dims, index, strict=True))
         return {
             name: float(values[tuple(place[d] for d in dims)])
@@ -148,7 +154,7 @@ class Ensemble(Mapping[str, NDArray[Any]]):
 
     def to_xarray(self) -> Any:
         """Return an ``xarray.Dataset`` with units and long names."""
-        xarray = _imported("xarray")
+        xarray = needed("xarray")
         made = xarray.Dataset(
             {n: (self._dims[n], self[n], dict(self._words.get(n, {}))) for n in self},
             {n: (dims, values, dict(self._words.get(n, {}))) for n, (dims, values) in self.coordinates.items()},
@@ -158,24 +164,70 @@ class Ensemble(Mapping[str, NDArray[Any]]):
             array.attrs.setdefault("long_name", str(name))
         return made
 
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """Everything as columns of one length: what varied, what was kept; a row a run (with samples, a run and time).
+
+        An axis along which nothing named varies is counted from 0.
+        """
+        dims = {name: self._dims[name] for name in self} | {name: d for name, (d, _) in self.coordinates.items()}
+        values = {name: self[name] for name in self} | {name: v for name, (_, v) in self.coordinates.items()}
+        sizes: dict[str, int] = {}
+        for name in self:
+            sizes.update(zip(dims[name], values[name].shape, strict=True))
+        counted = {d: np.arange(n) for d, n in sizes.items() if d not in self.coordinates}
+        dims |= {d: (d,) for d in counted}
+        order = [*counted, *self.coordinates, *self]
+        return {name: _spread(counted.get(name, values.get(name)), dims[name], sizes) for name in order}
+
     def to_pandas(self) -> Any:
-        """Return a ``pandas.DataFrame``: what varied and what was kept, a row a run (with samples, a run and time)."""
-        _imported("pandas")
-        data = self.to_xarray()
-        frame = data.reset_coords().to_dataframe(dim_order=list(data.sizes)).reset_index()
-        axes = [d for d in data.sizes if d not in data.coords]
-        first = [c for c in [*axes, *self.coordinates] if c in frame.columns]
-        return frame[[*first, *(c for c in frame.columns if c not in first)]]
+        """Return a ``pandas.DataFrame`` of `columns`."""
+        return needed("pandas").DataFrame(self.columns())
+
+    def save(self, path: str | Path, *, overwrite: bool = False) -> Path:
+        """Write everything to ``.csv``, ``.parquet`` (as `columns`) or ``.nc`` (as `to_xarray`), whole or not at all.
+
+        Raises `Error` where a file is there already (unless ``overwrite``), or nothing can be written there.
+        """
+        target = Path(path)
+        check_target(target, list(ENDINGS), overwrite=overwrite)
+        return write_with(target, lambda beside: ENDINGS[target.suffix.lower()](self, beside))
+
+
+def _spread(values: Any, dims: tuple[str, ...], sizes: Mapping[str, int]) -> NDArray[Any]:
+    """An array over some axes as one over all of them, row after row."""
+    shape = [sizes[d] if d in dims else 1 for d in sizes]
+    ordered = np.transpose(values, [dims.index(d) for d in sizes if d in dims])
+    return np.broadcast_to(ordered.reshape(shape), tuple(sizes.values())).reshape(-1)
+
+
+def _netcdf(runs: Ensemble, path: Path) -> None:
+    needed("h5netcdf")
+    runs.to_xarray().to_netcdf(path, engine="h5netcdf")
+
+
+def _parquet(runs: Ensemble, path: Path) -> None:
+    pa, pq = needed("pyarrow"), needed("pyarrow.parquet")
+    pq.write_table(pa.table(runs.columns()), path)
+
+
+def _csv(runs: Ensemble, path: Path) -> None:
+    with path.open("w", encoding="utf-8", newline="") as file:
+        write_csv(runs, file)
+
+
+def write_csv(runs: Ensemble, file: TextIO) -> None:
+    """Write a line of names and a line a row; numbers with all their digits."""
+    columns = runs.columns()
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(columns)
+    count = len(next(iter(columns.values())))
+    for start in range(0, count, ROWS):
+        writer.writerows(zip(*[c[start : start + ROWS].tolist() for c in columns.values()], strict=True))
+
+
+ENDINGS: Mapping[str, Callable[[Ensemble, Path], None]] = {".csv": _csv, ".nc": _netcdf, ".parquet": _parquet}
+"""How a file is written, by the ending of its name."""
 
 
 def _reason(status: int) -> str:
     return UNDONE if status == NOT_RUN else STATUS.get(status, f"status {status}")
-
-
-def _imported(name: str) -> Any:
-    import importlib
-
-    try:
-        return importlib.import_module(name)
-    except ImportError:
-        raise MissingExtra(f"{name} is not installed", fix="pip install 'lagrangian[data]'") from None

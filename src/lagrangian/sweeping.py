@@ -302,7 +302,7 @@ def _kept(
         if expressions.setdefault(title, expr) != expr:
             raise RunError(f"two outputs are called '{title}'", fix="give them other names", code="E404")
         for r in reductions if own is None else [own]:
-            result = title if r is None else f"{r} {title}"
+            result = title if r is None or (own and name) else f"{r} {title}"
             if "/" in result:
                 raise RunError(
                     f"'{result}' cannot be the name of a result, for its '/'", fix="name it: half=theta/2", code="E702"
@@ -417,7 +417,7 @@ def _task(model: Model, varying: Varying, wanted: Wanted, drive: Driving, study:
             **{plain(symbol): str(expr) for symbol, expr in drive.feedback.items()},
             **{u.name: _source(s) for u, s in zip(drive.free, drive.sources, strict=True)},
         },
-        "times": f"{len(times)} from {times[0]!r} to {times[-1]!r} #{_hash(times.tobytes())}",
+        "times": f"{len(times)} from {float(times[0])} to {float(times[-1])} #{_hash(times.tobytes())}",
         "method": study.method,
         "options": {k: v if np.isfinite(v) else str(v) for k, v in study.options.items()},
         "kept": [k.name for k in study.kept],

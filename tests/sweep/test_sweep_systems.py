@@ -1,5 +1,7 @@
 """Ensembles and sweeps of described systems, against closed forms and against single runs."""
 
+import csv
+
 import numpy as np
 import pytest
 import sympy as sp
@@ -223,3 +225,26 @@ def test_tables_for_others(oscillator: lg.System) -> None:
     assert data["x"].dims == ("run", "time")
     assert data["x(0)"].dims == ("run",)
     assert len(kept.to_pandas()) == 10
+
+
+def test_files(oscillator: lg.System, tmp_path) -> None:
+    import pandas
+    import xarray
+
+    runs = oscillator.sweep(1.0, ["k=1:4:4", "m~normal(1,0.01)"], samples=3, x=1.0, outputs=["x", "max x'"], **FINE)
+    for ending in (".csv", ".nc", ".parquet"):
+        path = runs.save(tmp_path / f"a{ending}")
+        with pytest.raises(lg.Error, match="exists"):
+            runs.save(path)
+        runs.save(path, overwrite=True)
+    with (tmp_path / "a.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    for name, column in runs.columns().items():
+        assert [float(row[name]) for row in rows] == column.tolist()
+    pandas.testing.assert_frame_equal(pandas.read_parquet(tmp_path / "a.parquet"), runs.to_pandas())
+    data = xarray.load_dataset(tmp_path / "a.nc", engine="h5netcdf")
+    np.testing.assert_array_equal(data["max x'"].values, runs["max x'"])
+    assert data["k"].attrs["units"] == "kg/s^2"
+    with pytest.raises(lg.ModelError, match="names no kind of file"):
+        runs.save(tmp_path / "a.xls")
+    assert len(list(tmp_path.iterdir())) == 3

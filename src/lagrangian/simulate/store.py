@@ -85,7 +85,7 @@ class Store:
         if len(marks) != len(portions):
             self.close()
             raise RunError(
-                f"'{path}' is damaged: its list of finished chunks is cut off", code="E802", fix="start anew"
+                f"'{path}' is damaged: its list of finished chunks is cut off", code="E803", fix="start anew"
             )
         self.done = marks.astype(bool)
         self._arrays = {name: group[name] for name in group.attrs[KEY]["results"]}
@@ -124,7 +124,7 @@ def create(path: Path, plan: Plan, *, overwrite: bool = False) -> Store:
         raise Error(
             f"'{path}' exists",
             fix="go on where it stopped with resume, replace it with overwrite, or take another name",
-            code="E801",
+            code="E802",
         )
     with _explained(path, "make"):
         if not path.resolve().parent.is_dir():
@@ -188,7 +188,7 @@ def resume(path: Path, plan: Plan) -> Store:
     if differing:
         raise RunError(
             f"'{path}' holds another task: " + "; ".join(differing),
-            code="E802",
+            code="E803",
             fix="repeat the task it was made for, or take another name for this one",
         )
     return Store(path, group, Portions(plan.portions.shape, tuple(kept["block"])))
@@ -207,10 +207,10 @@ def _kept(zarr: Any, path: Path, mode: str) -> tuple[Any, dict[str, Any]]:
         group = zarr.open_group(path, mode=mode)
         kept = group.attrs[KEY]
     except (KeyError, ValueError, FileNotFoundError, FileExistsError, NotADirectoryError):
-        raise Error(f"'{path}' is no store of a sweep", fix="name one that a sweep made", code="E802") from None
+        raise Error(f"'{path}' is no store of a sweep", fix="name one that a sweep made", code="E803") from None
     if kept.get("format") != FORMAT:
         raise Error(
-            f"'{path}' has format {kept.get('format')}, known is {FORMAT}", fix="use the version it is of", code="E802"
+            f"'{path}' has format {kept.get('format')}, known is {FORMAT}", fix="use the version it is of", code="E803"
         )
     return group, kept
 
