@@ -50,6 +50,8 @@ def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
             broken = _not_finite(task, outcome)
             if broken:
                 return broken, "look for a division by zero or a root of a negative number there"
+            if said.startswith("["):  # the solver kept what an evaluation said
+                return said, "a finite value everywhere the run may get to"
             return f"[E504] {said}", _gentler(task, outcome)
         case s if s == TOO_MANY:
             return f"[E505] gave up after {outcome.steps} steps", "a shorter run, a larger max_steps, or method='Radau'"

@@ -29,6 +29,10 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
+ROUNDING = 1e-13
+"""Energy supplied below this share of the energy that moves is none."""
+
+
 @dataclass(frozen=True)
 class Audit:
     """How well a run keeps its energy balance h(t) = h(0) + energy supplied, h = q̇·∂L/∂q̇ − L.
@@ -161,14 +165,14 @@ class Trajectory:
     @cached_property
     def audit(self) -> Audit:
         """The energy balance as a figure."""
-        conserved = not self.supplied.any()
         if not len(self.t):
-            return Audit(0.0, 0.0, conserved)
-        V = self.potential
-        scale = max(np.max(np.abs(self.kinetic)), np.max(V) - np.min(V), np.max(np.abs(self.supplied)))
+            return Audit(0.0, 0.0, True)
+        T, V, W = self.kinetic, self.potential, self.supplied
+        given = float(np.max(np.abs(W)))
+        scale = max(float(np.max(np.abs(T))), float(np.ptp(V)), given)
         worst = int(np.argmax(np.abs(self.imbalance)))
         largest = abs(float(self.imbalance[worst]))
-        return Audit(largest / float(scale) if largest else 0.0, float(self.t[worst]), conserved)
+        return Audit(largest / scale if largest else 0.0, float(self.t[worst]), given <= ROUNDING * scale)
 
     @cached_property
     def points(self) -> Mapping[str, Array]:

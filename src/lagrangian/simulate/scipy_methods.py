@@ -81,6 +81,7 @@ class _Field:
     def __init__(self, rhs: Any, jacobian: Any, p: Array, nx: int) -> None:
         self.rhs, self.jacobian, self.p = rhs, jacobian, p
         self.evaluations = self.trouble = 0
+        self.why = ""  # the latest evaluation that was not finite
         self.nothing = np.full(nx, np.nan)
         self.u: Control = lambda t, x: np.empty(0)
 
@@ -91,7 +92,7 @@ class _Field:
         except RunError as error:
             if error.code not in ("E502", "E503"):
                 raise
-            self.trouble += 1
+            self.trouble, self.why = self.trouble + 1, f"[{error.code}] {error.what}"
             if self.trouble > MAX_NOT_FINITE:
                 raise _NotFiniteError from None
             return self.nothing
@@ -137,7 +138,7 @@ def integrate_scipy(
             else:
                 march.status = 0
         except _NotFiniteError:
-            march.status, march.reason = -2, "the right-hand side is not finite there, however small the step"
+            march.status, march.reason = -2, march.f.why
     return march.outcome()
 
 
@@ -202,7 +203,8 @@ class _March:
 
     def _failed(self, words: str | None) -> None:
         broken = self.f.trouble > 0
-        self.status, self.reason = (-2 if broken else -1), (words or "").strip().rstrip(".")
+        self.status = -2 if broken else -1
+        self.reason = self.f.why if broken else (words or "").strip().rstrip(".")
 
     def _advance(self, solver: Any, leg: Leg) -> bool:
         """Take in one step up to its end, or to an event that stops or changes the state; return whether it did."""

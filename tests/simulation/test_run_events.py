@@ -1,0 +1,109 @@
+"""Events: when they are found, what they change, and how runs end by them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from run_systems import ball, oscillator
+
+import lagrangian as lg
+
+METHODS = ["dop853", "tsit5", "DOP853", "Radau"]
+FALL = np.sqrt(2 / 9.81)
+
+
+def bounce(s: lg.System) -> lg.Event:
+    y = s["y"]
+    return lg.event(y, direction=-1, reset={y.diff(): -s["e"] * y.diff()}, name="bounce")
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_ball_bounces_when_it_should(method: str) -> None:
+    s = ball(e=0.5)
+    run = s.simulate(1.3, y=1.0, events=bounce(s), method=method, samples=14)
+    assert run.success
+    assert run.events["bounce"].t == pytest.approx(FALL * np.array([1, 2, 2.5, 2.75, 2.875]), rel=1e-9)
+    assert run.events["bounce"].y[0] == pytest.approx(np.zeros(5), abs=1e-9)
+    assert run.events["bounce"].y[1] == pytest.approx(-9.81 * FALL * 0.5 ** np.arange(5), rel=1e-8)
+    assert float(run.audit) < 1e-9  # what the impacts take is accounted for
+    assert run.energy[-1] < 0.02 * run.energy[0]
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_ball_that_never_stops_bouncing_ends_the_run(method: str) -> None:
+    s = ball(e=0.5)
+    run = s.simulate(2.0, y=1.0, events=bounce(s), method=method)
+    assert not run.success and run.status == -4
+    assert "event 'bounce' repeats itself without end" in run.message
+    assert run.t[-1] == pytest.approx(3 * FALL, rel=1e-6)
+    assert np.all(np.isfinite(run.y))
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_terminal_event_ends_the_run_there(method: str) -> None:
+    s = ball()
+    half = lg.event(s["y"] - 0.5, terminal=True, name="half")
+    run = s.simulate(1.0, y=1.0, events=[half], method=method, samples=11)
+    assert run.success and run.status == 1
+    assert "event 'half' ended the run" in run.message
+    assert run.t[-1] == pytest.approx(np.sqrt(1 / 9.81), rel=1e-10)
+    assert run["y"][-1] == pytest.approx(0.5, abs=1e-10)
+
+
+@pytest.mark.parametrize("method", METHODS)
+@pytest.mark.parametrize(("direction", "wanted"), [(0, [1, 3, 5]), (1, [3]), (-1, [1, 5])])
+def test_crossings_are_found_in_the_direction_asked_for(method: str, direction: int, wanted: list[int]) -> None:
+    s = oscillator(m=1.0, k=1.0, b=0.0)
+    run = s.simulate(9.0, q=1.0, events=lg.event(s["q"], direction, name="zero"), method=method, rtol=1e-10)
+    assert run.events["zero"].t == pytest.approx(np.array(wanted) * np.pi / 2, rel=1e-6)
+
+
+def test_events_may_read_inputs_parameters_and_time() -> None:
+    s = oscillator(m=1.0, k=1.0, b=0.0)
+    asked = [
+        lg.event(s["F"] - 1, name="pushed"),
+        lg.event(s.t - 0.25, name="alarm"),
+        lg.event(s["k"] * s["q"] - 0.5, name="soft"),
+    ]
+    run = s.simulate(2.0, q=1.0, events=asked, inputs={"F": "2*t"})
+    assert run.events["alarm"].t == pytest.approx([0.25])
+    assert run.events["pushed"].t == pytest.approx([0.5])
+    assert np.interp(run.events["soft"].t, run.t, run["q"]) == pytest.approx(
+        0.5 * np.ones(len(run.events["soft"])), abs=1e-4
+    )
+
+
+def test_a_run_may_change_coordinates_too() -> None:
+    """A point that is put back to the start whenever it arrives."""
+    s = lg.System("conveyor")
+    x = s.coordinate("x")
+    s.particle(s.parameter("m", 1.0), at=s.origin + (x, 0))
+    back = lg.event(x - 1, direction=1, reset={x: 0 * x}, name="back")
+    run = s.simulate(3.5, initial={"x'": 1.0}, events=back, times=None, samples=36)
+    assert run.events["back"].t == pytest.approx([1.0, 2.0, 3.0])
+    assert run["x"][-1] == pytest.approx(0.5)
+
+
+def test_symplectic_runs_have_events_and_resets() -> None:
+    s = ball(e=0.5)
+    run = s.simulate(1.0, y=1.0, events=bounce(s), method="gauss4", step=1e-3, samples=11)
+    assert run.success
+    assert run.events["bounce"].t == pytest.approx(FALL * np.array([1, 2]), abs=1e-6)
+    assert run.events["bounce"].y[1] == pytest.approx(-9.81 * FALL * np.array([1, 0.5]), rel=1e-5)
+
+
+def test_events_that_make_no_sense_are_refused() -> None:
+    s = ball()
+    y = s["y"]
+    for make, words in (
+        (lambda: lg.event(y, direction=2), "direction of an event is"),
+        (lambda: lg.event(3), "never changes"),
+        (lambda: lg.event("y"), "SymPy expression"),
+        (lambda: lg.event(y, reset=[1]), "reset must be a mapping"),
+        (lambda: s.simulate(1, y=1, events=[y]), "made with lagrangian.event"),
+        (lambda: s.simulate(1, y=1, events=[lg.event(y), lg.event(y)]), "two events are called 'y'"),
+        (lambda: s.simulate(1, y=1, events=lg.event(y, reset={s["m"]: 2})), "sets 'm', which is no state"),
+        (lambda: s.simulate(1, y=1, events=lg.event(lg.System("other").coordinate("z"))), "unknown symbol 'z'"),
+    ):
+        with pytest.raises((lg.ModelError, lg.RunError), match=words):
+            make()
