@@ -9,6 +9,7 @@ from typing import Any
 
 from lagrangian import analyze, write
 from lagrangian.analyze import LinearizationAlong, Regulator, SymbolicLinearization, linearize_along
+from lagrangian.analyze.conserved_report import conserved_report
 from lagrangian.analyze.equilibria_report import equilibria_report
 from lagrangian.analyze.linear_report import linear_report
 from lagrangian.analyze.report import Report
@@ -89,6 +90,15 @@ class Equilibria(Written, analyze.Equilibria):
         return equilibria_report(self)
 
 
+@dataclass(frozen=True, eq=False)
+class ConservedQuantities(Written, analyze.ConservedQuantities):
+    """What every motion of a system keeps, a sequence of `analyze.Conserved`."""
+
+    def report(self) -> Report:
+        """Return the report."""
+        return conserved_report(self)
+
+
 def linearize(model: Model, at: Any, **options: Any) -> Linearization:
     """Return the linearization of a model about a point; see `analyze.linearize`."""
     data = analyze.linearize(model, at, **options)
@@ -101,4 +111,19 @@ def equilibria(model: Model, **options: Any) -> Equilibria:
     return Equilibria(**{f.name: getattr(data, f.name) for f in fields(data)})
 
 
-__all__ = ["Equilibria", "Linearization", "LinearizationAlong", "equilibria", "linearize", "linearize_along"]
+def conserved(model: Model, **options: Any) -> ConservedQuantities:
+    """Return the conserved quantities of a model; see `analyze.conserved`."""
+    data = analyze.conserved(model, **options)
+    return ConservedQuantities(**{f.name: getattr(data, f.name) for f in fields(data)})
+
+
+__all__ = [
+    "ConservedQuantities",
+    "Equilibria",
+    "Linearization",
+    "LinearizationAlong",
+    "conserved",
+    "equilibria",
+    "linearize",
+    "linearize_along",
+]

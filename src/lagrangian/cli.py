@@ -8,7 +8,7 @@ import sys
 
 import typer
 
-from lagrangian.commands import derive, equilibria, export, linearize, simulate, start, sweep, verify
+from lagrangian.commands import conserved, derive, equilibria, export, linearize, simulate, start, sweep, verify
 from lagrangian.errors import Error, ModelError
 
 app = typer.Typer(
@@ -24,6 +24,7 @@ app.command()(verify.verify)
 app.command()(export.export)
 app.command()(linearize.linearize)
 app.command()(equilibria.equilibria)
+app.command()(conserved.conserved)
 app.command()(simulate.simulate)
 app.command()(sweep.sweep)
 app.command()(start.new)

@@ -10,7 +10,16 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import read
-from lagrangian.analysis import Equilibria, Linearization, LinearizationAlong, equilibria, linearize, linearize_along
+from lagrangian.analysis import (
+    ConservedQuantities,
+    Equilibria,
+    Linearization,
+    LinearizationAlong,
+    conserved,
+    equilibria,
+    linearize,
+    linearize_along,
+)
 from lagrangian.analyze import check_dimensions
 from lagrangian.analyze.change import carried
 from lagrangian.analyze.motion import verify_motion
@@ -321,6 +330,10 @@ class System:
         """
         check_dimensions(self.model)
         return Compiled(self.model, lanes=lanes, threads=threads)
+
+    def conserved(self, *, params: Mapping[Any, Any] | None = None) -> ConservedQuantities:
+        """Return what every motion keeps: momenta of ignorable coordinates, total momenta, energy, each verified."""
+        return conserved(self.model, params=params)
 
     def equilibria(
         self,

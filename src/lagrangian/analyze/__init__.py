@@ -1,6 +1,7 @@
-"""Is it right, and what does it do? Verification, dimensions, rests, linearization."""
+"""Is it right, and what does it do? Verification, dimensions, rests, linearization, what is conserved."""
 
 from lagrangian.analyze.along import LinearizationAlong, linearize_along
+from lagrangian.analyze.conserved import Conserved, ConservedQuantities, conserved
 from lagrangian.analyze.dimensions import check_dimensions
 from lagrangian.analyze.equilibria import Equilibria, Equilibrium, equilibria
 from lagrangian.analyze.linearize import Linearization, linearize
@@ -9,6 +10,8 @@ from lagrangian.analyze.symbolic import SymbolicLinearization, symbolic
 from lagrangian.analyze.verify import verify
 
 __all__ = [
+    "Conserved",
+    "ConservedQuantities",
     "Equilibria",
     "Equilibrium",
     "Linearization",
@@ -16,6 +19,7 @@ __all__ = [
     "Regulator",
     "SymbolicLinearization",
     "check_dimensions",
+    "conserved",
     "equilibria",
     "linearize",
     "linearize_along",

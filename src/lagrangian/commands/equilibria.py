@@ -6,6 +6,7 @@ from typing import Annotated
 
 import typer
 
+from lagrangian import write
 from lagrangian.commands.assignments import assignments
 from lagrangian.commands.terminal import Example, OptionalFile, Output, open_system, put
 
@@ -30,7 +31,7 @@ def equilibria(
         box={name: _ends(name, side) for name, side in assignments(box, "--box").items()},
         samples=samples,
     )
-    put(found.to_json() if json else found.to_text(width=width), output)
+    put(write.write_report(found.report(), "json" if json else "text", width=width), output)
 
 
 def _ends(name: str, side: str) -> tuple[str, str]:

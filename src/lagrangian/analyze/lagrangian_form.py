@@ -1,0 +1,121 @@
+"""L, Ξ and what follows from them in normal form: momenta, forces, the rate of the energy."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, cast
+
+import sympy as sp
+
+from lagrangian.derive.algebra import Algebra, Form
+from lagrangian.errors import ModelError
+from lagrangian.model import Model, time
+
+
+@dataclass(frozen=True, eq=False)
+class LagrangianForm:
+    """A model's Lagrangian L = T* − V and generalized forces Ξ, and the algebra they live in."""
+
+    model: Model
+    T: sp.Expr
+    V: sp.Expr
+    Xi: tuple[sp.Expr, ...]
+
+    @classmethod
+    def of(cls, model: Model) -> LagrangianForm:
+        """The energies and forces of a model, definitions written out. Raises `ModelError` for a floating frame."""
+        if len(model.velocities) != len(model.coordinates):
+            raise ModelError(
+                f"system '{model.name}' has a floating frame, whose quaternion is no set of independent coordinates",
+                fix="describe the turn by angles (frames about axes)",
+                code="E416",
+            )
+        T, V = sp.S.Zero, sp.S.Zero
+        forces: list[Any] = [sp.S.Zero] * len(model.coordinates)
+        for element in model.elements:
+            T, V = T + element.kinetic(model), V + element.potential(model)
+            for action in element.works(model):
+                rate = model.expand(action.rate, constants=True)
+                effort = model.expand(action.effort, constants=True)
+                for i, c in enumerate(model.coordinates):
+                    forces[i] = forces[i] + effort * sp.diff(rate, c.rate)
+        T, V = (model.expand(cast("sp.Expr", e), constants=True) for e in (T, V))
+        return cls(model, T, V, tuple(forces))
+
+    @property
+    def q(self) -> tuple[Any, ...]:
+        """The coordinates."""
+        return tuple(c.symbol for c in self.model.coordinates)
+
+    @property
+    def v(self) -> tuple[Any, ...]:
+        """The rates."""
+        return tuple(c.rate for c in self.model.coordinates)
+
+    @cached_property
+    def algebra(self) -> Algebra:
+        """The ring of normal forms."""
+        return Algebra(self.model, [self.T, self.V, *self.Xi])
+
+    @cached_property
+    def kinetic(self) -> Form:
+        """T*."""
+        return self.algebra.form(self.T)
+
+    @cached_property
+    def potential(self) -> Form:
+        """V."""
+        return self.algebra.form(self.V)
+
+    @cached_property
+    def lagrangian(self) -> Form:
+        """L = T* − V."""
+        return self.kinetic - self.potential
+
+    @cached_property
+    def forces(self) -> tuple[Form, ...]:
+        """Ξ."""
+        return tuple(self.algebra.form(f) for f in self.Xi)
+
+    @cached_property
+    def momenta(self) -> tuple[Form, ...]:
+        """p_i = ∂L/∂ξ̇_i."""
+        return tuple(self.lagrangian.diff(v) for v in self.v)
+
+    @cached_property
+    def slopes(self) -> tuple[Form, ...]:
+        """∂L/∂ξ_i."""
+        return tuple(self.lagrangian.diff(q) for q in self.q)
+
+    @cached_property
+    def pushes(self) -> tuple[Form, ...]:
+        """What the momenta change at: ṗ_i = ∂L/∂ξ_i + Ξ_i."""
+        return tuple(a + b for a, b in zip(self.slopes, self.forces, strict=True))
+
+    @cached_property
+    def energy(self) -> Form:
+        """h = Σ ξ̇_i ∂L/∂ξ̇_i − L."""
+        parts = [p * self.algebra.form(v) for p, v in zip(self.momenta, self.v, strict=True)]
+        return self.algebra.total([*parts, -self.lagrangian])
+
+    @cached_property
+    def power(self) -> Form:
+        """What h changes at: dh/dt = Σ Ξ_i ξ̇_i − ∂L/∂t."""
+        parts = [f * self.algebra.form(v) for f, v in zip(self.forces, self.v, strict=True)]
+        return self.algebra.total([*parts, -self.lagrangian.diff(time)])
+
+    @property
+    def is_total(self) -> bool:
+        """Whether h is T* + V: T* homogeneous of degree two in the rates."""
+        return (self.energy - self.kinetic - self.potential).is_zero
+
+    @cached_property
+    def mass(self) -> list[list[Form]]:
+        """M_ij = ∂²T*/∂ξ̇_i∂ξ̇_j."""
+        return [[p.diff(v) for v in self.v] for p in self.momenta]
+
+    def at(self, form: Form, values: Mapping[Any, Any]) -> Form:
+        """The form with symbols replaced."""
+        return self.algebra.form(cast("sp.Expr", form.raw().xreplace(dict(values))))
