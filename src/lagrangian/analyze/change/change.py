@@ -259,23 +259,24 @@ def _checked(model: Model, change: Change) -> Change:
                 fix="its seven coordinates go together and cannot be replaced",
                 code="E210",
             )
-    rows = [i for i, c in enumerate(change.old) if change.table[c.symbol] != c.symbol]
-    columns = [j for j, c in enumerate(change.new) if j in rows]
-    if not rows:
-        return change
-    J = change.jacobian.extract(rows, columns)
-    n = len(rows)
-    sampler = Sampler(model, list(J.flat()))
+    if change.replaced:
+        check_regular(model, change)
+    return change
+
+
+def check_regular(model: Model, change: Change) -> None:
+    """Refuse a change whose J = ∂(old)/∂(new) has not full rank anywhere."""
+    n = len(change.old)
+    sampler = Sampler(model, list(change.jacobian.flat()))
     best, weakest = -1.0, np.zeros(n)
     for _, values in sampler.states(STATES, seed=3):
         _, s, vt = np.linalg.svd(np.array(values, float).reshape(n, n))
         if s[-1] / max(s[0], 1e-300) > best:
             best, weakest = s[-1] / max(s[0], 1e-300), vt[-1]
     if best < SMALLEST:
-        names = [change.new[j].name for j, w in zip(columns, weakest, strict=True) if abs(w) > 1e-6]
+        names = [c.name for c, w in zip(change.new, weakest, strict=True) if abs(w) > 1e-6]
         raise ModelError(
             f"the change is singular: {' and '.join(names)} can wiggle without moving an old coordinate",
             fix="the determinant of ∂(old)/∂(new) must not be 0 everywhere; use every new coordinate in its own way",
             code="E210",
         )
-    return change

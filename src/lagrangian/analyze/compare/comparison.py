@@ -1,0 +1,108 @@
+"""What a comparison of two systems found, as data."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import sympy as sp
+
+from lagrangian.analyze.change import Change
+from lagrangian.derive import Check, Derivation
+from lagrangian.derive.formula import Text
+
+
+@dataclass(frozen=True, eq=False)
+class Side:
+    """One of the two: its tag "A" or "B", its derivation, and the letter of its rows (a absolute, r relative)."""
+
+    tag: Literal["A", "B"]
+    derivation: Derivation
+    letter: str
+
+    def label(self, index: int) -> str:
+        """The label of an equation of motion, 1a or 2r."""
+        return f"{index + 1}{self.letter}"
+
+
+@dataclass(frozen=True)
+class Row:
+    """An equation of one set as a sum of rows of the other: ``label`` = Σ factors · ``of``."""
+
+    label: str
+    factors: tuple[sp.Expr, ...]
+    of: tuple[str, ...]
+    words: Text
+    check: Check
+
+    @property
+    def holds(self) -> bool:
+        """Whether it is so."""
+        return self.check.holds
+
+
+@dataclass(frozen=True)
+class Rewritten:
+    """An equation of the first set in the coordinates of the other: B-1, with its terms left and right."""
+
+    label: str
+    source: str
+    left: tuple[sp.Expr, ...]
+    right: tuple[sp.Expr, ...]
+
+
+@dataclass(frozen=True)
+class Difference:
+    """Where two systems differ: the step and quantity ("T*", "V", "Xi"), and what each has there from which element.
+
+    ``coordinate`` is the one whose Ξ it is. ``a`` and ``b`` are the contributions in the shared coordinates, ``term``
+    the first term of a − b; an element that one system has not is None.
+    """
+
+    step: int
+    quantity: Literal["T*", "V", "Xi"]
+    coordinate: str | None
+    a: sp.Expr
+    b: sp.Expr
+    term: sp.Expr
+    element_a: str | None
+    element_b: str | None
+
+
+@dataclass(frozen=True)
+class ParameterDifference:
+    """A parameter whose value differs, or that one system has not (``missing``: "A" or "B")."""
+
+    name: str
+    a: float | None
+    b: float | None
+    missing: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Comparison:
+    """Two systems side by side.
+
+    ``change`` says the coordinates ξ of ``source`` in those η of ``into``, with ``J`` = ∂ξ/∂η: each row of ``into`` is
+    Σ J_ij · (row i of ``source``, rewritten). ``rows`` says so for every equation of ``into``, ``back`` the other way.
+    ``same``: the equations are the same motion, and no parameter has another value. Where coordinates do not
+    correspond at all ``change`` is None and ``why`` says it.
+    """
+
+    a: Side
+    b: Side
+    source: Side
+    into: Side
+    same: bool
+    equations_same: bool
+    change: Change | None = None
+    J: sp.ImmutableMatrix | None = None
+    assumed: bool = False
+    rewritten: tuple[Rewritten, ...] = ()
+    rows: tuple[Row, ...] = ()
+    back: tuple[Row, ...] = ()
+    energies: tuple[Check, ...] = ()
+    forces: tuple[Check, ...] = ()
+    differences: tuple[Difference, ...] = ()
+    parameters: tuple[ParameterDifference, ...] = ()
+    why: Text | None = None
