@@ -127,8 +127,10 @@ def emit_inline(
 
 def _attributes(lanes: int) -> str:
     # Wide vectors are asked for by name: some processors' tuning avoids them. No call to a stack probe: on Windows that
-    # would be a symbol somebody has to provide, and frames here are far smaller than the guard's reach.
-    return f'nounwind "prefer-vector-width"="{lanes * 64}" "no-stack-arg-probe"'
+    # would be a symbol somebody has to provide, and frames here are far smaller than the guard's reach. The stack is
+    # aligned to a vector: what registers have no room for would otherwise straddle two cache lines, each and every one.
+    aligned = f" alignstack({8 * lanes})" if lanes > 2 else ""
+    return f'nounwind "prefer-vector-width"="{lanes * 64}" "no-stack-arg-probe"{aligned}'
 
 
 class _Printer:

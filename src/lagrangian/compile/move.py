@@ -12,6 +12,9 @@ from collections.abc import Callable, Iterable
 
 from .ir import Function, Module, Value
 
+SUMS = 4
+"""Sums of 0·x kept side by side: a single one would wait for itself longer than the moves take."""
+
 
 def emit_move(module: Module, lanes: int, n: int, *, gather: bool) -> str:
     """Print ``gather`` (array → block) or ``scatter`` (block → array) for rows of ``n`` entries; return its symbol.
@@ -96,9 +99,20 @@ class _Mover:
             vectors = [f.put(f"load {f.real}, ptr {slot}, align {8 * f.lanes}") for slot in slots]
             for piece, place in zip(self.parted(self.transposed(vectors, width), width), places, strict=True):
                 f.do(f"store {kind} {piece}, ptr {place}, align 8")
-        for x in vectors:
-            total = f.fma(Value(f, x), 0.0, total)
-        return total
+        return self.noted(vectors, total)
+
+    def noted(self, vectors: list[str], total: Value) -> Value:
+        """``total`` + Σ 0·x, as a few sums side by side."""
+        f = self.f
+        sums = [total]
+        for k, x in enumerate(vectors):
+            if 0 < k < SUMS:
+                sums.append(Value(f, x) * 0.0)
+            else:
+                sums[k % SUMS] = f.fma(Value(f, x), 0.0, sums[k % SUMS])
+        while len(sums) > 1:
+            sums = [a + b for a, b in zip(sums[::2], sums[1::2], strict=False)] + sums[len(sums) & ~1 :]
+        return sums[0]
 
     def joined(self, pieces: list[str], width: int) -> list[str]:
         """Vector k: the pieces of rows k, k + width, k + 2 width … one after the other."""
