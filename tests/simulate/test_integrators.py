@@ -39,7 +39,7 @@ def run(solver, x0, times, h, **more):
     return solver.solve(x0, times, step=h, **more)
 
 
-COUNTS = {"rk4": (400, 800), "tsit5": (200, 400), "dop853": (40, 80), "gauss4": (100, 200)}
+COUNTS = {"rk4": (800, 1600), "tsit5": (400, 800), "dop853": (60, 120), "gauss4": (100, 200)}
 """Steps in a period: enough for the leading term of the error, few enough to stay above rounding."""
 
 

@@ -11,8 +11,16 @@ from numpy.typing import NDArray
 
 from lagrangian.compile.arguments import Group, numbers
 from lagrangian.errors import RunError
+from lagrangian.graph import Program, reached
+
+from .integrators.jets import KINKS
+from .integrators.method import Method
+from .integrators.printer import UNROLLED
 
 Array = NDArray[np.float64]
+
+EXPANDED = 600
+"""Operations of the longest right-hand side that is expanded in series."""
 
 FAR = 1e15
 """Most steps that a fixed step length may ask for between two stop points."""
@@ -89,6 +97,26 @@ def tolerances(rtol: Any, atol: Any, size: int) -> tuple[float, Array]:
     if not np.all(np.isfinite(absolute)) or np.any(absolute <= 0):
         raise RunError("atol must be greater than 0", code="E501")
     return relative, np.ascontiguousarray(absolute)
+
+
+def suits(method: Method, program: Program) -> None:
+    """Raise where a method that expands the motion cannot serve a right-hand side."""
+    if not method.expands:
+        return
+    nodes = [program.graph.nodes[i] for i in reached(program.graph, program.ids)]
+    kinks = sorted({node[0] for node in nodes} & KINKS)
+    if kinks:
+        raise RunError(
+            f"method '{method.name}' needs a smooth right-hand side, and '{program.name}' has {', '.join(kinks)}",
+            code="E501",
+            fix="use method 'dop853'",
+        )
+    if len(program.inputs["x"]) > UNROLLED or len(nodes) > EXPANDED:
+        raise RunError(
+            f"'{program.name}' is too long for method '{method.name}': {len(nodes)} operations",
+            code="E501",
+            fix="use method 'dop853'",
+        )
 
 
 def lanes_wanted(lanes: int | None) -> None:

@@ -44,7 +44,7 @@ class Machine:
         def printer(module: Module, build: Build) -> None:
             Loop(module, build.program, method, variant, events).print()
 
-        name = f"{method.name} {variant!r} {_printer_version()} {_fingerprint(events, build)}"
+        name = f"{method.name} {method.order} {variant!r} {_printer_version()} {_fingerprint(events, build)}"
         self.variant = variant
         self._loaded = build.extended(name, printer)
         self.call = _RUN(self._loaded.address("run"))

@@ -68,10 +68,11 @@ class Solver:
         if strange := set(program.inputs) - GROUPS:
             raise RunError(f"group '{strange.pop()}' is none of x, u, p, t", code="E402")
         self.program, self.method = program, METHODS[method]
+        check.suits(self.method, program)
         self.events = None if events is None else events.checked(program)
         self.threads, self._lanes = threads, lanes
         self._keep = keep
-        self._machines: dict[Variant, Machine] = {}
+        self._machines: dict[tuple[Variant, int], Machine] = {}
         self._groups = {
             name: Group(name, tuple(entries), tuple(program.defaults.get(e) if name == "p" else None for e in entries))
             for name, entries in {**{"u": (), "p": ()}, **program.inputs}.items()
@@ -111,18 +112,19 @@ class Solver:
 
         Raises `RunError` where something does not fit; what fails on the way ends a run with a status (`STATUS`).
         """
-        task = _Task(self, x0, times, u, p, store)
+        task = _Task(self, x0, times, u, p, store, rtol)
         task.accuracy(rtol, atol, step, max_steps, max_step, max_events)
         return task.run(None if deadline is None else check.number(deadline, "deadline"))
 
-    def machine(self, count: int, own: bool, signals: bool) -> Machine:
+    def machine(self, count: int, own: bool, signals: bool, tolerance: float) -> Machine:
         """The machine code for so many runs."""
+        method = self.method.suited(tolerance)
         lanes = 1 if count == 1 else self._lanes or native.host().lanes
         variant = Variant(lanes, own or lanes == 1, signals, self.events is not None)
-        found = self._machines.get(variant)
+        found = self._machines.get((variant, method.order))
         if found is None:
-            found = Machine(build_of(self.program, lanes, self._keep), self.method, variant, self.events)
-            self._machines[variant] = found
+            found = Machine(build_of(self.program, lanes, self._keep), method, variant, self.events)
+            self._machines[variant, method.order] = found
         return found
 
 
@@ -135,7 +137,7 @@ def _rebuilt(
 class _Task:
     """One call of `Solver.solve`: its arrays, and the table of their addresses."""
 
-    def __init__(self, solver: Solver, x0: Any, times: Any, u: Any, p: Any, store: bool) -> None:
+    def __init__(self, solver: Solver, x0: Any, times: Any, u: Any, p: Any, store: bool, rtol: Any) -> None:
         self.solver, groups = solver, solver._groups
         self.times = check.instants(times)
         x0 = check.rows(groups["x"], x0, "state")
@@ -150,7 +152,8 @@ class _Task:
             shapes = ", ".join(f"{n} {a.shape}" for n, a in zip(("x0", "u", "p"), given, strict=True))
             raise RunError(f"the numbers of runs differ: {shapes}", code="E501", fix="one row each, or one for all")
         self.count = counts.pop() if counts else 1
-        self.machine = solver.machine(self.count, parameters.ndim == 2, signals is not None)
+        tolerance = check.number(rtol, "rtol")
+        self.machine = solver.machine(self.count, parameters.ndim == 2, signals is not None, tolerance)
         size, count, samples = x0.shape[-1], self.count, len(self.times)
         self.states = np.full((count, samples if store else 0, size), math.nan)
         self.final = np.array(np.broadcast_to(x0, (count, size)))

@@ -9,9 +9,10 @@ from .dop853 import DOP853
 from .gauss4 import GAUSS4
 from .method import Method
 from .rk4 import RK4
+from .taylor import TAYLOR
 from .tsit5 import TSIT5
 
-METHODS: Mapping[str, Method] = MappingProxyType({m.name: m for m in (RK4, TSIT5, DOP853, GAUSS4)})
+METHODS: Mapping[str, Method] = MappingProxyType({m.name: m for m in (RK4, TSIT5, DOP853, GAUSS4, TAYLOR)})
 """Every method of integration that is printed into machine code, by name."""
 
 __all__ = ["METHODS", "Method"]

@@ -50,6 +50,14 @@ class Tapes:
             found += size
         return found
 
+    def named(self, slot: int) -> tuple[str, int]:
+        """The group of an input slot, and its place there."""
+        for group, size in self.groups.items():
+            if slot < size:
+                return group, slot
+            slot -= size
+        raise IndexError(slot)
+
     def prologue(self, slot: int) -> None:
         """Print the computation of every lane's shared block from the parameters in ``slot`` and what follows."""
         p = self.p

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 ROUNDS = 16
 """Times of events in one step after which the step is cut."""
 
-SOON = 2.0**-50
+SOON = 2.0**-46
 """Part of t within which two resets count as one time."""
 
 GLANCE = 2.0**-10
@@ -148,15 +148,11 @@ class Watch:
 
     def suspicious(self, s: Step, inputs: Callable[[Value], Vec], ends: Sequence[Value]) -> str:
         """Where something happened by the end of the step or, roughly, by its middle."""
-        p, f = self.p, self.f
+        f = self.f
         flag = self.some(ends)
-        if not self.method.follows:  # the derivative at the end is not known yet
+        half = self.method.middle(s)
+        if half is None:
             return flag
-
-        def middle(x: Value, new: Value, k: Value, new_k: Value) -> Value:
-            return (x + new) * 0.5 + s.h * 0.125 * (k - new_k)
-
-        (half,) = p.map(middle, s.x, s.new_x, s.k, s.new_k)
         return f.logic("or", flag, self.some(self.value(inputs, s.t + s.h * 0.5, half)))
 
     def find(self, s: Step, coefficients: list[Vec], inputs: Callable[[Value], Vec], good: str, new_t: Value) -> None:

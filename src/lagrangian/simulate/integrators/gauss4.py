@@ -2,10 +2,10 @@
 
     k_i = f(t + c_i h, x + h Σ_j a_ij k_j)     x_new = x + h (k_1 + k_2)/2
 
-Applied to Hamilton's equations it is a variational integrator (J. E. Marsden, M. West, Acta Numerica 10 (2001) 357–514):
-it keeps quadratic invariants, and the energy stays near its first value for exponentially long times. The stages are
-iterated until rounding alone changes them, starting from the last step's polynomial, as what is left of an iteration
-would be a drift (Hairer, Lubich, Wanner, Geometric Numerical Integration, section VIII.6).
+Applied to Hamilton's equations it is a variational integrator (J. E. Marsden, M. West, Acta Numerica 10 (2001)
+357–514): it keeps quadratic invariants, and the energy stays near its first value for exponentially long times. The
+stages are iterated until rounding alone changes them, starting from the last step's polynomial, as what is left of an
+iteration would be a drift (Hairer, Lubich, Wanner, Geometric Numerical Integration, section VIII.6).
 """
 
 from __future__ import annotations

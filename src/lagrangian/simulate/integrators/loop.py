@@ -13,14 +13,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from lagrangian.compile.ir import Function, Module, Value
+from lagrangian.compile.ir import Module, Value
 
 from . import events
 from . import layout as at
 from .evaluate import Tapes
 from .events import Watch
+from .jets import Jets
 from .layout import Lanes
-from .method import Method, Step
+from .method import Method, Step, rough_power
 from .printer import Printer, Vec
 from .service import Service
 
@@ -29,10 +30,6 @@ if TYPE_CHECKING:
     from lagrangian.simulate.problem import Events
 
 SAFETY = 0.9
-
-# log2(1 + z) on 0 … 1 and 2^z on −½ … ½, least squares on Chebyshev points
-LOG2 = (1.439093e-05, 1.44159208, -0.707253434, 0.411561482, -0.189832447, 0.0439286278)
-EXP2 = (1.00000008, 0.693121034, 0.240221074, 0.0559220356, 0.0096760371)
 
 
 @dataclass(frozen=True)
@@ -135,7 +132,9 @@ class Loop:
             f.label("step")
         t, stop = p.load(lanes.t), p.load(lanes.stop)
         running = p.whole_is(p.load_whole(lanes.state), at.RUNNING)
-        if self.method.adaptive:
+        if self.method.expands:
+            self._expanding(t, stop, running)
+        elif self.method.adaptive:
             self._adaptive(t, stop, running)
         else:
             self._fixed(t, stop, running)
@@ -198,6 +197,52 @@ class Loop:
         p.store_whole(f.put(f"add {f.whole} {rejected}, {one}"), lanes.rejected)
         code = p.whole_select(finite, self._constant(at.UNDERFLOW), self._constant(at.NOT_FINITE))
         self._attend(running, f.logic("and", good, last), stuck, code)
+
+    def _expanding(self, t: Value, stop: Value, running: str) -> None:
+        """A step whose length follows from the expansion of the motion about its start."""
+        p, f, lanes = self.p, self.f, self.lanes
+        unit, rest = p.load(lanes.h), stop - t
+        s = self._step(t, unit, running)
+        wanted = self.method.expand(s, lambda states: self._jets(states, t, unit))
+        wanted = f.select(f.compare("ogt", wanted, self.max_step), self.max_step, wanted)
+        last = f.compare("ole", rest, wanted)
+        half = f.compare("olt", rest, wanted + wanted)
+        new_t = f.select(last, stop, t + f.select(half, rest * 0.5, wanted))
+        s.h, s.unit = new_t - t, unit
+        self.method.trial(s)
+        (trouble,) = p.fold(lambda total, x: (f.fma(x, 0.0, total),), [0.0], s.new_x)
+        gs, trouble = self._watched(s, new_t, trouble)
+        fine = f.compare("oeq", trouble, 0.0)
+        good = f.logic("and", running, fine)
+        stuck = f.logic("and", running, f.compare("ole", t + wanted * 0.125, t))
+        self._inspect(s, good, new_t, gs)
+        p.store(f.select(f.logic("and", good, f.compare("ogt", wanted, 0.0)), wanted, unit), lanes.h)
+        self._commit(s, good, new_t, gs)
+        broken = f.logic("or", stuck, f.logic("and", running, f.opposite(fine)))
+        code = p.whole_select(fine, self._constant(at.UNDERFLOW), self._constant(at.NOT_FINITE))
+        arrived = f.logic("and", f.logic("and", good, last), f.opposite(broken))
+        self._attend(running, arrived, broken, code)
+
+    def _jets(self, states: list[list[Value]], t: Value, unit: Value) -> Jets:
+        """The series of the right-hand side, the states' coefficients as far as they are known."""
+        tapes = self.tapes
+        return Jets(self.f, tapes.low.body, lambda i: self._leaf(tapes.low.body.ops[i], states, t, unit))
+
+    def _leaf(self, op: tuple, states: list[list[Value]], t: Value, unit: Value) -> tuple[list, bool]:
+        """The coefficients of a constant or an input, for time in units of ``unit``; whether it does not change."""
+        f, p = self.f, self.p
+        if op[0] == "const":
+            return [Value(f, f.constant(op[1]))], True
+        if op[0] == "shared":
+            own = self.tapes.own
+            return [f.load(p.at(self.tapes.shared) if own else self.shared, op[1], uniform=not own)], True
+        group, slot = self.tapes.named(op[1])
+        if group == "x":
+            return states[slot], False
+        if group == "t":
+            return [t, unit], False
+        now = p.read(self.inputs_at(t), slot)
+        return ([now, p.load(self.lanes.slope, slot) * unit], False) if self.signals else ([now], True)
 
     def _next_step(self, h: Value, wanted: Value, error: Value, good: str) -> tuple[Value, str]:
         """The next step's length; and where the error was a number at all."""
@@ -359,6 +404,9 @@ class Loop:
             self._spend(new, 1)
             self._spend(fresh, 1)
             (trouble,) = p.fold(lambda total, a: (f.fma(a, 0.0, total),), [0.0], lanes.k)
+        elif method.expands:  # any scale of time that keeps high powers of it within range
+            unit = (p.load(lanes.stop) - p.load(lanes.t)) * 2.0**-10
+            p.store(f.select(fresh, unit, p.load(lanes.h)), lanes.h)
         elif method.blocks:
             k = self.rate(p.load(lanes.t), lanes.x)
             self._spend(fresh, 1)
@@ -408,18 +456,3 @@ class Loop:
         best = f.select(f.compare("olt", second, hundred), second, hundred)
         best = f.select(f.compare("olt", best, float("inf")), best, h)  # the trial point may lie outside the domain
         return f.select(f.compare("ogt", best, self.max_step), self.max_step, best)
-
-
-def rough_power(f: Function, x: Value, exponent: float) -> Value:
-    """``x^exponent`` for x ≥ 0 to about four digits: enough for a step length, and the same in every lane width."""
-    bits = f.bits(x)
-    whole = f.whole_op("lshr", bits, 52)
-    mantissa = f.number(f.whole_op("or", f.whole_op("and", bits, 0xFFFFFFFFFFFFF), 0x3FF0000000000000))
-    e = f.number(f.whole_op("add", whole, 0x4338000000000000)) - (6755399441055744.0 + 1023.0)
-    log = f.polynomial(mantissa - 1.0, LOG2) + e
-    y = log * exponent
-    y = f.select(f.compare("ogt", y, 900.0), 900.0, f.select(f.compare("olt", y, -900.0), -900.0, y))
-    turned = y + 6755399441055744.0
-    fraction = y - (turned - 6755399441055744.0)
-    scale = f.number(f.whole_op("shl", f.whole_op("add", f.bits(turned), 1023), 52))
-    return f.polynomial(fraction, EXP2) * scale

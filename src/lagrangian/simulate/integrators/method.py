@@ -5,10 +5,18 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
-from lagrangian.compile.ir import Value
+from lagrangian.compile.ir import Function, Value
 
 from .printer import Printer, Vec
+
+# log2(1 + z) on 0 … 1 and 2^z on −½ … ½, least squares on Chebyshev points
+LOG2 = (1.439093e-05, 1.44159208, -0.707253434, 0.411561482, -0.189832447, 0.0439286278)
+EXP2 = (1.00000008, 0.693121034, 0.240221074, 0.0559220356, 0.0096760371)
+
+if TYPE_CHECKING:
+    from .jets import Jets
 
 Rate = Callable[..., Vec]  # (t, x, into) → f(t, x)
 
@@ -37,6 +45,7 @@ class Step:
     spend: Callable[[str, int], None]  # (flag, n): n more evaluations of the derivative where the flag holds
     memory: tuple[Vec, ...] = ()  # vectors and slots of the method's own, kept from step to step
     slots: tuple[int, ...] = ()
+    unit: Value | None = None  # the unit of time of an expansion
     stages: list[Vec] = field(default_factory=list)  # derivatives computed in the step, the first being k
 
     def advance(self, increment: Callable[..., Value], *given: Vec) -> None:
@@ -73,6 +82,7 @@ class Method(ABC):
     dense_evaluations: int = 0
     follows: bool = False
     limits: tuple[float, float] = (0.2, 10.0)  # how much the step size may change from step to step
+    expands: bool = False  # the length of a step follows from an expansion at its start
     blocks: int = 0  # vectors of its own, f(t, x) in each at first
     slots: int = 0  # single numbers of its own
     memory: float = 0.0  # weight of the previous step's error (PI control)
@@ -86,6 +96,24 @@ class Method(ABC):
     def dense_order(self) -> int:
         """The order of the values between the ends of a step."""
         return 3
+
+    def expand(self, s: Step, jets: Callable[[list[list[Value]]], Jets]) -> Value:
+        """Print the expansion at the start of a step; return the length of the step to take."""
+        raise TypeError(f"{self.name} does not expand")
+
+    def suited(self, tolerance: float) -> Method:
+        """The method for a relative tolerance, where that decides more than the length of steps."""
+        return self
+
+    def middle(self, s: Step) -> Vec | None:
+        """Roughly the state at the middle of a step, if that costs nothing much: Hermite's cubic."""
+        if not self.follows:
+            return None
+
+        def half(x: Value, new: Value, k: Value, new_k: Value) -> Value:
+            return (x + new) * 0.5 + s.h * 0.125 * (k - new_k)
+
+        return s.p.map(half, s.x, s.new_x, s.k, s.new_k)[0]
 
     @abstractmethod
     def trial(self, s: Step) -> Value | None:
@@ -124,3 +152,18 @@ class Method(ABC):
             return x + total
 
         return value
+
+
+def rough_power(f: Function, x: Value, exponent: float) -> Value:
+    """``x^exponent`` for x ≥ 0 to about four digits: enough for a step length, and the same in every lane width."""
+    bits = f.bits(x)
+    whole = f.whole_op("lshr", bits, 52)
+    mantissa = f.number(f.whole_op("or", f.whole_op("and", bits, 0xFFFFFFFFFFFFF), 0x3FF0000000000000))
+    e = f.number(f.whole_op("add", whole, 0x4338000000000000)) - (6755399441055744.0 + 1023.0)
+    log = f.polynomial(mantissa - 1.0, LOG2) + e
+    y = log * exponent
+    y = f.select(f.compare("ogt", y, 900.0), 900.0, f.select(f.compare("olt", y, -900.0), -900.0, y))
+    turned = y + 6755399441055744.0
+    fraction = y - (turned - 6755399441055744.0)
+    scale = f.number(f.whole_op("shl", f.whole_op("add", f.bits(turned), 1023), 52))
+    return f.polynomial(fraction, EXP2) * scale
