@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Any
 
 from lagrangian import analyze, derive, write
+from lagrangian.checking import CheckedAnswer, check_answer
 from lagrangian.model import Model
 from lagrangian.write import Notation
 
@@ -39,6 +40,15 @@ class Derivation(derive.Derivation):
     def verify(self, *, states: int = 50, seed: int = 1) -> tuple[derive.Check, ...]:
         """Check the equations by independent routes at random states; every check carries its figure."""
         return analyze.verify(self, states=states, seed=seed)
+
+    def check(self, answer: Any, *, hint: int = 3) -> CheckedAnswer:
+        """Return whether an answer is right, in which shape, or where it is wrong and why.
+
+        ``answer`` is plain text or LaTeX (equations, T = …, V = …, Ξ, whole hand derivations), a list of SymPy
+        equations, or energies by name. ``hint`` is how much the words give away: 0 right or not, 1 the line, 2 the
+        element and the step, 3 the term. Raises `ParseError` for a text that cannot be read.
+        """
+        return check_answer(self, answer, hint=hint)
 
     def _repr_html_(self) -> str:
         return write.to_html_fragment(self)

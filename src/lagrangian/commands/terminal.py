@@ -30,11 +30,12 @@ def open_system(file: str | None, example: str | None = None) -> System:
         return loads(examples.text(example), name=f"<example {example}>")
     assert file is not None
     if file == "-":
-        return loads(_standard_input(), name="<standard input>")
+        return loads(standard_input(), name="<standard input>")
     return load(file)
 
 
-def _standard_input() -> str:
+def standard_input() -> str:
+    """Return the text of standard input; raises `Error` where it is closed."""
     if sys.stdin is None:
         raise Error("standard input is closed", fix="name a model file, or pipe one in", code="E702")
     data = sys.stdin.buffer.read(read.MAX_BYTES + 1)

@@ -3,32 +3,81 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import sympy as sp
 
+from lagrangian.analyze.check.coordinates import Change, Glance, candidates
 from lagrangian.analyze.check.difference import differences, likeness, paired
+from lagrangian.analyze.check.lines import filled
+from lagrangian.analyze.check.mistakes import mistakes
 from lagrangian.analyze.check.rows import Comparison, Kind, Row, compare
+from lagrangian.analyze.check.spelling import Spelling, spelled
+from lagrangian.analyze.check.stated import Given, equations_follow, given, judge
 from lagrangian.analyze.check.truth import Truth, truth_of
 from lagrangian.analyze.check.verdict import Finding, Line, Status, Verdict
 from lagrangian.derive import Derivation
-from lagrangian.derive.formula import Text, text
+from lagrangian.derive.formula import Terms, Text, text
 
 
 def check(derivation: Derivation, lines: Sequence[Line], *, hint: int = 3) -> Verdict:
-    """Return what is right and what is wrong with an answer, line by line and as a whole."""
+    """Return what is right and what is wrong with an answer, line by line and as a whole.
+
+    Lines are checked in order; equality is decided in normal form, or with 50 digits where there is none.
+    """
     truth = truth_of(derivation)
-    equations = [line for line in lines if line.kind == "equation"]
-    exprs = [truth.expand(line.expr) for line in equations]
-    comparison = compare(truth, exprs)
-    status = overall(truth, comparison)
-    findings = equation_findings(truth, equations, exprs, comparison)
-    combination = None
-    if status.right and all(r.factors is not None for r in comparison.rows if r.true):
-        combination = tuple(r.factors for r in comparison.rows if r.factors is not None)
-    return Verdict(status, findings, combination=combination, hint=hint)
+    spelling = spelled(truth, filled(truth, lines))
+    judged = _judged(truth, spelling.lines)
+    verdict = Verdict(judged.status, judged.findings, notes=spelling.notes + judged.notes, hint=hint)
+    if judged.status.right or judged.status is Status.INCOMPLETE:
+        return replace(verdict, combination=judged.combination)
+    return _elsewhere(truth, spelling, verdict) or _explained(truth, spelling, judged, verdict)
 
 
-def overall(truth: Truth, comparison: Comparison) -> Status:
+@dataclass(frozen=True, eq=False)
+class Judged:
+    """The findings of all lines, and what they come to."""
+
+    status: Status
+    findings: tuple[Finding, ...]
+    comparison: Comparison
+    notes: tuple[Text, ...] = ()
+
+    @property
+    def combination(self) -> tuple[tuple[sp.Expr, ...], ...] | None:
+        """The factors of the answer's equations, where all were found."""
+        rows = [r for r in self.comparison.rows if r.kind is not Kind.NOTHING]
+        return tuple(r.factors or () for r in rows) if rows and all(r.factors is not None for r in rows) else None
+
+
+def _judged(truth: Truth, lines: Sequence[Line], change: Change | None = None) -> Judged:
+    """Judge every line, the equations together; with a change, everything is put into the system's coordinates."""
+    moved = lines if change is None else [replace(line, expr=change.put(line.expr)) for line in lines]
+    turn = change.turn(truth) if change is not None else None
+    equations = [line for line in moved if line.kind == "equation"]
+    comparison = compare(truth, [line.expr for line in equations])
+    above = given(truth, moved)
+    found = dict(zip(map(id, equations), _equations(truth, equations, comparison, above), strict=True))
+    findings: list[Finding] = []
+    for k, (line, own) in enumerate(zip(moved, lines, strict=True)):
+        if line.kind in ("definition", "statement"):
+            continue
+        finding = found[id(line)] if line.kind == "equation" else judge(truth, line, moved[:k], turn)
+        findings.append(replace(finding, line=own))
+    return Judged(*_overall(truth, comparison, findings), comparison, _missing(truth, comparison))
+
+
+def _overall(truth: Truth, comparison: Comparison, findings: Sequence[Finding]) -> tuple[Status, tuple[Finding, ...]]:
+    """The verdict on the whole: its worst line's, or what the equations come to together."""
+    statuses = [f.status for f in findings if f.line.kind != "equation"]
+    if comparison.rows:
+        statuses.append(of_equations(truth, comparison))
+    order = list(Status)
+    worst = max(statuses, key=order.index, default=Status.INCOMPLETE)
+    return worst, tuple(findings)
+
+
+def of_equations(truth: Truth, comparison: Comparison) -> Status:
     """The verdict on a set of equations."""
     rows = [r for r in comparison.rows if r.kind is not Kind.NOTHING]
     if any(r.kind is Kind.WRONG for r in rows):
@@ -43,14 +92,37 @@ def overall(truth: Truth, comparison: Comparison) -> Status:
     return Status.SAME_MOTION
 
 
-def equation_findings(
-    truth: Truth, lines: Sequence[Line], exprs: Sequence[sp.Expr], comparison: Comparison
-) -> tuple[Finding, ...]:
+def _missing(truth: Truth, comparison: Comparison) -> tuple[Text, ...]:
+    """What is missing in a set of right equations that is too small, in words."""
+    rows = comparison.rows
+    if not rows or comparison.rank >= truth.n or any(r.kind is Kind.WRONG for r in rows):
+        return ()
+    count = "one" if truth.n == 1 else str(truth.n)
+    plural = "" if truth.n == 1 else "s"
+    notes = [
+        text(
+            f"A system with {count} generalized coordinate{plural} has {count} equation{plural} of motion; yours say ",
+            f"{comparison.rank} independent thing{'' if comparison.rank == 1 else 's'}.",
+        )
+    ]
+    said = {r.index for r in rows if r.index is not None}
+    if len(said) == comparison.rank:
+        for i, c in enumerate(truth.model.coordinates):
+            if i not in said:
+                notes.append(text("The equation of ", c.symbol, " is missing."))
+    return tuple(notes)
+
+
+# -- equations --------------------------------------------------------------------------------------------------------
+
+
+def _equations(truth: Truth, lines: Sequence[Line], comparison: Comparison, above: Given) -> list[Finding]:
     """What was found of every equation; a wrong one is compared with the right one it is most like."""
     taken = [r.index for r in comparison.rows if r.true and r.index is not None]
     wrong = [j for j, r in enumerate(comparison.rows) if r.kind is Kind.WRONG]
-    forms = {j: truth.form(exprs[j]) for j in wrong}
+    forms = {j: truth.form(lines[j].expr) for j in wrong}
     pairs = dict(zip(wrong, paired([likeness(forms[j], truth.forms) for j in wrong], taken), strict=True))
+    follow = dict(zip(wrong, equations_follow(truth, [lines[j].expr for j in wrong], above), strict=True))
     found: list[Finding] = []
     for j, (line, row) in enumerate(zip(lines, comparison.rows, strict=True)):
         if row.kind is not Kind.WRONG:
@@ -59,11 +131,11 @@ def equation_findings(
         like, form = pairs[j], forms[j]
         right = truth.forms[like.index] if like is not None else None
         if like is None or form is None or right is None:
-            found.append(Finding(line, Status.WRONG))
+            found.append(Finding(line, Status.WRONG, follows=follow[j]))
             continue
         differing = differences(truth, form, right, like.factor, like.index)
-        found.append(Finding(line, Status.WRONG, None, _name(truth, like.index), differing))
-    return tuple(found)
+        found.append(Finding(line, Status.WRONG, None, _name(truth, like.index), differing, follow[j]))
+    return found
 
 
 def _name(truth: Truth, index: int | None) -> str | None:
@@ -82,6 +154,57 @@ def _note(truth: Truth, row: Row) -> Text | None:
     """What a true row is made of, in words."""
     if row.kind is Kind.NOTHING:
         return text("says 0 = 0")
-    if row.kind is Kind.SCALED and row.factors is not None and row.index is not None:
-        return text(f"equation {row.index + 1} times ", row.factors[row.index])
+    if row.kind is Kind.SCALED and row.index is not None:
+        times = row.factors[row.index] if row.factors is not None else "a factor"
+        return text("the equation of ", truth.derivation.coordinates[row.index], ", times ", times)
+    if row.factors is not None and row.kind in (Kind.COMBINED, Kind.TURNED):
+        parts: list[sp.Expr | str | Terms] = []
+        for factor, q in zip(row.factors, truth.derivation.coordinates, strict=True):
+            if factor != 0:
+                parts += [
+                    " and " if parts else "",
+                    *(("" if factor == 1 else factor), " times " if factor != 1 else ""),
+                ]
+                parts += ["the equation of ", q]
+        return text("the sum of ", *parts)
+    if row.kind is Kind.TURNED:
+        return text("the equations added with factors that depend on where the system is")
+    if row.kind is Kind.CONSEQUENCE:
+        return text("true whenever the right equations hold")
     return None
+
+
+# -- other coordinates, and what went wrong ---------------------------------------------------------------------------
+
+
+def _elsewhere(truth: Truth, spelling: Spelling, verdict: Verdict) -> Verdict | None:
+    """The verdict in other coordinates, where the answer is right in some; a mistake goes before an unspoken change."""
+    glance = Glance(truth, spelling.lines)
+    for change in candidates(truth, spelling.lines):
+        if not glance.may_be(change):
+            continue
+        judged = _judged(truth, spelling.lines, change)
+        if not judged.status.right and judged.status is not Status.INCOMPLETE:
+            continue
+        if not change.plain:
+            named = mistakes(truth, spelling.lines, verdict.findings)
+            if named.certain:
+                note = text("It would be right with ", *change.words.parts, ".")
+                return replace(verdict, mistakes=named.told, alternatives=named.others, notes=(*verdict.notes, note))
+        status = Status.OTHER_COORDINATES if judged.status.right else judged.status
+        notes = (*spelling.notes, text("In other coordinates: ", *change.words.parts, "."), *judged.notes)
+        return Verdict(
+            status,
+            judged.findings,
+            combination=judged.combination,
+            change=change.table,
+            notes=notes,
+            hint=verdict.hint,
+        )
+    return None
+
+
+def _explained(truth: Truth, spelling: Spelling, judged: Judged, verdict: Verdict) -> Verdict:
+    """The verdict with the mistakes that explain it."""
+    named = mistakes(truth, spelling.lines, judged.findings)
+    return replace(verdict, mistakes=named.told, alternatives=named.others)

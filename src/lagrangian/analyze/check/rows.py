@@ -79,6 +79,22 @@ def small(values: Array, scale: Array | float) -> bool:
     return bool(np.isfinite(values).all() and (np.abs(values) <= CLOSE * np.maximum(scale, 1e-300)).all())
 
 
+def zero_everywhere(truth: Truth, expr: sp.Expr) -> bool:
+    """Whether an expression vanishes identically: in normal form, else with 50 digits at several states."""
+    if expr == 0:
+        return True
+    compiled = Compiled([expr])
+    values = compiled.at(truth.states)[0]
+    values = values[np.isfinite(values)]
+    if not len(values) or np.abs(values).max() > 1e-6:
+        return False
+    if (form := truth.form(expr)) is not None:
+        return form.is_zero
+    step = max(1, truth.states.size // SURE)
+    found = [compiled.exactly(truth.states, i)[0] for i in range(0, truth.states.size, step)]
+    return all(abs(x) < EXACTLY for x in found if mpmath.isfinite(x))
+
+
 def _factors(truth: Truth, P: Array) -> tuple[Array, Array]:
     """A (blocks, k, n) by least squares in every place, and which rows are wholly in the span."""
     W, k = truth.W, len(P)

@@ -43,8 +43,9 @@ class Line:
     def title(self) -> str:
         """The line in words."""
         what = {"T": "T*", "V": "V", "L": "L", "D": "D"}.get(self.kind)
-        if self.kind == "Xi":
-            what = f"Ξ of {self.name}"
+        if self.kind in ("Xi", "p", "p-rate", "slope"):
+            letter = {"Xi": "Ξ", "p": "∂L/∂ξ̇", "p-rate": "d/dt ∂L/∂ξ̇", "slope": "∂L/∂ξ"}[self.kind]
+            what = f"{letter} of {self.name}"
         return f"line {self.number}" + (f" ({what})" if what else "")
 
 

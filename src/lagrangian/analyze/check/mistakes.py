@@ -1,0 +1,106 @@
+"""Which mistakes are told: those that explain the first wrong line, and as many of the others as can be."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from lagrangian.analyze.check.effects import Effects, Wrong, effects_of
+from lagrangian.analyze.check.explain import Explanation, explain_rows
+from lagrangian.analyze.check.numbers import SETS, Array, Compiled
+from lagrangian.analyze.check.rows import CLOSE
+from lagrangian.analyze.check.stated import index_of
+from lagrangian.analyze.check.truth import Truth
+from lagrangian.analyze.check.verdict import Finding, Line, Mistake, Status
+
+
+@dataclass(frozen=True)
+class Named:
+    """The mistakes that explain an answer, the likeliest set first; ``others`` explain it as well.
+
+    ``certain``: one mistake of a particular kind explains everything.
+    """
+
+    told: tuple[Mistake, ...] = ()
+    others: tuple[Mistake, ...] = ()
+    certain: bool = False
+
+
+def mistakes(truth: Truth, lines: Sequence[Line], findings: Sequence[Finding]) -> Named:
+    """Find the mistakes behind the wrong lines; lines that follow from others need no explanation of their own."""
+    wrong = [f.line for f in findings if f.status is Status.WRONG and not f.follows]
+    if not wrong:
+        return Named()
+    equations = [line for line in lines if line.kind == "equation"] if any(w.kind == "equation" for w in wrong) else []
+    groups: list[list[Explanation]] = []
+    for line in [w for w in wrong if w.kind != "equation"]:
+        groups.append([Explanation((w,), 0) for w in _explain_line(truth, line)])
+    if equations:
+        groups.append(explain_rows(truth, [line.expr for line in equations]))
+    groups = [g for g in groups if g]
+    if not groups:
+        return Named()
+    return _named(truth, groups)
+
+
+def _named(truth: Truth, groups: Sequence[Sequence[Explanation]]) -> Named:
+    """One mistake that explains every group, else the best of each group in turn."""
+    held = [{w for e in g if len(e.wrongs) == 1 for w in e.wrongs} for g in groups]
+    shared = set.intersection(*held) if all(held) else set()
+    first = [e for e in groups[0] if e.wrongs[0] in shared and len(e.wrongs) == 1] if shared else list(groups[0])
+    best = first[0]
+    told = [w.mistake(truth) for w in best.wrongs]
+    if not shared:
+        for group in groups[1:]:
+            if not any(w in best.wrongs for e in group for w in e.wrongs):
+                told += [w.mistake(truth) for w in group[0].wrongs]
+    others = _once([w.mistake(truth) for e in first[1:] for w in e.wrongs], told)
+    certain = (bool(shared) or len(groups) == 1) and len(best.wrongs) == 1 and not best.wrongs[0].general
+    return Named(tuple(told), others[:5], certain and best.plainness < 2)
+
+
+def _once(mistakes: Sequence[Mistake], told: Sequence[Mistake]) -> tuple[Mistake, ...]:
+    """Every misconception once, without those that were told."""
+    names = {m.name for m in told}
+    kept: list[Mistake] = []
+    for m in mistakes:
+        if m.name not in names:
+            names.add(m.name)
+            kept.append(m)
+    return tuple(kept)
+
+
+def _explain_line(truth: Truth, line: Line) -> list[Wrong]:
+    """The variants that give a line of T*, V, L or a Ξ, the likeliest first."""
+    i = index_of(truth, line.name)
+    if line.kind not in ("T", "V", "L", "Xi") or (line.kind == "Xi" and i is None):
+        return []
+    effects = effects_of(truth)
+    right = {"T": truth.T, "V": truth.V, "L": truth.L}.get(line.kind)
+    if right is None:
+        assert i is not None
+        right = truth.Xi[i]
+    rest = Compiled([line.expr - right]).at(truth.states)[0]
+    if not np.isfinite(rest).all():
+        return []
+    change = _changes(effects, line.kind, i)
+    if line.kind in ("V", "L"):
+        rest, change = _without_constant(rest), _without_constant(change)
+    scale = max(float(np.abs(rest).max()), 1e-300)
+    fits = np.logical_and(effects.usable, np.abs(change - rest).max(axis=1) <= CLOSE * scale)
+    found = [effects.wrongs[k] for k in np.flatnonzero(fits)]
+    return sorted(found, key=lambda w: (w.general, w.rank))
+
+
+def _changes(effects: Effects, kind: str, i: int | None) -> Array:
+    if kind == "Xi":
+        return effects.Xi[:, i]
+    return {"T": effects.T, "V": effects.V, "L": effects.L}[kind]
+
+
+def _without_constant(values: Array) -> Array:
+    """Values less that of the first state with the same parameters."""
+    shaped = values.reshape(*values.shape[:-1], SETS, -1)
+    return (shaped - shaped[..., :1]).reshape(values.shape)

@@ -1,0 +1,144 @@
+"""What `System.check` and `Derivation.check` return: the verdict on an answer, with the ways of writing it."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+from collections import Counter
+from dataclasses import dataclass, fields
+from pathlib import Path
+from typing import Any
+
+from lagrangian.analysis import Written
+from lagrangian.analyze import check
+from lagrangian.analyze.report import Report
+from lagrangian.derive import Derivation
+from lagrangian.errors import Error, ModelError
+from lagrangian.model import Model
+from lagrangian.read import MAX_BYTES, Answer, decode, parse_answer
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class CheckedAnswer(Written, check.Verdict):
+    """Whether an answer is right, in which shape, or where it is wrong and why; see `analyze.check.Verdict`."""
+
+    model: Model
+
+    def report(self) -> Report:
+        """Return the verdict as words and tables, as much as ``hint`` gives away."""
+        return check.report(self, self.model)
+
+
+def check_answer(derivation: Derivation, answer: Any, *, hint: int = 3, name: str | None = None) -> CheckedAnswer:
+    """Check an answer: text or LaTeX, an `Answer` that was read, SymPy equations, or energies by name.
+
+    ``hint`` is how much the words give away: 0 right or not, 1 the line, 2 the element and the step, 3 the term.
+    ``name`` is the answer's file, for messages. Raises `ParseError` for a text that cannot be read, with its place.
+    """
+    if isinstance(hint, bool) or hint not in (0, 1, 2, 3):
+        raise ModelError(f"a hint has a level from 0 to 3 (got {hint})", fix="hint=2", code="E406")
+    if isinstance(answer, str):
+        answer = parse_answer(answer, derivation.model, name=name)
+    lines = check.lines_of(answer) if isinstance(answer, Answer) else check.lines_from(answer)
+    verdict = check.check(derivation, lines, hint=hint)
+    values = {f.name: getattr(verdict, f.name) for f in fields(verdict)}
+    return CheckedAnswer(**values, model=derivation.model)
+
+
+@dataclass(frozen=True)
+class FolderRow:
+    """One answer of a folder: its file, the verdict (None where it could not be read), and what was wrong in words."""
+
+    file: str
+    verdict: CheckedAnswer | None
+    trouble: str = ""
+
+    @property
+    def mistakes(self) -> tuple[str, ...]:
+        """The names of the mistakes; "unexplained" where it is wrong and none was found."""
+        if self.verdict is None or self.verdict.status.right:
+            return ()
+        if self.verdict.status is check.Status.INCOMPLETE:
+            return ("incomplete",)
+        return tuple(m.name for m in self.verdict.mistakes) or ("unexplained",)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data."""
+        found = self.verdict.to_dict() if self.verdict is not None else None
+        return {"file": self.file, "verdict": found, "mistakes": list(self.mistakes), "trouble": self.trouble or None}
+
+
+@dataclass(frozen=True)
+class CheckedFolder:
+    """The verdicts on a folder of answers, and how often each mistake was made, the most frequent first."""
+
+    rows: tuple[FolderRow, ...]
+
+    @property
+    def all_right(self) -> bool:
+        """Whether every answer could be read and is right."""
+        return all(row.verdict is not None and row.verdict.right for row in self.rows)
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How many answers show each mistake."""
+        found = Counter(name for row in self.rows for name in dict.fromkeys(row.mistakes))
+        found.update("unreadable" for row in self.rows if row.verdict is None)
+        return dict(sorted(found.items(), key=lambda x: (-x[1], x[0])))
+
+    def to_csv(self) -> str:
+        """Return the counts as CSV: mistake, answers, share of all answers, the files."""
+        out = io.StringIO()
+        writer = csv.writer(out, lineterminator="\n")
+        writer.writerow(["mistake", "answers", "share", "files"])
+        for name, count in self.counts.items():
+            files = [r.file for r in self.rows if name in r.mistakes or (name == "unreadable" and r.verdict is None)]
+            writer.writerow([name, count, f"{count / len(self.rows):.3f}", " ".join(files)])
+        return out.getvalue()
+
+    def to_text(self) -> str:
+        """Return a line an answer, then the counts."""
+        wide = max(len(row.file) for row in self.rows)
+        lines = []
+        for row in self.rows:
+            said = row.verdict.status.value if row.verdict is not None else "cannot be read"
+            detail = row.trouble or ", ".join(row.mistakes)
+            lines.append(f"{row.file:<{wide}}  {said}{': ' if detail else ''}{detail}")
+        right = sum(row.verdict is not None and row.verdict.right for row in self.rows)
+        lines += ["", f"{right} of {len(self.rows)} right"]
+        lines += [f"{count:>4}  {name}" for name, count in self.counts.items()]
+        return "\n".join(lines) + "\n"
+
+    def to_json(self) -> str:
+        """Return everything as JSON text."""
+        data = {"answers": [row.to_dict() for row in self.rows], "counts": self.counts}
+        return json.dumps(data, ensure_ascii=False, indent=1, allow_nan=False) + "\n"
+
+
+def check_folder(derivation: Derivation, folder: Path, *, hint: int = 3) -> CheckedFolder:
+    """Check every file of a folder, by name; what cannot be read is told in its row and does not stop the rest.
+
+    Raises `Error` where the folder holds no file.
+    """
+    files = sorted(p for p in folder.iterdir() if p.is_file() and not p.name.startswith("."))
+    if not files:
+        raise Error(f"the folder '{folder}' holds no answers", fix="put one answer in each file", code="E702")
+    return CheckedFolder(tuple(_row(derivation, path, hint) for path in files))
+
+
+def _row(derivation: Derivation, path: Path, hint: int) -> FolderRow:
+    try:
+        return FolderRow(path.name, check_answer(derivation, read_text(path), hint=hint, name=path.name))
+    except Error as error:
+        return FolderRow(path.name, None, " ".join(str(error).split()))
+
+
+def read_text(path: Path) -> str:
+    """Return the text of an answer's file; raises `Error` where there is none that can be read."""
+    try:
+        with path.open("rb") as file:
+            data = file.read(MAX_BYTES + 1)
+    except OSError as error:
+        raise Error(f"cannot read '{path}': {(error.strerror or str(error)).lower()}", code="E702") from error
+    return decode(data, str(path))
