@@ -11,55 +11,26 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
-import sympy as sp
 from numpy.typing import NDArray
 
-from lagrangian import dynamics, read
-from lagrangian.analyze.dimensions import SECOND
-from lagrangian.analyze.given import key_name, number
+from lagrangian.analyze.given import key_name
 from lagrangian.driving import Driving, check_covers, driving
-from lagrangian.errors import ModelError, RunError, did_you_mean
-from lagrangian.events import Event
+from lagrangian.errors import RunError, did_you_mean
 from lagrangian.graph import Program
 from lagrangian.model import Model, plain
+from lagrangian.per_run import Wanted, instants, study_of
 from lagrangian.runs import Ensemble
-from lagrangian.simulate import METHODS, Events, Signals
 from lagrangian.simulate.design import Design
 from lagrangian.simulate.ensemble import Executor, Here, Memory, Progress, carry_out
 from lagrangian.simulate.portions import FEW, MEMORY, Portions, cut
 from lagrangian.simulate.store import Plan, Variable, create, resume
-from lagrangian.simulate.study import REDUCTIONS, EventsKept, Kept, Study
+from lagrangian.simulate.study import Study
 from lagrangian.varying import EVENT, TIME, Varying, from_arrays, from_grid
 
 Array: TypeAlias = NDArray[np.float64]
-Outputs: TypeAlias = Mapping[str, Any] | Iterable[Any] | str | sp.Expr | None
 
-TIMES = 1001
-"""Times at which each run is sampled unless told otherwise."""
-
-SHARE = 0.5
+MOST_MEMORY = 0.5
 """Part of the machine's memory that results without a store may take."""
-
-
-@dataclass(frozen=True)
-class Wanted:
-    """Everything about the runs but what varies; see `lagrangian.System.ensemble`."""
-
-    duration: Any = None
-    inputs: Mapping[Any, Any] | None = None
-    outputs: Outputs = None
-    reduce: str | Sequence[str] | None = ("final",)
-    times: Any = TIMES
-    start: Any = 0.0
-    method: str = "dop853"
-    rtol: float = 1e-9
-    atol: float = 1e-12
-    step: Any = None
-    max_step: Any = math.inf
-    max_steps: int = 10_000_000
-    max_events: int = 1000
-    events: Sequence[Event] | Event = ()
-    event_times: int = 1
 
 
 @dataclass(frozen=True)
@@ -142,9 +113,9 @@ def _split_inputs(inputs: Mapping[Any, Any] | None) -> tuple[dict[Any, Any], dic
 def _done(model: Model, varying: Varying, wanted: Wanted, inputs: dict[Any, Any], way: Way) -> Ensemble:
     """Do the runs, or what is missing of them."""
     drive = _drive(model, varying, inputs)
-    times = _times(model, wanted)
+    times = instants(model, wanted)
     check_covers(drive, float(times[0]), float(times[-1]))
-    study = _study(model, wanted, drive, times)
+    study = study_of(model, wanted, drive, times)
     design = varying.design()
     task = _task(model, varying, wanted, drive, study)
     executor, cutting = _executor(way)
@@ -164,7 +135,7 @@ def _done(model: Model, varying: Varying, wanted: Wanted, inputs: dict[Any, Any]
 
 def _in_memory(study: Study, design: Design, plan: Plan, executor: Executor, progress: Progress | None) -> Ensemble:
     size = sum(np.dtype(v.dtype).itemsize * math.prod(v.shape) for v in plan.results.values())
-    if size > SHARE * _machine_memory():
+    if size > MOST_MEMORY * _machine_memory():
         raise RunError(
             f"the results of {design.count} runs take {size / 2**30:.3g} GiB",
             fix='keep less of each run, or write to a store: store="sweep.zarr"',
@@ -212,7 +183,8 @@ def _drive(model: Model, varying: Varying, inputs: dict[Any, Any]) -> Driving:
         if key_name(key) in varied:
             raise RunError(f"input '{key_name(key)}' varies and is given too", fix="one of the two", code="E404")
     settings = {k: v for k, v in model.settings.get("inputs", {}).items() if k not in varied}
-    drive = driving(model, inputs, settings)
+    names = varying.entries.given.inputs
+    drive = driving(model, inputs, settings, dict(zip(names.names, names.dims, strict=True)))
     if drive.calls_python:
         raise RunError(
             "an input of an ensemble cannot be a Python function",
@@ -231,148 +203,6 @@ def _drive(model: Model, varying: Varying, inputs: dict[Any, Any]) -> Driving:
     feedback = {plain(symbol) for symbol in drive.feedback}
     varying.entries.base["u"] = {n: v for n, v in varying.entries.base["u"].items() if n not in feedback}
     return drive
-
-
-def _times(model: Model, wanted: Wanted) -> Array:
-    """The times of the samples, the start first."""
-    begin = number(wanted.start, "start", SECOND)
-    given = wanted.times
-    duration = model.settings.get("duration") if wanted.duration is None else wanted.duration
-    if np.ndim(given) == 0:
-        if isinstance(given, bool) or not isinstance(given, (int, np.integer)) or not 2 <= given <= 10**8:
-            raise RunError(
-                f"times must be how many there are, at least 2, or the times themselves (got {given!r:.30})",
-                code="E501",
-            )
-        if duration is None:
-            raise RunError(
-                "how long to run is not said", fix="a duration, or duration = '10 s' under [simulate]", code="E401"
-            )
-        length = number(duration, "duration", SECOND)
-        if not (length > 0 and begin + length > begin):
-            raise RunError(f"the duration must be above 0 (got {length:g} s)", fix="such as 10.0", code="E501")
-        return np.linspace(begin, begin + length, int(given))
-    if wanted.duration is not None:
-        raise RunError("times say how long to run: give no duration beside them", code="E501")
-    array = np.array([number(t, "a time", SECOND) for t in given])
-    array = array if array.size and array[0] == begin else np.concatenate([[begin], array])
-    if array.size < 2 or np.any(np.diff(array) <= 0):
-        raise RunError("times must increase from the start on", fix="sort them, each once", code="E501")
-    return array
-
-
-def _study(model: Model, wanted: Wanted, drive: Driving, times: Array) -> Study:
-    if wanted.method not in METHODS:
-        fix = did_you_mean(str(wanted.method), METHODS) or f"one of {', '.join(METHODS)}"
-        raise RunError(f"there is no method {wanted.method!r:.40} for ensembles", fix=fix, code="E402")
-    expressions, kept = _kept(model, wanted.outputs, wanted.reduce)
-    events, events_kept = _events(model, wanted, drive)
-    signals = None if drive.constant else Signals(*drive.pieces(float(times[0]), float(times[-1])))
-    adaptive = METHODS[wanted.method].adaptive
-    options = {"rtol": wanted.rtol, "atol": wanted.atol} if adaptive else {}
-    if wanted.step is not None:
-        options["step"] = number(wanted.step, "step", SECOND)
-    bounds = {"max_step": wanted.max_step, "max_steps": wanted.max_steps, "max_events": wanted.max_events}
-    return Study(
-        program=dynamics.closed(model, drive.feedback),
-        method=wanted.method,
-        times=times,
-        outputs=dynamics.observe_closed(model, expressions, drive.feedback),
-        kept=kept,
-        events=events,
-        events_kept=events_kept,
-        signals=signals,
-        options={**options, **bounds},
-    )
-
-
-def _kept(
-    model: Model, outputs: Outputs, reduce: str | Sequence[str] | None
-) -> tuple[dict[str, sp.Expr], tuple[Kept, ...]]:
-    """The expressions to observe by name, and what is kept of each."""
-    reductions = [None] if reduce is None else [reduce] if isinstance(reduce, str) else list(reduce)
-    for r in reductions:
-        _reduction(r)
-    if not reductions:
-        raise RunError("reduce names nothing to keep", fix='reduce=("final",), or reduce=None for samples', code="E501")
-    expressions: dict[str, sp.Expr] = {}
-    kept: dict[str, Kept] = {}
-    for name, asked in _named(model, outputs):
-        own, expr, title = _asked(model, name, asked)
-        if expressions.setdefault(title, expr) != expr:
-            raise RunError(f"two outputs are called '{title}'", fix="give them other names", code="E404")
-        for r in reductions if own is None else [own]:
-            result = title if r is None or (own and name) else f"{r} {title}"
-            if "/" in result:
-                raise RunError(
-                    f"'{result}' cannot be the name of a result, for its '/'", fix="name it: half=theta/2", code="E702"
-                )
-            kept[result] = Kept(result, title, r)
-    if not kept:
-        raise RunError("nothing is observed", fix="outputs=['theta1']", code="E401")
-    return expressions, tuple(kept.values())
-
-
-def _reduction(name: Any) -> None:
-    if name is not None and name not in REDUCTIONS:
-        fix = did_you_mean(str(name), REDUCTIONS) or f"one of {', '.join(REDUCTIONS)}"
-        raise RunError(f"there is no reduction {name!r:.40}", fix=fix, code="E402")
-
-
-def _named(model: Model, outputs: Outputs) -> list[tuple[str | None, Any]]:
-    """Outputs with the names they were given, if any."""
-    if outputs is None:
-        return [(None, s.symbol) for s in (*model.coordinates, *model.velocities)]
-    if isinstance(outputs, Mapping):
-        return [(str(name), asked) for name, asked in outputs.items()]
-    if isinstance(outputs, str | sp.Expr):
-        return [(None, outputs)]
-    return [(None, asked) for asked in outputs]
-
-
-def _asked(model: Model, name: str | None, asked: Any) -> tuple[str | None, sp.Expr, str]:
-    """The reduction that an output asks for itself ("max theta1"), its expression, and its name."""
-    if isinstance(asked, sp.Expr):
-        return None, asked, name or plain(asked)
-    if not isinstance(asked, str):
-        raise RunError(f"an output is text or an expression (got {type(asked).__name__})", code="E501")
-    first, space, rest = asked.strip().partition(" ")
-    own = first if space and first in REDUCTIONS else None
-    text = rest.strip() if own else asked.strip()
-    try:
-        expr = read.parse_expression(text, read.Scope(model.symbols), what=f"output '{text[:40]}'")
-    except ModelError as trouble:
-        if space and rest[:1].isidentifier() and first.isidentifier() and first not in model.symbols:
-            raise RunError(
-                f"there is no reduction '{first[:40]}'",
-                fix=did_you_mean(first, REDUCTIONS) or f"one of {', '.join(REDUCTIONS)}",
-                code="E402",
-            ) from None
-        raise trouble
-    return own, expr, name or text
-
-
-def _events(model: Model, wanted: Wanted, drive: Driving) -> tuple[Events | None, tuple[EventsKept, ...]]:
-    listed = (wanted.events,) if isinstance(wanted.events, Event) else tuple(wanted.events)
-    if not listed:
-        return None, ()
-    strange = [e for e in listed if not isinstance(e, Event)]
-    if strange:
-        raise RunError(
-            f"an event is made with lagrangian.event(…) (got {type(strange[0]).__name__})",
-            fix="events=[lagrangian.event(theta, terminal=True)]",
-            code="E501",
-        )
-    titles = [e.title for e in listed]
-    if len(set(titles)) < len(titles):
-        raise RunError("two events have one name", fix="give them names", code="E404")
-    times = wanted.event_times
-    if isinstance(times, bool) or not isinstance(times, int) or not 1 <= times <= 10_000:
-        raise RunError(f"event_times is how many times are kept, at least 1 (got {times!r:.30})", code="E501")
-    program = dynamics.impacts(model, [(e.title, e.expression, e.reset) for e in listed], drive.feedback)
-    directions, terminal = tuple(e.direction for e in listed), tuple(e.terminal for e in listed)
-    made = Events(program, directions, terminal, tuple(bool(e.reset) for e in listed))
-    return made, tuple(EventsKept(title, k, times) for k, title in enumerate(titles))
 
 
 # -- what is written of it --------------------------------------------------------------------------------------

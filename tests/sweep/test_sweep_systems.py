@@ -248,3 +248,71 @@ def test_files(oscillator: lg.System, tmp_path) -> None:
     with pytest.raises(lg.ModelError, match="names no kind of file"):
         runs.save(tmp_path / "a.xls")
     assert len(list(tmp_path.iterdir())) == 3
+
+
+@pytest.mark.parametrize(("method", "how"), [("dop853", {}), ("tsit5", {}), ("gauss4", {"step": 0.01})])
+def test_every_run_is_what_simulate_gives(method: str, how: dict[str, float]) -> None:
+    system = lg.loads(examples.text("cart-pole"))
+    theta, m = np.array([0.1, 1.0, 2.0]), np.array([0.2, 0.3, 0.1])
+    inputs = {"F": "-x - 0.2*x' + 0.1*sin(t)"}
+    asked = ["max theta", "final x'", "mean theta''", "rms F"]
+    times = np.linspace(0, 2, 41)
+    runs = system.ensemble(
+        times=times, theta=theta, params={"m": m}, inputs=inputs, outputs=asked, method=method, **how
+    )
+    for k in range(3):
+        one = system.simulate(times=times, theta=theta[k], params={"m": m[k]}, inputs=inputs, method=method, **how)
+        close = {"rel": 1e-9, "abs": 1e-9}
+        assert runs["max theta"][k] == pytest.approx(one["theta"].max(), **close)
+        assert runs["final x'"][k] == pytest.approx(one["x'"][-1], **close)
+        assert runs["mean theta''"][k] == pytest.approx(np.trapezoid(one["theta''"], times) / 2, **close)
+        assert runs["rms F"][k] == pytest.approx(np.sqrt(np.trapezoid(one["F"] ** 2, times) / 2), **close)
+
+
+def test_events_are_counted_and_their_times_kept(oscillator: lg.System) -> None:
+    x = oscillator["x"]
+    crossing, rising = lg.event(x, name="zero"), lg.event(x, direction=1, name="up")
+    k = np.array([1.0, 4.0, 9.0])
+    runs = oscillator.ensemble(
+        10.0, x=1.0, params={"k": k}, events=[crossing, rising], event_times=3, outputs="x", method="dop853"
+    )
+    w = np.sqrt(k)
+    assert runs["count zero"].tolist() == np.floor(10 * w / np.pi + 0.5).astype(int).tolist()
+    zeros = (np.arange(3) + 0.5) * np.pi / w[:, None]
+    np.testing.assert_allclose(runs["time zero"], np.where(zeros < 10, zeros, np.nan), atol=1e-9)
+    np.testing.assert_allclose(runs["time up"][:, 0], 1.5 * np.pi / w, atol=1e-9)
+    assert runs.to_xarray()["time zero"].dims == ("run", "event")
+
+
+@pytest.mark.parametrize("reduce", [("final", "max", "mean"), ("final",), None])
+def test_a_run_that_an_event_ends_is_reduced_over_what_it_reached(oscillator: lg.System, reduce) -> None:
+    end = lg.event(oscillator["x"], terminal=True, name="end")
+    k, times = np.array([1.0, 4.0, 0.01]), np.linspace(0, 2, 21)
+    runs = oscillator.ensemble(times=times, x=1.0, params={"k": k}, events=end, outputs=["x", "x'"], reduce=reduce)
+    w = np.sqrt(k)
+    ends = np.minimum(np.pi / 2 / w, 2.0)
+    assert runs.status.tolist() == [1, 1, 0]
+    np.testing.assert_allclose(runs["reached"], ends, atol=1e-9)
+    np.testing.assert_allclose(runs["time end"], np.where(ends < 2, ends, np.nan), atol=1e-9)
+    if reduce is None:
+        exact = np.where(times <= ends[:, None], np.cos(w[:, None] * times), np.nan)
+        np.testing.assert_allclose(runs["x"], exact, atol=1e-9)
+        return
+    np.testing.assert_allclose(runs["final x"], np.cos(w * ends), atol=1e-9)
+    np.testing.assert_allclose(runs["final x'"], -w * np.sin(w * ends), atol=1e-9)
+    if "mean" in reduce:
+        assert (runs["max x"] == 1).all()
+        np.testing.assert_allclose(runs["mean x'"], (np.cos(w * ends) - 1) / ends, atol=5e-3)
+
+
+def test_impacts_in_an_ensemble() -> None:
+    ball = lg.System("ball")
+    y = ball.coordinate("y")
+    m, e = ball.parameters("m e", m=1.0, e=0.5)
+    ball.particle(m, at=ball.origin + (0, y))
+    ball.gravity(direction=(0, -1), g=10)
+    bounce = lg.event(y, direction=-1, reset={y.diff(): -e * y.diff()}, name="bounce")
+    runs = ball.ensemble(2.0, y=5.0, params={"e": [0.5, 0.8]}, events=bounce, outputs=["y", "max y"], event_times=2)
+    np.testing.assert_allclose(runs["time bounce"], [[1.0, 2.0], [1.0, np.nan]], atol=1e-9)
+    assert runs["max y"].tolist() == [5.0, 5.0]
+    assert runs["final y"][1] == pytest.approx(8 - 5, abs=1e-9)

@@ -72,7 +72,9 @@ class Study:
     """What is done with every run of an ensemble; small, and can be sent to another process.
 
     ``program`` is x, u, p, t → ẋ; ``outputs`` a program over the same groups with one number an output; ``times`` (S,)
-    the samples. ``options`` go to the solver as they are (rtol, atol, step, …); ``u`` may be signals there.
+    the samples. ``signals`` are inputs that change with time, the same for all runs. ``canonical``: where
+    ``program`` is over [q; p], the programs x → p and [q; p] → v. ``options`` go to the solver as they are (rtol,
+    atol, step, …).
     """
 
     program: Program
@@ -83,6 +85,7 @@ class Study:
     events: Any = None
     events_kept: tuple[EventsKept, ...] = ()
     signals: Any = None
+    canonical: tuple[Program, Program] | None = None
     options: Mapping[str, Any] = field(default_factory=dict)
 
     @property
@@ -119,6 +122,13 @@ class Study:
         return compile(self.outputs, threads=1)
 
     @cached_property
+    def _transforms(self) -> tuple[Kernel, Kernel]:
+        """The code that turns velocities into momenta, and momenta into velocities."""
+        assert self.canonical is not None
+        made = [compile(program, optional={"u": 0.0}, threads=1) for program in self.canonical]
+        return made[0], made[1]
+
+    @cached_property
     def _entries(self) -> dict[str, int | None]:
         """For each output the entry of x that it is, if it is nothing else."""
         nodes = self.outputs.graph.nodes
@@ -136,7 +146,7 @@ class Study:
         """
         u = self.signals if self.signals is not None else rows.u
         times = self.times if self.whole else self.times[[0, -1]]
-        solution = solver.solve(rows.x, times, u=u, p=rows.p, store=self.whole, **self.options)
+        solution = solver.solve(self._started(rows), times, u=u, p=rows.p, store=self.whole, **self.options)
         made: Values = {n: np.empty((len(rows), *shape), dtype) for n, (dtype, shape) in self.fields().items()}
         made["status"][:], made["reached"][:] = solution.status, solution.reached
         self._events(solution, made)
@@ -170,47 +180,67 @@ class Study:
         A run that failed stands in its first state, so that everything observed is finite; it is dropped later.
         """
         status, reached = solution.status[part], solution.reached[part]
-        last = np.where((status < 0)[:, None], rows.x[part], solution.final[part])
+        failed = status < 0
+        ended = np.where(failed, self.times[0], reached)
+        last = np.where(failed[:, None], 0.0, solution.final[part])
         if not self.whole:
-            at = np.where(status < 0, self.times[0], reached)
-            return last[:, None, :], at[:, None], None
-        states = solution.states[part]
-        if (status == 0).all():
-            return states, self.times, None
-        ended = np.where(status < 0, self.times[0], reached)
-        beyond = self.times > ended[:, None]
-        beyond[status < 0] = True
-        return np.where(beyond[..., None], last[:, None, :], states), np.minimum(self.times, ended[:, None]), beyond
+            states, times, beyond = last[:, None, :], ended[:, None], None
+        elif (status == 0).all():
+            states, times, beyond = solution.states[part], self.times, None
+        else:
+            stopped = (status != 0)[:, None] & (self.times >= ended[:, None])
+            states = np.where(stopped[..., None], last[:, None, :], solution.states[part])
+            times, beyond = np.minimum(self.times, ended[:, None]), failed[:, None] | (self.times > ended[:, None])
+        if self.canonical is not None:
+            states = self._with_velocities(states, times, rows, part)
+        if failed.any():
+            states = np.where(failed[:, None, None], rows.x[part][:, None, :], states)
+        return states, times, beyond
+
+    def _with_velocities(self, states: Array, times: Array, rows: Rows, part: slice) -> Array:
+        """[q; p] as [q; v]."""
+        v = self._evaluated(self._transforms[1], states, None, times, rows, part)["v"]
+        return np.concatenate([states[..., : states.shape[-1] - v.shape[-1]], v], axis=-1)
+
+    def _started(self, rows: Rows) -> Array:
+        """The initial states as they are integrated."""
+        if self.canonical is None:
+            return rows.x
+        x = rows.x[:, None, :]
+        p = self._evaluated(self._transforms[0], x, None, self.times[:1], rows, slice(0, len(rows)))["p"][:, 0]
+        return np.concatenate([rows.x[:, : rows.x.shape[1] - p.shape[1]], p], axis=1)
 
     def _observed(self, states: Array, times: Array, rows: Rows, part: slice) -> dict[str, Array]:
         """Each output along each run, (n, S)."""
-        found = {name: states[..., entry] for name, entry in self._entries.items() if entry is not None}
         if self._kernel is None:
-            return found
-        shape = states.shape[:-1]
-        fill = max(0, math.ceil(LEAST / shape[1]) - shape[0])
-        if fill:
-            pad = lambda a: np.concatenate([a, np.repeat(a[-1:], fill, axis=0)])  # noqa: E731
-            states, times = pad(states), pad(times) if times.ndim == 2 else times
-        u, p = self._along(rows.u, part, fill), self._along(rows.p, part, fill)
-        if self.signals is not None:
-            u = signals_at(self.signals, times)
-        lead = states.shape[:-1]
-        out = {name: np.empty(lead) for name in self.outputs.outputs}
+            return {name: states[..., entry] for name, entry in self._entries.items() if entry is not None}
+        u = rows.u if self.signals is None else signals_at(self.signals, times)
+        return self._evaluated(self._kernel, states, u, times, rows, part)
+
+    def _evaluated(
+        self, kernel: Kernel, states: Array, u: Array | None, times: Array, rows: Rows, part: slice
+    ) -> dict[str, Array]:
+        """The outputs of a kernel along each run, (n, S, …); what is not finite is kept as it is."""
+        runs, samples = states.shape[:2]
+        fill = max(0, math.ceil(LEAST / samples) - runs)
+
+        def padded(a: Array) -> Array:
+            return np.concatenate([a, np.repeat(a[-1:], fill, axis=0)]) if fill else a
+
+        if self.signals is None and u is not None and u.ndim == 2:
+            u = padded(u[part])[:, None, :]
+        elif u is not None and u.ndim == 3:
+            u = padded(u)
+        p = rows.p if rows.p.ndim == 1 else padded(rows.p[part])[:, None, :]
+        t = padded(times) if times.ndim == 2 else times
+        lead = (runs + fill, samples)
+        out = {name: np.empty((*lead, *o.shape)) for name, o in kernel.program.outputs.items()}
         try:
-            self._kernel(x=states, u=u, p=p, t=times, out=out)
-        except RunError as trouble:  # what is not finite stays so, and is counted; everything else is computed
+            kernel(x=padded(states), u=u, p=p, t=t, out=out)
+        except RunError as trouble:  # every state is computed all the same
             if trouble.code != NOT_FINITE:
                 raise
-        return {name: values[: shape[0]] for name, values in out.items()}
-
-    @staticmethod
-    def _along(values: Array, part: slice, fill: int) -> Array:
-        """Inputs or parameters, one a run, in a shape that goes with (n, S) states."""
-        if values.ndim == 1:
-            return values
-        own = values[part]
-        return np.concatenate([own, np.repeat(own[-1:], fill, axis=0)])[:, None, :]
+        return {name: values[:runs] for name, values in out.items()}
 
     def _events(self, solution: Any, made: Values) -> None:
         """Counts and first times of the events that are kept."""
