@@ -8,7 +8,19 @@ import sys
 
 import typer
 
-from lagrangian.commands import conserved, derive, equilibria, export, linearize, simulate, start, sweep, verify
+from lagrangian.commands import (
+    check,
+    compare,
+    conserved,
+    derive,
+    equilibria,
+    export,
+    linearize,
+    simulate,
+    start,
+    sweep,
+    verify,
+)
 from lagrangian.errors import Error, ModelError
 
 app = typer.Typer(
@@ -21,7 +33,9 @@ app = typer.Typer(
 
 app.command()(derive.derive)
 app.command()(verify.verify)
+app.command()(check.check)
 app.command()(export.export)
+app.command()(compare.compare)
 app.command()(linearize.linearize)
 app.command()(equilibria.equilibria)
 app.command()(conserved.conserved)
