@@ -19,7 +19,8 @@ def character(c: str) -> str:
     """Return a character for a message: itself where it prints, with its code point where it is not ASCII."""
     if c.isascii():
         return f"'{c}'" if c.isprintable() else f"the control character U+{ord(c):04X}"
-    return f"'{c}' (U+{ord(c):04X} {unicodedata.name(c, 'unnamed')})"
+    shown_as = f"'{c}' " if c.isprintable() else "a character that does not print "
+    return f"{shown_as}(U+{ord(c):04X} {unicodedata.name(c, 'unnamed')})"
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from itertools import pairwise
 
 from lagrangian.read.answers.latex_tokens import MATRICES
@@ -21,11 +22,8 @@ _DISPLAYS = [
     "math",
     "dmath",
 ]
-_MATH = re.compile(
-    r"\$\$(?P<a>.*?)\$\$|(?<!\\)\$(?P<b>.*?)(?<!\\)\$|\\\[(?P<c>.*?)\\\]|\\\((?P<d>.*?)\\\)"
-    rf"|\\begin\{{(?P<kind>(?:{'|'.join(_DISPLAYS)})\*?)\}}(?P<e>.*?)\\end\{{(?P=kind)\}}",
-    re.DOTALL,
-)
+_OPENING = re.compile(rf"(?<!\\)\$\$?|\\\[|\\\(|\\begin\{{(?P<kind>(?:{'|'.join(_DISPLAYS)})\*?)\}}")
+_CLOSING = {"$": "$", "$$": "$$", "\\[": "\\]", "\\(": "\\)"}
 _WRAPPERS = [*_DISPLAYS, *["aligned", "alignedat", "gathered", "split", "subequations", "document", "center"]]
 _WRAPPER = re.compile(rf"\\(?:begin|end)\{{(?:{'|'.join(_WRAPPERS)})\*?\}}(?:\[[tcb]\])?")
 _NOTE = re.compile(r"\\(?:label|tag\*?|ref|eqref|intertext|hspace\*?|vspace\*?|color)\s*\{[^{}]{0,200}\}")
@@ -38,11 +36,10 @@ _LINKS = frozenset(
 _MARK = re.compile(r"\\begin\{(\w+\*?)\}|\\end\{(\w+\*?)\}|\\\\(?:\s*\[[^\]\n]{0,20}\])?|\\[{}]|[{}]|\n")
 _SPACE = r"(?:\s|&|~|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})*"
 _NUMBER_BEFORE = re.compile(rf"{_SPACE}\(\s*\d{{1,3}}[a-z]?\s*\)(?={_SPACE}[^\s=+\-*/^])(?=.*=)", re.DOTALL)
-_NUMBER_AFTER = re.compile(
-    rf"(?:\\q?quad(?![A-Za-z])|&|~|\s\s|\\[,;: ])+{_SPACE}\(\s*(?:\d{{1,3}}[a-z]?|[ivx]{{1,4}})\s*\){_SPACE}\Z"
-)
+_PIECE = re.compile(r"(?:\s|&|~|\x00|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})|(?P<content>.)", re.DOTALL)
+_NUMBER = re.compile(r"\(\s*(?:\d{1,3}[a-z]?|[ivx]{1,4})\s*\)\Z")
+_GAP = re.compile(r"(?:\\q?quad|&|~|\s\s|\\[,;: ])\s*\Z")
 _ARROW = re.compile(rf"{_SPACE}\\(?:Rightarrow|implies|therefore|iff|Leftrightarrow|Longrightarrow|to|rightarrow)\b")
-_TAIL = re.compile(rf"(?:[.,;]|\\[,;]){_SPACE}\Z")
 _INDENTED = re.compile(r"\s*&?\s*(?:\\q?quad(?![A-Za-z])|\{\s*\})")
 _STARTS = re.compile(rf"{_SPACE}(?:[+*/=·×)\]^]|\\(?:cdot|times|right)(?![A-Za-z]))")
 _MINUS = re.compile(rf"{_SPACE}[-−–]")
@@ -52,16 +49,29 @@ _CUT = re.compile(r"[,;](?!\w)|\\q?quad(?![A-Za-z])|\x00")
 def latex_rows(text: str) -> list[Row]:
     """Return the statements of an answer in LaTeX; words around the mathematics are left out."""
     text = _COMMENT.sub(lambda m: " " * len(m.group()), text)
-    found = [m for m in _MATH.finditer(text) if "=" in m.group()] or list(_MATH.finditer(text))
+    found = list(_mathematics(text))
     if not found:
         return _statements(text, 0, lines=True)
     rows: list[Row] = []
-    for match in found:
-        group = next(g for g in "abcde" if match[g] is not None)
+    for start, inside in [x for x in found if "=" in x[1]] or found:
         if len(rows) > MAX_STATEMENTS:
             break
-        rows += _statements(match[group], match.start(group), lines=False)
+        rows += _statements(inside, start, lines=False)
     return rows
+
+
+def _mathematics(text: str) -> Iterator[tuple[int, str]]:
+    """The pieces between the marks of mathematics, with where each begins."""
+    at, missing = 0, set[str]()
+    while (match := _OPENING.search(text, at)) is not None:
+        closing = _CLOSING.get(match.group(), f"\\end{{{match['kind']}}}")
+        end = -1 if closing in missing else text.find(closing, match.end())
+        if end < 0:
+            missing.add(closing)
+            at = match.end()
+        else:
+            yield match.end(), text[match.end() : end]
+            at = end + len(closing)
 
 
 def _statements(text: str, start: int, *, lines: bool) -> list[Row]:
@@ -77,7 +87,7 @@ def _statements(text: str, start: int, *, lines: bool) -> list[Row]:
         if rows and (previous := rows[-1]) and _continues(previous.text, piece, hard):
             gap = at + start - previous.start - len(previous.text)
             rows[-1] = Row(previous.start, previous.text + " " * gap + kept)
-        elif not plain_words(kept):
+        elif "\\" in kept or not plain_words(kept):
             rows.append(Row(at + start, kept))
     return [part for row in rows for part in _parts(_tidy(row))]
 
@@ -96,11 +106,17 @@ def _without_words(text: str) -> str:
 
 
 def _unboxed(text: str) -> str:
-    r"""Blank out ``\boxed{`` and the brace that closes it."""
-    while (match := _BOXED.search(text)) is not None:
-        end = _closing(text, match.end())
-        text = blank(blank(text, end - 1, end), match.start(), match.end())
-    return text
+    r"""Blank out every ``\boxed{`` and the brace that closes it."""
+    if "\\boxed" not in text and "\\fbox" not in text and "\\ensuremath" not in text:
+        return text
+    letters, boxes = list(text), list[bool]()
+    for match in re.finditer(rf"{_BOXED.pattern}|\\[{{}}]|[{{}}]", text):
+        mark = match.group()
+        if mark.endswith("{") and mark != "\\{":
+            boxes.append(len(mark) > 1)
+        if len(mark) > 2 or (mark == "}" and boxes and boxes.pop()):
+            letters[match.start() : match.end()] = " " * len(mark)
+    return "".join(letters)
 
 
 def _closing(text: str, start: int) -> int:
@@ -136,13 +152,22 @@ def _labels(piece: str) -> str:
     for form in (_ARROW, _NUMBER_BEFORE):
         if match := form.match(piece):
             piece = blank(piece, 0, match.end())
-    if match := _NUMBER_AFTER.search(piece):
-        piece = blank(piece, match.start(), len(piece))
+    end = _content_end(piece)
+    if (number := _NUMBER.search(piece[max(0, end - 12) : end])) is not None:
+        start = end - len(number.group())
+        if _GAP.search(piece[max(0, start - 12) : start]):
+            piece = blank(piece, start, len(piece))
     return piece
 
 
-def _content(piece: str) -> str:
-    return re.sub(_SPACE, "", piece).replace("\x00", "").strip(".,;")
+def _content_end(piece: str) -> int:
+    """Where spacing, alignment marks and words begin that only follow."""
+    return max((m.end() for m in _PIECE.finditer(piece) if m["content"] is not None), default=0)
+
+
+def _content(piece: str) -> bool:
+    """Whether anything but spacing and punctuation stands there."""
+    return any(m["content"] not in (None, ".", ",", ";") for m in _PIECE.finditer(piece))
 
 
 def _continues(before: str, piece: str, hard: bool) -> bool:
@@ -154,9 +179,11 @@ def _continues(before: str, piece: str, hard: bool) -> bool:
 
 def _tidy(row: Row) -> Row:
     text = row.text.replace("&", " ") if not any(f"{{{m}}}" in row.text for m in MATRICES) else _outer(row.text)
-    while match := _TAIL.search(text):
-        text = blank(text, match.start(), len(text))
-    return Row(row.start, text)
+    end = _content_end(text)
+    while end and text[end - 1] in ".,;":
+        end -= 2 if text[end - 2 : end - 1] == "\\" else 1
+        end = _content_end(text[:end])
+    return Row(row.start, text[:end])
 
 
 def _outer(text: str) -> str:

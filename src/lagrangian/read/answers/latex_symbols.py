@@ -22,6 +22,7 @@ class LatexSymbols(Parser):
         """A letter, a Greek one, a word, dotted or decorated: its name, its dots, where it begins."""
         token = self.take()
         if token.kind in ("accent", "decoration"):
+            self.deeper(token.start)
             braced = self.accept("{")
             if self.next.kind not in ("letters", "symbol", "upright", "accent", "decoration"):
                 raise self.stopped(True)
@@ -32,6 +33,7 @@ class LatexSymbols(Parser):
                 base = f"{base}_{self._subscript()}" if self.next.kind == "_" else base + normal(self.take().text)
             if braced and not self.accept("}"):
                 raise self.stopped(False)
+            self.opened.pop()
             if token.kind == "accent":
                 return base, order + int(token.text), token.start
             return (base if base.startswith("bold ") else f"{base}_{token.text}"), order, token.start

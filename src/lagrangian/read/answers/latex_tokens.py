@@ -15,7 +15,7 @@ MATRICES = frozenset(f"{kind}matrix{star}" for kind in ("", "p", "b", "B", "smal
 
 _TOKEN = re.compile(
     r"""
-      (?P<space>\s+|~|\\[,;:!>\s]|\{\s*\})
+      (?P<space>\s+|~|\\[,;:!>\s]|_?\{\s*\})
     | (?P<rowsep>\\\\(?:\s*\[[^\]\n]{0,20}\])?)
     | (?P<begin>\\begin\s*\{(?P<opens>\w+\*?)\}(?:\s*\{[lcr|@{}\s]{0,40}\})?)
     | (?P<end_>\\end\s*\{\w+\*?\})
@@ -29,7 +29,7 @@ _TOKEN = re.compile(
     | (?P<number>[0-9]+\.?[0-9]*|\.[0-9]+)
     | (?P<fraction>[¼½¾⅐-⅞])
     | (?P<letters>[A-Za-z]+)
-    | (?P<greek>[^\W\d_⁰-₟][\u0307\u0308\u20db\u20dc]*)
+    | (?P<greek>[^\W\d_¹²³¼-¾⁰-₟⅐-⅞][\u0307\u0308\u20db\u20dc]*)
     | (?P<raised>[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+)
     | (?P<lowered>[₀-₉]+)
     | (?P<primes>['’′″‴]+)

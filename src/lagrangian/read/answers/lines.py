@@ -259,7 +259,7 @@ class Lines:
     def _change(self, token: Token, value: sp.Expr) -> bool:
         """Whether a line gives a coordinate of the model in new ones: x2 = x1 + s, with s unknown to the model."""
         names, dots = self.names.scope.meanings(token)
-        if dots or names[0] not in {c.name for c in self.model.coordinates}:
+        if dots or len(names) != 1 or names[0] not in {c.name for c in self.model.coordinates}:
             return False
         new = {u.symbol for u in self.names.unknown.values() if isinstance(u.symbol, AppliedUndef)}
         return bool(value.atoms(AppliedUndef) & new) and not value.has(sp.Derivative)

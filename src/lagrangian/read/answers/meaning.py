@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any, cast
 
 import sympy as sp
@@ -17,7 +18,10 @@ from lagrangian.read.letters import key, undotted
 from lagrangian.read.source import Source
 
 MAX_SIZE = 20_000
-"""Most nodes of all definitions written out in one answer, and of an expression that is differentiated."""
+"""Most nodes of all definitions written out in one answer."""
+
+MAX_DERIVED = 120_000
+"""Most nodes of all derivatives in one answer, before terms are put together."""
 
 MAX_ENTRIES = 400
 """Most entries of a matrix."""
@@ -59,8 +63,8 @@ class Meaning(Reader):
         if order and (given := self.names.rates.get((key(base), order))) is not None:
             self._spend(given, token)
             return given
-        if order and isinstance(value := self._meaning(token)[1], MatrixBase):
-            return value.diff(time, order)
+        if order and (value := self._meaning(token)[1]).has(AppliedUndef, time) and order <= MAX_ORDER:
+            return self._rated(value, order, token)
         return super()._name(node)
 
     def _spend(self, value: Value, node: Node) -> None:
@@ -74,11 +78,21 @@ class Meaning(Reader):
         value = self.value(of)
         if order > MAX_ORDER:
             self.fail(f"a derivative of order {order}", node, fix="derivatives go up to the second")
-        self._spend(value, node)
+        return self._rated(value, order, node)
+
+    def _rated(self, value: Value, order: int, node: Node) -> Value:
+        """The derivative by time, taken ``order`` times."""
         for _ in range(order):
-            value = value.diff(time)
-            self._spend(value, node)
+            value = self._differentiated(value, time, node)
         return value
+
+    def _differentiated(self, value: Value, by: sp.Expr, node: Node) -> Value:
+        """The derivative; what it takes is known before it is worked out."""
+        if (value, by) not in self.names.derivatives:
+            if not self.budget.affords_derivative(value):
+                self.fail("too much is differentiated here", node, fix="give the answer in shorter pieces", code="E703")
+            self.names.derivatives[value, by] = value.diff(by)
+        return self.names.derivatives[value, by]
 
     def _partial(self, node: Node) -> sp.Expr:
         """∂L/∂ξ or ∂L/∂ξ̇; of an energy that was not given it stays as it is, and so it does by a general ξ_i."""
@@ -95,8 +109,7 @@ class Meaning(Reader):
         moving = isinstance(variable, (AppliedUndef, sp.Derivative))
         if energy is None or not moving or self.names.is_unknown(variable):
             return cast("sp.Expr", sp.Derivative(ENERGIES.get(kind, ENERGIES["L"]), variable))
-        self._spend(energy, node)
-        return self.names.model.expand(energy).diff(variable)
+        return self._differentiated(self.names.model.expand(energy), variable, node)
 
     def _variation(self, node: Node) -> sp.Expr:
         found = only_name(node.children[1])
@@ -182,7 +195,9 @@ class Budget:
 
     def __init__(self, size: int = MAX_SIZE) -> None:
         self.left = size
+        self.derived = MAX_DERIVED
         self._sizes: dict[sp.Basic, int] = {}
+        self._slopes: dict[sp.Basic, int] = {}
 
     def spend(self, value: Value) -> bool:
         """Take the size of a value out of the budget; False where it is not enough."""
@@ -190,18 +205,42 @@ class Budget:
         self.left -= sum(self.size(x) for x in parts)
         return self.left >= 0
 
+    def affords_derivative(self, value: Value) -> bool:
+        """Take what a derivative costs out of the budget: its nodes before anything is put together.
+
+        A sum costs its terms' derivatives, a product of n factors n products, anything else itself and what is inside.
+        """
+        parts = value.flat() if isinstance(value, MatrixBase) else [value]
+        self.derived -= sum(self._slope(x) for x in parts)
+        return self.derived >= 0
+
+    def _slope(self, expr: sp.Basic) -> int:
+        self.size(expr)
+        for part in self._inner_first(expr, self._slopes):
+            inner = sum(self._slopes[a] for a in part.args)
+            own = len(part.args) if part.is_Mul else 0 if part.is_Add else 1
+            self._slopes[part] = inner + own * self._sizes[part] + 1
+        return self._slopes[expr]
+
     def size(self, expr: sp.Basic) -> int:
         """The number of nodes; each distinct part is visited once."""
+        for part in self._inner_first(expr, self._sizes):
+            self._sizes[part] = 1 + sum(self._sizes[a] for a in part.args)
+        return self._sizes[expr]
+
+    @staticmethod
+    def _inner_first(expr: sp.Basic, known: dict[sp.Basic, int]) -> Iterator[sp.Basic]:
+        """The parts of an expression that are not known, inner ones first."""
         stack = [expr]
         while stack:
             part = stack[-1]
-            waiting = [a for a in part.args if a not in self._sizes]
-            if part in self._sizes or not waiting:
-                self._sizes.setdefault(part, 1 + sum(self._sizes[a] for a in part.args))
-                stack.pop()
-            else:
+            waiting = [a for a in part.args if a not in known]
+            if waiting and part not in known:
                 stack.extend(waiting)
-        return self._sizes[expr]
+                continue
+            stack.pop()
+            if part not in known:
+                yield part
 
 
 def _shape(shape: Any) -> str:

@@ -22,6 +22,11 @@ from lagrangian.read.scope import Scope, rate_stems
 from lagrangian.read.source import Source
 
 MAX_NAME = 64
+MAX_UNKNOWN = 100
+"""Most names of an answer that neither the model nor the answer itself defines."""
+
+MAX_HINTS = 20
+"""Most unknown names that near misses are looked up for."""
 
 Value = Any
 """An expression, or a matrix of them."""
@@ -38,6 +43,7 @@ class Names:
         self.unknown: dict[str, Unknown] = {}
         self.rates: dict[tuple[str, int], Value] = {}
         self.later: Callable[[str], None] = lambda base: None
+        self.derivatives: dict[tuple[Value, sp.Expr], Value] = {}
         self._moving: set[str] = set()
         self._seen: Counter[str] = Counter()
 
@@ -144,9 +150,14 @@ class Names:
             what = f"a name with {len(base)} characters"
             raise source.error(what, start_of(token), fix=f"names have at most {MAX_NAME}", code="E703")
         if key(base) not in self.unknown:
+            if len(self.unknown) >= MAX_UNKNOWN:
+                what = f"more than {MAX_UNKNOWN} names that the system has not"
+                raise source.error(what, start_of(token), fix="use the names of the system", code="E703")
             spelling = spelled(base)
             symbol: sp.Expr = moving_symbol(spelling) if key(base) in self._moving else sp.Symbol(spelling)
-            hint = self.scope.hint(base) or did_you_mean(spelling.swapcase(), self.scope)
+            hint = None
+            if len(self.unknown) < MAX_HINTS:
+                hint = self.scope.hint(base) or did_you_mean(spelling.swapcase(), self.scope)
             self.unknown[key(base)] = Unknown(str(base), symbol, source.at(start_of(token)), hint)
         return base
 

@@ -238,24 +238,24 @@ class PlainParser(Parser):
         """sin^2(x), sin²(x)."""
         at = self.i
         raised = self.take()
+        sign = self.accept("minus") if raised.kind == "power" else None
         if raised.kind == "power":
             digits = self.accept("number")
-            if digits is None or self.next.kind != "(":
-                self.i = at
-                raise self.stopped(False)
-            exponent = digits.text
+            exponent = None if digits is None else digits.text
         else:
-            exponent = raised.text.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+"))
-        if self.next.kind != "(" or exponent.startswith("-"):
-            self.i = at
+            exponent = raised.text.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+")).lstrip("+")
+        if exponent is not None and (sign or exponent.startswith("-")):
             raise self.source.error(
-                f"cannot read {token.text} with this exponent",
+                f"{token.text} to a negative power can mean its inverse or its reciprocal",
                 token.start,
-                fix=f"write {token.text}(x)^2 for the square, 1/{token.text}(x) for the reciprocal, asin(x)",
+                fix=f"write a{token.text}(x) for the inverse, 1/{token.text}(x) for the reciprocal",
             )
+        if exponent is None or self.next.kind != "(":
+            self.i = at
+            raise self.stopped(False)
         call = self._call(token)
         power = leaf("POWER", "^", raised.start)
-        return node("power", token.start, call, power, None, number(exponent.lstrip("+"), raised.start))
+        return node("power", token.start, call, power, None, number(exponent, raised.start))
 
     def _d_of_bracket(self, token: Token) -> Tree | None:
         """d(…)/dt; None where no /dt follows."""

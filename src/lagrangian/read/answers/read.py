@@ -17,7 +17,7 @@ from lagrangian.read.answers.plain import PlainParser
 from lagrangian.read.answers.rows import MAX_STATEMENTS, Row, plain_rows
 from lagrangian.read.source import Source
 
-MAX_ANSWER = 100_000
+MAX_ANSWER = 60_000
 """Longest answer that is read, in characters."""
 
 _LATEX = re.compile(r"\\[A-Za-z(\[\\]|\$|[_^]\{")
