@@ -46,7 +46,7 @@ def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
         case s if s in (UNDERFLOW, NOT_FINITE):
             singular = _singular(task, outcome)
             if singular:
-                return singular, "choose other coordinates near this configuration"
+                return singular, "choose other coordinates near this configuration, or give what they move a mass"
             broken = _not_finite(task, outcome)
             if broken:
                 return broken, "look for a division by zero or a root of a negative number there"
@@ -54,7 +54,10 @@ def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
                 return said, "a finite value everywhere the run may get to"
             return f"[E504] {said}", _gentler(task, outcome)
         case s if s == TOO_MANY:
-            return f"[E505] gave up after {outcome.steps} steps", "a shorter run, a larger max_steps, or method='Radau'"
+            return (
+                f"[E505] gave up after {task.bounds.max_steps} steps",
+                "a shorter run, a larger max_steps, or method='Radau'",
+            )
         case s if s == ZENO:
             name = task.events[outcome.hits[-1].index].title if outcome.hits else task.events[0].title
             return (
@@ -75,21 +78,22 @@ def _state(task: Task, x: Array) -> str:
 
 
 def _singular(task: Task, outcome: Outcome) -> str:
-    """Whether M is singular where the run stopped, and which coordinates move nothing there."""
+    """Whether M is singular where the run stopped, against where it began, and which coordinates move nothing there."""
     model, n = task.model, len(task.model.coordinates)
     kernel = remembered(model, "mass_matrix", lambda: machine.compile(dynamics.mass_matrix(model), optional={"v": 0.0}))
-    u = np.zeros(len(model.inputs))
+    states = np.array([outcome.final[:n], task.x0[:n]])
+    times = np.array([outcome.reached, task.times[0]])
     try:
-        M = kernel(np.array(outcome.final[:n]), None, u, task.p, outcome.reached)
+        M = kernel(states, None, np.zeros(len(model.inputs)), task.p, times)
     except RunError:
         return ""
     _, values, right = np.linalg.svd(M)
-    if values[-1] > SINGULAR * values[0]:
+    if values[0, -1] > SINGULAR * values.max():
         return ""
     names = [v.name.removesuffix("'") for v in model.velocities]
-    moved = [f"'{name}'" for name, x in zip(names, right[-1], strict=True) if abs(x) > 1e-6]
-    what = moved[0] if len(moved) == 1 else "moving " + ", ".join(moved) + " together"
-    return f"[E203] the mass matrix is singular there: {what} moves no mass"
+    moved = [f"'{name}'" for name, x in zip(names, right[0, -1], strict=True) if abs(x) > 1e-6]
+    what = f"{moved[0]} moves" if len(moved) == 1 else "moving " + ", ".join(moved) + " together moves"
+    return f"[E203] the mass matrix is singular there: {what} no mass"
 
 
 def _rates(task: Task, outcome: Outcome) -> tuple[tuple[str, ...], Array]:

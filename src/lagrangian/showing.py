@@ -54,6 +54,12 @@ class Units:
 
     def of(self, expr: sp.Expr) -> str:
         """The unit of an expression, or nothing where it is not known."""
+        if isinstance(expr, sp.Add):
+            found = {self.of(term) for term in expr.args}
+            return found.pop() if len(found) == 1 else self._worked_out(expr)
+        number, bare = expr.as_coeff_Mul()
+        if number != 1 and not bare.is_number:
+            return self.of(bare)
         if isinstance(expr, sp.Derivative) and expr.expr in self._angles:
             return "rad/s" if expr.derivative_count == 1 else f"rad/s^{expr.derivative_count}"
         if expr in self._angles:

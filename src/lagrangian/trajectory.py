@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from lagrangian import compile as machine
 from lagrangian import dynamics, read, showing
 from lagrangian.errors import ModelError, did_you_mean
-from lagrangian.model import Model, Point
+from lagrangian.model import Element, Model
 from lagrangian.write import tables
 
 if TYPE_CHECKING:
@@ -177,7 +177,13 @@ class Trajectory:
     @cached_property
     def points(self) -> Mapping[str, Array]:
         """Paths of the named points, (S, d) each, in the fixed axes [m]."""
-        return Paths(self)
+        return Named(self, "point", {p.name: partial(_same, p) for p in self.model.points if p.name})
+
+    @cached_property
+    def powers(self) -> Mapping[str, Array]:
+        """The power [W] that each force, damper, spring, … by its name gives to what moves, (S,) each."""
+        acting = [e for e in self.model.elements if e.ledger != "T*"]
+        return Named(self, "element that gives power,", {e.name: partial(element_power, self.model, e) for e in acting})
 
     # -- handing on ---------------------------------------------------------------------------------------------
 
@@ -220,27 +226,42 @@ class Trajectory:
         )
 
 
-class Paths(Mapping[str, Array]):
-    """The paths of a run's named points, worked out when asked for."""
+class Named(Mapping[str, Array]):
+    """Quantities of a run by name, worked out when asked for; ``what`` they are called in messages."""
 
-    def __init__(self, run: Trajectory) -> None:
-        self._run = run
-        self._points: dict[str, Point] = {p.name: p for p in run.model.points if p.name}
+    def __init__(self, run: Trajectory, what: str, quantities: Mapping[str, Callable[[], Any]]) -> None:
+        self._run, self._what, self._quantities = run, what, quantities
+        self._known: dict[str, Array] = {}
 
     def __getitem__(self, name: Any) -> Array:
-        if isinstance(name, Point):
-            return self._run[name]
-        if name not in self._points:
-            known = ", ".join(self._points) or "the system names none"
-            fix = did_you_mean(str(name), self._points) or f"points: {known}"
-            raise ModelError(f"there is no point '{name}'", fix=fix, code="E412")
-        return self._run[self._points[name]]
+        key = getattr(name, "name", name)  # the point or element itself will do
+        if key not in self._quantities:
+            known = ", ".join(self._quantities) or "none"
+            fix = did_you_mean(str(key), self._quantities) or f"known: {known}"
+            raise ModelError(f"there is no {self._what} '{key}'", fix=fix, code="E412")
+        if key not in self._known:
+            self._known[key] = self._run[self._quantities[key]()]
+        return self._known[key]
 
     def __contains__(self, name: object) -> bool:
-        return name in self._points
+        return getattr(name, "name", name) in self._quantities
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._points)
+        return iter(self._quantities)
 
     def __len__(self) -> int:
-        return len(self._points)
+        return len(self._quantities)
+
+
+def _same(thing: Any) -> Any:
+    return thing
+
+
+def element_power(model: Model, element: Element) -> sp.Expr:
+    """The power [W] an element gives to what moves: Σ effort · rate, and −V̇ of what it stores by position.
+
+    V̇ is taken along the motion, with inputs and time held.
+    """
+    given = sum((a.effort * a.rate for a in element.works(model)), sp.S.Zero)
+    stored = element.potential(model)
+    return given - sum((sp.diff(stored, c.symbol) * c.rate for c in model.coordinates), sp.S.Zero)

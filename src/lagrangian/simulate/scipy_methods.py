@@ -92,7 +92,9 @@ class _Field:
         except RunError as error:
             if error.code not in ("E502", "E503"):
                 raise
-            self.trouble, self.why = self.trouble + 1, f"[{error.code}] {error.what}"
+            if not self.trouble:  # the first is the cause, what follows it only hears of it
+                self.why = f"[{error.code}] {error.what}"
+            self.trouble += 1
             if self.trouble > MAX_NOT_FINITE:
                 raise _NotFiniteError from None
             return self.nothing

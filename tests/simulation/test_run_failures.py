@@ -1,0 +1,123 @@
+"""Runs that fail on their way keep what they reached and say why; what is wrong before the run is refused."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+import sympy as sp
+from run_systems import ball, oscillator
+
+import lagrangian as lg
+
+REFUSED = [
+    ({"duration": -1.0}, "duration is negative"),
+    ({"duration": None}, "how long to run is not said"),
+    ({"duration": "3 kg"}, "has the unit kg"),
+    ({"duration": float("nan")}, "duration is nan"),
+    ({"duration": 1.0, "qq": 1.0}, "no option and no state 'qq'"),
+    ({"duration": 1.0, "k": 1.0}, "no option and no state 'k'"),
+    ({"duration": 1.0, "F": 1.0}, "no option and no state 'F'"),
+    ({"duration": 1.0, "initial": {"p": 1.0}}, "there is no state 'p'"),
+    ({"duration": 1.0, "initial": {"q": 1.0}, "q": 2.0}, "given twice"),
+    ({"duration": 1.0, "initial": [1.0]}, "1 values for 2"),
+    ({"duration": 1.0, "initial": {"q": "3 kg"}}, "has the unit kg"),
+    ({"duration": 1.0, "initial": {"q": 1j}}, "must be a real number"),
+    ({"duration": 1.0, "initial": {"q": float("inf")}}, "is inf"),
+    ({"duration": 1.0, "params": {"kk": 1.0}}, "there is no parameter 'kk'"),
+    ({"duration": 1.0, "params": {"k": float("nan")}}, "is nan"),
+    ({"duration": 1.0, "method": "rk5"}, "there is no method 'rk5'"),
+    ({"duration": 1.0, "method": "radau"}, "there is no method 'radau'"),
+    ({"duration": 1.0, "method": "rk4"}, "has steps of one length"),
+    ({"duration": 1.0, "method": "rk4", "step": 0.0}, "step must be above 0"),
+    ({"duration": 1.0, "step": 0.1}, "chooses its steps"),
+    ({"duration": 1.0, "rtol": 0.0}, "rtol must be above 0"),
+    ({"duration": 1.0, "atol": -1e-9}, "atol must be above 0"),
+    ({"duration": 1.0, "samples": 1}, "samples must be a whole number"),
+    ({"duration": 1.0, "samples": 10**9}, "more than a run may store"),
+    ({"duration": 1.0, "max_steps": 0}, "max_steps must be"),
+    ({"duration": 1.0, "timeout": 0.0}, "timeout must be above 0"),
+    ({"duration": 1e-20, "start": 1e3}, "cannot be told from none"),
+    ({"times": [0.0, 2.0, 1.0]}, "times are out of order"),
+    ({"times": [0.0, 1.0], "duration": 2.0}, "times say it all"),
+    ({"times": [-1.0, 1.0]}, "before the start"),
+    ({"times": [[0.0, 1.0]]}, "one row of numbers"),
+    ({"times": [0.0, float("nan")]}, "time number 2 is not finite"),
+    ({"times": "abc"}, "array of numbers"),
+]
+
+
+@pytest.mark.parametrize(("options", "words"), REFUSED, ids=[w for _, w in REFUSED])
+def test_what_is_wrong_is_refused_before_the_run(options: dict, words: str) -> None:
+    with pytest.raises((lg.RunError, lg.ModelError), match=words):
+        oscillator().simulate(**options)
+
+
+def test_parameters_without_a_value_are_listed() -> None:
+    s = lg.System("bare")
+    q = s.coordinate("q")
+    m, k = s.parameters("m k")
+    s.particle(m, at=s.origin + (q, 0))
+    s.spring(k, deflection=q)
+    with pytest.raises(lg.RunError, match=r"parameter 'm' has no value. Missing: m, k"):
+        s.simulate(1.0)
+    assert s.simulate(1.0, params={"m": 1, k: 4}, q=1.0)["q"][-1] == pytest.approx(np.cos(2.0), abs=1e-9)
+
+
+@pytest.mark.parametrize("method", ["dop853", "DOP853", "LSODA"])
+def test_a_mass_matrix_that_becomes_singular_is_named(method: str) -> None:
+    """A bead whose position is cos q: pushed to q = 0 it would have no mass left."""
+    s = lg.System("cosine")
+    q = s.coordinate("q")
+    s.particle(s.parameter("m", 1.0), at=s.origin + (sp.cos(q), 0))
+    s.potential(-2.0 * sp.cos(q))
+    run = s.simulate(5.0, q=1.0, method=method)
+    assert not run.success
+    assert "[E203] the mass matrix is singular there: 'q' moves no mass" in run.message
+    assert 0 < run.t[-1] < 5.0 and np.all(np.isfinite(run.y))
+    assert f"t = {run.t[-1]:.9g}" in run.message
+
+
+@pytest.mark.parametrize("method", ["dop853", "tsit5", "Radau"])
+def test_a_state_that_blows_up_keeps_what_was_reached(method: str) -> None:
+    """q̈ = 2 q³ with q = 1, q̇ = 1: q = 1/(1 − t) is infinite at t = 1."""
+    s = lg.System("blow-up")
+    q = s.coordinate("q")
+    s.particle(s.parameter("m", 1.0), at=s.origin + (q, 0))
+    s.potential(-(q**4) / 2)
+    run = s.simulate(2.0, q=1.0, initial={"q'": 1.0}, method=method)
+    assert not run.success and run.status < 0
+    assert run.t[-1] == pytest.approx(1.0, abs=1e-3)
+    early = run.t < 0.9
+    assert run["q"][early] == pytest.approx(1 / (1 - run.t[early]), rel=1e-6)
+    assert "q = " in run.message and "Fix:" in run.message
+
+
+@pytest.mark.parametrize("method", ["dop853", "DOP853"])
+def test_a_force_that_leaves_its_domain_is_told(method: str) -> None:
+    s = lg.System("root")
+    q = s.coordinate("q")
+    s.particle(s.parameter("m", 1.0), at=s.origin + (q, 0))
+    s.force(-sp.sqrt(q), deflection=q)
+    run = s.simulate(10.0, q=1.0, method=method)
+    assert not run.success
+    assert run.t[-1] < 10.0 and np.all(np.isfinite(run.y))
+    assert "E503" in run.message or "E504" in run.message
+
+
+def test_bounds_on_steps_and_time_end_a_run() -> None:
+    s = oscillator()
+    for method in ("dop853", "DOP853"):
+        run = s.simulate(1000.0, q=1.0, max_steps=20, method=method)
+        assert run.status == -3 and "gave up after 20 steps" in run.message
+        assert 0 < run.t[-1] < 1000.0
+    slow = s.simulate(1e7, q=1.0, timeout=0.2, samples=3)
+    assert slow.status == -6 and "time allowed" in slow.message
+    assert not slow.success and "FAILED" in repr(slow)
+
+
+def test_a_failed_run_can_still_be_asked() -> None:
+    s = ball()
+    run = s.simulate(1.0, y=1.0, max_steps=2, method="RK45")
+    assert not run.success
+    assert run["y"] == pytest.approx(1 - 9.81 * run.t**2 / 2, abs=1e-6)
+    assert len(run.to_csv().splitlines()) == len(run.t) + 1
