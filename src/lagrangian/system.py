@@ -97,6 +97,12 @@ class System:
         """The frozen description; raises `ModelError` where it is not complete."""
         return self._builder.model()
 
+    @property
+    def energy(self) -> sp.Expr:
+        """T* + V [J] as an expression, for runs and events; `derive` reads better."""
+        model = self.model
+        return sp.Add(*(e.kinetic(model) + e.potential(model) for e in model.elements))
+
     def __getitem__(self, name: str) -> Any:
         """Return the symbol, or else the point or frame, that carries ``name``."""
         return self._builder.lookup(name)
