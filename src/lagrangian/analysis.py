@@ -9,6 +9,7 @@ from typing import Any
 
 from lagrangian import analyze, write
 from lagrangian.analyze import LinearizationAlong, Regulator, SymbolicLinearization, linearize_along
+from lagrangian.analyze.canonical_report import hamiltonian_report, routhian_report
 from lagrangian.analyze.conserved_report import conserved_report
 from lagrangian.analyze.equilibria_report import equilibria_report
 from lagrangian.analyze.linear_report import linear_report
@@ -99,6 +100,24 @@ class ConservedQuantities(Written, analyze.ConservedQuantities):
         return conserved_report(self)
 
 
+@dataclass(frozen=True, eq=False)
+class Hamiltonian(Written, analyze.Hamiltonian):
+    """H(q, p, t), momenta and canonical equations; see `analyze.Hamiltonian`."""
+
+    def report(self) -> Report:
+        """Return the report."""
+        return hamiltonian_report(self)
+
+
+@dataclass(frozen=True, eq=False)
+class Routhian(Written, analyze.Routhian):
+    """The Lagrangian of what is left without ignorable coordinates; see `analyze.Routhian`."""
+
+    def report(self) -> Report:
+        """Return the report."""
+        return routhian_report(self)
+
+
 def linearize(model: Model, at: Any, **options: Any) -> Linearization:
     """Return the linearization of a model about a point; see `analyze.linearize`."""
     data = analyze.linearize(model, at, **options)
@@ -117,13 +136,29 @@ def conserved(model: Model, **options: Any) -> ConservedQuantities:
     return ConservedQuantities(**{f.name: getattr(data, f.name) for f in fields(data)})
 
 
+def hamiltonian(model: Model) -> Hamiltonian:
+    """Return Hamilton's form of a model; see `analyze.hamiltonian`."""
+    data = analyze.hamiltonian(model)
+    return Hamiltonian(**{f.name: getattr(data, f.name) for f in fields(data)})
+
+
+def routhian(model: Model, ignorable: Any = None) -> Routhian:
+    """Return Routh's form of a model; see `analyze.routhian`."""
+    data = analyze.routhian(model, ignorable)
+    return Routhian(**{f.name: getattr(data, f.name) for f in fields(data)})
+
+
 __all__ = [
     "ConservedQuantities",
     "Equilibria",
+    "Hamiltonian",
     "Linearization",
     "LinearizationAlong",
+    "Routhian",
     "conserved",
     "equilibria",
+    "hamiltonian",
     "linearize",
     "linearize_along",
+    "routhian",
 ]

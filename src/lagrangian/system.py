@@ -13,12 +13,16 @@ from lagrangian import read
 from lagrangian.analysis import (
     ConservedQuantities,
     Equilibria,
+    Hamiltonian,
     Linearization,
     LinearizationAlong,
+    Routhian,
     conserved,
     equilibria,
+    hamiltonian,
     linearize,
     linearize_along,
+    routhian,
 )
 from lagrangian.analyze import check_dimensions
 from lagrangian.analyze.change import carried
@@ -340,6 +344,14 @@ class System:
     def conserved(self, *, params: Mapping[Any, Any] | None = None) -> ConservedQuantities:
         """Return what every motion keeps: momenta of ignorable coordinates, total momenta, energy, each verified."""
         return conserved(self.model, params=params)
+
+    def hamiltonian(self) -> Hamiltonian:
+        """Return momenta, H(q, p, t) and the canonical equations."""
+        return hamiltonian(self.model)
+
+    def routhian(self, ignorable: Sequence[Any] | None = None) -> Routhian:
+        """Return the Routhian: the Lagrangian of what is left once ignorable coordinates (all, or these) are gone."""
+        return routhian(self.model, ignorable)
 
     def equilibria(
         self,

@@ -4,8 +4,10 @@ from lagrangian.analyze.along import LinearizationAlong, linearize_along
 from lagrangian.analyze.conserved import Conserved, ConservedQuantities, conserved
 from lagrangian.analyze.dimensions import check_dimensions
 from lagrangian.analyze.equilibria import Equilibria, Equilibrium, equilibria
+from lagrangian.analyze.hamiltonian import Hamiltonian, hamiltonian
 from lagrangian.analyze.linearize import Linearization, linearize
 from lagrangian.analyze.regulate import Regulator, lqr, to_control
+from lagrangian.analyze.routhian import Routhian, routhian
 from lagrangian.analyze.symbolic import SymbolicLinearization, symbolic
 from lagrangian.analyze.verify import verify
 
@@ -14,16 +16,20 @@ __all__ = [
     "ConservedQuantities",
     "Equilibria",
     "Equilibrium",
+    "Hamiltonian",
     "Linearization",
     "LinearizationAlong",
     "Regulator",
+    "Routhian",
     "SymbolicLinearization",
     "check_dimensions",
     "conserved",
     "equilibria",
+    "hamiltonian",
     "linearize",
     "linearize_along",
     "lqr",
+    "routhian",
     "symbolic",
     "to_control",
     "verify",

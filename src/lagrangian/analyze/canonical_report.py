@@ -1,0 +1,85 @@
+"""Hamilton's and Routh's forms as reports."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, cast
+
+import sympy as sp
+
+from lagrangian.analyze.hamiltonian import Hamiltonian
+from lagrangian.analyze.report import Part, Report
+from lagrangian.analyze.routhian import Routhian
+from lagrangian.derive import Check
+from lagrangian.derive.formula import Formula, Item, Name, Partial, Terms, formula, text
+from lagrangian.model import plain
+
+
+def _defined(definitions: Mapping[Any, sp.Expr], rates: Mapping[Any, Any]) -> list[Item]:
+    return [formula(p, Partial(Name("L"), rates[p]), value) for p, value in definitions.items()]
+
+
+def _sum(expr: sp.Expr) -> Terms:
+    return Terms(tuple(cast("sp.Expr", term) for term in expr.as_ordered_terms()))
+
+
+def hamiltonian_report(found: Hamiltonian) -> Report:
+    """Return the report of Hamilton's form."""
+    by_momentum = {found.momenta[c.symbol]: c.rate for c in found.model.coordinates}
+    kind = "T* + V" if found.is_total else "not T* + V, for a motion is prescribed"
+    kept = "every motion keeps it" if found.is_constant else "forces or explicit time change it"
+    equations: list[Item] = [formula(x, _sum(value), boxed=True) for x, value in found.equations.items()]
+    parts = (
+        Part(text("Momenta"), tuple(_defined(found.definitions, by_momentum))),
+        Part(text("Hamiltonian"), (formula(Name("H"), _sum(found.H), boxed=True), text(f"H is {kind}; {kept}."))),
+        Part(text("Canonical equations"), tuple(equations), found.checks),
+    )
+    data = {
+        "system": found.model.name,
+        "H": plain(found.H),
+        "momenta": {plain(q): plain(p) for q, p in found.momenta.items()},
+        "definitions": {plain(p): plain(value) for p, value in found.definitions.items()},
+        "equations": {plain(x): plain(value) for x, value in found.equations.items()},
+        "is_total": found.is_total,
+        "is_constant": found.is_constant,
+        "checks": _checks(found.checks),
+    }
+    return Report(f"{found.model.name}: Hamilton's form", found.model, parts, data)
+
+
+def routhian_report(found: Routhian) -> Report:
+    """Return the report of Routh's form."""
+    by_momentum = {found.ignorable[c.symbol]: c.rate for c in found.model.coordinates if c.symbol in found.ignorable}
+    equations: list[Item] = [
+        Formula((_sum(cast("sp.Expr", e.lhs)), _sum(cast("sp.Expr", e.rhs))), boxed=True) for e in found.equations
+    ]
+    gone: list[Item] = [formula(v, _sum(value)) for v, value in found.rates.items()]
+    parts = (
+        Part(text("Constant momenta"), tuple(_defined(found.definitions, by_momentum))),
+        Part(
+            text("Routhian"),
+            (
+                formula(Name("R"), _sum(found.R), boxed=True),
+                text("The Lagrangian of what is left; its potential is"),
+                formula(Name("V", "eff"), _sum(found.potential)),
+            ),
+        ),
+        Part(text("Equations of what is left"), tuple(equations), found.checks),
+        Part(text("What is gone follows"), tuple(gone)),
+    )
+    data = {
+        "system": found.model.name,
+        "R": plain(found.R),
+        "ignorable": {plain(q): plain(p) for q, p in found.ignorable.items()},
+        "definitions": {plain(p): plain(value) for p, value in found.definitions.items()},
+        "rates": {plain(v): plain(value) for v, value in found.rates.items()},
+        "coordinates": [plain(q) for q in found.coordinates],
+        "equations": [f"{plain(e.lhs)} = {plain(e.rhs)}" for e in found.equations],
+        "potential": plain(found.potential),
+        "checks": _checks(found.checks),
+    }
+    return Report(f"{found.model.name}: Routh's form", found.model, parts, data)
+
+
+def _checks(checks: tuple[Check, ...]) -> list[dict[str, Any]]:
+    return [{"what": str(c.what), "holds": c.holds, "figure": c.figure} for c in checks]
