@@ -1,11 +1,14 @@
 """A, B, C, D against difference quotients of 50 digits, python-control and published figures."""
 
+import json
+
 import mpmath
 import numpy as np
 import pytest
 
 import lagrangian as lg
 from lagrangian import dynamics, examples
+from lagrangian.cli import main
 from lagrangian.errors import ModelError, RunError
 from lagrangian.graph import evaluate
 
@@ -126,3 +129,65 @@ def test_outputs_may_be_any_expression() -> None:
     assert found.C[0].tolist() == [1, 1, 0, 0]
     assert found.D.T.tolist() == [[0, 2, found.B[2, 0]]]
     assert np.allclose(found.C[2], found.A[2], atol=1e-14)
+
+
+def test_a_drone_hovers_with_its_quaternion() -> None:
+    """A floating body: x = [q (7); v (6)]; thrust m g balances, tilt moves it sideways at v̇ = g·2e."""
+    system = lg.System("drone")
+    base = system.floating_frame("base")
+    system.rigid_body(2, (1, 2, 3), at=base.origin, frame=base)
+    system.gravity(direction=(0, 0, -1))
+    F = system.input("F")
+    system.force((0, 0, F), at=base.origin, axes=base)
+    found = system.linearize(inputs={"F": 2 * 9.81})
+    assert found.kind == "rest" and found.A.shape == (13, 13)
+    row = found.A[found.states.index("base_vx")]
+    assert row[found.states.index("base_qy")] == pytest.approx(2 * 9.81)
+    assert found.B[found.states.index("base_vz"), 0] == pytest.approx(0.5)
+    assert found.mass is None
+    with pytest.raises(RunError, match="symbols"):
+        _ = found.symbolic
+    with pytest.raises(RunError, match="floating frame"):
+        system.equilibria()
+    with pytest.raises(ModelError, match="floating frame"):
+        system.conserved()
+
+
+def test_a_command_writes_text_and_data(capsys: pytest.CaptureFixture[str]) -> None:
+    argv = [
+        "linearize",
+        "-e",
+        "cart-pole",
+        "--at",
+        "theta=180 deg",
+        "--set",
+        "M=2 kg",
+        "--outputs",
+        "tip=x+l*sin(theta)",
+    ]
+    assert main([*argv, "--symbols"]) == 0
+    text = capsys.readouterr().out
+    assert "Verdict: marginal" in text and "In symbols" in text and "tip" in text
+    assert main([*argv, "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["outputs"] == ["tip"] and found["parameters"]["M"] == 2
+    assert np.array(found["A"]).shape == (4, 4)
+
+
+@pytest.mark.parametrize(
+    ("argv", "message"),
+    [
+        (["--at", "theta"], "name=value"),
+        (["--at", "theta=1", "--at", "theta=2"], "twice"),
+        (["--at", "theta=1"], "no equilibrium"),
+        (["--at", "thta=1"], "Did you mean 'theta'"),
+        (["--outputs", "x +"], "output"),
+        (["--outputs", "__import__('os')"], "output"),
+    ],
+)
+def test_a_mistake_in_a_command_is_one_message(
+    capsys: pytest.CaptureFixture[str], argv: list[str], message: str
+) -> None:
+    assert main(["linearize", "-e", "cart-pole", *argv]) == 2
+    captured = capsys.readouterr()
+    assert captured.out == "" and message in captured.err and "Traceback" not in captured.err

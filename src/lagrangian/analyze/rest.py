@@ -69,7 +69,8 @@ def rest(
         inputs = {**at.inputs, **given.inputs.values(inputs)}
         params = {**at.parameters, **given.parameters.values(params)}
         at = at.at
-    x = np.array(list((dict.fromkeys(states, 0.0) | given.states.values(at)).values()))
+    start = dict.fromkeys(states, 0.0) | {c.name: c.start for c in model.coordinates}
+    x = np.array(list((start | given.states.values(at)).values()))
     u, p = given.input_values(inputs), given.parameter_values(params)
     here = Rest(states, x, u, p, "operating point", 0.0)
     found = _values(program, here, t)
