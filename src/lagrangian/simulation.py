@@ -291,7 +291,10 @@ def _jumps(task: Task, hits: Sequence[Hit], t: Array, n: int) -> Array:
     changed = [h for h in hits if h.after is not None]
     if not changed:
         return total
-    kernel = machine.compile(dynamics.power_closed(task.model, task.drive.feedback))
+    key = ("power", frozenset(task.drive.feedback.items()))
+    kernel = remembered(
+        task.model, key, lambda: machine.compile(dynamics.power_closed(task.model, task.drive.feedback))
+    )
     at = np.array([h.time for h in changed])
     before = np.array([h.before[:n] for h in changed])
     after = np.array([h.after[:n] for h in changed if h.after is not None])

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 from lagrangian import compile as machine
 from lagrangian import dynamics, read, showing
 from lagrangian.errors import ModelError, did_you_mean
-from lagrangian.model import Element, Model
+from lagrangian.integrating import remembered
+from lagrangian.model import Element, Model, Point, as_expr
 from lagrangian.write import tables
 
 if TYPE_CHECKING:
@@ -91,7 +92,6 @@ class Trajectory:
     supplied: Array
     jumps: Array
     settings: Mapping[str, Any]
-    _kernels: dict[Any, machine.Kernel] = field(default_factory=dict, repr=False)
 
     # -- asking -------------------------------------------------------------------------------------------------
 
@@ -123,18 +123,22 @@ class Trajectory:
 
     def observe(self, outputs: Mapping[str, Any]) -> dict[str, Array]:
         """Return several expressions or points at once, by name."""
-        return self._evaluated(dynamics.observe_closed(self.model, outputs, self.feedback))
+        asked = {k: x if isinstance(x, Point) else as_expr(x, f"'{k}'") for k, x in outputs.items()}
+        key = ("observe", tuple(asked.items()), frozenset(self.feedback.items()))
+        return self._evaluated(key, lambda: dynamics.observe_closed(self.model, asked, self.feedback))
 
-    def _evaluated(self, program: Program) -> dict[str, Array]:
-        kernel = machine.compile(program)
+    def _evaluated(self, key: Any, make: Callable[[], Program]) -> dict[str, Array]:
+        """What a program says at every time; it is compiled once for all runs of the system."""
+        kernel: machine.Kernel = remembered(self.model, key, lambda: machine.compile(make()))
         answer = kernel(np.ascontiguousarray(self.y.T), self.u, self.p, self.t)
-        return answer if isinstance(answer, dict) else {next(iter(program.outputs)): answer}
+        return answer if isinstance(answer, dict) else {next(iter(kernel.program.outputs)): answer}
 
     # -- energies -----------------------------------------------------------------------------------------------
 
     @cached_property
     def _power(self) -> dict[str, Array]:
-        return self._evaluated(dynamics.power_closed(self.model, self.feedback))
+        key = ("power", frozenset(self.feedback.items()))
+        return self._evaluated(key, lambda: dynamics.power_closed(self.model, self.feedback))
 
     @property
     def kinetic(self) -> Array:
