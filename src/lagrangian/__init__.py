@@ -1,5 +1,6 @@
 """Equations of motion by the Lagrangian approach: every step shown, every result checked."""
 
+from lagrangian.comparison import Comparison, compare
 from lagrangian.derivation import Derivation
 from lagrangian.errors import Error, MissingExtra, ModelError, ParseError, Place, RunError
 from lagrangian.events import Event, event
@@ -8,6 +9,7 @@ from lagrangian.system import System, load, loads
 from lagrangian.trajectory import Trajectory
 
 __all__ = [
+    "Comparison",
     "Derivation",
     "Ensemble",
     "Error",
@@ -19,6 +21,7 @@ __all__ = [
     "RunError",
     "System",
     "Trajectory",
+    "compare",
     "event",
     "load",
     "loads",

@@ -27,9 +27,12 @@ from lagrangian.analysis import (
 from lagrangian.analyze import check_dimensions
 from lagrangian.analyze.change import carried
 from lagrangian.analyze.motion import verify_motion
+from lagrangian.checking import CheckedAnswer, check_answer
+from lagrangian.comparison import Comparison, compare
 from lagrangian.compiled import LANGUAGES, Compiled, sources
 from lagrangian.derivation import Derivation, derive_and_verify
 from lagrangian.derive import Check
+from lagrangian.derive import derive as derive_model
 from lagrangian.errors import ModelError, Place
 from lagrangian.model import (
     Builder,
@@ -323,6 +326,13 @@ class System:
         """Return the derivation: the seven steps, the equations, and what was verified."""
         return derive_and_verify(self.model)
 
+    def check(self, answer: Any, *, hint: int = 3) -> CheckedAnswer:
+        """Return whether an answer (text, LaTeX, SymPy equations, energies by name) is right; see `Derivation.check`.
+
+        Derives anew each time: for many answers derive once, and check with the derivation.
+        """
+        return check_answer(derive_model(self.model), answer, hint=hint)
+
     def verify(self, *, states: int = 50, seed: int = 1) -> tuple[Check, ...]:
         """Check the equations by independent routes at random states; every check carries its figure.
 
@@ -470,6 +480,13 @@ class System:
         """
         builder = carried(self.model, change, name=name)
         return System(builder.name, _builder=builder)
+
+    def compare(self, other: System, change: Mapping[Any, Any] | None = None) -> Comparison:
+        """Return this system and another side by side: are they one motion, row by row, and where do they differ?
+
+        ``change`` says coordinates of one in those of the other; left out, it is found where positions tell it.
+        """
+        return compare(self, other, change)
 
     def export(self, path: str | Path) -> tuple[Path, ...]:
         """Write source code of the dynamics: to ``name.c`` (and ``name.h``) or ``name.py``; return what was written."""

@@ -16,6 +16,7 @@ from typing import Any, cast
 
 import numpy as np
 import sympy as sp
+from numpy.typing import NDArray
 from sympy.core.function import AppliedUndef
 
 from lagrangian.derive.sample import Sampler
@@ -266,17 +267,28 @@ def _checked(model: Model, change: Change) -> Change:
 
 def check_regular(model: Model, change: Change) -> None:
     """Refuse a change whose J = ∂(old)/∂(new) has not full rank anywhere."""
-    n = len(change.old)
-    sampler = Sampler(model, list(change.jacobian.flat()))
-    best, weakest = -1.0, np.zeros(n)
-    for _, values in sampler.states(STATES, seed=3):
-        _, s, vt = np.linalg.svd(np.array(values, float).reshape(n, n))
-        if s[-1] / max(s[0], 1e-300) > best:
-            best, weakest = s[-1] / max(s[0], 1e-300), vt[-1]
-    if best < SMALLEST:
+    size, weakest = _smallest(model, change)
+    if size < SMALLEST:
         names = [c.name for c, w in zip(change.new, weakest, strict=True) if abs(w) > 1e-6]
         raise ModelError(
             f"the change is singular: {' and '.join(names)} can wiggle without moving an old coordinate",
             fix="the determinant of ∂(old)/∂(new) must not be 0 everywhere; use every new coordinate in its own way",
             code="E210",
         )
+
+
+def is_regular(model: Model, change: Change) -> bool:
+    """Whether J = ∂(old)/∂(new) has full rank somewhere."""
+    return _smallest(model, change)[0] >= SMALLEST
+
+
+def _smallest(model: Model, change: Change) -> tuple[float, NDArray[np.float64]]:
+    """The smallest singular value of J beside its largest, and the direction that goes with it, at the best place."""
+    n = len(change.old)
+    sampler = Sampler(model, list(change.jacobian.flat()))
+    best, weakest = -1.0, np.zeros(n)
+    for _, values in sampler.states(STATES, seed=3):
+        _, s, vt = np.linalg.svd(np.array(values, float).reshape(n, n))
+        if s[-1] / max(s[0], 1e-300) > best:
+            best, weakest = float(s[-1] / max(s[0], 1e-300)), vt[-1]
+    return best, weakest

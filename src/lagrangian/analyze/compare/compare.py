@@ -12,7 +12,7 @@ from typing import Any, cast
 
 import sympy as sp
 
-from lagrangian.analyze.change import Change, check_regular
+from lagrangian.analyze.change import Change, check_regular, is_regular
 from lagrangian.analyze.compare.comparison import Comparison, Rewritten, Row, Side
 from lagrangian.analyze.compare.differences import differing, parameter_differences, unmatched
 from lagrangian.analyze.compare.given import given_change
@@ -82,10 +82,12 @@ def _correspondence(a: Model, b: Model, given: Mapping[Any, Any] | None) -> tupl
         proposals.append((agreement(a, same, pairs), 2, same, False))
     if not proposals or proposals[0][0] < 1:
         for turned, one, other, seen in ((False, a, b, pairs), (True, b, a, pairs.swapped())):
-            table = solved(one, other, seen)
-            if table is not None:
+            for table in solved(one, other, seen):
                 made = Change(one.coordinates, other.coordinates, table)
-                proposals.append((agreement(one, made, seen), 1 - turned, made, turned))
+                if is_regular(one, made):
+                    proposals.append((agreement(one, made, seen), 1 - turned, made, turned))
+                if proposals and proposals[-1][0] == 1:
+                    break
     if not proposals:
         ours, theirs = (", ".join(c.name for c in m.coordinates) for m in (a, b))
         raise ModelError(
@@ -94,7 +96,6 @@ def _correspondence(a: Model, b: Model, given: Mapping[Any, Any] | None) -> tupl
             code="E210",
         )
     score, _, change, turned = max(proposals, key=lambda p: p[:2])
-    check_regular(b if turned else a, change)
     return change, turned, score < 1
 
 
@@ -162,7 +163,8 @@ def _row(
     terms += [(f, e) for f, e in zip(factors, others, strict=True) if f != 0]
     verdict = zero.vanishes(terms)
     words = combination(label, factors, of, holds=verdict.holds)
-    return Row(label, factors, of, words, Check(equality(label, factors, of), verdict.holds, verdict.figure))
+    rest = sp.S.Zero if verdict.holds else zero.readable(-sp.Add(*(f * e for f, e in terms)))
+    return Row(label, factors, of, words, Check(equality(label, factors, of), verdict.holds, verdict.figure), rest)
 
 
 def _energies(zero: Zero, shared: Shared) -> tuple[Check, ...]:

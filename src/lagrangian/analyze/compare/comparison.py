@@ -27,13 +27,17 @@ class Side:
 
 @dataclass(frozen=True)
 class Row:
-    """An equation of one set as a sum of rows of the other: ``label`` = Σ factors · ``of``."""
+    """An equation of one set as a sum of rows of the other: ``label`` = Σ factors · ``of``.
+
+    ``rest`` is what is left over, ``label`` − Σ factors · ``of``: 0 where the row holds.
+    """
 
     label: str
     factors: tuple[sp.Expr, ...]
     of: tuple[str, ...]
     words: Text
     check: Check
+    rest: sp.Expr
 
     @property
     def holds(self) -> bool:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import Literal, cast
 
 import sympy as sp
@@ -63,7 +63,9 @@ def differing(zero: Zero, shared: Shared, *, turned: bool) -> tuple[Difference, 
                 name = shared.b.coordinates[index].name if index is not None else None
                 ends = [(x, one.title if one else None), (y, other.title if other else None)]
                 (p, e), (q, f) = reversed(ends) if turned else ends
-                found.append(Difference(STEPS[quantity], quantity, name, p, q, first_term(zero, p - q), e, f))
+                term = first_term(zero, p - q)
+                p, q = zero.readable(p), zero.readable(q)
+                found.append(Difference(STEPS[quantity], quantity, name, p, q, term, e, f))
     return tuple(found)
 
 
@@ -81,35 +83,32 @@ def first_term(zero: Zero, expr: sp.Expr) -> sp.Expr:
     return form.terms()[0].expr if not form.is_zero else expr
 
 
+Given = tuple[Element, sp.Expr]
 Pair = tuple[Element | None, sp.Expr, Element | None, sp.Expr]
 
 
 def _pairs(zero: Zero, shared: Shared, quantity: Quantity, index: int | None) -> Iterator[Pair]:
-    """Elements of both side by side, each with what it adds: of one name, else adding the same, else alone."""
+    """Elements of both side by side, each with what it adds here.
+
+    Those of one name go together; then those that add the same; then those of one kind, in order; the rest is alone.
+    """
     left, right = (
-        [
-            (e, x)
-            for e in m.elements
-            if e.ledger == LEDGER[quantity] and (x := shared.share(e, quantity, index, first=first)) != 0
-        ]
+        [(e, shared.share(e, quantity, index, first=first)) for e in m.elements if e.ledger == LEDGER[quantity]]
         for m, first in ((shared.a, True), (shared.b, False))
     )
-    by_title = {e.title: (e, x) for e, x in right}
-    used: set[str] = set()
-    alone: list[tuple[Element, sp.Expr]] = []
+    tests: tuple[Callable[[Given, Given], bool], ...] = (
+        lambda p, q: p[0].title == q[0].title,
+        lambda p, q: p[1] != 0 and q[1] != 0 and zero.vanishes([(sp.S.One, p[1]), (sp.S.NegativeOne, q[1])]).holds,
+        lambda p, q: p[0].kind == q[0].kind,
+    )
+    for alike in tests:
+        for p in list(left):
+            q = next((q for q in right if alike(p, q)), None)
+            if q is not None:
+                left.remove(p)
+                right.remove(q)
+                yield (*p, *q)
     for e, x in left:
-        if e.title in by_title:
-            used.add(e.title)
-            yield (e, x, *by_title[e.title])
-        else:
-            alone.append((e, x))
-    rest = [(f, y) for f, y in right if f.title not in used]
-    for e, x in alone:
-        match = next((p for p in rest if zero.vanishes([(sp.S.One, x), (sp.S.NegativeOne, p[1])]).holds), None)
-        if match is not None:
-            rest.remove(match)
-            yield (e, x, *match)
-        else:
-            yield e, x, None, sp.S.Zero
-    for f, y in rest:
+        yield e, x, None, sp.S.Zero
+    for f, y in right:
         yield None, sp.S.Zero, f, y

@@ -9,9 +9,9 @@ the same places.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import pairwise
+from itertools import islice, pairwise
 from typing import Any, cast
 
 import sympy as sp
@@ -24,7 +24,10 @@ from lagrangian.model import Frame, Model, Point, RigidBody, time
 LARGEST = 200
 """Operations up to which a component of a position is looked into."""
 CLOSE = 1e-9
+MOST = 12
+"""Proposals that are looked at."""
 Vector = tuple[sp.Expr, ...]
+Table = dict[Any, sp.Expr]
 
 
 @dataclass(frozen=True)
@@ -111,23 +114,39 @@ def agreement(a: Model, change: Change, pairs: Places) -> float:
     return equal / len(gaps)
 
 
-def solved(a: Model, b: Model, pairs: Places) -> dict[AppliedUndef, sp.Expr] | None:
-    """Return φ for every coordinate of ``a`` in those of ``b``, or None where the places do not tell all."""
+def solved(a: Model, b: Model, pairs: Places) -> Iterator[dict[AppliedUndef, sp.Expr]]:
+    """Every φ that the places allow, coordinates of ``a`` in those of ``b``, the surest first.
+
+    Where they do not tell all, one coordinate after the other is taken to be the one of its name, and what follows
+    from that is told.
+    """
     old = {c.symbol: sp.Dummy(c.name) for c in a.coordinates}  # a letter can mean one thing here, another there
     vectors = [(tuple(_renamed(x, old) for x in p), q) for p, q in _differences(pairs)]
-    moving: set[Any] = {c.symbol for c in b.coordinates}
-    table: dict[sp.Basic, sp.Expr] = {}
-    while len(table) < len(old):
-        unknown = set(old.values()) - table.keys()
+    vectors += [((x,), (y,)) for p, q in vectors if len(p) > 1 for x, y in zip(p, q, strict=True)]
+    theirs = {c.name: c.symbol for c in b.coordinates}
+    same: Table = {dummy: theirs[s.func.__name__] for s, dummy in old.items() if s.func.__name__ in theirs}
+    for table in islice(_deduced(vectors, old.values(), set(theirs.values()), same, {}), MOST):
+        yield {symbol: table[dummy] for symbol, dummy in old.items()}
+
+
+def _deduced(
+    vectors: Sequence[tuple[Vector, Vector]], letters: Collection[Any], moving: set[Any], same: Table, known: Table
+) -> Iterator[Table]:
+    table = dict(known)
+    while len(table) < len(letters):
+        unknown = {s for s in letters if s not in table}
         equations = []
         for p, q in vectors:
-            put = tuple(cast("sp.Expr", x.xreplace(table)) for x in p)
-            equations += _linear(put, q, unknown) or _turned(put, q, unknown, moving)
+            put = tuple(_renamed(x, table) for x in p)
+            if any(x.free_symbols & unknown for x in put):
+                equations += _linear(put, q, unknown) or _turned(put, q, unknown, moving)
         found = _resolved(equations, unknown)
         if not found:
-            return None
+            for letter in sorted(unknown & same.keys(), key=lambda s: s.sort_key()):
+                yield from _deduced(vectors, letters, moving, same, {**table, letter: same[letter]})
+            return
         table.update(found)
-    return {symbol: table[dummy] for symbol, dummy in old.items()}
+    yield table
 
 
 def _renamed(expr: sp.Expr, names: Mapping[Any, sp.Expr]) -> sp.Expr:
@@ -146,15 +165,22 @@ def _differences(pairs: Places) -> Iterator[tuple[Vector, Vector]]:
 
 
 def _linear(p: Vector, q: Vector, unknown: set[Any]) -> list[sp.Expr]:
-    """Components that are linear in what is unknown, with constant factors: left minus right."""
+    """Components that are linear in what is unknown, with constant factors or alone: left minus right."""
     found = []
     for x, y in zip(p, q, strict=True):
         mine = x.free_symbols & unknown
         if not mine or sp.count_ops(x) > LARGEST:
             continue
         slopes = [sp.diff(x, u) for u in mine]
-        if all(not s.has(AppliedUndef, time, *unknown) for s in slopes):
+        if any(s.free_symbols & unknown for s in slopes):
+            continue
+        if all(not s.has(AppliedUndef, time) for s in slopes):
             found.append(x - y)
+        elif len(mine) == 1:
+            (u,) = mine
+            value = sp.cancel((y - x.xreplace({u: sp.S.Zero})) / slopes[0])
+            if not sp.denom(value).has(AppliedUndef, time):
+                found.append(u - value)
     return found
 
 

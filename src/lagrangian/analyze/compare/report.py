@@ -112,7 +112,7 @@ class _Shown:
         if found.equations_same and found.differences:
             items.append(text("They book the same forces in different columns; see at the end."))
         if first := next(iter(found.differences), None):
-            items += [] if found.equations_same else [text("The first difference: ", *self.difference(first))]
+            items += [] if found.equations_same else [text("The first difference. ", *self.difference(first))]
         return items
 
     def side_by_side(self) -> list[Item]:
@@ -198,6 +198,8 @@ class _Shown:
             factors = [f for f in row.factors if f != 0]
             if len(factors) == 1 or not row.holds:
                 alone.append(self.text(row.words))
+                if not row.holds:
+                    alone.append(self.text(text(f"What is left over of {row.label}: ", fit(row.rest), ".")))
                 continue
             added.append(self.recipe(row, first=not added))
             sides = tuple(self.left(side, x) for x in equation.sides)
@@ -250,7 +252,7 @@ class _Shown:
     def difference(self, d: Difference) -> list[str | Left]:
         """One difference in words."""
         into = self.found.into
-        name: list[str | Left] = [f"step {d.step}, ", Name(d.quantity)]
+        name: list[str | Left] = [f"Step {d.step}, ", Name(d.quantity)]
         if d.coordinate is not None:
             symbol = next(q for q in into.derivation.coordinates if plain(q) == d.coordinate)
             name += [" of ", self.expr(into, symbol)]
@@ -262,9 +264,11 @@ class _Shown:
             pieces.append(", " if k else "")
             if title is None:
                 pieces.append(f"({tag}) has no such element")
+            elif value == 0:
+                pieces.append(f"{title} of ({tag}) adds nothing")
             else:
                 pieces += [f"({tag}) has ", fit(self.expr(into, value)), f" from {title}"]
-        if d.element_a and d.element_b:
+        if d.element_a and d.element_b and d.a != 0 != d.b:
             pieces += ["; (A) minus (B) begins with ", fit(self.expr(into, d.term))]
         return [*pieces, "."]
 
@@ -341,7 +345,14 @@ def comparison_data(found: Comparison) -> dict[str, Any]:
 def _row_data(row: Row) -> dict[str, Any]:
     factors = {name: plain(f) for f, name in zip(row.factors, row.of, strict=True) if f != 0}
     words = "".join(show(p) for p in row.words.parts)
-    return {"row": row.label, "factors": factors, "words": words, "holds": row.holds, "figure": row.check.figure}
+    return {
+        "row": row.label,
+        "factors": factors,
+        "words": words,
+        "holds": row.holds,
+        "figure": row.check.figure,
+        "rest": plain(row.rest),
+    }
 
 
 def _sum(terms: Sequence[sp.Expr]) -> str:

@@ -43,6 +43,11 @@ class Zero:
         except (OutOfReach, OverflowError, ValueError):
             return None
 
+    def readable(self, expr: sp.Expr) -> sp.Expr:
+        """The expression as a textbook would write it, as it is where that is out of reach."""
+        form = self.form(expr)
+        return expr if form is None else form.expr()
+
     def vanishes(self, terms: Sequence[tuple[sp.Expr, sp.Expr]]) -> Verdict:
         """Whether Σ factor · expression, over all pairs, is 0."""
         exact = self._exactly(terms)
