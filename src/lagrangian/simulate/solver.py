@@ -156,7 +156,7 @@ class _Task:
         self.machine = solver.machine(self.count, parameters.ndim == 2, signals is not None, tolerance)
         size, count, samples = x0.shape[-1], self.count, len(self.times)
         self.states = np.full((count, samples if store else 0, size), math.nan)
-        self.final = np.array(np.broadcast_to(x0, (count, size)))
+        self.final = np.array(np.broadcast_to(x0, (count, size)), order="C")
         if store and count:
             self.states[:, 0] = x0
         self.status = np.full(count, layout.LATE)
@@ -240,7 +240,7 @@ class _Task:
     def _log(self, words: NDArray[np.int64]) -> Array:
         """Room for events, told to the machine code."""
         count = 0 if self.solver.events is None else len(self.solver.events.direction)
-        room = max(1024, 2 * ROUNDS * count * self.machine.variant.lanes) if count else 0
+        room = max(1024, 3 * ROUNDS * count * self.machine.variant.lanes) if count else 0
         log = np.empty((room, 3 + self.final.shape[1]))
         words[layout.LOG], words[layout.ROOM] = address(log), room
         return log

@@ -38,6 +38,9 @@ SOON = 2.0**-46
 GLANCE = 2.0**-10
 """Part of a step by which one looks ahead for the side that g turns to from 0."""
 
+TURNS, WAITS = "1.0", "2.0"
+"""Moods of an event whose reset was done, and of one that happened at the same time as another's."""
+
 RESET, ENDS, HEAPS = 1, 2, 3
 """Why a lane leaves a step: to go on from another state, because a terminal event happened, because too many did."""
 
@@ -65,7 +68,7 @@ class Watch:
         own = own and bool(guard.inputs.get("p"))
         self.guard = Tapes(p, guard, "guard", own=own, copies=6)
         self.after = None if after is None else Tapes(p, after, "after", own=own, copies=6)
-        self.armed, self.mood, self.fired, self.found = (p.reserve(self.count) for _ in range(4))
+        self.armed, self.mood, self.fired = (p.reserve(self.count) for _ in range(3))
         self.low, self.high, self.busy, self.cut, self.rounds = (p.reserve(1) for _ in range(5))
         self.latest, self.same, self.when = (p.reserve(1) for _ in range(3))
         self.there, self.kept, self.states = p.block(), p.block(), p.reserve(self.count * p.size)
@@ -80,7 +83,7 @@ class Watch:
 
     def full(self) -> str:
         """Whether one more step might log more events than there is room for."""
-        wanted = self.service.add(self.p.word(at.LOGGED), ROUNDS * self.count * self.p.lanes)
+        wanted = self.service.add(self.p.word(at.LOGGED), (ROUNDS + 2) * self.count * self.p.lanes)
         return self.service.compare("sgt", wanted, self.room)
 
     def prologues(self) -> None:
@@ -215,7 +218,6 @@ class Watch:
         p.store(t, self.when)
         for k, g in enumerate(self.value(inputs, t, x)):
             self._note(self.happened(k, g), self.fired + k)
-            p.store(g, self.found + k)
         if self.after is not None:
             self.after.evaluate(self.after_shared, {"x": x, "u": inputs(t)}, t, self.states)
         with p.repeat(p.lanes) as lane:
@@ -228,33 +230,63 @@ class Watch:
 
     def _happen(self, k: int, lane: str) -> None:
         """Event k in a lane."""
-        p, lanes, service = self.p, self.lanes, self.service
-        self._write(k, lane)
-        p.set(service.add(p.get(lanes.events, lane, "i64"), 1), lanes.events, lane, "i64")
+        p, service = self.p, self.service
         if not self.events.reset[k]:
-            p.set(p.get(self.found + k, lane), self.armed + k, lane)
+            self._write(k, lane, self.there.slot)
+            other = self.f.put(f"fneg double {p.get(self.armed + k, lane)}")
+            p.set(other, self.armed + k, lane)
             if self.events.terminal[k]:
-                self._keep(self.there.slot, lane)
+                self._keep(self.there.slot, self.kept.slot, lane)
                 p.set(str(ENDS), self.cut, lane, "i64")
             return
         free = service.compare("eq", p.get(self.cut, lane, "i64"), "0")
-        with p.when(self.f.put(f"xor i1 {free}, true")):  # another reset comes first: this one waits, still armed
-            p.set("2.0", self.mood + k, lane)
+        with p.when(self.f.put(f"xor i1 {free}, true")):
+            p.set(WAITS, self.mood + k, lane)
         with p.when(free):
-            p.set("1.0", self.mood + k, lane)
-            self._keep(self.states + k * p.size, lane)
+            self._write(k, lane, self.there.slot)
+            p.set(TURNS, self.mood + k, lane)
+            self._keep(self.states + k * p.size, self.kept.slot, lane)
             p.set(str(ENDS if self.events.terminal[k] else RESET), self.cut, lane, "i64")
 
-    def _keep(self, slot: int | None, lane: str) -> None:
-        """A lane of a vector → the state the lane goes on from."""
+    def wait_no_more(self, inputs: Callable[[Value], Vec], new: str) -> None:
+        """Resets of events that happened at one time with an earlier one, in turn, where that did not undo them."""
+        p, f, lanes, service = self.p, self.f, self.lanes, self.service
+        if self.after is None or self.count < 2:
+            return
+        t = p.load(lanes.t)
+        with p.forever() as leave:
+            waits = ""
+            for k in range(self.count):
+                here = f.logic("and", new, f.compare("oeq", p.load(self.mood, k), float(WAITS)))
+                waits = f.logic("or", waits, here) if waits else here
+            leave(f.put(f"xor i1 {p.any(waits)}, true"))
+            p.store(t, self.when)
+            self._note(waits, self.busy)
+            for k, g in enumerate(self.value(inputs, t, lanes.x)):
+                self._note(self.happened(k, g), self.fired + k)
+            self.after.evaluate(self.after_shared, {"x": lanes.x, "u": inputs(t)}, t, self.states)
+            with p.repeat(p.lanes) as lane:
+                for k in range(self.count):
+                    waiting = service.compare("oeq", p.get(self.mood + k, lane), WAITS, "double")
+                    busy = service.compare("ne", p.get(self.busy, lane, "i64"), "0")
+                    with p.when(f.put(f"and i1 {waiting}, {busy}")):
+                        p.set("0.0", self.mood + k, lane)
+                        with p.when(service.compare("ne", p.get(self.fired + k, lane, "i64"), "0")):
+                            self._write(k, lane, lanes.x.slot)
+                            p.set(TURNS, self.mood + k, lane)
+                            self._keep(self.states + k * p.size, lanes.x.slot, lane)
+                            p.set("0", self.busy, lane, "i64")
+
+    def _keep(self, source: int | None, target: int | None, lane: str) -> None:
+        """Copy a lane of a vector to another vector."""
         p = self.p
-        assert slot is not None and self.kept.slot is not None
+        assert source is not None and target is not None
         with p.repeat(p.size) as i:
             moved = self.service.moved(lane, i)
-            p.set(p.get(slot, moved), self.kept.slot, moved)
+            p.set(p.get(source, moved), target, moved)
 
-    def _write(self, k: int, lane: str) -> None:
-        """Log an event: run, event, time, state."""
+    def _write(self, k: int, lane: str, slot: int | None) -> None:
+        """Count and log an event: run, event, time, state."""
         p, f, service = self.p, self.f, self.service
         at_row = f.put(f"mul i64 {p.word(at.LOGGED)}, {8 * (3 + p.size)}")
         row = f.put(f"getelementptr i8, ptr {self.log}, i64 {at_row}")
@@ -262,9 +294,11 @@ class Watch:
         for place, x in enumerate((run, f"{float(k)}", p.get(self.when, lane))):
             service.put(x, row, str(place))
         rest = f.put(f"getelementptr double, ptr {row}, i64 3")
-        assert self.there.slot is not None
-        service.copy_out(self.there.slot, rest, p.size, lane)
+        assert slot is not None
+        service.copy_out(slot, rest, p.size, lane)
         p.set_word(service.add(p.word(at.LOGGED), 1), at.LOGGED)
+        events = self.lanes.events
+        p.set(service.add(p.get(events, lane, "i64"), 1), events, lane, "i64")
 
     def _settle(self, lane: str) -> None:
         """After the events of one time in a lane: do they accumulate, is the step to be cut."""
@@ -285,13 +319,13 @@ class Watch:
         many = service.compare("sge", rounds, str(ROUNDS))
         free = service.compare("eq", p.get(self.cut, lane, "i64"), "0")
         with p.when(f.put(f"and i1 {many}, {free}")):
-            self._keep(self.there.slot, lane)
+            self._keep(self.there.slot, self.kept.slot, lane)
             p.set(str(RESET), self.cut, lane, "i64")
         ended = service.compare("eq", p.get(self.cut, lane, "i64"), str(ENDS))
         over = service.compare("sge", p.get(self.lanes.events, lane, "i64"), self.most)
         with p.when(f.put(f"and i1 {over}, {f.put(f'xor i1 {ended}, true')}")):
             with p.when(service.compare("eq", p.get(self.cut, lane, "i64"), "0")):
-                self._keep(self.there.slot, lane)
+                self._keep(self.there.slot, self.kept.slot, lane)
             p.set(str(HEAPS), self.cut, lane, "i64")
         with p.when(service.compare("ne", p.get(self.cut, lane, "i64"), "0")):
             p.set(t, self.lanes.end, lane)

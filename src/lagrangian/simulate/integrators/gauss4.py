@@ -36,7 +36,7 @@ class Gauss(Method):
     source = "E. Hairer, Ch. Lubich, G. Wanner, Geometric Numerical Integration, sections II.1.3 and VIII.6"
     order = 4
     evaluations = 0  # counted as they come
-    dense_evaluations = 1
+    dense_evaluations = 2
     blocks = 2
     slots = 2
 
@@ -92,6 +92,11 @@ class Gauss(Method):
         left = -p.load(last) * s.h * s.h
         fine = f.compare("ole", left, scale * CLOSE**2 + 1e-290)
         return f.select(fine, 0.0, 1.0)
+
+    def interpolant(self, s: Step) -> list[Vec]:
+        """Hermite's cubic."""
+        s.k = s.rate(s.t, s.x, s.k)
+        return super().interpolant(s)
 
     def _stage(self, s: Step, i: int) -> Vec:
         p, f = s.p, s.p.f

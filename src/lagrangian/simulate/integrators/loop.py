@@ -394,6 +394,8 @@ class Loop:
         new = p.whole_is(state, at.NEW)
         fresh = f.logic("or", new, p.whole_is(state, at.BENT))
         trouble = Value(f, f.constant(0.0))
+        if self.watch is not None:
+            self.watch.wait_no_more(self.inputs_at, new)
         if method.follows:
             t = p.load(lanes.t)
             k = self.rate(t, lanes.x, self.new_k)
