@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from lagrangian.analyze.check.coordinates import Change, Glance, candidates
+from lagrangian.analyze.check.coordinates import Change, Glance, candidates, new_names
 from lagrangian.analyze.check.difference import differences, likeness, paired
 from lagrangian.analyze.check.lines import filled
 from lagrangian.analyze.check.mistakes import mistakes
@@ -186,7 +186,7 @@ def _elsewhere(truth: Truth, spelling: Spelling, verdict: Verdict) -> Verdict | 
         judged = _judged(truth, spelling.lines, change)
         if not judged.status.right and judged.status is not Status.INCOMPLETE:
             continue
-        if not change.plain:
+        if not change.plain or not (new_names(truth, spelling.lines) or _tells(spelling.lines)):
             named = mistakes(truth, spelling.lines, verdict.findings)
             if named.certain:
                 note = text("It would be right with ", *change.words.parts, ".")
@@ -202,6 +202,12 @@ def _elsewhere(truth: Truth, spelling: Spelling, verdict: Verdict) -> Verdict | 
             hint=verdict.hint,
         )
     return None
+
+
+def _tells(lines: Sequence[Line]) -> bool:
+    """Whether an answer says enough to tell a relative coordinate from an absolute one that is wrong."""
+    kinds = {line.kind for line in lines}
+    return bool(kinds & {"equation", "L"}) or {"T", "V"} <= kinds
 
 
 def _explained(truth: Truth, spelling: Spelling, judged: Judged, verdict: Verdict) -> Verdict:

@@ -70,10 +70,16 @@ class Change:
 
 def candidates(truth: Truth, lines: Sequence[Line]) -> Iterator[Change]:
     """The changes worth trying for an answer: for its own names where it has any, else of the system's coordinates."""
-    own = set(truth.derivation.coordinates) | {u.symbol for u in truth.model.inputs}
-    new = sorted({f for line in lines for f in line.expr.atoms(AppliedUndef) if f.args == (time,)} - own, key=str)
-    new = [f for f in new if f not in {d.symbol for d in truth.model.definitions}]
+    new = new_names(truth, lines)
     yield from islice(_renamed(truth, new, lines) if new else _reused(truth), MOST)
+
+
+def new_names(truth: Truth, lines: Sequence[Line]) -> list[sp.Expr]:
+    """What moves in an answer and is no coordinate, input or definition of the system."""
+    own = set(truth.derivation.coordinates) | {u.symbol for u in truth.model.inputs}
+    own |= {d.symbol for d in truth.model.definitions}
+    found = {f for line in lines for f in line.expr.atoms(AppliedUndef) if f.args == (time,)}
+    return sorted(found - own, key=str)
 
 
 # -- names of the answer's own ----------------------------------------------------------------------------------------

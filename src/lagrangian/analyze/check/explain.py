@@ -20,7 +20,10 @@ from lagrangian.analyze.check.truth import Truth
 
 @dataclass(frozen=True, eq=False)
 class Explanation:
-    """One mistake, or two at once, and how plainly it gives the answer: 0 row by row, 1 with factors, 2 mixed."""
+    """One mistake, or two at once, and how plainly it gives the answer.
+
+    0: row by row, 1: with factors, 2: mixed, 3: with factors that depend on the place.
+    """
 
     wrongs: tuple[Wrong, ...]
     plainness: int
@@ -34,20 +37,26 @@ def explain_rows(truth: Truth, exprs: Sequence[sp.Expr]) -> list[Explanation]:
     if not len(P) or not np.isfinite(truth.W).all():
         return []
     effects = effects_of(truth)
-    found = _alone(truth, effects, P)
-    return found or _together(truth, effects, P)
+    size = truth.states.size // SETS
+    sets = [slice(k * size, (k + 1) * size) for k in range(SETS)]
+    return _alone(truth, effects, P, sets) or _together(truth, effects, P) or _by_place(truth, effects, P)
 
 
-def _alone(truth: Truth, effects: Effects, P: Array) -> list[Explanation]:
+def _by_place(truth: Truth, effects: Effects, P: Array) -> list[Explanation]:
+    """The variants that give the answer with factors that depend on the place, as when r was divided out."""
+    found = _alone(truth, effects, P, list(truth.states.blocks()))
+    return [Explanation(e.wrongs, 3) for e in found]
+
+
+def _alone(truth: Truth, effects: Effects, P: Array, parts: Sequence[slice]) -> list[Explanation]:
+    """The single variants that give the answer with factors that are constant in each part of the states."""
     candidates = np.flatnonzero(np.logical_and(effects.usable, effects.felt))
     if not len(candidates):
         return []
     W = truth.W[None] + effects.W[candidates]
-    size = truth.states.size // SETS
     plain = np.zeros(len(candidates), int)
     fits = np.ones(len(candidates), bool)
-    for k in range(SETS):
-        part = slice(k * size, (k + 1) * size)
+    for part in parts:
         fit, how = _spanned(P[:, part], W[:, :, part])
         fits &= fit
         plain = np.maximum(plain, how)

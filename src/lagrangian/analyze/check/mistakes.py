@@ -29,23 +29,42 @@ class Named:
 
 
 def mistakes(truth: Truth, lines: Sequence[Line], findings: Sequence[Finding]) -> Named:
-    """Find the mistakes behind the wrong lines; lines that follow from others need no explanation of their own."""
+    """Find the mistakes behind the wrong lines; lines that follow from others need no explanation of their own.
+
+    A mistake that would show in a line that is right is believed last.
+    """
     wrong = [f.line for f in findings if f.status is Status.WRONG and not f.follows]
     if not wrong:
         return Named()
-    equations = [line for line in lines if line.kind == "equation"] if any(w.kind == "equation" for w in wrong) else []
     groups: list[list[Explanation]] = []
     for line in [w for w in wrong if w.kind != "equation"]:
         groups.append([Explanation((w,), 0) for w in _explain_line(truth, line)])
-    if equations:
-        groups.append(explain_rows(truth, [line.expr for line in equations]))
-    groups = [g for g in groups if g]
-    if not groups:
+    if any(w.kind == "equation" for w in wrong):
+        groups.append(explain_rows(truth, [line.expr for line in lines if line.kind == "equation"]))
+    if not (groups := [g for g in groups if g]):
         return Named()
-    return _named(truth, groups)
+    against = _contradicted(truth, [f.line for f in findings if f.status.right])
+    groups = [sorted(g, key=lambda e: any(w in against for w in e.wrongs)) for g in groups]
+    return _named(truth, groups, against)
 
 
-def _named(truth: Truth, groups: Sequence[Sequence[Explanation]]) -> Named:
+def _contradicted(truth: Truth, right: Sequence[Line]) -> set[Wrong]:
+    """The variants that would show in a line that is right."""
+    found: set[Wrong] = set()
+    for line in right:
+        if line.kind in ("T", "V", "L", "Xi"):
+            i = index_of(truth, line.name)
+            if line.kind == "Xi" and i is None:
+                continue
+            change = _changes(effects_of(truth), line.kind, i)
+            if line.kind in ("V", "L"):
+                change = _without_constant(change)
+            shown = np.abs(np.where(np.isfinite(change), change, 0)).max(axis=1) > 1e-9
+            found.update(effects_of(truth).wrongs[k] for k in np.flatnonzero(shown))
+    return found
+
+
+def _named(truth: Truth, groups: Sequence[Sequence[Explanation]], against: set[Wrong]) -> Named:
     """One mistake that explains every group, else the best of each group in turn."""
     held = [{w for e in g if len(e.wrongs) == 1 for w in e.wrongs} for g in groups]
     shared = set.intersection(*held) if all(held) else set()
@@ -56,9 +75,10 @@ def _named(truth: Truth, groups: Sequence[Sequence[Explanation]]) -> Named:
         for group in groups[1:]:
             if not any(w in best.wrongs for e in group for w in e.wrongs):
                 told += [w.mistake(truth) for w in group[0].wrongs]
-    others = _once([w.mistake(truth) for e in first[1:] for w in e.wrongs], told)
-    certain = (bool(shared) or len(groups) == 1) and len(best.wrongs) == 1 and not best.wrongs[0].general
-    return Named(tuple(told), others[:5], certain and best.plainness < 2)
+    others = _once([w.mistake(truth) for e in first[1:] for w in e.wrongs if w not in against], told)
+    single = (bool(shared) or len(groups) == 1) and len(best.wrongs) == 1
+    certain = single and best.plainness < 2 and not best.wrongs[0].general and best.wrongs[0] not in against
+    return Named(tuple(told), others[:5], certain)
 
 
 def _once(mistakes: Sequence[Mistake], told: Sequence[Mistake]) -> tuple[Mistake, ...]:

@@ -64,6 +64,13 @@ class Ingredients:
         self.q: list[Any] = [c.symbol for c in self.coordinates]
         self.v: list[Any] = [c.rate for c in self.coordinates]
         self.a: list[Any] = [c.acceleration for c in self.coordinates]
+        self._memo: dict[Any, Any] = {}
+
+    def kept(self, key: Any, make: Callable[[], Any]) -> Any:
+        """What ``make`` makes, worked out once for every key."""
+        if key not in self._memo:
+            self._memo[key] = make()
+        return self._memo[key]
 
     def expand(self, expr: Any) -> sp.Expr:
         """An expression with definitions written out."""
@@ -107,11 +114,14 @@ class Ingredients:
 
     def velocity(self, body: Any) -> tuple[sp.Expr, ...]:
         """How fast a body's centre of mass moves, in the fixed axes."""
-        return tuple(self.rate(x) for x in self.position(body))
+        return self.kept(("v", body), lambda: tuple(self.rate(x) for x in self.position(body)))
 
     def omega(self, body: Any) -> tuple[sp.Expr, ...]:
         """A rigid body's angular velocity; nothing for a particle."""
-        return tuple(self.expand(w) for w in body.angular_velocity(self.model)) if isinstance(body, RigidBody) else ()
+        if ("w", body) not in self._memo:
+            rigid = isinstance(body, RigidBody)
+            self._memo["w", body] = tuple(map(self.expand, body.angular_velocity(self.model))) if rigid else ()
+        return self._memo["w", body]
 
     def translation(self, body: Any) -> sp.Expr:
         """½ m v²."""
@@ -121,7 +131,7 @@ class Ingredients:
         """½ ωᵀ I ω."""
         if not isinstance(body, RigidBody):
             return sp.S.Zero
-        return self.rotating(body, self.omega(body))
+        return self.kept(("J", body), lambda: self.rotating(body, self.omega(body)))
 
     def rotating(self, body: RigidBody, omega: tuple[sp.Expr, ...]) -> sp.Expr:
         """½ ωᵀ I ω with another ω."""
@@ -136,12 +146,15 @@ class Ingredients:
 
     def weights(self) -> Iterator[tuple[Gravity, Any, sp.Expr]]:
         """Gravity, body and m g h for every body that gravity pulls; heights that do not move are left out."""
-        for element in self.model.elements:
-            if isinstance(element, Gravity):
-                for body, _, energy in element.shares(self.model):
-                    energy = self.expand(energy)
-                    if self.moves(energy):
-                        yield element, body, energy
+        if "weights" not in self._memo:
+            every = [
+                (element, body, self.expand(energy))
+                for element in self.model.elements
+                if isinstance(element, Gravity)
+                for body, _, energy in element.shares(self.model)
+            ]
+            self._memo["weights"] = [w for w in every if self.moves(w[2])]
+        yield from self._memo["weights"]
 
     def springs(self) -> Iterator[tuple[Spring, sp.Expr, sp.Expr]]:
         """Spring, extension δ − δ₀ and energy for every spring."""
@@ -166,14 +179,27 @@ class Ingredients:
         """Σ effort · ∂rate/∂ξ̇_i."""
         return self.expand(sp.Add(*[a.effort * sp.diff(a.rate, self.v[i]) for a in actions]))
 
-    def share(self, element: Element, i: int) -> sp.Expr:
-        """What an element adds to Ξ_i."""
-        return self.xi(self.actions(element), i)
-
     def shares(self, element: Element) -> dict[int, sp.Expr]:
         """What an element adds to every Ξ, where it adds anything."""
-        found = {i: self.share(element, i) for i in range(self.n)}
-        return {i: x for i, x in found.items() if x != 0}
+        if ("Xi", element) not in self._memo:
+            actions = self.actions(element)
+            found = {i: self.xi(actions, i) for i in range(self.n)}
+            self._memo["Xi", element] = {i: x for i, x in found.items() if x != 0}
+        return self._memo["Xi", element]
+
+    def coupling(self, body: Any, j: int, k: int) -> tuple[sp.Expr, sp.Expr]:
+        """∂²T/∂ξ̇_j∂ξ̇_k of a body's translation and of its rotation: m ∂v/∂ξ̇_j · ∂v/∂ξ̇_k, and the same with I and ω."""
+        slopes = self._slopes(body)
+        (vj, wj), (vk, wk) = slopes[j], slopes[k]
+        turned = (wj.T * body.inertia * wk)[0] if wj is not None and wk is not None else sp.S.Zero
+        return self.expand(body.mass) * vj.dot(vk), self.expand(turned)
+
+    def _slopes(self, body: Any) -> list[tuple[sp.Matrix, sp.Matrix | None]]:
+        """∂v/∂ξ̇ and ∂ω/∂ξ̇ of every coordinate."""
+        if ("slopes", body) not in self._memo:
+            velocity, omega = sp.Matrix(self.velocity(body)), sp.Matrix(self.omega(body))
+            self._memo["slopes", body] = [(velocity.diff(v), omega.diff(v) if omega else None) for v in self.v]
+        return self._memo["slopes", body]
 
     def rate(self, expr: sp.Expr) -> sp.Expr:
         """d/dt."""

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import sympy as sp
+
 from lagrangian.analyze.check.misconceptions.base import Ingredients, Variant
 from lagrangian.derive.formula import text
 
@@ -26,5 +28,8 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
                 ", which moves it.",
             )
             yield Variant(what=what, T=-energy, only=frozenset({i}), element=body, coordinate=i)
+            own = sp.Add(*s.coupling(body, i, i)) * s.a[i]
+            lacking = text(f"The mass of {body.title} is missing before ", s.a[i], ".")
+            yield Variant(what=lacking, rows={i: -own}, element=body, coordinate=i, stated=frozenset())
             if weight != 0:
                 yield Variant(what=what, T=-energy, V=-weight, only=frozenset({i}), element=body, coordinate=i)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 import sympy as sp
 
@@ -17,7 +18,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     """Every body without the products of different rates, and all of them; the rotation with and without."""
     every = sp.S.Zero
     for body in s.bodies:
-        translation, rotation = _cross(s, s.translation(body)), _cross(s, s.rotation(body))
+        translation, rotation = _cross(s, body)
         what = text(
             f"The velocities of {body.title} were squared one by one: the cross term is missing in ", Name("T*"), "."
         )
@@ -29,10 +30,13 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         yield Variant(what=text("The cross terms of the velocities are missing in ", Name("T*"), "."), T=-every)
 
 
-def _cross(s: Ingredients, energy: sp.Expr) -> sp.Expr:
-    """The part of a quadratic energy with products of different rates: Σ_{j<k} ∂²T/∂ξ̇_j∂ξ̇_k ξ̇_j ξ̇_k."""
-    total: list[sp.Expr] = []
+def _cross(s: Ingredients, body: Any) -> tuple[sp.Expr, sp.Expr]:
+    """The parts of ½mv² and ½Jω² with products of different rates: Σ_{j<k} ∂²T/∂ξ̇_j∂ξ̇_k ξ̇_j ξ̇_k."""
+    translation: list[sp.Expr] = []
+    rotation: list[sp.Expr] = []
     for j in range(s.n):
-        slope = energy.diff(s.v[j])
-        total += [slope.diff(s.v[k]) * s.v[j] * s.v[k] for k in range(j + 1, s.n)]
-    return sp.Add(*total)
+        for k in range(j + 1, s.n):
+            moved, turned = s.coupling(body, j, k)
+            translation.append(moved * s.v[j] * s.v[k])
+            rotation.append(turned * s.v[j] * s.v[k])
+    return sp.Add(*translation), sp.Add(*rotation)

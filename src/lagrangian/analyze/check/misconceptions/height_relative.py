@@ -26,4 +26,5 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         if len(pieces) > 1:
             for piece in pieces:
                 if sp.expand(piece - mg * carried) != 0:
+                    what = text(f"Of the height of {body.title} the part with ", piece / mg, " is missing.")
                     yield Variant(what=what, V=-piece, element=gravity)

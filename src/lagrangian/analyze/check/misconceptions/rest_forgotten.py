@@ -24,5 +24,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         ):
             energy = spring.k * changed**2 / 2 if spring.k is not None else spring.energy.subs(DELTA, changed)
             yield Variant(
-                what=text(f"The rest length of {spring.title} {words}."), V=s.expand(energy) - V, element=spring
+                what=text("The rest length ", rest, f" of {spring.title} {words}."),
+                V=s.expand(energy) - V,
+                element=spring,
             )

@@ -30,6 +30,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         for other in _swapped(own):
             what = text(f"Sine and cosine are exchanged in the energy of motion of {body.title}.")
             yield Variant(what=what, T=other - own, element=body)
+    yield from _in_rows(s)
     for element in s.acting:
         shares = s.shares(element)
         for k in (0, 1):
@@ -37,6 +38,18 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             if turned:
                 what = text(f"Sine and cosine are exchanged in what {element.title} adds to ", Name("Xi"), ".")
                 yield Variant(what=what, Xi=turned, element=element)
+
+
+def _in_rows(s: Ingredients) -> Iterator[Variant]:
+    """One term of one equation."""
+    for i, row in enumerate(s.derivation.terms):
+        for term in row:
+            expr = s.expand(term.expr) * (-1 if term.kind == "input" else 1)
+            for other in _swapped(expr) if s.moves(expr) else ():
+                what = text(
+                    "Sine and cosine are exchanged in the term ", term.expr, " of the equation of ", s.q[i], "."
+                )
+                yield Variant(what=what, rows={i: other - expr}, coordinate=i, stated=frozenset())
 
 
 def _swapped(expr: sp.Expr) -> tuple[sp.Expr, ...]:

@@ -19,6 +19,10 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         held = [q for q in s.q if extension.has(q)]
         if spring.k is None or len(held) < 2:
             continue
+        if not any(extension.diff(q).has(*s.q) for q in held):
+            each = sp.Add(*[(extension.diff(q) * q) ** 2 for q in held])
+            what = text(f"{spring.title[:1].upper() + spring.title[1:]} pulls each body as if to the ground.")
+            yield Variant(what=what, V=s.expand(spring.k) * each / 2 - V, element=spring)
         for q in held:
             own = put(extension, {p: sp.S.Zero for p in held if p != q})
             if own.has(sp.nan, sp.zoo):

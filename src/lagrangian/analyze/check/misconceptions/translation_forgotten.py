@@ -16,3 +16,9 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     for body in s.bodies:
         if s.rotation(body) != 0 and s.translation(body) != 0:
             yield Variant(what=text(f"½mv² of {body.title} is missing."), T=-s.translation(body), element=body)
+            for j, v in enumerate(s.v):
+                turned = any(w.has(v) for w in s.omega(body))
+                own = s.coupling(body, j, j)[0] * v**2 / 2
+                if turned and own not in (0, s.translation(body)):
+                    what = text(f"J of {body.title} is about its centre of mass: the m d² of its swing is missing.")
+                    yield Variant(what=what, T=-own, element=body)

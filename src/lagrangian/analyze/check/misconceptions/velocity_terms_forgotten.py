@@ -33,6 +33,11 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
 
 
 def velocity_terms(s: Ingredients, i: int) -> tuple[sp.Expr, sp.Expr]:
+    """Worked out once, see `_velocity_terms`."""
+    return s.kept(("velocity terms", i), lambda: _velocity_terms(s, i))
+
+
+def _velocity_terms(s: Ingredients, i: int) -> tuple[sp.Expr, sp.Expr]:
     """The squares of rates and the products of two rates in equation i: Σ_jk (∂²T/∂ξ̇_i∂ξ̇_j)_k ξ̇_j ξ̇_k − ∂T/∂ξ_i."""
     whole = sp.Add(*[s.momenta[i].diff(s.q[k]) * s.v[k] for k in range(s.n)]) - s.T.diff(s.q[i])
     squares: list[sp.Expr] = []
