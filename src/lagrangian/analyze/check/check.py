@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
-from lagrangian.analyze.check.coordinates import Change, Glance, candidates, new_names
+from lagrangian.analyze.check.coordinates import Change, Glance, candidates, in_these, likeliest, new_names
 from lagrangian.analyze.check.difference import differences, likeness, paired
 from lagrangian.analyze.check.lines import filled
 from lagrangian.analyze.check.mistakes import mistakes
@@ -31,7 +31,12 @@ def check(derivation: Derivation, lines: Sequence[Line], *, hint: int = 3) -> Ve
     verdict = Verdict(judged.status, judged.findings, notes=spelling.notes + judged.notes, hint=hint)
     if judged.status.right or judged.status is Status.INCOMPLETE:
         return replace(verdict, combination=judged.combination)
-    return _elsewhere(truth, spelling, verdict) or _explained(truth, spelling, judged, verdict)
+    return (
+        _elsewhere(truth, spelling, verdict)
+        or _with_values(truth, spelling, verdict)
+        or _own_names(truth, spelling, verdict)
+        or _explained(truth, spelling, judged, verdict)
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -208,6 +213,45 @@ def _tells(lines: Sequence[Line]) -> bool:
     """Whether an answer says enough to tell a relative coordinate from an absolute one that is wrong."""
     kinds = {line.kind for line in lines}
     return bool(kinds & {"equation", "L"}) or {"T", "V"} <= kinds
+
+
+def _with_values(truth: Truth, spelling: Spelling, verdict: Verdict) -> Verdict | None:
+    """The verdict on an answer in numbers: right with the values of the parameters it does not name put in."""
+    used = {x for line in spelling.lines for x in line.expr.free_symbols}
+    values = {p: sp.Rational(str(v)) for p, v in truth.model.values.items() if p not in used}
+    if not values:
+        return None
+    judged = _judged(Truth(truth.derivation, values), spelling.lines)
+    if not judged.status.right:
+        return None
+    named = [x for p in sorted(values, key=str) for x in (p, ", ")][:-1]
+    note = text("The values of ", *named, " are put in.")
+    return replace(verdict, status=judged.status, findings=judged.findings, notes=(*verdict.notes, note))
+
+
+def _own_names(truth: Truth, spelling: Spelling, verdict: Verdict) -> Verdict | None:
+    """The verdict on a wrong answer with coordinates of its own: the system is derived in these, and compared anew."""
+    if not new_names(truth, spelling.lines):
+        return None
+    change = likeliest(truth, spelling.lines)
+    other = in_these(truth, change) if change is not None else None
+    if change is None or other is None:
+        return None
+    lines = tuple(line for line in spelling.lines if line.kind != "definition")
+    judged = _judged(other, lines)
+    if judged.status.right:  # equal in doubles alone
+        return None
+    named = mistakes(other, lines, judged.findings)
+    note = text("Your coordinates were read ", *change.words.parts, ".")
+    return Verdict(
+        judged.status,
+        judged.findings,
+        named.told,
+        named.others,
+        change=change.table,
+        notes=(*spelling.notes, note),
+        hint=verdict.hint,
+    )
 
 
 def _explained(truth: Truth, spelling: Spelling, judged: Judged, verdict: Verdict) -> Verdict:

@@ -10,17 +10,21 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice, product
 from typing import Any, cast
+from weakref import WeakKeyDictionary
 
 import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian.analyze.change import changed
 from lagrangian.analyze.check.numbers import Array, Compiled
 from lagrangian.analyze.check.rows import CLOSE
 from lagrangian.analyze.check.truth import Truth
 from lagrangian.analyze.check.verdict import Line
+from lagrangian.derive import derive
 from lagrangian.derive.formula import Text, text
-from lagrangian.model import time
+from lagrangian.errors import ModelError
+from lagrangian.model import plain, time
 
 MOST = 200
 """Changes that are tried."""
@@ -238,22 +242,33 @@ class Glance:
         chosen = equations or ([energy.expr] if energy is not None else [])
         self._compiled = Compiled(chosen)
 
+    def true_lines(self, change: Change) -> int:
+        """How many equations are true with this change, in doubles."""
+        if not self._equations:
+            return int(self.may_be(change))
+        return int(self._true(change).sum())
+
+    def _true(self, change: Change) -> Array:
+        states, truth = self.truth.states, self.truth
+        truly = self._compiled.at(states, self._values(change, truth.accelerations))
+        off = self._compiled.at(states, self._values(change, None))
+        good = np.isfinite(truly) & np.isfinite(off)
+        scale = np.where(good, np.abs(off), 0).max(axis=1)
+        small = np.where(good, np.abs(truly), 0).max(axis=1) <= CLOSE * scale
+        return np.logical_and(good.any(axis=1), small)
+
     def may_be(self, change: Change) -> bool:
         """Whether the answer may be right with this change; False where nothing can be compared."""
         if not self._compiled.ids:
             return False
-        states, truth = self.truth.states, self.truth
+        states = self.truth.states
         if not self._equations:
             moved = self._compiled.at(states, self._values(change, None))[0]
             own = Compiled([cast("sp.Expr", self._right)]).at(states)[0]
             rest = (moved - own).reshape(2, -1)
             rest = rest - rest[:, :1]
             return bool(np.isfinite(rest).all() and np.abs(rest).max() <= 1e-6 * (1 + np.abs(own).max()))
-        truly = self._compiled.at(states, self._values(change, truth.accelerations))
-        off = self._compiled.at(states, self._values(change, None))
-        good = np.isfinite(truly) & np.isfinite(off)
-        scale = np.where(good, np.abs(off), 0).max(axis=1)
-        return bool(good.any(axis=1).all() and (np.where(good, np.abs(truly), 0).max(axis=1) <= CLOSE * scale).all())
+        return bool(self._true(change).all())
 
     def _values(self, change: Change, accelerations: Mapping[sp.Basic, Array] | None) -> dict[sp.Basic, Array]:
         states = self.truth.states
@@ -267,3 +282,31 @@ class Glance:
         out: dict[sp.Basic, Array] = dict(accelerations or {})
         out.update(zip(symbols, values, strict=True))
         return out
+
+
+# -- the system in the answer's coordinates ---------------------------------------------------------------------------
+
+_OTHERS: WeakKeyDictionary[Truth, dict[tuple[tuple[sp.Expr, sp.Expr], ...], Truth | None]] = WeakKeyDictionary()
+
+
+def likeliest(truth: Truth, lines: Sequence[Line]) -> Change | None:
+    """The change that makes most equations of a wrong answer true; None where none makes any."""
+    glance = Glance(truth, lines)
+    tried = [(glance.true_lines(change), -k, change) for k, change in enumerate(candidates(truth, lines))]
+    best = max(tried, key=lambda x: x[:2], default=None)
+    if best is None:
+        return None
+    return best[2] if best[0] or len(tried) == 1 else None
+
+
+def in_these(truth: Truth, change: Change) -> Truth | None:
+    """What is right in the answer's coordinates, where the change can be turned round; made once a change."""
+    key = tuple(change.table.items())
+    known = _OTHERS.setdefault(truth, {})
+    if key not in known:
+        try:
+            names = {plain(eta): psi for eta, psi in change.table.items()}
+            known[key] = Truth(derive(changed(truth.model, names)))
+        except ModelError:
+            known[key] = None
+    return known[key]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any, cast
 from weakref import WeakKeyDictionary
@@ -21,10 +21,11 @@ LONGEST = 4000
 
 
 class Truth:
-    """The right equations of a derivation, ready to be compared with."""
+    """The right equations of a derivation, ready to be compared with; ``values`` are put in for parameters."""
 
-    def __init__(self, derivation: Derivation) -> None:
+    def __init__(self, derivation: Derivation, values: Mapping[sp.Symbol, sp.Expr] | None = None) -> None:
         self.derivation = derivation
+        self.values = dict(values or {})
         self.model: Model = derivation.model
         self.n = len(derivation.coordinates)
         self.T, self.V = self.expand(derivation.T), self.expand(derivation.V)
@@ -38,8 +39,9 @@ class Truth:
         return self.T - self.V
 
     def expand(self, expr: sp.Expr) -> sp.Expr:
-        """An expression with every definition of the model written out."""
-        return self.model.expand(sp.sympify(expr), constants=True)
+        """An expression with every definition of the model written out, and values in place of parameters."""
+        whole = self.model.expand(sp.sympify(expr), constants=True)
+        return cast("sp.Expr", whole.xreplace(self.values)) if self.values else whole
 
     @cached_property
     def algebra(self) -> Algebra:

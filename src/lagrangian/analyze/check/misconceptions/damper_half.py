@@ -13,12 +13,9 @@ WHY = text("D = ½bδ̇² is differentiated by the rate: the force is bδ̇, wit
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every damper with half its force, and with twice its force."""
+    """Every damper with half its force."""
     for element in s.acting:
         if isinstance(element, (Damper, Dissipation)):
             shares = s.shares(element)
-            for times, word in ((-1, "half"), (2, "twice")):
-                what = text(
-                    f"{element.title[:1].upper() + element.title[1:]} adds {word} its force to ", Name("Xi"), "."
-                )
-                yield Variant(what=what, Xi={i: times * x / 2 for i, x in shares.items()}, element=element)
+            what = text(f"{element.title[:1].upper() + element.title[1:]} adds half its force to ", Name("Xi"), ".")
+            yield Variant(what=what, Xi={i: -x / 2 for i, x in shares.items()}, element=element)
