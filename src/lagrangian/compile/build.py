@@ -25,11 +25,14 @@ from . import cache as disk
 from . import driver, native
 from .emit import emit, plan
 from .ir import Module, Target
+from .packed import Short
 from .tape import Lowered, lower
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program
 
+SHORT = 125  # operations per lane up to which a body is printed into the batch's loop …
+SIDE_BY_SIDE = 2  # … for so many blocks of states at once: while one waits for a result, another computes
 LEVEL = 2  # LLVM's code generation effort; straight-line code gains nothing measurable above it
 
 
@@ -131,8 +134,17 @@ class Build:
         if lanes > 1 and not own:
             emit(module, "prologue_1", self.lowered.prologue, 1, chunk=self.options.chunk)
         body, prologue = f"body_{lanes}", f"prologue_{lanes}"
-        driver.emit_batch(module, self.sizes, lanes, own_shared=own, body=body, prologue=prologue)
+        driver.emit_batch(
+            module, self.sizes, lanes, own_shared=own, body=body, prologue=prologue, short=None if own else self.short
+        )
         return module.text()
+
+    @property
+    def short(self) -> Short | None:
+        """The body, where it is short enough for the batch's own loop."""
+        body, lanes = self.lowered.body, self.options.lanes
+        fits = lanes > 1 and sum(self.sizes.groups) and body.operations <= SHORT * lanes
+        return Short(body, SIDE_BY_SIDE) if fits else None
 
     def emit_tapes(self, module: Module, lanes: int, *, own_shared: bool = False) -> None:
         """Print ``body_<lanes>``, and ``prologue_<lanes>`` unless all lanes share one parameter set."""

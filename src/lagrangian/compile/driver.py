@@ -15,8 +15,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
+from .emit import attributes
 from .ir import Function, Module, Value
 from .move import emit_move
+from .packed import Short, emit_packed
 
 Array = tuple[str, str, str]  # operands: address, stride from state to state, stride from entry to entry
 MAGNITUDE = 0x7FFFFFFFFFFFFFFF
@@ -84,8 +86,13 @@ end:
 }}"""
 
 
-def emit_batch(module: Module, sizes: Sizes, lanes: int, *, own_shared: bool, body: str, prologue: str) -> None:
-    """Print ``batch`` around the ``lanes`` wide ``body``, and around ``prologue`` where every state has its own."""
+def emit_batch(
+    module: Module, sizes: Sizes, lanes: int, *, own_shared: bool, body: str, prologue: str, short: Short | None = None
+) -> None:
+    """Print ``batch`` around the ``lanes`` wide ``body``, and around ``prologue`` where every state has its own.
+
+    With ``short`` a loop for packed arrays goes first, as far as it gets (`packed`).
+    """
     f = Function(module, lanes)
     at = _blocks(f, sizes, own_shared)
     hoisted = sizes.hoisted if own_shared else ()
@@ -94,11 +101,15 @@ def emit_batch(module: Module, sizes: Sizes, lanes: int, *, own_shared: bool, bo
     shared = at["own"] if own_shared else _entry(f, "ptr", 3 * len(arrays))
     module.declare("llvm.smin.i64", "i64", ["i64", "i64"])
     last = f.put(f"sub i64 %stop, {lanes}")
-    f.do("br label %loop")
+    before = [("entry", "%start", "-1")]  # where the loop is entered from, at which state, and what is known to be bad
+    if short is None:
+        f.do("br label %loop")
+    else:
+        before.append(emit_packed(f, short, sizes, arrays, at, shared))
     f.label("loop")
     start_of_loop = len(f.lines)  # its phis name values and a block printed below
     f.do(f"%state = call i64 @llvm.smin.i64(i64 %next, i64 {last})")
-    f.do("%begin = icmp eq i64 %next, %start")
+    f.do("%begin = icmp eq i64 %next, %from")
     moves = _Moves(f)
     moves.gather(arrays, sizes.groups, at["in"])
     if own_shared:
@@ -110,17 +121,18 @@ def emit_batch(module: Module, sizes: Sizes, lanes: int, *, own_shared: bool, bo
     clean = f.put("icmp eq i64 %first, -1")
     found = f.put(f"select i1 {clean}, i64 %state, i64 %first")
     first = f.put(f"select i1 {fine}, i64 %first, i64 {found}")
-    f.lines[start_of_loop:start_of_loop] = [
-        f"  %first = phi i64 [-1, %entry], [{first}, %{moves.label}]",
-        f"  %next = phi i64 [%start, %entry], [%after, %{moves.label}]",
-    ]
+    for name, entered, turned in (("first", 2, first), ("next", 1, "%after"), ("from", 1, "%from")):
+        sources = [*((b[entered], b[0]) for b in before), (turned, moves.label)]
+        f.lines.insert(start_of_loop, f"  %{name} = phi i64 " + ", ".join(f"[{x}, %{at}]" for x, at in sources))
     f.do(f"%after = add i64 %next, {lanes}")
     f.do("%more = icmp slt i64 %after, %stop")
     f.do("br i1 %more, label %loop, label %end")
     f.label("end")
-    f.do(f"ret i64 {first}")
+    ends = [(first, moves.label), *((known, label) for label, _, known in before[1:])]
+    f.do("%answer = phi i64 " + ", ".join(f"[{x}, %{at}]" for x, at in ends))
+    f.do("ret i64 %answer")
     arguments = "ptr %table, i64 %start, i64 %stop, ptr %work"
-    f.finish("batch", "i64", arguments, f'nounwind "prefer-vector-width"="{lanes * 64}"')
+    f.finish("batch", "i64", arguments, attributes(lanes))
 
 
 def _blocks(f: Function, sizes: Sizes, own_shared: bool) -> dict[str, str]:

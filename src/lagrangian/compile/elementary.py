@@ -36,6 +36,7 @@ HALF_PI_SHORT = (1.5707963267341256, 6.077100506303966e-11, 2.0222662487111665e-
 LN2 = (0.6931471806019545, -4.2009150726810846e-11)  # their sum is ln 2; n·LN2[0] is exact for |n| < 2^21
 
 SHIFT = 6755399441055744.0  # 1.5·2⁵²: adding it rounds to a whole number and leaves that number in the low bits
+SIGN = -(1 << 63)
 SHIFT_BITS = 0x4338000000000000
 LIBM = ("sin", "cos", "pow", "asinh", "acosh", "atanh")  # the order of the table of addresses
 LANEWISE = ("pow", "asinh", "acosh", "atanh")
@@ -65,8 +66,9 @@ def sincos(module: Module, lanes: int) -> str:
     cos_r = f.fma(zz, _poly6(f, z, zz, COS), f.fma(z, -0.5, 1.0))
     quadrant = f.bits(turned)
     odd = f.put(f"icmp ne {f.whole} {f.whole_op('and', quadrant, 1)}, {f.integer(0)}")
-    sin_sign = f.whole_op("shl", f.whole_op("and", quadrant, 2), 62)
-    cos_sign = f.whole_op("shl", f.whole_op("and", f.whole_op("add", quadrant, 1), 2), 62)
+    turns = f.whole_op("shl", quadrant, 62)  # bit 1 of the quadrant is now the sign
+    sin_sign = f.whole_op("and", turns, SIGN)
+    cos_sign = f.whole_op("and", f.whole_op("add", turns, 1 << 62), SIGN)
     s = f.number(f.whole_op("xor", f.bits(f.select(odd, cos_r, sin_r)), sin_sign))
     c = f.number(f.whole_op("xor", f.bits(f.select(odd, sin_r, cos_r)), cos_sign))
     f.do(f"br i1 {f.all_lanes(within)}, label %near, label %far")
@@ -74,10 +76,22 @@ def sincos(module: Module, lanes: int) -> str:
     _return_two(f, s, c)
 
     f.label("far")  # a lane's result must not depend on what stands beside it
-    far_s, far_c = (_lanewise(f, LIBM.index(k), [x]) for k in ("sin", "cos"))
-    _return_two(f, f.select(within, s, far_s), f.select(within, c, far_c))
+    if lanes > module.target.lanes:
+        _return_two(f, *_by_halves(f, x))
+    else:
+        far_s, far_c = (_lanewise(f, LIBM.index(k), [x]) for k in ("sin", "cos"))
+        _return_two(f, f.select(within, s, far_s), f.select(within, c, far_c))
     f.finish(name, f"internal {{ {f.real}, {f.real} }}", f"{f.real} %x", "noinline nounwind")
     return "@" + name
+
+
+def _by_halves(f: Function, x: Value) -> tuple[Value, Value]:
+    """Sine and cosine of more lanes than a register has, half by half."""
+    half = f.widened(f.lanes // 2)
+    symbol, pair = sincos(f.module, half.lanes), f"{{ {half.real}, {half.real} }}"
+    found = [f.put(f"call {pair} {symbol}({half.real} {part.name})") for part in (f.part(x, half, k) for k in range(2))]
+    s, c = ([f.put(f"extractvalue {pair} {both}, {k}") for both in found] for k in range(2))
+    return half.joined(s, f), half.joined(c, f)
 
 
 def _reduced(f: Function, x: Value, n: Value) -> Value:

@@ -97,17 +97,17 @@ def emit(
         printer = _Printer(module, lanes, tape, cut, own_shared)
         printer.chunk(cut.chunks[0], stores, last=True)
         printer.f.do("ret void")
-        printer.f.finish(name, "void", arguments, _attributes(lanes))
+        printer.f.finish(name, "void", arguments, attributes(lanes))
         return cut.scratch
     whole = Function(module, lanes)
     for k, c in enumerate(cut.chunks):
         printer = _Printer(module, lanes, tape, cut, own_shared)
         printer.chunk(c, stores, last=k == len(cut.chunks) - 1)
         printer.f.do("ret void")
-        printer.f.finish(f"{name}_{k}", "internal void", arguments, _attributes(lanes) + " noinline")
+        printer.f.finish(f"{name}_{k}", "internal void", arguments, attributes(lanes) + " noinline")
         whole.do(f"call void @{name}_{k}(ptr %in, ptr %shared, ptr %out, ptr %scratch)")
     whole.do("ret void")
-    whole.finish(name, "void", arguments, _attributes(lanes))
+    whole.finish(name, "void", arguments, attributes(lanes))
     return cut.scratch
 
 
@@ -125,7 +125,8 @@ def emit_inline(
     return [Value(f, printer.name(i)) for i in tape.outputs]
 
 
-def _attributes(lanes: int) -> str:
+def attributes(lanes: int) -> str:
+    """What LLVM is told of a function that computes in so many lanes."""
     # Wide vectors are asked for by name: some processors' tuning avoids them. No call to a stack probe: on Windows that
     # would be a symbol somebody has to provide, and frames here are far smaller than the guard's reach. The stack is
     # aligned to a vector: what registers have no room for would otherwise straddle two cache lines, each and every one.

@@ -7,7 +7,7 @@ a sum are to be one rounding, :meth:`Function.fma` says so, so that scalar and v
 from __future__ import annotations
 
 import struct
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import count
 
@@ -22,6 +22,12 @@ define void @{BIND}(ptr %table) {{
 def hexadecimal(x: float) -> str:
     """A double as LLVM spells it exactly: ``0x`` and the 16 digits of its bits."""
     return f"0x{struct.unpack('<Q', struct.pack('<d', x))[0]:016X}"
+
+
+def shuffle_mask(indices: Iterable[int]) -> str:
+    """A shuffle's mask."""
+    numbers = list(indices)
+    return f"<{len(numbers)} x i32> <" + ", ".join(f"i32 {k}" for k in numbers) + ">"
 
 
 @dataclass(frozen=True, slots=True)
@@ -258,6 +264,25 @@ class Function:
             self,
             self.put(f"shufflevector {self.real} {first}, {self.real} poison, <{self.lanes} x i32> zeroinitializer"),
         )
+
+    def part(self, x: Value, narrow: Function, k: int) -> Value:
+        """Lanes of the k-th piece of a vector as one of a narrower function's."""
+        if narrow.lanes == self.lanes:
+            return Value(narrow, x.name)
+        mask = shuffle_mask(range(k * narrow.lanes, (k + 1) * narrow.lanes))
+        return Value(narrow, self.put(f"shufflevector {self.real} {x.name}, {self.real} poison, {mask}"))
+
+    def joined(self, names: Sequence[str], wide: Function) -> Value:
+        """Vectors, two to the power of something, as one vector of a wider function's."""
+        lanes, pieces = self.lanes, list(names)
+        while len(pieces) > 1:
+            kind, mask = f"<{lanes} x double>", shuffle_mask(range(2 * lanes))
+            pieces = [
+                self.put(f"shufflevector {kind} {a}, {kind} {b}, {mask}")
+                for a, b in zip(pieces[::2], pieces[1::2], strict=True)
+            ]
+            lanes *= 2
+        return Value(wide, pieces[0])
 
     def load(self, base: str, index: int, *, uniform: bool = False) -> Value:
         """Slot ``index`` of a block of numbers: ``lanes`` doubles a slot, or one double for all lanes if uniform."""

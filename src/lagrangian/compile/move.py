@@ -8,9 +8,9 @@ number by number.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 
-from .ir import Function, Module, Value
+from .ir import Function, Module, Value, shuffle_mask
 
 SUMS = 4
 """Sums of 0·x kept side by side: a single one would wait for itself longer than the moves take."""
@@ -31,7 +31,7 @@ def emit_move(module: Module, lanes: int, n: int, *, gather: bool) -> str:
         rows.append(f.put(f"getelementptr i8, ptr %base, i64 {f.put(f'mul i64 %row, {k}')}"))
     f.do("%columns = icmp eq i64 %row, 8")
     f.do("br i1 %columns, label %beside, label %apart")
-    mover = _Mover(f, rows, gather)
+    mover = Mover(f, rows, gather)
     f.label("beside")
     mover.side_by_side(n)
     f.label("apart")
@@ -46,7 +46,7 @@ def emit_move(module: Module, lanes: int, n: int, *, gather: bool) -> str:
     return "@" + name
 
 
-class _Mover:
+class Mover:
     """Prints the two ways through a move; ``rows`` are the addresses of the lanes' rows."""
 
     def __init__(self, f: Function, rows: list[str], gather: bool) -> None:
@@ -55,7 +55,7 @@ class _Mover:
     def contiguous(self, n: int) -> None:
         """Rows without gaps: full transpositions in a loop, then the rest in one or two smaller ones."""
         f, lanes = self.f, self.f.lanes
-        full, rest = divmod(n, lanes)
+        full = n // lanes
         total = Value(f, f.constant(0.0))
         if full:
             f.do("br label %tiles")
@@ -70,36 +70,59 @@ class _Mover:
             f.do(f"%moretiles = icmp slt i64 %nexttile, {full * lanes}")
             f.do("br i1 %moretiles, label %tiles, label %rest")
             f.label("rest")
+        for start, width in self.pieces(n)[full:]:
+            total = self.tile(str(start), width, total)
+        f.do(f"ret {f.real} {total.name}")
+
+    def pieces(self, n: int) -> list[tuple[int, int]]:
+        """Start and width of the tiles that cover a row: full ones, then smaller ones, which may overlap."""
+        lanes = self.f.lanes
+        full, rest = divmod(n, lanes)
+        found = [(k * lanes, lanes) for k in range(full)]
         done = full * lanes
         while rest:
             width = 1 << (rest - 1).bit_length()
             if width > n:  # no room to overlap: the largest piece that fits
                 width //= 2
             start = min(done, n - width)
-            total = self.tile(str(start), width, total)
+            found.append((start, width))
             rest -= start + width - done
             done = start + width
-        f.do(f"ret {f.real} {total.name}")
+        return found
 
     def tile(self, first: str, width: int, total: Value) -> Value:
         """Move entries ``first`` … ``first + width − 1`` of every row; return the sum carried on."""
         f = self.f
-        places = [f.put(f"getelementptr double, ptr {row}, i64 {first}") for row in self.rows]
-        kind = "double" if width == 1 else f"<{width} x double>"
         slots = []
         for k in range(width):
             slot = f.put(f"getelementptr {f.real}, ptr %block, i64 {first}")
             slots.append(f.put(f"getelementptr {f.real}, ptr {slot}, i64 {k}"))
         if self.gather:
-            pieces = [f.put(f"load {kind}, ptr {place}, align 8") for place in places]
-            vectors = self.transposed(self.joined(pieces, width), width)
+            vectors = self.lifted(first, width)
             for slot, x in zip(slots, vectors, strict=True):
                 f.do(f"store {f.real} {x}, ptr {slot}, align {8 * f.lanes}")
         else:
             vectors = [f.put(f"load {f.real}, ptr {slot}, align {8 * f.lanes}") for slot in slots]
-            for piece, place in zip(self.parted(self.transposed(vectors, width), width), places, strict=True):
-                f.do(f"store {kind} {piece}, ptr {place}, align 8")
+            self.dropped(first, width, vectors)
         return self.noted(vectors, total)
+
+    def lifted(self, first: str, width: int) -> list[str]:
+        """Entries ``first`` … of the rows, one vector an entry."""
+        f = self.f
+        kind = "double" if width == 1 else f"<{width} x double>"
+        pieces = [f.put(f"load {kind}, ptr {place}, align 8") for place in self._places(first)]
+        return self.transposed(self.joined(pieces, width), width)
+
+    def dropped(self, first: str, width: int, vectors: list[str]) -> None:
+        """Vectors into entries ``first`` … of the rows."""
+        f = self.f
+        kind = "double" if width == 1 else f"<{width} x double>"
+        parts = self.parted(self.transposed(vectors, width), width)
+        for piece, place in zip(parts, self._places(first), strict=True):
+            f.do(f"store {kind} {piece}, ptr {place}, align 8")
+
+    def _places(self, first: str) -> list[str]:
+        return [self.f.put(f"getelementptr double, ptr {row}, i64 {first}") for row in self.rows]
 
     def noted(self, vectors: list[str], total: Value) -> Value:
         """``total`` + Σ 0·x, as a few sums side by side."""
@@ -119,18 +142,8 @@ class _Mover:
         f = self.f
         if width == 1:
             return [f.gathered(pieces).name]
-        return [self._concatenated(pieces[k::width], width) for k in range(width)]
-
-    def _concatenated(self, parts: list[str], width: int) -> str:
-        f = self.f
-        while len(parts) > 1:
-            kind, mask = f"<{width} x double>", _mask(range(2 * width))
-            parts = [
-                f.put(f"shufflevector {kind} {a}, {kind} {b}, {mask}")
-                for a, b in zip(parts[::2], parts[1::2], strict=True)
-            ]
-            width *= 2
-        return parts[0]
+        narrow = f.widened(width)
+        return [narrow.joined(pieces[k::width], f).name for k in range(width)]
 
     def parted(self, vectors: list[str], width: int) -> list[str]:
         """The reverse of :meth:`joined`: one piece a row."""
@@ -144,7 +157,7 @@ class _Mover:
             if width == f.lanes:
                 pieces.append(vector)
             else:
-                mask = _mask(range(start, start + width))
+                mask = shuffle_mask(range(start, start + width))
                 pieces.append(f.put(f"shufflevector {f.real} {vector}, {f.real} poison, {mask}"))
         return pieces
 
@@ -154,8 +167,8 @@ class _Mover:
         vectors = list(vectors)
         stride = 1
         while stride < width:
-            low = _mask(j if not j & stride else f.lanes + j - stride for j in range(f.lanes))
-            high = _mask(j + stride if not j & stride else f.lanes + j for j in range(f.lanes))
+            low = shuffle_mask(j if not j & stride else f.lanes + j - stride for j in range(f.lanes))
+            high = shuffle_mask(j + stride if not j & stride else f.lanes + j for j in range(f.lanes))
             for k in range(width):
                 if not k & stride:
                     pair = f"{f.real} {vectors[k]}, {f.real} {vectors[k + stride]}"
@@ -212,9 +225,3 @@ class _Mover:
         f.do(f"br i1 %{name}more, label %{name}loop, label %{name}end")
         f.label(f"{name}end")
         f.do(f"ret {f.real} {total.name}")
-
-
-def _mask(indices: Iterable[int]) -> str:
-    """A shuffle's mask."""
-    numbers = list(indices)
-    return f"<{len(numbers)} x i32> <" + ", ".join(f"i32 {k}" for k in numbers) + ">"
