@@ -115,7 +115,7 @@ def workers(folder: Path, given: argparse.Namespace) -> list[str]:
     from distributed import Client, LocalCluster
 
     path = folder / "workers.zarr"
-    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None, memory_limit=None) as cluster:
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0", memory_limit=None) as cluster:
         begin = time.perf_counter()
         process = started(path, given, cluster.scheduler_address)
         share = until(path, 0.4, process)

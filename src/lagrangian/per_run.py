@@ -79,8 +79,11 @@ def instants(model: Model, wanted: Wanted) -> Array:
     return array
 
 
-def study_of(model: Model, wanted: Wanted, drive: Driving, times: Array) -> Study:
-    """What is done with every run; raises `RunError` or `ModelError` for what is not known or does not fit."""
+def study_of(model: Model, wanted: Wanted, drive: Driving, times: Array) -> tuple[Study, dict[str, sp.Expr]]:
+    """What is done with every run, and the expressions observed by name.
+
+    Raises `RunError` or `ModelError` for what is not known or does not fit.
+    """
     if wanted.method not in METHODS:
         fix = did_you_mean(str(wanted.method), METHODS) or f"one of {', '.join(METHODS)}"
         raise RunError(f"there is no method {wanted.method!r:.40} for ensembles", fix=fix, code="E402")
@@ -88,7 +91,7 @@ def study_of(model: Model, wanted: Wanted, drive: Driving, times: Array) -> Stud
     events, events_kept = _events(model, wanted, drive)
     signals = None if drive.constant else Signals(*drive.pieces(float(times[0]), float(times[-1])))
     canonical = wanted.method in SYMPLECTIC
-    return Study(
+    study = Study(
         program=(dynamics.canonical if canonical else dynamics.closed)(model, drive.feedback),
         method=wanted.method,
         times=times,
@@ -100,6 +103,7 @@ def study_of(model: Model, wanted: Wanted, drive: Driving, times: Array) -> Stud
         canonical=(dynamics.momenta(model), dynamics.velocities(model)) if canonical else None,
         options=_accuracy(wanted),
     )
+    return study, expressions
 
 
 def _accuracy(wanted: Wanted) -> dict[str, Any]:

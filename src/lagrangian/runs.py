@@ -6,7 +6,7 @@ import csv
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, TextIO
+from typing import TYPE_CHECKING, Any, TextIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,9 +14,13 @@ from numpy.typing import NDArray
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.simulate import STATUS
 from lagrangian.simulate.store import KEY, NOT_RUN, read
-from lagrangian.varying import TIME
+from lagrangian.varying import SAMPLE, TIME
+from lagrangian.view.many import Along, Result, draw_many
 from lagrangian.write.files import write_with
 from lagrangian.write.tables import check_target, needed
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 SHOWN = 20
 """Failures listed unless more are asked for."""
@@ -182,6 +186,47 @@ class Ensemble(Mapping[str, NDArray[Any]]):
     def to_pandas(self) -> Any:
         """Return a ``pandas.DataFrame`` of `columns`."""
         return needed("pandas").DataFrame(self.columns())
+
+    def plot(self, *names: str) -> Figure:
+        """Return a matplotlib figure of results (all that are numbers a run, unless named) over what varies.
+
+        Curves over one axis, maps over two, histograms of samples; samples over an axis as median and band.
+        """
+        drawn = names or tuple(
+            n
+            for n in self
+            if self._dims[n] == self.dims and n not in ("status", "reached") and "count" not in n.split()
+        )
+        if not drawn:
+            raise RunError("no result is one number a run", fix='reduce=("final", "max")', code="E501")
+        axes = [d for d in self.dims if d != SAMPLE]
+        return draw_many(
+            f"{self.name}: {self.count} runs",
+            tuple(Along(*self._shown(d, self._along(d))) for d in axes),
+            tuple(Result(*self._shown(n, self._over(n))) for n in drawn),
+        )
+
+    def _along(self, axis: str) -> NDArray[Any]:
+        """The values along an axis: its own, or those of the one thing that varies along it alone, or numbers."""
+        own = [values for dims, values in self.coordinates.values() if dims == (axis,)]
+        if axis in self.coordinates or len(own) == 1:
+            return self.coordinates[axis][1] if axis in self.coordinates else own[0]
+        return np.arange(self.shape[self.dims.index(axis)])
+
+    def _over(self, name: str) -> NDArray[Any]:
+        values = self[name]
+        if values.shape != self.shape:
+            raise RunError(f"'{name}' is more than one number a run", fix="ask for a reduction of it", code="E501")
+        return values
+
+    def _shown(self, name: str, values: NDArray[Any]) -> tuple[str, str, NDArray[Any]]:
+        """Label, unit and values for a picture, angles in degrees."""
+        label = name
+        if name in self.dims and name not in self.coordinates:
+            label = next((n for n, (dims, _) in self.coordinates.items() if dims == (name,)), name)
+        full = next((n for n in self._arrays if n.partition(" ")[2] == name), name) if name not in self._words else name
+        unit = str(self._words.get(label, self._words.get(full, {})).get("units", ""))
+        return (label, "°", np.degrees(values)) if unit == "rad" else (label, unit, values)
 
     def save(self, path: str | Path, *, overwrite: bool = False) -> Path:
         """Write everything to ``.csv``, ``.parquet`` (as `columns`) or ``.nc`` (as `to_xarray`), whole or not at all.

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
+import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian.analyze.given import key_name
@@ -20,11 +21,12 @@ from lagrangian.graph import Program
 from lagrangian.model import Model, plain
 from lagrangian.per_run import Wanted, instants, study_of
 from lagrangian.runs import Ensemble
+from lagrangian.showing import Units
 from lagrangian.simulate.design import Design
 from lagrangian.simulate.ensemble import Executor, Here, Memory, Progress, carry_out
 from lagrangian.simulate.portions import FEW, MEMORY, Portions, cut
 from lagrangian.simulate.store import Plan, Variable, create, resume
-from lagrangian.simulate.study import Study
+from lagrangian.simulate.study import Kept, Study
 from lagrangian.varying import EVENT, TIME, Varying, from_arrays, from_grid
 
 Array: TypeAlias = NDArray[np.float64]
@@ -115,12 +117,12 @@ def _done(model: Model, varying: Varying, wanted: Wanted, inputs: dict[Any, Any]
     drive = _drive(model, varying, inputs)
     times = instants(model, wanted)
     check_covers(drive, float(times[0]), float(times[-1]))
-    study = study_of(model, wanted, drive, times)
+    study, expressions = study_of(model, wanted, drive, times)
     design = varying.design()
     task = _task(model, varying, wanted, drive, study)
     executor, cutting = _executor(way)
     portions = cut(design.shape, study.bytes_per_run, memory=_bytes(way.memory), **cutting)
-    plan = _plan(model, varying, study, portions, task)
+    plan = _plan(model, varying, study, expressions, portions, task)
     if way.store is None:
         if way.resume or way.overwrite:
             raise RunError("resume and overwrite are about a store", fix='store="sweep.zarr"', code="E501")
@@ -208,29 +210,39 @@ def _drive(model: Model, varying: Varying, inputs: dict[Any, Any]) -> Driving:
 # -- what is written of it --------------------------------------------------------------------------------------
 
 
-def _plan(model: Model, varying: Varying, study: Study, portions: Portions, task: dict[str, Any]) -> Plan:
-    fields = study.fields()
+def _plan(
+    model: Model,
+    varying: Varying,
+    study: Study,
+    expressions: Mapping[str, sp.Expr],
+    portions: Portions,
+    task: dict[str, Any],
+) -> Plan:
+    fields, units = study.fields(), Units(model)
     dims = varying.dims(fields)
+    made_of = {k.name: (k, units.of(expressions[k.of])) for k in study.kept}
     results = {}
     for name, (dtype, extra) in fields.items():
         more = () if not extra else (EVENT,) if name.startswith("time ") else (TIME,)
-        results[name] = Variable(dtype, (*dims, *more), (*portions.shape, *extra), _words(study, name))
-    coordinates: dict[str, Any] = dict(varying.coordinates(fields))
+        results[name] = Variable(dtype, (*dims, *more), (*portions.shape, *extra), _words(made_of, name))
+    coordinates: dict[str, Any] = dict(varying.coordinates(fields, units))
     if any(k.reduction is None for k in study.kept):
         words = {"units": "s", "long_name": "time"}
         coordinates[TIME] = Variable("float64", (TIME,), study.times.shape, words), [study.times]
     return Plan(portions, results, coordinates, task, {"title": model.name})
 
 
-def _words(study: Study, name: str) -> dict[str, Any]:
-    kept = {k.name: k for k in study.kept}
-    if name in kept and kept[name].reduction is not None:
-        return {"long_name": f"{kept[name].reduction} of {kept[name].of}"}
+def _words(made_of: Mapping[str, tuple[Kept, str]], name: str) -> dict[str, Any]:
+    """Long name and unit of a result."""
+    if name in made_of:
+        kept, unit = made_of[name]
+        words = name if kept.reduction is None else f"{kept.reduction} of {kept.of}"
+        return {"long_name": words, **({"units": unit} if unit else {})}
     if name == "status":
         return {"long_name": "how the run ended: 0 its end, 1 a terminal event, negative a failure, -128 not run yet"}
     if name == "reached":
         return {"long_name": "time of the last state", "units": "s"}
-    return {"long_name": name, "units": "s"} if name.startswith("time ") else {"long_name": name}
+    return {"long_name": name, **({"units": "s"} if name.startswith("time ") else {})}
 
 
 def _task(model: Model, varying: Varying, wanted: Wanted, drive: Driving, study: Study) -> dict[str, Any]:

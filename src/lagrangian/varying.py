@@ -17,6 +17,7 @@ from lagrangian.compile.arguments import numbers
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.model import Model
 from lagrangian.read.spread import Spread, parse_spread, parse_values
+from lagrangian.showing import Units
 from lagrangian.simulate.design import GROUPS, Column, Design, Drawn
 from lagrangian.simulate.store import DONE, Variable
 
@@ -105,13 +106,13 @@ class Varying:
         shape = tuple(self.axes.values())
         return Design(tuple(self.axes), shape, self.entries.complete(self.columns), columns)
 
-    def coordinates(self, names: Iterable[str]) -> dict[str, tuple[Variable, Iterator[Array]]]:
+    def coordinates(self, names: Iterable[str], units: Units) -> dict[str, tuple[Variable, Iterator[Array]]]:
         """The varied entries as coordinates beside results that are called ``names``."""
         found: dict[str, tuple[Variable, Iterator[Array]]] = {}
         taken = {*TAKEN, *names}
         for (group, name), source in self.columns.items():
             title = _title(group, name, taken)
-            words = {**self._words(group, name), "varied": "drawn" if isinstance(source, Drawn) else "given"}
+            words = {**self._words(group, name, units), "varied": "drawn" if isinstance(source, Drawn) else "given"}
             if isinstance(source, Drawn):
                 count = self.axes[SAMPLE]
                 portions = (source.sample(np.arange(k, min(count, k + PORTION))) for k in range(0, count, PORTION))
@@ -131,10 +132,12 @@ class Varying:
         groups = {name: group for group, name in self.columns}
         return tuple(_title(groups[d], d, taken) if d in groups else d for d in self.axes)
 
-    def _words(self, group: str, name: str) -> dict[str, str]:
-        dim = self.entries.group(group).dims[list(self.entries.base[group]).index(name)]
+    def _words(self, group: str, name: str, units: Units) -> dict[str, str]:
+        model = self.entries.model
+        named = {"x": (*model.coordinates, *model.velocities), "p": model.parameters, "u": model.inputs}[group]
+        unit = next(units.of(entry.symbol) for entry in named if entry.name == name)
         noun = {"x": "initial value of", "p": "parameter", "u": "input"}[group]
-        return {"long_name": f"{noun} {name}", **({} if dim is None else {"units": str(dim) or "1"})}
+        return {"long_name": f"{noun} {name}", **({"units": unit} if unit else {})}
 
     def task(self) -> dict[str, Any]:
         """What varies and what does not, as plain data that tells two tasks apart."""

@@ -115,7 +115,7 @@ def test_a_bar_on_a_terminal_and_an_interrupt_that_loses_nothing(folder: pathlib
     while chunk := _read(ours):
         said += chunk
     assert process.wait() == 130
-    assert time.monotonic() - begin < 5
+    assert time.monotonic() - begin < 15
     text = said.decode()
     assert "100000" in text
     assert "go on with --resume" in text

@@ -215,7 +215,7 @@ def test_tables_for_others(oscillator: lg.System) -> None:
     runs = oscillator.sweep(1.0, ["k=1:4:4", "m~normal(1,0.01)"], samples=3, x=1.0, outputs=["x", "max x"], **FINE)
     data = runs.to_xarray()
     assert data["final x"].dims == ("k", "sample")
-    assert data["k"].attrs["units"] == "kg/s^2"
+    assert data["k"].attrs["units"] == "N/m"
     assert data["m"].dims == ("sample",)
     frame = runs.to_pandas()
     assert list(frame.columns) == ["sample", "k", "m", "final x", "max x", "reached", "status"]
@@ -244,7 +244,7 @@ def test_files(oscillator: lg.System, tmp_path) -> None:
     pandas.testing.assert_frame_equal(pandas.read_parquet(tmp_path / "a.parquet"), runs.to_pandas())
     data = xarray.load_dataset(tmp_path / "a.nc", engine="h5netcdf")
     np.testing.assert_array_equal(data["max x'"].values, runs["max x'"])
-    assert data["k"].attrs["units"] == "kg/s^2"
+    assert data["k"].attrs["units"] == "N/m"
     with pytest.raises(lg.ModelError, match="names no kind of file"):
         runs.save(tmp_path / "a.xls")
     assert len(list(tmp_path.iterdir())) == 3

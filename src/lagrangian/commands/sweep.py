@@ -12,9 +12,11 @@ import numpy as np
 import typer
 
 from lagrangian.commands.assignments import assignments
+from lagrangian.commands.simulate import PICTURES
 from lagrangian.commands.terminal import Example, open_system, say
 from lagrangian.runs import ENDINGS, Ensemble, write_csv
 from lagrangian.simulate.ensemble import Progress
+from lagrangian.write.files import write_with
 from lagrangian.write.tables import check_target
 
 STORE = ".zarr"
@@ -58,6 +60,9 @@ def sweep(
         Path | None,
         typer.Option("--output", "-o", help="A .zarr store, .nc, .csv or .parquet; - is CSV to standard output."),
     ] = None,
+    plot: Annotated[
+        Path | None, typer.Option("--plot", help="Draw a picture: .png, .pdf or .svg.", show_default=False)
+    ] = None,
     resume: Annotated[bool, typer.Option("--resume", help="Go on with a .zarr store where it stopped.")] = False,
     force: Annotated[bool, typer.Option("--force", help="Replace what is there.")] = False,
     scheduler: Annotated[
@@ -75,7 +80,9 @@ def sweep(
         if resume:
             raise typer.BadParameter("only a .zarr store can be resumed: -o sweep.zarr --resume")
         check_target(output, [STORE, *ENDINGS], overwrite=force)
-    elif output is None and resume:
+    if plot is not None:
+        check_target(plot, PICTURES, overwrite=force)
+    if output is None and resume:
         raise typer.BadParameter("--resume goes with -o sweep.zarr")
     system = open_system(file, example)
     options: dict[str, Any] = {"method": method, "rtol": rtol, "atol": atol, "times": times, "threads": threads}
@@ -99,6 +106,10 @@ def sweep(
             **options,
         )
     _put(runs, output, stored, force)
+    if plot is not None:
+        figure, kind = runs.plot(), plot.suffix.lower().removeprefix(".")
+        write_with(plot, lambda beside: figure.savefig(beside, format=kind, dpi=150))
+        say(f"wrote {plot}")
     if runs.status.size and (runs.status < 0).all():
         raise typer.Exit(1)
 
