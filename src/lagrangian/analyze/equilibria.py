@@ -7,7 +7,7 @@ finds nothing new. Directions that h does not depend on are held; roots that are
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import product
 from typing import Any, overload
 
@@ -19,7 +19,7 @@ from lagrangian.analyze.box import Box, make_box
 from lagrangian.analyze.echelon import null_space, reduced
 from lagrangian.analyze.families import Family, split
 from lagrangian.analyze.given import Given, Named
-from lagrangian.analyze.jacobians import reads, values
+from lagrangian.analyze.jacobians import Quick, values
 from lagrangian.analyze.linearize import TIMES, Linearizer
 from lagrangian.analyze.rest import point_words
 from lagrangian.analyze.roots import EXACT, Forces, Search, distinct, starts
@@ -36,6 +36,12 @@ ROUND = 256
 ROUNDS = 16
 ENOUGH = 5
 """Times that every root should be met."""
+
+MOST = 1000
+"""Rests above which the search ends: so many are no list to read."""
+
+MANY = 8
+"""Rests from which on their verdicts are worth machine code."""
 
 SINGULAR = 1e-13
 """Eigenvalue of M, in widths of the box and over the largest, that counts as none."""
@@ -127,6 +133,8 @@ def equilibria(
     task = _prepared(model, inputs, params, box)
     found, hits, count, sure = _sought(task, samples)
     isolated, families = split(task.search, found, task.box.low, task.box.high)
+    if len(isolated) > MANY:
+        task = replace(task, linearizer=Linearizer(model, Quick()))
     proper = [q for q in isolated if not task.is_singular(q)]
     listed = [task.equilibrium(q, hits) for q in proper]
     listed += [task.equilibrium(f.root, hits, f) for f in families if not task.is_singular(f.root)]
@@ -179,7 +187,7 @@ class _Task:
 
     def is_singular(self, q: Array) -> bool:
         """Whether M is singular at q: there h = 0 says nothing, for these coordinates do not describe what is near."""
-        M = values(self.linearizer.mass, q=q, v=np.zeros_like(q), u=self.u, p=self.p, t=0.0)["M"]
+        M = self.linearizer.values(self.linearizer.mass, q=q, v=np.zeros_like(q), u=self.u, p=self.p, t=0.0)["M"]
         if not np.isfinite(M).all():
             return True
         sized = np.linalg.eigvalsh(M * np.outer(self.search.width, self.search.width))
@@ -187,10 +195,10 @@ class _Task:
 
     def _rests_always(self, q: Array) -> bool:
         program = self.linearizer.forces
-        if not reads(program, "h", "t"):
+        if not self.linearizer.rests_change:
             return True
         for t in TIMES:
-            h = values(program, q=q, v=np.zeros_like(q), u=self.u, p=self.p, t=t)["h"]
+            h = self.linearizer.values(program, q=q, v=np.zeros_like(q), u=self.u, p=self.p, t=t)["h"]
             if np.abs(h / self.search.scale).max(initial=0.0) > 1e3 * EXACT:
                 return False
         return True
@@ -205,7 +213,7 @@ def _prepared(model: Model, inputs: Named | None, params: Named | None, asked: M
         raise RunError(
             f"system '{model.name}' has a floating frame, whose quaternion is no set of independent coordinates",
             fix="describe the turn by angles (frames about axes) to search for rests",
-            code="E416",
+            code="E202",
         )
     forces = _kernel(program, u, p)
     box = make_box(given, program.inputs["q"], asked, _turning(linearizer, u, p))
@@ -255,10 +263,18 @@ def _sought(task: _Task, samples: int | None) -> tuple[Array, dict[bytes, int], 
         count += len(q)
         roots, hits = distinct(search, found)
         sure = len(roots) == before and (not len(hits) or int(hits.min()) >= ENOUGH)
-        if sure or (count >= 4 * ROUND and len(roots) > count // 8):  # on a family every start finds its own
+        if sure or len(roots) > MOST or (count >= 4 * ROUND and _is_family(search, roots, count)):
             break
         before = len(roots)
     return roots, {r.tobytes(): int(n) for r, n in zip(roots, hits, strict=True)}, count, sure
+
+
+def _is_family(search: Search, roots: Array, count: int) -> bool:
+    """Whether many of the starts found a root of their own, and K is singular there."""
+    if len(roots) <= count // 8:
+        return False
+    flat = [search.singular(q)[0] for q in roots[:16]]
+    return sum(v.min() <= 1e-6 * max(v.max(), 1e-300) for v in flat) >= len(flat) // 2
 
 
 def _corners(task: _Task) -> Array:
@@ -283,7 +299,7 @@ def _notes(
         what = f"{names[0]} is free" if len(names) == 1 else f"{', '.join(names)} are free together"
         listed.append(f"{what}: no force depends on it, any shift is as good; {names[0]} is held")
     if outside:
-        why = "or do not rest at other times" if reads(task.linearizer.forces, "h", "t") else "that was given"
+        why = "or do not rest at other times" if task.linearizer.rests_change else "that was given"
         listed.append(f"{outside} more lie outside the box {why}")
     if not found:
         h, _ = task.search.forces(starts(256, task.box.low, task.box.high))

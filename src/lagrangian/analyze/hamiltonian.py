@@ -61,7 +61,7 @@ def hamiltonian(model: Model) -> Hamiltonian:
         rates = [summed([d for p in pieces for d in p.diff(s)]) for s in letters]
         slopes = [summed([d for p in pieces for d in p.diff(q)]) + potential.diff(q).expr() for q in system.q]
     except OutOfReach as trouble:
-        raise RunError(f"H is too long to write out: {trouble.what}", code="E508") from trouble
+        raise RunError(f"H is too long to write out: {trouble.what}", code="E523") from trouble
     in_momenta = dict(zip(system.v, rates, strict=True))
     forces = [cast("sp.Expr", f.expr().xreplace(in_momenta)) for f in system.forces]
     pushes = [f - s for f, s in zip(forces, slopes, strict=True)]
@@ -103,7 +103,7 @@ def split(system: LagrangianForm) -> tuple[list[Form], Form]:
         raise RunError(
             "T* is not quadratic in the rates: the momenta cannot be solved for them",
             fix="energies of motion are ½ ξ̇ᵀ M ξ̇ + bᵀ ξ̇ + T₀",
-            code="E508",
+            code="E523",
         )
     still = dict.fromkeys(system.v, sp.S.Zero)
     b = [system.at(p, still) for p in system.momenta]

@@ -8,7 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrangian import compile as machine
 from lagrangian import dynamics
+from lagrangian.errors import RunError
 from lagrangian.graph import Output, Program, evaluate, jacobian, reached
 from lagrangian.model import Model
 
@@ -51,3 +53,20 @@ def reads(program: Program, output: str, group: str) -> frozenset[int]:
     nodes = program.graph.nodes
     met = (nodes[i] for i in reached(program.graph, program.outputs[output].ids))
     return frozenset(node[2] for node in met if node[0] == "input" and node[1] == group)
+
+
+class Quick:
+    """`values` in machine code: for many points of the same programs."""
+
+    def __init__(self) -> None:
+        self._kernels: dict[int, tuple[Program, machine.Kernel]] = {}
+
+    def __call__(self, program: Program, **groups: Any) -> Arrays:
+        """The outputs as arrays; what is not finite is handed on as it is."""
+        if id(program) not in self._kernels:
+            self._kernels[id(program)] = (program, machine.compile(program))
+        try:
+            found = self._kernels[id(program)][1](**groups)
+        except RunError:  # kernels refuse what is not finite; the interpreter shows it
+            return values(program, **groups)
+        return found if isinstance(found, dict) else {next(iter(program.outputs)): found}

@@ -30,7 +30,7 @@ class LagrangianForm:
             raise ModelError(
                 f"system '{model.name}' has a floating frame, whose quaternion is no set of independent coordinates",
                 fix="describe the turn by angles (frames about axes)",
-                code="E416",
+                code="E202",
             )
         T, V = sp.S.Zero, sp.S.Zero
         forces: list[Any] = [sp.S.Zero] * len(model.coordinates)

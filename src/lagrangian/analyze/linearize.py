@@ -7,7 +7,7 @@ h = C q̇ + G − Ξ.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -19,7 +19,7 @@ from lagrangian import dynamics
 from lagrangian.analyze.given import Given, Named
 from lagrangian.analyze.jacobians import Arrays, forces, rates, reads, values
 from lagrangian.analyze.modes import EPSILON, SLACK, Mode, Spectrum, modes, spectrum
-from lagrangian.analyze.outputs import measured
+from lagrangian.analyze.outputs import Measured, measured
 from lagrangian.analyze.reach import Reach, controllable, observable
 from lagrangian.analyze.rest import Rest, rest
 from lagrangian.analyze.stability import Stability, has_minimum, judge, loses_power
@@ -159,9 +159,10 @@ def linearize(
 
 @dataclass(frozen=True, eq=False)
 class Linearizer:
-    """The programs behind linearizations of one model, made once."""
+    """The programs behind linearizations of one model, made once; ``values`` evaluates them."""
 
     model: Model
+    values: Callable[..., Arrays] = values
 
     @cached_property
     def rates(self) -> Program:
@@ -183,6 +184,20 @@ class Linearizer:
         """The power of what is not conservative."""
         return dynamics.power(self.model)
 
+    @cached_property
+    def _reads_time(self) -> bool:
+        return bool(reads(self.rates, "A", "t") or reads(self.rates, "B", "t"))
+
+    @cached_property
+    def rests_change(self) -> bool:
+        """Whether the forces read time."""
+        return bool(reads(self.forces, "h", "t"))
+
+    @cached_property
+    def _plain(self) -> Measured:
+        """The coordinates as outputs."""
+        return measured(self.model, None, self.rates)
+
     def at_rest(self, x: Array, u: Array, p: Array) -> Linearization:
         """The linearization about what is known to be a rest."""
         return self.about(Rest(self.rates.inputs["x"], x, u, p, "rest", 0.0), 0.0, None)
@@ -190,9 +205,9 @@ class Linearizer:
     def about(self, here: Rest, t: float, outputs: Any) -> Linearization:
         """The linearization about a point of known kind."""
         program = self.rates
-        found = _finite(values(program, x=here.x, u=here.u, p=here.p, t=t), here)
-        y = measured(self.model, outputs, program)
-        seen = _finite(values(y.program, x=here.x, u=here.u, p=here.p, t=t), here)
+        found = _finite(self.values(program, x=here.x, u=here.u, p=here.p, t=t), here)
+        y = self._plain if outputs is None else measured(self.model, outputs, program)
+        seen = _finite(self.values(y.program, x=here.x, u=here.u, p=here.p, t=t), here)
         second = None if here.kind == "operating point" else self._second_order(here, t)
         noise, noise_of_K = self._noise(here, t, found, second)
         return Linearization(
@@ -229,7 +244,7 @@ class Linearizer:
         if n != len(self.forces.inputs["v"]):
             return None
         point = {"q": here.x[:n], "v": here.x[n:], "u": here.u, "p": here.p, "t": t}
-        return values(self.forces, **point) | values(self.mass, **point)
+        return self.values(self.forces, **point) | self.values(self.mass, **point)
 
     def _noise(self, here: Rest, t: float, found: Arrays, second: Arrays | None) -> tuple[tuple[float, float], float]:
         """The rounding errors in A and M⁻¹K, and in K: how they change when all digits behind the twelfth do.
@@ -241,7 +256,7 @@ class Linearizer:
         for _ in range(3):
             x, p = (v * (1 + PERTURBED * source.uniform(-1, 1, len(v))) for v in (here.x, here.p))
             moved = replace(here, x=x, p=p)
-            near = values(self.rates, x=x, u=here.u, p=p, t=t)
+            near = self.values(self.rates, x=x, u=here.u, p=p, t=t)
             dA = max(dA, _largest(near["A"] - found["A"]))
             if second is not None and (other := self._second_order(moved, t)) is not None:
                 dK = max(dK, _largest(other["K"] - second["K"]))
@@ -252,13 +267,15 @@ class Linearizer:
 
     def _minimum(self, second: Arrays, here: Rest, noise: float) -> bool:
         n = len(second["K"])
-        return has_minimum(second["M"], second["K"], noise) and loses_power(self.power, here.x[:n], here.u, here.p)
+        return has_minimum(second["M"], second["K"], noise) and loses_power(
+            self.values, self.power, here.x[:n], here.u, here.p
+        )
 
     def _changes(self, here: Rest) -> bool:
         """Whether A or B differs between a few times."""
-        if not reads(self.rates, "A", "t") and not reads(self.rates, "B", "t"):
+        if not self._reads_time:
             return False
-        first, *others = (values(self.rates, x=here.x, u=here.u, p=here.p, t=t) for t in TIMES)
+        first, *others = (self.values(self.rates, x=here.x, u=here.u, p=here.p, t=t) for t in TIMES)
         return any(
             np.abs(other[k] - first[k]).max(initial=0.0) > 1e-9 * max(1.0, np.abs(first[k]).max(initial=0.0))
             for other in others

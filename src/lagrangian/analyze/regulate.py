@@ -26,7 +26,7 @@ def python_control() -> ModuleType:
         import control
     except ImportError as missing:
         raise MissingExtra(
-            "this needs python-control", fix="pip install 'lagrangian[control]'", code="E802"
+            "this needs python-control", fix="pip install 'lagrangian[control]'", code="E801"
         ) from missing
     return control
 
@@ -84,7 +84,7 @@ def lqr(linear: Linearization, Q: Any, R: Any) -> Regulator:
         raise RunError(
             f"no feedback stabilizes the system: the pole {shown(lost[0].pole)} of {names} is not controllable",
             fix="add an input that acts on it, or linearize without that coordinate",
-            code="E507",
+            code="E522",
         )
     q = _weights(Q, "Q", "state", linear.states)
     r = _weights(R, "R", "input", linear.inputs)
@@ -98,7 +98,7 @@ def lqr(linear: Linearization, Q: Any, R: Any) -> Regulator:
         raise RunError(
             f"Riccati's equation has no solution: {trouble}",
             fix="weigh the states whose modes do not decay by themselves",
-            code="E507",
+            code="E522",
         ) from trouble
     return Regulator(linear, np.atleast_2d(K), np.asarray(S), np.asarray(poles, complex))
 

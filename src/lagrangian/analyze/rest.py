@@ -166,5 +166,5 @@ def _refused(here: Rest, program: Program, n: int, t: float) -> RunError:
     return RunError(
         f"{here.shown} is no equilibrium: {why}",
         fix="system.equilibria() finds them; operating_point=True linearizes about any point and keeps the drift",
-        code="E505",
+        code="E521",
     )

@@ -76,7 +76,7 @@ def routhian(model: Model, ignorable: Sequence[Any] | None = None) -> Routhian:
         effective = potential.expr() + cast("sp.Expr", summed(pieces).xreplace(still))
         equations = tuple(_equation(system, r, polynomial, pieces) for r in left)
     except OutOfReach as trouble:
-        raise RunError(f"R is too long to write out: {trouble.what}", code="E508") from trouble
+        raise RunError(f"R is too long to write out: {trouble.what}", code="E523") from trouble
     R = polynomial.expr() - summed(pieces)
     return Routhian(
         model=model,
@@ -104,7 +104,7 @@ def _chosen(system: LagrangianForm, asked: Sequence[Any] | None) -> list[int]:
             raise RunError(
                 "no coordinate is ignorable: L holds all of them, or forces act on them",
                 fix="other coordinates may be: polar ones where forces are central",
-                code="E509",
+                code="E524",
             )
         return proper
     found = []
@@ -117,10 +117,10 @@ def _chosen(system: LagrangianForm, asked: Sequence[Any] | None) -> list[int]:
             slope, force = system.slopes[k], system.forces[k]
             why = f"L holds it: ∂L/∂{name} = {plain(slope.expr())}" if not slope.is_zero else None
             why = why or f"a force acts on it: {plain(force.expr())}"
-            raise RunError(f"'{name}' is not ignorable: {why}", code="E509")
+            raise RunError(f"'{name}' is not ignorable: {why}", code="E524")
         found.append(k)
     if not found:
-        raise RunError("no coordinate was named", fix="routhian() removes all that are ignorable", code="E509")
+        raise RunError("no coordinate was named", fix="routhian() removes all that are ignorable", code="E524")
     return sorted(set(found))
 
 

@@ -7,12 +7,13 @@ Sources: Hahn, Stability of Motion (1967), §§ 25, 28; Meirovitch, Methods of A
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.analyze.jacobians import values
+from lagrangian.analyze.jacobians import Arrays
 from lagrangian.analyze.modes import SYMMETRIC, Spectrum
 from lagrangian.graph import Program
 
@@ -100,7 +101,7 @@ def has_minimum(M: Array, K: Array, noise: float) -> bool:
     )
 
 
-def loses_power(power: Program, q: Array, u: Array, p: Array) -> bool:
+def loses_power(values: Callable[..., Arrays], power: Program, q: Array, u: Array, p: Array) -> bool:
     """Whether no random motion near the rest q gains energy: dh/dt = P ≤ 0."""
     source = np.random.default_rng(1)
     for _ in range(SAMPLES):

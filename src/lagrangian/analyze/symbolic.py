@@ -52,7 +52,7 @@ def symbolic(linear: Linearization) -> SymbolicLinearization:
         raise RunError(
             "symbols are written about a rest of a system whose velocities are the rates of its coordinates",
             fix="the numbers are in A and B",
-            code="E508",
+            code="E523",
         )
     if n > MOST:
         raise _too_long(f"{n} coordinates")
@@ -77,7 +77,7 @@ def symbolic(linear: Linearization) -> SymbolicLinearization:
 
 
 def _too_long(why: str) -> RunError:
-    return RunError(f"too long to write in symbols: {why}", fix="the numbers are in A and B", code="E508")
+    return RunError(f"too long to write in symbols: {why}", fix="the numbers are in A and B", code="E523")
 
 
 def _made(model: Model, raw: dict[str, sp.Matrix], point: dict[Any, Any], n: int) -> SymbolicLinearization:
