@@ -19,6 +19,7 @@ from lagrangian.read.answers.nodes import Node, inside, only_name, squared_name,
 from lagrangian.read.answers.placeholders import ENERGIES, generalized_force, is_force, is_placeholder, is_vector
 from lagrangian.read.answers.stated import energy_of, force_of, momentum_of
 from lagrangian.read.letters import key, undotted
+from lagrangian.read.scope import rate_stems
 from lagrangian.read.source import Source
 
 MAX_CHAIN = 20
@@ -128,7 +129,9 @@ class Lines:
         return Subject("left", first.name) if first.name == second.name else None
 
     def _taken(self, token: Token) -> bool:
-        return bool(self.names.scope.meanings(token)[0])
+        """Whether a name is the model's, or spells out the rate of one: theta1_ddot."""
+        scope = self.names.scope
+        return bool(scope.meanings(token)[0]) or any(scope.meanings(stem)[0] for _, stem in rate_stems(token))
 
     def _named(self, token: Token, primes: int) -> Subject | None:
         base, dots = undotted(token)

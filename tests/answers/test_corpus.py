@@ -1,0 +1,90 @@
+"""The corpus of answers: no right one is rejected, no wrong one accepted, the planted mistake is named first.
+
+``corpus/*.toml`` holds the answers, most of them written by ``write_corpus.py``, some by hand. ``is`` says what an
+answer is, ``mistake`` what was planted, ``also`` which other mistakes give the very same answer, ``line`` the first
+wrong one of a whole derivation.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections import Counter
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import lagrangian as lg
+from lagrangian import examples
+from lagrangian.analyze import check
+from lagrangian.checking import CheckedAnswer, check_answer
+
+FILES = sorted((Path(__file__).parent / "corpus").glob("*.toml"))
+CORPUS = [
+    answer | {"system": data["system"]}
+    for data in (tomllib.loads(path.read_text(encoding="utf-8")) for path in FILES)
+    for answer in data["answer"]
+]
+SYSTEMS = sorted({a["system"] for a in CORPUS})
+RIGHT = {
+    "right": {check.Status.RIGHT},
+    "scaled": {check.Status.EQUIVALENT, check.Status.RIGHT},
+    "reordered": {check.Status.EQUIVALENT, check.Status.RIGHT},
+    "combined": {check.Status.EQUIVALENT},
+    "same motion": {check.Status.SAME_MOTION, check.Status.EQUIVALENT, check.Status.RIGHT},
+    "other coordinates": {check.Status.OTHER_COORDINATES, check.Status.RIGHT, check.Status.EQUIVALENT},
+}
+WRONG = {"wrong": check.Status.WRONG, "incomplete": check.Status.INCOMPLETE}
+
+
+@cache
+def derivation(system: str) -> lg.Derivation:
+    return lg.loads(examples.text(system), name=system).derive()
+
+
+@cache
+def verdicts(system: str) -> list[tuple[dict[str, Any], CheckedAnswer]]:
+    d = derivation(system)
+    return [(a, check_answer(d, a["text"])) for a in CORPUS if a["system"] == system]
+
+
+def named(answer: dict[str, Any], verdict: CheckedAnswer) -> bool:
+    """Whether the mistake that is named first is the planted one, or one that gives the very same answer."""
+    return verdict.mistake is not None and verdict.mistake.name in (answer["mistake"], *answer.get("also", ()))
+
+
+def test_the_corpus_is_large_and_its_names_are_the_checker_s():
+    counted = Counter(a["is"] for a in CORPUS)
+    assert len(CORPUS) >= 300 and counted["wrong"] >= 120
+    assert set(counted) == set(RIGHT) | set(WRONG)
+    folder = Path(check.__file__).parent / "misconceptions"
+    names = {path.stem for path in folder.glob("*.py")}
+    planted = {a["mistake"] for a in CORPUS if "mistake" in a}
+    assert planted <= names and len(planted) >= 30
+    assert len({a["id"] for a in CORPUS}) == len(CORPUS)
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_no_right_answer_is_rejected_and_no_wrong_one_accepted(system):
+    for answer, verdict in verdicts(system):
+        told = f"{answer['id']} is {answer['is']}, called {verdict.status}\n{answer['text']}"
+        if answer["is"] in RIGHT:
+            assert verdict.right, told
+            assert verdict.status in RIGHT[answer["is"]], told
+        else:
+            assert verdict.status is WRONG[answer["is"]], told
+
+
+@pytest.mark.parametrize("system", SYSTEMS)
+def test_the_first_wrong_line_is_named(system):
+    for answer, verdict in verdicts(system):
+        if "line" in answer:
+            assert verdict.first_wrong is not None, answer["id"]
+            assert verdict.first_wrong.line.number == answer["line"], (answer["id"], verdict.first_wrong.line)
+
+
+def test_the_planted_mistake_is_named_first():
+    wrong = [(a, v) for system in SYSTEMS for a, v in verdicts(system) if "mistake" in a]
+    missed = [(a["id"], a["mistake"], v.mistake.name if v.mistake else None) for a, v in wrong if not named(a, v)]
+    assert len(missed) <= len(wrong) // 10, missed
