@@ -18,7 +18,7 @@ from lagrangian.driving import Driving, check_covers, driving
 from lagrangian.ending import message
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.events import Event
-from lagrangian.graph import Program
+from lagrangian.graph import Graph, Program
 from lagrangian.integrating import Task, remembered, right_hand_side, run
 from lagrangian.model import Model
 from lagrangian.simulate import METHODS
@@ -70,7 +70,7 @@ def simulate(
     Values for states by name may stand beside the options: ``theta1=0.2``.
     """
     settings = dict(model.settings)
-    given = Given.of(model, remembered(model, "states", lambda: dynamics.rhs(model)))
+    given = Given.of(model, _named(model))
     dims = dict(zip(given.inputs.names, given.inputs.dims, strict=True))
     drive = driving(model, inputs, settings.get("inputs", {}), dims)
     program = right_hand_side(model, drive)
@@ -104,6 +104,13 @@ def simulate(
         bounds,
     )
     return _trajectory(task, run(task), {"rtol": rtol, "atol": atol})
+
+
+def _named(model: Model) -> Program:
+    """The names of a model's states, inputs and parameters as the groups of a program that computes nothing."""
+    states = (*(c.name for c in model.coordinates), *(v.name for v in model.velocities))
+    groups = {"x": states, "u": tuple(u.name for u in model.inputs), "p": tuple(p.name for p in model.parameters)}
+    return Program("names", Graph(), groups, {})
 
 
 # -- what was given ---------------------------------------------------------------------------------------------

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import sympy as sp
+from numpy.typing import ArrayLike
 from sympy.core.function import AppliedUndef
 
 from lagrangian import read
@@ -34,6 +36,7 @@ from lagrangian.derivation import Derivation, derive_and_verify
 from lagrangian.derive import Check
 from lagrangian.derive import derive as derive_model
 from lagrangian.errors import ModelError, Place
+from lagrangian.events import Event
 from lagrangian.model import (
     Builder,
     Damper,
@@ -403,22 +406,66 @@ class System:
         """Return A(t), B(t), C(t), D(t) along a run, or along (times, states)."""
         return linearize_along(self.model, trajectory, inputs=inputs, params=params, outputs=outputs)
 
-    def simulate(self, duration: Any = None, *, initial: Any = None, **options: Any) -> Trajectory:
-        """Run the system for ``duration`` [s] and return a `lagrangian.Trajectory`; `lagrangian.simulation` has more.
+    def simulate(
+        self,
+        duration: float | str | None = None,
+        *,
+        initial: Mapping[Any, Any] | Sequence[float] | None = None,
+        params: Mapping[Any, Any] | None = None,
+        inputs: Mapping[Any, Any] | None = None,
+        times: ArrayLike | None = None,
+        samples: int | None = None,
+        start: float | str = 0.0,
+        method: str | None = None,
+        step: float | str | None = None,
+        rtol: float = 1e-9,
+        atol: float = 1e-12,
+        events: Sequence[Event] | Event = (),
+        max_step: float | str = math.inf,
+        max_steps: int = 10_000_000,
+        max_events: int = 1000,
+        timeout: float | None = None,
+        **initial_by_name: Any,
+    ) -> Trajectory:
+        """Run the system for ``duration`` [s] and return a `lagrangian.Trajectory`.
 
         >>> from lagrangian import examples
         >>> run = loads(examples.text("pendulum")).simulate(2.0, theta=0.5, params={"b": 0.0})
-        >>> run.success, float(run.audit) < 1e-8
+        >>> run.success, float(run.audit) < 1e-9
         (True, True)
 
-        Initial values by name, ``theta1=0.2``, or in ``initial={"theta1'": 0.1, theta2: "12 deg"}``; 0 where not given.
-        ``params`` and ``inputs`` are mappings by name or symbol; an input is a number, text, an expression of time and
-        state, a table ``(times, values[, "hold"])`` or a Python function f(t, x). ``times`` or ``samples`` say where
-        the run is kept. ``method``, ``rtol``, ``atol``, ``step`` choose the integration, ``events`` come from
-        `lagrangian.event`; ``max_steps`` and ``timeout`` [s] bound it. Raises `RunError` or `ModelError` for what
-        is wrong before the run; a run that fails on its way is returned as far as it went.
+        Initial values by name, ``theta1=0.2``, or in ``initial={"theta1'": 0.1, theta2: "12 deg"}``; what a model file
+        says under [simulate], and else 0, where not given. ``params`` and ``inputs`` are mappings by name or symbol;
+        an input is a number, text, an expression of time and state (compiled in), a table
+        ``(times, values[, "hold"])`` or a Python function f(t, x), which is slow. The run is kept at ``samples``
+        times (1001), or at ``times``. ``method`` is one of ours in machine code (dop853, the default; tsit5; rk4 and
+        gauss4, which need ``step``) or one of SciPy's (Radau, BDF, LSODA, RK45, DOP853). ``rtol`` and ``atol`` are
+        aimed at for the whole run; for SciPy's methods they are those of a step. ``events`` come from
+        `lagrangian.event`. ``max_steps``, ``max_events`` and ``timeout`` [s] bound the run.
+
+        Raises `RunError` or `ModelError` for what is wrong before the run; a run that fails on its way is returned as
+        far as it went, with the reason in its ``message``.
         """
-        return run_model(self.model, duration, initial=initial, **options)
+        return run_model(
+            self.model,
+            duration,
+            initial=initial,
+            params=params,
+            inputs=inputs,
+            times=times,
+            samples=samples,
+            start=start,
+            method=method,
+            step=step,
+            rtol=rtol,
+            atol=atol,
+            events=events,
+            max_step=max_step,
+            max_steps=max_steps,
+            max_events=max_events,
+            timeout=timeout,
+            **initial_by_name,
+        )
 
     def ensemble(
         self,

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import json
 import stat
+import subprocess
+import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pyarrow.parquet
@@ -132,6 +135,49 @@ def test_a_file_is_replaced_only_when_asked(run: lg.Trajectory, tmp_path: Path) 
         run.save(tmp_path / "run.xlsx")
     with pytest.raises(lg.Error, match="there is no folder"):
         run.save(tmp_path / "none" / "run.npz")
+
+
+def test_a_full_disk_is_told_and_leaves_what_was_there(tmp_path: Path) -> None:
+    """A limit on the size of files stands for the disk, in a process of its own."""
+    pytest.importorskip("resource")
+    for ending in ("csv", "nc", "parquet", "npz"):
+        (tmp_path / f"x.{ending}").write_text("precious")
+    code = """
+import resource, signal
+import lagrangian as lg
+from lagrangian import examples
+run = lg.loads(examples.text("pendulum")).simulate(10, samples=2001)
+run.to_csv()
+signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
+for ending in ("csv", "nc", "parquet", "npz"):
+    try:
+        run.save(f"x.{ending}", overwrite=True)
+    except lg.Error as error:
+        print(error)
+"""
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    assert done.stderr == "" and done.stdout.count("file too large") == 4
+    for ending in ("csv", "nc", "parquet", "npz"):
+        assert (tmp_path / f"x.{ending}").read_text() == "precious"
+    assert len(list(tmp_path.iterdir())) == 4
+
+
+@pytest.mark.parametrize(
+    ("package", "use"),
+    [
+        ("xarray", lambda run, at: run.to_xarray()),
+        ("pandas", lambda run, at: run.to_pandas()),
+        ("h5netcdf", lambda run, at: run.save(at / "x.nc")),
+        ("pyarrow", lambda run, at: run.save(at / "x.parquet")),
+    ],
+)
+def test_a_missing_package_is_named_with_the_line_that_installs_it(
+    run: lg.Trajectory, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, package: str, use: Any
+) -> None:
+    monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(lg.MissingExtra, match=rf"'{package}'[\s\S]*pip install 'lagrangian\[data\]'"):
+        use(run, tmp_path)
 
 
 def test_permissions_of_a_file_are_kept(run: lg.Trajectory, tmp_path: Path) -> None:

@@ -106,10 +106,20 @@ def _csv(path: Path, table: Table) -> None:
 
 
 def _netcdf(path: Path, table: Table) -> None:
-    needed("h5netcdf")
+    """NetCDF 4 through h5netcdf, made in memory: HDF5 does not take a full disk well."""
+    netcdf = needed("h5netcdf")
     needed("h5py")
-    dataset = to_xarray(table)
-    write_with(path, lambda beside: dataset.to_netcdf(beside, engine="h5netcdf"))
+    memory, at = io.BytesIO(), table.index.name
+    with netcdf.File(memory, "w") as file:
+        file.dimensions = {at: len(table.index.values)}
+        for c in (table.index, *table.columns):
+            file.create_variable(c.name, (at,), data=c.values).attrs.update(c.attributes)
+        file.attrs.update(table.plain_attributes)
+    _bytes(path, memory)
+
+
+def _bytes(path: Path, memory: io.BytesIO) -> None:
+    write_with(path, lambda beside: beside.write_bytes(memory.getbuffer()))
 
 
 def _parquet(path: Path, table: Table) -> None:
@@ -118,19 +128,18 @@ def _parquet(path: Path, table: Table) -> None:
     fields = [pa.field(c.name, pa.float64(), metadata=c.attributes) for c in listed]
     schema = pa.schema(fields, metadata={k: str(v) for k, v in table.plain_attributes.items()})
     made = pa.Table.from_arrays([pa.array(c.values) for c in listed], schema=schema)
-    write_with(path, lambda beside: pq.write_table(made, beside))
+    memory = io.BytesIO()
+    pq.write_table(made, memory)
+    _bytes(path, memory)
 
 
 def _npz(path: Path, table: Table) -> None:
     arrays: dict[str, Any] = {c.name: c.values for c in (table.index, *table.columns)}
     arrays["attributes"] = _json(dict(table.plain_attributes))
     arrays["units"] = _json({c.name: c.unit for c in (table.index, *table.columns)})
-
-    def fill(beside: Path) -> None:
-        with beside.open("wb") as file:
-            np.savez(file, **arrays)
-
-    write_with(path, fill)
+    memory = io.BytesIO()
+    np.savez(memory, **arrays)
+    _bytes(path, memory)
 
 
 ENDINGS: Mapping[str, Callable[[Path, Table], None]] = {
