@@ -108,7 +108,7 @@ def test_lanes_threads_and_company_change_no_bit(name):
     x0[17] = [1e9, 0.0]  # beyond the reach of the quick sine
     for parameters in (None, p):
         reference = None
-        for lanes, threads in ((8, 1), (8, 2), (4, 1), (2, 2)):
+        for lanes, threads in ((8, 1), (16, 2), (4, 1), (2, 2)):
             solver = Solver(program, name, lanes=lanes, threads=threads)
             found = solver.solve(x0, times, u=u, p=parameters, **accuracy(solver))
             reference = reference or found

@@ -121,8 +121,8 @@ def suits(method: Method, program: Program) -> None:
 
 def lanes_wanted(lanes: int | None) -> None:
     """Raise unless the number of lanes is one there is code for."""
-    if lanes is not None and (type(lanes) is not int or lanes not in (1, 2, 4, 8)):
-        raise RunError(f"lanes must be 1, 2, 4 or 8 (got {lanes!r})", code="E501")
+    if lanes is not None and (type(lanes) is not int or lanes not in (1, 2, 4, 8, 16)):
+        raise RunError(f"lanes must be 1, 2, 4, 8 or 16 (got {lanes!r})", code="E501")
 
 
 def threads_wanted(threads: int | None) -> None:

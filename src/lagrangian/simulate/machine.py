@@ -54,9 +54,7 @@ class Machine:
 
     def space(self) -> NDArray[np.float64]:
         """Work space for a range of runs, every lane empty."""
-        space = aligned(self.slots * self.variant.lanes)
-        space[:] = 0.0
-        return space
+        return aligned_to(8 * self.variant.lanes, self.slots * self.variant.lanes)
 
     def shared(self, p: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
         """What follows from one parameter set for all runs, for the table."""
@@ -66,7 +64,7 @@ class Machine:
             if count and not self.variant.own:
                 given = aligned(len(p))
                 given[:] = p
-                scratch = aligned(self.slots * self.variant.lanes)
+                scratch = self.space()
                 _TAPE(self._loaded.address(name))(address(given), None, address(block), address(scratch))
         return blocks
 
@@ -85,6 +83,14 @@ def _fingerprint(events: Events | None, build: Build) -> str:
         return ""
     what = (events.direction, events.terminal, events.reset)
     return f"{fingerprint(events.program, build.options, build.target)} {what}"
+
+
+def aligned_to(size: int, count: int) -> NDArray[np.float64]:
+    """Zeros that start at a multiple of ``size`` bytes, at least a cache line."""
+    size = max(size, 64)
+    raw = np.zeros(8 * count + size, np.uint8)
+    start = -address(raw) % size
+    return raw[start : start + 8 * count].view(np.float64)
 
 
 def build_of(program: Program, lanes: int, keep: bool) -> Build:

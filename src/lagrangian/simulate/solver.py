@@ -14,6 +14,7 @@ from lagrangian.compile import native, workers
 from lagrangian.compile.arguments import Group
 from lagrangian.compile.stage import address
 from lagrangian.errors import RunError, did_you_mean
+from lagrangian.graph import reached
 
 from . import check
 from .integrators import METHODS, layout
@@ -30,6 +31,9 @@ Array = NDArray[np.float64]
 
 BUDGET = 20_000_000
 """Operations between two looks at the clock: some hundredths of a second."""
+
+SHORT = 300
+"""Nodes of the longest program of which two vectors of runs are computed together."""
 
 GROUPS = frozenset({"x", "u", "p", "t"})
 
@@ -119,13 +123,19 @@ class Solver:
     def machine(self, count: int, own: bool, signals: bool, tolerance: float) -> Machine:
         """The machine code for so many runs."""
         method = self.method.suited(tolerance)
-        lanes = 1 if count == 1 else self._lanes or native.host().lanes
+        lanes = 1 if count == 1 else self._lanes or self._side_by_side(count)
         variant = Variant(lanes, own or lanes == 1, signals, self.events is not None)
         found = self._machines.get((variant, method.order))
         if found is None:
             found = Machine(build_of(self.program, lanes, self._keep), method, variant, self.events)
             self._machines[variant, method.order] = found
         return found
+
+    def _side_by_side(self, count: int) -> int:
+        """How many runs are computed together: of short programs two vectors full, whose operations overlap."""
+        lanes, program = native.host().lanes, self.program
+        short = len(reached(program.graph, program.ids)) <= SHORT and len(program.inputs["x"]) <= 8
+        return 2 * lanes if short and count >= 2 * lanes and not self.method.expands else lanes
 
 
 def _rebuilt(
@@ -253,10 +263,10 @@ class _Task:
 
     def _solution(self) -> Solution:
         size, count = self.final.shape[1], self.count
-        log = np.concatenate([np.empty((0, 3 + size)), *self._events])
+        each = self.counts["event_count"]
+        log = np.concatenate(self._events) if self._events else np.empty((0, 3 + size))
         log = log[np.argsort(log[:, 0], kind="stable")]  # a run's events stay in order
         runs = log[:, 0].astype(np.int64)
-        each = self.counts["event_count"]
         most = int(each.max(initial=0))
         place = np.arange(len(runs)) - np.searchsorted(runs, runs)
         index = np.full((count, most), -1)

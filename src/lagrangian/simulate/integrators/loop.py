@@ -13,6 +13,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from lagrangian.compile.emit import attributes
 from lagrangian.compile.ir import Module, Value
 
 from . import events
@@ -82,8 +83,9 @@ class Loop:
         self._head()
         self.service.print(self.tapes, self.watch)
         self._begin()
-        attributes = f'nounwind "prefer-vector-width"="{p.lanes * 64}" "no-stack-arg-probe"'
-        f.finish("run", "i64", "ptr %table, ptr %work, i64 %budget", attributes)
+        widest = f.module.target.lanes
+        width = widest if self.method.expands else min(p.lanes, widest)  # expansions of one run are packed
+        f.finish("run", "i64", "ptr %table, ptr %work, i64 %budget", attributes(width))
         sizes = [0, 0]
         if self.watch is not None:
             tapes = (self.watch.guard, self.watch.after)
