@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from importlib.metadata import version
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -138,11 +139,9 @@ def table(run: Trajectory) -> Table:
 
 def attributes(run: Trajectory) -> dict[str, Any]:
     """What is to be known of a run: how it was made, how it ended, how well energy is balanced."""
-    from lagrangian import __version__
-
     return {
         "title": run.model.name,
-        "source": f"lagrangian {__version__}",
+        "source": f"lagrangian {version('lagrangian')}",
         "method": run.method,
         **run.settings,
         "steps": run.steps,

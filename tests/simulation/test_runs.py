@@ -72,6 +72,22 @@ def test_a_cart_pole_follows_equations_written_by_hand() -> None:
     assert ours.y == pytest.approx(theirs.y, abs=1e-8)
 
 
+def test_a_double_pendulum_follows_the_textbooks_equations() -> None:
+    """With equal masses and rods of length 1, absolute angles; every textbook has them."""
+
+    def f(t: float, x: np.ndarray) -> list[float]:
+        a, b, v, w = x
+        s, c, g = np.sin(a - b), np.cos(a - b), 9.81
+        M = np.array([[2.0, c], [c, 1.0]])
+        right = np.array([-w * w * s - 2 * g * np.sin(a), v * v * s - g * np.sin(b)])
+        return [v, w, *np.linalg.solve(M, right)]
+
+    x0 = [0.9, -0.4, 0.3, 0.1]
+    run = example("double-pendulum").simulate(5.0, initial=x0, samples=51)
+    theirs = solve_ivp(f, (0, 5), x0, method="DOP853", t_eval=run.t, rtol=1e-12, atol=1e-13)
+    assert run.y == pytest.approx(theirs.y, abs=1e-8)
+
+
 CONSERVATIVE = [
     name
     for name in examples.names()
