@@ -7,9 +7,11 @@ array of shape ``(...)``.
 
 from __future__ import annotations
 
+import math
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -48,7 +50,7 @@ class Group:
     def array(self, given: Any) -> NDArray[np.float64]:
         """``given`` as an array of shape ``(..., n)``."""
         if given is None:
-            return self._filled({})
+            return self._standard
         if isinstance(given, Mapping):
             return self._filled(given)
         array = numbers(given, f"'{self.name}'")
@@ -65,6 +67,13 @@ class Group:
                 fix=f"give an array of shape (..., {size}), entries in that order",
             )
         return array
+
+    @cached_property
+    def _standard(self) -> NDArray[np.float64]:
+        """The array of the defaults, made once."""
+        made = self._filled({})
+        made.flags.writeable = False
+        return made
 
     def _filled(self, given: Mapping[Any, Any]) -> NDArray[np.float64]:
         """The array of a mapping, completed from the defaults."""
@@ -132,6 +141,8 @@ def rows(array: NDArray[np.float64], lead: tuple[int, ...]) -> NDArray[np.float6
     flags = array.flags
     if array.shape[:-1] == lead and flags.c_contiguous and flags.aligned:
         return array if array.ndim == 2 else array.reshape(-1, array.shape[-1])
+    if array.ndim == 1 and flags.c_contiguous and flags.aligned:  # one row for all states
+        return np.ndarray((math.prod(lead), array.shape[0]), FLOAT, array, 0, (0, 8))
     full = np.broadcast_to(array, (*lead, array.shape[-1]))
     if flags.aligned:
         view = _merged(full, len(lead))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -31,6 +31,7 @@ class Engine:
     work: int  # doubles of work space
     cost: int  # operations a state, roughly
     owner: object  # what keeps the code in memory
+    spaces: list[tuple[int, Array]] = field(default_factory=list)  # work areas not in use, with their addresses
 
 
 class Batch:
@@ -65,7 +66,11 @@ class Batch:
         entries = [n for a in (*self.inputs, *self._direct) for n in (address(a), *a.strides)]
         self._table = np.array([*entries, 0 if shared is None else address(shared)], np.int64)
         self._at = address(self._table)
-        self._spaces: list[tuple[int, Array]] = []  # work areas not in use
+        self._alone = workers.alone(self._count, engine.cost, threads)
+        self._views: list[Any] = []  # of what is returned, where that is computed in place
+        if out is None and self.direct and lead:
+            shapes = engine.outputs.values()
+            self._views = [r.reshape(*lead, *shape) for r, shape in zip(self._results, shapes, strict=True)]
 
     @property
     def direct(self) -> bool:
@@ -85,9 +90,15 @@ class Batch:
         """Compute; return the output, or a dict of the outputs."""
         if self._count:
             engine, count = self._engine, self._count
-            bad = workers.over(max(count, engine.lanes), engine.lanes, engine.cost, self._threads, self._range)
+            whole = max(count, engine.lanes)
+            if self._alone:
+                bad = self._range(0, whole)
+            else:
+                bad = workers.over(whole, engine.lanes, engine.cost, self._threads, self._range)
             if bad >= 0:
                 raise self._trouble(bad, min(bad + engine.lanes, count))
+            if self._views:
+                return self._views[0] if len(self._views) == 1 else dict(zip(engine.outputs, self._views, strict=True))
             if self._direct is not self._results:
                 for result, full in zip(self._results, self._direct, strict=True):
                     result[:] = full[:count]
@@ -104,13 +115,14 @@ class Batch:
 
     def _range(self, start: int, stop: int) -> int:
         """Compute states start … stop − 1."""
+        engine = self._engine
         try:
-            at, space = self._spaces.pop()
+            space = engine.spaces.pop()
         except IndexError:
-            space = aligned(self._engine.work)
-            at = address(space)
-        bad = self._engine.call(self._at, start, stop, at)
-        self._spaces.append((at, space))
+            made = aligned(engine.work)
+            space = address(made), made
+        bad = engine.call(self._at, start, stop, space[0])
+        engine.spaces.append(space)
         return bad
 
     def _trouble(self, start: int, stop: int) -> RunError:

@@ -25,16 +25,20 @@ def cores() -> int:
     return os.cpu_count() or 1
 
 
+def alone(count: int, cost: int, threads: int | None) -> bool:
+    """Whether so many states of that cost are not worth a second thread, or may not have one."""
+    return threads == 1 or count * max(1, cost) // GRAIN < 2
+
+
 def over(count: int, step: int, cost: int, threads: int | None, task: Callable[[int, int], int]) -> int:
     """Call ``task(start, stop)`` over ranges that cover 0 … count − 1; return the least answer that is not −1, or −1.
 
     Ranges begin at multiples of ``step``. ``cost`` is the number of operations of one state; ``threads`` None: all
     cores.
     """
-    portions = count * max(1, cost) // GRAIN
-    if portions < 2 or threads == 1:
+    if alone(count, cost, threads):
         return task(0, count)
-    wanted = min(threads or cores(), portions)
+    wanted = min(threads or cores(), count * max(1, cost) // GRAIN)
     blocks = -(-count // step)
     size = max(1, -(-blocks // (wanted * PARTS))) * step
     starts = range(0, count, size)
