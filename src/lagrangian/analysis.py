@@ -56,8 +56,12 @@ class Written:
         """Read as text."""
         return self.to_text()
 
+    def __repr__(self) -> str:
+        """Say what it is of; ``print`` shows it all."""
+        return f"<{self.report().title}>"
 
-@dataclass(frozen=True, eq=False)
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Linearization(Written, analyze.Linearization):
     """δẋ = A δx + B δu, δy = C δx + D δu, with names, poles, modes and the verdict; see `analyze.Linearization`."""
 
@@ -82,7 +86,7 @@ class Linearization(Written, analyze.Linearization):
         return analyze.lqr(self, Q, R)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Equilibria(Written, analyze.Equilibria):
     """The rests of a system, a sequence of `analyze.Equilibrium`."""
 
@@ -91,7 +95,7 @@ class Equilibria(Written, analyze.Equilibria):
         return equilibria_report(self)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class ConservedQuantities(Written, analyze.ConservedQuantities):
     """What every motion of a system keeps, a sequence of `analyze.Conserved`."""
 
@@ -100,7 +104,7 @@ class ConservedQuantities(Written, analyze.ConservedQuantities):
         return conserved_report(self)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Hamiltonian(Written, analyze.Hamiltonian):
     """H(q, p, t), momenta and canonical equations; see `analyze.Hamiltonian`."""
 
@@ -109,7 +113,7 @@ class Hamiltonian(Written, analyze.Hamiltonian):
         return hamiltonian_report(self)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Routhian(Written, analyze.Routhian):
     """The Lagrangian of what is left without ignorable coordinates; see `analyze.Routhian`."""
 

@@ -1,10 +1,13 @@
 """A, B, C, D against difference quotients of 50 digits, python-control and published figures."""
 
 import json
+from typing import Any
 
+import control
 import mpmath
 import numpy as np
 import pytest
+import sympy as sp
 
 import lagrangian as lg
 from lagrangian import dynamics, examples
@@ -191,3 +194,43 @@ def test_a_mistake_in_a_command_is_one_message(
     assert main(["linearize", "-e", "cart-pole", *argv]) == 2
     captured = capsys.readouterr()
     assert captured.out == "" and message in captured.err and "Traceback" not in captured.err
+
+
+def sliding(law: Any) -> lg.System:
+    system = lg.System("sliding")
+    x = system.coordinates("x")
+    system.particle(2, at=system.origin + (x, 0))
+    system.damper(deflection=x, law=law)
+    return system
+
+
+def test_a_point_at_a_kink_or_a_jump_is_refused_and_a_smooth_law_is_not() -> None:
+    with pytest.raises(RunError, match="kink or a jump"):
+        sliding(lambda rate: 3 * sp.sign(rate)).linearize()
+    beside = sliding(lambda rate: 3 * sp.sign(rate)).linearize({"x'": 1}, operating_point=True)
+    assert beside.drift.tolist() == [1, -1.5]
+    smooth = sliding(lambda rate: 3 * rate * abs(rate)).linearize()
+    assert smooth.A.tolist() == [[0, 1], [0, 0]]
+    with pytest.raises(RunError, match="an output has a kink"):
+        built_in("pendulum").linearize(outputs=["abs(theta)"])
+
+
+def test_a_mass_that_is_negative_at_the_given_values_is_refused() -> None:
+    with pytest.raises(RunError, match="not positive definite"):
+        built_in("cart-pole").linearize(params={"M": -5})
+
+
+def test_python_control_linearizes_the_same_motion_to_its_own_accuracy() -> None:
+    """control.linearize takes difference quotients of the compiled right-hand side."""
+    for name, at in (("cart-pole", {}), ("acrobot", {}), ("lecture-2", {"theta1": -np.pi / 2})):
+        system = built_in(name)
+        found, dyn = system.linearize(at), system.compile()
+        motion = control.nlsys(
+            lambda t, x, u, params, dyn=dyn: dyn.rhs(t, x, u),
+            inputs=len(found.inputs),
+            outputs=list(found.states),
+            states=list(found.states),
+        )
+        x0 = list(found.at.values())
+        theirs = control.linearize(motion, x0, [0.0] * len(found.inputs), eps=1e-7)
+        assert np.allclose(found.A, theirs.A, atol=1e-5) and np.allclose(found.B, theirs.B, atol=1e-5)

@@ -179,11 +179,17 @@ class _Task:
             inputs=dict(zip((i.name for i in self.model.inputs), self.u.tolist(), strict=True)),
             parameters=dict(zip((p.name for p in self.model.parameters), self.p.tolist(), strict=True)),
             residual=float(self.search.residual(q[None])[0]),
-            stability=self.linearizer.at_rest(x, self.u, self.p).stability,
+            stability=self._stability(x),
             starts=count,
             moves=() if family is None else tuple(names[k] for k in family.moving),
             dimension=0 if family is None else family.dimension,
         )
+
+    def _stability(self, x: Array) -> Stability:
+        try:
+            return self.linearizer.at_rest(x, self.u, self.p).stability
+        except RunError as trouble:  # a rest it is all the same
+            return Stability("marginal", trouble.what)
 
     def is_singular(self, q: Array) -> bool:
         """Whether M is singular at q: there h = 0 says nothing, for these coordinates do not describe what is near."""

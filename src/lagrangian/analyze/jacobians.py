@@ -55,6 +55,16 @@ def reads(program: Program, output: str, group: str) -> frozenset[int]:
     return frozenset(node[2] for node in met if node[0] == "input" and node[1] == group)
 
 
+KINKED = frozenset({"abs", "sign", "min", "max", "select"})
+"""Operations that may have no slope somewhere."""
+
+
+def may_kink(program: Program, output: str) -> bool:
+    """Whether an operation that may have no slope stands in an output."""
+    nodes = program.graph.nodes
+    return any(nodes[i][0] in KINKED for i in reached(program.graph, program.outputs[output].ids))
+
+
 class Quick:
     """`values` in machine code: for many points of the same programs."""
 

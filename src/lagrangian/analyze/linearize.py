@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from lagrangian import dynamics
 from lagrangian.analyze.given import Given, Named
-from lagrangian.analyze.jacobians import Arrays, forces, rates, reads, values
+from lagrangian.analyze.jacobians import Arrays, forces, may_kink, rates, reads, values
 from lagrangian.analyze.modes import EPSILON, SLACK, Mode, Spectrum, modes, spectrum
 from lagrangian.analyze.outputs import Measured, measured
 from lagrangian.analyze.reach import Reach, controllable, observable
@@ -31,6 +31,9 @@ Array = NDArray[np.float64]
 
 PERTURBED = 1e-12
 """Relative change of parameters and point by which rounding errors are estimated."""
+
+STEP = 1e-6
+"""Step by which a motion with kinks is looked at."""
 
 TIMES = (0.0, 0.37, 1.91, 7.13)
 """[s] Times at which coefficients that read t are compared."""
@@ -148,7 +151,7 @@ def linearize(
     ``at``: values of coordinates and rates by name or symbol, 0 where not given, or an `Equilibrium`; a number or text
     with a unit each. ``outputs``: expressions, listed or by name; the coordinates unless given. A point that is no rest
     is refused unless ``operating_point`` asks for it; what is within rounding of one is moved onto it and says so.
-    Raises `RunError` for names and values that do not fit, and where M is singular.
+    Raises `RunError` for names and values that do not fit, where M is not positive definite, and at a kink.
     """
     linearizer = Linearizer(model)
     given = Given.of(model, linearizer.rates)
@@ -189,6 +192,10 @@ class Linearizer:
         return bool(reads(self.rates, "A", "t") or reads(self.rates, "B", "t"))
 
     @cached_property
+    def _may_kink(self) -> bool:
+        return may_kink(self.rates, "xdot")
+
+    @cached_property
     def rests_change(self) -> bool:
         """Whether the forces read time."""
         return bool(reads(self.forces, "h", "t"))
@@ -206,8 +213,11 @@ class Linearizer:
         """The linearization about a point of known kind."""
         program = self.rates
         found = _finite(self.values(program, x=here.x, u=here.u, p=here.p, t=t), here)
+        self._proper(here, t, found)
         y = self._plain if outputs is None else measured(self.model, outputs, program)
         seen = _finite(self.values(y.program, x=here.x, u=here.u, p=here.p, t=t), here)
+        if may_kink(y.program, "y"):
+            self._sloped(y.program, "y", seen["C"], here, t, "an output")
         second = None if here.kind == "operating point" else self._second_order(here, t)
         noise, noise_of_K = self._noise(here, t, found, second)
         return Linearization(
@@ -237,6 +247,35 @@ class Linearizer:
             minimum=here.kind == "rest" and second is not None and self._minimum(second, here, noise_of_K),
             noise=noise,
         )
+
+    def _proper(self, here: Rest, t: float, found: Arrays) -> None:
+        """Refuse a mass matrix that is not positive, and a point where the motion has no slope."""
+        n = len(self.forces.inputs["q"])
+        M = self.values(self.mass, q=here.x[:n], v=here.x[n:], u=here.u, p=here.p, t=t)["M"]
+        least = float(np.linalg.eigvalsh((M + M.T) / 2).min())
+        if not least > 0:
+            raise RunError(
+                f"the mass matrix is not positive definite at {here.shown}: its least eigenvalue is {least:.3g}",
+                fix="give masses and inertias above 0",
+                code="E203",
+            )
+        if self._may_kink:
+            self._sloped(self.rates, "xdot", found["A"], here, t, "the motion")
+
+    def _sloped(self, program: Program, output: str, slope: Array, here: Rest, t: float, what: str) -> None:
+        """Refuse a point where an output does not follow its slope to either side."""
+        source = np.random.default_rng(6)
+        size = max(1.0, _largest(slope))
+        start = self.values(program, x=here.x, u=here.u, p=here.p, t=t)[output]
+        for _ in range(8):
+            step = STEP * source.choice([-1.0, 1.0], len(here.x)) * source.uniform(0.5, 1.0, len(here.x))
+            near = self.values(program, x=here.x + step, u=here.u, p=here.p, t=t)[output]
+            if not _largest(near - start - slope @ step) <= 1e-3 * size * STEP:
+                raise RunError(
+                    f"{what} has a kink or a jump at {here.shown}: it has no linearization there",
+                    fix="choose a point beside it, or a smooth law in place of abs, sign, min, max, piecewise",
+                    code="E525",
+                )
 
     def _second_order(self, here: Rest, t: float) -> Arrays | None:
         """M, D, K, S about a rest, where velocities are the rates of the coordinates."""

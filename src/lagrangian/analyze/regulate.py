@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import ModuleType
 from typing import Any
 
@@ -52,7 +52,7 @@ class Regulator:
     ``law`` is that feedback as expressions of the coordinates and rates by input symbol, for a simulation's inputs.
     """
 
-    linear: Linearization
+    linear: Linearization = field(repr=False)
     K: Array
     S: Array
     poles: NDArray[np.complex128]

@@ -83,10 +83,16 @@ def rest(
 
 def _values(program: Program, here: Rest, t: float) -> Arrays:
     found = values(program, x=here.x, u=here.u, p=here.p, t=t)
-    if not all(np.isfinite(a).all() for a in found.values()):
+    if np.isfinite(found["xdot"]).all() and not all(np.isfinite(a).all() for a in found.values()):
+        raise RunError(
+            f"the accelerations have no finite slope at {here.shown}",
+            fix="a root or a division ends there: choose a neighbouring point",
+            code="E525",
+        )
+    if not np.isfinite(found["xdot"]).all():
         raise RunError(
             f"the accelerations are not finite at {here.shown}",
-            fix="the mass matrix may be singular there: choose a neighbouring point, or other coordinates",
+            fix="the mass matrix is singular there, or a root or a division ends: choose a neighbouring point",
             code="E203",
         )
     return found
