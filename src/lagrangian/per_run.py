@@ -22,9 +22,13 @@ from lagrangian.model import Model, plain
 from lagrangian.simulate import METHODS, Events, Signals
 from lagrangian.simulate.study import REDUCTIONS, EventsKept, Kept, Study
 from lagrangian.simulation import FINEST, SHARE
+from lagrangian.varying import TAKEN
 
 Array: TypeAlias = NDArray[np.float64]
 Outputs: TypeAlias = Mapping[str, Any] | Iterable[Any] | str | sp.Expr | None
+
+MOST_CHARACTERS = 200
+"""Longest name of a result, which is the name of a folder in a store."""
 
 TIMES = 1001
 """Times at which each run is sampled unless told otherwise."""
@@ -139,14 +143,26 @@ def _kept(
             raise RunError(f"two outputs are called '{title}'", fix="give them other names", code="E404")
         for r in reductions if own is None else [own]:
             result = title if r is None or (own and name) else f"{r} {title}"
-            if "/" in result:
-                raise RunError(
-                    f"'{result}' cannot be the name of a result, for its '/'", fix="name it: half=theta/2", code="E702"
-                )
+            _check_result(result)
             kept[result] = Kept(result, title, r)
     if not kept:
         raise RunError("nothing is observed", fix="outputs=['theta1']", code="E401")
     return expressions, tuple(kept.values())
+
+
+def _check_result(name: str) -> None:
+    """Refuse what cannot be the name of an array in a file, or is the name of another."""
+    if name in TAKEN:
+        raise RunError(f"a result cannot be called '{name}'", fix=f"not one of {', '.join(sorted(TAKEN))}", code="E403")
+    strange = next((c for c in name if c in "/\\" or not c.isprintable()), None)
+    if strange is not None or name.startswith(".") or len(name) > MOST_CHARACTERS:
+        why = f"its {strange!r}" if strange else "its first character" if name.startswith(".") else "its length"
+        shown = name if len(name) <= 60 else name[:59] + "…"
+        raise RunError(
+            f"{shown!r} cannot be the name of a result, for {why}",
+            fix='give it a name: {"half": "theta/2"}, or half=theta/2',
+            code="E702",
+        )
 
 
 def _reduction(name: Any) -> None:
@@ -178,7 +194,7 @@ def _asked(model: Model, name: str | None, asked: Any) -> tuple[str | None, sp.E
     try:
         expr = read.parse_expression(text, read.Scope(model.symbols), what=f"output '{text[:40]}'")
     except ModelError as trouble:
-        if space and rest[:1].isidentifier() and first.isidentifier() and first not in model.symbols:
+        if space and own is None and rest[:1].isidentifier() and first.isidentifier() and first not in model.symbols:
             raise RunError(
                 f"there is no reduction '{first[:40]}'",
                 fix=did_you_mean(first, REDUCTIONS) or f"one of {', '.join(REDUCTIONS)}",
@@ -202,6 +218,8 @@ def _events(model: Model, wanted: Wanted, drive: Driving) -> tuple[Events | None
     titles = [e.title for e in listed]
     if len(set(titles)) < len(titles):
         raise RunError("two events have one name", fix="give them names", code="E404")
+    for title in titles:
+        _check_result(f"count {title}")
     times = wanted.event_times
     if isinstance(times, bool) or not isinstance(times, int) or not 1 <= times <= 10_000:
         raise RunError(f"event_times is how many times are kept, at least 1 (got {times!r:.30})", code="E501")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import importlib.metadata
 import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
@@ -30,6 +31,9 @@ from lagrangian.simulate.study import Kept, Study
 from lagrangian.varying import EVENT, TIME, Varying, from_arrays, from_grid
 
 Array: TypeAlias = NDArray[np.float64]
+
+LARGEST = 2**30
+"""Bytes of a chunk on disk at most: compressors take no more than 2 GiB at a time."""
 
 MOST_MEMORY = 0.5
 """Part of the machine's memory that results without a store may take."""
@@ -121,7 +125,10 @@ def _done(model: Model, varying: Varying, wanted: Wanted, inputs: dict[Any, Any]
     design = varying.design()
     task = _task(model, varying, wanted, drive, study)
     executor, cutting = _executor(way)
-    portions = cut(design.shape, study.bytes_per_run, memory=_bytes(way.memory), **cutting)
+    memory = _bytes(way.memory)
+    if way.store is not None:
+        memory = min(memory, LARGEST)
+    portions = cut(design.shape, study.bytes_per_run, memory=memory, **cutting)
     plan = _plan(model, varying, study, expressions, portions, task)
     if way.store is None:
         if way.resume or way.overwrite:
@@ -247,11 +254,9 @@ def _words(made_of: Mapping[str, tuple[Kept, str]], name: str) -> dict[str, Any]
 
 def _task(model: Model, varying: Varying, wanted: Wanted, drive: Driving, study: Study) -> dict[str, Any]:
     """What is done, as plain data: two tasks with equal data give the same bits."""
-    from lagrangian import __version__
-
     times = study.times
     return {
-        "version": __version__,
+        "version": importlib.metadata.version("lagrangian"),
         "system": model.name,
         "equations": digest(study.program),
         **varying.task(),

@@ -187,6 +187,14 @@ def from_arrays(model: Model, given: Mapping[str, Mapping[Any, Any] | None], dim
             f"the arrays do not fit together: {listed}", fix="make their shapes equal, or 1 along an axis", code="E501"
         ) from None
     names = _dims(dims, shape)
+    for name, own in shapes.items():
+        along = [d for d, n in zip(names[len(names) - len(own) :], own, strict=True) if n > 1]
+        if name in names and along not in ([], [name]):
+            raise RunError(
+                f"an axis is called '{name}', and '{name}' varies along {' and '.join(along)}",
+                fix="name the axes after what varies along them alone",
+                code="E404",
+            )
     return Varying(entries, dict(zip(names, shape, strict=True)), columns)
 
 
@@ -243,6 +251,8 @@ def _dims(dims: Sequence[str] | None, shape: tuple[int, ...]) -> tuple[str, ...]
     listed = (dims,) if isinstance(dims, str) else tuple(dims)
     if len(listed) != len(shape) or len(set(listed)) != len(listed):
         raise RunError(f"{len(shape)} axes need as many different names (got {listed})", code="E501")
+    if taken := [d for d in listed if d in TAKEN - {RUN, SAMPLE}]:
+        raise RunError(f"an axis cannot be called '{taken[0]}'", fix="another name, such as case", code="E403")
     return listed
 
 
@@ -332,7 +342,7 @@ def _checked(spread: Spread, quantity: read.Quantity, dim: Dim | None) -> float:
         raise spread.source.error(
             f"'{spread.name}' is given in {quantity.unit}",
             0,
-            fix=f"a unit of {dim}" if str(dim) else "no unit",
+            fix=f"a unit of {dim}" if str(dim) not in ("", "1") else "no unit, or rad or deg for an angle",
             code="E408",
         )
     return quantity.value

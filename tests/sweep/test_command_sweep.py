@@ -2,7 +2,6 @@
 
 import os
 import pathlib
-import pty
 import signal
 import subprocess
 import sys
@@ -101,6 +100,7 @@ def test_failures_are_told_and_counted(folder: pathlib.Path, capsys: pytest.Capt
 
 
 def test_a_bar_on_a_terminal_and_an_interrupt_that_loses_nothing(folder: pathlib.Path) -> None:
+    pty = pytest.importorskip("pty")
     ours, theirs = pty.openpty()
     grid = ["theta1=0.1:3:200", "m2~normal(1,0.1)", "--samples", "500", "-o", "a.zarr", "--output-of", "max theta1"]
     command = [sys.executable, "-m", "lagrangian", "sweep", "arm.toml", *grid, *FAST, "--duration", "60"]

@@ -98,8 +98,12 @@ def test_what_exists_is_not_overwritten(tmp_path: pathlib.Path) -> None:
 
 def test_two_writers_at_once_are_refused(tmp_path: pathlib.Path) -> None:
     path = tmp_path / "a.zarr"
-    with store.create(path, plan()), pytest.raises(Error, match="another process is writing"):
-        store.resume(path, plan())
+    with store.create(path, plan()):
+        with pytest.raises(Error, match="another process is writing"):
+            store.resume(path, plan())
+        with pytest.raises(Error, match="another process is writing"):
+            store.create(path, plan(), overwrite=True)
+    store.create(path, plan(), overwrite=True).close()
 
 
 @pytest.mark.parametrize("what", ["nothing", "file", "folder", "other"])

@@ -13,6 +13,8 @@ import pytest
 import lagrangian as lg
 from lagrangian import examples
 
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="there is no kill -9")
+
 SCRIPT = """
 import lagrangian as lg
 from lagrangian import examples

@@ -77,11 +77,9 @@ class Store:
 
     def __init__(self, path: Path, group: Any, portions: Portions) -> None:
         self.path, self.group, self.portions = path, group, portions
-        self._marks = path / DONE / "c" / "0"
-        with _explained(path, "open"):
-            self._file = os.open(self._marks, os.O_RDWR)
-        _lock(self._file, path)
-        marks = np.frombuffer(os.pread(self._file, len(portions), 0), np.uint8)
+        self._file = _alone(path, len(portions))
+        os.lseek(self._file, 0, os.SEEK_SET)
+        marks = np.frombuffer(os.read(self._file, len(portions)), np.uint8)
         if len(marks) != len(portions):
             self.close()
             raise RunError(
@@ -108,7 +106,8 @@ class Store:
             for name, array in self._arrays.items():
                 sizes = tuple(part.stop - part.start for part in box)
                 array[(*box, ...)] = values[name].reshape(*sizes, *values[name].shape[1:])
-            os.pwrite(self._file, b"\x01", index)
+            os.lseek(self._file, index, os.SEEK_SET)
+            os.write(self._file, b"\x01")
         self.done[index] = True
 
     def _kept(self) -> str:
@@ -244,8 +243,10 @@ def _explained(path: Path, verb: str, kept: Any = None) -> Iterator[None]:
         raise Error(f"cannot {verb} '{path}': {reason}", fix=fix, code="E801") from trouble
 
 
-def _lock(file: int, path: Path) -> None:
-    """Hold the list of finished chunks alone; the operating system lets go of it when the process ends, however."""
+def _alone(path: Path, chunks: int) -> int:
+    """Open the list of finished chunks for this process alone; the operating system lets go of it when that ends."""
+    with _explained(path, "open"):
+        file = os.open(path / DONE / "c" / "0", os.O_RDWR | getattr(os, "O_BINARY", 0))
     try:
         if os.name == "posix":
             import fcntl
@@ -254,20 +255,26 @@ def _lock(file: int, path: Path) -> None:
         else:
             import msvcrt
 
+            os.lseek(file, chunks, os.SEEK_SET)  # behind the end: what is locked cannot be read by others
             msvcrt.locking(file, msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined]
-    except OSError:
+    except OSError as trouble:
         os.close(file)
+        if trouble.errno not in (errno.EWOULDBLOCK, errno.EACCES, errno.EAGAIN, errno.EDEADLK):
+            reason = (trouble.strerror or str(trouble)).lower()
+            raise Error(f"'{path}' cannot be locked: {reason}", fix="use a local disk", code="E801") from trouble
         raise Error(
             f"another process is writing to '{path}'", fix="wait for it, or take another name", code="E801"
         ) from None
+    return file
 
 
 def _remove(path: Path) -> None:
-    """Remove a store; anything else that stands at its place is left alone."""
-    if path.is_dir() and (path / "zarr.json").is_file():
-        shutil.rmtree(path)
-    else:
+    """Remove a store that nobody writes to; anything else that stands at its place is left alone."""
+    if not (path.is_dir() and (path / "zarr.json").is_file()):
         raise Error(f"'{path}' is no store and is not replaced", fix="remove it yourself, or name another", code="E801")
+    if (path / DONE / "c" / "0").is_file():
+        os.close(_alone(path, 0))
+    shutil.rmtree(path)
 
 
 def _umask() -> int:
