@@ -7,8 +7,11 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian.derive.formula import Formula, Item, Text
+from lagrangian.errors import ModelError, did_you_mean
+from lagrangian.model import as_expr, plain
 
 if TYPE_CHECKING:
     from lagrangian.model import Element, Model
@@ -59,6 +62,12 @@ class Origin:
     coordinate: str
     share: sp.Expr
     step: int
+
+    def __repr__(self) -> str:
+        """Read in one line, without the element's own fields."""
+        return (
+            f"Origin({self.element.title}, equation of {self.coordinate}, step {self.step}, share {plain(self.share)})"
+        )
 
 
 @dataclass(frozen=True)
@@ -114,5 +123,21 @@ class Derivation:
         return tuple(item for item in items if isinstance(item, Formula))
 
     def where(self, term: sp.Expr) -> tuple[Origin, ...]:
-        """Return the elements a term came from, with the equation, the step and each one's share of it."""
-        return self.shares.where(term)
+        """Return the elements a term came from, with the equation, the step and each one's share of it.
+
+        Raises `ModelError` for a term that stands in no equation, and for text.
+        """
+        wanted = as_expr(term, "the term")
+        if found := self.shares.where(wanted):
+            return found
+        known = [*self.model.symbols, "t"]
+        atoms = {*wanted.free_symbols, *wanted.atoms(AppliedUndef)}
+        names = sorted({str(getattr(a, "name", a.func)) for a in atoms} - set(known))
+        listed = ", ".join(plain(t.expr) for row in self.terms for t in row)
+        raise ModelError(
+            f"no equation of motion holds the term {plain(wanted)}"
+            + (f": nothing is named '{names[0]}'" if names else ""),
+            fix=(did_you_mean(names[0], known) if names else None)
+            or f"terms: {listed if len(listed) <= 300 else listed[:300] + ' …'}",
+            code="E402",
+        )

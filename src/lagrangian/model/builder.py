@@ -10,6 +10,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian.errors import ModelError, Place, did_you_mean
 from lagrangian.model.checks import check_acted_on, check_body, check_kind, check_position, check_use, checked_number
+from lagrangian.model.effect import check_effect
 from lagrangian.model.elements import Element, GeneralizedForce
 from lagrangian.model.floating import Floating
 from lagrangian.model.geometry import Frame, Point, as_expr, as_vector
@@ -432,5 +433,6 @@ class Builder:
         )
         for body in made.bodies:
             check_body(made, body)
+        check_effect(made)
         self._frozen = made
         return made

@@ -102,7 +102,7 @@ def _groups(form: Form) -> list[frozenset[Key]]:
 def _origins(truth: Truth, term: Form, index: int | None) -> tuple[Origin, ...]:
     """The elements behind a term of equation ``index``, each with its step, once."""
     found: dict[Origin, None] = {}
-    where = truth.derivation.where(term.expr())
+    where = truth.derivation.shares.where(term.expr())
     name = truth.model.coordinates[index].name if index is not None else None
     letters = set(term.expr().free_symbols)
     for origin in where:
