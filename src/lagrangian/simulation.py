@@ -74,14 +74,8 @@ def simulate(
     dims = dict(zip(given.inputs.names, given.inputs.dims, strict=True))
     drive = driving(model, inputs, settings.get("inputs", {}), dims)
     program = right_hand_side(model, drive)
-    instants = _times(duration, times, samples, start, settings)
+    instants = _times(duration, times, samples, start, settings, len(program.inputs["x"]))
     check_covers(drive, float(instants[0]), float(instants[-1]))
-    if instants.size * len(program.inputs["x"]) > MAX_STORED:
-        raise RunError(
-            f"{instants.size} samples of {len(program.inputs['x'])} states are more than a run may store",
-            fix=f"at most {MAX_STORED // len(program.inputs['x'])} samples",
-            code="E505",
-        )
     bounds = Bounds(
         _count(max_steps, "max_steps"),
         _count(max_events, "max_events"),
@@ -116,8 +110,10 @@ def _named(model: Model) -> Program:
 # -- what was given ---------------------------------------------------------------------------------------------
 
 
-def _times(duration: Any, times: Any, samples: int | None, start: Any, settings: Mapping[str, Any]) -> Array:
-    """The times of the samples, the start first."""
+def _times(
+    duration: Any, times: Any, samples: int | None, start: Any, settings: Mapping[str, Any], states: int
+) -> Array:
+    """The times of the samples, the start first, no more than can be stored with so many states."""
     begin = number(start, "start", SECOND)
     if times is not None:
         return _listed_times(times, begin, duration, samples)
@@ -131,6 +127,12 @@ def _times(duration: Any, times: Any, samples: int | None, start: Any, settings:
     if length < 0:
         raise RunError(f"the duration is negative ({length:g} s)", fix="give 0 or more", code="E501")
     count = SAMPLES if samples is None else _count(samples, "samples", least=2)
+    if count * states > MAX_STORED:
+        raise RunError(
+            f"{count} samples of {states} states are more than a run may store",
+            fix=f"at most {MAX_STORED // states} samples",
+            code="E505",
+        )
     if length == 0:
         return np.array([begin])
     if begin + length == begin:
