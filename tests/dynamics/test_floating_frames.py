@@ -1,5 +1,8 @@
 """Systems with floating frames: against Pinocchio, MuJoCo, closed forms and the laws of motion."""
 
+import subprocess
+import sys
+
 import numpy as np
 import pytest
 import sympy as sp
@@ -272,3 +275,19 @@ def test_a_velocity_that_moves_no_mass_is_named():
     s.particle(1, base.point(1, 0, 0))
     with pytest.raises(lg.ModelError, match="base_wx"):
         s.compile()
+
+
+def test_the_command_verifies_what_it_cannot_derive(tmp_path):
+    file = tmp_path / "two.toml"
+    two_bodies().save(file)
+
+    def run(*arguments):
+        command = [sys.executable, "-m", "lagrangian", *arguments]
+        return subprocess.run(command, capture_output=True, text=True, encoding="utf-8", timeout=120, check=False)
+
+    verified = run("verify", str(file), "--states", "5")
+    assert verified.returncode == 0, verified.stderr
+    assert verified.stdout.count("✓") == 7
+    derived = run("derive", str(file))
+    assert derived.returncode == 2
+    assert "floats with a quaternion" in derived.stderr
