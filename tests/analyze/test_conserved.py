@@ -163,3 +163,30 @@ def test_the_command_writes_text_and_data(capsys: pytest.CaptureFixture[str]) ->
     assert main(["conserved", "-e", "two-carts", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert [c["kind"] for c in found["conserved"]] == ["momentum", "energy"]
+
+
+def test_a_rack_and_its_pinion_shift_together() -> None:
+    """The share depends on a parameter: R p_x + p_φ."""
+    system = lg.System("rack")
+    x, phi = system.coordinates("x phi")
+    m, J, R, k = system.parameters("m J R k", m=1, J=2, R=0.3, k=10)
+    system.particle(m, at=system.origin + (x, 0))
+    system.kinetic(J * phi.diff() ** 2 / 2)
+    system.spring(k, deflection=x - R * phi)
+    first = system.conserved()[0]
+    assert first.kind == "total momentum"
+    assert same(first.expression, R * m * x.diff() + J * phi.diff())
+
+
+def test_jacobis_integral_of_a_turning_trough() -> None:
+    """Goldstein (3rd ed.), § 2.7: h − Ω p_φ is kept where the potential turns at Ω; here in fixed x and y."""
+    system = lg.System("trough")
+    x, y = system.coordinates("x y")
+    m, k, W = system.parameters("m k Omega", m=1, k=10, Omega=0.7)
+    system.particle(m, at=system.origin + (x, y))
+    across = x * sp.cos(W * time) + y * sp.sin(W * time)
+    system.potential(k * across**2 / 2)
+    (found,) = system.conserved()
+    assert found.kind == "mixed" and found.drift is not None and found.drift < 1e-9
+    energy = m * (x.diff() ** 2 + y.diff() ** 2) / 2 + k * across**2 / 2
+    assert same(found.expression, energy - W * m * (x * y.diff() - y * x.diff()))

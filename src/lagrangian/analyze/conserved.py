@@ -33,7 +33,8 @@ class Conserved:
     """A quantity that every motion keeps.
 
     ``kind``: "energy", "momentum" (of one ignorable coordinate), "total momentum" (a shift of several coordinates),
-    "turn" (a direction that depends on the coordinates, such as the angular momentum of x and y), "mixed".
+    "turn" (a direction that depends on the coordinates, such as the angular momentum of x and y), "mixed" (with energy,
+    as where a potential turns at a constant rate: Jacobi's integral).
     ``expression`` is the quantity; ``direction`` what every coordinate is moved by where nothing changes (empty for
     the energy); ``while_zero`` the inputs that must be 0. ``drift`` is its largest change along a run over its size,
     None where no run was made.
@@ -117,13 +118,15 @@ def _words(system: LagrangianForm, symmetry: Symmetry, direction: Mapping[Any, s
     for q, d in direction.items():
         moved += [", " if moved else "", "δ", q, " = ", d]
     words = text(L, " does not change when all move by ", *moved, ", and ", Xi, " does no work on that")
+    if symmetry.kind == "screw":
+        names = _listed([plain(q) for q in coordinates])
+        words = Text((*words.parts, ", while time moves by δt = ", -symmetry.time))
+        return f"energy and momentum of {names}", "mixed", words
     if symmetry.kind == "shift":
         return f"total momentum of {_listed([plain(q) for q in coordinates])}", "total momentum", words
-    if symmetry.kind == "turn":
-        skew = all(symmetry.turn.get((j, i)) == -c for (i, j), c in symmetry.turn.items())
-        what = "angular momentum" if skew else "momentum of a direction"
-        return f"{what} of {_listed([plain(q) for q in coordinates])}", "turn", words
-    return f"energy and momentum of {_listed([plain(q) for q in coordinates])}", "mixed", words
+    skew = all(symmetry.turn.get((j, i)) == -c for (i, j), c in symmetry.turn.items())
+    what = "angular momentum" if skew else "momentum of a direction"
+    return f"{what} of {_listed([plain(q) for q in coordinates])}", "turn", words
 
 
 def _listed(names: Sequence[str]) -> str:
