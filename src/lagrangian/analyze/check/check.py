@@ -67,7 +67,7 @@ def _judged(truth: Truth, lines: Sequence[Line], change: Change | None = None) -
     for k, (line, own) in enumerate(zip(moved, lines, strict=True)):
         if line.kind in ("definition", "statement"):
             continue
-        finding = found[id(line)] if line.kind == "equation" else judge(truth, line, moved[:k], turn)
+        finding = found[id(line)] if line.kind == "equation" else judge(truth, moved, k, turn)
         findings.append(replace(finding, line=own))
     return Judged(*_overall(truth, comparison, findings), comparison, _missing(truth, comparison))
 
@@ -221,7 +221,7 @@ def _with_values(truth: Truth, spelling: Spelling, verdict: Verdict) -> Verdict 
     values = {p: sp.Rational(str(v)) for p, v in truth.model.values.items() if p not in used}
     if not values:
         return None
-    judged = _judged(Truth(truth.derivation, values), spelling.lines)
+    judged = _judged(truth.with_values(values), spelling.lines)
     if not judged.status.right:
         return None
     named = [x for p in sorted(values, key=str) for x in (p, ", ")][:-1]

@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 import sympy as sp
 
+from lagrangian.analyze.check.difference import likeness
 from lagrangian.analyze.check.effects import Effects, Wrong, effects_of
 from lagrangian.analyze.check.numbers import SETS, Array, Compiled
 from lagrangian.analyze.check.rows import CLOSE
@@ -31,7 +32,7 @@ class Explanation:
 
 def explain_rows(truth: Truth, exprs: Sequence[sp.Expr]) -> list[Explanation]:
     """The variants that give all of these equations, the likeliest first."""
-    P = Compiled(exprs).at(truth.states)
+    P = Compiled(exprs).at(truth.states) * np.array([[_side(truth, e)] for e in exprs])
     said = np.isfinite(P).all(axis=1) & (np.abs(P).max(axis=1) > 1e-12)
     P = P[said]
     if not len(P) or not np.isfinite(truth.W).all():
@@ -40,6 +41,12 @@ def explain_rows(truth: Truth, exprs: Sequence[sp.Expr]) -> list[Explanation]:
     size = truth.states.size // SETS
     sets = [slice(k * size, (k + 1) * size) for k in range(SETS)]
     return _alone(truth, effects, P, sets) or _together(truth, effects, P) or _by_place(truth, effects, P)
+
+
+def _side(truth: Truth, expr: sp.Expr) -> int:
+    """−1 where most terms of an equation stand on the other side than in the right one it is like."""
+    best = max(likeness(truth.form(expr), truth.forms), key=lambda x: x.score)
+    return -1 if best.factor.could_extract_minus_sign() else 1
 
 
 def _by_place(truth: Truth, effects: Effects, P: Array) -> list[Explanation]:
@@ -61,7 +68,7 @@ def _alone(truth: Truth, effects: Effects, P: Array, parts: Sequence[slice]) -> 
         fits &= fit
         plain = np.maximum(plain, how)
     found = [Explanation((effects.wrongs[candidates[i]],), int(plain[i])) for i in np.flatnonzero(fits)]
-    return sorted(found, key=lambda e: (e.plainness, e.wrongs[0].general, e.wrongs[0].rank))
+    return sorted(found, key=lambda e: (e.plainness, e.wrongs[0].general, e.wrongs[0].variant.doubt, e.wrongs[0].rank))
 
 
 def _spanned(P: Array, W: Array) -> tuple[Array, Array]:
@@ -74,7 +81,7 @@ def _spanned(P: Array, W: Array) -> tuple[Array, Array]:
     A = A / np.where(scale > 0, scale, 1.0).transpose(0, 2, 1)
     big = np.abs(A * scale.transpose(0, 2, 1)) > CLOSE * np.abs(P).max(axis=1)[None, :, None]
     mixed = (big.sum(axis=2) > 1).any(axis=1)
-    ones = np.where(big, np.abs(np.abs(A) - 1), 0).max(axis=(1, 2)) < 1e-6
+    ones = np.where(big, np.abs(A - 1), 0).max(axis=(1, 2)) < 1e-6
     return fits, np.where(mixed, 2, np.where(ones, 0, 1))
 
 

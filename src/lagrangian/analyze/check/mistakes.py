@@ -10,6 +10,7 @@ import numpy as np
 from lagrangian.analyze.check.effects import Effects, Wrong, effects_of
 from lagrangian.analyze.check.explain import Explanation, explain_rows
 from lagrangian.analyze.check.numbers import SETS, Array, Compiled
+from lagrangian.analyze.check.own_terms import wrong_term
 from lagrangian.analyze.check.rows import CLOSE
 from lagrangian.analyze.check.stated import index_of
 from lagrangian.analyze.check.truth import Truth
@@ -40,7 +41,14 @@ def mistakes(truth: Truth, lines: Sequence[Line], findings: Sequence[Finding]) -
     for line in [w for w in wrong if w.kind != "equation"]:
         groups.append([Explanation((w,), 0) for w in _explain_line(truth, line)])
     if any(w.kind == "equation" for w in wrong):
-        groups.append(explain_rows(truth, [line.expr for line in lines if line.kind == "equation"]))
+        exprs = [line.expr for line in lines if line.kind == "equation"]
+        explained = explain_rows(truth, exprs)
+        if (not explained or len(explained[0].wrongs) > 1) and not any(groups):
+            own = [f for f in findings if f.status is Status.WRONG and f.line.kind == "equation"]
+            found = [wrong_term(truth, f.line.expr, f.coordinate) for f in own]
+            if all(m is not None for m in found):
+                return Named(tuple(m for m in found if m is not None))
+        groups.append(explained)
     if not (groups := [g for g in groups if g]):
         return Named()
     against = _contradicted(truth, [f.line for f in findings if f.status.right])
@@ -111,7 +119,7 @@ def _explain_line(truth: Truth, line: Line) -> list[Wrong]:
     scale = max(float(np.abs(rest).max()), 1e-300)
     fits = np.logical_and(effects.usable, np.abs(change - rest).max(axis=1) <= CLOSE * scale)
     found = [effects.wrongs[k] for k in np.flatnonzero(fits)]
-    return sorted(found, key=lambda w: (w.general, w.rank))
+    return sorted(found, key=lambda w: (w.general, w.variant.doubt, w.rank))
 
 
 def _changes(effects: Effects, kind: str, i: int | None) -> Array:

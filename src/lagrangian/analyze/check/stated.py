@@ -15,6 +15,7 @@ from lagrangian.analyze.check.rows import CLOSE, zero_everywhere
 from lagrangian.analyze.check.truth import Truth
 from lagrangian.analyze.check.verdict import Finding, Line, Status
 from lagrangian.derive.formula import Name, Text, text
+from lagrangian.graph import jvp, vjp
 from lagrangian.model import Damper, Dissipation, time
 
 
@@ -38,12 +39,10 @@ class Given:
             return self.L
         return (self.T if self.T is not None else truth.T) - (self.V if self.V is not None else truth.V)
 
-    def rows(self, truth: Truth) -> list[sp.Expr]:
-        """The equations that follow from what the answer states: d/dt ∂L/∂ξ̇ − ∂L/∂ξ − Ξ."""
-        return [
-            row - (truth.Xi[i] if (mine := self.Xi[i]) is None else mine)
-            for i, row in enumerate(left_sides(truth, self.lagrangian(truth)))
-        ]
+    def rows(self, truth: Truth) -> Array:
+        """The equations that follow from what the answer states, d/dt ∂L/∂ξ̇ − ∂L/∂ξ − Ξ, at every state."""
+        Xi = [truth.Xi[i] if (mine := self.Xi[i]) is None else mine for i in range(truth.n)]
+        return left_values(truth, self.lagrangian(truth)) - Compiled(Xi).at(truth.states)
 
 
 def given(truth: Truth, lines: Sequence[Line]) -> Given:
@@ -54,16 +53,31 @@ def given(truth: Truth, lines: Sequence[Line]) -> Given:
     return Given(energies.get("T"), energies.get("V"), energies.get("L"), Xi)
 
 
+def left_values(truth: Truth, L: sp.Expr) -> Array:
+    """d/dt ∂L/∂ξ̇_i − ∂L/∂ξ_i at every state, (n, size), differentiated on the graph."""
+    compiled = Compiled([])
+    coordinates, g = truth.model.coordinates, compiled.graph
+    q = [compiled.input(c.symbol) for c in coordinates]
+    v = [compiled.input(c.rate) for c in coordinates]
+    a = [compiled.input(c.acceleration) for c in coordinates]
+    slopes = vjp(g, [compiled.node(L)], [g.one], [*q, *v])
+    moving = dict(zip((*q, *v), (*v, *a), strict=True)) | {compiled.input(time): g.one}
+    rates = jvp(g, slopes[truth.n :], moving)
+    compiled.ids = [g.sub(rates[i], slopes[i]) for i in range(truth.n)]
+    return compiled.at(truth.states)
+
+
 def left_sides(truth: Truth, L: sp.Expr) -> list[sp.Expr]:
     """d/dt ∂L/∂ξ̇_i − ∂L/∂ξ_i of every coordinate."""
     return [cast("sp.Expr", sp.diff(L.diff(c.rate), time)) - L.diff(c.symbol) for c in truth.model.coordinates]
 
 
-def judge(truth: Truth, line: Line, before: Sequence[Line], turn: sp.Matrix | None = None) -> Finding:
-    """What was found of one line; ``before`` are the lines that stand above it, from which it may follow.
+def judge(truth: Truth, lines: Sequence[Line], k: int, turn: sp.Matrix | None = None) -> Finding:
+    """What was found of line number ``k``, which may follow from those above it.
 
     ``turn`` is (∂ψ/∂ξ)⁻¹ where the answer has coordinates of its own: what belongs to one of them is a sum of ours.
     """
+    line = lines[k]
     i = index_of(truth, line.name)
     right = right_value(truth, line, i, turn)
     if right is None:
@@ -74,10 +88,11 @@ def judge(truth: Truth, line: Line, before: Sequence[Line], turn: sp.Matrix | No
         return Finding(line, Status.RIGHT, None, coordinate)
     if (note := harmless(truth, line, rest)) is not None:
         return Finding(line, Status.EQUIVALENT, note, coordinate)
-    if line.kind == "Xi" and i is not None and zero_everywhere(truth, line.expr - driving(truth, i)):
+    elsewhere = any(other.kind in ("D", "equation") for other in lines)
+    if line.kind == "Xi" and i is not None and elsewhere and zero_everywhere(truth, line.expr - driving(truth, i)):
         note = text("without the dampers, which then stand on the left of the equation or in ", Name("D"))
         return Finding(line, Status.EQUIVALENT, note, coordinate)
-    follows = _follows(truth, line, i, given(truth, before))
+    follows = _follows(truth, line, i, given(truth, lines[:k]))
     mine, own = truth.form(line.expr), truth.form(right)
     differing = differences(truth, mine, own, sp.S.One, i) if mine is not None and own is not None else ()
     return Finding(line, Status.WRONG, None, coordinate, differing, follows)
@@ -138,6 +153,8 @@ def harmless(truth: Truth, line: Line, rest: sp.Expr) -> Text | None:
         if rest.has(*[c.rate for c in coordinates]):
             return None
         return text("up to a constant: the height or length from which it is counted is yours to choose")
+    if line.kind not in ("L", "T", "D") or (line.kind != "D" and np.nanmax(np.abs(left_values(truth, rest))) > 1e-6):
+        return None
     if line.kind in ("L", "T") and all(zero_everywhere(truth, row) for row in left_sides(truth, rest)):
         held = rest.has(*[c.rate for c in coordinates]) or rest.has(*[c.symbol for c in coordinates])
         if line.kind == "T" and held:
@@ -169,9 +186,9 @@ def spanned(P: Array, W: Array) -> bool:
 
 def equations_follow(truth: Truth, exprs: Sequence[sp.Expr], above: Given) -> list[bool]:
     """Which equations are those that the answer's own energies and forces lead to."""
-    if not above.stated:
+    if not above.stated or not exprs:
         return [False] * len(exprs)
-    W = Compiled(above.rows(truth)).at(truth.states)
+    W = above.rows(truth)
     P = Compiled(exprs).at(truth.states)
     size = truth.states.size // 2
     out: list[bool] = []

@@ -26,6 +26,7 @@ class Truth:
     def __init__(self, derivation: Derivation, values: Mapping[sp.Symbol, sp.Expr] | None = None) -> None:
         self.derivation = derivation
         self.values = dict(values or {})
+        self._valued: dict[tuple[tuple[sp.Symbol, sp.Expr], ...], Truth] = {}
         self.model: Model = derivation.model
         self.n = len(derivation.coordinates)
         self.T, self.V = self.expand(derivation.T), self.expand(derivation.V)
@@ -42,6 +43,13 @@ class Truth:
         """An expression with every definition of the model written out, and values in place of parameters."""
         whole = self.model.expand(sp.sympify(expr), constants=True)
         return cast("sp.Expr", whole.xreplace(self.values)) if self.values else whole
+
+    def with_values(self, values: Mapping[sp.Symbol, sp.Expr]) -> Truth:
+        """The same with values in place of parameters, made once."""
+        key = tuple(sorted(values.items(), key=str))
+        if key not in self._valued:
+            self._valued[key] = Truth(self.derivation, values)
+        return self._valued[key]
 
     @cached_property
     def algebra(self) -> Algebra:

@@ -16,8 +16,22 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian.derive import Derivation
 from lagrangian.derive.formula import Text
-from lagrangian.model import Action, Coordinate, Element, Gravity, Model, Particle, RigidBody, Spring, time
+from lagrangian.model import (
+    Action,
+    Coordinate,
+    Damper,
+    Dissipation,
+    Element,
+    Gravity,
+    Model,
+    Particle,
+    RigidBody,
+    Spring,
+    time,
+)
 
+MOST_PIECES = 120
+"""Terms of one equation that are looked at."""
 ENERGIES = frozenset({"T", "V", "L", "Xi"})
 
 
@@ -27,7 +41,8 @@ class Variant:
 
     ``T`` and ``V`` are what it adds to the energies, ``only`` the equations that feel it (all unless given); ``Xi``
     what it adds to the generalized forces and ``rows`` to the left-hand sides, by the number of the coordinate.
-    ``stated`` are the lines of an answer that show it beside the equations.
+    ``stated`` are the lines of an answer that show it beside the equations. Of two variants that explain an answer
+    the one with less ``doubt`` is told.
     """
 
     what: Text
@@ -39,6 +54,7 @@ class Variant:
     element: Element | None = None
     coordinate: int | None = None
     stated: frozenset[str] = ENERGIES
+    doubt: int = 0
 
 
 class Misconception(Protocol):
@@ -171,6 +187,18 @@ class Ingredients:
         """Forces, torques and dampers."""
         return tuple(e for e in self.model.elements if e.ledger == "Ξ")
 
+    @cached_property
+    def resisting(self) -> tuple[Element, ...]:
+        """Dampers, and forces that are made of rates alone, which damp as well."""
+        inputs = [u.symbol for u in self.model.inputs]
+        found: list[Element] = []
+        for element in self.acting:
+            shares = self.shares(element).values()
+            drag = bool(shares) and all(x.has(*self.v) and not x.has(*inputs) for x in shares)
+            if isinstance(element, (Damper, Dissipation)) or drag:
+                found.append(element)
+        return tuple(found)
+
     def actions(self, element: Element) -> tuple[Action, ...]:
         """An element's actions by virtual work."""
         return element.works(self.model)
@@ -223,6 +251,46 @@ def put(expr: Any, table: Mapping[Any, Any]) -> sp.Expr:
 def letters(expr: sp.Expr) -> list[Any]:
     """The constants in an expression, by name."""
     return sorted((s for s in expr.free_symbols if s != time), key=str)
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A term of an equation, on the left-hand side: the equation's number, the term, and how it is shown."""
+
+    row: int
+    expr: sp.Expr
+    shown: sp.Expr
+
+
+def pieces(s: Ingredients) -> list[Piece]:
+    """The terms of the equations: as they are read, multiplied out, and with cos(a − b) written out."""
+    return s.kept("pieces", lambda: list(_pieces(s)))
+
+
+def _pieces(s: Ingredients) -> Iterator[Piece]:
+    for i, row in enumerate(s.derivation.terms):
+        seen: dict[sp.Expr, Piece] = {}
+        for term in row:
+            sign = -1 if term.kind == "input" else 1
+            whole = s.expand(term.expr) * sign
+            seen.setdefault(whole, Piece(i, whole, term.expr))
+            for part in _addends(s, whole):
+                seen.setdefault(part, Piece(i, part, part))
+        yield from list(seen.values())[:MOST_PIECES]
+
+
+def _addends(s: Ingredients, term: sp.Expr) -> Iterator[sp.Expr]:
+    """The terms of a term: multiplied out, with sums of angles written out, and split by sin² + cos² = 1."""
+    expanded = sp.expand(term)
+    yield from sp.Add.make_args(expanded)
+    if expanded.has(sp.sin, sp.cos):
+        for part in sp.Add.make_args(sp.expand(sp.expand_trig(expanded))):
+            yield part
+        return
+    for f in sorted({a for a in s.angles(s.T + s.V) if a in s.q}, key=str):
+        for part in sp.Add.make_args(expanded):
+            yield part * sp.sin(f) ** 2
+            yield part * sp.cos(f) ** 2
 
 
 def half_square(mass: sp.Expr, velocity: tuple[sp.Expr, ...]) -> sp.Expr:

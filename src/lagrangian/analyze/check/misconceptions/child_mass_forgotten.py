@@ -18,7 +18,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     for body in s.bodies:
         energy = s.kinetic(body)
         moving = [i for i, v in enumerate(s.v) if energy.has(v)]
-        if len(moving) < 2:
+        if len(moving) < 2 and not (moving and any(s.moves(x) for x in s.parent(body))):
             continue
         weight = sum((V for _, b, V in s.weights() if b is body), start=energy * 0)
         for i in moving:

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 from lagrangian.analyze.check.misconceptions.base import Ingredients, Variant
 from lagrangian.derive.formula import Name, text
-from lagrangian.model import Damper, Dissipation
 
 STEP = 6
 WHY = text("D = ½bδ̇² is differentiated by the rate: the force is bδ̇, without the ½.")
@@ -14,8 +13,9 @@ WHY = text("D = ½bδ̇² is differentiated by the rate: the force is bδ̇, wit
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
     """Every damper with half its force."""
-    for element in s.acting:
-        if isinstance(element, (Damper, Dissipation)):
-            shares = s.shares(element)
-            what = text(f"{element.title[:1].upper() + element.title[1:]} adds half its force to ", Name("Xi"), ".")
-            yield Variant(what=what, Xi={i: -x / 2 for i, x in shares.items()}, element=element)
+    for element in s.resisting:
+        what = text(f"{element.title[:1].upper() + element.title[1:]} adds half its force to ", Name("Xi"), ".")
+        shares = s.shares(element)
+        yield Variant(what=what, Xi={i: -x / 2 for i, x in shares.items()}, element=element)
+        for i, x in shares.items() if len(shares) > 1 else ():
+            yield Variant(what=what, Xi={i: -x / 2}, element=element, coordinate=i)

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 from lagrangian.analyze.check.misconceptions.base import Ingredients, Variant, negative
 from lagrangian.derive.formula import text
-from lagrangian.model import Damper, Dissipation
 
 STEP = 6
 WHY = text("A damper takes energy out: its Ξ is −bξ̇ on the right, or +bξ̇ on the left, like the spring in its place.")
@@ -14,7 +13,7 @@ WHY = text("A damper takes energy out: its Ξ is −bξ̇ on the right, or +bξ�
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
     """Every damper, whole, in each equation, and its coupling alone; all dampers together."""
-    dampers = [e for e in s.acting if isinstance(e, (Damper, Dissipation))]
+    dampers = s.resisting
     every: dict[int, object] = {}
     for element in dampers:
         shares = s.shares(element)

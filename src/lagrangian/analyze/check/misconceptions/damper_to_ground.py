@@ -26,6 +26,11 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             what = text(f"{element.title[:1].upper() + element.title[1:]} feels ", v, " alone in your equations.")
             grounded = {i: -b * own * own.diff(s.v[i]) - shares.get(i, 0) for i in range(s.n)}
             yield Variant(what=what, Xi={i: x for i, x in grounded.items() if x != 0}, element=element)
+        for v, w in ((v, w) for v in held for w in s.v if w not in held):
+            own = put(rate, {v: v + w})
+            what = text(f"{element.title[:1].upper() + element.title[1:]} feels ", own, ", as if to the ground.")
+            grounded = {i: -b * own * own.diff(s.v[i]) - shares.get(i, 0) for i in range(s.n)}
+            yield Variant(what=what, Xi={i: x for i, x in grounded.items() if x != 0}, element=element)
         if len(held) > 1:
             each = {i: -b * (rate.diff(v) ** 2) * v - shares.get(i, 0) for i, v in enumerate(s.v)}
             what = text(f"{element.title[:1].upper() + element.title[1:]} acts on each body as if to the ground.")

@@ -22,3 +22,8 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     for element in s.acting:
         what = text(f"{element.title[:1].upper() + element.title[1:]} is counted twice.")
         yield Variant(what=what, Xi=s.shares(element), element=element)
+        for i, x in s.shares(element).items() if len(s.shares(element)) > 1 else ():
+            what = text(
+                f"{element.title[:1].upper() + element.title[1:]} is counted twice in the equation of ", s.q[i], "."
+            )
+            yield Variant(what=what, Xi={i: x}, element=element, coordinate=i)

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 from lagrangian.analyze.check.misconceptions.base import Ingredients, Variant, negative
 from lagrangian.derive.formula import text
-from lagrangian.model import Damper, Dissipation
 
 STEP = 6
 WHY = text("A force counts positive in Ξ where it pushes towards greater ξ.")
@@ -15,7 +14,7 @@ WHY = text("A force counts positive in Ξ where it pushes towards greater ξ.")
 def wrong(s: Ingredients) -> Iterator[Variant]:
     """Every force and torque, whole and in each equation."""
     for element in s.acting:
-        if isinstance(element, (Damper, Dissipation)):
+        if element in s.resisting:
             continue
         shares = s.shares(element)
         what = text(f"{element.title[:1].upper() + element.title[1:]} has the wrong sign.")

@@ -29,7 +29,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             there = shares.get(j, own * 0)
             yield Variant(what=what, Xi={i: -own, j: own - there}, element=element, coordinate=j)
             yield Variant(what=what, Xi={i: -own, j: -own - there}, element=element, coordinate=j)
-            if there != 0:
+            if there != 0 and (own + there).expand() != 0:
                 yield Variant(what=what, Xi={i: -own, j: own}, element=element, coordinate=j)
-                if i < j:
-                    yield Variant(what=what, Xi={i: there - own, j: own - there}, element=element, coordinate=j)
+            if there != 0 and i < j:
+                yield Variant(what=what, Xi={i: there - own, j: own - there}, element=element, coordinate=j)

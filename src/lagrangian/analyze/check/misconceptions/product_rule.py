@@ -35,7 +35,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
                 what = text(
                     "In ", Total(Partial(sp.Symbol("L"), s.v[i])), " the change of ", s.q[k], " in time is missing."
                 )
-                yield Variant(what=what, rows={i: -part}, coordinate=i)
+                yield Variant(what=what, rows={i: -part}, coordinate=i, doubt=1)
 
 
 def _lost(s: Ingredients, momentum: sp.Expr, by: object) -> sp.Expr:

@@ -19,6 +19,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     table = {f: _small(f, quadratic=True) for f in s.V.atoms(sp.sin, sp.cos) if s.moves(f)}
     if table:
         yield Variant(what=what, V=put(s.V, table) - s.V)
+        yield Variant(what=what, V=put(s.V, {f: _small(f) for f in table}) - s.V)
     rows = [s.expand(e.lhs) - s.expand(e.rhs) for e in s.derivation.equations]
     replaced = {f: _small(f) for row in rows for f in row.atoms(sp.sin, sp.cos) if s.moves(f)}
     if not replaced:

@@ -36,4 +36,3 @@ def _deflections(s: Ingredients, extension: sp.Expr) -> Iterator[sp.Expr]:
         for p in free:
             yield put(extension, {q: p})
             yield put(extension, {q: q - p})
-            yield put(extension, {q: q + p})
