@@ -6,6 +6,8 @@ import re
 from dataclasses import dataclass
 from itertools import pairwise
 
+from lagrangian.model.names import FUNCTIONS
+
 MAX_STATEMENTS = 500
 """Most statements in one answer."""
 
@@ -20,10 +22,19 @@ class Row:
 
 _COMMENT = re.compile(r"(?:#|%|//(?=\s)).*")
 _ARROW = re.compile(r"\s*(?:=>|⇒|⟹|->|→|⟶|∴|•|>)\s*")
-_NUMBERED = re.compile(r"\s*(?:\(\s*\w{1,4}\s*\)|\[\s*\d{1,3}[a-z]?\s*\]|\d{1,3}[a-z]?[.)])(?=\s+\S)")
+_NUMBERED = re.compile(
+    r"\s*(?:\(\s*(?:\d{1,3}[a-z]?|[ivx]{1,4}|[A-Z]-?\d)\s*\)|\[\s*\d{1,3}[a-z]?\s*\]|\d{1,3}[a-z]?[.)]|[a-h]\))"
+    r"(?=\s+[^\s*/^])"
+)
 _LABEL = re.compile(r"\s*(?=[^=:]*[^\W\d_])[\w(][\w\s().,#'’-]{0,60}:(?!=)")
 _WORDS = r"(?:where|with|and|so|thus|then|hence|therefore|let|also|gives|we get|so that)"
-_LEAD = re.compile(rf"\s*{_WORDS}\b[,:]?(?=\s+\S)", re.IGNORECASE)
+_ENGLISH_LISTED = (
+    "the is are of for we with that this these as get gets gives obtain find finds have has so and then thus hence "
+    "where let therefore since because both every equation equations motion energy kinetic potential coordinate coordinates "
+    "first second becomes follows which yields now finally using from by in at on to reads"
+)
+_ENGLISH = frozenset(_ENGLISH_LISTED.split())
+_LEADING = re.compile(r"\s*(?:[^\W\d_]+[,:]?\s+)+(?=\S)")
 _TRAIL = re.compile(rf"(?<=[\w)\]'’′²³])\s*,?\s+{_WORDS}\s*[,:]?\s*\Z", re.IGNORECASE)
 _AFTER = re.compile(
     r"(?<=[\w)\]'’′²³])\s+(?:\(\s*(?:\d{1,3}[a-z]?|[ivx]{1,4})\s*\)|\[\s*\d{1,3}[a-z]?\s*\])\s*[.,;]?\s*\Z"
@@ -31,9 +42,12 @@ _AFTER = re.compile(
 _OPEN_END = re.compile(r"(?:[-+*/×·=(\[,^−]|\.\.\.|…|\\)\s*\Z")
 _OPEN_START = re.compile(r"\s*[+*/×·=)\]^]")
 _MINUS_START = re.compile(r"\s*[-−–]")
-_STATEMENT_SIGN = re.compile(r"[=+*/^()\[\]]|\d")
+_STATEMENT_SIGN = re.compile(r"[=+*/^()\[\]'′″\u0307\u0308]")
 _DOTTED = re.compile(r"(?:\.\.\.|…|\\)(?=\s*\Z)")
-_TAIL = re.compile(r"[.,;]\s*\Z")
+_TAIL = re.compile(r"(?<!\.)[.,;:]\s*\Z")
+_PLUS_END = re.compile(r"\+\s*\Z")
+_PLUS_START = re.compile(r"\s*\+")
+_GOES_ON = re.compile(r"\s*(?:\.\.\.|…)")
 
 
 def blank(text: str, start: int, end: int) -> str:
@@ -50,23 +64,35 @@ def plain_rows(text: str) -> list[Row]:
         bare = _COMMENT.sub(lambda m: " " * len(m.group()), line.rstrip("\r\n"))
         if not bare.strip():
             open_row = None
-        elif open_row is not None and _continues(open_row.text, bare):
+        elif open_row is not None and (_continues(open_row.text, bare) or _GOES_ON.match(bare)):
+            bare = _GOES_ON.sub(lambda m: " " * len(m.group()), bare, count=1)
             head = _DOTTED.sub(lambda m: " " * len(m.group()), open_row.text)
+            if (repeated := _PLUS_END.search(head)) is not None and _PLUS_START.match(bare):
+                head = blank(head, repeated.start(), len(head))  # "a + …" goes on with "… + b"
             gap = offset - open_row.start - len(head)
             rows[-1] = open_row = Row(open_row.start, head + " " * gap + _after(bare))
         elif (stripped := _before(bare)).strip() and not plain_words(stripped):
             open_row = Row(offset, _after(stripped))
             rows.append(open_row)
         offset += len(line)
-    return [piece for row in rows for part in pieces(row, ";", always=True) for piece in pieces(part, ",")]
+    split = [piece for row in rows for part in pieces(row, ";", always=True) for piece in pieces(part, ",")]
+    return [_without_lead(row) for row in split]
 
 
 def _before(line: str) -> str:
     """Blank out an arrow, a number or a label before a statement."""
-    for form in (_ARROW, _NUMBERED, _LABEL, _ARROW, _LEAD):
+    for form in (_ARROW, _NUMBERED, _LABEL, _ARROW):
         if match := form.match(line):
             line = blank(line, 0, match.end())
     return line
+
+
+def _without_lead(row: Row) -> Row:
+    """Blank out English words in front: "the kinetic energy is T = …"."""
+    if (match := _LEADING.match(row.text)) is None:
+        return row
+    words = [w for w in re.finditer(r"[^\W\d_]+", match.group()) if w.group().lower() in _ENGLISH]
+    return Row(row.start, blank(row.text, 0, words[-1].end() + 1)) if words else row
 
 
 def _after(line: str) -> str:
@@ -80,7 +106,13 @@ def _after(line: str) -> str:
 def plain_words(line: str) -> bool:
     """Whether a line is words: nothing in it that an expression or equation has."""
     words = re.findall(r"[^\W\d_]{2,}", line)
-    return len(words) >= 2 and not _STATEMENT_SIGN.search(line)
+    return len(words) >= 2 and not _STATEMENT_SIGN.search(line) and not FUNCTIONS & set(words)
+
+
+def _remark(part: str) -> bool:
+    """Whether a part of a line is words: "with the stretch s,"."""
+    words = re.findall(r"[^\W\d_]+", part)
+    return "=" not in part and any(w.lower() in _ENGLISH for w in words) and not FUNCTIONS & set(words)
 
 
 def _continues(before: str, line: str) -> bool:
@@ -105,6 +137,8 @@ def pieces(row: Row, separators: str, *, always: bool = False) -> list[Row]:
             cuts.append(i)
     cuts.append(len(row.text))
     parts = [(a + 1, row.text[a + 1 : b]) for a, b in pairwise(cuts)]
+    if any("=" in part for _, part in parts):
+        parts = [(at, part) for at, part in parts if not _remark(part)]
     if (
         len(parts) > 1
         and not always
