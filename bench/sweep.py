@@ -153,6 +153,7 @@ def report(given: argparse.Namespace) -> list[str]:
     ]
     lines += [
         f"{given.runs} cart-poles of {DURATION:g} s, looked at 1001 times, three results each, to a Zarr store.",
+        "Peak memory is that of the process that asked; what was killed was started again, with resume.",
         "",
     ]
     lines += ["| " + given.method + " | s | runs a second | peak MiB | |", "| --- | ---: | ---: | ---: | --- |"]

@@ -149,10 +149,11 @@ class Ensemble(Mapping[str, NDArray[Any]]):
 
     def __repr__(self) -> str:
         """Say how many runs there are, along which axes, how they ended and what was kept."""
-        sizes = " × ".join(f"{d} {n}" for d, n in zip(self.dims, self.shape, strict=True))
+        axes = " × ".join(f"{d} {n}" for d, n in zip(self.dims, self.shape, strict=True))
+        sizes = f" ({axes})" if axes else ""
         ends = ", ".join(f"{n} {words}" for words, n in self.counts.items())
         kept = ", ".join(n for n in self if n not in ("status", "reached"))
-        return f"<Ensemble {self.name!r}: {self.count} runs ({sizes}), {self.settings['method']}; {ends}; {kept}>"
+        return f"<Ensemble {self.name!r}: {self.count} runs{sizes}, {self.settings['method']}; {ends}; {kept}>"
 
     # -- taking it elsewhere ------------------------------------------------------------------------------------
 

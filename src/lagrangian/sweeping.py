@@ -236,7 +236,11 @@ def _plan(
     if any(k.reduction is None for k in study.kept):
         words = {"units": "s", "long_name": "time"}
         coordinates[TIME] = Variable("float64", (TIME,), study.times.shape, words), [study.times]
-    return Plan(portions, results, coordinates, task, {"title": model.name})
+    beside = " ".join(
+        name for name, (variable, _) in coordinates.items() if (name,) != variable.dims and " " not in name
+    )
+    words = {"title": model.name, **({"coordinates": beside} if beside else {})}
+    return Plan(portions, results, coordinates, task, words)
 
 
 def _words(made_of: Mapping[str, tuple[Kept, str]], name: str) -> dict[str, Any]:

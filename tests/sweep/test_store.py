@@ -58,7 +58,7 @@ def test_xarray_opens_it(tmp_path: pathlib.Path) -> None:
     path = tmp_path / "a.zarr"
     with store.create(path, plan()) as made:
         made.write(0, PORTIONS.box(0), values(0))
-    data = xarray.open_zarr(path, chunks=None, consolidated=False)
+    data = xarray.open_zarr(path, chunks=None)
     assert data["max x"].dims == ("k", "run")
     assert data["max x"].attrs["units"] == "m"
     assert data["max x"].sel(k=1.0).values[:4].tolist() == [0, 1, 2, 3]

@@ -325,3 +325,38 @@ def test_impacts_in_an_ensemble() -> None:
     np.testing.assert_allclose(runs["time bounce"], [[1.0, 2.0], [1.0, np.nan]], atol=1e-9)
     assert runs["max y"].tolist() == [5.0, 5.0]
     assert runs["final y"][1] == pytest.approx(8 - 5, abs=1e-9)
+
+
+def test_one_run_is_an_ensemble_too(oscillator: lg.System) -> None:
+    runs = oscillator.ensemble(1.0, x=1.0, **FINE)
+    assert runs.shape == ()
+    assert float(runs["x"]) == pytest.approx(np.cos(2.0))
+    assert len(runs.to_pandas()) == 1
+    assert "1 runs, rk4" in repr(runs)
+    assert runs.failures() == []
+
+
+def test_frames_that_float() -> None:
+    system = lg.System("satellite")
+    hull = system.floating_frame("hull")
+    system.rigid_body(500, (80, 90, 120), at=hull.origin, frame=hull)
+    rate = np.linspace(0, 1, 4)
+    runs = system.ensemble(2.0, hull_wz=rate, outputs=["hull_qz", "hull_qw"])
+    np.testing.assert_allclose(runs["hull_qz"], np.sin(rate), atol=1e-9)
+    np.testing.assert_allclose(runs["hull_qw"], np.cos(rate), atol=1e-9)
+
+
+def test_xarray_reads_a_store_as_it_is(oscillator: lg.System, tmp_path) -> None:
+    import xarray
+
+    given = (1.0, ["k=1:4:4", "m~normal(1,0.01)"])
+    how = {"samples": 3, "x": 1.0, "outputs": ["max x'", "x"], **FINE}
+    runs = oscillator.sweep(*given, store=tmp_path / "a.zarr", **how)
+    data = xarray.open_zarr(tmp_path / "a.zarr").load()
+    assert set(data.coords) == {"k", "m"}
+    assert data["final x"].attrs == {"long_name": "final of x", "units": "m"}
+    np.testing.assert_array_equal(data["max x'"], runs["max x'"])
+    here = oscillator.sweep(*given, **how)
+    assert here.to_xarray().equals(runs.to_xarray())
+    with pytest.raises(lg.Error, match="exists"):
+        oscillator.sweep(*given, store=tmp_path / "a.zarr", **how)

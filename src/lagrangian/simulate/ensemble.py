@@ -58,7 +58,7 @@ class Memory:
     def write(self, index: int, box: tuple[slice, ...], values: Values) -> None:
         """Put the results of a chunk in their place."""
         for name, array in self.arrays.items():
-            target = array[box]
+            target = array[(*box, ...)]  # an array even where there are no axes
             target[...] = values[name].reshape(target.shape)
         self.done[index] = True
 

@@ -13,6 +13,7 @@ import errno
 import os
 import shutil
 import tempfile
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -161,6 +162,9 @@ def _fill(zarr: Any, path: Path, plan: Plan) -> None:
     marks = path / DONE / "c" / "0"
     marks.parent.mkdir()
     marks.write_bytes(bytes(count))
+    with warnings.catch_warnings():  # zarr says that the listing is its own extension of the format; xarray expects it
+        warnings.simplefilter("ignore")
+        zarr.consolidate_metadata(path)
 
 
 def _array(group: Any, name: str, variable: Variable, **more: Any) -> Any:
