@@ -34,13 +34,6 @@ def compare(a: Derivation, b: Derivation, change: Mapping[Any, Any] | None = Non
     """
     tag_a, tag_b = _letters(a, b)
     sides = Side("A", a, tag_a), Side("B", b, tag_b)
-    for model in (a.model, b.model):
-        if model.floating:
-            raise ModelError(
-                f"frame '{model.floating[0].name}' floats: its equations are not written out",
-                fix="compile",
-                code="E210",
-            )
     if len(a.coordinates) != len(b.coordinates):
         return _of_other_size(sides)
     found, turned, assumed = _correspondence(a.model, b.model, change)
@@ -189,8 +182,8 @@ def _forces(zero: Zero, shared: Shared) -> tuple[Check, ...]:
         terms = [(sp.S.NegativeOne, shared.Xi_b[j])]
         terms += [(shared.J[i, j], x) for i, x in enumerate(shared.Xi_a) if shared.J[i, j] != 0]
         verdict = zero.vanishes(cast("list[tuple[sp.Expr, sp.Expr]]", terms))
-        words = text(Name("Xi"), " of ", c.symbol, " is the sum of ", Partial(Name("xi", "i"), c.symbol), " Ξᵢ")
-        found.append(Check(words, *_pair(verdict)))
+        whose = text(Name("Xi", str(j + 1)), " is the sum of ", Partial(Name("xi", "i"), c.symbol), " Ξᵢ")
+        found.append(Check(whose, *_pair(verdict)))
     return tuple(found)
 
 

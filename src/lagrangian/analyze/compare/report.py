@@ -254,8 +254,10 @@ class _Shown:
         into = self.found.into
         name: list[str | Left] = [f"Step {d.step}, ", Name(d.quantity)]
         if d.coordinate is not None:
-            symbol = next(q for q in into.derivation.coordinates if plain(q) == d.coordinate)
-            name += [" of ", self.expr(into, symbol)]
+            names = [plain(q) for q in into.derivation.coordinates]
+            index = names.index(d.coordinate)
+            symbol = self.expr(into, into.derivation.coordinates[index])
+            name = [f"Step {d.step}, ", Name("Xi", str(index + 1)), " of ", symbol]
         if self.found.change is None:
             only, title = ("A", d.element_a) if d.element_a else ("B", d.element_b)
             return [*name, f": only ({only}) has {title}."]
