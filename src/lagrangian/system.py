@@ -438,8 +438,8 @@ class System:
         says under [simulate], and else 0, where not given. ``params`` and ``inputs`` are mappings by name or symbol;
         an input is a number, text, an expression of time and state (compiled in), a table
         ``(times, values[, "hold"])`` or a Python function f(t, x), which is slow. The run is kept at ``samples``
-        times (1001), or at ``times``. ``method`` is one of ours in machine code (dop853, the default; tsit5; rk4 and
-        gauss4, which need ``step``) or one of SciPy's (Radau, BDF, LSODA, RK45, DOP853). ``rtol`` and ``atol`` are
+        times (1001), or at ``times``. ``method`` is one of ours in machine code (dop853, the default; taylor; tsit5;
+        rk4 and gauss4, which need ``step``) or one of SciPy's (Radau, BDF, LSODA, RK45, DOP853). ``rtol`` and ``atol`` are
         aimed at for the whole run; for SciPy's methods they are those of a step. ``events`` come from
         `lagrangian.event`. ``max_steps``, ``max_events`` and ``timeout`` [s] bound the run.
 

@@ -8,7 +8,7 @@ from run_systems import ball, oscillator
 
 import lagrangian as lg
 
-METHODS = ["dop853", "tsit5", "DOP853", "Radau"]
+METHODS = ["dop853", "taylor", "tsit5", "DOP853", "Radau"]
 FALL = np.sqrt(2 / 9.81)
 
 

@@ -63,7 +63,7 @@ def test_parameters_without_a_value_are_listed() -> None:
     assert s.simulate(1.0, params={"m": 1, k: 4}, q=1.0)["q"][-1] == pytest.approx(np.cos(2.0), abs=1e-9)
 
 
-@pytest.mark.parametrize("method", ["dop853", "DOP853", "LSODA"])
+@pytest.mark.parametrize("method", ["dop853", "taylor", "DOP853", "LSODA"])
 def test_a_mass_matrix_that_becomes_singular_is_named(method: str) -> None:
     """A bead whose position is cos q: pushed to q = 0 it would have no mass left."""
     s = lg.System("cosine")
@@ -77,7 +77,7 @@ def test_a_mass_matrix_that_becomes_singular_is_named(method: str) -> None:
     assert f"t = {run.t[-1]:.9g}" in run.message
 
 
-@pytest.mark.parametrize("method", ["dop853", "tsit5", "Radau"])
+@pytest.mark.parametrize("method", ["dop853", "taylor", "tsit5", "Radau"])
 def test_a_state_that_blows_up_keeps_what_was_reached(method: str) -> None:
     """q̈ = 2 q³ with q = 1, q̇ = 1: q = 1/(1 − t) is infinite at t = 1."""
     s = lg.System("blow-up")
@@ -92,7 +92,7 @@ def test_a_state_that_blows_up_keeps_what_was_reached(method: str) -> None:
     assert "q = " in run.message and "Fix:" in run.message
 
 
-@pytest.mark.parametrize("method", ["dop853", "DOP853"])
+@pytest.mark.parametrize("method", ["dop853", "taylor", "DOP853"])
 def test_a_force_that_leaves_its_domain_is_told(method: str) -> None:
     s = lg.System("root")
     q = s.coordinate("q")

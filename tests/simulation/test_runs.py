@@ -11,7 +11,7 @@ from scipy.integrate import solve_ivp
 import lagrangian as lg
 from lagrangian import dynamics, examples
 
-OURS = {"dop853": {}, "tsit5": {}, "rk4": {"step": 0.002}, "gauss4": {"step": 0.002}}
+OURS = {"dop853": {}, "taylor": {}, "tsit5": {}, "rk4": {"step": 0.002}, "gauss4": {"step": 0.002}}
 SCIPY = ("RK45", "DOP853", "Radau", "BDF", "LSODA")
 
 

@@ -11,6 +11,8 @@ import typer
 from lagrangian import showing
 from lagrangian.commands.terminal import Example, OptionalFile, open_system, put, say
 from lagrangian.errors import ModelError
+from lagrangian.simulate import METHODS
+from lagrangian.simulate.scipy_methods import SCIPY
 from lagrangian.trajectory import Trajectory
 from lagrangian.write import write_with
 from lagrangian.write.tables import ENDINGS, check_target
@@ -22,7 +24,10 @@ def simulate(
     file: OptionalFile = None,
     example: Example = None,
     duration: Annotated[
-        str | None, typer.Option("--duration", "-d", help="How long [s]; else what the file says.", show_default=False)
+        str | None,
+        typer.Option(
+            "--duration", "-d", help="How long, in seconds or with a unit; else what the file says.", show_default=False
+        ),
     ] = None,
     set_: Annotated[
         list[str] | None,
@@ -36,8 +41,10 @@ def simulate(
         list[str] | None,
         typer.Option("--input", "-i", help="An input: tau=2, 'tau=3*sin(t)', \"F=-k*x\".", show_default=False),
     ] = None,
-    method: Annotated[str | None, typer.Option(help="rk4, tsit5, dop853, …, Radau, BDF, LSODA.")] = None,
-    step: Annotated[str | None, typer.Option(help="Step [s] of a method with steps of one length.")] = None,
+    method: Annotated[
+        str | None, typer.Option(help=f"{', '.join(METHODS)} in machine code; {', '.join(SCIPY)} of SciPy.")
+    ] = None,
+    step: Annotated[str | None, typer.Option(help="Seconds a step, for methods with steps of one length.")] = None,
     rtol: Annotated[float, typer.Option(help="Relative tolerance.")] = 1e-9,
     atol: Annotated[float, typer.Option(help="Absolute tolerance.")] = 1e-12,
     samples: Annotated[int | None, typer.Option(help="Times kept, evenly spaced.", show_default="1001")] = None,
