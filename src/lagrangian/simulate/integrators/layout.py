@@ -47,6 +47,6 @@ class Lanes:
         self.state, self.code, self.run, self.sample, self.knot = (p.reserve(1) for _ in range(5))
         self.steps, self.rejected, self.extra, self.events = (p.reserve(1) for _ in range(4))
         self.knot_time = p.reserve(1)
-        self.good, self.end, self.theta = (p.reserve(1) for _ in range(3))
+        self.good, self.end = p.reserve(1), p.reserve(1)
         self.u, self.slope, self.p_in = p.reserve(self.inputs), p.reserve(self.inputs), p.reserve(self.parameters)
         self.sampled = p.block()

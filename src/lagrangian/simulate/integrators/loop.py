@@ -18,6 +18,7 @@ from lagrangian.compile.ir import Module, Value
 
 from . import events
 from . import layout as at
+from .begin import Begin
 from .evaluate import Tapes
 from .events import Watch
 from .jets import Jets
@@ -82,7 +83,7 @@ class Loop:
         f.do("br label %service")
         self._head()
         self.service.print(self.tapes, self.watch)
-        self._begin()
+        Begin(self).print()
         widest = f.module.target.lanes
         width = widest if self.method.expands else min(p.lanes, widest)  # expansions of one run are packed
         f.finish("run", "i64", "ptr %table, ptr %work, i64 %budget", attributes(width))
@@ -145,10 +146,10 @@ class Loop:
         lanes = self.lanes
         return Step(
             self.p, t, h, lanes.x, lanes.lost, lanes.k, self.rate, self.rtol, self.atol,
-            self.new_x, self.new_lost, self.new_k, self.inlet, running, self._spend, self.own_blocks, self.own_slots,
+            self.new_x, self.new_lost, self.new_k, self.inlet, running, self.spend, self.own_blocks, self.own_slots,
         )  # fmt: skip
 
-    def _spend(self, flag: str, count: int) -> None:
+    def spend(self, flag: str, count: int) -> None:
         """Count evaluations beyond those of every step."""
         f, extra = self.f, self.lanes.extra
         spent = f.whole_op("mul", f.put(f"zext {f.flag} {flag} to {f.whole}"), count)
@@ -295,7 +296,7 @@ class Loop:
             return
         with p.when(p.any(wants)):
             coefficients = self.method.interpolant(s)
-            self._spend(wants, self.method.dense_evaluations)
+            self.spend(wants, self.method.dense_evaluations)
             p.store(new_t, lanes.end)
             if watch is not None and suspects is not None:
                 with p.when(p.any(suspects)):
@@ -385,78 +386,3 @@ class Loop:
                 s.x, s.new_x, *coefficients, into=(lanes.sampled,),
             )  # fmt: skip
             self.service.write_samples()
-
-    # Lanes that begin --------------------------------------------------------------------------------------------
-
-    def _begin(self) -> None:
-        """The derivative of lanes that begin or whose right-hand side changed; the first step length of the former."""
-        p, f, lanes, method = self.p, self.f, self.lanes, self.method
-        f.label("begin")
-        state = p.load_whole(lanes.state)
-        new = p.whole_is(state, at.NEW)
-        fresh = f.logic("or", new, p.whole_is(state, at.BENT))
-        trouble = Value(f, f.constant(0.0))
-        if self.watch is not None:
-            self.watch.wait_no_more(self.inputs_at, new)
-        if method.follows:
-            t = p.load(lanes.t)
-            k = self.rate(t, lanes.x, self.new_k)
-            p.map(lambda a, b: f.select(fresh, a, b), k, lanes.k, into=(lanes.k,))
-            h = self._first_step(t, k)
-            p.store(f.select(new, h, p.load(lanes.h)), lanes.h)
-            p.store(f.select(new, 1e-4, p.load(lanes.error)), lanes.error)
-            self._spend(new, 1)
-            self._spend(fresh, 1)
-            (trouble,) = p.fold(lambda total, a: (f.fma(a, 0.0, total),), [0.0], lanes.k)
-        elif method.expands:  # any scale of time that keeps high powers of it within range
-            unit = (p.load(lanes.stop) - p.load(lanes.t)) * 2.0**-10
-            p.store(f.select(fresh, unit, p.load(lanes.h)), lanes.h)
-        elif method.blocks:
-            k = self.rate(p.load(lanes.t), lanes.x)
-            self._spend(fresh, 1)
-            for block in self.own_blocks:
-                p.map(lambda a, b: f.select(fresh, a, b), k, block, into=(block,))
-        if self.watch is not None:
-            trouble = trouble + self.watch.arm(self.inputs_at, self.rate, new)
-        broken = f.logic("and", fresh, f.compare("une", trouble, 0.0))
-        p.store_whole(p.whole_select(fresh, self._constant(at.RUNNING), state), lanes.state)
-        f.do(f"br i1 {p.any(broken)}, label %lost, label %head")
-        f.label("lost")
-        state = p.load_whole(lanes.state)
-        p.store_whole(p.whole_select(broken, self._constant(at.ENDED), state), lanes.state)
-        code = self._constant(at.NOT_FINITE)
-        p.store_whole(p.whole_select(broken, code, p.load_whole(lanes.code)), lanes.code)
-        f.do("br label %service")
-
-    def _first_step(self, t: Value, k: Vec) -> Value:
-        """A first step length from the sizes of x, ẋ and ẍ (Hairer, Nørsett, Wanner I, section II.4)."""
-        p, f, method = self.p, self.f, self.method
-        assert method.error_order is not None
-        lanes = self.lanes
-
-        def sizes(a: Value, b: Value, x: Value, k: Value, atol: Value) -> tuple[Value, Value]:
-            scale = f.fma(f.intrinsic("fabs", x), self.rtol, atol)
-            x, k = x / scale, k / scale
-            return f.fma(x, x, a), f.fma(k, k, b)
-
-        d0, d1 = p.fold(sizes, [0.0, 0.0], lanes.x, k, self.atol)
-        d0, d1 = (f.intrinsic("sqrt", d * (1.0 / p.size)) for d in (d0, d1))
-        small = f.logic("or", f.compare("olt", d0, 1e-5), f.compare("olt", d1, 1e-5))
-        h = f.select(small, 1e-6, d0 * 0.01 / d1)
-        (ahead,) = p.map(lambda x, k: f.fma(h, k, x), lanes.x, k, into=self.inlet)
-        k2 = self.rate(t + h, ahead)
-
-        def bend(a: Value, x: Value, k: Value, k2: Value, atol: Value) -> tuple[Value]:
-            d = (k2 - k) / f.fma(f.intrinsic("fabs", x), self.rtol, atol)
-            return (f.fma(d, d, a),)
-
-        (d2,) = p.fold(bend, [0.0], lanes.x, k, k2, self.atol)
-        d2 = f.intrinsic("sqrt", d2 * (1.0 / p.size)) / h
-        greater = f.select(f.compare("ogt", d2, d1), d2, d1)
-        flat = f.compare("ole", greater, 1e-15)
-        second = rough_power(f, 0.01 / f.select(flat, 1.0, greater), 1.0 / method.error_order)
-        second = f.select(flat, f.select(f.compare("ogt", h * 1e-3, 1e-6), h * 1e-3, 1e-6), second)
-        hundred = h * 100.0
-        best = f.select(f.compare("olt", second, hundred), second, hundred)
-        best = f.select(f.compare("olt", best, float("inf")), best, h)  # the trial point may lie outside the domain
-        return f.select(f.compare("ogt", best, self.max_step), self.max_step, best)

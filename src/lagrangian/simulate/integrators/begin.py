@@ -1,0 +1,94 @@
+"""Lanes that begin: the derivative there, the first step length, the events armed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from lagrangian.compile.ir import Value
+
+from . import layout as at
+from .method import rough_power
+from .printer import Vec
+
+if TYPE_CHECKING:
+    from .loop import Loop
+
+
+class Begin:
+    """Prints the part of the loop that follows the service."""
+
+    def __init__(self, loop: Loop) -> None:
+        self.loop, self.p, self.f, self.lanes, self.method = loop, loop.p, loop.f, loop.lanes, loop.method
+
+    def print(self) -> None:
+        """The derivative of lanes that begin or whose right-hand side changed; the first step length of the former."""
+        p, f, lanes, method = self.p, self.f, self.lanes, self.method
+        f.label("begin")
+        state = p.load_whole(lanes.state)
+        new = p.whole_is(state, at.NEW)
+        fresh = f.logic("or", new, p.whole_is(state, at.BENT))
+        trouble = Value(f, f.constant(0.0))
+        if self.loop.watch is not None:
+            self.loop.watch.wait_no_more(self.loop.inputs_at, new)
+        if method.follows:
+            t = p.load(lanes.t)
+            k = self.loop.rate(t, lanes.x, self.loop.new_k)
+            p.map(lambda a, b: f.select(fresh, a, b), k, lanes.k, into=(lanes.k,))
+            h = self._first_step(t, k)
+            p.store(f.select(new, h, p.load(lanes.h)), lanes.h)
+            p.store(f.select(new, 1e-4, p.load(lanes.error)), lanes.error)
+            self.loop.spend(new, 1)
+            self.loop.spend(fresh, 1)
+            (trouble,) = p.fold(lambda total, a: (f.fma(a, 0.0, total),), [0.0], lanes.k)
+        elif method.expands:  # any scale of time that keeps high powers of it within range
+            unit = (p.load(lanes.stop) - p.load(lanes.t)) * 2.0**-10
+            p.store(f.select(fresh, unit, p.load(lanes.h)), lanes.h)
+        elif method.blocks:
+            k = self.loop.rate(p.load(lanes.t), lanes.x)
+            self.loop.spend(fresh, 1)
+            for block in self.loop.own_blocks:
+                p.map(lambda a, b: f.select(fresh, a, b), k, block, into=(block,))
+        if self.loop.watch is not None:
+            trouble = trouble + self.loop.watch.arm(self.loop.inputs_at, self.loop.rate, new)
+        broken = f.logic("and", fresh, f.compare("une", trouble, 0.0))
+        p.store_whole(p.whole_select(fresh, f.integer(at.RUNNING), state), lanes.state)
+        f.do(f"br i1 {p.any(broken)}, label %lost, label %head")
+        f.label("lost")
+        state = p.load_whole(lanes.state)
+        p.store_whole(p.whole_select(broken, f.integer(at.ENDED), state), lanes.state)
+        code = f.integer(at.NOT_FINITE)
+        p.store_whole(p.whole_select(broken, code, p.load_whole(lanes.code)), lanes.code)
+        f.do("br label %service")
+
+    def _first_step(self, t: Value, k: Vec) -> Value:
+        """A first step length from the sizes of x, ẋ and ẍ (Hairer, Nørsett, Wanner I, section II.4)."""
+        p, f, method = self.p, self.f, self.method
+        assert method.error_order is not None
+        lanes = self.lanes
+
+        def sizes(a: Value, b: Value, x: Value, k: Value, atol: Value) -> tuple[Value, Value]:
+            scale = f.fma(f.intrinsic("fabs", x), self.loop.rtol, atol)
+            x, k = x / scale, k / scale
+            return f.fma(x, x, a), f.fma(k, k, b)
+
+        d0, d1 = p.fold(sizes, [0.0, 0.0], lanes.x, k, self.loop.atol)
+        d0, d1 = (f.intrinsic("sqrt", d * (1.0 / p.size)) for d in (d0, d1))
+        small = f.logic("or", f.compare("olt", d0, 1e-5), f.compare("olt", d1, 1e-5))
+        h = f.select(small, 1e-6, d0 * 0.01 / d1)
+        (ahead,) = p.map(lambda x, k: f.fma(h, k, x), lanes.x, k, into=self.loop.inlet)
+        k2 = self.loop.rate(t + h, ahead)
+
+        def bend(a: Value, x: Value, k: Value, k2: Value, atol: Value) -> tuple[Value]:
+            d = (k2 - k) / f.fma(f.intrinsic("fabs", x), self.loop.rtol, atol)
+            return (f.fma(d, d, a),)
+
+        (d2,) = p.fold(bend, [0.0], lanes.x, k, k2, self.loop.atol)
+        d2 = f.intrinsic("sqrt", d2 * (1.0 / p.size)) / h
+        greater = f.select(f.compare("ogt", d2, d1), d2, d1)
+        flat = f.compare("ole", greater, 1e-15)
+        second = rough_power(f, 0.01 / f.select(flat, 1.0, greater), 1.0 / method.error_order)
+        second = f.select(flat, f.select(f.compare("ogt", h * 1e-3, 1e-6), h * 1e-3, 1e-6), second)
+        hundred = h * 100.0
+        best = f.select(f.compare("olt", second, hundred), second, hundred)
+        best = f.select(f.compare("olt", best, float("inf")), best, h)  # the trial point may lie outside the domain
+        return f.select(f.compare("ogt", best, self.loop.max_step), self.loop.max_step, best)
