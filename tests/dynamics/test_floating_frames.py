@@ -8,6 +8,7 @@ import pytest
 import sympy as sp
 from floating_trees import HUMANOID, QUADRUPED, mujoco_accelerations, pinocchio_model, states, system, turn
 from scipy.integrate import solve_ivp
+from scipy.spatial.transform import Rotation
 
 import lagrangian as lg
 from lagrangian import dynamics
@@ -129,6 +130,53 @@ def test_coriolis_is_christoffels_in_coordinates_that_are_independent():
     at = np.array([0, 0, 0, 0.1, 0.2, 0.3, 0.4])
     forces = (own.coriolis_matrix(at, u) @ u)[3:] + own.mass_matrix(at)[3:, 3:] @ Wdot @ rates
     assert W.T @ forces == pytest.approx(other.coriolis_matrix(q, rates) @ rates, abs=1e-12)
+
+
+def on_a_base(floats):
+    """A trunk with a bent limb of two joints; the trunk floats, or slides along x, y, z and turns by three angles."""
+    s = lg.System("limb")
+    if floats:
+        base = s.floating_frame("base")
+        origin = base.origin
+    else:
+        origin = s.origin + s.coordinates("x y z")
+        base = None
+        for angle, axis in zip(s.coordinates("yaw pitch roll"), ((0, 0, 1), (0, 1, 0), (1, 0, 0)), strict=True):
+            base = s.frame(angle, axis=axis, parent=base, origin=origin)
+    s.rigid_body(3, [[0.3, 0.01, 0], [0.01, 0.4, 0.02], [0, 0.02, 0.5]], base.point(0.05, -0.02, 0.1), base)
+    hip, knee = s.coordinates("hip knee")
+    upper = s.frame(hip, axis=(1, 0, 0), parent=base, origin=base.point(0.2, 0.1, -0.1))
+    lower = s.frame(knee, axis=(0, 1, 0), parent=upper, origin=upper.point(0, 0, -0.3))
+    s.rigid_body(1, (0.02, 0.03, 0.01), upper.point(0, 0.01, -0.15), upper)
+    s.rigid_body(0.5, (0.01, 0.012, 0.005), lower.point(0.02, 0, -0.15), lower)
+    s.gravity(direction=(0, 0, -1))
+    s.spring(80, between=(s.origin + (0, 0, 1), lower.point(0, 0, -0.3)), rest=0.5)
+    s.damper(0.5, between=(s.origin + (1, 0, 0), upper.origin))
+    return s, base
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_the_motion_is_that_of_a_base_described_by_angles(seed):
+    """v = Rᵀ ṙ and ω = W(q) q̇, so v̇ = Rᵀ r̈ − ω × v and ω̇ = W q̈ + Ẇ q̇; energies and points are the same."""
+    free, _ = on_a_base(True)
+    turned, frame = on_a_base(False)
+    rng = np.random.default_rng(seed)
+    q, rates = rng.uniform(-1, 1, 8), rng.uniform(-1, 1, 8)
+    other = turned.compile()
+    a = other.forward(q, rates)
+    coordinates = [c.symbol for c in turned.model.coordinates]
+    values = {c.diff(): x for c, x in zip(coordinates, rates, strict=True)}
+    values |= dict(zip(coordinates, q, strict=True))
+    W = sp.Matrix(frame.angular_velocity).doit().jacobian([c.diff() for c in coordinates[3:6]])
+    W, Wdot, R = (np.array(m.subs(values).evalf(), float) for m in (W, W.diff(turned.t), frame.rotation))
+    omega, velocity = W @ rates[3:6], R.T @ rates[:3]
+    quaternion = Rotation.from_matrix(R).as_quat() * 1.7
+    at, v = [*q[:3], *quaternion, *q[6:]], [*velocity, *omega, *rates[6:]]
+    compiled = free.compile()
+    expected = [*(R.T @ a[:3] - np.cross(omega, velocity)), *(W @ a[3:6] + Wdot @ rates[3:6]), *a[6:]]
+    assert compiled.forward(at, v) == pytest.approx(expected, rel=1e-9, abs=1e-9)
+    assert compiled.energies(at, v) == pytest.approx(other.energies(q, rates), rel=1e-12)
+    assert compiled.rates(at, v)[:3] == pytest.approx(rates[:3], abs=1e-12)
 
 
 def top(inertia):
