@@ -77,3 +77,33 @@ def test_nobody_answers(system: lg.System, monkeypatch: pytest.MonkeyPatch) -> N
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(lg.MissingExtra, match=r"pip install 'lagrangian\[sweep\]'"):
         system.sweep(5.0, GRID, **HOW, scheduler="tcp://127.0.0.1:9")
+
+
+@pytest.mark.parametrize(
+    ("trouble", "message"),
+    [
+        (lambda: distributed.KilledWorker("task", "worker", 3), "one chunk ended every worker"),
+        (lambda: ModuleNotFoundError("No module named 'lagrangian'"), "a worker lacks a package"),
+        (lambda: distributed.client.FutureCancelledError("key", "scheduler-connection-lost"), "the scheduler was lost"),
+        (lambda: ConnectionResetError("gone"), "the scheduler was lost"),
+        (lambda: lg.RunError("a worker has lagrangian 0.0"), "a worker has lagrangian 0.0"),
+    ],
+)
+def test_what_goes_wrong_over_there_is_told_here(trouble, message: str) -> None:
+    from lagrangian.simulate.remote import Dask
+
+    class Future:
+        def result(self) -> None:
+            raise trouble()
+
+    dask = object.__new__(Dask)
+    dask._lib = distributed
+    with pytest.raises(lg.RunError, match=message):
+        dask._result(Future())
+
+
+def test_a_worker_of_another_version_is_refused(system: lg.System) -> None:
+    from lagrangian.simulate import remote
+
+    with pytest.raises(lg.RunError, match=r"a worker has lagrangian .*, this is 9\.9"):
+        remote.work("key", b"", "9.9", None)  # type: ignore[arg-type]

@@ -360,3 +360,11 @@ def test_xarray_reads_a_store_as_it_is(oscillator: lg.System, tmp_path) -> None:
     assert here.to_xarray().equals(runs.to_xarray())
     with pytest.raises(lg.Error, match="exists"):
         oscillator.sweep(*given, store=tmp_path / "a.zarr", **how)
+
+
+def test_results_larger_than_memory_want_a_store(oscillator: lg.System, monkeypatch: pytest.MonkeyPatch) -> None:
+    from lagrangian import sweeping
+
+    monkeypatch.setattr(sweeping, "_machine_memory", lambda: 1e6)
+    with pytest.raises(lg.RunError, match=r"take 0\.00[0-9]+ GiB\n.*store="):
+        oscillator.ensemble(1.0, x=np.linspace(0, 1, 100), reduce=None, **FINE)

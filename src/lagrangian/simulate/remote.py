@@ -14,6 +14,7 @@ import pickle
 import threading
 from collections import OrderedDict
 from collections.abc import Iterable, Iterator
+from concurrent.futures import CancelledError
 from typing import Any
 
 from lagrangian.errors import Error, MissingExtra, RunError
@@ -135,7 +136,7 @@ class Dask:
             ) from trouble
         except ModuleNotFoundError as trouble:
             raise RunError(f"a worker lacks a package: {trouble}", code="E506", fix="pip install lagrangian") from None
-        except (self._lib.client.FutureCancelledError, OSError, TimeoutError) as trouble:
+        except (CancelledError, OSError) as trouble:
             raise RunError(
                 f"the scheduler was lost: {trouble}", code="E506", fix="start it, then go on with resume"
             ) from trouble
