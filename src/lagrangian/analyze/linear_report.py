@@ -12,7 +12,7 @@ from lagrangian.analyze.linearize import Linearization
 from lagrangian.analyze.reach import Reach
 from lagrangian.analyze.report import Part, Report
 from lagrangian.analyze.symbolic import SymbolicLinearization
-from lagrangian.derive.formula import Item, Matrix, Name, Table, formula, text
+from lagrangian.derive.formula import Item, Matrix, Name, Table, Text, formula, text
 from lagrangian.model import Model
 
 LARGEST = 16
@@ -57,8 +57,12 @@ def _point(linear: Linearization) -> Part:
     return Part(text("The point"), tuple(items))
 
 
-def _column(linear: Linearization, names: Sequence[str]) -> Any:
-    return Matrix(tuple((_entry(linear, name),) for name in names))
+def _ordered(linear: Linearization, letter: str, names: Sequence[str]) -> Text:
+    """``x: θ₁, θ₂, θ̇₁, θ̇₂``."""
+    parts: list[Any] = []
+    for name in names:
+        parts += [", " if parts else "", _entry(linear, name)]
+    return text(f"{letter}: ", *parts)
 
 
 def _entry(linear: Linearization, name: str) -> Any:
@@ -68,14 +72,12 @@ def _entry(linear: Linearization, name: str) -> Any:
 
 def _matrices(linear: Linearization) -> Part:
     items: list[Item] = []
-    x, u, y = Name("x"), Name("u"), Name("y")
     drift = linear.kind == "operating point"
-    words = "δẋ = A δx + B δu" + (" + f" if drift else "") + ", δy = C δx + D δu, with x, u, y in this order:"
-    items.append(text(words))
-    items.append(formula(x, _column(linear, linear.states)))
+    items.append(text("δẋ = A δx + B δu" + (" + f" if drift else "") + " and δy = C δx + D δu, in this order:"))
+    items.append(_ordered(linear, "x", linear.states))
     if linear.inputs:
-        items.append(formula(u, _column(linear, linear.inputs)))
-    items.append(formula(y, _column(linear, linear.outputs)))
+        items.append(_ordered(linear, "u", linear.inputs))
+    items.append(_ordered(linear, "y", linear.outputs))
     shown = [("A", linear.A), ("B", linear.B), ("C", linear.C), ("D", linear.D)]
     if drift:
         shown.append(("f", linear.drift.reshape(-1, 1)))
@@ -89,8 +91,7 @@ def _matrices(linear: Linearization) -> Part:
 
 def _second_order(linear: Linearization) -> Part:
     matrices = (("M", linear.mass), ("D", linear.damping), ("K", linear.stiffness), ("S", linear.input_matrix))
-    items: list[Item] = [text("M δq̈ + D δq̇ + K δq = S δu, with q and u in this order:")]
-    items.append(formula(Name("q"), _column(linear, linear.coordinates)))
+    items: list[Item] = [text("M δq̈ + D δq̇ + K δq = S δu, in this order:"), _ordered(linear, "q", linear.coordinates)]
     items += [formula(Name(name), matrix(found)) for name, found in matrices if found is not None and found.size]
     return Part(text("Small motions"), tuple(items))
 

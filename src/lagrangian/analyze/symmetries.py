@@ -188,19 +188,21 @@ def _parametric(columns: _Columns, parameters: Sequence[Any], known: int) -> lis
         with np.errstate(divide="ignore", invalid="ignore"):
             powers[:, :, k] = np.where(first == 0, 0.0, np.log2(np.abs(moved / first)))
     found = []
-    for row, exponents in zip(first, powers, strict=True):
-        shares = [_power(float(row[k]), exponents[k], parameters, base) for k in range(len(row))]
+    for r in range(first.shape[0]):
+        shares = [_power(float(first[r, k]), powers[r, k, :], parameters, base) for k in range(first.shape[1])]
         if all(s is not None for s in shares):
             found.append(_cleared([s for s in shares if s is not None]))
     return found
 
 
-def _power(x: float, exponents: Any, parameters: Sequence[Any], base: Mapping[Any, float]) -> sp.Expr | None:
+def _power(
+    x: float, exponents: NDArray[np.float64], parameters: Sequence[Any], base: Mapping[Any, float]
+) -> sp.Expr | None:
     """x as a small fraction times powers of parameters, or None."""
     if x == 0:
         return sp.S.Zero
-    whole: list[int] = [round(float(e)) for e in exponents]
-    if any(abs(e - w) > 1e-6 or abs(w) > 4 for e, w in zip(exponents, whole, strict=True)):
+    whole: list[int] = [round(e) for e in exponents.tolist()]
+    if any(abs(e - w) > 1e-6 or abs(w) > 4 for e, w in zip(exponents.tolist(), whole, strict=True)):
         return None
     size = float(np.prod([base[p] ** e for p, e in zip(parameters, whole, strict=True)]))
     number = _rational([x / size])
