@@ -127,10 +127,13 @@ def number(expr: sp.Expr, d: lg.Derivation) -> sp.Float:
 NAMES = sorted(examples.names())
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_our_own_document_is_read_back(name):
+DOCUMENTS = [(name, "lecture") for name in NAMES] + [("lecture-3b", "physics"), ("cart-pole", "robotics")]
+
+
+@pytest.mark.parametrize(("name", "notation"), DOCUMENTS)
+def test_our_own_document_is_read_back(name, notation):
     d = derivation(name)
-    answer = parse_answer(d.to_latex(full=True), d.model)
+    answer = parse_answer(d.to_latex(notation=notation, full=True), d.model)
     coordinates = [c.name for c in d.model.coordinates]
     equations = dict(zip(coordinates, d.equations, strict=True))
     meant = {("T", None): d.T, ("V", None): d.V, ("L", None): d.L}

@@ -209,6 +209,8 @@ class LatexParser(LatexFractions):
                 exponent = (self.take(), self._argument())
             elif base not in FUNCTIONS and self._of_time():
                 self.i += 3
+            elif base not in FUNCTIONS and (count := self._depends(base)):
+                self.i += count
             else:
                 break
         made = name(base, start, order)

@@ -118,6 +118,32 @@ class LatexSymbols(Parser):
         self.i = at + braced
         return count
 
+    def _depends(self, base: str) -> int:
+        """How many tokens say what a quantity depends on, and no product: V(θ) = …, C(q, q̇); 0 where none do."""
+        if self.next.kind != "(":
+            return 0
+        plain, commas, end = True, 0, self.i + 1
+        while self.tokens[end].kind not in (")", "end"):
+            kind = self.tokens[end].kind
+            commas += kind == ","
+            plain = plain and kind in (
+                "letters",
+                "symbol",
+                "upright",
+                "accent",
+                "_",
+                "{",
+                "}",
+                "number",
+                ",",
+                "lowered",
+            )
+            end += 1
+        if not plain or end == self.i + 1 or self.tokens[end].kind == "end":
+            return 0
+        stated = self.tokens[end + 1].kind == "="
+        return end + 1 - self.i if commas or stated or base.startswith("bold ") else 0
+
     def _starred(self) -> bool:
         """Whether ^* comes next, as in T^*; goes past it."""
         texts = [x.text for x in self.tokens[self.i + 1 : self.i + 4]]

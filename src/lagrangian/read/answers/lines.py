@@ -87,7 +87,7 @@ class Lines:
         sides = list(statement.sides)
         subject, sides = self._turned(sides)
         reader = Meaning(statement.source, self.names, self.budget)
-        if subject is not None and subject.token is not None and subject.kind in ("definition", "identity"):
+        if subject is not None and subject.token is not None:
             self._waiting.pop(key(undotted(subject.token)[0]), None)
         before = set(self.names.unknown)
         lines = self._about(subject, sides, reader) if subject else self._equations(sides, reader)
@@ -142,7 +142,7 @@ class Lines:
             own = key(base) in self.names.own or key(base) in self._waiting
             return Subject("identity" if own else "definition", base, token, order)
         if (kind := energy_of(token, self.model, lhs=True)) is not None:
-            return Subject(cast("Kind", kind))
+            return Subject(cast("Kind", kind), None, token)
         if (coordinate := force_of(token, self.model)) is not None:
             return Subject("Xi", coordinate)
         if (coordinate := momentum_of(token, self.model)) is not None and self.names.occurs(token) == 1:
@@ -189,6 +189,8 @@ class Lines:
             return self._make("statement", None, value, None, sides[0], side, reader)
         if kind in ENERGIES:
             self.names.stated[kind] = value
+            if subject.token is not None and energy_of(subject.token, self.model) is None:
+                self.names.define(subject.token, value)  # K, P: energies only where a line says so
         elif kind == "definition":
             assert subject.token is not None
             if self._is_equation(subject, value):
@@ -218,7 +220,7 @@ class Lines:
     def _matrix_of(self, subject: Subject, value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:
         """A named matrix: the column of all Ξ states each of them; any other is kept for the lines that use it."""
         token = subject.token
-        if token is None or subject.order:
+        if token is None or subject.order or subject.kind in ENERGIES:
             reader.fail("one quantity cannot equal a matrix", side, fix="write the entries out, one a line")
         names = [c.name for c in self.model.coordinates]
         if key(token) in ("Xi", "Q", "bold Xi", "bold Q") and value.shape == (len(names), 1):

@@ -221,6 +221,9 @@ class PlainParser(Parser):
         arguments = self._arguments()
         if len(arguments) == 1 and only_name(arguments[0]) == ("t", 0):  # x1(t)
             return name(token.text, token.start)
+        depends = arguments and all(only_name(x) is not None for x in arguments) and self.next.kind == "="
+        if depends and token.text not in FUNCTIONS:  # V(theta) = …
+            return name(token.text, token.start)
         return node("call", token.start, leaf("NAME", token.text, token.start), *arguments)
 
     def _arguments(self) -> list[Tree]:

@@ -29,9 +29,10 @@ _NUMBERED = re.compile(
 _LABEL = re.compile(r"\s*(?=[^=:]*[^\W\d_])[\w(][\w\s().,#'’-]{0,60}:(?!=)")
 _WORDS = r"(?:where|with|and|so|thus|then|hence|therefore|let|also|gives|we get|so that)"
 _ENGLISH_LISTED = (
-    "the is are of for we with that this these as get gets gives obtain find finds have has so and then thus hence "
-    "where let therefore since because both every equation equations motion energy kinetic potential coordinate coordinates "
-    "first second becomes follows which yields now finally using from by in at on to reads"
+    "the is are of for we with that this these as get gets gives obtain find finds have has so and then "
+    "thus hence where let therefore since because both every equation equations motion energy kinetic "
+    "potential coordinate coordinates first second becomes follows which yields now finally using from by "
+    "in at on to reads"
 )
 _ENGLISH = frozenset(_ENGLISH_LISTED.split())
 _LEADING = re.compile(r"\s*(?:[^\W\d_]+[,:]?\s+)+(?=\S)")

@@ -36,7 +36,7 @@ ENERGY_NAMES = {
 _CAREFUL = frozenset(["K", "P", "R", "U"])
 """Letters that are taken for an energy only where a line states them."""
 
-_FORCE = re.compile(r"(?:Xi|Q)_?\(?(?P<index>\w*)\)?\Z")
+_FORCE = re.compile(r"(?P<letter>Xi|Q|tau)_?\(?(?P<index>\w*)\)?\Z")
 _MOMENTUM = re.compile(r"p_?(?P<index>\w+)\Z")
 
 
@@ -54,11 +54,15 @@ def energy_of(name: str, model: Model, *, lhs: bool = False) -> str | None:
 
 
 def force_of(name: str, model: Model) -> str | None:
-    """Return the coordinate whose generalized force a name is: Xi_x1, Ξ₁, Q_theta; None where it is none."""
+    """Return the coordinate whose generalized force a name is: Xi_x1, Ξ₁, Q_theta, τ₁; None where it is none."""
     if find(name, model.symbols):
         return None
     match = _FORCE.match(spelled(name))
-    return None if match is None else _coordinate(match["index"], model)
+    if match is None:
+        return None
+    if match["letter"] == "tau" and (not match["index"] or any(key(n).startswith("tau") for n in model.symbols)):
+        return None  # a torque is meant
+    return _coordinate(match["index"], model)
 
 
 def momentum_of(name: str, model: Model) -> str | None:
