@@ -55,11 +55,15 @@ Source = float | Table | Callable[[float, Array], float]
 
 @dataclass(frozen=True, eq=False)
 class Driving:
-    """Every input of a model: ``feedback`` by symbol; the rest, in order, are ``free`` with a source each."""
+    """Every input of a model: ``feedback`` by symbol; the rest, in order, are ``free`` with a source each.
+
+    ``size`` is the number of states [q; v], which Python functions are given a copy of.
+    """
 
     feedback: dict[Any, sp.Expr] = field(default_factory=dict)
     free: tuple[Input, ...] = ()
     sources: tuple[Source, ...] = ()
+    size: int = 0
 
     @property
     def calls_python(self) -> bool:
@@ -107,7 +111,7 @@ class Driving:
         def u(t: float, x: Array) -> Array:
             now = value + slope * (t - knot)
             for k, function in called:
-                now[k] = _asked(self.free[k].name, function, t, x)
+                now[k] = _asked(self.free[k].name, function, t, np.array(x[: self.size]))
             return now
 
         return u
@@ -119,7 +123,10 @@ class Driving:
             if isinstance(source, Table):
                 found[:, k] = source.at(t)
             elif callable(source):
-                found[:, k] = [_asked(self.free[k].name, source, float(s), y) for s, y in zip(t, x, strict=True)]
+                found[:, k] = [
+                    _asked(self.free[k].name, source, float(s), np.array(y[: self.size]))
+                    for s, y in zip(t, x, strict=True)
+                ]
             else:
                 found[:, k] = source
         return found
@@ -170,7 +177,7 @@ def driving(
         else:
             free.append(u)
             sources.append(source)
-    return Driving(feedback, tuple(free), tuple(sources))
+    return Driving(feedback, tuple(free), tuple(sources), len(model.coordinates) + len(model.velocities))
 
 
 def _items(given: Mapping[Any, Any] | None) -> list[tuple[Any, Any]]:

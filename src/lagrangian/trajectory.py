@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from lagrangian import compile as machine
 from lagrangian import dynamics, read, showing
-from lagrangian.errors import ModelError, did_you_mean
+from lagrangian.errors import ModelError, RunError, did_you_mean
 from lagrangian.integrating import remembered
 from lagrangian.model import Element, Model, Point, as_expr
 from lagrangian.write import tables
@@ -224,9 +224,13 @@ class Trajectory:
         """Say what ran, how, how far, and how well energy is balanced."""
         span = f"t = {self.t[0]:g} … {self.t[-1]:g} s" if len(self.t) else "nothing"
         end = "" if self.success else f"; FAILED: {self.message}"
+        try:
+            audit = str(self.audit)
+        except RunError as trouble:  # an energy that is not finite somewhere must not hide the run
+            audit = f"no energy balance: {trouble.what}"
         return (
             f"<Trajectory {self.model.name!r}: {span}, {len(self.t)} samples, {self.method}, {self.steps} steps, "
-            f"{self.audit}{end}>"
+            f"{audit}{end}>"
         )
 
 

@@ -121,3 +121,16 @@ def test_a_failed_run_can_still_be_asked() -> None:
     assert not run.success
     assert run["y"] == pytest.approx(1 - 9.81 * run.t**2 / 2, abs=1e-6)
     assert len(run.to_csv().splitlines()) == len(run.t) + 1
+
+
+def test_an_energy_that_is_not_finite_does_not_hide_the_run() -> None:
+    """V = ln |q| has no value at q = 0, where the run starts."""
+    s = lg.System("edge")
+    q = s.coordinate("q")
+    s.particle(s.parameter("m", 1.0), at=s.origin + (q, 0))
+    s.potential(sp.log(sp.Abs(q)))
+    run = s.simulate(0.5, q=0.0)
+    assert not run.success and "the rate of 'q'' is nan" in run.message
+    assert "no energy balance" in repr(run)
+    with pytest.raises(lg.RunError, match="-inf"):
+        run.potential

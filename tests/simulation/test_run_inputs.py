@@ -135,3 +135,16 @@ def test_a_function_that_gives_nan_ends_the_run_and_is_named() -> None:
     assert 0.4 < run.t[-1] <= 0.5 and np.all(np.isfinite(run.y))
     with pytest.raises(lg.RunError, match="gave an array of shape"):
         oscillator().simulate(1.0, inputs={"F": lambda t, x: x})
+
+
+def test_a_function_sees_the_states_and_cannot_change_them() -> None:
+    seen: list[int] = []
+
+    def spoil(t: float, x: np.ndarray) -> float:
+        seen.append(len(x))
+        x[:] = 1e6
+        return 0.0
+
+    run = oscillator(b=0.0).simulate(1.0, q=1.0, inputs={"F": spoil}, samples=5)
+    assert run["q"] == pytest.approx(np.cos(2 * run.t), abs=1e-9)
+    assert set(seen) == {2}  # q and q', not the energy that is carried along
