@@ -29,8 +29,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-BUDGET = 20_000_000
-"""Operations between two looks at the clock: some hundredths of a second."""
+BUDGET = 50_000_000
+"""Operations, of a vector of runs at a time, between two looks at the clock: some hundredths of a second."""
 
 SHORT = 300
 """Nodes of the longest program of which two vectors of runs are computed together."""
@@ -219,11 +219,11 @@ class _Task:
         self._deadline = math.inf if deadline is None else time.monotonic() + deadline
         self._halt = threading.Event()
         self._events: list[Array] = []
-        nodes = len(self.solver.program.graph.nodes) * self.solver.method.evaluations
-        self._budget = max(100, BUDGET // max(1, nodes * self.machine.variant.lanes))
+        cost = len(self.solver.program.graph.nodes) * self.solver.method.cost
+        self._budget = max(1, BUDGET // max(1, cost))
         try:
             if self.count:
-                workers.over(self.count, self.machine.variant.lanes, 100 * nodes, self.solver.threads, self._range)
+                workers.over(self.count, self.machine.variant.lanes, 100 * cost, self.solver.threads, self._range)
         except BaseException:
             self._halt.set()  # the other threads stop at their next pause
             raise

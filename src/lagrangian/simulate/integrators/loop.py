@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from lagrangian.graph import Program
     from lagrangian.simulate.problem import Events
 
-SAFETY = 0.9
+SAFETY = 0.85
 
 
 @dataclass(frozen=True)

@@ -93,6 +93,11 @@ class Method(ABC):
         return self.error_order is not None
 
     @property
+    def cost(self) -> int:
+        """What a step costs, in evaluations of the derivative, roughly."""
+        return self.evaluations
+
+    @property
     def dense_order(self) -> int:
         """The order of the values between the ends of a step."""
         return 3

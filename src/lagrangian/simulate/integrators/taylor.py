@@ -40,6 +40,11 @@ class Taylor(Method):
         return Taylor(order_for(tolerance))
 
     @property
+    def cost(self) -> int:
+        """A product of series takes half the square of the order."""
+        return self.order**2 // 2
+
+    @property
     def dense_order(self) -> int:
         """The order of the values between the ends of a step."""
         return self.order
