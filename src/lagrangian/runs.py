@@ -93,6 +93,15 @@ class Ensemble(Mapping[str, NDArray[Any]]):
         fix = f"one of {', '.join(short)}" if short else did_you_mean(name, known) or f"known: {', '.join(known)}"
         raise RunError(f"nothing called '{name}' was kept", fix=fix, code="E402")
 
+    def __contains__(self, name: object) -> bool:
+        return name in self._arrays
+
+    def get(self, name: str, default: Any = None) -> Any:
+        """Return the result of that full name, or ``default``."""
+        if name not in self._arrays:
+            return default
+        return self[name]
+
     def __iter__(self) -> Iterator[str]:
         return iter(self._arrays)
 

@@ -15,6 +15,7 @@ from lagrangian.analyze.dimensions import Dim
 from lagrangian.analyze.given import Given, Group, key_name, number
 from lagrangian.compile.arguments import numbers
 from lagrangian.errors import RunError, did_you_mean
+from lagrangian.integrating import remembered
 from lagrangian.model import Model
 from lagrangian.read.spread import Spread, parse_spread, parse_values
 from lagrangian.showing import Units
@@ -43,7 +44,7 @@ class Entries:
     @classmethod
     def of(cls, model: Model) -> Entries:
         """Coordinates at rest where they start, inputs 0, parameters as declared, and what [simulate] says."""
-        given = Given.of(model, dynamics.rhs(model))
+        given = Given.of(model, remembered(model, "states", lambda: dynamics.rhs(model)))
         x: dict[str, float | None] = dict.fromkeys(given.states.names, 0.0)
         x.update({c.name: c.start for c in model.coordinates})
         x.update(given.states.values(model.settings.get("initial", {})))

@@ -334,6 +334,11 @@ def test_one_run_is_an_ensemble_too(oscillator: lg.System) -> None:
     assert len(runs.to_pandas()) == 1
     assert "1 runs, rk4" in repr(runs)
     assert runs.failures() == []
+    assert "final x" in runs
+    assert "final y" not in runs
+    assert runs.get("final y") is None
+    with pytest.raises(lg.RunError, match="nothing called 'final y' was kept"):
+        runs["final y"]
 
 
 def test_frames_that_float() -> None:
