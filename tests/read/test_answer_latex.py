@@ -90,6 +90,26 @@ def test_letters_are_told_apart_by_what_the_model_knows():
     assert line.lhs == m1 * g * L1 * sp.sin(sp.Function("theta1")(t)) + m1 * L2 * x
 
 
+@pytest.mark.parametrize(
+    "frame",
+    [
+        r"\begin{cases} %s \end{cases}",
+        r"\left\{\begin{array}{l} %s \end{array}\right.",
+        r"\begin{align} \begin{split} %s \end{split} \end{align}",
+        r"\[ \boxed{\begin{aligned} %s \end{aligned}} \]",
+        r"\begin{gather*} %s \end{gather*}",
+        "%s",
+    ],
+)
+def test_a_system_of_equations_in_many_frames(frame):
+    answer = read(frame % r"m_1\ddot x_1 + k(x_1-x_2) = -F \\ m_2\ddot x_2 - k(x_1-x_2) = F,", "lecture-3a")
+    m1, m2, k = sp.symbols("m1 m2 k")
+    x1, x2, F = (sp.Function(n)(t) for n in ("x1", "x2", "F"))
+    first, second = (line.residual for line in answer.lines)
+    assert sp.expand(first - m1 * x1.diff(t, 2) - k * (x1 - x2) - F) == 0
+    assert sp.expand(second - m2 * x2.diff(t, 2) + k * (x1 - x2) + F) == 0
+
+
 def test_a_hand_derivation_in_latex():
     answer = read(
         r"""We choose $x_1$ and $x_{2r}$. Then

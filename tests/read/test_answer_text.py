@@ -28,7 +28,7 @@ a1, a2 = x1.diff(t, 2), x2r.diff(t, 2)
         "x2r''", "x_2r''", "x2r_ddot", "x2rddot", "ddot(x2r)", "d2x2r/dt2", "d^2x2r/dt^2", "d**2 x2r / dt**2",
         "d²x2r/dt²", "diff(x2r, t, 2)", "diff(x2r, t, t)", "Derivative(x2r(t), (t, 2))", "Derivative(x2r(t), t, t)",
         "d/dt(x2r')", "d/dt x2r'", "d(x2r')/dt", "dx2r'/dt", "(x2r)''", "ẍ2r", "x₂r″", "d/dt[x2r']", "d^2/dt^2(x2r)",
-        "x2r_dd", "d/dt(dx2r/dt)", "x2r''(t)",
+        "x2r_dd", "x2rdd", "d/dt(dx2r/dt)", "x2r''(t)",
     ],
 )  # fmt: skip
 def test_every_spelling_of_an_acceleration(written):
@@ -145,6 +145,7 @@ def test_unknown_names_are_noted_with_what_was_probably_meant():
     answer = parse_answer("m*L^2*thta'' + mg*L*sin(theta) + M*x_9 = 0", model("pendulum"))
     noted = {u.name: u for u in answer.unknown}
     assert set(noted) == {"thta", "mg", "M", "x_9"}
+    assert noted["mg"].suggestion == "Write m*g for a product."
     assert "theta" in noted["thta"].suggestion and "'m'" in noted["M"].suggestion
     assert noted["thta"].symbol == sp.Function("thta")(t) and noted["M"].symbol == sp.Symbol("M")
     assert (noted["x_9"].place.line, noted["x_9"].place.column) == (1, 36)

@@ -26,6 +26,12 @@ _OPENING = re.compile(rf"(?<!\\)\$\$?|\\\[|\\\(|\\begin\{{(?P<kind>(?:{'|'.join(
 _CLOSING = {"$": "$", "$$": "$$", "\\[": "\\]", "\\(": "\\)"}
 _WRAPPERS = [*_DISPLAYS, *["aligned", "alignedat", "gathered", "split", "subequations", "document", "center"]]
 _WRAPPER = re.compile(rf"\\(?:begin|end)\{{(?:{'|'.join(_WRAPPERS)})\*?\}}(?:\[[tcb]\])?")
+_SYSTEM = re.compile(
+    r"(?:\\left\s*(?:\\\{|\\lbrace|\.)\s*)?\\begin\{(?P<kind>array|cases|dcases)\}(?:\s*\{[lcr|@{}\s]{0,40}\})?"
+    r"(?P<rows>(?:(?!\\begin|\\end)[^=])*=(?:(?!\\begin\{(?P=kind)\}).)*?)\\end\{(?P=kind)\}"
+    r"(?:\s*\\right\s*(?:\.|\\\}|\\rbrace))?",
+    re.DOTALL,
+)
 _NOTE = re.compile(r"\\(?:label|tag\*?|ref|eqref|intertext|hspace\*?|vspace\*?|color)\s*\{[^{}]{0,200}\}")
 _BOXED = re.compile(r"\\(?:boxed|fbox|ensuremath)\s*\{")
 _WORDS = re.compile(r"(?<![_^{])(?<![_^]\s)\\(?:text|textbf|textit|textrm|mbox|emph)\s*\{")
@@ -76,6 +82,7 @@ def _mathematics(text: str) -> Iterator[tuple[int, str]]:
 
 def _statements(text: str, start: int, *, lines: bool) -> list[Row]:
     """The statements of one piece of mathematics; ``lines``: a line's end may end a statement."""
+    text = _SYSTEM.sub(lambda m: m["rows"].rjust(m.end("rows") - m.start()).ljust(len(m.group())), text)
     for form in (_WRAPPER, _NOTE):
         text = form.sub(lambda m: " " * len(m.group()), text)
     text = _without_words(_unboxed(text))

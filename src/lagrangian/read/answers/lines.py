@@ -14,12 +14,11 @@ from sympy.matrices.matrixbase import MatrixBase
 from lagrangian.model import Model
 from lagrangian.read.answers.answer import AnswerLine, Kind
 from lagrangian.read.answers.meaning import Budget, Meaning
-from lagrangian.read.answers.names import Names, Value
+from lagrangian.read.answers.names import Names, Value, spelled_rates
 from lagrangian.read.answers.nodes import Node, inside, only_name, squared_name, start_of
 from lagrangian.read.answers.placeholders import ENERGIES, generalized_force, is_force, is_placeholder, is_vector
 from lagrangian.read.answers.stated import energy_of, force_of, momentum_of
 from lagrangian.read.letters import key, undotted
-from lagrangian.read.scope import rate_stems
 from lagrangian.read.source import Source
 
 MAX_CHAIN = 20
@@ -131,7 +130,7 @@ class Lines:
     def _taken(self, token: Token) -> bool:
         """Whether a name is the model's, or spells out the rate of one: theta1_ddot."""
         scope = self.names.scope
-        return bool(scope.meanings(token)[0]) or any(scope.meanings(stem)[0] for _, stem in rate_stems(token))
+        return bool(scope.meanings(token)[0]) or any(scope.meanings(stem)[0] for _, stem in spelled_rates(token))
 
     def _named(self, token: Token, primes: int) -> Subject | None:
         base, dots = undotted(token)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
 from typing import Any
@@ -118,7 +119,7 @@ class Names:
             if not self.scope.meanings(base[5:])[0]:
                 return base, vector(base[5:]), dots
             return self.meaning(Token("NAME", base[5:], start_pos=start_of(token)), source)
-        for order, stem in rate_stems(base):
+        for order, stem in spelled_rates(base):
             if (found := self._rate_of(stem)) is not None:
                 return *found, order + dots
         return self._noted(base, token, source), self.unknown[key(base)].symbol, dots
@@ -145,6 +146,28 @@ class Names:
             return stem, self.unknown[key(stem)].symbol
         return None
 
+    def _hint(self, base: str) -> str | None:
+        """What was probably meant: a product without *, a shorter spelling, a near miss."""
+        if len(parts := self._factors(base)) > 1:
+            return f"Write {'*'.join(parts)} for a product."
+        head, digits = re.fullmatch(r"(.*?)_?(\d*)", spelled(base), re.DOTALL).groups()  # type: ignore[union-attr]
+        longer = [n for n in self.scope if spelled(n).startswith(head) and re.fullmatch(rf".*?{digits}", n)]
+        if len(head) >= 2 and len(longer) == 1:
+            return f"Did you mean '{longer[0]}'?"
+        return self.scope.hint(base) or did_you_mean(spelled(base).swapcase(), self.scope)
+
+    def _factors(self, base: str) -> list[str]:
+        """The known names that a word is made of, the longest first; empty where it is not."""
+        parts: list[str] = []
+        at = 0
+        while at < len(base):
+            part = next((base[at:end] for end in range(len(base), at, -1) if base[at:end] in self.scope), None)
+            if part is None:
+                return []
+            parts.append(part)
+            at += len(part)
+        return parts
+
     def _noted(self, base: str, token: Token, source: Source) -> str:
         if len(base) > MAX_NAME:
             what = f"a name with {len(base)} characters"
@@ -157,9 +180,17 @@ class Names:
             symbol: sp.Expr = moving_symbol(spelling) if key(base) in self._moving else sp.Symbol(spelling)
             hint = None
             if len(self.unknown) < MAX_HINTS:
-                hint = self.scope.hint(base) or did_you_mean(spelling.swapcase(), self.scope)
+                hint = self._hint(base)
             self.unknown[key(base)] = Unknown(str(base), symbol, source.at(start_of(token)), hint)
         return base
+
+
+def spelled_rates(base: str) -> Iterator[tuple[int, str]]:
+    """The orders and names that a spelled-out derivative can mean, xdd and xd among them."""
+    yield from rate_stems(base)
+    for suffix, order in (("dd", 2), ("d", 1)):
+        if base.endswith(suffix) and len(base) > len(suffix):
+            yield order, base.removesuffix(suffix)
 
 
 def _names(tree: Tree) -> Iterator[tuple[Token, bool]]:
