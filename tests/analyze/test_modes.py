@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 import scipy.linalg
 import sympy as sp
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 import lagrangian as lg
 from lagrangian import examples
@@ -269,3 +271,43 @@ def test_a_missing_python_control_is_answered_with_the_line_that_installs_it(mon
     monkeypatch.setattr(builtins, "__import__", without)
     with pytest.raises(MissingExtra, match=r"pip install 'lagrangian\[control\]'"):
         built_in("cart-pole").linearize().to_control()
+
+
+def test_the_regulators_law_balances_the_pole_in_a_run() -> None:
+    system = built_in("cart-pole")
+    regulator = system.linearize().lqr({"x": 10, "theta": 100}, 0.5)
+    run = system.simulate(12.0, theta=0.15, inputs=regulator.law)
+    assert run.success
+    assert abs(run["theta"][-1]) < 1e-4 and abs(run["x"][-1]) < 1e-3
+    along = system.linearize_along(run)
+    assert along.A.shape == (len(run.t), 4, 4)
+    assert np.allclose(along.A[-1], system.linearize().A, atol=1e-3)
+    assert np.allclose(along.u[0, 0], -regulator.K[0] @ [0, 0.15, 0, 0])
+
+
+@settings(max_examples=40, deadline=None, derandomize=True)
+@given(n=st.integers(1, 6), seed=st.integers(0, 10_000), floor=st.sampled_from([0, 0, 1, 2]))
+def test_undamped_spectra_are_those_of_scipys_pencil(n: int, seed: int, floor: int) -> None:
+    """K with ``floor`` directions that nothing restores: as many double poles at 0, the others imaginary exactly."""
+    from lagrangian.analyze.modes import modes, spectrum
+
+    source = np.random.default_rng(seed)
+    floor = min(floor, n)
+    X, Y = source.standard_normal((n, n)), source.standard_normal((n, n))
+    M = X @ X.T + 0.1 * np.eye(n)
+    half = Y[:, floor:]
+    K = half @ half.T
+    A = np.block([[np.zeros((n, n)), np.eye(n)], [-np.linalg.solve(M, K), np.zeros((n, n))]])
+    found = spectrum(A, (M, np.zeros((n, n)), K))
+    squares = np.sort(np.maximum(scipy.linalg.eigvalsh(K, M), 0))
+    assert (found.poles.real == 0).all()
+    assert np.allclose(
+        np.sort(found.poles.imag**2), np.repeat(squares, 2), rtol=1e-7, atol=1e-9 * squares.max(initial=1)
+    )
+    listed = modes(found, tuple(f"q{k}" for k in range(n)))
+    assert sum(m.pole != 0 for m in listed) == n - floor
+    for m in listed:
+        shape = np.array(list(m.shape.values()))
+        assert np.abs(shape).max() == pytest.approx(1)
+        residual = K @ shape - m.frequency**2 * (M @ shape)
+        assert np.abs(residual).max() <= 1e-7 * max(1.0, np.abs(K).max())

@@ -111,6 +111,8 @@ def free_coordinates(program: Program, here: Rest, n: int, t: float) -> tuple[st
         A = values(program, x=x, u=here.u, p=here.p, t=t)["A"]
         if np.isfinite(A).all():
             constant &= np.abs(A[:, :n]).max(axis=0) <= 1e-11 * max(1.0, _largest(A))
+        if not constant.any():
+            break
     return tuple(name for name, c in zip(here.names, constant, strict=False) if c)
 
 
