@@ -230,3 +230,21 @@ def test_what_is_no_change_is_refused_and_told_why(change: dict[Any, Any], words
         system.in_coordinates(change)
     assert caught.value.fix
     assert caught.value.code
+
+
+def test_what_floats_is_carried_along_and_stays_as_it_is() -> None:
+    s = lg.System("floating base with an arm")
+    base = s.floating_frame("base")
+    q, r = s.coordinates("q r")
+    m = s.parameter("m")
+    s.rigid_body(m, (1, 2, 3), base.origin, base, name="trunk")
+    hinge = s.frame(q, axis=(0, 0, 1), parent=base, name="hinge")
+    knee = s.frame(r, axis=(0, 1, 0), parent=hinge, name="knee")
+    s.rigid_body(m, (1, 2, 2), knee.point(1, 0, 0), knee, name="leg")
+    s.generalized_force(s["base_wz"], 2)
+    new = s.in_coordinates({"r": "q + p"})
+    assert [c.name for c in new.model.coordinates][-2:] == ["q", "p"]
+    assert [v.name for v in new.model.velocities] == [v.name for v in s.model.velocities][:-1] + ["p'"]
+    assert new["knee"].parent.parent.floating is not None
+    with pytest.raises(lg.ModelError, match="which floats"):
+        s.in_coordinates({"base_x": "u + q"})

@@ -353,3 +353,34 @@ def test_a_mistake_in_what_was_given_is_exit_2(arguments: list[str], capsys: pyt
     captured = capsys.readouterr()
     assert not captured.out
     assert "Traceback" not in captured.err
+
+
+def test_kinks_and_roots_are_compared_too() -> None:
+    s = lg.System("cart on a rail")
+    x = s.coordinate("x")
+    s.particle(s.parameter("m"), at=s.origin + (x, 0))
+    s.spring(4, deflection=sp.sqrt(4 + x**2))
+    s.damper(law=lambda rate: sp.sign(rate) * rate**2, deflection=x)
+    found = s.compare(s.in_coordinates({"x": "y^3 + y"}))
+    assert found.same
+    assert str(found.rows[0].check.what) == "1b = (3*y^2 + 1) (B-1)"
+    assert found.back[0].holds
+
+
+def test_a_long_row_of_carts_is_solved_by_elimination() -> None:
+    def row(relative: bool) -> lg.System:
+        s = lg.System("row")
+        at, before, k = s.origin, None, s.parameter("k")
+        for i in range(8):
+            q = s.coordinate(f"q{i}")
+            at = (at if relative else s.origin) + (q, 0)
+            s.particle(s.parameter(f"m{i}"), at=at)
+            s.spring(k, deflection=q if relative or before is None else q - before)
+            before = q
+        return s
+
+    found = lg.compare(row(True), row(False))
+    assert found.same
+    assert found.J is not None
+    # each relative coordinate is a difference of neighbours
+    assert sp.ImmutableMatrix(8, 8, lambda i, j: int(i == j) - int(i == j + 1)) == found.J

@@ -81,6 +81,8 @@ def _correspondence(a: Model, b: Model, given: Mapping[Any, Any] | None) -> tupl
                     proposals.append((agreement(one, made, seen), 1 - turned, made, turned))
                 if proposals and proposals[-1][0] == 1:
                     break
+            if proposals and proposals[-1][0] == 1:
+                break
     if not proposals:
         ours, theirs = (", ".join(c.name for c in m.coordinates) for m in (a, b))
         raise ModelError(

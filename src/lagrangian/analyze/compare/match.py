@@ -212,18 +212,32 @@ def _upright(argument: Any) -> sp.Expr:
     return -angle if angle.could_extract_minus_sign() else angle
 
 
-def _resolved(equations: Sequence[sp.Expr], unknown: set[Any]) -> dict[sp.Basic, sp.Expr]:
-    """What linear equations tell of the unknown; contradictions tell nothing."""
-    if not equations:
-        return {}
-    letters = sorted(unknown, key=lambda s: s.sort_key())
-    kept: list[sp.Expr] = []
-    for equation in dict.fromkeys(sp.expand(e) for e in equations):  # one that contradicts those before it is left out
-        if equation != 0 and sp.linsolve([*kept, equation], letters) != sp.S.EmptySet:
-            kept.append(equation)
-    if not kept:
-        return {}
-    values = cast("sp.Tuple", next(iter(sp.linsolve(kept, letters))))
-    return {
-        s: cast("sp.Expr", sp.expand(v)) for s, v in zip(letters, values, strict=True) if not v.free_symbols & unknown
-    }
+def _resolved(equations: Sequence[sp.Expr], unknown: set[Any]) -> Table:
+    """What linear equations tell of the unknown, by elimination; one that contradicts those before it is left out."""
+    rows: dict[Any, tuple[Table, sp.Expr]] = {}  # letter = rest − Σ factor · other letter
+    for equation in dict.fromkeys(sp.expand(e) for e in equations):
+        factors: Table = {u: f for u in equation.free_symbols & unknown if (f := sp.diff(equation, u)) != 0}
+        rest = sp.expand(-equation.xreplace(dict.fromkeys(unknown, sp.S.Zero)))
+        for letter in list(factors.keys() & rows.keys()):
+            factors, rest = _without(letter, factors, rest, rows[letter])
+        if not factors:
+            continue
+        pivot = min(factors, key=lambda u: (not factors[u].is_number, u.sort_key()))
+        scale = factors.pop(pivot)
+        row = {u: sp.cancel(f / scale) for u, f in factors.items()}, sp.expand(rest / scale)
+        for letter, (others, value) in list(rows.items()):
+            if pivot in others:
+                rows[letter] = _without(pivot, others, value, row)
+        rows[pivot] = row
+    return {letter: rest for letter, (others, rest) in rows.items() if not others}
+
+
+def _without(letter: Any, factors: Table, rest: sp.Expr, row: tuple[Table, sp.Expr]) -> tuple[Table, sp.Expr]:
+    """Σ factor · letter = rest with one letter put in from its own row."""
+    factor = factors[letter]
+    others, value = row
+    out = {u: f for u, f in factors.items() if u is not letter}
+    for u, f in others.items():
+        total = sp.cancel(out.get(u, sp.S.Zero) - factor * f)
+        out[u] = total
+    return {u: f for u, f in out.items() if f != 0}, sp.expand(rest - factor * value)

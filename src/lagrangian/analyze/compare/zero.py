@@ -10,6 +10,7 @@ import sympy as sp
 
 from lagrangian.analyze.check.numbers import DIGITS, Compiled, States
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach
+from lagrangian.errors import ModelError
 from lagrangian.model import Model
 
 ENOUGH = 5
@@ -32,7 +33,7 @@ class Zero:
 
     def __init__(self, model: Model, expressions: Sequence[sp.Expr]) -> None:
         self.algebra = Algebra(model, expressions)
-        self._states = States(model, 2)
+        self._states = States(model, 4)
 
     def form(self, expr: sp.Expr) -> Form | None:
         """The normal form, or None where it would be too long."""
@@ -49,7 +50,7 @@ class Zero:
         return expr if form is None else form.expr()
 
     def vanishes(self, terms: Sequence[tuple[sp.Expr, sp.Expr]]) -> Verdict:
-        """Whether Σ factor · expression, over all pairs, is 0."""
+        """Whether Σ factor · expression, over all pairs, is 0. Raises `ModelError` where it has a value nowhere."""
         exact = self._exactly(terms)
         if exact is True:
             return Verdict(True, "exact")
@@ -91,6 +92,10 @@ class Zero:
             if seen == ENOUGH:
                 break
         if not seen:
-            return Verdict(False, "no random state gives it a value")
+            raise ModelError(
+                "what is to be compared has no finite value at any random state",
+                fix="look for a root or a logarithm of something negative",
+                code="E503",
+            )
         figure = f"{float(worst):.0e} at {seen} random states with {DIGITS} digits"
         return Verdict(bool(worst < EXACTLY), figure if worst else f"0 at {seen} random states with {DIGITS} digits")
