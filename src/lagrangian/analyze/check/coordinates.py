@@ -10,7 +10,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import islice, product
 from typing import Any, cast
-from weakref import WeakKeyDictionary
 
 import numpy as np
 import sympy as sp
@@ -286,8 +285,6 @@ class Glance:
 
 # -- the system in the answer's coordinates ---------------------------------------------------------------------------
 
-_OTHERS: WeakKeyDictionary[Truth, dict[tuple[tuple[sp.Expr, sp.Expr], ...], Truth | None]] = WeakKeyDictionary()
-
 
 def likeliest(truth: Truth, lines: Sequence[Line]) -> Change | None:
     """The change that makes most equations of a wrong answer true; None where none makes any."""
@@ -302,7 +299,7 @@ def likeliest(truth: Truth, lines: Sequence[Line]) -> Change | None:
 def in_these(truth: Truth, change: Change) -> Truth | None:
     """What is right in the answer's coordinates, where the change can be turned round; made once a change."""
     key = tuple(change.table.items())
-    known = _OTHERS.setdefault(truth, {})
+    known = truth.others
     if key not in known:
         try:
             names = {plain(eta): psi for eta, psi in change.table.items()}

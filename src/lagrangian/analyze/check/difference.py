@@ -12,6 +12,7 @@ from lagrangian.analyze.check.truth import Truth
 from lagrangian.analyze.check.verdict import Difference, Origin
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.algebra.form import Key
+from lagrangian.model import time
 
 MOST = 12
 """Differences that are told; an answer with more of them is another answer."""
@@ -101,13 +102,25 @@ def _groups(form: Form) -> list[frozenset[Key]]:
 
 def _origins(truth: Truth, term: Form, index: int | None) -> tuple[Origin, ...]:
     """The elements behind a term of equation ``index``, each with its step, once."""
+    if index is None:
+        return _shares(truth, term)
     found: dict[Origin, None] = {}
-    where = truth.derivation.shares.where(term.expr())
-    name = truth.model.coordinates[index].name if index is not None else None
-    letters = set(term.expr().free_symbols)
-    for origin in where:
-        if name is None or origin.coordinate == name:
-            shared = origin.share.free_symbols & letters
-            if shared or not letters:
-                found[Origin(origin.element.title, origin.step)] = None
+    letters = term.expr().free_symbols - {time}
+    for origin in truth.derivation.shares.where(term.expr()):
+        shared = not letters or origin.share.free_symbols & letters
+        if shared and origin.coordinate == truth.model.coordinates[index].name:
+            found[Origin(origin.element.title, origin.step)] = None
+    return tuple(found)
+
+
+def _shares(truth: Truth, term: Form) -> tuple[Origin, ...]:
+    """The elements whose energies hold a term, each with its step."""
+    keys, letters = term.keys(), term.expr().free_symbols - {time}
+    found: dict[Origin, None] = {}
+    for element in truth.model.elements:
+        for energy, step in ((element.kinetic(truth.model), 2), (element.potential(truth.model), 3)):
+            form = truth.form(truth.expand(energy)) if energy != 0 else None
+            common = form.restricted(keys) if form is not None else None
+            if common is not None and not common.is_zero and (common.expr().free_symbols & letters or not letters):
+                found[Origin(element.title, step)] = None
     return tuple(found)

@@ -8,9 +8,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from types import ModuleType
-from weakref import WeakKeyDictionary
 
 import numpy as np
 import sympy as sp
@@ -156,11 +155,7 @@ class Effects:
         return np.abs(self.W).max(axis=(1, 2)) > 1e-12
 
 
-_EFFECTS: WeakKeyDictionary[Truth, Effects] = WeakKeyDictionary()
-
-
+@lru_cache(maxsize=32)
 def effects_of(truth: Truth) -> Effects:
-    """Every variant in a system, worked out once."""
-    if truth not in _EFFECTS:
-        _EFFECTS[truth] = Effects(truth)
-    return _EFFECTS[truth]
+    """Every variant in a system, worked out once for the systems that were checked with last."""
+    return Effects(truth)

@@ -12,7 +12,7 @@ from lagrangian.analyze.check.explain import Explanation, explain_rows
 from lagrangian.analyze.check.numbers import SETS, Array, Compiled
 from lagrangian.analyze.check.own_terms import wrong_term
 from lagrangian.analyze.check.rows import CLOSE
-from lagrangian.analyze.check.stated import index_of
+from lagrangian.analyze.check.stated import dissipation, index_of
 from lagrangian.analyze.check.truth import Truth
 from lagrangian.analyze.check.verdict import Finding, Line, Mistake, Status
 
@@ -103,6 +103,8 @@ def _once(mistakes: Sequence[Mistake], told: Sequence[Mistake]) -> tuple[Mistake
 def _explain_line(truth: Truth, line: Line) -> list[Wrong]:
     """The variants that give a line of T*, V, L or a Ξ, the likeliest first."""
     i = index_of(truth, line.name)
+    if line.kind == "D":
+        return _explain_dissipation(truth, line)
     if line.kind not in ("T", "V", "L", "Xi") or (line.kind == "Xi" and i is None):
         return []
     effects = effects_of(truth)
@@ -118,6 +120,19 @@ def _explain_line(truth: Truth, line: Line) -> list[Wrong]:
         rest, change = _without_constant(rest), _without_constant(change)
     scale = max(float(np.abs(rest).max()), 1e-300)
     fits = np.logical_and(effects.usable, np.abs(change - rest).max(axis=1) <= CLOSE * scale)
+    found = [effects.wrongs[k] for k in np.flatnonzero(fits)]
+    return sorted(found, key=lambda w: (w.general, w.variant.doubt, w.rank))
+
+
+def _explain_dissipation(truth: Truth, line: Line) -> list[Wrong]:
+    """The variants whose ΔΞ is −∂ΔD/∂ξ̇."""
+    effects = effects_of(truth)
+    rest = line.expr - dissipation(truth)
+    change = Compiled([-rest.diff(c.rate) for c in truth.model.coordinates]).at(truth.states)
+    if not np.isfinite(change).all():
+        return []
+    scale = max(float(np.abs(change).max()), 1e-300)
+    fits = np.logical_and(effects.usable, np.abs(effects.Xi - change).max(axis=(1, 2)) <= CLOSE * scale)
     found = [effects.wrongs[k] for k in np.flatnonzero(fits)]
     return sorted(found, key=lambda w: (w.general, w.variant.doubt, w.rank))
 

@@ -159,9 +159,10 @@ def _row(
     if not spanned and not moving:
         return Row(Kind.WRONG)
     factors = _symbolic(truth, expr, form, A) if spanned else None
-    if factors is not None and _exact(truth, form, factors):
+    exact = _exact(truth, form, factors) if factors is not None else None
+    if factors is not None and exact:
         return _named(factors, truth)
-    if not _surely(truth, compiled, j):
+    if exact is False or not _surely(truth, compiled, j):
         return Row(Kind.WRONG)
     if not spanned:
         return Row(Kind.CONSEQUENCE)
@@ -182,19 +183,19 @@ def _named(factors: tuple[sp.Expr, ...], truth: Truth) -> Row:
     return Row(Kind.TURNED if moving else Kind.COMBINED, factors)
 
 
-def _exact(truth: Truth, form: Form | None, factors: Sequence[sp.Expr]) -> bool:
-    """P − Σ A W = 0 in normal form."""
+def _exact(truth: Truth, form: Form | None, factors: Sequence[sp.Expr]) -> bool | None:
+    """P − Σ A W = 0 in normal form; None where that does not tell, as with functions it does not know."""
     if form is None:
-        return False
+        return None
     rest = form
     for factor, right in zip(factors, truth.forms, strict=True):
         if factor == 0:
             continue
         own = truth.form(factor)
         if own is None or right is None:
-            return False
+            return None
         rest = rest - own * right
-    return rest.is_zero
+    return True if rest.is_zero else None if rest.opaque() else False
 
 
 def _surely(truth: Truth, compiled: Compiled, j: int) -> bool:
@@ -224,6 +225,10 @@ def _symbolic(truth: Truth, expr: sp.Expr, form: Form | None, A: Array) -> tuple
     size = np.abs(A).max()
     used = [i for i in range(truth.n) if np.abs(A[:, i]).max() > CLOSE * size]
     factors: list[sp.Expr] = [sp.S.Zero] * truth.n
+    if len(used) == 1 and (right := truth.forms[used[0]]) is not None and form is not None:
+        found = ratio(form, right)
+        if found is not None and _exact(truth, form, _only(truth, used[0], found[0])):
+            return _only(truth, used[0], found[0])
     if np.abs(A - A[0]).max() <= CLOSE * size:
         for i in used:
             number = Fraction(float(A[0, i])).limit_denominator(10_000)
@@ -232,14 +237,15 @@ def _symbolic(truth: Truth, expr: sp.Expr, form: Form | None, A: Array) -> tuple
             factors[i] = sp.Rational(number.numerator, number.denominator)
         return tuple(factors)
     if len(used) == 1:
-        right = truth.forms[used[0]]
-        if form is not None and right is not None and (found := ratio(form, right)) is not None:
-            factors[used[0]] = found[0]
-            return tuple(factors)
         return _quotient(truth, expr, used[0])
     if truth.n <= 3 and terms_of(expr) <= 60:
         return _solved(truth, expr, A)
     return None
+
+
+def _only(truth: Truth, i: int, factor: sp.Expr) -> tuple[sp.Expr, ...]:
+    """The factors of a row that is a multiple of equation i."""
+    return tuple(factor if k == i else sp.S.Zero for k in range(truth.n))
 
 
 def terms_of(expr: sp.Expr) -> int:
@@ -285,7 +291,7 @@ def _quotient(truth: Truth, expr: sp.Expr, i: int) -> tuple[sp.Expr, ...] | None
         if below != 0 and above != 0:
             factor = sp.cancel(sp.together(above / below))
             if terms_of(factor) <= 30:
-                return tuple(factor if k == i else sp.S.Zero for k in range(truth.n))
+                return _only(truth, i, factor)
     return None
 
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from functools import cached_property
+from functools import cached_property, lru_cache
 from typing import Any, cast
-from weakref import WeakKeyDictionary
 
 import mpmath
 import numpy as np
@@ -21,11 +20,15 @@ LONGEST = 4000
 
 
 class Truth:
-    """The right equations of a derivation, ready to be compared with; ``values`` are put in for parameters."""
+    """The right equations of a derivation, ready to be compared with; ``values`` are put in for parameters.
+
+    ``others`` keeps the same system in coordinates that answers had.
+    """
 
     def __init__(self, derivation: Derivation, values: Mapping[sp.Symbol, sp.Expr] | None = None) -> None:
         self.derivation = derivation
         self.values = dict(values or {})
+        self.others: dict[object, Truth | None] = {}
         self._valued: dict[tuple[tuple[sp.Symbol, sp.Expr], ...], Truth] = {}
         self.model: Model = derivation.model
         self.n = len(derivation.coordinates)
@@ -138,11 +141,7 @@ def _product(counts: Sequence[int]) -> int:
     return total
 
 
-_TRUTHS: WeakKeyDictionary[Derivation, Truth] = WeakKeyDictionary()
-
-
+@lru_cache(maxsize=32)
 def truth_of(derivation: Derivation) -> Truth:
-    """What is right of a derivation, made once."""
-    if derivation not in _TRUTHS:
-        _TRUTHS[derivation] = Truth(derivation)
-    return _TRUTHS[derivation]
+    """What is right of a derivation, made once for the derivations that were checked with last."""
+    return Truth(derivation)

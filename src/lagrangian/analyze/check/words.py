@@ -46,6 +46,8 @@ def _summary(verdict: Verdict) -> Iterator[Item]:
 
 
 def _headline(verdict: Verdict) -> tuple[str | Left, ...]:
+    if not verdict.findings:
+        return ("Nothing is stated that can be checked: write equations, T = …, V = …, L = … or a Ξ.",)
     wrong = sum(not f.status.right for f in verdict.findings)
     lines = len(verdict.findings)
     match verdict.status:

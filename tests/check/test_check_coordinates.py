@@ -1,0 +1,91 @@
+"""Answers in other coordinates: stated, named, or without a word; and what is not let through as such."""
+
+from functools import cache
+
+import pytest
+
+from lagrangian import System, examples, loads
+from lagrangian.analyze.check import Status
+from lagrangian.derivation import Derivation
+
+RELATIVE = "(m1 + m2)*x1'' + m2*{s}'' = 0\nm2*x1'' + m2*{s}'' + k*{s} = F"
+ABSOLUTE = "m1*x1'' - k*({x} - x1) = -F\nm2*{x}'' + k*({x} - x1) = F"
+
+
+@cache
+def derived(name: str) -> Derivation:
+    return loads(examples.text(name)).derive()
+
+
+@pytest.mark.parametrize(
+    ("name", "answer"),
+    [
+        ("lecture-3a", RELATIVE.format(s="x2")),
+        ("lecture-3a", RELATIVE.format(s="x2r")),
+        ("lecture-3a", RELATIVE.format(s="s")),
+        ("lecture-3a", "x2 = x1 + s\n" + RELATIVE.format(s="s")),
+        ("lecture-3b", ABSOLUTE.format(x="x2")),
+        ("lecture-3b", ABSOLUTE.format(x="x2r")),
+        ("lecture-3b", "T = m1*x1'^2/2 + m2*x2'^2/2\nV = k*(x2 - x1)^2/2"),
+        ("pendulum", "m*L^2*phi'' + b*phi' - m*g*L*sin(phi) = 0"),
+        ("pendulum", "m*L^2*phi'' + b*phi' + m*g*L*cos(phi) = 0"),
+    ],
+)
+def test_right_in_other_coordinates(name: str, answer: str) -> None:
+    verdict = derived(name).check(answer)
+    assert verdict.status is Status.OTHER_COORDINATES, verdict.to_text()
+    assert verdict.right and verdict.change
+
+
+def test_a_name_defined_by_the_answer_is_no_other_coordinate() -> None:
+    verdict = derived("lecture-3b").check("x2 = x1 + x2r\n" + ABSOLUTE.format(x="x2"))
+    assert verdict.right and not verdict.change
+
+
+def test_measured_from_the_place_of_rest() -> None:
+    s = System("hanging mass")
+    x = s.coordinates("x")
+    m, k = s.parameters("m k")
+    s.particle(m, at=s.origin + (0, -x))
+    s.gravity()
+    s.spring(k, deflection=x)
+    hanging = s.derive()
+    assert hanging.check("m*y'' + k*y = 0").status is Status.OTHER_COORDINATES
+    verdict = hanging.check("m*x'' + k*x = 0")
+    assert not verdict.right
+    assert verdict.mistake is not None and verdict.mistake.name == "gravity_forgotten"
+    assert any("It would be right with" in str(note) for note in verdict.notes)
+
+
+def test_a_turned_sign_is_a_mistake_before_it_is_another_axis() -> None:
+    verdict = derived("pendulum").check("m*L^2*theta'' + b*theta' - m*g*L*sin(theta) = 0")
+    assert not verdict.right
+    assert verdict.mistake is not None and verdict.mistake.name == "gravity_sign"
+
+
+def test_one_energy_alone_does_not_tell_a_relative_angle_from_a_wrong_one() -> None:
+    answer = (
+        "V = m1*g*L_a*sin(theta1) + m2*g*(L_a + L_b)*sin(theta1) + m3*g*((L_a + L_b)*sin(theta1) + L_c*sin(theta2))"
+    )
+    assert not derived("lecture-2").check(answer).right
+
+
+def test_wrong_in_other_coordinates_is_explained_there() -> None:
+    verdict = derived("lecture-3b").check(ABSOLUTE.format(x="x2").replace("= -F", "= F"))
+    assert verdict.status is Status.WRONG
+    assert verdict.first_wrong is not None and verdict.first_wrong.line.number == 1
+    assert [d.kind for d in verdict.first_wrong.differences] == ["sign"]
+    assert verdict.mistake is not None and verdict.mistake.name == "reaction_sign"
+
+
+def test_letters_and_numbers_that_mean_a_parameter_are_read_and_told() -> None:
+    verdict = derived("lecture-3a").check("m1*x1'' + c*(x1 - x2) = -F\nm2*x2'' + c*(x2 - x1) = F")
+    assert verdict.right and "'c' was read as k." in map(str, verdict.notes)
+    verdict = derived("pendulum").check("m*L^2*theta'' + b*theta' + 9.81*m*L*sin(theta) = 0")
+    assert verdict.right and "9.81 was read as g." in map(str, verdict.notes)
+    verdict = derived("pendulum").check("0.25*theta'' + 0.02*theta' + 4.905*sin(theta) = 0")
+    assert verdict.right and "are put in" in str(verdict.notes[-1])
+    verdict = derived("pendulum").check("0.25*theta'' + 0.02*theta' + 4.906*sin(theta) = 0")
+    assert not verdict.right
+    verdict = derived("lecture-3a").check("m1*x1'' + c*(x1 - x2) = -F + w\nm2*x2'' + c*(x2 - x1) = F")
+    assert not verdict.right and "The system has no 'w'." in map(str, verdict.notes)

@@ -1,0 +1,103 @@
+"""Energies, forces and whole hand derivations, line by line; and answers that are none."""
+
+import time
+from functools import cache
+
+import pytest
+
+from lagrangian import examples, loads
+from lagrangian.analyze.check import Status
+from lagrangian.derivation import Derivation
+
+HAND = """
+# example 3B by hand
+T = m1*x1'^2/2 + m2*(x1' + x2r')^2/2
+V = k*x2r^2/2
+L = T - V
+L = m1*x1'^2/2 + m2*(x1'^2 + 2*x1'*x2r' + x2r'^2)/2 - k*x2r^2/2
+Xi_x1 = 0
+Xi_x2r = F
+dL/dx1' = m1*x1' + m2*(x1' + x2r')
+(1) (m1 + m2)*x1'' + m2*x2r'' = 0
+(2) m2*x1'' + m2*x2r'' + k*x2r = F
+"""
+
+
+@cache
+def derived(name: str) -> Derivation:
+    return loads(examples.text(name)).derive()
+
+
+def test_a_right_derivation() -> None:
+    verdict = derived("lecture-3b").check(HAND)
+    assert verdict.status is Status.RIGHT
+    assert {f.line.kind for f in verdict.findings} >= {"T", "V", "L", "Xi", "p", "equation"}
+
+
+def test_the_first_wrong_line_is_named_and_what_follows_is_said_to_follow() -> None:
+    wrong = HAND.replace("m2*(x1' + x2r')^2", "m2*x2r'^2").replace("(x1'^2 + 2*x1'*x2r' + x2r'^2)", "x2r'^2")
+    wrong = wrong.replace("m1*x1' + m2*(x1' + x2r')\n", "m1*x1'\n")
+    wrong = wrong.replace("(m1 + m2)*x1'' + m2*x2r'' = 0", "m1*x1'' = 0").replace("m2*x1'' + m2*x2r''", "m2*x2r''")
+    verdict = derived("lecture-3b").check(wrong)
+    assert verdict.status is Status.WRONG
+    assert verdict.first_wrong is not None and verdict.first_wrong.line.kind == "T"
+    later = [f for f in verdict.findings if not f.status.right][1:]
+    assert len(later) >= 4 and all(f.follows for f in later)
+    assert [m.name for m in verdict.mistakes] == ["relative_speed"]
+
+
+def test_a_second_mistake_does_not_follow() -> None:
+    wrong = HAND.replace("V = k*x2r^2/2", "V = k*x2r^2").replace("Xi_x1 = 0", "Xi_x1 = -F")
+    verdict = derived("lecture-3b").check(wrong)
+    assert {m.name for m in verdict.mistakes} == {"spring_half_forgotten", "torque_on_parent"}
+    assert not any(f.follows for f in verdict.findings if f.line.kind in ("V", "Xi"))
+
+
+@pytest.mark.parametrize(
+    ("name", "answer", "status"),
+    [
+        ("pendulum", "V = m*g*L*(1 - cos(theta))", Status.EQUIVALENT),
+        ("pendulum", "V = -m*g*L*cos(theta)", Status.RIGHT),
+        ("pendulum", "V = -m*g*L*cos(theta) + theta", Status.WRONG),
+        ("pendulum", "L = m*L^2*theta'^2/2 + m*g*L*cos(theta) + 3*theta'*theta^2", Status.EQUIVALENT),
+        ("pendulum", "L = m*L^2*theta'^2/2 + m*g*L*cos(theta) + theta'^3", Status.WRONG),
+        ("pendulum", "T = m*((L*cos(theta)*theta')^2 + (L*sin(theta)*theta')^2)/2", Status.RIGHT),
+        ("pendulum", "T = m*L^2*theta'^2", Status.WRONG),
+        ("pendulum", "Xi = -b*theta'", Status.RIGHT),
+        ("pendulum", "Xi = 0", Status.WRONG),
+        ("pendulum", "Xi = 0\nm*L^2*theta'' + b*theta' + m*g*L*sin(theta) = 0", Status.EQUIVALENT),
+        ("quarter-car", "V = k_s*(z_s - z_u)^2/2 + k_t*z_u^2/2 - k_t*z_u*z_r", Status.EQUIVALENT),
+        ("lecture-3b", "Xi_x1 = 0", Status.RIGHT),
+        ("lecture-3b", "Xi_x2r = F", Status.RIGHT),
+        ("lecture-3b", "Xi_x1 = -F", Status.WRONG),
+        ("two-disk-shaft", "D = b*(phi1' - phi2')^2/2 + b_load*phi2'^2/2", Status.RIGHT),
+    ],
+)
+def test_energies_and_forces(name: str, answer: str, status: Status) -> None:
+    assert derived(name).check(answer).status is status
+
+
+def test_what_says_nothing() -> None:
+    pendulum = derived("pendulum")
+    assert pendulum.check("0 = 0").status is Status.INCOMPLETE
+    assert pendulum.check("m*L^2*theta'' + b*theta' + m*g*L*sin(theta) = 0\n0 = 0").right
+    empty = pendulum.check("h = L*(1 - cos(theta))")
+    assert not empty.right and "Nothing is stated" in empty.to_text()
+
+
+@pytest.mark.parametrize(
+    "answer",
+    [
+        "(theta + theta' + theta'' + m + L + g + b + 1)^60*(theta + theta'' + 2)^60 = 0",
+        " + ".join(f"sin({k}*theta)*cos(theta')^{k}*theta''" for k in range(1, 40)) + " = 0",
+        "sqrt(theta - 100)*theta'' = 0",
+        "1/(theta - theta + m - m + 1e-30)*theta'' = 0",
+        "theta''/sin(theta - theta + 0.5) + exp(exp(exp(exp(theta)))) = 0",
+        "m*L^2*theta'' + b*theta' + m*g*L*sin(theta) = 1e-40*theta",
+        "abs(theta'')*m*L^2 + b*theta' + m*g*L*sin(theta) = 0",
+    ],
+)
+def test_odd_answers_are_wrong_in_bounded_time(answer: str) -> None:
+    begin = time.perf_counter()
+    assert not derived("pendulum").check(answer).right
+    assert time.perf_counter() - begin < 8
