@@ -19,7 +19,7 @@ from .integrators.printer import UNROLLED
 
 Array = NDArray[np.float64]
 
-EXPANDED = 600
+EXPANDED = 400
 """Operations of the longest right-hand side that is expanded in series."""
 
 FAR = 1e15

@@ -40,9 +40,11 @@ class Begin:
             self.loop.spend(new, 1)
             self.loop.spend(fresh, 1)
             (trouble,) = p.fold(lambda total, a: (f.fma(a, 0.0, total),), [0.0], lanes.k)
-        elif method.expands:  # any scale of time that keeps high powers of it within range
-            unit = (p.load(lanes.stop) - p.load(lanes.t)) * 2.0**-10
-            p.store(f.select(fresh, unit, p.load(lanes.h)), lanes.h)
+        elif method.expands:
+            t = p.load(lanes.t)
+            k = self.loop.rate(t, lanes.x)
+            p.store(f.select(fresh, self._first_step(t, k), p.load(lanes.h)), lanes.h)  # a first unit of time
+            self.loop.spend(fresh, 2)
         elif method.blocks:
             k = self.loop.rate(p.load(lanes.t), lanes.x)
             self.loop.spend(fresh, 1)
