@@ -207,7 +207,8 @@ def told(s: System, group: list[Wrong], k: int) -> Iterator[Answer]:
     V = s.V() if made.V is None else made.V
     lines = f"T = {plain(T)}\nV = {plain(V)}\nL = T - V\n"
     equations = written([(sp.expand(r), sp.S.Zero) for r in made.rows], "primes")
-    yield data | {"line": 1 if made.where == "T" else 2, "text": lines + equations}
+    first = 1 if sp.expand(T - s.T()) != 0 else 2
+    yield data | {"line": first, "text": lines + equations}
 
 
 # -- files -----------------------------------------------------------------------------------------------------------

@@ -14,7 +14,7 @@ from write_systems import System, g, kinetic, t
 
 @dataclass(frozen=True)
 class Wrong:
-    """What a person with one mistake has: T*, V, Ξ and the rows; ``where`` the mistake shows: "T", "V", "Xi", "rows"."""
+    """What a person with one mistake has: T*, V, Ξ, the rows; ``where`` it shows: "T", "V", "Xi" or "rows"."""
 
     name: str
     where: str
@@ -386,7 +386,7 @@ def gradient_sign(s: System) -> Iterator[Wrong]:
 
 def _fast(s: System, row: sp.Expr) -> sp.Expr:
     """What is left of a row when nothing accelerates, damps or pushes: the products of rates."""
-    rest = sp.expand(row).xreplace({a: sp.S.Zero for a in s.a})
+    rest = sp.expand(row).xreplace(dict.fromkeys(s.a, sp.S.Zero))
     dummies = {v: sp.Dummy() * sp.Symbol("eps") for v in s.v}
     powers = sp.Poly(sp.expand(rest.xreplace(dummies)), sp.Symbol("eps"))
     back = {d.args[0] if d.args[0] != sp.Symbol("eps") else d.args[1]: v for v, d in dummies.items()}
@@ -411,7 +411,7 @@ def coriolis_half(s: System) -> Iterator[Wrong]:
 def small_angle(s: System) -> Iterator[Wrong]:
     if s.weight().has(sp.cos) and not s.springs:
         V = s.V().replace(sp.cos, lambda x: 1 - x**2 / 2 if x.has(t) else sp.cos(x))
-        if V != s.V():
+        if s.V() != V:
             yield in_V(s, "small_angle", V)
 
 

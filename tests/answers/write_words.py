@@ -1,4 +1,4 @@
-"""How people write what they found: plain text with one of many dots, Greek or spelled names, LaTeX; and in what form."""
+"""How people write what they found: plain text with one of many dots, Greek or spelled names, LaTeX; in what form."""
 
 from __future__ import annotations
 

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
+
 import pytest
 import sympy as sp
 
@@ -163,3 +166,14 @@ def test_an_energy_gives_way_to_a_symbol_of_the_model():
     assert parse_answer("D = b*θ'^2/2", model("pendulum")).lines[0].kind == "D"
     assert parse_answer("F = m2*x1''", model("lecture-3b")).lines[0].kind == "equation"
     assert parse_answer("f = m2*x1''", model("lecture-3b")).lines[0].kind == "equation"
+
+
+@pytest.mark.parametrize("language", ["text", "latex"])
+def test_the_manual_s_answers_are_read_and_right(language):
+    paper = (Path(__file__).parents[2] / "docs" / "answers.md").read_text(encoding="utf-8")
+    (written,) = re.findall(rf"```{language}\n(.*?)```", paper, re.DOTALL)
+    answer = parse_answer(written, model("lecture-3b"))
+    first, second = (m1 + m2) * a1 + m2 * a2, m2 * a1 + m2 * a2 + k * x2r - F
+    assert [sp.expand(x.residual) for x in answer.equations] == [sp.expand(first), sp.expand(second)]
+    T = m1 * x1.diff(t) ** 2 / 2 + m2 * (x1 + x2r).diff(t) ** 2 / 2
+    assert sp.expand(answer.lines[0].rhs - T) == 0 and not answer.unknown
