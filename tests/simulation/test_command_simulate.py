@@ -105,3 +105,20 @@ def test_a_closed_pipe_is_no_traceback() -> None:
         assert process.stdout.readline().startswith("t,theta")
         process.stdout.close()
         assert "Traceback" not in process.stderr.read()
+
+
+def test_a_table_in_a_file_drives_the_run(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    table, out = tmp_path / "force.csv", tmp_path / "run.csv"
+    table.write_text("t,F\n# measured\n0,1\n0.5,-2\n1,0\n")
+    for kind, wanted in (("", [1.0, -0.5, -2.0, -1.0, 0.0]), (" hold", [1.0, 1.0, -2.0, -2.0, 0.0])):
+        argv = ["-e", "cart-pole", "-d", "1", "-i", f"F=@{table}{kind}", "--samples", "5", "-o", str(out), "--force"]
+        code, _, err = said(capsys, *argv)
+        assert code == 0, err
+        assert np.genfromtxt(out, delimiter=",", names=True)["F"] == pytest.approx(wanted)
+    table.write_text("0,1\n0.5;2\n")
+    code, _, err = said(capsys, "-e", "cart-pole", "-d", "1", "-i", f"F=@{table}")
+    assert code == 2 and f"{table}:2" in err and "is no time and value" in err
+    code, _, err = said(capsys, "-e", "cart-pole", "-i", f"F=@{tmp_path / 'none.csv'}")
+    assert code == 2 and "cannot read the table: no such file" in err
+    code, _, err = said(capsys, "-e", "cart-pole", "-i", f"F=@{table} cubic")
+    assert code == 2 and "takes 'hold' or 'linear'" in err

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -10,7 +11,8 @@ import typer
 
 from lagrangian import showing
 from lagrangian.commands.terminal import Example, OptionalFile, open_system, put, say
-from lagrangian.errors import ModelError
+from lagrangian.driving import MAX_KNOTS
+from lagrangian.errors import ModelError, Place
 from lagrangian.simulate import METHODS
 from lagrangian.simulate.scipy_methods import SCIPY
 from lagrangian.trajectory import Trajectory
@@ -39,7 +41,12 @@ def simulate(
     ] = None,
     input_: Annotated[
         list[str] | None,
-        typer.Option("--input", "-i", help="An input: tau=2, 'tau=3*sin(t)', \"F=-k*x\".", show_default=False),
+        typer.Option(
+            "--input",
+            "-i",
+            help="An input: tau=2, 'tau=3*sin(t)', \"F=-k*x\", F=@force.csv (a table), 'F=@force.csv hold'.",
+            show_default=False,
+        ),
     ] = None,
     method: Annotated[
         str | None, typer.Option(help=f"{', '.join(METHODS)} in machine code; {', '.join(SCIPY)} of SciPy.")
@@ -66,7 +73,7 @@ def simulate(
         duration,
         initial=_pairs("--init", init),
         params=_pairs("--set", set_),
-        inputs=_pairs("--input", input_),
+        inputs={name: _signal(name, value) for name, value in _pairs("--input", input_).items()},
         method=method,
         step=step,
         rtol=rtol,
@@ -99,6 +106,46 @@ def _pairs(option: str, given: list[str] | None) -> dict[str, Any]:
             raise ModelError(f"'{name[:64]}' is given twice with {option}", fix="give it once", code="E404")
         found[name] = value
     return found
+
+
+def _signal(name: str, value: str) -> Any:
+    """An input as it is written, or the table in a file: ``@force.csv`` with a time and a value a line."""
+    if not value.startswith("@"):
+        return value
+    path, _, kind = value[1:].strip().partition(" ")
+    if kind.strip() not in ("", "hold", "linear"):
+        raise typer.BadParameter(f"--input {name}=@FILE takes 'hold' or 'linear' (got '{kind.strip()[:40]}')")
+    return (*_columns(path), kind.strip() or "linear")
+
+
+def _columns(path: str) -> tuple[list[float], list[float]]:
+    """Times and values of a CSV file; a first line of names is passed over."""
+    times: list[float] = []
+    values: list[float] = []
+    try:
+        with Path(path).open(encoding="utf-8", newline="") as file:
+            for number, row in enumerate(csv.reader(file), 1):
+                if not row or row[0].lstrip().startswith("#"):
+                    continue
+                try:
+                    time, value = map(float, row)
+                except ValueError:
+                    if number == 1:
+                        continue
+                    raise ModelError(
+                        f"'{','.join(row)[:60]}' is no time and value",
+                        place=Place(path, number),
+                        fix="write two numbers: 0.5,12.3",
+                        code="E406",
+                    ) from None
+                times.append(time)
+                values.append(value)
+                if len(times) > MAX_KNOTS:
+                    raise ModelError(f"more than {MAX_KNOTS} lines", place=Place(path, number), code="E703")
+    except (OSError, UnicodeDecodeError) as trouble:
+        reason = getattr(trouble, "strerror", None) or "it is not text"
+        raise ModelError(f"cannot read the table: {reason.lower()}", place=Place(path), code="E702") from None
+    return times, values
 
 
 def summary(run: Trajectory) -> str:
