@@ -160,3 +160,11 @@ def test_both_forms_are_written_in_every_format() -> None:
         assert found.to_html().startswith("<!DOCTYPE html>")
         assert found.to_dict()["system"] == "spherical pendulum"
         assert "$$" in found.to_markdown()
+
+
+def test_a_singular_mass_matrix_is_said() -> None:
+    system = lg.System("shared")
+    x, y = system.coordinates("x y")
+    system.particle(1, at=system.origin + (x + y, 0))
+    with pytest.raises((RunError, ModelError), match="singular"):
+        system.hamiltonian()

@@ -268,7 +268,8 @@ def _sought(task: _Task, samples: int | None) -> tuple[Array, dict[bytes, int], 
         found = np.concatenate([found, search.roots(q)])
         count += len(q)
         roots, hits = distinct(search, found)
-        sure = len(roots) == before and (not len(hits) or int(hits.min()) >= ENOUGH)
+        settled = samples is not None or len(roots) == before
+        sure = settled and (not len(hits) or int(hits.min()) >= ENOUGH)
         if sure or len(roots) > MOST or (count >= 4 * ROUND and _is_family(search, roots, count)):
             break
         before = len(roots)

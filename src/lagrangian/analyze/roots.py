@@ -23,7 +23,7 @@ NEAR = 1e-5
 EXACT = 1e-11
 """Residual, in units of h's own size, of a root."""
 
-SAME = 1e-6
+SAME = 1e-8
 """Distance, in widths of the box, of two roots that are one."""
 
 

@@ -18,6 +18,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian.analyze.ratios import LARGEST, TERMS, blocks, determinant
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach
+from lagrangian.errors import RunError
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,7 +46,10 @@ class Piece:
 
 
 def half_square(matrix: Sequence[Sequence[Form]], w: Sequence[Form], algebra: Algebra) -> list[Piece]:
-    """½ wᵀ M⁻¹ w. Raises `OutOfReach` where too many rows with moving pivots hang together."""
+    """½ wᵀ M⁻¹ w.
+
+    Raises `OutOfReach` where too many rows with moving pivots hang together, `RunError` where M is singular.
+    """
     pieces: list[Piece] = []
     for block in blocks(matrix):
         part = {i: {j: matrix[i][j] for j in block} for i in block}
@@ -56,6 +60,12 @@ def half_square(matrix: Sequence[Sequence[Form]], w: Sequence[Form], algebra: Al
                 break
             k = min(constant, key=lambda i: (part[i][i].size, i))
             d = part[k][k]
+            if d.is_zero:
+                raise RunError(
+                    "the mass matrix is singular: the momenta cannot be solved for the rates",
+                    fix="give every coordinate a mass or an inertia that it moves",
+                    code="E203",
+                )
             pieces.append(Piece(Fraction(1, 2), ((left[k], 2), (d, -1))))
             inverse = algebra.form(1 / d.expr())
             others = [i for i in left if i != k]
