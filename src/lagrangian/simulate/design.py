@@ -25,18 +25,6 @@ MOST_RUNS = 10**12
 
 GROUPS = ("x", "u", "p")
 _WORDS = 4  # 64-bit words that one step of Philox's counter gives
-_BATCH = 1 << 16  # samples drawn together
-
-
-@dataclass(frozen=True)
-class Law:
-    """A distribution: its quantile function and what its numbers are called.
-
-    ``quantile(u, a, b)`` maps 0 < u < 1 to the value below which a share u of draws lies.
-    """
-
-    quantile: Callable[[Array, float, float], Array]
-    arguments: tuple[str, str]
 
 
 def _normal(u: Array, mean: float, deviation: float) -> Array:
@@ -53,12 +41,15 @@ def _uniform(u: Array, low: float, high: float) -> Array:
     return low + (high - low) * u
 
 
-LAWS: Mapping[str, Law] = {
-    "normal": Law(_normal, ("mean", "standard deviation")),
-    "uniform": Law(_uniform, ("lowest", "highest")),
-    "lognormal": Law(_lognormal, ("mean of the logarithm", "standard deviation of the logarithm")),
+LAWS: Mapping[str, Callable[[Array, float, float], Array]] = {
+    "normal": _normal,  # mean, standard deviation
+    "uniform": _uniform,  # lowest, highest
+    "lognormal": _lognormal,  # mean and standard deviation of the logarithm
 }
-"""Distributions by name; numbers mean what they mean in NumPy."""
+"""Distributions by name, as quantile functions: share 0 < u < 1 → the value below which u of all draws lie.
+
+Their two numbers mean what they mean in NumPy.
+"""
 
 
 @dataclass(frozen=True)
@@ -86,7 +77,7 @@ class Drawn:
         bits = np.random.Philox(key=np.array([self.seed, key], np.uint64)).advance(first)
         words = np.asarray(bits.random_raw((last - first + 1) * _WORDS), np.uint64)
         u = ((words >> np.uint64(11)).astype(np.float64) + 0.5) * 2.0**-53
-        return LAWS[self.law].quantile(u, self.a, self.b)[index - first * _WORDS]
+        return LAWS[self.law](u, self.a, self.b)[index - first * _WORDS]
 
 
 @dataclass(frozen=True)

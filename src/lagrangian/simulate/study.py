@@ -7,7 +7,7 @@ a reduction over time, or the samples themselves. Everything here treats a chunk
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -259,8 +259,3 @@ def signals_at(signals: Any, times: Array) -> Array:
     """Piecewise linear inputs at ``times`` (…), shape (…, nu); at a knot the piece that begins there."""
     k = np.searchsorted(signals.knots, times, side="right") - 1
     return signals.start[k] + signals.slope[k] * (times - signals.knots[k])[..., None]
-
-
-def names_of(kept: Sequence[Kept]) -> tuple[str, ...]:
-    """The outputs that are needed, each once."""
-    return tuple(dict.fromkeys(k.of for k in kept))
