@@ -23,7 +23,7 @@ def built_in(name: str) -> lg.System:
 )
 def test_symbols_with_numbers_put_in_are_the_numbers(name: str) -> None:
     system = built_in(name)
-    for rest in system.equilibria():
+    for rest in system.equilibria()[:2]:
         linear = system.linearize(rest)
         found = linear.symbolic
         values: dict[Any, float] = {s: linear.parameters[str(s)] for s in system.model.values}

@@ -303,8 +303,8 @@ def _notes(
         listed.append(f"the mass matrix is singular at {where}: these coordinates fail there, and it is left out")
     for direction in task.free:
         names = list(direction)
-        what = f"{names[0]} is free" if len(names) == 1 else f"{', '.join(names)} are free together"
-        listed.append(f"{what}: no force depends on it, any shift is as good; {names[0]} is held")
+        what = names[0] if len(names) == 1 else f"a shift of {', '.join(names)} together"
+        listed.append(f"no force depends on {what}: any is as good; {names[0]} is held")
     if outside:
         why = "or do not rest at other times" if task.linearizer.rests_change else "that was given"
         listed.append(f"{outside} more lie outside the box {why}")

@@ -125,7 +125,7 @@ def _classified(here: Rest, found: Arrays, n: int) -> Rest:
     if not moving:
         return replace(here, kind="rest")
     if set(moving) <= set(here.free):
-        note = f"{', '.join(moving)} moves steadily; nothing depends on it"
+        note = f"steady motion of {', '.join(moving)}, on which nothing depends"
         return replace(here, kind="steady motion", notes=(*here.notes, note))
     return here
 
