@@ -43,7 +43,8 @@ def mistakes(truth: Truth, lines: Sequence[Line], findings: Sequence[Finding]) -
     if any(w.kind == "equation" for w in wrong):
         exprs = [line.expr for line in lines if line.kind == "equation"]
         explained = explain_rows(truth, exprs)
-        if (not explained or len(explained[0].wrongs) > 1) and not any(groups):
+        far = not explained or len(explained[0].wrongs) > 1 or explained[0].plainness == 3
+        if far and not any(groups):
             own = [f for f in findings if f.status is Status.WRONG and f.line.kind == "equation"]
             found = [wrong_term(truth, f.line.expr, f.coordinate) for f in own]
             if all(m is not None for m in found):

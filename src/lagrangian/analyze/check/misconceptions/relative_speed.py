@@ -20,27 +20,32 @@ WHY = text(
 def wrong(s: Ingredients) -> Iterator[Variant]:
     """Every body whose velocity holds several rates, with the velocity that one of them, or all but one, would give."""
     for body in s.bodies:
+        yield from _alone(s, body)
         yield from _carried(s, body)
-        velocity = s.velocity(body)
-        rates = [v for v in s.v if any(x.has(v) for x in velocity)]
-        if all(sum(x.has(v) for v in rates) < 2 for x in velocity):
-            continue
-        kept = [[v] for v in rates] + ([[w for w in rates if w != v] for v in rates] if len(rates) > 2 else [])
-        for keep in kept:
-            gone = {v: sp.S.Zero for v in rates if v not in keep}
-            own = tuple(put(x, gone) for x in velocity)
-            change = half_square(s.expand(body.mass), own) - s.translation(body)
-            what = text(
-                f"The velocity of {body.title} in ",
-                Name("T*"),
-                " holds ",
-                *_listed(keep),
-                " alone: the speed relative to what carries it instead of the total one.",
-            )
-            yield Variant(what=what, T=change, element=body)
-            if s.omega(body):
-                turned = tuple(put(x, gone) for x in s.omega(body))
-                yield Variant(what=what, T=change + s.rotating(body, turned) - s.rotation(body), element=body)
+
+
+def _alone(s: Ingredients, body: Any) -> Iterator[Variant]:
+    """The velocity that one rate alone would give, or all but one."""
+    velocity = s.velocity(body)
+    rates = [v for v in s.v if any(x.has(v) for x in velocity)]
+    if all(sum(x.has(v) for v in rates) < 2 for x in velocity):
+        return
+    kept = [[v] for v in rates] + ([[w for w in rates if w != v] for v in rates] if len(rates) > 2 else [])
+    for keep in kept:
+        gone = {v: sp.S.Zero for v in rates if v not in keep}
+        own = tuple(put(x, gone) for x in velocity)
+        change = half_square(s.expand(body.mass), own) - s.translation(body)
+        what = text(
+            f"The velocity of {body.title} in ",
+            Name("T*"),
+            " holds ",
+            *_listed(keep),
+            " alone: the speed relative to what carries it instead of the total one.",
+        )
+        yield Variant(what=what, T=change, element=body)
+        if s.omega(body):
+            turned = tuple(put(x, gone) for x in s.omega(body))
+            yield Variant(what=what, T=change + s.rotating(body, turned) - s.rotation(body), element=body)
 
 
 def _carried(s: Ingredients, body: Any) -> Iterator[Variant]:

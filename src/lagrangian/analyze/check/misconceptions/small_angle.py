@@ -20,6 +20,10 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     if table:
         yield Variant(what=what, V=put(s.V, table) - s.V)
         yield Variant(what=what, V=put(s.V, {f: _small(f) for f in table}) - s.V)
+        for kind in (sp.sin, sp.cos):
+            some = {f: x for f, x in table.items() if isinstance(f, kind)}
+            if 0 < len(some) < len(table):
+                yield Variant(what=what, V=put(s.V, some) - s.V)
     rows = [s.expand(e.lhs) - s.expand(e.rhs) for e in s.derivation.equations]
     replaced = {f: _small(f) for row in rows for f in row.atoms(sp.sin, sp.cos) if s.moves(f)}
     if not replaced:
