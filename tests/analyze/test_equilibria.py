@@ -3,6 +3,7 @@
 import itertools
 import json
 import math
+from typing import Any
 
 import numpy as np
 import pytest
@@ -157,7 +158,7 @@ def test_where_the_mass_matrix_is_singular_is_said() -> None:
         ([1], "mapping"),
     ],
 )
-def test_bad_boxes_are_named(box: object, message: str) -> None:
+def test_bad_boxes_are_named(box: Any, message: str) -> None:
     with pytest.raises(RunError, match=message):
         built_in("pendulum").equilibria(box=box)
 
