@@ -49,6 +49,23 @@ def test_bounces_that_accumulate_end_the_run(name):
 
 
 @pytest.mark.parametrize("name", METHODS)
+@pytest.mark.parametrize("ground", [0.0, 5.0])
+@pytest.mark.parametrize("restitution", [0.1, 0.5, 0.9])
+def test_no_ball_falls_through_the_ground(name, ground, restitution):
+    motion = problem(lambda s: [s["v"], -9.81 + 0 * s["y"]], x="yv")
+    bounce = events(
+        lambda s: [s["y"] - ground],
+        lambda s: [[s["y"], -restitution * s["v"]]],  # what is below the ground by rounding stays there
+        x="yv",
+        direction=(-1,),
+        reset=(True,),
+    )
+    found = solved(motion, name, bounce, [[ground + 1, 0.0], [ground + 0.3, 1.0]], [0.0, 10.0])
+    assert found.status.tolist() == [-4, -4]
+    assert np.abs(found.final[:, 0] - ground).max() < 1e-10
+
+
+@pytest.mark.parametrize("name", METHODS)
 @pytest.mark.parametrize(("direction", "exact"), [(1, [1.5, 3.5, 5.5]), (-1, [0.5, 2.5, 4.5]), (0, np.arange(6) + 0.5)])
 def test_only_crossings_in_the_direction_count(name, direction, exact):
     watched = events(lambda s: [s["q"]], x="qv", direction=(direction,))

@@ -28,8 +28,6 @@ class Begin:
         new = p.whole_is(state, at.NEW)
         fresh = f.logic("or", new, p.whole_is(state, at.BENT))
         trouble = Value(f, f.constant(0.0))
-        if self.loop.watch is not None:
-            self.loop.watch.wait_no_more(self.loop.inputs_at, new)
         if method.follows:
             t = p.load(lanes.t)
             k = self.loop.rate(t, lanes.x, self.loop.new_k)

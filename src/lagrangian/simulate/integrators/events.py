@@ -2,8 +2,11 @@
 
 An event is *armed* with the sign that g had; it has happened where g has the other sign, in a direction that counts.
 "Some armed event has happened by θ" is bisected, so that several events cost no more than one: what is found is the
-place of a crossing, and every event that crossed there counts. A run that goes on has its events armed anew. Where g
-is zero but for rounding, as after the reset that an event caused, the sign is that of g a little further along ẋ.
+place of a crossing, and every event that crossed there counts.
+
+The state of an event is the last one before it: a reset that turns the motion back leaves it on the side it came from,
+and of two events at one time the other is still to come. After its own reset an event whose g is zero but for rounding
+is armed by the change of g along ẋ. One that happens again before g was ever seen on the armed side accumulates.
 
 Crossings that come in pairs within one step show at its middle, by Hermite's cubic.
 """
@@ -38,8 +41,8 @@ SOON = 2.0**-46
 GLANCE = 2.0**-10
 """Part of a step by which one looks ahead for the side that g turns to from 0."""
 
-TURNS, WAITS = "1.0", "2.0"
-"""Moods of an event whose reset was done, and of one that happened at the same time as another's."""
+ZERO, TURNED = 1.0, 2.0
+"""Moods of an event: g is 0 where its run begins; its reset was done just now."""
 
 RESET, ENDS, HEAPS = 1, 2, 3
 """Why a lane leaves a step: to go on from another state, because a terminal event happened, because too many did."""
@@ -68,10 +71,15 @@ class Watch:
         own = own and bool(guard.inputs.get("p"))
         self.guard = Tapes(p, guard, "guard", own=own, copies=6)
         self.after = None if after is None else Tapes(p, after, "after", own=own, copies=6)
-        self.armed, self.mood, self.fired = (p.reserve(self.count) for _ in range(3))
+        self.armed, self.mood, self.fresh, self.fired = (p.reserve(self.count) for _ in range(4))
         self.low, self.high, self.busy, self.cut, self.rounds = (p.reserve(1) for _ in range(5))
         self.latest, self.same, self.when = (p.reserve(1) for _ in range(3))
-        self.there, self.kept, self.states = p.block(), p.block(), p.reserve(self.count * p.size)
+        self.there, self.beyond, self.kept, self.states = (
+            p.block(),
+            p.block(),
+            p.block(),
+            p.reserve(self.count * p.size),
+        )
 
     def prepare(self) -> None:
         """Print, at the start of the function, what is read from the table."""
@@ -103,31 +111,47 @@ class Watch:
         p, f, lanes = self.p, self.f, self.lanes
         t = p.load(lanes.t)
         total, doubt = Value(f, f.constant(0.0)), ""
-        for k, g in enumerate(self.value(inputs, t, lanes.x)):
+        now = self.value(inputs, t, lanes.x)
+        for k, g in enumerate(now):
             total = f.fma(g, 0.0, total)
             mood, old = p.load(self.mood, k), p.load(self.armed, k)
-            here = f.logic("and", new, f.compare("oeq", mood, 0.0))
-            p.store(f.select(here, g, old), self.armed, k)
-            unclear = f.logic("or", f.compare("oeq", mood, 1.0), f.logic("and", here, f.compare("oeq", g, 0.0)))
-            unclear = f.logic("and", new, unclear)
-            p.store(f.select(unclear, 1.0, 0.0), self.mood, k)
+            usual = f.logic("and", new, f.compare("oeq", mood, 0.0))
+            p.store(f.select(usual, g, old), self.armed, k)
+            zero = f.logic("and", usual, f.compare("oeq", g, 0.0))
+            mood = f.select(zero, ZERO, mood)
+            p.store(mood, self.mood, k)
+            unclear = f.logic("and", new, f.compare("ogt", mood, 0.0))
             doubt = f.logic("or", doubt, unclear) if doubt else unclear
         with p.when(p.any(doubt)):
             little = p.load(lanes.h) * GLANCE
             k = lanes.k if self.method.follows else rate(t, lanes.x)
             (ahead,) = p.map(lambda x, k: f.fma(little, k, x), lanes.x, k, into=(self.there,))
-            for k, g in enumerate(self.value(inputs, t + little, ahead)):
-                known = f.logic("and", f.compare("oeq", p.load(self.mood, k), 1.0), f.compare("one", g, 0.0))
-                p.store(f.select(known, g, p.load(self.armed, k)), self.armed, k)
+            for k, (here, then) in enumerate(zip(now, self.value(inputs, t + little, ahead), strict=True)):
+                p.store(self._side(k, here, then), self.armed, k)
         for k in range(self.count):
+            turned = f.compare("oge", p.load(self.mood, k), TURNED)
+            p.store(f.select(f.logic("and", new, turned), 1.0, 0.0), self.fresh, k)
             p.store(f.select(new, 0.0, p.load(self.mood, k)), self.mood, k)
         return total
+
+    def _side(self, k: int, here: Value, then: Value) -> Value:
+        """What arms an event in doubt: g here and a little further."""
+        p, f = self.p, self.f
+        mood, old = p.load(self.mood, k), p.load(self.armed, k)
+        turn = then - here
+        back = f.compare("oge", f.intrinsic("copysign", 1.0, old) * turn, 0.0)
+        clear = f.compare("ogt", f.intrinsic("copysign", 1.0, here) * then, 0.0)
+        clear = f.logic("and", clear, f.compare("one", here, 0.0))
+        reset = f.select(clear, here, f.select(back, old, 0.0))
+        started = f.select(f.compare("oeq", mood, ZERO), turn, old)
+        return f.select(f.compare("oeq", mood, TURNED), reset, started)
 
     def forget(self, lane: str) -> None:
         """Print what a lane that takes a new run starts from."""
         p = self.p
         for k in range(self.count):
             p.set("0.0", self.mood + k, lane)
+            p.set("0.0", self.fresh + k, lane)
         p.set("0xFFF0000000000000", self.latest, lane)
         p.set("0", self.same, lane, "i64")
 
@@ -164,18 +188,18 @@ class Watch:
         """
         p, f, lanes = self.p, self.f, self.lanes
 
-        def place(theta: Value) -> tuple[Vec, Value]:
+        def place(theta: Value, into: Vec) -> tuple[Vec, Value]:
             whole = f.compare("oge", theta, 1.0)
             between = self.method.between(s, coefficients, theta)
 
             def entry(x: Value, new: Value, *rest: Value) -> Value:
                 return f.select(whole, new, between(x, *rest))
 
-            p.map(entry, s.x, s.new_x, *coefficients, into=(self.there,))
-            return Vec(slot=self.there.slot), f.select(whole, new_t, f.fma(theta, s.h, s.t))
+            p.map(entry, s.x, s.new_x, *coefficients, into=(into,))
+            return Vec(slot=into.slot), f.select(whole, new_t, f.fma(theta, s.h, s.t))
 
         def some_at(theta: Value) -> str:
-            x, t = place(theta)
+            x, t = place(theta, self.there)
             return self.some(self.value(inputs, t, x))
 
         p.store(new_t, lanes.end)
@@ -211,13 +235,14 @@ class Watch:
     def _noted(self, slot: int) -> str:
         return self.f.opposite(self.p.whole_is(self.p.load_whole(slot), 0))
 
-    def _handle(self, place: Callable[[Value], tuple[Vec, Value]], inputs: Callable[[Value], Vec]) -> None:
+    def _handle(self, place: Callable[[Value, Vec], tuple[Vec, Value]], inputs: Callable[[Value], Vec]) -> None:
         """At the places found, lane by lane: log, arm anew, reset, end."""
         p = self.p
-        x, t = place(p.load(self.high))
-        p.store(t, self.when)
+        x, t = place(p.load(self.high), self.beyond)
         for k, g in enumerate(self.value(inputs, t, x)):
             self._note(self.happened(k, g), self.fired + k)
+        x, t = place(p.load(self.low), self.there)
+        p.store(t, self.when)
         if self.after is not None:
             self.after.evaluate(self.after_shared, {"x": x, "u": inputs(t)}, t, self.states)
         with p.repeat(p.lanes) as lane:
@@ -239,43 +264,15 @@ class Watch:
                 self._keep(self.there.slot, self.kept.slot, lane)
                 p.set(str(ENDS), self.cut, lane, "i64")
             return
-        free = service.compare("eq", p.get(self.cut, lane, "i64"), "0")
-        with p.when(self.f.put(f"xor i1 {free}, true")):
-            p.set(WAITS, self.mood + k, lane)
-        with p.when(free):
+        with p.when(service.compare("eq", p.get(self.cut, lane, "i64"), "0")):  # else another reset comes first
             self._write(k, lane, self.there.slot)
-            p.set(TURNS, self.mood + k, lane)
+            p.set(f"{TURNED}", self.mood + k, lane)
             self._keep(self.states + k * p.size, self.kept.slot, lane)
             p.set(str(ENDS if self.events.terminal[k] else RESET), self.cut, lane, "i64")
-
-    def wait_no_more(self, inputs: Callable[[Value], Vec], new: str) -> None:
-        """Resets of events that happened at one time with an earlier one, in turn, where that did not undo them."""
-        p, f, lanes, service = self.p, self.f, self.lanes, self.service
-        if self.after is None or self.count < 2:
-            return
-        t = p.load(lanes.t)
-        with p.forever() as leave:
-            waits = ""
-            for k in range(self.count):
-                here = f.logic("and", new, f.compare("oeq", p.load(self.mood, k), float(WAITS)))
-                waits = f.logic("or", waits, here) if waits else here
-            leave(f.put(f"xor i1 {p.any(waits)}, true"))
-            p.store(t, self.when)
-            self._note(waits, self.busy)
-            for k, g in enumerate(self.value(inputs, t, lanes.x)):
-                self._note(self.happened(k, g), self.fired + k)
-            self.after.evaluate(self.after_shared, {"x": lanes.x, "u": inputs(t)}, t, self.states)
-            with p.repeat(p.lanes) as lane:
-                for k in range(self.count):
-                    waiting = service.compare("oeq", p.get(self.mood + k, lane), WAITS, "double")
-                    busy = service.compare("ne", p.get(self.busy, lane, "i64"), "0")
-                    with p.when(f.put(f"and i1 {waiting}, {busy}")):
-                        p.set("0.0", self.mood + k, lane)
-                        with p.when(service.compare("ne", p.get(self.fired + k, lane, "i64"), "0")):
-                            self._write(k, lane, lanes.x.slot)
-                            p.set(TURNS, self.mood + k, lane)
-                            self._keep(self.states + k * p.size, lanes.x.slot, lane)
-                            p.set("0", self.busy, lane, "i64")
+            never = service.compare("oeq", p.get(self.low, lane), "0.0", "double")
+            fresh = service.compare("one", p.get(self.fresh + k, lane), "0.0", "double")
+            with p.when(self.f.put(f"and i1 {never}, {fresh}")):
+                p.set(str(HEAPS), self.cut, lane, "i64")
 
     def _keep(self, source: int | None, target: int | None, lane: str) -> None:
         """Copy a lane of a vector to another vector."""
@@ -319,7 +316,7 @@ class Watch:
         many = service.compare("sge", rounds, str(ROUNDS))
         free = service.compare("eq", p.get(self.cut, lane, "i64"), "0")
         with p.when(f.put(f"and i1 {many}, {free}")):
-            self._keep(self.there.slot, self.kept.slot, lane)
+            self._keep(self.beyond.slot, self.kept.slot, lane)
             p.set(str(RESET), self.cut, lane, "i64")
         ended = service.compare("eq", p.get(self.cut, lane, "i64"), str(ENDS))
         over = service.compare("sge", p.get(self.lanes.events, lane, "i64"), self.most)

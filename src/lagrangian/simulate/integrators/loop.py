@@ -33,6 +33,9 @@ if TYPE_CHECKING:
 
 SAFETY = 0.85
 
+RESOLVED = 2.0**-51
+"""Part of t that a step is at least, so that time passes."""
+
 
 @dataclass(frozen=True)
 class Variant:
@@ -180,6 +183,8 @@ class Loop:
         """A step as long as the last one's error allows, the stop point never crossed."""
         p, f, lanes, method = self.p, self.f, self.lanes, self.method
         wanted, rest = p.load(lanes.h), stop - t
+        least = f.intrinsic("fabs", t) * RESOLVED
+        wanted = f.select(f.compare("olt", wanted, least), least, wanted)
         last = f.compare("ole", rest, wanted)
         half = f.compare("olt", rest, wanted + wanted)
         new_t = f.select(last, stop, t + f.select(half, rest * 0.5, wanted))
@@ -316,7 +321,9 @@ class Loop:
             (s.new_lost,) = p.map(lambda lost: f.select(stays, lost, 0.0), s.new_lost, into=(self.new_lost,))
             for k, g in enumerate(gs):
                 armed = p.load(watch.armed, k)
-                p.store(f.select(f.logic("and", good, stays), g, armed), watch.armed, k)
+                on = f.logic("and", good, stays)
+                p.store(f.select(on, g, armed), watch.armed, k)
+                p.store(f.select(on, 0.0, p.load(watch.fresh, k)), watch.fresh, k)
 
         def keep(new: Value, old: Value) -> Value:
             return f.select(good, new, old)
