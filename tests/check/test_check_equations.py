@@ -105,6 +105,18 @@ def test_said_once_more_than_needed_is_right() -> None:
     assert check(D, lines(*ROWS, ROWS[0] + ROWS[1] / L)).right
 
 
+def test_the_product_of_two_equations_says_nothing() -> None:
+    verdict = check(D, lines(ROWS[0] * ROWS[1], ROWS[1]))
+    assert verdict.status is Status.INCOMPLETE
+    assert check(D, lines(ROWS[0] * (1 + X**2) + ROWS[1] * sp.cos(THETA), ROWS[1])).status is Status.SAME_MOTION
+
+
+def test_identities_the_normal_form_does_not_know_are_decided_with_many_digits() -> None:
+    other = ROWS[1].subs(sp.sin(THETA), sp.cos(THETA) * sp.tan(THETA))
+    assert check(D, lines(ROWS[0], other)).right
+    assert check(D, lines(ROWS[0], other + sp.Rational(1, 10**20) * m * g * L * THETA)).status is Status.WRONG
+
+
 def test_a_wrong_line_is_named_with_its_term_and_its_element() -> None:
     wrong = ROWS[1] - 2 * m * g * L * sp.sin(THETA)
     verdict = check(D, lines(ROWS[0], wrong))

@@ -17,7 +17,7 @@ import sympy as sp
 from numpy.typing import NDArray
 from sympy.core.function import AppliedUndef
 
-from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy, reached
+from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy, reached, vjp
 from lagrangian.model import Model, plain, time
 
 SETS, PLACES = 2, 3
@@ -98,6 +98,14 @@ class Compiled:
             self._numbers[dummy] = exact
             table[number] = dummy
         return cast("sp.Expr", expr.xreplace(table)) if table else expr
+
+    def slopes(self, symbols: Sequence[sp.Basic]) -> Compiled:
+        """∂expression/∂symbol, expression after expression."""
+        by = [self.input(x) for x in symbols]
+        other = Compiled([])
+        other.graph, other.symbols, other.table, other._numbers = self.graph, self.symbols, self.table, self._numbers
+        other.ids = [x for i in self.ids for x in vjp(self.graph, [i], [self.graph.one], by)]
+        return other
 
     def at(self, states: States, instead: Mapping[sp.Basic, Array] | None = None) -> Array:
         """The values at every state, shape (expressions, size); ``instead`` overrides symbols."""

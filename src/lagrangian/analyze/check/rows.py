@@ -71,7 +71,7 @@ def compare(truth: Truth, exprs: Sequence[sp.Expr], *, instead: Mapping[sp.Basic
     rows = []
     for j, expr in enumerate(exprs):
         rows.append(_row(truth, expr, compiled, j, P[j], A[:, j, :], bool(spanned[j]), bool(moving[j])))
-    return Comparison(tuple(rows), _rank(truth, compiled, P, A, [r.true for r in rows]))
+    return Comparison(tuple(rows), _rank(truth, compiled, [r.true for r in rows]))
 
 
 def small(values: Array, scale: Array | float) -> bool:
@@ -125,23 +125,22 @@ def _on_motion(truth: Truth, compiled: Compiled) -> Array:
     return np.array(holds)
 
 
-def _rank(truth: Truth, compiled: Compiled, P: Array, A: Array, true: list[bool]) -> int:
-    """How many of the true equations are independent: the rank of what they do to the accelerations, or of A."""
+def _rank(truth: Truth, compiled: Compiled, true: list[bool]) -> int:
+    """How many of the true equations are independent: the rank of ∂P/∂ξ̈ at the true motion.
+
+    There, and not anywhere: the product of two equations is true as well, and says nothing.
+    """
     if not any(true):
         return 0
-    mask = np.array(true)
-    ranks = [int(np.linalg.matrix_rank(_normed(a[mask]), tol=1e-7)) for a in A]
-    if max(ranks) < min(truth.n, int(mask.sum())):
-        zero: dict[sp.Basic, Array] = {c.acceleration: np.zeros(truth.states.size) for c in truth.model.coordinates}
-        base = compiled.at(truth.states, zero)[mask]
-        slopes = []
-        for c in truth.model.coordinates:
-            one = {**zero, c.acceleration: np.ones(truth.states.size)}
-            slopes.append(compiled.at(truth.states, one)[mask] - base)
-        M = np.array(slopes)
-        for s in range(0, truth.states.size, truth.states.motions):
-            if np.isfinite(M[:, :, s]).all():
-                ranks.append(int(np.linalg.matrix_rank(_normed(M[:, :, s].T), tol=1e-7)))
+    slopes = compiled.slopes([c.acceleration for c in truth.model.coordinates])
+    found = slopes.at(truth.states, truth.accelerations).reshape(len(true), truth.n, truth.states.size)[np.array(true)]
+    off = slopes.at(truth.states).reshape(len(true), truth.n, truth.states.size)[np.array(true)]
+    scale = np.abs(np.where(np.isfinite(off), off, 0)).max(axis=(1, 2), keepdims=True)
+    found = np.where(np.abs(found) > CLOSE * scale, found, 0)
+    ranks = [0]
+    for s in range(0, truth.states.size, truth.states.motions):
+        if np.isfinite(found[:, :, s]).all():
+            ranks.append(int(np.linalg.matrix_rank(_normed(found[:, :, s]), tol=1e-7)))
     return max(ranks)
 
 
