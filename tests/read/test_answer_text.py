@@ -110,6 +110,17 @@ def test_an_equation_over_several_lines(written):
     assert sp.expand(line.residual**2 - (m2 * a1 + m2 * a2 + k * x2r - F) ** 2) == 0
 
 
+def test_conditions_stand_in_piecewise():
+    (line,) = parse_answer(
+        "x1'' = piecewise(x1 > 1 and (k < 2 or not m1 >= 3), x1, (x1 + 1)*2 <= k, 5, 0)", model("lecture-3b")
+    ).lines
+    states = [{x1: a, k: b, m1: c} for a in (0.2, 3) for b in (1, 5) for c in (1, 4)]
+    for at in states:
+        first = at[x1] > 1 and (at[k] < 2 or not at[m1] >= 3)
+        meant = at[x1] if first else 5 if (at[x1] + 1) * 2 <= at[k] else 0
+        assert line.rhs.subs(at) == meant
+
+
 def test_several_statements_on_a_line_and_two_equations_that_begin_with_minus():
     answer = parse_answer("Xi_1 = 0, Xi_2 = F; V = k*x2r^2/2\n-F = -k*x2r\n-F = m1*x1''", model("lecture-3b"))
     assert [line.kind for line in answer.lines] == ["Xi", "Xi", "V", "equation", "equation"]

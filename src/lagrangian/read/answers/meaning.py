@@ -185,7 +185,7 @@ class Meaning(Reader):
 
     def _call(self, node: Node) -> sp.Expr:
         for argument in node.children[1:]:
-            if isinstance(self.value(argument), MatrixBase):
+            if argument.data != "condition" and isinstance(self.value(argument), MatrixBase):
                 self.fail("a function of a matrix", argument, fix="write the entries out")
         return super()._call(node)
 

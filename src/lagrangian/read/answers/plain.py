@@ -7,6 +7,7 @@ x1'  x1''  ẋ₁  dx1/dt  d2x1/dt2  d^2 x1/dt^2  d/dt(…)  d(…)/dt  diff(…
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 
 from lark import Tree
 
@@ -43,6 +44,7 @@ _KINDS = [
     ("over", r"[/÷∕]"),
     ("plus", r"\+"),
     ("minus", r"[-−–]"),
+    ("relation", r"<=|>=|!=|<|>|≤|≥|≠"),
     ("=", r"==?"),
     ("bracket", r"[()\[\],;]"),
     ("other", r"."),
@@ -229,13 +231,68 @@ class PlainParser(Parser):
     def _arguments(self) -> list[Tree]:
         start = self.take().start
         self.deeper(start)
-        arguments = [] if self.next.kind == ")" else [self.sum()]
+        arguments = [] if self.next.kind == ")" else [self._argument()]
         while self.accept(","):
-            arguments.append(self.sum())
+            arguments.append(self._argument())
         if not self.accept(")"):
             raise self.stopped(False)
         self.opened.pop()
         return arguments
+
+    # -- conditions, for piecewise ---------------------------------------------------------------------------------
+
+    def _argument(self) -> Tree:
+        return self._condition() if self._compares(self.i) else self.sum()
+
+    def _compares(self, at: int) -> bool:
+        """Whether a comparison stands before the argument or bracket that begins here ends."""
+        depth = 0
+        for token in self.tokens[at:]:
+            depth += (token.kind in "([") - (token.kind in ")]")
+            if depth < 0 or (depth == 0 and token.kind in (",", "end")):
+                return False
+            if token.kind == "relation" or token.text == "==":
+                return True
+        return False
+
+    def _condition(self) -> Tree:
+        """Conditions joined by or, each of them of others joined by and."""
+        return self._joined("condition", ("or", "|", "||", "∨"), self._conjunction)
+
+    def _conjunction(self) -> Tree:
+        return self._joined("conjunction", ("and", "&", "&&", "∧"), self._truth)
+
+    def _joined(self, kind: str, words: tuple[str, ...], part: Callable[[], Tree]) -> Tree:
+        start = self.next.start
+        children: list[Node] = [part()]
+        while self.next.text in words:
+            word = self.take()
+            children += [leaf("WORD", word.text, word.start), part()]
+        return node(kind, start, *children)
+
+    def _truth(self) -> Tree:
+        """A comparison, a condition in brackets, or the negation of one."""
+        token = self.next
+        if token.text in ("not", "~", "¬"):
+            self.take()
+            self.deeper(token.start)
+            made = node("negation", token.start, leaf("NOT", token.text, token.start), self._truth())
+            self.opened.pop()
+            return made
+        if token.kind == "(" and self._compares(self.i + 1):
+            self.take()
+            self.deeper(token.start)
+            made = self._condition()
+            if not self.accept(")"):
+                raise self.stopped(False)
+            self.opened.pop()
+            return made
+        left = self.sum()
+        relation = self.next
+        if relation.kind != "relation" and relation.text != "==":
+            raise self.stopped(False)
+        self.take()
+        return node("comparison", token.start, left, leaf("RELATION", relation.text, relation.start), self.sum())
 
     def _powered_call(self, token: Token) -> Tree:
         """sin^2(x), sin²(x)."""
