@@ -164,3 +164,16 @@ def test_events_that_do_not_fit_are_refused():
         Solver(motion, events=events(lambda s: [s["q"]], x="vq", direction=(0,)))
     root = events(lambda s: [s["q"].apply("log")], x="qv", direction=(0,))
     assert Solver(motion, events=root).solve([1.0, 0.0], [0.0, 4.0]).status[0] == -2
+
+
+@pytest.mark.parametrize("name", METHODS)
+@pytest.mark.parametrize("direction", [-1, 0, 1])
+def test_a_reset_that_lets_the_motion_through_is_done_once_a_crossing(name, direction):
+    push = events(
+        lambda s: [s["q"]], lambda s: [[s["q"], s["v"] * 1.1]], x="qv", direction=(direction,), reset=(True,)
+    )  # fmt: skip
+    found = solved(turning(), name, push, [1.0, 0.0], [0.0, 20.0])
+    exact = (np.arange(6) + 0.5) * np.pi
+    exact = exact if direction == 0 else exact[direction > 0 :: 2]
+    assert found.status[0] == 0 and found.event_count[0] == len(exact)
+    assert np.abs(found.event_time[0] - exact).max() < 1e-8
