@@ -234,3 +234,33 @@ def test_python_control_linearizes_the_same_motion_to_its_own_accuracy() -> None
         x0 = list(found.at.values())
         theirs = control.linearize(motion, x0, [0.0] * len(found.inputs), eps=1e-7)
         assert np.allclose(found.A, theirs.A, atol=1e-5) and np.allclose(found.B, theirs.B, atol=1e-5)
+
+
+def test_a_point_that_rests_at_one_moment_only_is_no_rest() -> None:
+    """A force A sin(3t) is 0 at t = 0 and nowhere near 0 a moment later."""
+    system = lg.System("shaken")
+    x = system.coordinates("x")
+    m, k, b, A = system.parameters("m k b A", m=1.0, k=1.0, b=1.0, A=0.1)
+    system.particle(m, at=system.origin + (x, 0))
+    system.spring(k, deflection=x)
+    system.damper(b, deflection=x)
+    system.generalized_force(x, A * sp.sin(3 * system.t))
+    with pytest.raises(RunError, match="at rest at t = 0 s only") as refused:
+        system.linearize()
+    assert refused.value.code == "E521"
+    found = system.linearize(operating_point=True)
+    assert found.kind == "operating point"
+    assert found.stable is None
+    assert np.allclose(found.poles, [-0.5 + 0.75**0.5 * 1j, -0.5 - 0.75**0.5 * 1j])
+
+
+def test_what_pushes_weakly_in_small_units_still_pushes() -> None:
+    """A force c ẋ³ feeds energy in, however small mass and stiffness are: a minimum of energy does not help."""
+    for size in (1.0, 1e-14):
+        system = lg.System("driven")
+        x = system.coordinates("x")
+        m, k, c = system.parameters("m k c", m=size, k=size, c=size / 100)
+        system.particle(m, at=system.origin + (x, 0))
+        system.spring(k, deflection=x)
+        system.generalized_force(x, c * x.diff() ** 3)
+        assert system.linearize().stability.verdict == "marginal"

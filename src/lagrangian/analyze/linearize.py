@@ -21,7 +21,7 @@ from lagrangian.analyze.jacobians import Arrays, forces, may_kink, rates, reads,
 from lagrangian.analyze.modes import EPSILON, SLACK, Mode, Spectrum, modes, spectrum
 from lagrangian.analyze.outputs import Measured, measured
 from lagrangian.analyze.reach import Reach, controllable, observable
-from lagrangian.analyze.rest import Rest, rest
+from lagrangian.analyze.rest import TIMES, Rest, rest
 from lagrangian.analyze.stability import Stability, has_minimum, judge, loses_power
 from lagrangian.errors import RunError
 from lagrangian.graph import Program
@@ -34,9 +34,6 @@ PERTURBED = 1e-12
 
 STEP = 1e-6
 """Step by which a motion with kinks is looked at."""
-
-TIMES = (0.0, 0.37, 1.91, 7.13)
-"""[s] Times at which coefficients that read t are compared."""
 
 
 @dataclass(frozen=True, eq=False)

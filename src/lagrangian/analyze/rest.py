@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.analyze.given import Given, Named
-from lagrangian.analyze.jacobians import Arrays, values
+from lagrangian.analyze.jacobians import Arrays, reads, values
 from lagrangian.errors import RunError
 from lagrangian.graph import Program
 from lagrangian.model import Model
@@ -22,6 +22,9 @@ NEAR = 1e-4
 
 ROUNDING = 1e-9
 """Accelerations left over at a rest, relative to the largest entry of A."""
+
+TIMES = (0.0, 0.37, 1.91, 7.13)
+"""[s] Times at which what reads t is compared."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,9 +79,17 @@ def rest(
     found = _values(program, here, t)
     n = len(model.coordinates)
     here = replace(here, residual=_largest(found["xdot"][n:]), free=free_coordinates(program, here, n, t))
+    settled = _classified(here, found, n) if any_point else _settled(program, here, found, n, t)
+    later = None if settled.kind == "operating point" else _moved_later(program, settled, t)
+    if later is None:
+        return settled
     if any_point:
-        return _classified(here, found, n)
-    return _settled(program, here, found, n, t)
+        return replace(settled, kind="operating point")
+    raise RunError(
+        f"{settled.shown} is at rest at t = {t:g} s only: forces change with time, and at {later:g} s it moves",
+        fix="operating_point=True linearizes about any point and keeps the drift of that moment",
+        code="E521",
+    )
 
 
 def _values(program: Program, here: Rest, t: float) -> Arrays:
@@ -96,6 +107,16 @@ def _values(program: Program, here: Rest, t: float) -> Arrays:
             code="E203",
         )
     return found
+
+
+def _moved_later(program: Program, here: Rest, t: float) -> float | None:
+    """A time at which ẋ is another there than at t; None where it never is."""
+    if not reads(program, "xdot", "t"):
+        return None
+    found = _values(program, here, t)
+    bound = ROUNDING * max(1.0, _largest(found["A"]))
+    changes = (s for s in TIMES if _largest(_values(program, here, s)["xdot"] - found["xdot"]) > bound)
+    return next(changes, None)
 
 
 def _largest(a: Array) -> float:
