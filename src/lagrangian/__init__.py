@@ -3,10 +3,10 @@
 from lagrangian.comparison import Comparison, compare
 from lagrangian.derivation import Derivation
 from lagrangian.errors import Error, MissingExtra, ModelError, ParseError, Place, RunError
-from lagrangian.events import Event, event
-from lagrangian.runs import Ensemble
+from lagrangian.running.ensemble import Ensemble
+from lagrangian.running.events import Event, event
+from lagrangian.running.trajectory import Trajectory
 from lagrangian.system import System, load, loads
-from lagrangian.trajectory import Trajectory
 
 __all__ = [
     "Comparison",

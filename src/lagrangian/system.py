@@ -7,9 +7,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import sympy as sp
 from numpy.typing import ArrayLike
-from sympy.core.function import AppliedUndef
 
 from lagrangian import read
 from lagrangian.analysis import (
@@ -35,41 +33,18 @@ from lagrangian.compiled import LANGUAGES, Compiled, sources
 from lagrangian.derivation import Derivation, derive_and_verify
 from lagrangian.derive import Check
 from lagrangian.derive import derive as derive_model
+from lagrangian.describing import Described
 from lagrangian.errors import ModelError, Place
-from lagrangian.events import Event
-from lagrangian.model import (
-    Builder,
-    Damper,
-    Dissipation,
-    Element,
-    Force,
-    Frame,
-    GeneralizedForce,
-    Gravity,
-    Kinetic,
-    Model,
-    Particle,
-    Point,
-    Potential,
-    RigidBody,
-    Spring,
-    Torque,
-    as_expr,
-    plain,
-    time,
-)
-from lagrangian.runs import Ensemble
-from lagrangian.simulation import simulate as run_model
-from lagrangian.sweeping import ensemble as run_ensemble
-from lagrangian.sweeping import sweep as run_sweep
-from lagrangian.trajectory import Trajectory
+from lagrangian.running.ensemble import Ensemble
+from lagrangian.running.events import Event
+from lagrangian.running.simulation import simulate as run_model
+from lagrangian.running.sweeping import ensemble as run_ensemble
+from lagrangian.running.sweeping import sweep as run_sweep
+from lagrangian.running.trajectory import Trajectory
 from lagrangian.write import write_file
 
-STANDARD_GRAVITY = 9.81
-"""[m/s²] The value of the parameter g unless one is given."""
 
-
-class System:
+class System(Described):
     """A mechanical system: coordinates, parameters, points and elements, in the order they are described.
 
     >>> from sympy import cos, sin
@@ -81,249 +56,6 @@ class System:
     >>> pendulum.derive().equations[0]
     Eq(L**2*m*Derivative(theta(t), (t, 2)) + L*g*m*sin(theta(t)), 0)
     """
-
-    def __init__(self, name: str, *, _builder: Builder | None = None) -> None:
-        self._builder = _builder if _builder is not None else Builder(name)
-
-    # -- symbols ------------------------------------------------------------------------------------------------
-
-    @property
-    def name(self) -> str:
-        """The system's name."""
-        return self._builder.name
-
-    @property
-    def origin(self) -> Point:
-        """The fixed origin; ``origin + (x, y)`` is a point."""
-        return self._builder.origin
-
-    @property
-    def t(self) -> sp.Symbol:
-        """The symbol of time, for prescribed motions."""
-        return time
-
-    @property
-    def model(self) -> Model:
-        """The frozen description; raises `ModelError` where it is not complete."""
-        return self._builder.model()
-
-    @property
-    def energy(self) -> sp.Expr:
-        """T* + V [J] as an expression, for runs and events; `derive` reads better."""
-        model = self.model
-        return sp.Add(*(e.kinetic(model) + e.potential(model) for e in model.elements))
-
-    def __getitem__(self, name: str) -> Any:
-        """Return the symbol, or else the point or frame, that carries ``name``."""
-        return self._builder.lookup(name)
-
-    def coordinate(self, name: str, description: str = "", *, unit: str | None = None) -> AppliedUndef:
-        """Declare one generalized coordinate; return SymPy's dynamicsymbol, whose ``.diff()`` is the rate."""
-        return self._builder.coordinate(name, description=description, unit=_unit(unit)).symbol
-
-    def coordinates(self, names: str | Iterable[str]) -> Any:
-        """Declare coordinates: ``theta1, theta2 = system.coordinates("theta1 theta2")``; one name gives one symbol."""
-        return _many(names, self.coordinate)
-
-    def parameter(
-        self, name: str, value: float | str | None = None, *, unit: str | None = None, description: str = ""
-    ) -> sp.Symbol:
-        """Declare a constant. ``value`` is a number in SI units or text with a unit, such as ``"40 N/m"``."""
-        number, stored = _value(name, value, unit)
-        return self._builder.parameter(name, number, unit=stored, description=description).symbol
-
-    def parameters(self, names: str | Iterable[str], **values: float | str) -> Any:
-        """Declare constants: ``m, L = system.parameters("m L", m="1 kg", L=0.5)``."""
-        listed = _split(names)
-        unknown = [key for key in values if key not in listed]
-        if unknown:
-            raise ModelError(
-                f"a value was given for '{unknown[0]}', which is not among the names", fix=f"names: {' '.join(listed)}"
-            )
-        return _many(listed, lambda name: self.parameter(name, values.get(name)), single=isinstance(names, str))
-
-    def input(self, name: str, description: str = "", *, unit: str | None = None) -> AppliedUndef:
-        """Declare a force, torque or other signal from outside."""
-        return self._builder.input(name, description=description, unit=_unit(unit)).symbol
-
-    def inputs(self, names: str | Iterable[str]) -> Any:
-        """Declare several inputs."""
-        return _many(names, self.input)
-
-    def define(self, name: str, expression: object) -> Any:
-        """Give an expression a name; use the returned symbol, and the derivation shows the name."""
-        return self._builder.define(name, expression).symbol
-
-    # -- geometry -----------------------------------------------------------------------------------------------
-
-    def point(
-        self, name: str, offset: object, *, relative_to: Point | None = None, frame: Frame | None = None
-    ) -> Point:
-        """Return a named point, ``offset`` from ``relative_to`` (the origin unless given) in the axes of ``frame``."""
-        return self._builder.point(name, offset, parent=relative_to, frame=frame)
-
-    def frame(
-        self,
-        angle: object,
-        *,
-        axis: object = None,
-        parent: Frame | None = None,
-        origin: Point | None = None,
-        name: str | None = None,
-    ) -> Frame:
-        """Return axes turned by ``angle`` from ``parent``'s: in the plane, or about ``axis`` in space."""
-        return self._builder.frame(name, angle, axis=axis, parent=parent, origin=origin)
-
-    def floating_frame(self, name: str) -> Frame:
-        """Return axes that float in space: with ``base = floating_frame("base")`` its origin moves and it turns freely.
-
-        Coordinates base_x, base_y, base_z (origin, fixed axes) and the quaternion base_qx, base_qy, base_qz, base_qw;
-        velocities base_vx, base_vy, base_vz and base_wx, base_wy, base_wz (of the origin and of the turn, in the
-        frame's own axes). ``base.origin`` is the point base_origin. `compile` handles it; `derive` does not.
-        """
-        return self._builder.floating_frame(name)
-
-    # -- elements -----------------------------------------------------------------------------------------------
-
-    def particle(self, mass: object, at: Point, *, name: str = "") -> Particle:
-        """Add a point mass [kg]: T* = ½ m v²."""
-        return self._builder.add(Particle(mass=mass, at=at, name=name))
-
-    def rigid_body(
-        self, mass: object, inertia: object, at: Point, frame: Frame | sp.Expr, *, name: str = ""
-    ) -> RigidBody:
-        """Add a rigid body: ``inertia`` about its centre of mass ``at``; in the plane ``frame`` may be an angle."""
-        turned = frame if isinstance(frame, Frame) else self._builder.frame(None, frame)
-        return self._builder.add(RigidBody(mass=mass, inertia=inertia, at=at, frame=turned, name=name))
-
-    def gravity(
-        self, direction: object = (0, -1), g: object = None, *, datum: Point | None = None, name: str = ""
-    ) -> Gravity:
-        """Add gravity along ``direction`` (down). ``g`` is the parameter g, 9.81 m/s², unless given."""
-        strength = self._builder.standard_gravity(STANDARD_GRAVITY) if g is None else g
-        return self._builder.add(Gravity(direction=direction, g=strength, datum=datum, name=name))
-
-    def spring(
-        self,
-        k: object = None,
-        *,
-        between: Sequence[Point] | None = None,
-        deflection: object = None,
-        rest: object = 0,
-        law: object = None,
-        energy: object = None,
-        name: str = "",
-    ) -> Spring:
-        """Add a spring: V = ½ k (δ − rest)². ``law`` may be ``lambda delta: k*delta + k3*delta**3``."""
-        return self._builder.add(
-            Spring(k=k, between=between, deflection=deflection, rest=rest, law=law, energy=energy, name=name)
-        )
-
-    def damper(
-        self,
-        b: object = None,
-        *,
-        between: Sequence[Point] | None = None,
-        deflection: object = None,
-        law: object = None,
-        name: str = "",
-    ) -> Damper:
-        """Add a damper: D = ½ b δ̇². ``law`` may be ``lambda rate: b*rate*abs(rate)``."""
-        return self._builder.add(Damper(b=b, between=between, deflection=deflection, law=law, name=name))
-
-    def force(
-        self,
-        value: object,
-        *,
-        at: Point | None = None,
-        reaction: Point | None = None,
-        axes: Frame | None = None,
-        between: Sequence[Point] | None = None,
-        deflection: object = None,
-        name: str = "",
-    ) -> Force:
-        """Add a force: a vector at a point, or a scalar along a deflection (positive pushes the ends apart)."""
-        return self._builder.add(
-            Force(value=value, at=at, reaction=reaction, axes=axes, between=between, deflection=deflection, name=name)
-        )
-
-    def torque(
-        self, value: object, on: object = None, reaction: object = None, *, axes: Frame | None = None, name: str = ""
-    ) -> Torque:
-        """Add a torque on an angle or a frame, its opposite on ``reaction`` (the ground when left out).
-
-        Three components stand in the axes of the frame ``axes`` (the fixed axes when left out).
-        """
-        return self._builder.add(Torque(value=value, on=on, reaction=reaction, axes=axes, name=name))
-
-    def potential(self, V: object, *, name: str = "") -> Potential:
-        """Add a potential energy [J] you already have."""
-        return self._builder.add(Potential(value=V, name=name))
-
-    def kinetic(self, T: object, *, name: str = "") -> Kinetic:
-        """Add a kinetic co-energy [J] you already have."""
-        return self._builder.add(Kinetic(value=T, name=name))
-
-    def dissipation(self, D: object, *, name: str = "") -> Dissipation:
-        """Add Rayleigh's dissipation function [W]: Ξ_i = −∂D/∂ξ̇_i."""
-        return self._builder.add(Dissipation(value=D, name=name))
-
-    def generalized_force(self, coordinate: object, value: object, *, name: str = "") -> GeneralizedForce:
-        """Add a generalized force Ξ on one coordinate, or on one velocity of a floating frame."""
-        return self._builder.add(GeneralizedForce(coordinate=coordinate, value=value, name=name))
-
-    @property
-    def elements(self) -> tuple[Element, ...]:
-        """What was added so far, in order."""
-        return self._builder.elements
-
-    @classmethod
-    def from_energies(
-        cls,
-        coordinates: Sequence[AppliedUndef] | AppliedUndef,
-        *,
-        T: sp.Expr,
-        V: sp.Expr | int = 0,
-        D: sp.Expr | int = 0,
-        Xi: Mapping[AppliedUndef, sp.Expr] | Sequence[sp.Expr] | None = None,
-        name: str = "system from energies",
-    ) -> System:
-        """Return the system of given energies; other symbols in them become parameters, other functions of t inputs."""
-        listed = [coordinates] if isinstance(coordinates, AppliedUndef) else _listed(coordinates, "coordinates")
-        system = cls(name)
-        for q in listed:
-            if not isinstance(q, AppliedUndef) or q.args != (time,):
-                raise ModelError(
-                    f"'{q}' is not a function of time", fix='use dynamicsymbols("q") or Function("q")(t)', code="E201"
-                )
-            system.coordinate(q.func.__name__)
-        if Xi is None:
-            forces: dict[Any, Any] = {}
-        elif isinstance(Xi, Mapping):
-            forces = dict(Xi)
-        else:
-            values = _listed(Xi, "Xi")
-            if len(values) != len(listed):
-                raise ModelError(f"Xi has {len(values)} entries for {len(listed)} coordinates", code="E501")
-            forces = dict(zip(listed, values, strict=True))
-        T, V, D = as_expr(T, "T"), as_expr(V, "V"), as_expr(D, "D")
-        forces = {q: as_expr(value, f"Xi of {q}") for q, value in forces.items()}
-        everything = sp.Tuple(T, V, D, *forces.values())
-        for symbol in sorted(everything.free_symbols - {time}, key=str):
-            system.parameter(str(symbol))
-        for signal in sorted(everything.atoms(AppliedUndef) - set(listed), key=str):
-            system.input(signal.func.__name__)
-        system.kinetic(T, name="T*")
-        if V != 0:
-            system.potential(V, name="V")
-        if D != 0:
-            system.dissipation(D, name="D")
-        for q, value in forces.items():
-            if value != 0:
-                system.generalized_force(q, value, name=f"Xi_{plain(q)}")
-        return system
-
-    # -- verbs --------------------------------------------------------------------------------------------------
 
     def derive(self) -> Derivation:
         """Return the derivation: the seven steps, the equations, and what was verified."""
@@ -439,8 +171,8 @@ class System:
         an input is a number, text, an expression of time and state (compiled in), a table
         ``(times, values[, "hold"])`` or a Python function f(t, x), which is slow. The run is kept at ``samples``
         times (1001), or at ``times``. ``method`` is one of ours in machine code (dop853, the default; taylor; tsit5;
-        rk4 and gauss4, which need ``step``) or one of SciPy's (Radau, BDF, LSODA, RK45, DOP853). ``rtol`` and ``atol`` are
-        aimed at for the whole run; for SciPy's methods they are those of a step. ``events`` come from
+        rk4 and gauss4, which need ``step``) or one of SciPy's (Radau, BDF, LSODA, RK45, DOP853). ``rtol`` and ``atol``
+        are aimed at for the whole run; for SciPy's methods they are those of a step. ``events`` come from
         `lagrangian.event`. ``max_steps``, ``max_events`` and ``timeout`` [s] bound the run.
 
         Raises `RunError` or `ModelError` for what is wrong before the run; a run that fails on its way is returned as
@@ -575,17 +307,6 @@ def loads(text: str, *, name: str | None = None) -> System:
     return System(builder.name, _builder=builder)
 
 
-def _split(names: str | Iterable[str]) -> list[str]:
-    return names.replace(",", " ").split() if isinstance(names, str) else _listed(names, "names")
-
-
-def _listed(things: object, what: str) -> list[Any]:
-    """The things of a list or tuple; anything that cannot be walked is refused."""
-    if isinstance(things, Iterable) and not isinstance(things, str | bytes | Mapping):
-        return list(things)
-    raise ModelError(f"{what} must be a list (got {type(things).__name__})", fix="[first, second, …]", code="E406")
-
-
 def _path(path: object) -> Path:
     """A path, if it is text or a path."""
     if isinstance(path, str | Path):
@@ -593,35 +314,6 @@ def _path(path: object) -> Path:
     raise ModelError(
         f"the name of a file must be text or a Path (got {type(path).__name__})", fix='such as "arm.toml"', code="E406"
     )
-
-
-def _many(names: str | Iterable[str], make: Any, *, single: bool | None = None) -> Any:
-    """Make one symbol a name; text with exactly one name gives the symbol itself, as SymPy's ``symbols`` does."""
-    listed = _split(names)
-    if not listed:
-        raise ModelError("no name was given", fix='such as "theta1 theta2"', code="E401")
-    made = tuple(make(name) for name in listed)
-    alone = isinstance(names, str) if single is None else single
-    return made[0] if len(made) == 1 and alone else made
-
-
-def _unit(unit: str | None) -> str | None:
-    if unit is not None:
-        if not isinstance(unit, str):
-            raise ModelError(f"a unit must be text (got {type(unit).__name__})", fix='such as "kg"', code="E408")
-        read.parse_quantity(f"1 {unit}")
-    return unit
-
-
-def _value(name: str, value: float | str | None, unit: str | None) -> tuple[Any, str | None]:
-    """Return a value in SI units and the unit it was given in."""
-    if isinstance(value, str):
-        quantity = read.parse_quantity(value, what=f"parameter '{name}'")
-        return quantity.value, quantity.unit
-    if unit is not None and isinstance(value, (int, float)) and not isinstance(value, bool):
-        quantity = read.parse_quantity(f"{value!r} {unit}", what=f"parameter '{name}'")
-        return quantity.value, quantity.unit
-    return value, unit
 
 
 __all__ = ["Place", "System", "load", "loads"]

@@ -368,7 +368,7 @@ def test_xarray_reads_a_store_as_it_is(oscillator: lg.System, tmp_path) -> None:
 
 
 def test_results_larger_than_memory_want_a_store(oscillator: lg.System, monkeypatch: pytest.MonkeyPatch) -> None:
-    from lagrangian import sweeping
+    from lagrangian.running import sweeping
 
     monkeypatch.setattr(sweeping, "_machine_memory", lambda: 1e6)
     with pytest.raises(lg.RunError, match=r"take 0\.00[0-9]+ GiB\n.*store="):

@@ -15,7 +15,6 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-import scipy.linalg
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
@@ -80,6 +79,8 @@ def spectrum(
         return Spectrum(np.zeros(0, complex), np.zeros(0), np.zeros((0, 0), complex))
     if second_order is not None and is_conservative(*second_order):
         return _undamped(second_order[0], second_order[2], noise[1])
+    import scipy.linalg  # a third of a second that only who asks for poles pays
+
     balanced, scaling = scipy.linalg.matrix_balance(A, permute=False, separate=False)
     found: Any = scipy.linalg.eig(balanced, left=True, right=True)
     poles, left, right = (np.asarray(x, np.complex128) for x in found)
@@ -105,6 +106,8 @@ def is_conservative(M: Array, D: Array, K: Array) -> bool:
 
 def _undamped(M: Array, K: Array, noise: float) -> Spectrum:
     """λ = ±√(−κ) with K φ = κ M φ; what is zero up to rounding is zero."""
+    import scipy.linalg
+
     kappa, shapes = scipy.linalg.eigh((K + K.T) / 2, (M + M.T) / 2)
     bound = SLACK * EPSILON * float(np.abs(kappa).max(initial=0.0)) + noise
     kappa = np.where(np.abs(kappa) <= bound, 0.0, kappa)

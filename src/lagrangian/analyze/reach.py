@@ -12,7 +12,6 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-import scipy.linalg
 from numpy.typing import NDArray
 
 from lagrangian.errors import RunError
@@ -71,6 +70,8 @@ def observable(A: Array, C: Array, states: tuple[str, ...]) -> Reach:
 
 
 def _reach(A: Array, B: Array, states: tuple[str, ...]) -> Reach:
+    import scipy.linalg
+
     found: Any = scipy.linalg.matrix_balance(A, permute=False, separate=True)
     balanced, scale = found[0], found[1][0]
     inputs = B / scale[:, None]

@@ -51,7 +51,9 @@ def verify(derivation: Derivation, *, states: int = 50, seed: int = 1) -> tuple[
         Check(text(M, " is symmetric"), figures.asymmetry < TOLERANCE, f"largest difference {figures.asymmetry:.1e}"),
         Check(text(M, " is positive definite"), figures.smallest > 0, f"smallest eigenvalue {figures.smallest:.2e}"),
     ]
-    held = ("; t itself, which stands in ", M, ", is held") if any(map(_holds_time, derivation.mass_matrix)) else ()
+    held = (
+        ("; t itself, which stands in ", M, ", is held") if any(map(_holds_time, derivation.mass_matrix.flat())) else ()
+    )
     skew = text("d", M, "/dt − 2", C, " is skew-symmetric", *held)
     checks.append(Check(skew, figures.skew < TOLERANCE, f"{figures.skew:.1e}"))
     checks.append(

@@ -9,13 +9,13 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
-from lagrangian import showing
 from lagrangian.commands.terminal import Example, OptionalFile, open_system, put, say
-from lagrangian.driving import MAX_KNOTS
 from lagrangian.errors import ModelError, Place
+from lagrangian.running import showing
+from lagrangian.running.driving import MAX_KNOTS
+from lagrangian.running.trajectory import Trajectory
 from lagrangian.simulate import METHODS
 from lagrangian.simulate.scipy_methods import SCIPY
-from lagrangian.trajectory import Trajectory
 from lagrangian.write import write_with
 from lagrangian.write.tables import ENDINGS, check_target
 

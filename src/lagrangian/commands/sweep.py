@@ -14,7 +14,7 @@ import typer
 from lagrangian.commands.assignments import assignments
 from lagrangian.commands.simulate import PICTURES
 from lagrangian.commands.terminal import Example, open_system, say
-from lagrangian.runs import ENDINGS, Ensemble, write_csv
+from lagrangian.running.ensemble import ENDINGS, Ensemble, write_csv
 from lagrangian.simulate.ensemble import Progress
 from lagrangian.write.files import write_with
 from lagrangian.write.tables import check_target

@@ -11,6 +11,7 @@ import sympy as sp
 
 from lagrangian.analyze.change.change import Change, read_change
 from lagrangian.analyze.change.initial import carried_settings
+from lagrangian.analyze.change.signals import carried_signals
 from lagrangian.model import Builder, Element, Frame, GeneralizedForce, Model, Point, plain
 
 
@@ -64,6 +65,8 @@ class _Carrier:
             for made in self.elements(element):
                 b.add(made)
         b.settings.update(carried_settings(model, self.change))
+        if inputs := model.settings.get("inputs"):
+            b.settings["inputs"] = carried_signals(model, self.change, inputs)
         return b
 
     def _floating(self, frame: Frame) -> None:

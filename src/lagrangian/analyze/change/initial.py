@@ -8,7 +8,6 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-import scipy.optimize
 import sympy as sp
 
 from lagrangian.analyze.change.change import Change
@@ -49,6 +48,8 @@ def _solved(model: Model, change: Change, given: dict[str, float]) -> dict[str, 
     def at(eta: Any) -> dict[str, Any]:
         got = evaluate(program, {"q": list(map(float, eta)), "p": parameters})
         return {key: np.array(value, float) for key, value in got.items()}
+
+    import scipy.optimize  # slow to load, and few changes of coordinates come here
 
     n = len(change.new)
     for start in (position, position + 0.5, np.ones(n), np.linspace(0.3, 1.7, n)):

@@ -15,10 +15,10 @@ from numpy.typing import NDArray
 
 from lagrangian import compile as machine
 from lagrangian import dynamics
-from lagrangian.driving import Driving
-from lagrangian.events import Event
 from lagrangian.graph import Output, Program, jacobian
 from lagrangian.model import Model
+from lagrangian.running.driving import Driving
+from lagrangian.running.events import Event
 from lagrangian.simulate import STATUS, Events, Signals, Solver
 from lagrangian.simulate.crossings import Crossings, Hit
 from lagrangian.simulate.scipy_methods import IMPLICIT, SCIPY, Bounds, Outcome, integrate_scipy

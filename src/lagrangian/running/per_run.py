@@ -14,15 +14,15 @@ from numpy.typing import NDArray
 from lagrangian import dynamics, read
 from lagrangian.analyze.dimensions import SECOND
 from lagrangian.analyze.given import number
-from lagrangian.driving import Driving
 from lagrangian.errors import ModelError, RunError, did_you_mean
-from lagrangian.events import Event
-from lagrangian.integrating import SYMPLECTIC
 from lagrangian.model import Model, plain
+from lagrangian.running.driving import Driving
+from lagrangian.running.events import Event
+from lagrangian.running.integrating import SYMPLECTIC
+from lagrangian.running.simulation import FINEST, SHARE
+from lagrangian.running.varying import TAKEN
 from lagrangian.simulate import METHODS, Events, Signals
 from lagrangian.simulate.study import REDUCTIONS, EventsKept, Kept, Study
-from lagrangian.simulation import FINEST, SHARE
-from lagrangian.varying import TAKEN
 
 Array: TypeAlias = NDArray[np.float64]
 Outputs: TypeAlias = Mapping[str, Any] | Iterable[Any] | str | sp.Expr | None

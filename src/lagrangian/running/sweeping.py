@@ -16,19 +16,19 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian.analyze.given import key_name
-from lagrangian.driving import Driving, check_covers, driving
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.graph import Program
 from lagrangian.model import Model, plain
-from lagrangian.per_run import Wanted, instants, study_of
-from lagrangian.runs import Ensemble
-from lagrangian.showing import Units
+from lagrangian.running.driving import Driving, check_covers, driving
+from lagrangian.running.ensemble import Ensemble
+from lagrangian.running.per_run import Wanted, instants, study_of
+from lagrangian.running.showing import Units
+from lagrangian.running.varying import EVENT, TIME, Varying, from_arrays, from_grid
 from lagrangian.simulate.design import Design
 from lagrangian.simulate.ensemble import Executor, Here, Memory, Progress, carry_out
 from lagrangian.simulate.portions import FEW, MEMORY, Portions, cut
 from lagrangian.simulate.store import Plan, Variable, create, resume
 from lagrangian.simulate.study import Kept, Study
-from lagrangian.varying import EVENT, TIME, Varying, from_arrays, from_grid
 
 Array: TypeAlias = NDArray[np.float64]
 

@@ -12,10 +12,11 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian import compile as machine
-from lagrangian import dynamics, read, showing
+from lagrangian import dynamics, read
 from lagrangian.errors import ModelError, RunError, did_you_mean
-from lagrangian.integrating import remembered
 from lagrangian.model import Element, Model, Point, as_expr
+from lagrangian.running import showing
+from lagrangian.running.integrating import remembered
 from lagrangian.write import tables
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from lagrangian import compile as machine
 from lagrangian import dynamics
 from lagrangian.errors import RunError
 from lagrangian.graph import evaluate
-from lagrangian.integrating import Task, remembered, right_hand_side
+from lagrangian.running.integrating import Task, remembered, right_hand_side
 from lagrangian.simulate import STATUS
 from lagrangian.simulate.scipy_methods import IMPLICIT, SCIPY, Outcome
 

@@ -15,10 +15,10 @@ from lagrangian.analyze.dimensions import Dim
 from lagrangian.analyze.given import Given, Group, key_name, number
 from lagrangian.compile.arguments import numbers
 from lagrangian.errors import RunError, did_you_mean
-from lagrangian.integrating import remembered
 from lagrangian.model import Model
 from lagrangian.read.spread import Spread, parse_spread, parse_values
-from lagrangian.showing import Units
+from lagrangian.running.integrating import remembered
+from lagrangian.running.showing import Units
 from lagrangian.simulate.design import GROUPS, Column, Design, Drawn
 from lagrangian.simulate.store import DONE, Variable
 

@@ -14,17 +14,17 @@ from lagrangian import compile as machine
 from lagrangian import dynamics
 from lagrangian.analyze.dimensions import SECOND
 from lagrangian.analyze.given import Given, number
-from lagrangian.driving import Driving, check_covers, driving
-from lagrangian.ending import message
 from lagrangian.errors import RunError, did_you_mean
-from lagrangian.events import Event
 from lagrangian.graph import Graph, Program
-from lagrangian.integrating import Task, remembered, right_hand_side, run
 from lagrangian.model import Model
+from lagrangian.running.driving import Driving, check_covers, driving
+from lagrangian.running.ending import message
+from lagrangian.running.events import Event
+from lagrangian.running.integrating import Task, remembered, right_hand_side, run
+from lagrangian.running.trajectory import Occurrences, Trajectory
 from lagrangian.simulate import METHODS
 from lagrangian.simulate.crossings import Hit
 from lagrangian.simulate.scipy_methods import SCIPY, Bounds, Outcome
-from lagrangian.trajectory import Occurrences, Trajectory
 
 Array = NDArray[np.float64]
 

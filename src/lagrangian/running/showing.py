@@ -21,7 +21,7 @@ from lagrangian.write.tables import Column, Table
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from lagrangian.trajectory import Trajectory
+    from lagrangian.running.trajectory import Trajectory
 
 Array = NDArray[np.float64]
 

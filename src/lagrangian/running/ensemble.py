@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.errors import RunError, did_you_mean
+from lagrangian.running.varying import SAMPLE, TIME
 from lagrangian.simulate import STATUS
 from lagrangian.simulate.store import KEY, NOT_RUN, read
-from lagrangian.varying import SAMPLE, TIME
 from lagrangian.view.many import Along, Result, draw_many
 from lagrangian.write.files import write_with
 from lagrangian.write.tables import check_target, needed
