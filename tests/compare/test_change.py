@@ -6,6 +6,7 @@ import random
 from typing import Any
 
 import mpmath
+import numpy as np
 import pytest
 import sympy as sp
 from hypothesis import given, settings
@@ -248,3 +249,52 @@ def test_what_floats_is_carried_along_and_stays_as_it_is() -> None:
     assert new["knee"].parent.parent.floating is not None
     with pytest.raises(lg.ModelError, match="which floats"):
         s.in_coordinates({"base_x": "u + q"})
+
+
+@pytest.mark.parametrize("change", [{"x2": "x1 + x2"}, {"x2": "x1 + d"}])
+def test_a_feedback_of_the_file_is_written_in_the_new_coordinates(change: dict[str, str]) -> None:
+    """Two carts and F = −k x2 − b x2' on the second: the same motion, whichever coordinate says where x2 is."""
+    text = """
+name = "two carts"
+
+[coordinates]
+x1 = "left"
+x2 = "right"
+
+[parameters]
+m = "1 kg"
+k = "4 N/m"
+b = "0.5 N*s/m"
+
+[inputs]
+F = "N, on the right one"
+
+[points]
+left = ["x1", "0"]
+right = ["x2", "0"]
+
+[[particle]]
+mass = "m"
+at = "left"
+
+[[particle]]
+mass = "m"
+at = "right"
+
+[[spring]]
+k = "k"
+deflection = "x2 - x1"
+
+[[force]]
+value = ["F", "0"]
+at = "right"
+
+[simulate]
+duration = "2 s"
+initial = { x2 = "0.5 m" }
+inputs = { F = "-k*x2 - b*x2'" }
+"""
+    old = lg.loads(text)
+    new = old.in_coordinates(change)
+    place = "x1 + " + new.model.coordinates[1].name
+    assert np.allclose(new.simulate()[place], old.simulate()["x2"], rtol=1e-7, atol=1e-9)
