@@ -107,3 +107,16 @@ def test_events_that_make_no_sense_are_refused() -> None:
     ):
         with pytest.raises((lg.ModelError, lg.RunError), match=words):
             make()
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_what_the_last_impact_takes_is_accounted_for(method: str) -> None:
+    """A terminal event that changes the state as well: the last sample is the state after it."""
+    s = ball(e=0.5)
+    y = s["y"]
+    last = lg.event(y, direction=-1, terminal=True, reset={y.diff(): -s["e"] * y.diff()}, name="last")
+    run = s.simulate(2.0, y=1.0, events=last, method=method, samples=14)
+    assert run.t[-1] == pytest.approx(FALL, rel=1e-9)
+    assert run["y'"][-1] == pytest.approx(0.5 * 9.81 * FALL, rel=1e-8)
+    assert run.events["last"].y[1] == pytest.approx([-9.81 * FALL], rel=1e-8)
+    assert float(run.audit) < 1e-9

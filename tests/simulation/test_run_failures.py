@@ -42,7 +42,7 @@ REFUSED = [
     ({"times": [-1.0, 1.0]}, "before the start"),
     ({"times": [[0.0, 1.0]]}, "one row of numbers"),
     ({"times": [0.0, float("nan")]}, "time number 2 is not finite"),
-    ({"times": "abc"}, "array of numbers"),
+    ({"times": "abc"}, "times must be real numbers"),
 ]
 
 
@@ -134,3 +134,46 @@ def test_an_energy_that_is_not_finite_does_not_hide_the_run() -> None:
     assert "no energy balance" in repr(run)
     with pytest.raises(lg.RunError, match="-inf"):
         np.sum(run.potential)
+
+
+@pytest.mark.parametrize("method", ["dop853", "Radau"])
+def test_samples_closer_than_doubles_can_tell_are_refused(method: str) -> None:
+    with pytest.raises(lg.RunError, match="cannot be told apart at t = 1e"):
+        oscillator().simulate(1e-5, start=1e9, method=method)
+
+
+def test_a_run_is_asked_by_name_and_not_by_number() -> None:
+    run = oscillator().simulate(0.1, q=1.0, samples=3)
+    with pytest.raises(lg.ModelError, match="asked by name or expression") as refused:
+        run[0]
+    assert refused.value.code == "E406"
+    assert np.array_equal(run["q"], run.y[0])
+
+
+@pytest.mark.parametrize("events", [None, 3, ["x"]])
+def test_what_is_no_event_is_refused(events: object) -> None:
+    with pytest.raises(lg.RunError, match="an event is made with"):
+        oscillator().simulate(0.1, events=events)
+    with pytest.raises(lg.RunError, match="an event is made with"):
+        oscillator().ensemble(0.1, initial={"q": [1.0, 2.0]}, events=events)
+
+
+def test_numbers_with_an_imaginary_part_are_refused() -> None:
+    values = np.array([1.0 + 1.0j, 2.0])
+    with pytest.raises(lg.RunError, match="values must be real numbers"):
+        oscillator().simulate(0.1, inputs={"F": (np.array([0.0, 1.0]), values)})
+    with pytest.raises(lg.RunError, match="times must be real numbers"):
+        oscillator().simulate(times=values)
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"initial": {"q": [[1.0, 2.0], [3.0]]}}, "'q' is ragged"),
+        ({"initial": {"q": [1.0]}, "reduce": 3}, "there is no reduction 3"),
+        ({"initial": {"q": [1.0]}, "outputs": 3}, "an output is text or an expression"),
+    ],
+)
+def test_ensembles_of_nonsense_are_refused(options: dict, words: str) -> None:
+    with pytest.raises(lg.RunError, match=words):
+        oscillator().ensemble(0.1, **options)

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from lagrangian import read
 from lagrangian.analyze.dimensions import Dim
 from lagrangian.analyze.given import key_name, number
+from lagrangian.compile.arguments import numbers
 from lagrangian.errors import ModelError, ParseError, RunError, did_you_mean
 from lagrangian.model import Input, Model
 from lagrangian.simulate.scipy_methods import Leg
@@ -241,10 +242,7 @@ def _table(what: str, given: Sequence[Any]) -> Table:
             fix="(times, values, 'hold') keeps each value until the next time",
             code="E501",
         )
-    try:
-        times, values = (np.array(a, dtype=np.float64) for a in given[:2])
-    except (TypeError, ValueError):
-        raise RunError(f"{what}: times and values must be arrays of numbers", code="E501") from None
+    times, values = (np.array(numbers(a, f"{what}: {of}")) for a, of in zip(given, ("times", "values"), strict=False))
     if times.ndim != 1 or times.shape != values.shape or not 1 <= len(times) <= MAX_KNOTS:
         raise RunError(
             f"{what}: times have shape {times.shape}, values {values.shape}", fix="one value a time", code="E501"

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 import sympy as sp
 
-from lagrangian.errors import ModelError
+from lagrangian.errors import ModelError, RunError
 from lagrangian.model import as_expr, check_name, plain
 
 
@@ -62,3 +62,20 @@ def event(
         )
     after = {state: as_expr(value, f"the value of {state} after an event") for state, value in (reset or {}).items()}
     return Event(made, int(direction), bool(terminal), after, name)
+
+
+def listed_events(given: Any) -> tuple[Event, ...]:
+    """Return one event or several as a tuple. Raises `RunError` for what is none, and for two of one name."""
+    listed = tuple(given) if isinstance(given, Iterable) else (given,)
+    for e in listed:
+        if not isinstance(e, Event):
+            raise RunError(
+                f"an event is made with lagrangian.event(…) (got {type(e).__name__})",
+                fix="events=[lagrangian.event(theta, terminal=True)]",
+                code="E501",
+            )
+    titles = [e.title for e in listed]
+    for title in titles:
+        if titles.count(title) > 1:
+            raise RunError(f"two events are called '{title}'", fix="give them names", code="E404")
+    return listed

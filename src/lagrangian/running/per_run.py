@@ -17,7 +17,7 @@ from lagrangian.analyze.given import number
 from lagrangian.errors import ModelError, RunError, did_you_mean
 from lagrangian.model import Model, plain
 from lagrangian.running.driving import Driving
-from lagrangian.running.events import Event
+from lagrangian.running.events import Event, listed_events
 from lagrangian.running.integrating import SYMPLECTIC
 from lagrangian.running.simulation import FINEST, SHARE
 from lagrangian.running.varying import TAKEN
@@ -130,7 +130,7 @@ def _kept(
     model: Model, outputs: Outputs, reduce: str | Sequence[str] | None
 ) -> tuple[dict[str, sp.Expr], tuple[Kept, ...]]:
     """The expressions to observe by name, and what is kept of each."""
-    reductions = [None] if reduce is None else [reduce] if isinstance(reduce, str) else list(reduce)
+    reductions = list(reduce) if isinstance(reduce, Iterable) and not isinstance(reduce, str) else [reduce]
     for r in reductions:
         _reduction(r)
     if not reductions:
@@ -177,7 +177,7 @@ def _named(model: Model, outputs: Outputs) -> list[tuple[str | None, Any]]:
         return [(None, s.symbol) for s in (*model.coordinates, *model.velocities)]
     if isinstance(outputs, Mapping):
         return [(str(name), asked) for name, asked in outputs.items()]
-    if isinstance(outputs, str | sp.Expr):
+    if isinstance(outputs, str) or not isinstance(outputs, Iterable):
         return [(None, outputs)]
     return [(None, asked) for asked in outputs]
 
@@ -205,19 +205,10 @@ def _asked(model: Model, name: str | None, asked: Any) -> tuple[str | None, sp.E
 
 
 def _events(model: Model, wanted: Wanted, drive: Driving) -> tuple[Events | None, tuple[EventsKept, ...]]:
-    listed = (wanted.events,) if isinstance(wanted.events, Event) else tuple(wanted.events)
+    listed = listed_events(wanted.events)
     if not listed:
         return None, ()
-    strange = [e for e in listed if not isinstance(e, Event)]
-    if strange:
-        raise RunError(
-            f"an event is made with lagrangian.event(…) (got {type(strange[0]).__name__})",
-            fix="events=[lagrangian.event(theta, terminal=True)]",
-            code="E501",
-        )
     titles = [e.title for e in listed]
-    if len(set(titles)) < len(titles):
-        raise RunError("two events have one name", fix="give them names", code="E404")
     for title in titles:
         _check_result(f"count {title}")
     times = wanted.event_times

@@ -14,12 +14,13 @@ from lagrangian import compile as machine
 from lagrangian import dynamics
 from lagrangian.analyze.dimensions import SECOND
 from lagrangian.analyze.given import Given, number
+from lagrangian.compile.arguments import numbers
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.graph import Graph, Program
 from lagrangian.model import Model
 from lagrangian.running.driving import Driving, check_covers, driving
 from lagrangian.running.ending import message
-from lagrangian.running.events import Event
+from lagrangian.running.events import Event, listed_events
 from lagrangian.running.integrating import Task, remembered, right_hand_side, run
 from lagrangian.running.trajectory import Occurrences, Trajectory
 from lagrangian.simulate import METHODS
@@ -94,7 +95,7 @@ def simulate(
         max(_tolerance(rtol, "rtol") * share, FINEST),
         _tolerance(atol, "atol") * share,
         None if step is None else _positive(step, "step"),
-        _events(events),
+        listed_events(events),
         bounds,
     )
     return _trajectory(task, run(task), {"rtol": rtol, "atol": atol})
@@ -137,16 +138,20 @@ def _times(
         return np.array([begin])
     if begin + length == begin:
         raise RunError(f"a duration of {length:g} s cannot be told from none at t = {begin:g}", code="E501")
-    return np.linspace(begin, begin + length, count)
+    grid = np.linspace(begin, begin + length, count)
+    if np.any(np.diff(grid) <= 0):
+        raise RunError(
+            f"{count} samples in {length:g} s cannot be told apart at t = {begin:g}",
+            fix="fewer samples, or a start nearer to 0",
+            code="E501",
+        )
+    return grid
 
 
 def _listed_times(times: Any, begin: float, duration: Any, samples: int | None) -> Array:
     if duration is not None or samples is not None:
         raise RunError("times say it all: give no duration and no samples beside them", code="E501")
-    try:
-        array = np.array(times, dtype=np.float64)
-    except (TypeError, ValueError):
-        raise RunError("times must be an array of numbers", fix="np.linspace(0, 10, 1001)", code="E501") from None
+    array = np.array(numbers(times, "times"))
     if array.ndim != 1 or not array.size:
         raise RunError(f"times must be one row of numbers (got shape {array.shape})", code="E501")
     if not np.all(np.isfinite(array)):
@@ -240,29 +245,14 @@ def _count(value: Any, what: str, *, least: int = 1) -> int:
     return int(value)
 
 
-def _events(given: Sequence[Event] | Event) -> tuple[Event, ...]:
-    listed = (given,) if isinstance(given, Event) else tuple(given)
-    for e in listed:
-        if not isinstance(e, Event):
-            raise RunError(
-                f"an event is made with lagrangian.event(…) (got {type(e).__name__})",
-                fix="events=[lagrangian.event(theta, terminal=True)]",
-                code="E501",
-            )
-    titles = [e.title for e in listed]
-    for title in titles:
-        if titles.count(title) > 1:
-            raise RunError(f"two events are called '{title}'", fix="give them names", code="E404")
-    return listed
-
-
 # -- what came of it --------------------------------------------------------------------------------------------
 
 
 def _trajectory(task: Task, outcome: Outcome, settings: Mapping[str, Any]) -> Trajectory:
     n = task.size
     t, x = outcome.times, outcome.states
-    if outcome.status != 0 and outcome.reached > t[-1]:  # what was reached last is kept too
+    further = outcome.status != 0 and outcome.reached > t[-1]
+    if further:  # what was reached last is kept too, after whatever event changed it
         t, x = np.append(t, outcome.reached), np.vstack([x, outcome.final])
     return Trajectory(
         model=task.model,
@@ -280,7 +270,7 @@ def _trajectory(task: Task, outcome: Outcome, settings: Mapping[str, Any]) -> Tr
         feedback=task.drive.feedback,
         events=_occurrences(task, outcome.hits, n),
         supplied=x[:, n] if x.shape[1] > n else np.zeros(len(t)),
-        jumps=_jumps(task, outcome.hits, t, n),
+        jumps=_jumps(task, outcome.hits, t, n, after_last=further),
         settings=dict(settings),
     )
 
@@ -294,8 +284,11 @@ def _occurrences(task: Task, hits: Sequence[Hit], n: int) -> dict[str, Occurrenc
     return found
 
 
-def _jumps(task: Task, hits: Sequence[Hit], t: Array, n: int) -> Array:
-    """What events that change the state have changed h by, until each time."""
+def _jumps(task: Task, hits: Sequence[Hit], t: Array, n: int, *, after_last: bool) -> Array:
+    """What events that change the state have changed h by, until each time.
+
+    A sample at the very time of an event is of the state before it; with ``after_last`` the last one is after it.
+    """
     total = np.zeros(len(t))
     changed = [h for h in hits if h.after is not None]
     if not changed:
@@ -310,4 +303,6 @@ def _jumps(task: Task, hits: Sequence[Hit], t: Array, n: int) -> Array:
     h0, h1 = (kernel(x, task.drive.at(at, x), task.p, at)["h"] for x in (before, after))
     for time, gain in zip(at, h1 - h0, strict=True):
         total[t > time] += gain
+    if after_last:
+        total[-1] = np.sum(h1 - h0)
     return total

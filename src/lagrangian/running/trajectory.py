@@ -112,6 +112,12 @@ class Trajectory:
             if asked in self.states:
                 return self.y[self.states.index(asked)]
             asked = read.parse_expression(asked, read.Scope(self.model.symbols), what="what is asked of the run")
+        elif isinstance(asked, (int, slice)):
+            raise ModelError(
+                f"a run is asked by name or expression (got {asked!r:.40})",
+                fix=f"run['{self.states[0]}']; the rows of run.y are the states",
+                code="E406",
+            )
         if isinstance(asked, sp.Expr) and (at := self._places.get(asked)) is not None:
             return self.y[at]
         return self.observe({"asked": asked})["asked"]

@@ -234,11 +234,12 @@ def _take(entries: Entries, columns: dict[Any, Any], where: tuple[str, str], val
     what = f"'{name}'"
     if where in columns:
         raise RunError(f"{what} is given twice, by name and by symbol", code="E404")
-    if isinstance(value, (str, bytes)) or np.ndim(value) == 0:
+    listed = isinstance(value, Sequence) and not isinstance(value, (str, bytes))  # ragged ones have no number of axes
+    if not listed and np.ndim(value) == 0:
         dims = entries.group(group)
         entries.base[group][name] = number(value, what, dims.dims[dims.names.index(name)])
         return
-    if isinstance(value, Sequence) and any(isinstance(v, str) for v in value):
+    if listed and any(isinstance(v, str) for v in value):
         dims = entries.group(group)
         dim = dims.dims[dims.names.index(name)]
         columns[where] = np.array([number(v, what, dim) for v in value])
