@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from lagrangian import examples, loads
-from lagrangian.analyze.check import misconceptions
+from lagrangian.analyze.check import effects, misconceptions
 from lagrangian.analyze.check.misconceptions import MISCONCEPTIONS, Ingredients
 from lagrangian.derivation import Derivation
 
@@ -120,6 +120,16 @@ def test_a_wrong_term_of_the_answers_own() -> None:
     verdict = derived("pendulum").check(wrong)
     assert verdict.mistake is not None and verdict.mistake.name == "sign_of_a_term"
     assert "cos(theta)^2" in str(verdict.mistake.what)
+
+
+def test_a_system_that_is_too_long_is_told_by_its_terms(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(effects, "LONGEST_SYSTEM", 3)
+    pendulum = loads(examples.text("pendulum")).derive()
+    verdict = pendulum.check("m*L^2*theta'' - b*theta' + m*g*L*sin(theta) = 0")
+    assert verdict.mistake is not None and verdict.mistake.name == "sign_of_a_term"
+    assert "too long" in str(verdict.notes[-1])
+    assert verdict.first_wrong is not None and verdict.first_wrong.differences[0].kind == "sign"
+    assert not pendulum.check("m*L^2*theta'' + b*theta' - m*g*L*sin(theta) = 0").right
 
 
 def test_every_misconception_is_a_file_with_words() -> None:

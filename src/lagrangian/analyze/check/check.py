@@ -9,6 +9,7 @@ import sympy as sp
 
 from lagrangian.analyze.check.coordinates import Change, Glance, candidates, in_these, likeliest, new_names
 from lagrangian.analyze.check.difference import differences, likeness, paired
+from lagrangian.analyze.check.effects import too_long
 from lagrangian.analyze.check.lines import filled
 from lagrangian.analyze.check.mistakes import mistakes
 from lagrangian.analyze.check.rows import Comparison, Kind, Row, compare
@@ -193,7 +194,7 @@ def _elsewhere(truth: Truth, spelling: Spelling, verdict: Verdict) -> Verdict | 
             continue
         if not change.plain or not (new_names(truth, spelling.lines) or _tells(spelling.lines)):
             named = mistakes(truth, spelling.lines, verdict.findings)
-            if named.certain:
+            if named.certain or too_long(truth):
                 note = text("It would be right with ", *change.words.parts, ".")
                 return replace(verdict, mistakes=named.told, alternatives=named.others, notes=(*verdict.notes, note))
         status = Status.OTHER_COORDINATES if judged.status.right else judged.status
@@ -257,4 +258,7 @@ def _own_names(truth: Truth, spelling: Spelling, verdict: Verdict) -> Verdict | 
 def _explained(truth: Truth, spelling: Spelling, judged: Judged, verdict: Verdict) -> Verdict:
     """The verdict with the mistakes that explain it."""
     named = mistakes(truth, spelling.lines, judged.findings)
-    return replace(verdict, mistakes=named.told, alternatives=named.others)
+    notes = verdict.notes
+    if too_long(truth):
+        notes = (*notes, text("The system is too long for well-known mistakes to be tried; its terms are compared."))
+    return replace(verdict, mistakes=named.told, alternatives=named.others, notes=notes)

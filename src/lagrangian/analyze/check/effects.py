@@ -21,6 +21,9 @@ from lagrangian.analyze.check.verdict import Mistake
 from lagrangian.graph import jvp, vjp
 from lagrangian.model import time
 
+LONGEST_SYSTEM = 2_500
+"""Operations of T* times coordinates, above which mistakes are not tried but told by their terms alone."""
+
 
 @dataclass(frozen=True, eq=False)
 class Wrong:
@@ -75,6 +78,8 @@ class Effects:
         self._nodes()
 
     def _variants(self) -> Iterator[Wrong]:
+        if too_long(self.truth):
+            return
         for rank, module in enumerate(MISCONCEPTIONS):
             for variant in module.wrong(self.ingredients):
                 yield Wrong(module, variant, rank)
@@ -153,6 +158,11 @@ class Effects:
     def felt(self) -> Array:
         """Which variants change an equation, (variants,) of truth values."""
         return np.abs(self.W).max(axis=(1, 2)) > 1e-12
+
+
+def too_long(truth: Truth) -> bool:
+    """Whether a system is too long for every way to go wrong in it to be tried."""
+    return int(sp.count_ops(truth.T)) * truth.n > LONGEST_SYSTEM
 
 
 @lru_cache(maxsize=32)

@@ -23,7 +23,7 @@ STEPS = {
 
 def report(verdict: Verdict, model: Model) -> Report:
     """Return the verdict as a report."""
-    parts = [Part(text("Is it right?"), tuple(_summary(verdict)))]
+    parts = [Part(text("Is it right?"), tuple(_summary(verdict, model)))]
     if verdict.hint >= 1 and verdict.findings:
         parts.append(Part(text("Line by line"), (_lines(verdict),)))
     if verdict.hint >= 2 and (verdict.mistakes or _differing(verdict)):
@@ -33,13 +33,13 @@ def report(verdict: Verdict, model: Model) -> Report:
     return Report(f"Your answer: {model.name}", model, tuple(parts), Verdict.to_dict(verdict))
 
 
-def _summary(verdict: Verdict) -> Iterator[Item]:
+def _summary(verdict: Verdict, model: Model) -> Iterator[Item]:
     yield text(*_headline(verdict))
     if verdict.hint == 0:
         return
     first = verdict.first_wrong
     if verdict.status is Status.WRONG and first is not None:
-        yield text("Look at ", first.line.title, *_of(first), ": that is the first that is not right.")
+        yield text("Look at ", first.line.title, *_of(first, model), ": that is the first that is not right.")
     if any(f.follows for f in verdict.findings):
         yield text("What follows consistently from a wrong line is marked so; it needs no correction of its own.")
     yield from verdict.notes
@@ -69,11 +69,12 @@ def _headline(verdict: Verdict) -> tuple[str | Left, ...]:
             return (f"Not right yet: {lines - wrong} of {lines} lines are right.",)
 
 
-def _of(finding: Finding) -> tuple[str | Left, ...]:
+def _of(finding: Finding, model: Model) -> tuple[str | Left, ...]:
     """Whose equation a line is."""
-    return (
-        (f", the equation of {finding.coordinate}",) if finding.line.kind == "equation" and finding.coordinate else ()
-    )
+    if finding.line.kind != "equation" or finding.coordinate is None:
+        return ()
+    symbols = {c.name: c.symbol for c in model.coordinates}
+    return (", the equation of ", symbols.get(finding.coordinate, finding.coordinate))
 
 
 def _lines(verdict: Verdict) -> Table:
