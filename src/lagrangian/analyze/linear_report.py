@@ -57,12 +57,16 @@ def _point(linear: Linearization) -> Part:
     return Part(text("The point"), tuple(items))
 
 
-def _ordered(linear: Linearization, letter: str, names: Sequence[str]) -> Text:
-    """``x: θ₁, θ₂, θ̇₁, θ̇₂``."""
+A, B, C, D, K, M, S, f = (Name(x) for x in ("A", "B", "C", "D matrix", "K", "M", "S", "f vector"))
+x, u, y, q = (Name(f"{letter} vector") for letter in "xuyq")
+
+
+def _ordered(linear: Linearization, vector: Name, names: Sequence[str]) -> Text:
+    """``x = (θ₁, θ₂, θ̇₁, θ̇₂)``, the vector's letter bold: a coordinate may be called x too."""
     parts: list[Any] = []
     for name in names:
         parts += [", " if parts else "", _entry(linear, name)]
-    return text(f"{letter}: ", *parts)
+    return text(vector, " = (", *parts, ")")
 
 
 def _entry(linear: Linearization, name: str) -> Any:
@@ -73,26 +77,28 @@ def _entry(linear: Linearization, name: str) -> Any:
 def _matrices(linear: Linearization) -> Part:
     items: list[Item] = []
     drift = linear.kind == "operating point"
-    items.append(text("δẋ = A δx + B δu" + (" + f" if drift else "") + " and δy = C δx + D δu, in this order:"))
-    items.append(_ordered(linear, "x", linear.states))
+    rate = ("δ", Name(x.base, "", 1), " = ", A, " δ", x, " + ", B, " δ", u, *((" + ", f) if drift else ()))
+    items.append(text(*rate, " and δ", y, " = ", C, " δ", x, " + ", D, " δ", u, ", with"))
+    items.append(_ordered(linear, x, linear.states))
     if linear.inputs:
-        items.append(_ordered(linear, "u", linear.inputs))
-    items.append(_ordered(linear, "y", linear.outputs))
-    shown = [("A", linear.A), ("B", linear.B), ("C", linear.C), ("D", linear.D)]
+        items.append(_ordered(linear, u, linear.inputs))
+    items.append(_ordered(linear, y, linear.outputs))
+    shown = [(A, linear.A), (B, linear.B), (C, linear.C), (D, linear.D)]
     if drift:
-        shown.append(("f", linear.drift.reshape(-1, 1)))
+        shown.append((f, linear.drift.reshape(-1, 1)))
     for name, found in shown:
         if found.shape[1] and found.shape[1] <= LARGEST:
-            items.append(formula(Name(name), matrix(found)))
+            items.append(formula(name, matrix(found)))
     if len(linear.states) > LARGEST:
         items.append(text(f"Matrices of more than {LARGEST} columns are in the data, not here."))
     return Part(text("The linear system"), tuple(items))
 
 
 def _second_order(linear: Linearization) -> Part:
-    matrices = (("M", linear.mass), ("D", linear.damping), ("K", linear.stiffness), ("S", linear.input_matrix))
-    items: list[Item] = [text("M δq̈ + D δq̇ + K δq = S δu, in this order:"), _ordered(linear, "q", linear.coordinates)]
-    items += [formula(Name(name), matrix(found)) for name, found in matrices if found is not None and found.size]
+    matrices = ((M, linear.mass), (D, linear.damping), (K, linear.stiffness), (S, linear.input_matrix))
+    rates = (M, " δ", Name(q.base, "", 2), " + ", D, " δ", Name(q.base, "", 1), " + ", K, " δ", q, " = ", S, " δ", u)
+    items: list[Item] = [text(*rates, ", with"), _ordered(linear, q, linear.coordinates)]
+    items += [formula(name, matrix(found)) for name, found in matrices if found is not None and found.size]
     return Part(text("Small motions"), tuple(items))
 
 
@@ -147,11 +153,11 @@ def _sentence(what: str, reach: Reach, lacking: str, enough: str) -> str:
 
 def _symbols(linear: Linearization, found: SymbolicLinearization) -> Part:
     items: list[Item] = [text("About ", *_exact_point(found), ":")]
-    named = [("M", found.M), ("D", found.D), ("K", found.K), ("S", found.S), ("A", found.A), ("B", found.B)]
+    named = [(M, found.M), (D, found.D), (K, found.K), (S, found.S), (A, found.A), (B, found.B)]
     for name, m in named:
         if m.cols:
             rows = tuple(tuple(cast("sp.Expr", m[i, j]) for j in range(m.cols)) for i in range(m.rows))
-            items.append(formula(Name(name), Matrix(rows)))
+            items.append(formula(name, Matrix(rows)))
     if found.conditions:
         items.append(text("where at the rest"))
         items += [formula(cast("sp.Expr", eq.lhs), sp.S.Zero) for eq in found.conditions]

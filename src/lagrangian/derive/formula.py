@@ -21,7 +21,9 @@ class Name:
     Bases: "T*" kinetic co-energy, "V" potential energy, "L" Lagrangian, "D" Rayleigh's function, "Xi" generalized
     force, "xi" generalized coordinate, "delta" deflection, "h" height, "v" speed, "omega" angular velocity, "x", "y",
     "z" positions, "phi" an angle, "W" virtual work, "F" force, "M" mass matrix, "C" Coriolis matrix, "G" gravity and
-    stiffness vector, "q" the vector of coordinates, "E" energy. A base outside this list is shown as it is.
+    stiffness vector, "q" the vector of coordinates, "E" energy, "H" Hamiltonian, "R" Routhian; matrices "A", "B",
+    "D matrix", "J", "K", "S"; vectors "x vector", "u vector", "y vector", "q vector", "f vector". A base outside this
+    list is shown as it is.
     """
 
     base: str

@@ -90,8 +90,11 @@ _COMMON: dict[str, tuple[Letter, ...]] = {
     "W": (Letter("W"), Letter("𝒲")),
     "F": (Letter("F"),),
     "E": (Letter("E"), Letter("ℰ")),
+    "H": (Letter("H"), Letter("ℋ")),
+    "R": (Letter("R"), Letter("ℛ")),
 }
-_VECTORS = {"M": "M", "C": "C", "G": "G", "q": "q"}
+_VECTORS = {letter: letter for letter in "MCGqABJKS"} | {"D matrix": "D"} | {f"{x} vector": x for x in "xuyqf"}
+"""Letters of matrices and vectors, bold where a symbol of the system has the same."""
 
 
 class Quantities:
