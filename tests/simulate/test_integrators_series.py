@@ -30,6 +30,7 @@ RULES = {
     "quotient": lambda t, f: f("sin", t) / (2 + f("cos", t)),
     "whole power": lambda t, f: (t - 2) ** 5 / 7 - (1 + t) ** -3,
     "high power": lambda t, f: f("cos", t) ** 81,
+    "flat at first": lambda t, f: f("sin", t) ** 40,
     "products": lambda t, f: 2 - t * (1 + t) * f("sin", t) + 3 * t * t - (t - 1) * (t - 1),
 }
 

@@ -30,6 +30,7 @@ class Taylor(Method):
     source = "Á. Jorba, M. Zou, Experimental Mathematics 14 (2005) 99–117"
     evaluations = 1
     expands = True
+    limits = (0.0, 2.0)
 
     def __init__(self, order: int = 15) -> None:
         self.order = order
