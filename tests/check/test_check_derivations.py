@@ -95,6 +95,10 @@ def test_what_says_nothing() -> None:
         "theta''/sin(theta - theta + 0.5) + exp(exp(exp(exp(theta)))) = 0",
         "m*L^2*theta'' + b*theta' + m*g*L*sin(theta) = 1e-40*theta",
         "abs(theta'')*m*L^2 + b*theta' + m*g*L*sin(theta) = 0",
+        "m*L^2*theta'' + b*theta' + m*g*L*sqrt(1 - cos(theta)^2) = 0",
+        "m*L^2*theta'' + b*theta' + m*g*L*sin(theta) + piecewise(theta > 100, theta, 0) = 0",
+        "m*L^2*theta'' + b*theta' + m*g*L*sin(theta) + piecewise(theta > 10000000, theta, 0) = 0",
+        "m*L^2*theta'' + b*max(theta', -20) + m*g*L*sin(theta) = 0",
     ],
 )
 def test_odd_answers_are_wrong_in_bounded_time(answer: str) -> None:

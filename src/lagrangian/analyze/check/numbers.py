@@ -22,6 +22,8 @@ from lagrangian.model import Model, plain, time
 
 SETS, PLACES = 2, 3
 DIGITS = 50
+SIZES = 3
+"""Sizes that states with a reach have, each with both signs."""
 EXACT_INTEGER = 2**53
 """Whole numbers above are no doubles."""
 
@@ -29,10 +31,14 @@ Array = NDArray[np.float64]
 
 
 class States:
-    """Random states in blocks; the value of a symbol at all of them depends on its name alone."""
+    """Random states in blocks; the value of a symbol at all of them depends on its name alone.
 
-    def __init__(self, model: Model, motions: int) -> None:
+    With a ``reach`` what moves is of either sign and of every size up to it: for expressions that are not smooth.
+    """
+
+    def __init__(self, model: Model, motions: int, *, reach: float = 0.0) -> None:
         self.model = model
+        self.reach = reach
         self.motions = motions
         self.size = SETS * PLACES * motions
         self._known: dict[sp.Basic, Array] = {}
@@ -53,6 +59,9 @@ class States:
         else:
             count, low = self.size, -1.6
         drawn = [round(source.uniform(low, 1.6) * 4096) / 4096 or 0.5 for _ in range(count)]
+        if self.reach and not isinstance(symbol, sp.Symbol):
+            far = [(-1) ** k * self.reach ** (k // 2 % SIZES / (SIZES - 1)) for k in range(count)]
+            drawn = [round(x * f * 4096) / 4096 for x, f in zip(drawn, far, strict=True)]
         return np.repeat(np.array(drawn), self.size // count)
 
     def blocks(self) -> Iterable[slice]:

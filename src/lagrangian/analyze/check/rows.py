@@ -17,7 +17,7 @@ import mpmath
 import numpy as np
 import sympy as sp
 
-from lagrangian.analyze.check.numbers import DIGITS, PLACES, SETS, Array, Compiled
+from lagrangian.analyze.check.numbers import DIGITS, PLACES, SETS, Array, Compiled, States
 from lagrangian.analyze.check.truth import Truth
 from lagrangian.derive.algebra import Form
 
@@ -88,10 +88,13 @@ def zero_everywhere(truth: Truth, expr: sp.Expr) -> bool:
     values = values[np.isfinite(values)]
     if not len(values) or np.abs(values).max() > 1e-6:
         return False
-    if (form := truth.form(expr)) is not None:
+    form = truth.form(expr)
+    if form is not None and (form.is_zero or not form.opaque()):
         return form.is_zero
     step = max(1, truth.states.size // SURE)
     found = [compiled.exactly(truth.states, i)[0] for i in range(0, truth.states.size, step)]
+    far = truth.wide([expr])
+    found += [compiled.exactly(far, i)[0] for i in range(far.size)]
     return all(abs(x) < EXACTLY for x in found if mpmath.isfinite(x))
 
 
@@ -161,7 +164,7 @@ def _row(
     exact = _exact(truth, form, factors) if factors is not None else None
     if factors is not None and exact:
         return _named(factors, truth)
-    if exact is False or not _surely(truth, compiled, j):
+    if exact is False or not _surely(truth, compiled, j, expr):
         return Row(Kind.WRONG)
     if not spanned:
         return Row(Kind.CONSEQUENCE)
@@ -197,23 +200,28 @@ def _exact(truth: Truth, form: Form | None, factors: Sequence[sp.Expr]) -> bool 
     return True if rest.is_zero else None if rest.opaque() else False
 
 
-def _surely(truth: Truth, compiled: Compiled, j: int) -> bool:
-    """Whether expression j vanishes along the true motion, with 50 digits, at several states."""
+def _surely(truth: Truth, compiled: Compiled, j: int, expr: sp.Expr) -> bool:
+    """Whether expression j vanishes along the true motion, with 50 digits, at states near and far."""
     step = max(1, truth.states.size // SURE)
-    seen = 0
-    for index in range(0, truth.states.size, step):
-        try:
-            truly = compiled.exactly(truth.states, index, truth.accelerations_exactly(index))[j]
-        except (ZeroDivisionError, ValueError):
-            continue
-        off = compiled.exactly(truth.states, index)[j]
-        if not (mpmath.isfinite(truly) and mpmath.isfinite(off)):
-            continue
-        with mpmath.workdps(DIGITS):
-            if abs(truly) > EXACTLY * (1 + abs(off)):
-                return False
-        seen += 1
-    return seen >= 2
+    near = [_vanishes(truth, compiled, j, truth.states, i) for i in range(0, truth.states.size, step)]
+    far_out = truth.wide([expr])
+    far = [_vanishes(truth, compiled, j, far_out, i) for i in range(far_out.size)]
+    return False not in (*near, *far) and near.count(True) >= 2
+
+
+def _vanishes(truth: Truth, compiled: Compiled, j: int, states: States, index: int) -> bool | None:
+    """Whether expression j vanishes at one state; None where the right equations have no value themselves."""
+    try:
+        motion = truth.accelerations_exactly(states, index)
+    except (ZeroDivisionError, ValueError):
+        return None
+    if not all(mpmath.isfinite(x) for x in motion.values()):
+        return None
+    truly, off = compiled.exactly(states, index, motion)[j], compiled.exactly(states, index)[j]
+    if not (mpmath.isfinite(truly) and mpmath.isfinite(off)):
+        return False
+    with mpmath.workdps(DIGITS):
+        return bool(abs(truly) <= EXACTLY * (1 + abs(off)))
 
 
 # -- factors as expressions -----------------------------------------------------------------------------------------

@@ -37,6 +37,12 @@ class Truth:
         self.rows = tuple(self.expand(cast("sp.Expr", e.lhs) - cast("sp.Expr", e.rhs)) for e in derivation.equations)
         self.states = States(self.model, 2 * self.n + 6)
 
+    def wide(self, exprs: Sequence[sp.Expr]) -> States:
+        """States of every size and sign, farther out than any number of the expressions."""
+        numbers = [abs(float(x)) for e in exprs for x in e.atoms(sp.Number) if x.is_finite]
+        reach = max([300.0, *(5 * x for x in numbers if x < 1e12)])
+        return States(self.model, 2, reach=reach)
+
     @property
     def L(self) -> sp.Expr:
         """T* − V."""
@@ -103,9 +109,9 @@ class Truth:
                 a[s] = np.linalg.solve(M[s], -h[s])
         return {c.acceleration: a[:, i] for i, c in enumerate(self.model.coordinates)}
 
-    def accelerations_exactly(self, index: int) -> dict[sp.Basic, Any]:
+    def accelerations_exactly(self, states: States, index: int) -> dict[sp.Basic, Any]:
         """The true accelerations at one state, with 50 digits."""
-        values, n = self._motion.exactly(self.states, index), self.n
+        values, n = self._motion.exactly(states, index), self.n
         with mpmath.workdps(DIGITS):
             M = mpmath.matrix(n, n)
             for k in range(n * n):
