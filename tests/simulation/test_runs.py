@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import sys
+from concurrent.futures import ThreadPoolExecutor
+
 import numpy as np
 import pytest
 import sympy as sp
@@ -10,6 +13,7 @@ from scipy.integrate import solve_ivp
 
 import lagrangian as lg
 from lagrangian import dynamics, examples
+from lagrangian.running.integrating import REMEMBERED, remembered
 
 OURS = {"dop853": {}, "taylor": {}, "tsit5": {}, "rk4": {"step": 0.002}, "gauss4": {"step": 0.002}}
 SCIPY = ("RK45", "DOP853", "Radau", "BDF", "LSODA")
@@ -200,3 +204,21 @@ def test_a_run_of_no_length_is_its_start() -> None:
     run = oscillator().simulate(0, q=1.0)
     assert run.success and run.y.shape == (2, 1) and run["q''"] == pytest.approx([-4.0])
     assert float(run.audit) == 0.0
+
+
+def test_threads_may_run_one_system_at_a_time() -> None:
+    """More laws than are kept compiled, asked for by four threads that give way to each other all the time."""
+    system, before = oscillator(), sys.getswitchinterval()
+    kept = [lambda k=k: str(k) for k in range(2 * REMEMBERED)]
+
+    def ask(seed: int) -> bool:
+        order = np.random.default_rng(seed).integers(0, len(kept), 5000)
+        return all(remembered(model, int(k), kept[k]) == str(k) for k in order)
+
+    model = system.model
+    sys.setswitchinterval(1e-6)
+    try:
+        with ThreadPoolExecutor(4) as threads:
+            assert all(threads.map(ask, range(4)))
+    finally:
+        sys.setswitchinterval(before)

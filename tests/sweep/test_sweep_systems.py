@@ -11,6 +11,9 @@ from scipy.integrate import solve_ivp
 
 import lagrangian as lg
 from lagrangian import examples
+from lagrangian.running.driving import driving
+from lagrangian.running.per_run import Wanted, study_of
+from lagrangian.simulate import Solver
 
 
 @pytest.fixture(scope="module")
@@ -373,3 +376,21 @@ def test_results_larger_than_memory_want_a_store(oscillator: lg.System, monkeypa
     monkeypatch.setattr(sweeping, "_machine_memory", lambda: 1e6)
     with pytest.raises(lg.RunError, match=r"take 0\.00[0-9]+ GiB\n.*store="):
         oscillator.ensemble(1.0, x=np.linspace(0, 1, 100), reduce=None, **FINE)
+
+
+def test_memory_is_left_for_the_events_of_a_chunk() -> None:
+    """A ball that bounces fifty times in every run: what the solver hands back fits in what a run is said to take."""
+    system = lg.System("ball")
+    y = system.coordinate("y")
+    system.particle(system.parameter("m", 1.0), at=system.origin + (0, y))
+    system.gravity()
+    bounce = lg.event(y, direction=-1, reset={y.diff(): -y.diff()}, name="bounce")
+    wanted = Wanted(duration=100.0, events=bounce, max_events=50, outputs=["y"])
+    study, _ = study_of(system.model, wanted, driving(system.model, None, {}), np.array([0.0, 100.0]))
+    x0 = np.column_stack([np.linspace(0.5, 1.0, 20), np.zeros(20)])
+    found = Solver(study.program, study.method, events=study.events).solve(
+        x0, study.times, p=[1.0, 9.81], store=study.whole, **study.options
+    )
+    assert (found.event_count == 50).all()
+    held = found.event_state.nbytes + found.event_time.nbytes + found.event_index.nbytes
+    assert held < len(x0) * study.bytes_per_run

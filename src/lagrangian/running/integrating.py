@@ -62,13 +62,13 @@ class Task:
 def remembered(model: Model, key: Any, make: Callable[[], Any]) -> Any:
     """What was compiled for a model under a key, made at the first asking."""
     kept: dict[Any, Any] = model._memo.setdefault("compiled", {})
-    if key in kept:
-        kept[key] = kept.pop(key)  # the latest last
-    else:
-        kept[key] = make()
-        while len(kept) > REMEMBERED:
-            del kept[next(iter(kept))]
-    return kept[key]
+    found = kept.pop(key, None)  # one step, as other threads ask too; one that finds nothing meanwhile makes its own
+    if found is None:
+        found = make()
+    kept[key] = found  # the latest last
+    for oldest in list(kept)[:-REMEMBERED]:
+        kept.pop(oldest, None)
+    return found
 
 
 def run(task: Task) -> Outcome:

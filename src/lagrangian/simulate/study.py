@@ -28,6 +28,8 @@ Values: TypeAlias = dict[str, NDArray[Any]]
 
 STATES = 1 << 15  # states that are observed together
 LEAST = 8  # and no fewer, so that machine code never pads
+LOGGED = 3  # copies of an event's numbers at a time: as logged, in order, and run by run
+MANY = 1000  # events of a run that memory is left for; few runs have more
 NOT_FINITE = "E503"
 
 
@@ -95,11 +97,13 @@ class Study:
 
     @property
     def bytes_per_run(self) -> int:
-        """Memory that one run of a chunk takes, roughly: its samples, and what is kept of it."""
+        """Memory that one run of a chunk takes, roughly: its samples, what is kept of it, and its events."""
         samples = len(self.times) if self.whole else 1
         stored = sum(1 if k.reduction else len(self.times) for k in self.kept)
         stored += sum(1 + e.times for e in self.events_kept)
         states = len(self.program.inputs["x"])
+        if self.events is not None:
+            stored += LOGGED * min(self.options.get("max_events", MANY), MANY) * (3 + states)
         return 8 * (samples * states + stored + states + 8)
 
     def fields(self) -> dict[str, tuple[str, tuple[int, ...]]]:
