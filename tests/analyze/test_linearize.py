@@ -264,3 +264,13 @@ def test_what_pushes_weakly_in_small_units_still_pushes() -> None:
         system.spring(k, deflection=x)
         system.generalized_force(x, c * x.diff() ** 3)
         assert system.linearize().stability.verdict == "marginal"
+
+
+def test_nothing_is_said_to_die_out_where_there_is_nothing_else() -> None:
+    system = lg.System("free")
+    x = system.coordinates("x")
+    system.particle(system.parameter("m", 1.0), at=system.origin + (x, 0))
+    assert "nothing brings x back" in system.linearize().stability.reason
+    assert "dies out" not in system.linearize().stability.reason
+    system.damper(system.parameter("b", 1.0), deflection=x)
+    assert "all else dies out" in system.linearize().stability.reason

@@ -394,3 +394,16 @@ def test_memory_is_left_for_the_events_of_a_chunk() -> None:
     assert (found.event_count == 50).all()
     held = found.event_state.nbytes + found.event_time.nbytes + found.event_index.nbytes
     assert held < len(x0) * study.bytes_per_run
+
+
+@pytest.mark.parametrize("other", [{"terminal": False}, {"direction": 1}, {"reset": True}])
+def test_a_store_of_other_events_is_not_gone_on_with(tmp_path, oscillator: lg.System, other: dict) -> None:
+    x = oscillator["x"]
+    given = {"initial": {"x": [1.0, 2.0]}, "method": "rk4", "step": 0.01, "store": tmp_path / "a.zarr"}
+    if other.pop("reset", False):
+        other["reset"] = {x.diff(): -x.diff()}
+    oscillator.ensemble(2.0, events=lg.event(x, terminal=True, name="e"), **given)
+    with pytest.raises(lg.RunError, match="holds another task: events was"):
+        oscillator.ensemble(2.0, events=lg.event(x, **{"terminal": True, **other}, name="e"), resume=True, **given)
+    with pytest.raises(lg.RunError, match="holds another task: events was"):
+        oscillator.ensemble(2.0, events=lg.event(x, terminal=True, name="e"), event_times=2, resume=True, **given)

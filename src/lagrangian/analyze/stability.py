@@ -80,7 +80,8 @@ def judge(found: Spectrum, coordinates: tuple[str, ...], minimum: bool) -> Stabi
         shape = np.abs(found.vectors[: len(coordinates), k])
         moved = [name for name, x in zip(coordinates, shape, strict=True) if x > 1e-9 * shape.max()]
         where = f"there is a pole at 0: nothing brings {_listed(moved)} back"
-        if (sides[np.abs(found.poles) > 0] < 0).all():
+        others = sides[np.abs(found.poles) > 0]
+        if len(others) and (others < 0).all():
             where += ", and all else dies out"
     return Stability("marginal", f"{where}; the linearization does not decide", pole)
 

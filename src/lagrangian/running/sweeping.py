@@ -273,10 +273,15 @@ def _task(model: Model, varying: Varying, wanted: Wanted, drive: Driving, study:
         "options": {k: v if np.isfinite(v) else str(v) for k, v in study.options.items()},
         "kept": [k.name for k in study.kept],
         "outputs": digest(study.outputs),
-        "events": "none"
-        if study.events is None
-        else f"{[e.name for e in study.events_kept]} {digest(study.events.program)}",
+        "events": "none" if study.events is None else _events(study),
     }
+
+
+def _events(study: Study) -> str:
+    """Which events there are, how many times of each are kept, and all that decides what they do."""
+    e = study.events
+    named = [f"{kept.name} {kept.times}" for kept in study.events_kept]
+    return f"{named} #{_hash(repr((e.direction, e.terminal, e.reset, digest(e.program))).encode())}"
 
 
 def _source(source: Any) -> Any:
