@@ -122,3 +122,36 @@ def test_a_table_in_a_file_drives_the_run(capsys: pytest.CaptureFixture[str], tm
     assert code == 2 and "cannot read the table: no such file" in err
     code, _, err = said(capsys, "-e", "cart-pole", "-i", f"F=@{table} cubic")
     assert code == 2 and "takes 'hold' or 'linear'" in err
+
+
+@pytest.mark.parametrize(
+    ("written", "words"),
+    [
+        (b"\xef\xbb\xbf0,1\n2,1\n", ""),  # as spreadsheets write it
+        (b"time,force\n0,1\n2,1\n", ""),
+        (b'# of a run\n"0","1"\n2,1\n\n', ""),
+        (b"0,1,5\n0,1\n2,1\n", "'0,1,5' is no time and value"),
+        (b"0;1\n0;1\n", "'0;1' is no time and value"),
+        (b"0,1\n2," + b"1" * 200_000 + b"x\n", "is no time and value"),
+        (b"\0" * 1000, "the table holds no numbers"),
+        (b"\xff\xfe0", "it is not text"),
+    ],
+)
+def test_tables_are_read_as_they_are_written(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], written: bytes, words: str
+) -> None:
+    table = tmp_path / "force.csv"
+    table.write_bytes(written)
+    code, out, err = said(capsys, "-e", "cart-pole", "-d", "1", "-i", f"F=@{table}")
+    assert (code, "Traceback" in err) == (2 if words else 0, False)
+    assert words in err and ("F" in out) == (not words)
+
+
+def test_a_table_without_end_is_refused(
+    monkeypatch: pytest.MonkeyPatch, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("lagrangian.commands.simulate.MAX_BYTES", 1000)
+    table = tmp_path / "force.csv"
+    table.write_bytes(b"0" * 1001)
+    code, _, err = said(capsys, "-e", "cart-pole", "-d", "1", "-i", f"F=@{table}")
+    assert code == 2 and "more than 1000 bytes" in err

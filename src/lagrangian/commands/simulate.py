@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -20,6 +19,9 @@ from lagrangian.write import write_with
 from lagrangian.write.tables import ENDINGS, check_target
 
 PICTURES = (".png", ".pdf", ".svg", ".jpg")
+
+MAX_BYTES = 64 * MAX_KNOTS
+"""Bytes of a table's file: so many lines of two long numbers."""
 
 
 def simulate(
@@ -122,30 +124,46 @@ def _columns(path: str) -> tuple[list[float], list[float]]:
     """Times and values of a CSV file; a first line of names is passed over."""
     times: list[float] = []
     values: list[float] = []
+    for number, line in enumerate(_table_text(path).splitlines(), 1):
+        cells = [cell.strip().strip('"') for cell in line.split(",")]
+        if not line.strip() or line.lstrip().startswith("#") or (number == 1 and not any(map(_is_number, cells))):
+            continue
+        if len(cells) != 2 or not all(map(_is_number, cells)):
+            raise ModelError(
+                f"'{line[:60]}' is no time and value",
+                place=Place(path, number),
+                fix="write two numbers: 0.5,12.3",
+                code="E406",
+            )
+        times.append(float(cells[0]))
+        values.append(float(cells[1]))
+        if len(times) > MAX_KNOTS:
+            raise ModelError(f"more than {MAX_KNOTS} lines", place=Place(path, number), code="E703")
+    if not times:
+        raise ModelError("the table holds no numbers", place=Place(path), fix="a time and a value a line", code="E406")
+    return times, values
+
+
+def _is_number(text: str) -> bool:
     try:
-        with Path(path).open(encoding="utf-8", newline="") as file:
-            for number, row in enumerate(csv.reader(file), 1):
-                if not row or row[0].lstrip().startswith("#"):
-                    continue
-                try:
-                    time, value = map(float, row)
-                except ValueError:
-                    if number == 1:
-                        continue
-                    raise ModelError(
-                        f"'{','.join(row)[:60]}' is no time and value",
-                        place=Place(path, number),
-                        fix="write two numbers: 0.5,12.3",
-                        code="E406",
-                    ) from None
-                times.append(time)
-                values.append(value)
-                if len(times) > MAX_KNOTS:
-                    raise ModelError(f"more than {MAX_KNOTS} lines", place=Place(path, number), code="E703")
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _table_text(path: str) -> str:
+    """The text of a table's file, no more of it than a table can have; a byte order mark is left out."""
+    try:
+        with Path(path).open("rb") as file:
+            data = file.read(MAX_BYTES + 1)
+        text = data.decode("utf-8-sig")
     except (OSError, UnicodeDecodeError) as trouble:
         reason = getattr(trouble, "strerror", None) or "it is not text"
         raise ModelError(f"cannot read the table: {reason.lower()}", place=Place(path), code="E702") from None
-    return times, values
+    if len(data) > MAX_BYTES:
+        raise ModelError(f"the table has more than {MAX_BYTES} bytes", place=Place(path), code="E703")
+    return text
 
 
 def summary(run: Trajectory) -> str:
