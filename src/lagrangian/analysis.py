@@ -9,11 +9,11 @@ from typing import Any
 
 from lagrangian import analyze, write
 from lagrangian.analyze import LinearizationAlong, Regulator, SymbolicLinearization, linearize_along
-from lagrangian.analyze.canonical_report import hamiltonian_report, routhian_report
-from lagrangian.analyze.conserved_report import conserved_report
-from lagrangian.analyze.equilibria_report import equilibria_report
-from lagrangian.analyze.linear_report import linear_report
+from lagrangian.analyze.kept.canonical_report import hamiltonian_report, routhian_report
+from lagrangian.analyze.kept.conserved_report import conserved_report
+from lagrangian.analyze.linear.report import linear_report
 from lagrangian.analyze.report import Report
+from lagrangian.analyze.rests.report import equilibria_report
 from lagrangian.model import Model
 from lagrangian.write import Notation
 

@@ -179,7 +179,7 @@ def test_the_command_writes_text_and_data(capsys: pytest.CaptureFixture[str]) ->
 
 
 def test_starts_fill_the_box_evenly() -> None:
-    from lagrangian.analyze.roots import starts
+    from lagrangian.analyze.rests.roots import starts
 
     points = starts(4096, np.zeros(3), np.ones(3))
     assert np.abs(points.mean(axis=0) - 0.5).max() < 0.01

@@ -192,7 +192,7 @@ def test_ranks_are_those_of_python_controls_matrices(name: str) -> None:
 
 
 def test_the_staircase_finds_planted_uncontrollable_modes_whatever_the_units() -> None:
-    from lagrangian.analyze.reach import controllable
+    from lagrangian.analyze.linear.reach import controllable
 
     source = np.random.default_rng(8)
     for hidden in (1, 2, 3):
@@ -289,7 +289,7 @@ def test_the_regulators_law_balances_the_pole_in_a_run() -> None:
 @given(n=st.integers(1, 6), seed=st.integers(0, 10_000), floor=st.sampled_from([0, 0, 1, 2]))
 def test_undamped_spectra_are_those_of_scipys_pencil(n: int, seed: int, floor: int) -> None:
     """K with ``floor`` directions that nothing restores: as many double poles at 0, the others imaginary exactly."""
-    from lagrangian.analyze.modes import modes, spectrum
+    from lagrangian.analyze.linear.modes import modes, spectrum
 
     source = np.random.default_rng(seed)
     floor = min(floor, n)

@@ -1,14 +1,14 @@
 """Is it right, and what does it do? Verification, dimensions, rests, linearization, what is conserved."""
 
-from lagrangian.analyze.along import LinearizationAlong, linearize_along
-from lagrangian.analyze.conserved import Conserved, ConservedQuantities, conserved
 from lagrangian.analyze.dimensions import check_dimensions
-from lagrangian.analyze.equilibria import Equilibria, Equilibrium, equilibria
-from lagrangian.analyze.hamiltonian import Hamiltonian, hamiltonian
-from lagrangian.analyze.linearize import Linearization, linearize
-from lagrangian.analyze.regulate import Regulator, lqr, to_control
-from lagrangian.analyze.routhian import Routhian, routhian
-from lagrangian.analyze.symbolic import SymbolicLinearization, symbolic
+from lagrangian.analyze.kept.conserved import Conserved, ConservedQuantities, conserved
+from lagrangian.analyze.kept.hamiltonian import Hamiltonian, hamiltonian
+from lagrangian.analyze.kept.routhian import Routhian, routhian
+from lagrangian.analyze.linear.along import LinearizationAlong, linearize_along
+from lagrangian.analyze.linear.linearize import Linearization, linearize
+from lagrangian.analyze.linear.regulate import Regulator, lqr, to_control
+from lagrangian.analyze.linear.symbolic import SymbolicLinearization, symbolic
+from lagrangian.analyze.rests.equilibria import Equilibria, Equilibrium, equilibria
 from lagrangian.analyze.verify import verify
 
 __all__ = [

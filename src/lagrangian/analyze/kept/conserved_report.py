@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from lagrangian.analyze.conserved import Conserved, ConservedQuantities
+from lagrangian.analyze.kept.conserved import Conserved, ConservedQuantities
 from lagrangian.analyze.report import Part, Report
 from lagrangian.derive import Check
 from lagrangian.derive.formula import Item, Name, Text, formula, text

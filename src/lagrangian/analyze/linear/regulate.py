@@ -12,9 +12,9 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian.analyze.given import Group, number
-from lagrangian.analyze.linearize import Linearization
-from lagrangian.analyze.reach import controllable
-from lagrangian.analyze.stability import shown
+from lagrangian.analyze.linear.linearize import Linearization
+from lagrangian.analyze.linear.reach import controllable
+from lagrangian.analyze.linear.stability import shown
 from lagrangian.errors import MissingExtra, RunError
 
 Array = NDArray[np.float64]

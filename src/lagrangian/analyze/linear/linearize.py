@@ -18,11 +18,11 @@ from numpy.typing import NDArray
 from lagrangian import dynamics
 from lagrangian.analyze.given import Given, Named
 from lagrangian.analyze.jacobians import Arrays, forces, may_kink, rates, reads, values
-from lagrangian.analyze.modes import EPSILON, SLACK, Mode, Spectrum, modes, spectrum
-from lagrangian.analyze.outputs import Measured, measured
-from lagrangian.analyze.reach import Reach, controllable, observable
-from lagrangian.analyze.rest import TIMES, Rest, rest
-from lagrangian.analyze.stability import Stability, has_minimum, judge, loses_power
+from lagrangian.analyze.linear.modes import EPSILON, SLACK, Mode, Spectrum, modes, spectrum
+from lagrangian.analyze.linear.outputs import Measured, measured
+from lagrangian.analyze.linear.reach import Reach, controllable, observable
+from lagrangian.analyze.linear.rest import TIMES, Rest, rest
+from lagrangian.analyze.linear.stability import Stability, has_minimum, judge, loses_power
 from lagrangian.errors import RunError
 from lagrangian.graph import Program
 from lagrangian.model import Model

@@ -16,9 +16,9 @@ from typing import Any, cast
 import sympy as sp
 
 from lagrangian.analyze.given import key_name
-from lagrangian.analyze.hamiltonian import STATES, TOLERANCE, momentum_names, split
-from lagrangian.analyze.lagrangian_form import LagrangianForm
-from lagrangian.analyze.squares import Piece, half_square, summed
+from lagrangian.analyze.kept.hamiltonian import STATES, TOLERANCE, momentum_names, split
+from lagrangian.analyze.kept.lagrangian_form import LagrangianForm
+from lagrangian.analyze.kept.squares import Piece, half_square, summed
 from lagrangian.derive import Check
 from lagrangian.derive.algebra import Form, OutOfReach
 from lagrangian.derive.formula import text

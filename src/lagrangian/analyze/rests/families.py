@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.analyze.roots import EXACT, Search
+from lagrangian.analyze.rests.roots import EXACT, Search
 
 Array = NDArray[np.float64]
 

@@ -14,7 +14,7 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import derive
-from lagrangian.analyze.linearize import Linearization
+from lagrangian.analyze.linear.linearize import Linearization
 from lagrangian.analyze.ratios import Ratio, inverse, written
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach
 from lagrangian.errors import RunError

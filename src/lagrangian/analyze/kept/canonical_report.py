@@ -7,9 +7,9 @@ from typing import Any, cast
 
 import sympy as sp
 
-from lagrangian.analyze.hamiltonian import Hamiltonian
+from lagrangian.analyze.kept.hamiltonian import Hamiltonian
+from lagrangian.analyze.kept.routhian import Routhian
 from lagrangian.analyze.report import Part, Report
-from lagrangian.analyze.routhian import Routhian
 from lagrangian.derive import Check
 from lagrangian.derive.formula import Formula, Item, Name, Partial, Terms, formula, text
 from lagrangian.model import plain

@@ -21,7 +21,7 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian.analyze.echelon import null_space, reduced
-from lagrangian.analyze.lagrangian_form import LagrangianForm
+from lagrangian.analyze.kept.lagrangian_form import LagrangianForm
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.sample import Sampler
 from lagrangian.model import time

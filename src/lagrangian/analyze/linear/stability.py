@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.analyze.jacobians import Arrays
-from lagrangian.analyze.modes import SYMMETRIC, Spectrum
+from lagrangian.analyze.linear.modes import SYMMETRIC, Spectrum
 from lagrangian.graph import Program
 
 Array = NDArray[np.float64]

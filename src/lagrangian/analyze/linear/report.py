@@ -8,10 +8,10 @@ from typing import Any, cast
 import sympy as sp
 
 from lagrangian.analyze.figures import complex_figure, figure, matrix, or_none, plain_numbers
-from lagrangian.analyze.linearize import Linearization
-from lagrangian.analyze.reach import Reach
+from lagrangian.analyze.linear.linearize import Linearization
+from lagrangian.analyze.linear.reach import Reach
+from lagrangian.analyze.linear.symbolic import SymbolicLinearization
 from lagrangian.analyze.report import Part, Report
-from lagrangian.analyze.symbolic import SymbolicLinearization
 from lagrangian.derive.formula import Item, Matrix, Name, Table, Text, formula, text
 from lagrangian.model import Model
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from lagrangian.analyze.equilibria import Equilibria, Equilibrium
 from lagrangian.analyze.figures import figure
-from lagrangian.analyze.linear_report import symbol
+from lagrangian.analyze.linear.report import symbol
 from lagrangian.analyze.report import Part, Report
+from lagrangian.analyze.rests.equilibria import Equilibria, Equilibrium
 from lagrangian.derive.formula import Item, Table, text
 
 

@@ -14,8 +14,8 @@ from lagrangian import compile as machine
 from lagrangian import dynamics, simulate
 from lagrangian.analyze.given import Given, Named
 from lagrangian.analyze.jacobians import rates, values
-from lagrangian.analyze.lagrangian_form import LagrangianForm
-from lagrangian.analyze.symmetries import Symmetry, symmetries
+from lagrangian.analyze.kept.lagrangian_form import LagrangianForm
+from lagrangian.analyze.kept.symmetries import Symmetry, symmetries
 from lagrangian.derive.formula import Name, Text, text
 from lagrangian.model import Model, plain
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from lagrangian import compile as machine
 from lagrangian.analyze.given import Given, Named, key_name, number
 from lagrangian.analyze.jacobians import rates
-from lagrangian.analyze.outputs import measured
+from lagrangian.analyze.linear.outputs import measured
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.model import Model
 

@@ -15,15 +15,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian import compile as machine
-from lagrangian.analyze.box import Box, make_box
 from lagrangian.analyze.echelon import null_space, reduced
-from lagrangian.analyze.families import Family, split
 from lagrangian.analyze.given import Given, Named
 from lagrangian.analyze.jacobians import Quick, values
-from lagrangian.analyze.linearize import TIMES, Linearizer
-from lagrangian.analyze.rest import point_words
-from lagrangian.analyze.roots import EXACT, Forces, Search, distinct, starts
-from lagrangian.analyze.stability import Stability
+from lagrangian.analyze.linear.linearize import TIMES, Linearizer
+from lagrangian.analyze.linear.rest import point_words
+from lagrangian.analyze.linear.stability import Stability
+from lagrangian.analyze.rests.box import Box, make_box
+from lagrangian.analyze.rests.families import Family, split
+from lagrangian.analyze.rests.roots import EXACT, Forces, Search, distinct, starts
 from lagrangian.errors import RunError
 from lagrangian.graph import Graph, Output, Program
 from lagrangian.model import Model

@@ -1,0 +1,1 @@
+"""What every motion keeps, and the functions of Hamilton and Routh."""
