@@ -190,3 +190,55 @@ def test_jacobis_integral_of_a_turning_trough() -> None:
     assert found.kind == "mixed" and found.drift is not None and found.drift < 1e-9
     energy = m * (x.diff() ** 2 + y.diff() ** 2) / 2 + k * across**2 / 2
     assert same(found.expression, energy - W * m * (x * y.diff() - y * x.diff()))
+
+
+def quarter_car(damping: Any) -> tuple[lg.System, dict[str, Any]]:
+    system = lg.System("quarter car")
+    a, b = system.coordinates("a b")
+    m1, m2, k1, k2 = system.parameters("m1 m2 k1 k2", m1=300, m2=40, k1=20e3, k2=180e3)
+    z = system.input("z", "road", unit="m")
+    system.particle(m1, at=system.origin + (0, a))
+    system.particle(m2, at=system.origin + (0, b))
+    system.spring(k1, deflection=a - b)
+    system.spring(k2, deflection=b - z)
+    if damping:
+        system.damper(damping, deflection=a - b)
+    return system, {"a": a, "b": b, "m1": m1, "m2": m2, "k1": k1, "k2": k2, "z": z}
+
+
+def test_a_road_in_the_tyres_energy_must_stand_still_for_the_energy_to_be_kept() -> None:
+    """By hand: m1 ä = −k1 (a − b), m2 b̈ = k1 (a − b) − k2 (b − z), so d(T + V)/dt = −k2 (b − z) ż."""
+    system, s = quarter_car(0)
+    (energy,) = system.conserved()
+    assert energy.while_zero == () and energy.while_constant == ("z",)
+    assert str(energy).endswith("while z is constant")
+    a, b, z, k1, k2 = (s[x] for x in ("a", "b", "z", "k1", "k2"))
+    by_hand = {
+        a.diff().diff(): -k1 * (a - b) / s["m1"],
+        b.diff().diff(): (k1 * (a - b) - k2 * (b - z)) / s["m2"],
+    }
+    changes: Any = sp.diff(energy.expression, time)
+    assert same(changes.subs(by_hand), -k2 * (b - z) * sp.Derivative(z, time))
+    assert "with constant z" in str(system.conserved()) and "any motion is" not in str(system.conserved())
+    assert system.conserved().to_dict()["conserved"][0]["while_constant"] == ["z"]
+    found = system.hamiltonian()
+    assert not found.is_constant and found.while_constant == ("z",)
+    assert "every motion" not in str(found) and "while z is constant" in str(found)
+
+
+def test_what_a_road_gives_is_named_beside_what_a_damper_takes() -> None:
+    system, s = quarter_car(1500)
+    assert len(system.conserved()) == 0
+    (why,) = system.conserved().missed
+    taken, given, road = (part for part in why.parts if isinstance(part, sp.Basic))
+    assert same(taken, -1500 * (s["a"].diff() - s["b"].diff()) ** 2)
+    assert same(given, -s["k2"] * (s["b"] - s["z"])) and road == s["z"]
+
+
+def test_a_force_that_is_0_and_a_road_that_stands_are_both_asked_for() -> None:
+    system, s = quarter_car(0)
+    F = system.input("F", "force", unit="N")
+    system.force(F, deflection=s["a"])
+    (energy,) = system.conserved()
+    assert (energy.while_zero, energy.while_constant) == (("F",), ("z",))
+    assert str(energy).endswith("while F is 0 and z is constant")

@@ -28,6 +28,9 @@ def hamiltonian_report(found: Hamiltonian) -> Report:
     by_momentum = {found.momenta[c.symbol]: c.rate for c in found.model.coordinates}
     kind = "T* + V" if found.is_total else "not T* + V, for a motion is prescribed"
     kept = "every motion keeps it" if found.is_constant else "forces or explicit time change it"
+    if found.while_constant:
+        names = ", ".join(found.while_constant)
+        kept = f"motions keep it while {names} {'is' if len(found.while_constant) == 1 else 'are'} constant"
     equations: list[Item] = [formula(x, _sum(value), boxed=True) for x, value in found.equations.items()]
     parts = (
         Part(text("Momenta"), tuple(_defined(found.definitions, by_momentum))),
@@ -42,6 +45,7 @@ def hamiltonian_report(found: Hamiltonian) -> Report:
         "equations": {plain(x): plain(value) for x, value in found.equations.items()},
         "is_total": found.is_total,
         "is_constant": found.is_constant,
+        "while_constant": list(found.while_constant),
         "checks": _checks(found.checks),
     }
     return Report(f"{found.model.name}: Hamilton's form", found.model, parts, data)

@@ -36,7 +36,8 @@ class Conserved:
     "turn" (a direction that depends on the coordinates, such as the angular momentum of x and y), "mixed" (with energy,
     as where a potential turns at a constant rate: Jacobi's integral).
     ``expression`` is the quantity; ``direction`` what every coordinate is moved by where nothing changes (empty for
-    the energy); ``while_zero`` the inputs that must be 0. ``drift`` is its largest change along a run over its size,
+    the energy); ``while_zero`` the inputs that must be 0, ``while_constant`` those that must not change, as a road that
+    stands in a spring's energy. ``drift`` is its largest change along a run over its size,
     None where no run was made.
     """
 
@@ -47,11 +48,12 @@ class Conserved:
     while_zero: tuple[str, ...]
     reason: Text
     drift: float | None = None
+    while_constant: tuple[str, ...] = ()
 
     def __str__(self) -> str:
         """Read as a line."""
-        while_zero = f" while {', '.join(self.while_zero)} = 0" if self.while_zero else ""
-        return f"{self.name}: {plain(self.expression)}{while_zero}"
+        only = _condition(self.while_zero, self.while_constant)
+        return f"{self.name}: {plain(self.expression)}{' ' + only if only else ''}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,9 +98,17 @@ def _described(system: LagrangianForm, symmetry: Symmetry, need: tuple[str, ...]
     expression = symmetry.conserved.expr()
     direction = {q: d.expr() for q, d in zip(system.q, symmetry.direction, strict=True) if d.parts}
     name, kind, reason = _words(system, symmetry, direction)
-    if need:
-        reason = Text((*reason.parts, f", while {_listed(need)} {'is' if len(need) == 1 else 'are'} 0"))
-    return Conserved(name, kind, expression, direction, need, reason)
+    steady = tuple(u.name for u in system.moved_by(symmetry.conserved) if u.name not in need)
+    if need or steady:
+        reason = Text((*reason.parts, f", {_condition(need, steady)}"))
+    return Conserved(name, kind, expression, direction, need, reason, while_constant=steady)
+
+
+def _condition(zero: Sequence[str], constant: Sequence[str]) -> str:
+    """``while F is 0 and z is constant``, or nothing."""
+    pairs = ((zero, "0"), (constant, "constant"))
+    parts = [f"{_listed(names)} {'is' if len(names) == 1 else 'are'} {what}" for names, what in pairs if names]
+    return "while " + " and ".join(parts) if parts else ""
 
 
 def _words(system: LagrangianForm, symmetry: Symmetry, direction: Mapping[Any, sp.Expr]) -> tuple[str, str, Text]:
@@ -142,7 +152,11 @@ def _missed(system: LagrangianForm, found: Sequence[Conserved]) -> tuple[Text, .
         if q not in kept and slope.is_zero and not system.momenta[k].is_zero:
             listed.append(text(L, " does not hold ", q, ", but its momentum changes at ", force.expr()))
     if not any(c.kind in ("energy", "mixed") for c in found):
-        listed.append(text("the energy changes at ", system.power.expr()))
+        parts: list[Any] = ["the energy changes at ", system.power.expr()]
+        for u in system.moved_by(system.energy):
+            parts += [", and at ", (-system.lagrangian.diff(u.symbol)).expr(), " times the rate of ", u.symbol]
+            parts.append(" where that changes")
+        listed.append(text(*parts))
     return tuple(listed)
 
 

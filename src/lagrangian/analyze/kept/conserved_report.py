@@ -25,7 +25,8 @@ def conserved_report(found: ConservedQuantities) -> Report:
 
 
 def _part(found: ConservedQuantities, c: Conserved) -> Part:
-    checks = [Check(text("its rate along any motion is 0"), True, "exactly, in normal form")]
+    every = f"any motion with constant {', '.join(c.while_constant)}" if c.while_constant else "any motion"
+    checks = [Check(text(f"its rate along {every} is 0"), True, "exactly, in normal form")]
     if c.drift is not None:
         checks.append(Check(text(f"along a run of {found.run:.3g} s"), c.drift < KEPT, f"drift {c.drift:.1e}"))
     title = c.name[0].upper() + c.name[1:]
@@ -44,6 +45,7 @@ def data(found: ConservedQuantities) -> dict[str, Any]:
                 "expression": plain(c.expression),
                 "direction": {plain(q): plain(d) for q, d in c.direction.items()},
                 "while_zero": list(c.while_zero),
+                "while_constant": list(c.while_constant),
                 "reason": str(c.reason),
                 "drift": c.drift,
             }

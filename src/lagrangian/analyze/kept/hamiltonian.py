@@ -36,7 +36,8 @@ class Hamiltonian:
 
     ``momenta``: coordinate → symbol of its momentum, a function of time. ``definitions``: momentum → ∂L/∂ξ̇ in rates.
     ``equations``: rate of a coordinate or momentum → its expression in q, p, t. ``is_total`` says that H is T* + V,
-    ``is_constant`` that every motion keeps it.
+    ``is_constant`` that every motion keeps it; it is kept while the inputs of ``while_constant`` do not change where
+    there are such.
     """
 
     model: Model
@@ -47,6 +48,7 @@ class Hamiltonian:
     is_total: bool
     is_constant: bool
     checks: tuple[Check, ...]
+    while_constant: tuple[str, ...] = ()
 
 
 def hamiltonian(model: Model) -> Hamiltonian:
@@ -67,6 +69,8 @@ def hamiltonian(model: Model) -> Hamiltonian:
     pushes = [f - s for f, s in zip(forces, slopes, strict=True)]
     checks = _checks(system, letters, H, rates, pushes)
     time_symbol = sp.Symbol("t")
+    kept = system.power.is_zero
+    steady = tuple(u.name for u in system.moved_by(system.energy)) if kept else ()
     equations: dict[sp.Expr, sp.Expr] = {}
     for v, rate in zip(system.v, rates, strict=True):
         equations[v] = cast("sp.Expr", rate.xreplace(to_moving))
@@ -79,8 +83,9 @@ def hamiltonian(model: Model) -> Hamiltonian:
         definitions={p: form.expr() for p, form in zip(moving, system.momenta, strict=True)},
         equations=equations,
         is_total=system.is_total,
-        is_constant=system.power.is_zero,
+        is_constant=kept and not steady,
         checks=checks,
+        while_constant=steady,
     )
 
 

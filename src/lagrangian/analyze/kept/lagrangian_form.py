@@ -11,7 +11,7 @@ import sympy as sp
 
 from lagrangian.derive.algebra import Algebra, Form
 from lagrangian.errors import ModelError
-from lagrangian.model import Model, time
+from lagrangian.model import Input, Model, time
 
 
 @dataclass(frozen=True, eq=False)
@@ -105,6 +105,13 @@ class LagrangianForm:
         """What h changes at: dh/dt = Σ Ξ_i ξ̇_i − ∂L/∂t."""
         parts = [f * self.algebra.form(v) for f, v in zip(self.forces, self.v, strict=True)]
         return self.algebra.total([*parts, -self.lagrangian.diff(time)])
+
+    def moved_by(self, form: Form) -> tuple[Input, ...]:
+        """The inputs that a form holds: what is kept is so only while these are constant.
+
+        ``power`` holds their values, not their rates; where u changes, dh/dt has −∂L/∂u u̇ besides.
+        """
+        return tuple(u for u in self.model.inputs if form.raw().has(u.symbol))
 
     @property
     def is_total(self) -> bool:
