@@ -37,8 +37,10 @@ def test_the_order_of_convergence_is_the_methods(name):
     assert abs(np.log2(errors[0] / errors[1]) - solver.method.order) < 0.1
 
 
-@pytest.mark.parametrize("order", [5, 7])
-def test_a_series_of_order_n_is_of_order_n(order):
+@pytest.mark.parametrize(("order", "count"), [(3, 192), (4, 192), (5, 96)])
+def test_a_series_of_order_n_is_of_order_n(order, count):
+    """With counts at which the first steps, each at most twice the one before, weigh nothing."""
+
     class Fixed(Taylor):
         def suited(self, tolerance):
             return self
@@ -46,8 +48,8 @@ def test_a_series_of_order_n_is_of_order_n(order):
     solver = Solver(problem(lambda s: [s["x"] * s["t"].apply("cos")], x="x"), "taylor")
     solver.method = Fixed(order)
     exact = np.exp(np.sin(3.0))
-    errors = [abs(run(solver, [1.0], [0, 3.0], 3.0 / n).final[0, 0] - exact) for n in (48, 96)]
-    assert abs(np.log2(errors[0] / errors[1]) - order) < 0.2  # the first steps are shorter: each at most doubles
+    errors = [abs(run(solver, [1.0], [0, 3.0], 3.0 / n).final[0, 0] - exact) for n in (count, 2 * count)]
+    assert abs(np.log2(errors[0] / errors[1]) - order) < 0.1
 
 
 @pytest.mark.parametrize(("name", "lengths"), [("tsit5", (0.05, 0.025)), ("dop853", (0.4, 0.2))])
