@@ -109,3 +109,19 @@ def test_an_angle_in_a_sine_may_be_a_ratio_of_lengths() -> None:
     m, R = s.parameter("m", "1 kg"), s.parameter("R", "0.2 m")
     s.particle(m, s.origin + (x + R * sin(x / R), R * cos(x / R)))
     assert s.derive().equations
+
+
+@pytest.mark.parametrize("mass", [None, "1 kg"])
+def test_a_bare_number_for_a_length_is_refused_only_where_units_were_given(mass):
+    """A pendulum of length 1 without a parameter for it: θ̈ + g sin θ = 0 after division by m."""
+    system = lg.System("pendulum")
+    theta = system.coordinates("theta")
+    m = system.parameter("m", mass)
+    system.particle(m, at=system.origin + (sin(theta), -cos(theta)))
+    system.gravity()
+    if mass is None:
+        (equation,) = system.derive().equations
+        assert (equation.lhs - m * (theta.diff().diff() + system["g"] * sin(theta))).expand() == 0
+    else:
+        with pytest.raises(lg.ModelError, match="a number has no unit: multiply by a parameter"):
+            system.derive()

@@ -94,10 +94,14 @@ class Mismatch(Exception):
 
 @dataclass
 class Dimensions:
-    """The dimensions solved so far; ``loose`` once a bare number stood for a quantity with a unit."""
+    """The dimensions solved so far; ``loose`` once a bare number stood for a quantity with a unit.
+
+    ``given``: whether anybody gave a unit, beside the standard g's own.
+    """
 
     solved: dict[Any, Dim] = field(default_factory=dict)
     loose: bool = False
+    given: bool = True
     seen: dict[int, Point] = field(default_factory=dict)
 
     def reduce(self, dim: Dim) -> Dim:
@@ -209,7 +213,7 @@ def check_dimensions(model: Model) -> Dimensions | None:
     named = (*model.coordinates, *model.velocities, *model.parameters, *model.inputs)
     if not any(x.unit for x in named if x not in own):
         return None
-    dims = Dimensions()
+    dims = Dimensions(given=any(x.unit for x in named if x not in own and not _is_standard_gravity(x)))
     for x in named:
         if x.unit:
             if not isinstance(x, Parameter) and (scale := read.parse_quantity(f"1 {x.unit}").value) != 1:
@@ -256,13 +260,23 @@ def _claim(dims: Dimensions, title: str, place: Place | None, what: str, expr: s
     try:
         dims.settle(found, wanted, expr)
     except Mismatch as wrong:
+        if not dims.given:  # nobody spoke of units: a bare sin(theta) is a position in units of its own
+            dims.loose = True
+            return
+        names = ", ".join(sorted(plain(s) for s in _atoms(expr)))
+        bare = f"a number has no unit: multiply by a parameter that has one, or check the units of {names}"
         raise ModelError(
             f"its {what} {plain(expr)} has the unit {wrong.found}, but {wrong.wanted} is needed",
             element=title,
             place=place,
-            fix=f"check the units of {', '.join(sorted(plain(s) for s in _atoms(expr)))}",
+            fix=bare if found == NONE else f"check the units of {names}",
             code="E408",
         ) from None
+
+
+def _is_standard_gravity(x: Any) -> bool:
+    """Whether this is the parameter that `gravity` adds when none is given."""
+    return isinstance(x, Parameter) and (x.name, x.unit, x.value) == ("g", "m/s^2", 9.81)
 
 
 def _atoms(expr: sp.Expr) -> set[sp.Basic]:
