@@ -25,21 +25,21 @@ class Written:
         """Return the report: words, formulas, tables."""
         raise TypeError(f"{type(self).__name__} has no report")
 
-    def to_text(self, *, notation: Notation = "lecture", width: int = 80) -> str:
-        """Return Unicode text for a terminal of ``width`` columns."""
-        return write.write_report(self.report(), "text", notation=notation, width=width)
+    def to_text(self, *, notation: Notation = "lecture", full: bool = False, width: int = 80) -> str:
+        """Return Unicode text for a terminal of ``width`` columns; ``full`` writes out what is too long to read."""
+        return write.write_report(self.report(), "text", notation=notation, full=full, width=width)
 
-    def to_markdown(self, *, notation: Notation = "lecture") -> str:
+    def to_markdown(self, *, notation: Notation = "lecture", full: bool = False) -> str:
         """Return Markdown with LaTeX mathematics."""
-        return write.write_report(self.report(), "markdown", notation=notation)
+        return write.write_report(self.report(), "markdown", notation=notation, full=full)
 
-    def to_latex(self, *, notation: Notation = "lecture") -> str:
+    def to_latex(self, *, notation: Notation = "lecture", full: bool = False) -> str:
         """Return a LaTeX article that compiles as it is."""
-        return write.write_report(self.report(), "latex", notation=notation)
+        return write.write_report(self.report(), "latex", notation=notation, full=full)
 
-    def to_html(self, *, notation: Notation = "lecture") -> str:
+    def to_html(self, *, notation: Notation = "lecture", full: bool = False) -> str:
         """Return one self-contained HTML page."""
-        return write.write_report(self.report(), "html", notation=notation)
+        return write.write_report(self.report(), "html", notation=notation, full=full)
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data for JSON."""

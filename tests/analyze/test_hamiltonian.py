@@ -8,9 +8,11 @@ import sympy as sp
 
 import lagrangian as lg
 from lagrangian import dynamics, examples
+from lagrangian.derive.formula import Elided, Formula
 from lagrangian.errors import ModelError, RunError
 from lagrangian.graph import evaluate
 from lagrangian.model import time
+from lagrangian.write.glyphs import columns
 
 
 def built_in(name: str) -> lg.System:
@@ -168,3 +170,33 @@ def test_a_singular_mass_matrix_is_said() -> None:
     system.particle(1, at=system.origin + (x + y, 0))
     with pytest.raises((RunError, ModelError), match="singular"):
         system.hamiltonian()
+
+
+def test_a_long_hamiltonian_is_given_by_its_mass_matrix() -> None:
+    """½ pᵀ M⁻¹ p + V, with the M and V of the page, is H: at random states."""
+    system = built_in("triple-pendulum")
+    found = system.hamiltonian()
+    part = next(p for p in found.report().parts if str(p.title) == "Hamiltonian")
+    shown = {str(f.sides[0]): f.sides[1] for f in part.items if isinstance(f, Formula)}
+    rows: Any = shown["M"]
+    V: Any = shown["V"]
+    summary: Any = shown["H"]
+    assert isinstance(summary, Elided) and summary.expr == found.H
+    source = np.random.default_rng(8)
+    model = system.model
+    q, p = source.uniform(0.4, 1.2, 3), source.uniform(-1, 1, 3)
+    table = _table(model, q, [0, 0, 0], [], [x.value for x in model.parameters], 0.3)
+    table |= dict(zip(found.momenta.values(), p, strict=True))
+    M = np.array([[float(_put(x, table)) for x in row] for row in rows.rows])
+    V_there = sum(float(_put(term, table)) for term in V.terms)
+    assert np.isclose(p @ np.linalg.solve(M, p) / 2 + V_there, float(_put(found.H, table)), rtol=1e-12)
+
+
+@pytest.mark.parametrize("name", ["triple-pendulum", "acrobot", "furuta-pendulum", "lecture-2"])
+def test_pages_of_long_hamiltonians_keep_to_their_width(name: str) -> None:
+    found = built_in(name).hamiltonian()
+    for width in (80, 100):
+        assert max(columns(line) for line in found.to_text(width=width).splitlines()) <= width
+    full = found.to_text(full=True)
+    assert "operations⟩" not in full and max(columns(line) for line in full.splitlines()) <= 82
+    assert ("written out" in found.to_html()) == (name in ("triple-pendulum", "furuta-pendulum"))

@@ -15,7 +15,9 @@ from hypothesis import strategies as st
 from lagrangian.model import Builder, Particle, time
 from lagrangian.write.expression import Expressions
 from lagrangian.write.glyphs import columns, join, token, unicode
-from lagrangian.write.math import break_lines, tokens
+from lagrangian.write.lines import lines, measure
+from lagrangian.write.math import Grid, Letter, Number, Power, Ratio, Sum, Times, break_lines, tokens
+from lagrangian.write.mathml import mathml
 from lagrangian.write.names import letters
 from lagrangian.write.tex import PAGE, WEB
 
@@ -278,3 +280,29 @@ def test_breaks_are_taken_outside_of_parentheses_first():
     pieces = list(tokens(WRITE(expr)))
     lines = [join(line) for line in break_lines(pieces, 34, lambda p: columns(token(p)))]
     assert lines == ["m₁ (L + Lₐ + L_b) x₁", "+ m₂ (L + Lₐ + L_b) x₂ᵣ"]
+
+
+def test_dots_stand_on_the_first_letter_of_a_name_and_subscripts_have_one_way() -> None:
+    assert unicode(Letter("zs", (), 1)) == "żs"
+    assert unicode(Letter("p", ("phi1",))) == "p_φ₁"
+    assert unicode(Letter("V", ("suspension",))) == "V_suspension"
+    assert unicode(Letter("V", ("tyre",))) == "V_tyre"
+    assert unicode(Letter("x", ("2r",))) == "x₂ᵣ" and unicode(Letter("L", ("a",))) == "Lₐ"
+    assert PAGE.latex(Letter("p", ("phi1",))) == r"p_{\phi_{1}}"
+    assert "<msub><mi>φ</mi><mn>1</mn></msub>" in mathml(Letter("p", ("phi1",)))
+
+
+def test_a_fraction_too_long_for_a_line_lets_what_follows_be_cut() -> None:
+    """No line is longer than the width, whatever stands first, and every letter is still there."""
+    long = Sum(tuple((False, Letter("a", (str(k),))) for k in range(30)))
+    ratio = Ratio(Number("1"), Times((Number("2"), long)))
+    whole = Sum(((False, ratio), (False, Power(long, Number("2"))), (True, Letter("b"))))
+    cut = [join(line) for line in break_lines(list(tokens(whole)), 60, measure)]
+    assert max(len(line) for line in cut) <= 60
+    assert sum(line.count("a") for line in cut) == 60 and cut[-1].endswith("− b")
+
+
+def test_a_matrix_that_fits_keeps_its_name() -> None:
+    grid = Grid(tuple(tuple(Number(f"−{i}.{j}4567") for j in range(6)) for i in range(6)))
+    (line,) = lines((Letter("A"), grid), 96)
+    assert [t.math for t in line.right if t.role == "leaf"] == [Letter("A"), grid]

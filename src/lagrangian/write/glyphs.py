@@ -24,6 +24,7 @@ from lagrangian.write.math import (
     Word,
     bare,
     in_parentheses,
+    numbered,
     tokens,
 )
 
@@ -104,21 +105,33 @@ def _leaf(math: Math) -> str:
 
 def _letter(math: Letter) -> str:
     if math.literal:
-        return math.base + _DOTS[math.dots]
+        return _dotted(math.base, math.dots)
     base = GREEK.get(math.base, math.base)
     if math.bold and math.apart:
         base = bold(base)
-    shown = base + _DOTS[math.dots]
+    shown = _dotted(base, math.dots)
     small = [subscript(part) for part in math.sub]
     if len(small) == 1 and small[0] is not None:
         return shown + small[0] + ("*" if math.star else "")
     shown += "*" if math.star else ""
     if not math.sub:
         return shown
-    parts = [GREEK.get(p, p) for p in math.sub]
+    parts = [_part(p) for p in math.sub]
     return shown + (
         "_" + "_".join(parts) if all(p.isidentifier() or p.isalnum() for p in parts) else f"_({', '.join(parts)})"
     )
+
+
+def _dotted(name: str, dots: int) -> str:
+    """A name with its dots on the first letter, as on a letter with a subscript: żs."""
+    return name[:1] + _DOTS[dots] + name[1:]
+
+
+def _part(part: str) -> str:
+    """A part of a subscript after an underscore: φ₁ for phi1."""
+    if found := numbered(part):
+        return GREEK[found[0]] + "".join(_SUBSCRIPTS[c] for c in found[1])
+    return GREEK.get(part, part)
 
 
 def bold(text: str) -> str:
@@ -139,7 +152,12 @@ def _bold(c: str) -> str:
 
 
 def subscript(part: str) -> str | None:
-    """Return the part in subscript characters, or None where Unicode has no character for one of its letters."""
+    """Return the part in subscript characters, or None where Unicode lacks one of its letters, and for words.
+
+    Words are not set small even where Unicode could: V_suspension stands beside V_tyre, which it cannot.
+    """
+    if part[:2].isalpha() and len(part) > 1 and part not in _SUBSCRIPTS:
+        return None
     if part in _SUBSCRIPTS or part in GREEK:
         return _SUBSCRIPTS.get(part)
     return "".join(_SUBSCRIPTS[c] for c in part) if part and all(c in _SUBSCRIPTS for c in part) else None

@@ -25,7 +25,7 @@ from lagrangian.write.document import (
 )
 from lagrangian.write.layout import lay_out
 from lagrangian.write.math import Math, Number, Sum, Tagged, tokens
-from lagrangian.write.mathml import displayed, mathml, row
+from lagrangian.write.mathml import displayed, mathml, row, wide
 from lagrangian.write.quantities import Notation
 from lagrangian.write.text import clean
 from lagrangian.write.text import display as text_lines
@@ -185,7 +185,7 @@ def _terms(side: Math, kinds: list[str]) -> str:
     for i, (minus, term) in enumerate(pairs or ((False, Number("0")),)):
         form = "infix" if i else "prefix"
         sign = f'<mo form="{form}">{"−" if minus else "+"}</mo>' if i or minus else ""
-        inner = f'<math displaystyle="true">{sign}{row(tokens(term))}</math>'
+        inner = wide(sign, term, WIDTH - 12) or f'<math displaystyle="true">{sign}{row(tokens(term))}</math>'
         if isinstance(term, Tagged) and term.elements:
             kind = term.kind if term.kind in KINDS else "other"
             if kind not in kinds:

@@ -58,6 +58,8 @@ def chain(sides: tuple[Math, ...], width: int, *, aligned: bool = False) -> list
 def lines(sides: tuple[Math, ...], width: int) -> list[Line]:
     """Cut any formula into lines, entry by entry where it is a matrix that is too wide."""
     parts = chains(sides, width)
+    if len(parts) == 1 and any(isinstance(side, Grid) for side in sides):  # it fits, rows below each other
+        return [Line((), False, tuple(tokens(equality(sides))))]
     return [line for part in parts for line in chain(part, width, aligned=len(parts) > 1)]
 
 

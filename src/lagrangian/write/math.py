@@ -7,6 +7,7 @@ resort.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
@@ -70,6 +71,15 @@ class Letter:
     bold: bool = False
     literal: bool = False
     apart: bool = False
+
+
+_NUMBERED = re.compile(rf"({'|'.join(sorted(GREEK, key=len, reverse=True))})(\d+)\Z")
+
+
+def numbered(part: str) -> tuple[str, str] | None:
+    """Return the Greek letter and the number of a subscript such as ``phi1``, or None."""
+    found = _NUMBERED.match(part)
+    return (found.group(1), found.group(2)) if found else None
 
 
 @dataclass(frozen=True)
@@ -344,15 +354,21 @@ def is_tall(math: Math | None) -> bool:
 
 
 def _loosened(pieces: Sequence[Token], width: int, measure: Callable[[Token], int]) -> list[Token]:
-    """Write a fraction that is longer than a line as 1/b · a, whose numerator can be cut."""
+    """Write a fraction that is longer than a line as 1/b · a, so that a can be cut, and b if too long."""
     made: list[Token] = []
     for piece in pieces:
         ratio = piece.math
-        if piece.role == "leaf" and isinstance(ratio, Ratio) and measure(piece) > width - 4:
-            over = ratio.over.factors if isinstance(ratio.over, Times) else (ratio.over,)
-            made += tokens(Times((Ratio(Number("1"), ratio.under), Word("·"), *over)), 1)
-        else:
+        if not (piece.role == "leaf" and isinstance(ratio, Ratio) and measure(piece) > width - 4):
             made.append(piece)
+            continue
+        under = Token("leaf", Ratio(Number("1"), ratio.under))
+        cut = [under]
+        if measure(under) > width - 4:
+            cut = [Token("leaf", Word("1/")), *tokens(Fence(ratio.under), 1)]
+        if ratio.over != Number("1"):
+            over = ratio.over.factors if isinstance(ratio.over, Times) else (ratio.over,)
+            cut += [Token("gap", level=3), *tokens(Times((Word("·"), *over)), 1)]
+        made += _loosened(cut, width, measure) if len(cut) > 1 else cut
     return made
 
 
@@ -372,7 +388,7 @@ def break_lines(
         breaks: list[tuple[int, int, int]] = []
         while end < len(pieces):
             level = pieces[end].level
-            if end > start and level is not None and used <= room:
+            if end > start and level is not None and (used <= room or not breaks):  # what is too wide stands alone
                 breaks.append((end, used, level))
             used += measure(pieces[end])
             end += 1

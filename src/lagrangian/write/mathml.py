@@ -26,11 +26,13 @@ from lagrangian.write.math import (
     bare,
     in_parentheses,
     is_tall,
+    numbered,
     tokens,
 )
 
 _DOTS = ("", "˙", "¨", "⃛")
 _GAP = '<mspace width="0.17em"></mspace>'
+_INDENT = '<mspace width="2em"></mspace>'
 _IF = "<mtext>if&#xa0;</mtext>"
 _APPLY = "<mo>&#x2061;</mo>"
 
@@ -50,9 +52,21 @@ def displayed(sides: tuple[Math, ...], width: int) -> str:
     return f'<math display="block"><mtable displaystyle="true">{body}</mtable></math>'
 
 
+def wide(sign: str, term: Math, width: int) -> str:
+    """Return a term that is longer than ``width`` columns in lines after its sign; nothing where it fits."""
+    cut = lines((term,), width)
+    if len(cut) == 1:
+        return ""
+    body = "".join(
+        f"<mtr><mtd>{'' if i else sign}</mtd><mtd>{_INDENT if i else ''}{row(line.right)}</mtd></mtr>"
+        for i, line in enumerate(cut)
+    )
+    return f'<math displaystyle="true"><mtable displaystyle="true">{body}</mtable></math>'
+
+
 def _line(line: Line) -> str:
     equals = "<mo>=</mo>" if line.equals else ""
-    indent = '<mspace width="2em"></mspace>' if line.indented else ""
+    indent = _INDENT if line.indented else ""
     right = f"<mtd>{indent}{equals}{row(line.right)}</mtd>"
     return f"<mtr><mtd>{row(line.left)}</mtd>{right}</mtr>"
 
@@ -191,6 +205,8 @@ def _sub(math: Letter) -> str:
 def _part(part: str) -> str:
     if part.isdigit():
         return f"<mn>{part}</mn>"
+    if found := numbered(part):
+        return f"<msub><mi>{GREEK[found[0]]}</mi><mn>{found[1]}</mn></msub>"
     if part in GREEK or len(part) == 1:
         return f"<mi>{escape(GREEK.get(part, part))}</mi>"
     digits = len(part) - len(part.lstrip("0123456789"))

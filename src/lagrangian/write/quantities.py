@@ -93,7 +93,7 @@ _COMMON: dict[str, tuple[Letter, ...]] = {
     "H": (Letter("H"), Letter("ℋ")),
     "R": (Letter("R"), Letter("ℛ")),
 }
-_VECTORS = {letter: letter for letter in "MCGqABJKS"} | {"D matrix": "D"} | {f"{x} vector": x for x in "xuyqf"}
+_VECTORS = {letter: letter for letter in "MCGqABJKS"} | {"D matrix": "D"} | {f"{x} vector": x for x in "xuyqfp"}
 """Letters of matrices and vectors, bold where a symbol of the system has the same."""
 
 

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
 
 from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.write import html, latex, markdown, text
-from lagrangian.write.document import Block, Document, Section
+from lagrangian.write.document import Block, Document, Paragraph, Section
 from lagrangian.write.items import Items
 from lagrangian.write.quantities import Notation
 
@@ -19,13 +19,22 @@ ReportFormat: TypeAlias = Literal["text", "markdown", "latex", "html", "json"]
 """What a report is written as."""
 
 
-def lay_out_report(report: Report, *, notation: Notation = "lecture", details: bool = False) -> Document:
-    """Return the document of a report. Raises `ModelError` for an unknown notation."""
-    items = Items(report.model, notation, brief=False, full=False, details=details)
+def lay_out_report(
+    report: Report, *, notation: Notation = "lecture", full: bool = False, details: bool = False
+) -> Document:
+    """Return the document of a report; ``full`` writes out what would be summarised for its length.
+
+    Raises `ModelError` for an unknown notation.
+    """
+    items = Items(report.model, notation, brief=False, full=full, details=details)
     sections = [
         Section(f"part-{k}", items.inline(part.title), tuple(_blocks(items, part, f"part-{k}")))
         for k, part in enumerate(report.parts, 1)
     ]
+    if items.elided:
+        how = "It opens where it stands." if details else "The option “full” writes it out, and the data holds it."
+        words = f"⟨n operations⟩ stands for an expression that is too long to read. {how}"
+        sections.append(Section("notes", ("Notes",), (Paragraph((words,), "note"),)))
     return Document(report.title, tuple(sections))
 
 
@@ -36,7 +45,12 @@ def _blocks(items: Items, part: Part, anchor: str) -> Iterator[Block]:
 
 
 def write_report(
-    report: Report, format: ReportFormat = "text", *, notation: Notation = "lecture", width: int = 80
+    report: Report,
+    format: ReportFormat = "text",
+    *,
+    notation: Notation = "lecture",
+    full: bool = False,
+    width: int = 80,
 ) -> str:
     """Return a report in a format; JSON is its data. Raises `ModelError` for an unknown format or notation."""
     if format not in get_args(ReportFormat):
@@ -46,7 +60,7 @@ def write_report(
         )
     if format == "json":
         return json.dumps(report.data, ensure_ascii=False, indent=1, allow_nan=False) + "\n"
-    document = lay_out_report(report, notation=notation, details=format == "html")
+    document = lay_out_report(report, notation=notation, full=full, details=format == "html")
     if format == "text":
         return text.page(document, width)
     if format == "html":

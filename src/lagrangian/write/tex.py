@@ -24,6 +24,7 @@ from lagrangian.write.math import (
     bare,
     in_parentheses,
     is_word,
+    numbered,
     tokens,
 )
 from lagrangian.write.tex_words import escape, web
@@ -171,6 +172,8 @@ class Tex:
         return rf"\mathrm{{{_upright(base)}}}" if base.isascii() else rf"\text{{{self.words(base)}}}"
 
     def _sub(self, part: str) -> str:
+        if found := numbered(part):
+            return f"{self.base(found[0])}_{{{found[1]}}}"
         if part in GREEK or (part.isascii() and (len(part) == 1 or part[0].isdigit()) and part.isalnum()):
             return self.base(part) if part in GREEK else part
         if part.isascii() and part.isalnum():

@@ -11,7 +11,7 @@ from lagrangian.analyze.kept.hamiltonian import Hamiltonian
 from lagrangian.analyze.kept.routhian import Routhian
 from lagrangian.analyze.report import Part, Report
 from lagrangian.derive import Check
-from lagrangian.derive.formula import Formula, Item, Name, Partial, Terms, formula, text
+from lagrangian.derive.formula import Elided, Formula, Item, Left, Matrix, Name, Partial, Terms, formula, text
 from lagrangian.model import plain
 
 
@@ -19,8 +19,43 @@ def _defined(definitions: Mapping[Any, sp.Expr], rates: Mapping[Any, Any]) -> li
     return [formula(p, Partial(Name("L"), rates[p]), value) for p, value in definitions.items()]
 
 
-def _sum(expr: sp.Expr) -> Terms:
-    return Terms(tuple(cast("sp.Expr", term) for term in expr.as_ordered_terms()))
+LONGEST = 200
+"""Operations up to which H, R and equations are written out: about ten lines of a page."""
+
+
+def _sum(expr: sp.Expr) -> Left:
+    """The terms of a sum, or its summary where it is too long to read."""
+    terms = tuple(cast("sp.Expr", term) for term in expr.as_ordered_terms())
+    operations = int(sp.count_ops(expr))
+    return Terms(terms) if operations <= LONGEST else Elided(expr, operations, terms)
+
+
+def _by_mass(found: Hamiltonian) -> list[Item]:
+    """H = ½ pᵀ M⁻¹ p + V with its M and V, where H itself is too long to read and is T* + V."""
+    if not found.is_total or int(sp.count_ops(found.H)) <= LONGEST:
+        return []
+    rates = [c.rate for c in found.model.coordinates]
+    M = Matrix(tuple(tuple(_entry(sp.diff(p, v)) for v in rates) for p in found.definitions.values()))
+    V = cast("sp.Expr", found.H.xreplace(dict.fromkeys(found.momenta.values(), sp.S.Zero)))
+    p = Name("p vector")
+    return [
+        text("H = ½ ", p, "ᵀ ", Name("M"), "⁻¹ ", p, " + V, with"),
+        formula(Name("M"), M),
+        formula(Name("V"), _sum(V)),
+        text("Written out it is"),
+    ]
+
+
+def _by_rates(found: Hamiltonian) -> list[Item]:
+    """The canonical equations by M and V, where H is given so."""
+    if not _by_mass(found):
+        return []
+    M, p, v = Name("M"), Name("p vector"), Name("q vector", "", 1)
+    return [text(v, " = ", M, "⁻¹ ", p, " and ṗᵢ = ½ ", v, "ᵀ (∂", M, "/∂ξᵢ) ", v, " − ∂V/∂ξᵢ + Ξᵢ; written out:")]
+
+
+def _entry(expr: Any) -> sp.Expr:
+    return cast("sp.Expr", expr)
 
 
 def hamiltonian_report(found: Hamiltonian) -> Report:
@@ -34,8 +69,11 @@ def hamiltonian_report(found: Hamiltonian) -> Report:
     equations: list[Item] = [formula(x, _sum(value), boxed=True) for x, value in found.equations.items()]
     parts = (
         Part(text("Momenta"), tuple(_defined(found.definitions, by_momentum))),
-        Part(text("Hamiltonian"), (formula(Name("H"), _sum(found.H), boxed=True), text(f"H is {kind}; {kept}."))),
-        Part(text("Canonical equations"), tuple(equations), found.checks),
+        Part(
+            text("Hamiltonian"),
+            (*_by_mass(found), formula(Name("H"), _sum(found.H), boxed=True), text(f"H is {kind}; {kept}.")),
+        ),
+        Part(text("Canonical equations"), (*_by_rates(found), *equations), found.checks),
     )
     data = {
         "system": found.model.name,
