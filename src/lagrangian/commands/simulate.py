@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -56,6 +57,9 @@ def simulate(
     step: Annotated[str | None, typer.Option(help="Seconds a step, for methods with steps of one length.")] = None,
     rtol: Annotated[float, typer.Option(help="Relative tolerance.")] = 1e-9,
     atol: Annotated[float, typer.Option(help="Absolute tolerance.")] = 1e-12,
+    max_step: Annotated[
+        str | None, typer.Option("--max-step", help="The longest step: 0.01, '10 ms'.", show_default=False)
+    ] = None,
     samples: Annotated[int | None, typer.Option(help="Times kept, evenly spaced.", show_default="1001")] = None,
     timeout: Annotated[float | None, typer.Option(help="Seconds of computing allowed.")] = None,
     plot: Annotated[
@@ -82,6 +86,7 @@ def simulate(
         atol=atol,
         samples=samples,
         timeout=timeout,
+        max_step=math.inf if max_step is None else max_step,
     )
     if plot is not None:
         figure = run.plot()
@@ -91,6 +96,8 @@ def simulate(
     if output is not None and str(output) != "-":
         say(f"wrote {run.save(output, overwrite=force)}")
     put(run.to_csv() if output is not None and str(output) == "-" else summary(run), None)
+    if run.audit.missed and run.success:
+        say(run.audit.missed)
     if not run.success:
         say(run.message)
         raise typer.Exit(1)

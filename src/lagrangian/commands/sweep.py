@@ -54,6 +54,9 @@ def sweep(
     times: Annotated[int, typer.Option(help="Times at which a run is looked at.", min=2)] = 1001,
     method: Annotated[str, typer.Option(help="How runs are integrated.")] = "dop853",
     step: Annotated[str | None, typer.Option(help="Step of a method with fixed steps.", show_default=False)] = None,
+    max_step: Annotated[
+        str | None, typer.Option("--max-step", help="The longest step: 0.01, '10 ms'.", show_default=False)
+    ] = None,
     rtol: Annotated[float, typer.Option(help="Relative tolerance.")] = 1e-9,
     atol: Annotated[float, typer.Option(help="Absolute tolerance.")] = 1e-12,
     output: Annotated[
@@ -90,6 +93,8 @@ def sweep(
         options |= {"store": output, "resume": resume, "overwrite": force}
     if step is not None:
         options["step"] = step
+    if max_step is not None:
+        options["max_step"] = max_step
     with _progress() as progress, _interruptible(output if stored else None):
         runs = system.sweep(
             duration,

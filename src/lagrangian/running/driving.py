@@ -58,13 +58,15 @@ Source = float | Table | Callable[[float, Array], float]
 class Driving:
     """Every input of a model: ``feedback`` by symbol; the rest, in order, are ``free`` with a source each.
 
-    ``size`` is the number of states [q; v], which Python functions are given a copy of.
+    ``size`` is the number of states [q; v], which Python functions are given a copy of. ``stops`` are times at which
+    conditions in time alone switch.
     """
 
     feedback: dict[Any, sp.Expr] = field(default_factory=dict)
     free: tuple[Input, ...] = ()
     sources: tuple[Source, ...] = ()
     size: int = 0
+    stops: Array = field(default_factory=lambda: np.empty(0))
 
     @property
     def calls_python(self) -> bool:
@@ -73,12 +75,13 @@ class Driving:
 
     @property
     def constant(self) -> bool:
-        """Whether all that is free is constant."""
-        return all(isinstance(s, float) for s in self.sources)
+        """Whether all that is free is constant, and no step has to end anywhere."""
+        return not len(self.stops) and all(isinstance(s, float) for s in self.sources)
 
     def knots(self, start: float, end: float) -> Array:
-        """``start``, then the times before ``end`` at which a table bends or jumps."""
-        inside = [s.times[(s.times > start) & (s.times < end)] for s in self.sources if isinstance(s, Table)]
+        """``start``, then the times before ``end`` at which a table bends or jumps, or a condition in time switches."""
+        listed = [self.stops, *(s.times for s in self.sources if isinstance(s, Table))]
+        inside = [times[(times > start) & (times < end)] for times in listed]
         return np.concatenate([[start], np.unique(np.concatenate([*inside, np.empty(0)]))])
 
     def pieces(self, start: float, end: float) -> tuple[Array, Array, Array]:

@@ -21,6 +21,9 @@ SINGULAR = 1e-10
 SHOWN = 8
 """States written out in a message."""
 
+JUMP = "a force that jumps with the state is better smooth (tanh for sign) or an event's reset"
+"""What no shorter step helps against."""
+
 UNDERFLOW, NOT_FINITE, TOO_MANY, ZENO, NO_CONVERGENCE, LATE = -1, -2, -3, -4, -5, -6
 
 
@@ -121,5 +124,5 @@ def _gentler(task: Task, outcome: Outcome) -> str:
     names, rates = _rates(task, outcome)
     fast = names[int(np.argmax(np.abs(rates) / (np.abs(outcome.final[: task.size]) + task.atol)))]
     if task.method in SCIPY and task.method in IMPLICIT:
-        return f"looser tolerances; '{fast}' changes fastest there"
-    return f"method='Radau' if the system is stiff; '{fast}' changes fastest there"
+        return f"looser tolerances; '{fast}' changes fastest there; {JUMP}"
+    return f"method='Radau' if the system is stiff; '{fast}' changes fastest there; {JUMP}"

@@ -22,6 +22,8 @@ from lagrangian.running.driving import Driving, check_covers, driving
 from lagrangian.running.ending import message
 from lagrangian.running.events import Event, listed_events
 from lagrangian.running.integrating import Task, remembered, right_hand_side, run
+from lagrangian.running.masses import check_masses
+from lagrangian.running.switching import with_stops
 from lagrangian.running.trajectory import Occurrences, Trajectory
 from lagrangian.simulate import METHODS
 from lagrangian.simulate.crossings import Hit
@@ -85,12 +87,14 @@ def simulate(
     )
     name = _method(method, drive, step)
     share = 1.0 if method in SCIPY else SHARE
+    p = given.parameter_values(params)
+    check_masses(model, p)
     task = Task(
         model,
-        drive,
+        with_stops(model, drive, p, instants),
         instants,
         _initial(given, model, program, settings.get("initial", {}), initial, by_name),
-        given.parameter_values(params),
+        p,
         name,
         max(_tolerance(rtol, "rtol") * share, FINEST),
         _tolerance(atol, "atol") * share,
@@ -98,7 +102,18 @@ def simulate(
         listed_events(events),
         bounds,
     )
-    return _trajectory(task, run(task), {"rtol": rtol, "atol": atol})
+    return _judged(_trajectory(task, run(task), {"rtol": rtol, "atol": atol}))
+
+
+def _judged(made: Trajectory) -> Trajectory:
+    """The run with a word in its message where its energy balance is missed."""
+    try:
+        missed = made.audit.missed
+    except RunError as trouble:  # an energy that is not finite somewhere must not hide the run
+        missed = f"no energy balance: {trouble.what}"
+    if missed:
+        made.message = f"{made.message}; {missed}"
+    return made
 
 
 def _named(model: Model) -> Program:

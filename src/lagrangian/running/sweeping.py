@@ -7,7 +7,7 @@ import importlib.metadata
 import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -15,14 +15,17 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from lagrangian.analyze.given import key_name
+from lagrangian.analyze.dimensions import SECOND
+from lagrangian.analyze.given import key_name, number
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.graph import Program
 from lagrangian.model import Model, plain
 from lagrangian.running.driving import Driving, check_covers, driving
 from lagrangian.running.ensemble import Ensemble
+from lagrangian.running.masses import check_masses, varied_masses
 from lagrangian.running.per_run import Wanted, instants, study_of
 from lagrangian.running.showing import Units
+from lagrangian.running.switching import with_stops_of_all
 from lagrangian.running.varying import EVENT, TIME, Varying, from_arrays, from_grid
 from lagrangian.simulate.design import Design
 from lagrangian.simulate.ensemble import Executor, Here, Memory, Progress, carry_out
@@ -121,8 +124,13 @@ def _done(model: Model, varying: Varying, wanted: Wanted, inputs: dict[Any, Any]
     drive = _drive(model, varying, inputs)
     times = instants(model, wanted)
     check_covers(drive, float(times[0]), float(times[-1]))
-    study, expressions = study_of(model, wanted, drive, times)
     design = varying.design()
+    longest = math.inf if wanted.max_step == math.inf else number(wanted.max_step, "max_step", SECOND)
+    drive = with_stops_of_all(model, drive, design, times, longest)
+    varied = [name for group, name in varying.columns if group == "p"]
+    check_masses(model, design.base["p"], varied)
+    study, expressions = study_of(model, wanted, drive, times)
+    study = replace(study, masses=varied_masses(model, varied))
     task = _task(model, varying, wanted, drive, study)
     executor, cutting = _executor(way)
     memory = _bytes(way.memory)

@@ -31,6 +31,9 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 
+TRUSTED = 1e-3
+"""Largest miss of the energy balance that is passed over, relative to the energy that moves."""
+
 ROUNDING = 1e-13
 """Energy supplied below this share of the energy that moves is none."""
 
@@ -49,6 +52,16 @@ class Audit:
 
     def __float__(self) -> float:
         return self.figure
+
+    @property
+    def missed(self) -> str:
+        """What is to be said of a balance that is off by more than `TRUSTED`, else nothing."""
+        if self.figure <= TRUSTED:
+            return ""
+        return (
+            f"energy balance missed by {100 * self.figure:.2g} % at t = {self.time:.4g} s: the integration is not to "
+            "be trusted: smaller max_step, step or tolerances"
+        )
 
     def __str__(self) -> str:
         """Read as ``energy drift 3.1e-12`` or ``power balance 3.1e-12``."""
@@ -232,7 +245,7 @@ class Trajectory:
         span = f"t = {self.t[0]:g} … {self.t[-1]:g} s" if len(self.t) else "nothing"
         end = "" if self.success else f"; FAILED: {self.message}"
         try:
-            audit = str(self.audit)
+            audit = self.audit.missed or str(self.audit)
         except RunError as trouble:  # an energy that is not finite somewhere must not hide the run
             audit = f"no energy balance: {trouble.what}"
         return (

@@ -52,6 +52,7 @@ class Crossings:
         self.bound: Array = np.zeros(count)  # the side it is bound for after it
         self.last = np.full(count, -np.inf)  # its time
         self.settled: int | None = None
+        self.begun = False  # a run that begins at zero and moves in an event's direction has its event there
         self.field: Control = lambda t, x: x
 
     def start(self, t: float, x: Array, u: Control, field: Control) -> None:
@@ -59,11 +60,21 @@ class Crossings:
         self.field = field
         self.side = np.where(self.last == t, 0.0, np.sign(self._g(t, x, u)))
         self.bound = self._heading(t, x, u)
+        if not self.begun:
+            self.begun = True
+            toward = np.where(self.bound == 0, self._pressed(t, x, u), self.bound)
+            through = (self.side == 0) & (np.array(self.direction) * toward > 0)
+            self.side = np.where(through, -toward, self.side)
 
     def _heading(self, t: float, x: Array, u: Control) -> Array:
         """The sides the functions are bound for from a state, along ẋ."""
         rate = self.field(t, x)
         return np.sign(self._g(t + AHEAD, x + AHEAD * rate, u)) if np.all(np.isfinite(rate)) else self.side
+
+    def _pressed(self, t: float, x: Array, u: Control) -> Array:
+        """The sides the functions are bound for from a state in which they rest: along ẋ of a little later."""
+        later = self.field(t, x + AHEAD * self.field(t, x))
+        return np.sign(self._g(t + AHEAD, x + AHEAD * later, u)) if np.all(np.isfinite(later)) else self.side
 
     def between(self, start: float, end: float, dense: Any, u: Control) -> list[Hit]:
         """The events of a step in order of time, up to and with the first that stops the run or changes the state."""

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from lagrangian.errors import RunError
 from lagrangian.simulate.crossings import Crossings, Hit
+from lagrangian.simulate.integrators.layout import MARGIN
 
 Array = NDArray[np.float64]
 Control = Callable[[float, Array], Array]
@@ -84,9 +85,11 @@ class _Field:
         self.why = ""  # the latest evaluation that was not finite
         self.nothing = np.full(nx, np.nan)
         self.u: Control = lambda t, x: np.empty(0)
+        self.last = math.inf  # the time that evaluations at the end of a stretch are for
 
     def __call__(self, t: float, x: Array) -> Array:
         self.evaluations += 1
+        t = min(t, self.last)
         try:
             value = self.rhs(np.ascontiguousarray(x), self.u(t, x), self.p, t)
         except RunError as error:
@@ -103,6 +106,7 @@ class _Field:
 
     def slope(self, t: float, x: Array) -> Array:
         """∂f/∂x, shape (nx, nx)."""
+        t = min(t, self.last)
         try:
             return self.jacobian(np.ascontiguousarray(x), self.u(t, x), self.p, t)
         except RunError as error:
@@ -174,7 +178,7 @@ class _March:
 
     def over(self, leg: Leg) -> bool:
         """March over a leg; return whether to go on after it."""
-        self.f.u = leg.u
+        self.f.u, self.f.last = leg.u, max(leg.end - MARGIN * abs(leg.end), self.t)
         while self.t < leg.end:
             if self.crossings is not None:
                 self.crossings.start(self.t, self.x, leg.u, self.f)
@@ -216,7 +220,7 @@ class _March:
             self.hits.append(hit)
             if hit.terminal or hit.after is not None:
                 self._store(dense, hit.time)
-                stuck = hit.after is not None and hit.time <= self.t
+                stuck = hit.after is not None and hit.time <= self.t and self.steps > 1  # the first may be at the start
                 self.t, self.x = hit.time, hit.before if hit.after is None else hit.after
                 if hit.terminal:
                     self.status = 1

@@ -19,6 +19,7 @@ from lagrangian.compile import Kernel, compile
 from lagrangian.compile.workers import over
 from lagrangian.errors import RunError
 from lagrangian.simulate.design import Rows
+from lagrangian.simulate.integrators.layout import UNFIT
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program
@@ -75,7 +76,8 @@ class Study:
 
     ``program`` is x, u, p, t → ẋ; ``outputs`` a program over the same groups with one number an output; ``times`` (S,)
     the samples. ``signals`` are inputs that change with time, the same for all runs. ``canonical``: where
-    ``program`` is over [q; p], the programs x → p and [q; p] → v. ``options`` go to the solver as they are (rtol,
+    ``program`` is over [q; p], the programs x → p and [q; p] → v. ``masses`` must be above 0, those whose names begin
+    with "inertia" not below; a run where it is not so is not begun. ``options`` go to the solver as they are (rtol,
     atol, step, …).
     """
 
@@ -88,6 +90,7 @@ class Study:
     events_kept: tuple[EventsKept, ...] = ()
     signals: Any = None
     canonical: tuple[Program, Program] | None = None
+    masses: Program | None = None
     options: Mapping[str, Any] = field(default_factory=dict)
 
     @property
@@ -148,6 +151,48 @@ class Study:
         A run that fails keeps NaN everywhere and its status. A run that a terminal event ends is reduced over what it
         reached.
         """
+        unfit = self._unfit(rows)
+        if unfit.any():
+            return self._without(unfit, solver, rows, threads)
+        return self._all(solver, rows, threads)
+
+    def _unfit(self, rows: Rows) -> NDArray[np.bool_]:
+        """Which runs have a mass that nothing has."""
+        kernel, bad = self._weighed, np.zeros(len(rows), bool)
+        if kernel is not None:
+            p = np.broadcast_to(rows.p, (len(rows), rows.p.shape[-1]))
+            out = {name: np.empty(len(rows)) for name in kernel.program.outputs}
+            try:
+                kernel(x=rows.x, p=np.ascontiguousarray(p), out=out)
+            except RunError as trouble:  # what is no number is unfit as well
+                if trouble.code != NOT_FINITE:
+                    raise
+            for name, value in out.items():
+                bad |= ~(value >= 0 if name.startswith("inertia") else value > 0)
+        return bad
+
+    @cached_property
+    def _weighed(self) -> Kernel | None:
+        """The code of the masses that vary."""
+        if self.masses is None:
+            return None
+        return compile(self.masses, optional={"u": 0.0, "t": 0.0}, threads=1)
+
+    def _without(self, unfit: NDArray[np.bool_], solver: Any, rows: Rows, threads: int | None) -> Values:
+        """The runs that are fit, among those that are not."""
+        made: Values = {}
+        for name, (dtype, shape) in self.fields().items():
+            made[name] = np.full((len(rows), *shape), np.nan if dtype == "float64" else 0, dtype)
+        made["status"][:], made["reached"][:] = UNFIT, self.times[0]
+        fit = ~unfit
+        if fit.any():
+            u, p = (a if a.ndim == 1 else a[fit] for a in (rows.u, rows.p))
+            for name, values in self._all(solver, Rows(rows.x[fit], u, p), threads).items():
+                made[name][fit] = values
+        return made
+
+    def _all(self, solver: Any, rows: Rows, threads: int | None) -> Values:
+        """All runs in ``rows``."""
         u = self.signals if self.signals is not None else rows.u
         times = self.times if self.whole else self.times[[0, -1]]
         solution = solver.solve(self._started(rows), times, u=u, p=rows.p, store=self.whole, **self.options)

@@ -41,8 +41,9 @@ SOON = 2.0**-46
 GLANCE = 2.0**-10
 """Part of a step by which one looks ahead for the side that g turns to from 0."""
 
-ZERO, TURNED = 1.0, 2.0
-"""Moods of an event: g is 0 where its run begins; its reset was done just now."""
+START, ZERO, TURNED, FIRST = -1.0, 1.0, 2.0, 3.0
+"""Moods of an event: its run begins; g is 0 where a run goes on; its reset was done just now; g is 0 where its run
+begins."""
 
 RESET, ENDS, HEAPS = 1, 2, 3
 """Why a lane leaves a step: to go on from another state, because a terminal event happened, because too many did."""
@@ -115,10 +116,10 @@ class Watch:
         for k, g in enumerate(now):
             total = f.fma(g, 0.0, total)
             mood, old = p.load(self.mood, k), p.load(self.armed, k)
-            usual = f.logic("and", new, f.compare("oeq", mood, 0.0))
+            usual = f.logic("and", new, f.compare("ole", mood, 0.0))
             p.store(f.select(usual, g, old), self.armed, k)
             zero = f.logic("and", usual, f.compare("oeq", g, 0.0))
-            mood = f.select(zero, ZERO, mood)
+            mood = f.select(zero, f.select(f.compare("olt", mood, 0.0), FIRST, ZERO), mood)
             p.store(mood, self.mood, k)
             unclear = f.logic("and", new, f.compare("ogt", mood, 0.0))
             doubt = f.logic("or", doubt, unclear) if doubt else unclear
@@ -126,16 +127,23 @@ class Watch:
             little = p.load(lanes.h) * GLANCE
             k = lanes.k if self.method.follows else rate(t, lanes.x)
             (ahead,) = p.map(lambda x, k: f.fma(little, k, x), lanes.x, k, into=(self.there,))
-            for k, (here, then) in enumerate(zip(now, self.value(inputs, t + little, ahead), strict=True)):
-                p.store(self._side(k, here, then), self.armed, k)
+            thens = self.value(inputs, t + little, ahead)
+            k = rate(t + little, ahead)
+            (resting,) = p.map(lambda x, k: f.fma(little, k, x), lanes.x, k, into=(self.there,))
+            laters = self.value(inputs, t + little, resting)
+            for k, (here, then, later) in enumerate(zip(now, thens, laters, strict=True)):
+                p.store(self._side(k, here, then, later), self.armed, k)
         for k in range(self.count):
-            turned = f.compare("oge", p.load(self.mood, k), TURNED)
+            turned = f.compare("oeq", p.load(self.mood, k), TURNED)
             p.store(f.select(f.logic("and", new, turned), 1.0, 0.0), self.fresh, k)
             p.store(f.select(new, 0.0, p.load(self.mood, k)), self.mood, k)
         return total
 
-    def _side(self, k: int, here: Value, then: Value) -> Value:
-        """What arms an event in doubt: g here and a little further."""
+    def _side(self, k: int, here: Value, then: Value, later: Value) -> Value:
+        """What arms an event in doubt: g here and a little further; ``later`` along the ẋ of there, for what rests.
+
+        An event with a direction in which g moves through 0 where its run begins happens there.
+        """
         p, f = self.p, self.f
         mood, old = p.load(self.mood, k), p.load(self.armed, k)
         turn = then - here
@@ -144,13 +152,19 @@ class Watch:
         clear = f.logic("and", clear, f.compare("one", here, 0.0))
         reset = f.select(clear, here, f.select(back, old, 0.0))
         started = f.select(f.compare("oeq", mood, ZERO), turn, old)
+        if direction := self.events.direction[k]:
+            turn = f.select(f.compare("oeq", turn, 0.0), later - here, turn)
+            opposed = f.select(f.compare("ogt", turn * float(direction), 0.0), turn * -1.0, turn)
+        else:
+            opposed = turn
+        started = f.select(f.compare("oeq", mood, FIRST), opposed, started)
         return f.select(f.compare("oeq", mood, TURNED), reset, started)
 
     def forget(self, lane: str) -> None:
         """Print what a lane that takes a new run starts from."""
         p = self.p
         for k in range(self.count):
-            p.set("0.0", self.mood + k, lane)
+            p.set(f"{START}", self.mood + k, lane)
             p.set("0.0", self.fresh + k, lane)
         p.set("0xFFF0000000000000", self.latest, lane)
         p.set("0", self.same, lane, "i64")

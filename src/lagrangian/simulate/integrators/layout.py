@@ -25,6 +25,9 @@ left a step at an event."""
 REACHED, TERMINAL, UNDERFLOW, NOT_FINITE, TOO_MANY, ZENO, NO_CONVERGENCE, LATE = 0, 1, -1, -2, -3, -4, -5, -6
 """How a run ended."""
 
+UNFIT = -7
+"""A run that was not begun."""
+
 DONE, PAUSED, FULL = 0, 1, 2
 """Why the machine code came back: all runs of the range are over, the budget is spent, the log of events is full."""
 
@@ -50,3 +53,7 @@ class Lanes:
         self.good, self.end = p.reserve(1), p.reserve(1)
         self.u, self.slope, self.p_in = p.reserve(self.inputs), p.reserve(self.inputs), p.reserve(self.parameters)
         self.sampled = p.block()
+
+
+MARGIN = 2.0**-50
+"""Part of it by which one looks before a stop point in a step that ends there: what switches there has not yet."""

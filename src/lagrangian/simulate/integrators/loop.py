@@ -57,7 +57,7 @@ class Loop:
         self.p = p = Printer(module, variant.lanes, size)
         self.f, self.method, self.variant = p.f, method, variant
         self.inputs = len(program.inputs.get("u", ()))
-        self.signals = variant.signals and self.inputs > 0
+        self.signals = variant.signals
         own = variant.own and bool(program.inputs.get("p"))
         self.lanes = Lanes(p, self.inputs, len(program.inputs.get("p", ())))
         copies = method.evaluations + method.dense_evaluations + 2
@@ -105,14 +105,19 @@ class Loop:
     def inputs_at(self, t: Value) -> Vec:
         """The inputs u at time t, in every lane."""
         p, lanes = self.p, self.lanes
-        if not self.signals:
+        if not self.signals or not self.inputs:
             return Vec(slot=lanes.u)
         since = t - p.load(lanes.knot_time)
         return Vec(values=tuple(p.f.fma(p.load(lanes.slope, k), since, p.load(lanes.u, k)) for k in range(self.inputs)))
 
     def rate(self, t: Value, x: Vec, into: Vec | None = None) -> Vec:
         """The derivative at time t and state x; a long vector is written to ``into``, or to new slots."""
-        p = self.p
+        p, f = self.p, self.p.f
+        if self.signals:  # what switches at a stop point has not switched in a step that ends there
+            stop = p.load(self.lanes.stop)
+            last, first = stop - f.intrinsic("fabs", stop) * at.MARGIN, p.load(self.lanes.knot_time)
+            last = f.select(f.compare("olt", last, first), first, last)
+            t = f.select(f.compare("olt", last, t), last, t)
         values = {"x": x, "u": self.inputs_at(t)}
         if p.unrolled:
             return Vec(values=self.tapes.evaluate(self.shared, values, t))

@@ -185,7 +185,7 @@ class Service:
                 p.set(following, lanes.knot, lane, "i64")
             knot = p.get(lanes.knot, lane, "i64")
             offset = f.put(f"mul i64 {knot}, {self.inputs}")
-            for array, slot in (("knot_start", lanes.u), ("knot_slope", lanes.slope)):
+            for array, slot in (("knot_start", lanes.u), ("knot_slope", lanes.slope)) if self.inputs else ():
                 row = f.put(f"getelementptr double, ptr {self[array]}, i64 {offset}")
                 self.copy_in(row, slot, self.inputs, lane)
             p.set(self.element(self["knots"], knot), lanes.knot_time, lane)
