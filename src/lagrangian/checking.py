@@ -48,20 +48,44 @@ def check_answer(derivation: Derivation, answer: Any, *, hint: int = 3, name: st
 
 @dataclass(frozen=True)
 class FolderRow:
-    """One answer of a folder: its file, the verdict (None where it could not be read), and what was wrong in words."""
+    """One answer of a folder: its file, the verdict (None where there is none), and why there is none in words.
+
+    ``read`` says whether its text could be read.
+    """
 
     file: str
     verdict: CheckedAnswer | None
     trouble: str = ""
+    read: bool = True
+
+    @property
+    def said(self) -> str:
+        """The verdict in words."""
+        if self.verdict is not None:
+            return self.verdict.status.value
+        return "cannot be judged" if self.read else "cannot be read"
 
     @property
     def mistakes(self) -> tuple[str, ...]:
-        """The names of the mistakes; "unexplained" where it is wrong and none was found."""
-        if self.verdict is None or self.verdict.status.right:
+        """The names of the mistakes; "unexplained" where it is wrong and none was found; none below hint level 2."""
+        if self.verdict is None:
+            return ("unjudged",) if self.read else ("unreadable",)
+        if self.verdict.status.right:
             return ()
         if self.verdict.status is check.Status.INCOMPLETE:
             return ("incomplete",)
+        if self.verdict.hint < 2:
+            return ("wrong",)
         return tuple(m.name for m in self.verdict.mistakes) or ("unexplained",)
+
+    def cells(self) -> list[str]:
+        """The row of the table of answers, as much as the hint level gives away."""
+        v = self.verdict
+        told = v is not None and v.hint >= 1
+        right = sum(f.status.right for f in v.findings) if v is not None and told else ""
+        lines = len(v.findings) if v is not None and told else ""
+        first = v.first_wrong.line.number if v is not None and told and v.first_wrong is not None else ""
+        return [self.file, self.said, str(right), str(lines), str(first), " ".join(self.mistakes), self.trouble]
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data."""
@@ -84,27 +108,29 @@ class CheckedFolder:
     def counts(self) -> dict[str, int]:
         """How many answers show each mistake."""
         found = Counter(name for row in self.rows for name in dict.fromkeys(row.mistakes))
-        found.update("unreadable" for row in self.rows if row.verdict is None)
         return dict(sorted(found.items(), key=lambda x: (-x[1], x[0])))
 
     def to_csv(self) -> str:
         """Return the counts as CSV: mistake, answers, share of all answers, the files."""
-        out = io.StringIO()
-        writer = csv.writer(out, lineterminator="\n")
-        writer.writerow(["mistake", "answers", "share", "files"])
+        rows: list[list[str]] = []
         for name, count in self.counts.items():
-            files = [r.file for r in self.rows if name in r.mistakes or (name == "unreadable" and r.verdict is None)]
-            writer.writerow([name, count, f"{count / len(self.rows):.3f}", " ".join(files)])
-        return out.getvalue()
+            files = [r.file for r in self.rows if name in r.mistakes]
+            rows.append([name, str(count), f"{count / len(self.rows):.3f}", " ".join(files)])
+        return _csv(["mistake", "answers", "share", "files"], rows)
+
+    def answers_to_csv(self) -> str:
+        """Return a line an answer as CSV: file, verdict, right lines, lines, first wrong line, mistakes, trouble."""
+        head = ["file", "verdict", "right lines", "lines", "first wrong line", "mistakes", "trouble"]
+        return _csv(head, [row.cells() for row in self.rows])
 
     def to_text(self) -> str:
         """Return a line an answer, then the counts."""
         wide = max(len(row.file) for row in self.rows)
         lines = []
         for row in self.rows:
-            said = row.verdict.status.value if row.verdict is not None else "cannot be read"
-            detail = row.trouble or ", ".join(row.mistakes)
-            lines.append(f"{row.file:<{wide}}  {said}{': ' if detail else ''}{detail}")
+            named = [m for m in row.mistakes if m not in ("incomplete", "wrong")]
+            detail = row.trouble or ", ".join(named)
+            lines.append(f"{row.file:<{wide}}  {row.said}{': ' if detail else ''}{detail}")
         right = sum(row.verdict is not None and row.verdict.right for row in self.rows)
         lines += ["", f"{right} of {len(self.rows)} right"]
         lines += [f"{count:>4}  {name}" for name, count in self.counts.items()]
@@ -114,6 +140,14 @@ class CheckedFolder:
         """Return everything as JSON text."""
         data = {"answers": [row.to_dict() for row in self.rows], "counts": self.counts}
         return json.dumps(data, ensure_ascii=False, indent=1, allow_nan=False) + "\n"
+
+
+def _csv(head: list[str], rows: list[list[str]]) -> str:
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow(head)
+    writer.writerows(rows)
+    return out.getvalue()
 
 
 def check_folder(derivation: Derivation, folder: Path, *, hint: int = 3) -> CheckedFolder:
@@ -129,9 +163,17 @@ def check_folder(derivation: Derivation, folder: Path, *, hint: int = 3) -> Chec
 
 def _row(derivation: Derivation, path: Path, hint: int) -> FolderRow:
     try:
-        return FolderRow(path.name, check_answer(derivation, read_text(path), hint=hint, name=path.name))
+        answer = parse_answer(read_text(path), derivation.model, name=path.name)
     except Error as error:
-        return FolderRow(path.name, None, " ".join(str(error).split()))
+        return FolderRow(path.name, None, _in_a_line(error), read=False)
+    try:
+        return FolderRow(path.name, check_answer(derivation, answer, hint=hint))
+    except Error as error:
+        return FolderRow(path.name, None, _in_a_line(error))
+
+
+def _in_a_line(error: Error) -> str:
+    return " ".join(str(error).split())
 
 
 def read_text(path: Path) -> str:

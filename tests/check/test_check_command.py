@@ -7,6 +7,7 @@ from pathlib import Path
 import pytest
 
 from lagrangian.cli import main
+from lagrangian.errors import ModelError
 
 RIGHT = "(m1 + m2)*x1'' + m2*x2r'' = 0\nm2*(x1'' + x2r'') + k*x2r = F\n"
 SPRING = "(m1 + m2)*x1'' + m2*x2r'' = 0\nm2*(x1'' + x2r'') - k*x2r = F\n"
@@ -78,6 +79,49 @@ def test_a_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert data["counts"] == {"plus_potential": 2, "unreadable": 2}
     (answers / "cid.txt").unlink()
     assert run(capsys, "-e", "lecture-3b", str(tmp_path / "nowhere"))[0] == 2
+
+
+def test_a_line_for_each_answer(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    answers, table = tmp_path / "answers", tmp_path / "table.csv"
+    answers.mkdir()
+    for name, text in (("ann.txt", RIGHT), ("cid.txt", SPRING), ("dan.txt", RIGHT.splitlines()[0]), ("eve.txt", "= =")):
+        (answers / name).write_text(text)
+
+    def cells(hint: str) -> list[list[str]]:
+        arguments = ("-e", "lecture-3b", str(answers), "--answers", str(table), "--hint", hint)
+        assert run(capsys, *arguments)[0] == 1
+        rows = list(csv.reader(table.read_text().splitlines()))
+        assert rows[0] == ["file", "verdict", "right lines", "lines", "first wrong line", "mistakes", "trouble"]
+        assert rows[4][:2] == ["eve.txt", "cannot be read"] and rows[4][6]
+        return [row[1:6] for row in rows[1:4]]
+
+    full = [["right", "2", "2", "", ""], ["wrong", "1", "2", "2", "plus_potential"]]
+    assert cells("3") == [*full, ["incomplete", "1", "1", "", "incomplete"]]
+    assert cells("1")[1] == ["wrong", "1", "2", "2", "wrong"]
+    assert cells("0")[1] == ["wrong", "", "", "", "wrong"]
+    single = answers / "ann.txt"
+    assert run(capsys, "-e", "lecture-3b", str(single), "--answers", str(table))[0] == 2
+
+
+def test_a_folder_gives_no_more_away_than_the_hint(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "cid.txt").write_text(SPRING)
+    for hint, given in (("0", False), ("1", False), ("2", True)):
+        arguments = ("-e", "lecture-3b", str(tmp_path), "--hint", hint)
+        for more in ((), ("--json",)):
+            assert ("plus_potential" in run(capsys, *arguments, *more)[1]) is given
+
+
+def test_what_can_be_read_is_never_called_unreadable(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refused(*_: object, **__: object) -> None:
+        raise ModelError("too much for this check")
+
+    (tmp_path / "ann.txt").write_text(RIGHT)
+    monkeypatch.setattr("lagrangian.checking.check_answer", refused)
+    code, out, _ = run(capsys, "-e", "lecture-3b", str(tmp_path))
+    assert code == 1 and "ann.txt  cannot be judged" in out and "too much for this check" in out
+    assert "unreadable" not in out and "1  unjudged" in out
 
 
 def test_usage(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -152,6 +152,7 @@ def test_every_misconception_can_be_made_in_some_example() -> None:
         "kapitza-pendulum",
         "quarter-car",
         "lecture-2",
+        "planar-quadrotor",
     ]
     for name in chosen:
         ingredients = Ingredients(derived(name))

@@ -25,6 +25,10 @@ def check(
     json: Annotated[bool, typer.Option("--json", help="Write data.")] = False,
     width: Annotated[int, typer.Option(help="Columns of the text.", min=40, max=400)] = 80,
     output: Output = None,
+    answers: Annotated[
+        Path | None,
+        typer.Option(help="For a folder: write a table with a line for each answer here.", show_default=False),
+    ] = None,
 ) -> None:
     """Check an answer: equations, energies or a whole derivation; exit 1 if it is wrong or something is missing."""
     model_file, answer_file = _named(file, answer, example)
@@ -35,7 +39,11 @@ def check(
         put(folder.to_json() if json else folder.to_csv() if output is not None else folder.to_text(), output)
         if output is not None and not json:
             put(folder.to_text(), None)
+        if answers is not None:
+            put(folder.answers_to_csv(), answers)
         raise typer.Exit(0 if folder.all_right else 1)
+    if answers is not None:
+        raise typer.BadParameter("--answers is for a folder of answers")
     words = standard_input() if answer_file == "-" else read_text(path)
     verdict = check_answer(derivation, words, hint=hint, name="<standard input>" if answer_file == "-" else answer_file)
     put(verdict.to_json() if json else verdict.to_text(width=width), output)

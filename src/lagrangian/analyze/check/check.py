@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import sympy as sp
@@ -13,7 +13,7 @@ from lagrangian.analyze.check.effects import too_long
 from lagrangian.analyze.check.lines import filled
 from lagrangian.analyze.check.mistakes import mistakes
 from lagrangian.analyze.check.rows import Comparison, Kind, Row, compare
-from lagrangian.analyze.check.spelling import Spelling, spelled
+from lagrangian.analyze.check.spelling import Spelling, in_numbers, spelled
 from lagrangian.analyze.check.stated import Given, equations_follow, given, judge
 from lagrangian.analyze.check.truth import Truth, truth_of
 from lagrangian.analyze.check.verdict import Finding, Line, Status, Verdict
@@ -27,14 +27,24 @@ def check(derivation: Derivation, lines: Sequence[Line], *, hint: int = 3) -> Ve
     Lines are checked in order; equality is decided in normal form, or with 50 digits where there is none.
     """
     truth = truth_of(derivation)
-    spelling = spelled(truth, filled(truth, lines))
+    written = filled(truth, lines)
+    verdict = _read(truth, spelled(truth, written), hint)
+    values = _values(truth, written)
+    if verdict.right or verdict.status is Status.INCOMPLETE or not values:
+        return verdict
+    valued = truth.with_values(values)
+    put = _read(valued, _with_values(values, spelled(valued, filled(valued, lines), numbers=False)), hint)
+    return put if put.right or in_numbers(truth, written) else verdict
+
+
+def _read(truth: Truth, spelling: Spelling, hint: int) -> Verdict:
+    """The verdict on an answer whose names are read."""
     judged = _judged(truth, spelling.lines)
     verdict = Verdict(judged.status, judged.findings, notes=spelling.notes + judged.notes, hint=hint)
     if judged.status.right or judged.status is Status.INCOMPLETE:
         return replace(verdict, combination=judged.combination)
     return (
         _elsewhere(truth, spelling, verdict)
-        or _with_values(truth, spelling, verdict)
         or _own_names(truth, spelling, verdict)
         or _explained(truth, spelling, judged, verdict)
     )
@@ -60,6 +70,7 @@ def _judged(truth: Truth, lines: Sequence[Line], change: Change | None = None) -
     """Judge every line, the equations together; with a change, everything is put into the system's coordinates."""
     moved = lines if change is None else [replace(line, expr=change.put(line.expr)) for line in lines]
     turn = change.turn(truth) if change is not None else None
+    truth = truth.within(change.region(truth)) if change is not None else truth
     equations = [line for line in moved if line.kind == "equation"]
     comparison = compare(truth, [line.expr for line in equations])
     above = given(truth, moved)
@@ -216,18 +227,16 @@ def _tells(lines: Sequence[Line]) -> bool:
     return bool(kinds & {"equation", "L"}) or {"T", "V"} <= kinds
 
 
-def _with_values(truth: Truth, spelling: Spelling, verdict: Verdict) -> Verdict | None:
-    """The verdict on an answer in numbers: right with the values of the parameters it does not name put in."""
-    used = {x for line in spelling.lines for x in line.expr.free_symbols}
-    values = {p: sp.Rational(str(v)) for p, v in truth.model.values.items() if p not in used}
-    if not values:
-        return None
-    judged = _judged(truth.with_values(values), spelling.lines)
-    if not judged.status.right:
-        return None
+def _values(truth: Truth, lines: Sequence[Line]) -> dict[sp.Symbol, sp.Expr]:
+    """The values of the parameters that an answer does not name."""
+    used = {x for line in lines for x in line.expr.free_symbols}
+    return {p: sp.Rational(str(v)) for p, v in truth.model.values.items() if p not in used}
+
+
+def _with_values(values: Mapping[sp.Symbol, sp.Expr], spelling: Spelling) -> Spelling:
+    """What is said of an answer in numbers: the values are put in."""
     named = [x for p in sorted(values, key=str) for x in (p, ", ")][:-1]
-    note = text("The values of ", *named, " are put in.")
-    return replace(verdict, status=judged.status, findings=judged.findings, notes=(*verdict.notes, note))
+    return replace(spelling, notes=(*spelling.notes, text("The values of ", *named, " are put in.")))
 
 
 def _own_names(truth: Truth, spelling: Spelling, verdict: Verdict) -> Verdict | None:

@@ -57,6 +57,16 @@ class Change:
         J = sp.Matrix([[p.diff(q) for q in truth.derivation.coordinates] for p in psi])
         return sp.Matrix(J.inv()) if truth.n <= 6 and J.det() != 0 else None
 
+    def region(self, truth: Truth) -> sp.Expr | None:
+        """det ∂ψ/∂ξ, which keeps its sign where the change is one-to-one; None where it is constant, or too long."""
+        psi = self._in_order(truth)
+        q = truth.derivation.coordinates
+        J = sp.Matrix([[p.diff(x) for x in q] for p in psi])
+        if truth.n > 4 or not J.has(*q):
+            return None
+        det = cast("sp.Expr", J.det())
+        return det if det.has(*q) else None
+
     def _in_order(self, truth: Truth) -> list[sp.Expr]:
         """ψ of every coordinate: the own one where it stays; new names take the places of those that are gone."""
         own = list(truth.derivation.coordinates)
@@ -303,7 +313,7 @@ def in_these(truth: Truth, change: Change) -> Truth | None:
     if key not in known:
         try:
             names = {plain(eta): psi for eta, psi in change.table.items()}
-            known[key] = Truth(derive(changed(truth.model, names)))
+            known[key] = Truth(derive(changed(truth.model, names)), truth.values)
         except ModelError:
             known[key] = None
     return known[key]

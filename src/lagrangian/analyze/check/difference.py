@@ -55,7 +55,10 @@ def paired(likes: Sequence[Sequence[Likeness]], taken: Iterable[int]) -> list[Li
 
 
 def differences(truth: Truth, form: Form, right: Form, factor: sp.Expr, index: int | None) -> tuple[Difference, ...]:
-    """The terms in which ``form`` differs from ``factor`` times ``right``; ``index`` is the equation's coordinate."""
+    """The terms in which ``form`` differs from ``factor`` times ``right``; ``index`` is the equation's coordinate.
+
+    They are told as the answer has them, times the factor.
+    """
     scale = truth.form(factor)
     if scale is None or scale.is_zero:
         return ()
@@ -78,10 +81,16 @@ def differences(truth: Truth, form: Form, right: Form, factor: sp.Expr, index: i
             kind = "sign" if (term + written).is_zero else "missing" if written.is_zero else "coefficient"
             if term.is_zero:
                 kind, term = "extra", written
-        found.append(Difference(kind, term.expr(), written.expr(), name, _origins(truth, term, index)))
+        as_written, written_so = (_scaled(x, factor) for x in (term, written))
+        found.append(Difference(kind, as_written, written_so, name, _origins(truth, term, index)))
         if len(found) == MOST:
             break
     return tuple(found)
+
+
+def _scaled(term: Form, factor: sp.Expr) -> sp.Expr:
+    """A term of the right line in the scale of the answer; one that merely stands on the other side as it is."""
+    return term.expr() if abs(factor) == 1 else sp.expand(factor * term.expr())
 
 
 def _alone(ours: Form, theirs: Form, difference: Form) -> tuple[Form, Form]:

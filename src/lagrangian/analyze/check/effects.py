@@ -18,6 +18,7 @@ from lagrangian.analyze.check.misconceptions import GENERAL, MISCONCEPTIONS, Ing
 from lagrangian.analyze.check.numbers import Array, Compiled
 from lagrangian.analyze.check.truth import Truth
 from lagrangian.analyze.check.verdict import Mistake
+from lagrangian.errors import ModelError
 from lagrangian.graph import jvp, vjp
 from lagrangian.model import time
 
@@ -67,7 +68,6 @@ class Effects:
     def __init__(self, truth: Truth) -> None:
         self.truth = truth
         self.ingredients = Ingredients(truth.derivation)
-        self.wrongs = tuple(self._variants())
         self.graph = Compiled([])
         c = truth.model.coordinates
         self._q = [self.graph.input(x.symbol) for x in c]
@@ -75,7 +75,7 @@ class Effects:
         self._a = [self.graph.input(x.acceleration) for x in c]
         self._moving = dict(zip((*self._q, *self._v), (*self._v, *self._a), strict=True))
         self._moving[self.graph.input(time)] = self.graph.graph.one
-        self._nodes()
+        self.wrongs = tuple(w for w in self._variants() if self._added(w))
 
     def _variants(self) -> Iterator[Wrong]:
         if too_long(self.truth):
@@ -84,14 +84,17 @@ class Effects:
             for variant in module.wrong(self.ingredients):
                 yield Wrong(module, variant, rank)
 
-    def _nodes(self) -> None:
-        """The nodes of ΔT, ΔV, ΔΞ_i and ΔW_i of every variant, one after the other."""
-        n = self.truth.n
-        for wrong in self.wrongs:
-            v = wrong.variant
-            T, V = self.graph.node(v.T), self.graph.node(v.V)
-            Xi = [self.graph.node(sp.sympify(v.Xi.get(i, 0))) for i in range(n)]
+    def _added(self, wrong: Wrong) -> bool:
+        """Add the nodes of ΔT, ΔV, ΔΞ_i and ΔW_i of a variant; False where it divides by 0, and so is no answer."""
+        v = wrong.variant
+        put = self.truth.put
+        try:
+            T, V = self.graph.node(put(v.T)), self.graph.node(put(v.V))
+            Xi = [self.graph.node(put(sp.sympify(v.Xi.get(i, 0)))) for i in range(self.truth.n)]
             self.graph.ids += [T, V, *Xi, *self.rows(v, T, V, Xi)]
+        except ModelError:
+            return False
+        return True
 
     def rows(self, v: Variant, T: int, V: int, Xi: Sequence[int]) -> list[int]:
         """The nodes of ΔW."""
@@ -108,7 +111,7 @@ class Effects:
             for i in felt:
                 rows[i] = g.add(rows[i], slopes[i])
         for i, extra in v.rows.items():
-            rows[i] = g.add(rows[i], self.graph.node(sp.sympify(extra)))
+            rows[i] = g.add(rows[i], self.graph.node(self.truth.put(sp.sympify(extra))))
         return rows
 
     @cached_property

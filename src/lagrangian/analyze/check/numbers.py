@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import random
 from collections.abc import Iterable, Mapping, Sequence
-from typing import Any, cast
+from typing import Any, Protocol, cast
 
 import mpmath
 import numpy as np
@@ -30,14 +30,29 @@ EXACT_INTEGER = 2**53
 Array = NDArray[np.float64]
 
 
+class Placed(Protocol):
+    """A coordinate that stays on one side; see `sides`."""
+
+    @property
+    def q(self) -> sp.Expr:
+        """The coordinate."""
+        ...
+
+    def put(self, values: Array, states: States) -> Array:
+        """Its values, all on that side."""
+        ...
+
+
 class States:
     """Random states in blocks; the value of a symbol at all of them depends on its name alone.
 
     With a ``reach`` what moves is of either sign and of every size up to it: for expressions that are not smooth.
+    What stands for a distance stays on its side; see `sides`.
     """
 
-    def __init__(self, model: Model, motions: int, *, reach: float = 0.0) -> None:
+    def __init__(self, model: Model, motions: int, *, reach: float = 0.0, sides: Sequence[Placed] = ()) -> None:
         self.model = model
+        self.sides = {side.q: side for side in sides}
         self.reach = reach
         self.motions = motions
         self.size = SETS * PLACES * motions
@@ -62,7 +77,8 @@ class States:
         if self.reach and not isinstance(symbol, sp.Symbol):
             far = [(-1) ** k * self.reach ** (k // 2 % SIZES / (SIZES - 1)) for k in range(count)]
             drawn = [round(x * f * 4096) / 4096 for x, f in zip(drawn, far, strict=True)]
-        return np.repeat(np.array(drawn), self.size // count)
+        values = np.repeat(np.array(drawn), self.size // count)
+        return self.sides[symbol].put(values, self) if symbol in self.sides else values
 
     def blocks(self) -> Iterable[slice]:
         """The states of each place."""

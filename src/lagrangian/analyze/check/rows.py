@@ -93,8 +93,8 @@ def zero_everywhere(truth: Truth, expr: sp.Expr) -> bool:
         return form.is_zero
     step = max(1, truth.states.size // SURE)
     found = [compiled.exactly(truth.states, i)[0] for i in range(0, truth.states.size, step)]
-    far = truth.wide([expr])
-    found += [compiled.exactly(far, i)[0] for i in range(far.size)]
+    far, indices = truth.wide([expr])
+    found += [compiled.exactly(far, i)[0] for i in indices]
     return all(abs(x) < EXACTLY for x in found if mpmath.isfinite(x))
 
 
@@ -204,8 +204,8 @@ def _surely(truth: Truth, compiled: Compiled, j: int, expr: sp.Expr) -> bool:
     """Whether expression j vanishes along the true motion, with 50 digits, at states near and far."""
     step = max(1, truth.states.size // SURE)
     near = [_vanishes(truth, compiled, j, truth.states, i) for i in range(0, truth.states.size, step)]
-    far_out = truth.wide([expr])
-    far = [_vanishes(truth, compiled, j, far_out, i) for i in range(far_out.size)]
+    far_out, indices = truth.wide([expr])
+    far = [_vanishes(truth, compiled, j, far_out, i) for i in indices]
     return False not in (*near, *far) and near.count(True) >= 2
 
 

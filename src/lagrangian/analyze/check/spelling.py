@@ -31,9 +31,12 @@ class Spelling:
     notes: tuple[Text, ...] = ()
 
 
-def spelled(truth: Truth, lines: Sequence[Line]) -> Spelling:
-    """Read unknown constants as parameters the answer lacks, and numbers as the parameters that have these values."""
-    lines, notes = _numbers(truth, tuple(lines))
+def spelled(truth: Truth, lines: Sequence[Line], *, numbers: bool = True) -> Spelling:
+    """Read unknown constants as parameters the answer lacks, and numbers as the parameters that have these values.
+
+    Without ``numbers`` these stay what they are.
+    """
+    lines, notes = _numbers(truth, tuple(lines)) if numbers else (tuple(lines), ())
     known = {p.symbol for p in truth.model.parameters} | {time}
     used = {s for line in lines for s in line.expr.free_symbols}
     unknown = sorted(used - known, key=str)
@@ -51,6 +54,14 @@ def spelled(truth: Truth, lines: Sequence[Line]) -> Spelling:
     told = [_read(a, b) for a, b in close.items()]
     told += [text(f"The system has no '{s}'.") for s in left]
     return Spelling(put, (*notes, *told))
+
+
+def in_numbers(truth: Truth, lines: Sequence[Line]) -> bool:
+    """Whether an answer names no parameter, and has numbers that only values can be."""
+    known = {p.symbol for p in truth.model.parameters}
+    numbers = {abs(x) for line in lines for x in line.expr.atoms(sp.Rational, sp.Float)}
+    plain_ones = {sp.Rational(a, b) for a in range(5) for b in range(1, 5)}
+    return not any(line.expr.free_symbols & known for line in lines) and bool(numbers - plain_ones)
 
 
 def _read(written: sp.Basic, meant: sp.Basic) -> Text:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Mapping, Sequence
 from functools import cached_property, lru_cache
 from typing import Any, cast
@@ -11,6 +12,7 @@ import numpy as np
 import sympy as sp
 
 from lagrangian.analyze.check.numbers import DIGITS, Array, Compiled, States
+from lagrangian.analyze.check.sides import Side, natural, sides_of
 from lagrangian.derive import Derivation
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach
 from lagrangian.model import Model
@@ -32,16 +34,45 @@ class Truth:
         self._valued: dict[tuple[tuple[sp.Symbol, sp.Expr], ...], Truth] = {}
         self.model: Model = derivation.model
         self.n = len(derivation.coordinates)
+        self.states = States(self.model, 2 * self.n + 6)
+        self.region: sp.Expr | None = None
+        self.sides: tuple[Side, ...] = ()
+        self.sides = self._sides()
         self.T, self.V = self.expand(derivation.T), self.expand(derivation.V)
         self.Xi = tuple(self.expand(derivation.Xi[q]) for q in derivation.coordinates)
-        self.rows = tuple(self.expand(cast("sp.Expr", e.lhs) - cast("sp.Expr", e.rhs)) for e in derivation.equations)
-        self.states = States(self.model, 2 * self.n + 6)
+        self.rows = tuple(map(self.expand, self._differences()))
 
-    def wide(self, exprs: Sequence[sp.Expr]) -> States:
-        """States of every size and sign, farther out than any number of the expressions."""
+    def _differences(self) -> list[sp.Expr]:
+        return [cast("sp.Expr", e.lhs) - cast("sp.Expr", e.rhs) for e in self.derivation.equations]
+
+    def _sides(self) -> tuple[Side, ...]:
+        d = self.derivation
+        exprs = [self.expand(x) for x in (d.T, d.V, *self._differences())]
+        M = sp.Matrix(d.mass_matrix.applyfunc(self.expand))
+        return sides_of(exprs, M, self.states, list(d.coordinates))
+
+    def within(self, region: sp.Expr | None) -> Truth:
+        """The same, compared far out only where ``region`` has the sign that it has at ordinary states."""
+        if region is None:
+            return self
+        other = copy.copy(self)
+        other.region = region
+        return other
+
+    def wide(self, exprs: Sequence[sp.Expr]) -> tuple[States, list[int]]:
+        """States of every size and sign, farther out than any number of the expressions, and which to look at.
+
+        Distances stay on their side; in changed coordinates only those states count where the change is one-to-one.
+        """
         numbers = [abs(float(x)) for e in exprs for x in e.atoms(sp.Number) if x.is_finite]
         reach = max([300.0, *(5 * x for x in numbers if x < 1e12)])
-        return States(self.model, 2, reach=reach)
+        states = States(self.model, 2, reach=reach, sides=self.sides)
+        if self.region is None:
+            return states, list(range(states.size))
+        compiled = Compiled([self.region])
+        near, far = compiled.at(self.states)[0], compiled.at(states)[0]
+        sign = np.sign(np.nansum(np.sign(near)))
+        return states, [int(i) for i in np.flatnonzero(np.sign(far) == sign)]
 
     @property
     def L(self) -> sp.Expr:
@@ -49,9 +80,16 @@ class Truth:
         return self.T - self.V
 
     def expand(self, expr: sp.Expr) -> sp.Expr:
-        """An expression with every definition of the model written out, and values in place of parameters."""
+        """An expression with every definition of the model written out, and values in place of parameters.
+
+        √(p²) is p for what is a distance in the model, see `sides`.
+        """
         whole = self.model.expand(sp.sympify(expr), constants=True)
-        return cast("sp.Expr", whole.xreplace(self.values)) if self.values else whole
+        return self.put(whole)
+
+    def put(self, expr: sp.Expr) -> sp.Expr:
+        """The same for an expression without definitions."""
+        return natural(cast("sp.Expr", expr.xreplace(self.values)) if self.values else expr, self.sides)
 
     def with_values(self, values: Mapping[sp.Symbol, sp.Expr]) -> Truth:
         """The same with values in place of parameters, made once."""

@@ -29,5 +29,15 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             what = text(f"The force of {element.title} is made of ", other, " in place of ", rate, ".")
             change = {i: -b * other * rate.diff(s.v[i]) - shares.get(i, 0) for i in range(s.n)}
             yield Variant(what=what, Xi={i: x for i, x in change.items() if x != 0}, element=element)
+            yield from _in_one(s, element, other, change)
             full = {i: -b * other * other.diff(s.v[i]) - shares.get(i, 0) for i in range(s.n)}
             yield Variant(what=what, Xi={i: x for i, x in full.items() if x != 0}, element=element)
+
+
+def _in_one(s: Ingredients, element: Damper, other: sp.Expr, change: dict[int, sp.Expr]) -> Iterator[Variant]:
+    """The same made in one equation only, where the damper acts in several."""
+    felt = [i for i, x in change.items() if x != 0]
+    rate, where = s.expand(element.rate(s.model)), " in the equation of "
+    for i in felt if len(felt) > 1 else ():
+        what = text(f"The force of {element.title} is made of ", other, " in place of ", rate, where, s.q[i], ".")
+        yield Variant(what=what, Xi={i: change[i]}, element=element, coordinate=i)

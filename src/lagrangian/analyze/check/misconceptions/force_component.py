@@ -19,8 +19,9 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         for i, x in s.shares(element).items():
             trig = dict.fromkeys(x.atoms(sp.sin, sp.cos), sp.S.One)
             what = text(f"{element.title[:1].upper() + element.title[1:]} is counted whole, whatever its direction.")
-            if trig:
-                yield Variant(what=what, Xi={i: put(x, trig) - x}, element=element, coordinate=i)
+            if not trig:
+                continue
+            yield Variant(what=what, Xi={i: put(x, trig) - x}, element=element, coordinate=i)
             pieces = sp.Add.make_args(sp.expand(x))
             for piece in pieces if len(pieces) > 1 else ():
                 what = text("The part ", piece, f" of what {element.title} adds is missing.")

@@ -1,0 +1,94 @@
+"""Answers in numbers, and which of several explanations is told, against mistakes made by hand.
+
+Oracle: the values of the model file put in by hand; a motor's torque N kₜ (U − kₜ N ṡ/r)/(r R) with its back-EMF.
+"""
+
+from functools import cache
+
+import pytest
+
+from lagrangian import examples, loads
+from lagrangian.analyze.check import Status
+from lagrangian.derivation import Derivation
+
+MOTOR = """
+name = "cart with a motor"
+[coordinates]
+s = "position"
+[parameters]
+M = "1.5 kg"
+r_w = "30 mm"
+k_t = "0.05 N m/A"
+R = "1.2 ohm"
+[inputs]
+U = "V, motor voltage"
+[define]
+i_m = "(U - k_t*s'/r_w)/R"
+[points]
+C = ["s", "0"]
+[[particle]]
+mass = "M"
+at = "C"
+[[force]]
+name = "motor"
+value = "k_t*i_m/r_w"
+deflection = "s"
+"""
+PENDULUM = (
+    "0.5*r'' - 0.5*r*theta'^2 + 30*(r - {l}) - {w}*cos(theta) = 0\nr*theta'' + {c}*r'*theta' + {g}*sin(theta) = 0"
+)
+
+
+@cache
+def derived(name: str) -> Derivation:
+    return loads(MOTOR if name == "motor" else examples.text(name)).derive()
+
+
+@pytest.mark.parametrize(
+    ("l", "w", "c", "g", "right"),
+    [
+        ("0.6", "4.905", "2", "9.81", True),
+        ("0.6", "0.5*9.81", "2", "9.81", True),
+        ("0.6", "4.905", "2", "9.8", False),
+        ("0.5", "4.905", "2", "9.81", False),
+        ("0.6", "4.905", "1", "9.81", False),
+    ],
+)
+def test_a_number_may_be_g_or_a_value(l: str, w: str, c: str, g: str, right: bool) -> None:
+    assert derived("elastic-pendulum").check(PENDULUM.format(l=l, w=w, c=c, g=g)).right is right
+
+
+def test_what_is_wrong_in_numbers_is_told_in_the_answers_numbers() -> None:
+    verdict = derived("elastic-pendulum").check(PENDULUM.format(l="0.5", w="4.905", c="2", g="9.81"))
+    assert verdict.first_wrong is not None
+    (difference,) = verdict.first_wrong.differences  # 30 · 0.5 in place of 30 · 0.6
+    assert (difference.written, difference.term) == (-15, -18)
+    verdict = derived("elastic-pendulum").check(PENDULUM.format(l="0.6", w="4.905", c="1", g="9.81"))
+    assert verdict.first_wrong is not None
+    (difference,) = verdict.first_wrong.differences
+    assert difference.term == 2 * difference.written and "½" not in verdict.to_text()
+    assert verdict.mistake is not None and verdict.mistake.name == "coriolis_half"
+
+
+def test_numbers_in_other_coordinates() -> None:
+    answer = "0.5*x'' + 30*x*(1 - 0.6/sqrt(x^2 + y^2)) = 0\n0.5*y'' + 30*y*(1 - 0.6/sqrt(x^2 + y^2)) + {w} = 0"
+    assert derived("elastic-pendulum").check(answer.format(w="4.905")).status is Status.OTHER_COORDINATES
+    assert not derived("elastic-pendulum").check(answer.format(w="4.9")).right
+
+
+@pytest.mark.parametrize(
+    ("name", "answer", "mistake"),
+    [
+        ("motor", "M*s'' = k_t*U/(R*r_w)", "effort_term_forgotten"),
+        (
+            "two-disk-shaft",
+            "J1*phi1'' + b*phi1' + k*(phi1 - phi2) = tau\n"
+            "J2*phi2'' + b*(phi2' - phi1') + b_load*phi2' + k*(phi2 - phi1) = 0",
+            "damper_rate_not_relative",
+        ),
+    ],
+)
+def test_what_was_left_out_of_a_force_is_no_question_of_its_direction(name: str, answer: str, mistake: str) -> None:
+    verdict = derived(name).check(answer)
+    assert verdict.mistake is not None and verdict.mistake.name == mistake, verdict.to_text()
+    assert "cos of the angle" not in verdict.to_text()
