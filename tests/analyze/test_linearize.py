@@ -11,6 +11,7 @@ import sympy as sp
 
 import lagrangian as lg
 from lagrangian import dynamics, examples
+from lagrangian.analyze.figures import figure
 from lagrangian.cli import main
 from lagrangian.errors import ModelError, RunError
 from lagrangian.graph import evaluate
@@ -274,3 +275,59 @@ def test_nothing_is_said_to_die_out_where_there_is_nothing_else() -> None:
     assert "dies out" not in system.linearize().stability.reason
     system.damper(system.parameter("b", 1.0), deflection=x)
     assert "all else dies out" in system.linearize().stability.reason
+
+
+def held_pendulum(damping: float, twist: bool = False) -> lg.System:
+    system = lg.System("held")
+    theta, phi = system.coordinates("theta phi")
+    m, l, g, k = system.parameters("m l g k", m=1, l=1, g=9.81, k=2)
+    tau = system.input("tau", "torque", unit="N m")
+    system.kinetic(m * l**2 * (theta.diff() ** 2 + phi.diff() ** 2) / 2)
+    system.potential(-m * g * l * sp.cos(theta) + k * phi**2 / 2)
+    system.force(tau, deflection=theta)
+    if damping:
+        system.damper(damping, deflection=phi)
+    if twist:
+        c = system.parameters("c", c="1 N m")
+        system.force(c * phi, deflection=theta)
+        system.force(-c * theta, deflection=phi)
+    return system
+
+
+def test_a_constant_torques_potential_counts_in_the_minimum() -> None:
+    """V − τ θ has its minimum at sin θ = τ/(m g l): stable by Lagrange–Dirichlet, beyond π/2 a maximum."""
+    at = float(np.arcsin(4 / 9.81))
+    for damping in (0, 0.3):
+        found = held_pendulum(damping).linearize({"theta": at}, inputs={"tau": 4})
+        assert found.stability.verdict == "stable", found.stability
+    assert held_pendulum(0).linearize({"theta": np.pi - at}, inputs={"tau": 4}).stable is False
+
+
+def test_forces_without_a_potential_do_not_count() -> None:
+    """Circulatory forces τ = (φ, −θ): no potential, so that energy decides nothing."""
+    found = held_pendulum(0, twist=True).linearize({}, inputs={"tau": 0})
+    assert found.stability.verdict != "stable"
+
+
+def test_a_spring_whose_end_an_input_holds_is_stable() -> None:
+    system = lg.System("held spring")
+    x = system.coordinates("x")
+    m, k = system.parameters("m k", m=1, k=4)
+    z = system.input("z", "road", unit="m")
+    system.particle(m, at=system.origin + (x, 0))
+    system.spring(k, deflection=x - z)
+    assert system.linearize({"x": 0.2}, inputs={"z": 0.2}).stability.verdict == "stable"
+
+
+def test_small_numbers_stand_as_powers_of_ten() -> None:
+    assert (figure(2e-5), figure(-1.5e12), figure(0.25), figure(0.0)) == ("2·10⁻⁵", "−1.5·10¹²", "0.25", "0")
+
+
+@pytest.mark.parametrize("command", ["linearize", "equilibria", "conserved"])
+def test_commands_write_every_format(command: str, capsys: pytest.CaptureFixture[str]) -> None:
+    starts = {"text": "pendulum: ", "markdown": "# pendulum: ", "latex": "\\documentclass", "html": "<!DOCTYPE"}
+    for format, start in starts.items():
+        assert main([command, "-e", "pendulum", "--format", format]) == 0
+        assert capsys.readouterr().out.startswith(start)
+    assert main([command, "-e", "pendulum", "--format", "json"]) == 0
+    assert json.loads(capsys.readouterr().out)["system"] == "pendulum"

@@ -19,7 +19,16 @@ def figure(x: float) -> str:
         return "–"
     if x in (float("inf"), float("-inf")):
         return "∞" if x > 0 else "−∞"
-    return f"{x + 0.0:.{DIGITS}g}".replace("-", "−")
+    return scientific(x, DIGITS)
+
+
+def scientific(x: float, digits: int) -> str:
+    """A finite number with so many digits, with a power of ten where it is far from 1: ``2·10⁻⁵``."""
+    mantissa, e, exponent = f"{x + 0.0:.{digits}g}".replace("-", "−").partition("e")
+    if not e:
+        return mantissa
+    power = str(int(exponent.replace("−", "-"))).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+    return f"{mantissa}·10{power}"
 
 
 def complex_figure(z: complex) -> str:

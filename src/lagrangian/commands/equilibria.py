@@ -8,6 +8,7 @@ import typer
 
 from lagrangian import write
 from lagrangian.commands.assignments import assignments
+from lagrangian.commands.derive import Format
 from lagrangian.commands.terminal import Example, OptionalFile, Output, open_system, put
 
 
@@ -20,7 +21,8 @@ def equilibria(
     values: Annotated[list[str] | None, typer.Option("--set", help='A parameter\'s value: k=80, "m1=2 kg".')] = None,
     inputs: Annotated[list[str] | None, typer.Option("--input", help="An input's constant value: F=2.")] = None,
     samples: Annotated[int | None, typer.Option(help="How many starts; as many as it takes unless given.")] = None,
-    json: Annotated[bool, typer.Option("--json", help="Write data.")] = False,
+    format: Annotated[Format, typer.Option("--format", "-f", help="What to write.")] = Format.TEXT,
+    json: Annotated[bool, typer.Option("--json", help="Write data, as --format json.")] = False,
     width: Annotated[int, typer.Option(help="Columns of the text.", min=40, max=400)] = 80,
     output: Output = None,
 ) -> None:
@@ -31,7 +33,7 @@ def equilibria(
         box={name: _ends(name, side) for name, side in assignments(box, "--box").items()},
         samples=samples,
     )
-    put(write.write_report(found.report(), "json" if json else "text", width=width), output)
+    put(write.write_report(found.report(), "json" if json else format.value, width=width), output)
 
 
 def _ends(name: str, side: str) -> tuple[str, str]:

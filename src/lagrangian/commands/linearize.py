@@ -8,6 +8,7 @@ import typer
 
 from lagrangian import write
 from lagrangian.commands.assignments import assignments
+from lagrangian.commands.derive import Format
 from lagrangian.commands.terminal import Example, OptionalFile, Output, open_system, put
 
 
@@ -26,7 +27,8 @@ def linearize(
         bool, typer.Option("--operating-point", help="Take a point that is no equilibrium as it is.")
     ] = False,
     symbols: Annotated[bool, typer.Option("--symbols", help="Add the matrices with parameters as letters.")] = False,
-    json: Annotated[bool, typer.Option("--json", help="Write data.")] = False,
+    format: Annotated[Format, typer.Option("--format", "-f", help="What to write.")] = Format.TEXT,
+    json: Annotated[bool, typer.Option("--json", help="Write data, as --format json.")] = False,
     width: Annotated[int, typer.Option(help="Columns of the text.", min=40, max=400)] = 80,
     output: Output = None,
 ) -> None:
@@ -38,7 +40,7 @@ def linearize(
         outputs=_outputs(outputs),
         operating_point=operating_point,
     )
-    put(write.write_report(found.report(symbols=symbols), "json" if json else "text", width=width), output)
+    put(write.write_report(found.report(symbols=symbols), "json" if json else format.value, width=width), output)
 
 
 def _outputs(given: list[str] | None) -> dict[str, str] | None:

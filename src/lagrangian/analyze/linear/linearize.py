@@ -17,12 +17,12 @@ from numpy.typing import NDArray
 
 from lagrangian import dynamics
 from lagrangian.analyze.given import Given, Named
-from lagrangian.analyze.jacobians import Arrays, forces, may_kink, rates, reads, values
+from lagrangian.analyze.jacobians import Arrays, forces, may_kink, rates, reads, values, with_jacobians
 from lagrangian.analyze.linear.modes import EPSILON, SLACK, Mode, Spectrum, modes, spectrum
 from lagrangian.analyze.linear.outputs import Measured, measured
 from lagrangian.analyze.linear.reach import Reach, controllable, observable
 from lagrangian.analyze.linear.rest import TIMES, Rest, rest
-from lagrangian.analyze.linear.stability import Stability, has_minimum, judge, loses_power
+from lagrangian.analyze.linear.stability import Stability, has_minimum, judge, loses_power, loses_power_beyond_potential
 from lagrangian.errors import RunError
 from lagrangian.graph import Program
 from lagrangian.model import Model
@@ -185,6 +185,11 @@ class Linearizer:
         return dynamics.power(self.model)
 
     @cached_property
+    def power_slopes(self) -> Program:
+        """That power with its first and second derivatives."""
+        return with_jacobians(with_jacobians(self.power, {"W": ("P", "x")}), {"slope": ("W", "x")})
+
+    @cached_property
     def _reads_time(self) -> bool:
         return bool(reads(self.rates, "A", "t") or reads(self.rates, "B", "t"))
 
@@ -303,8 +308,11 @@ class Linearizer:
 
     def _minimum(self, second: Arrays, here: Rest, noise: float) -> bool:
         n = len(second["K"])
-        return has_minimum(second["M"], second["K"], noise) and loses_power(
-            self.values, self.power, here.x[:n], here.u, here.p
+        if not has_minimum(second["M"], second["K"], noise):
+            return False
+        point = (here.x[:n], here.u, here.p)
+        return loses_power(self.values, self.power, *point) or loses_power_beyond_potential(
+            self.values, self.power_slopes, *point
         )
 
     def _changes(self, here: Rest) -> bool:

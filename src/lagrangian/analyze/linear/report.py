@@ -7,7 +7,7 @@ from typing import Any, cast
 
 import sympy as sp
 
-from lagrangian.analyze.figures import complex_figure, figure, matrix, or_none, plain_numbers
+from lagrangian.analyze.figures import complex_figure, figure, matrix, or_none, plain_numbers, scientific
 from lagrangian.analyze.linear.linearize import Linearization
 from lagrangian.analyze.linear.reach import Reach
 from lagrangian.analyze.linear.symbolic import SymbolicLinearization
@@ -52,7 +52,7 @@ def _point(linear: Linearization) -> Part:
         "operating point": "Not a rest: the largest acceleration there is ",
     }[linear.kind]
     items: list[Item] = [Table((text("state, input"), text("value")), tuple(rows))]
-    items.append(text(f"{kind}{linear.residual:.1e}."))
+    items.append(text(f"{kind}{scientific(linear.residual, 2)}."))
     items += [text(note[0].upper() + note[1:] + ".") for note in linear.notes]
     return Part(text("The point"), tuple(items))
 

@@ -113,3 +113,28 @@ def loses_power(values: Callable[..., Arrays], power: Program, q: Array, u: Arra
         if not got["P"] <= 1e-12 * (abs(float(got["T"])) + abs(float(got["V"]))):
             return False
     return True
+
+
+def loses_power_beyond_potential(values: Callable[..., Arrays], power: Program, q: Array, u: Array, p: Array) -> bool:
+    """Whether what acts at rest, w(q), has a potential, and all else takes power: P − w·q̇ ≤ 0 near the rest q.
+
+    w = ∂P/∂q̇ at q̇ = 0, as a constant torque or a spring's end that an input holds; it has a potential where ∂w/∂q is
+    symmetric and time does not move it. ``power`` has "W" = ∂P/∂x and "slope" = ∂W/∂x beside P.
+    """
+    source = np.random.default_rng(2)
+    n = len(q)
+    for _ in range(SAMPLES):
+        near, v = q + 0.1 * source.standard_normal(n), source.standard_normal(n)
+        t, later = 10 * source.random(2)
+        there = values(power, x=np.concatenate([near, np.zeros(n)]), u=u, p=p, t=t)
+        w, slope = there["W"].ravel()[n:], there["slope"][n:, :n]
+        then = values(power, x=np.concatenate([near, np.zeros(n)]), u=u, p=p, t=later)["W"].ravel()[n:]
+        size = float(np.abs(w).max(initial=0.0))
+        bent = float(np.abs(slope - slope.T).max(initial=0.0))
+        if not bent <= 1e-9 * np.abs(slope).max(initial=0.0) or not np.abs(then - w).max(initial=0.0) <= 1e-12 * size:
+            return False
+        got = values(power, x=np.concatenate([near, v]), u=u, p=p, t=t)
+        scale = abs(float(got["T"])) + abs(float(got["V"])) + float(np.abs(w * v).sum())
+        if not float(got["P"]) - float(w @ v) <= 1e-12 * scale:
+            return False
+    return True

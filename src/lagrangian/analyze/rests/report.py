@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from lagrangian.analyze.figures import figure
+from lagrangian.analyze.figures import figure, scientific
 from lagrangian.analyze.linear.report import symbol
 from lagrangian.analyze.report import Part, Report
 from lagrangian.analyze.rests.equilibria import Equilibria, Equilibrium
@@ -23,7 +23,7 @@ def equilibria_report(found: Equilibria) -> Report:
                 text(str(k)),
                 *(text(_shown(found, e, name)) for name in names),
                 text(e.stability.verdict),
-                text(f"{e.residual:.0e}"),
+                text(scientific(e.residual, 1)),
                 text(str(e.starts) if e.starts else "–"),
             )
             for k, e in enumerate(found)
