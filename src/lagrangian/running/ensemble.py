@@ -49,6 +49,8 @@ class Failure:
 class Ensemble(Mapping[str, NDArray[Any]]):
     """The results of many runs by name, arrays over the ensemble's axes; NaN where a run failed.
 
+    Runs whose events accumulate (status −4) are reduced over what they reached, as those that a terminal event ends.
+
     ``dims`` and ``shape`` are the axes; ``coordinates`` what varied along them: name → (axes, values); ``times`` the
     times of samples. ``runs["max theta1"]`` is an array of that shape, ``runs["theta1"]`` is short for it where only
     one thing is kept of theta1; samples have the axis of time last. ``status`` says how each run ended.

@@ -280,6 +280,10 @@ class Named(Mapping[str, Array]):
     def __len__(self) -> int:
         return len(self._quantities)
 
+    def __repr__(self) -> str:
+        """List the names."""
+        return f"<{', '.join(self._quantities) or 'nothing'}>"
+
 
 def _same(thing: Any) -> Any:
     return thing

@@ -19,7 +19,7 @@ from lagrangian.compile import Kernel, compile
 from lagrangian.compile.workers import over
 from lagrangian.errors import RunError
 from lagrangian.simulate.design import Rows
-from lagrangian.simulate.integrators.layout import UNFIT
+from lagrangian.simulate.integrators.layout import UNFIT, ZENO
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program
@@ -148,8 +148,8 @@ class Study:
     def run(self, solver: Any, rows: Rows, threads: int | None = None) -> Values:
         """Integrate the runs in ``rows`` and keep of them what is wanted: arrays (n, …) by name.
 
-        A run that fails keeps NaN everywhere and its status. A run that a terminal event ends is reduced over what it
-        reached.
+        A run that fails keeps NaN everywhere and its status. A run that a terminal event ends, or events that
+        accumulate, is reduced over what it reached.
         """
         unfit = self._unfit(rows)
         if unfit.any():
@@ -207,7 +207,7 @@ class Study:
             return -1
 
         over(len(rows), size, 50 * (len(self.times) if self.whole else 1), threads, reduced)
-        failed = solution.status < 0
+        failed = _lost(solution.status)
         for k in self.kept:
             made[k.name][failed] = np.nan
         return made
@@ -229,7 +229,7 @@ class Study:
         A run that failed stands in its first state, so that everything observed is finite; it is dropped later.
         """
         status, reached = solution.status[part], solution.reached[part]
-        failed = status < 0
+        failed = _lost(status)
         ended = np.where(failed, self.times[0], reached)
         last = np.where(failed[:, None], 0.0, solution.final[part])
         if not self.whole:
@@ -302,6 +302,11 @@ class Study:
                 np.take_along_axis(mine, order, axis=1), np.take_along_axis(solution.event_time, order, axis=1), np.nan
             )
             made[f"time {e.name}"][:] = times if e.times > 1 else times[:, 0]
+
+
+def _lost(status: NDArray[Any]) -> NDArray[np.bool_]:
+    """Which runs keep nothing: those that failed, but for those whose events accumulate, whose motion is over."""
+    return (status < 0) & (status != ZENO)
 
 
 def signals_at(signals: Any, times: Array) -> Array:
