@@ -8,9 +8,10 @@ from functools import cached_property
 from typing import Any
 
 from lagrangian import analyze, write
-from lagrangian.analyze import LinearizationAlong, Regulator, SymbolicLinearization, linearize_along
+from lagrangian.analyze import LinearizationAlong, SymbolicLinearization, linearize_along
 from lagrangian.analyze.kept.canonical_report import hamiltonian_report, routhian_report
 from lagrangian.analyze.kept.conserved_report import conserved_report
+from lagrangian.analyze.linear.regulator_report import regulator_report
 from lagrangian.analyze.linear.report import linear_report
 from lagrangian.analyze.report import Report
 from lagrangian.analyze.rests.report import equilibria_report
@@ -62,6 +63,15 @@ class Written:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class Regulator(Written, analyze.Regulator):
+    """u = u₀ − K (x − x₀), Riccati's S and the poles that are left; see `analyze.Regulator`."""
+
+    def report(self) -> Report:
+        """Return the report."""
+        return regulator_report(self)
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class Linearization(Written, analyze.Linearization):
     """δẋ = A δx + B δu, δy = C δx + D δu, with names, poles, modes and the verdict; see `analyze.Linearization`."""
 
@@ -83,7 +93,8 @@ class Linearization(Written, analyze.Linearization):
 
         ``Q`` weighs states, ``R`` inputs: a matrix, one number, or weights by name.
         """
-        return analyze.lqr(self, Q, R)
+        data = analyze.lqr(self, Q, R)
+        return Regulator(**{f.name: getattr(data, f.name) for f in fields(data)})
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -158,6 +169,7 @@ __all__ = [
     "Hamiltonian",
     "Linearization",
     "LinearizationAlong",
+    "Regulator",
     "Routhian",
     "conserved",
     "equilibria",

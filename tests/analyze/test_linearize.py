@@ -331,3 +331,18 @@ def test_commands_write_every_format(command: str, capsys: pytest.CaptureFixture
         assert capsys.readouterr().out.startswith(start)
     assert main([command, "-e", "pendulum", "--format", "json"]) == 0
     assert json.loads(capsys.readouterr().out)["system"] == "pendulum"
+
+
+def test_a_regulator_writes_itself() -> None:
+    """Riccati's equation for ẍ = u with Q = 1, R = 1 by hand: K = (1, √3), poles (−√3 ± i)/2."""
+    system = lg.System("double integrator")
+    x = system.coordinates("x")
+    system.particle(system.parameters("m", m=1), at=system.origin + (x, 0))
+    F = system.input("F", "force", unit="N")
+    system.force(F, deflection=x)
+    found = system.linearize().lqr(1, 1)
+    shown = str(found)
+    assert "1.73205" in shown and "−0.866025 + 0.5i" in shown and "Regulator(" not in shown
+    assert np.allclose(found.to_dict()["K"], [[1, np.sqrt(3)]])
+    assert found.to_html().startswith("<!DOCTYPE html>")
+    assert repr(found) == "<double integrator: linear-quadratic regulator>"

@@ -1,0 +1,62 @@
+"""A linear-quadratic regulator as a report: the law, its gains, and the poles it leaves."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from lagrangian.analyze.figures import complex_figure, figure, matrix, plain_numbers
+from lagrangian.analyze.linear.regulate import Regulator
+from lagrangian.analyze.linear.report import symbol
+from lagrangian.analyze.report import Part, Report
+from lagrangian.derive.formula import Item, Name, Table, Text, formula, text
+
+
+def regulator_report(found: Regulator) -> Report:
+    """Return the report of a regulator."""
+    linear = found.linear
+    K, S, x, u = (Name(name) for name in ("K", "S", "x vector", "u vector"))
+    names = [*zip(linear.states, linear.at.values(), strict=True)]
+    names += [*zip(linear.inputs, linear.inputs_at.values(), strict=True)]
+    point = tuple((_symbol(found, name), text(figure(value))) for name, value in names)
+    law: tuple[Item, ...] = (
+        text(u, " = ", u, "₀ − ", K, " (", x, " − ", x, "₀), with"),
+        _ordered(found, u, linear.inputs),
+        _ordered(found, x, linear.states),
+        formula(K, matrix(found.K)),
+        text("about the point"),
+        Table((text("state, input"), text("value")), point),
+    )
+    poles = tuple((text(complex_figure(complex(pole))),) for pole in found.poles)
+    cost = text("From δ", x, " the law costs δ", x, "ᵀ ", S, " δ", x, ", with")
+    parts = (
+        Part(text("The law"), law),
+        Part(text("The poles that it leaves"), (Table((text("pole [1/s]"),), poles),)),
+        Part(text("Riccati's matrix"), (cost, formula(S, matrix(found.S)))),
+    )
+    return Report(f"{linear.model.name}: linear-quadratic regulator", linear.model, parts, _data(found))
+
+
+def _symbol(found: Regulator, name: str) -> Text:
+    return text(symbol(found.linear.model, name))
+
+
+def _ordered(found: Regulator, vector: Name, names: tuple[str, ...]) -> Text:
+    """``x = (θ, θ̇)``."""
+    parts: list[Any] = []
+    for name in names:
+        parts += [", " if parts else "", symbol(found.linear.model, name)]
+    return text(vector, " = (", *parts, ")")
+
+
+def _data(found: Regulator) -> dict[str, Any]:
+    linear = found.linear
+    return {
+        "system": linear.model.name,
+        "states": list(linear.states),
+        "inputs": list(linear.inputs),
+        "at": dict(linear.at),
+        "inputs_at": dict(linear.inputs_at),
+        "K": found.K.tolist(),
+        "S": found.S.tolist(),
+        "poles": plain_numbers(found.poles),
+    }
