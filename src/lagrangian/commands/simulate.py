@@ -10,6 +10,7 @@ import numpy as np
 import typer
 
 from lagrangian.commands.terminal import Example, OptionalFile, open_system, put, say
+from lagrangian.commands.wording import advising_options, in_options
 from lagrangian.errors import ModelError, Place
 from lagrangian.running import showing
 from lagrangian.running.driving import MAX_KNOTS
@@ -75,19 +76,21 @@ def simulate(
     for path, endings in ((plot, PICTURES), (output, [*ENDINGS])):
         if path is not None and str(path) != "-":
             check_target(path, list(endings), overwrite=force)
-    run = open_system(file, example).simulate(
-        duration,
-        initial=_pairs("--init", init),
-        params=_pairs("--set", set_),
-        inputs={name: _signal(name, value) for name, value in _pairs("--input", input_).items()},
-        method=method,
-        step=step,
-        rtol=rtol,
-        atol=atol,
-        samples=samples,
-        timeout=timeout,
-        max_step=math.inf if max_step is None else max_step,
-    )
+    system = open_system(file, example)
+    with advising_options():
+        run = system.simulate(
+            duration,
+            initial=_pairs("--init", init),
+            params=_pairs("--set", set_),
+            inputs={name: _signal(name, value) for name, value in _pairs("--input", input_).items()},
+            method=method,
+            step=step,
+            rtol=rtol,
+            atol=atol,
+            samples=samples,
+            timeout=timeout,
+            max_step=math.inf if max_step is None else max_step,
+        )
     if plot is not None:
         figure = run.plot()
         kind = plot.suffix.lower().removeprefix(".")
@@ -97,9 +100,9 @@ def simulate(
         say(f"wrote {run.save(output, overwrite=force)}")
     put(run.to_csv() if output is not None and str(output) == "-" else summary(run), None)
     if run.audit.missed and run.success:
-        say(run.audit.missed)
+        say(in_options(run.audit.missed))
     if not run.success:
-        say(run.message)
+        say(in_options(run.message))
         raise typer.Exit(1)
 
 
@@ -179,7 +182,7 @@ def summary(run: Trajectory) -> str:
         f"{run.model.name}: t = {run.t[0]:g} … {run.t[-1]:g} s, {len(run.t)} samples",
         f"  {run.method}: {run.steps} steps, {run.rejected} rejected, {run.nfev} evaluations",
         f"  {run.audit}",
-        f"  {run.message}",
+        f"  {in_options(run.message)}",
         "",
     ]
     rows: list[tuple[str, ...]] = [("", "start", "end", "least", "greatest", "")]

@@ -14,6 +14,7 @@ import typer
 from lagrangian.commands.assignments import assignments
 from lagrangian.commands.simulate import PICTURES
 from lagrangian.commands.terminal import Example, open_system, say
+from lagrangian.commands.wording import advising_options
 from lagrangian.running.ensemble import ENDINGS, Ensemble, write_csv
 from lagrangian.simulate.ensemble import Progress
 from lagrangian.write.files import write_with
@@ -35,7 +36,9 @@ def sweep(
         ),
     ],
     example: Example = None,
-    duration: Annotated[str | None, typer.Option(help='How long to run: 10, "500 ms".', show_default=False)] = None,
+    duration: Annotated[
+        str | None, typer.Option("--duration", "-d", help='How long to run: 10, "500 ms".', show_default=False)
+    ] = None,
     samples: Annotated[int | None, typer.Option(help="How often to draw what is drawn.", show_default=False)] = None,
     seed: Annotated[int, typer.Option(help="Which draws.")] = 0,
     outputs: Annotated[
@@ -95,7 +98,7 @@ def sweep(
         options["step"] = step
     if max_step is not None:
         options["max_step"] = max_step
-    with _progress() as progress, _interruptible(output if stored else None):
+    with advising_options(), _progress() as progress, _interruptible(output if stored else None):
         runs = system.sweep(
             duration,
             grid,
