@@ -52,7 +52,7 @@ class States:
 
     def __init__(self, model: Model, motions: int, *, reach: float = 0.0, sides: Sequence[Placed] = ()) -> None:
         self.model = model
-        self.sides = {side.q: side for side in sides}
+        self.sides: dict[sp.Basic, Placed] = {side.q: side for side in sides}
         self.reach = reach
         self.motions = motions
         self.size = SETS * PLACES * motions

@@ -118,7 +118,13 @@ def _singular(M: sp.Matrix, states: States, q: Sequence[sp.Expr]) -> Iterator[sp
         if len(of) != 1 or (rest := p - _slope(p, of[0]) * of[0]).has(of[0]):
             continue
         there = {of[0]: -rest / _slope(p, of[0])}
-        flat: list[Any] = list(M.xreplace(there).flat())
-        values = Compiled(flat).at(states).reshape(M.rows, M.rows, states.size).transpose(2, 0, 1)
-        if np.isfinite(values).all() and (np.abs(np.linalg.det(values)) < 1e-12).all():
+        flat, usual = _determinants(sp.Matrix(M.xreplace(there)), states), _determinants(M, states)
+        if np.isfinite(flat).all() and (np.abs(flat) <= 1e-12 * np.abs(usual)).all():
             yield p
+
+
+def _determinants(M: sp.Matrix, states: States) -> Array:
+    """det M at every state."""
+    entries: list[Any] = list(M.flat())
+    values = Compiled(entries).at(states).reshape(M.rows, M.rows, states.size).transpose(2, 0, 1)
+    return np.linalg.det(np.where(np.isfinite(values), values, np.nan))
