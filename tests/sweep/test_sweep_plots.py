@@ -24,8 +24,8 @@ def test_one_axis_is_a_curve_angles_in_degrees(system: lg.System) -> None:
     x, y = first.lines[0].get_data()
     np.testing.assert_allclose(x, np.linspace(10, 90, 9))
     np.testing.assert_allclose(y, np.degrees(runs["swing"]))
-    assert first.get_xlabel() == "theta1 [°]"
-    assert first.get_ylabel() == "swing [°]"
+    assert first.get_xlabel() == "theta1 [deg]"
+    assert first.get_ylabel() == "swing [deg]"
     assert second.get_ylabel() == "reach [m]"
 
 

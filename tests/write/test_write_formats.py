@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 from sympy import cos, sin
 
+import lagrangian as lg
 from lagrangian.derive import Check, Derivation, derive
 from lagrangian.derive import formula as data
 from lagrangian.derive.formula import text
@@ -384,3 +385,12 @@ def test_the_style_sheet_is_whole():
     known = set(re.findall(r"\.([a-z]+)", sheet))
     assert names <= known | {"sign"}, names - known
     assert ".number, .tag {" in sheet
+
+
+def test_units_and_small_values_stand_as_people_write_them() -> None:
+    system = lg.loads(
+        'name = "rotor"\n[coordinates]\nx = "m, place"\n[parameters]\nJ = "2e-5 kg m^2"\ng = "9.81 m/s^2"\nm = "1 kg"\n'
+        '[[particle]]\nmass = "m"\nat = ["x", "0"]\n[[gravity]]\ndirection = [0, -1]\n'
+    )
+    shown = system.derive().to_text()
+    assert "2·10⁻⁵ kg m²" in shown and "9.81 m/s²" in shown

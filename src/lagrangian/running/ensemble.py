@@ -238,7 +238,7 @@ class Ensemble(Mapping[str, NDArray[Any]]):
             label = next((n for n, (dims, _) in self.coordinates.items() if dims == (name,)), name)
         full = next((n for n in self._arrays if n.partition(" ")[2] == name), name) if name not in self._words else name
         unit = str(self._words.get(label, self._words.get(full, {})).get("units", ""))
-        return (label, "°", np.degrees(values)) if unit == "rad" else (label, unit, values)
+        return (label, "deg", np.degrees(values)) if unit == "rad" else (label, unit, values)
 
     def save(self, path: str | Path, *, overwrite: bool = False) -> Path:
         """Write everything to ``.csv``, ``.parquet`` (as `columns`) or ``.nc`` (as `to_xarray`), whole or not at all.
