@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -19,7 +21,7 @@ def ball() -> tuple[lg.System, object]:
     return s, y
 
 
-def options(method: str) -> dict[str, float]:
+def options(method: str) -> dict[str, Any]:
     """The step of a method that needs one."""
     return {"step": 0.01} if method == "gauss4" else {}
 
@@ -28,7 +30,7 @@ def options(method: str) -> dict[str, float]:
 def test_a_ball_thrown_at_the_floor_from_the_floor_bounces_at_once(method: str) -> None:
     s, y = ball()
     bounce = lg.event(y, direction=-1, reset={y.diff(): -0.5 * y.diff()}, name="bounce")
-    run = s.simulate(0.1, **{"y'": -2.0}, events=bounce, method=method, **options(method))
+    run = s.simulate(0.1, initial={"y'": -2.0}, events=bounce, method=method, **options(method))
     assert run.success, run.message
     np.testing.assert_allclose(run.events["bounce"].t, [0.0], atol=1e-12)
     np.testing.assert_allclose(run["y"], run.t - 9.81 * run.t**2 / 2, atol=1e-9)
@@ -39,7 +41,7 @@ def test_a_ball_thrown_at_the_floor_from_the_floor_bounces_at_once(method: str) 
 def test_a_floor_ends_a_run_that_begins_on_it(method: str, speed: float) -> None:
     s, y = ball()
     floor = lg.event(y, direction=-1, terminal=True, name="floor")
-    run = s.simulate(1.0, **{"y'": speed}, events=floor, method=method, **options(method))
+    run = s.simulate(1.0, initial={"y'": speed}, events=floor, method=method, **options(method))
     assert "event 'floor' ended the run" in run.message
     assert run.t[-1] < 1e-9
 
@@ -59,7 +61,7 @@ def test_a_ball_at_rest_on_the_floor_does_not_fall_through(method: str) -> None:
 def test_what_leaves_the_floor_flies(method: str, direction: int) -> None:
     s, y = ball()
     floor = lg.event(y, direction=direction, terminal=True, name="floor")
-    run = s.simulate(1.0, **{"y'": 2.0}, events=floor, method=method, **options(method))
+    run = s.simulate(1.0, initial={"y'": 2.0}, events=floor, method=method, **options(method))
     np.testing.assert_allclose(run.t[-1], 2 * 2.0 / 9.81, rtol=1e-9)
 
 

@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 
 import lagrangian as lg
 from lagrangian.cli import app
+from lagrangian.errors import RunError
 
 T: Any = dynamicsymbols._t
 
@@ -47,7 +48,7 @@ def travelled(force: float, first: float, last: float, end: float) -> float:
     ],
 )
 def test_a_short_pulse_is_not_jumped_over(method: str, pulse: Any) -> None:
-    step = {"step": 0.1} if method in ("gauss4", "rk4") else {}
+    step: Any = {"step": 0.1} if method in ("gauss4", "rk4") else {}
     run = pushed().simulate(10.0, inputs={"F": pulse}, method=method, **step)
     assert run.success
     np.testing.assert_allclose(run["x"][-1], travelled(30.0, 5.0, 5.01, 10.0), rtol=1e-7)
@@ -100,7 +101,7 @@ def test_runs_of_an_ensemble_switch_at_their_own_times() -> None:
 
 def test_too_many_different_switches_ask_for_a_longest_step() -> None:
     s, force = pushed(), "piecewise(t<t1, 0, t<t1+0.5, 30*sin(2*pi*(t-t1))^2, 0)"
-    with pytest.raises(lg.errors.RunError, match="max_step"):
+    with pytest.raises(RunError, match="max_step"):
         s.sweep(10.0, ["t1~uniform(1, 8)"], samples=2000, inputs={"F": force})
     runs = s.sweep(10.0, ["t1~uniform(1, 8)"], samples=2000, inputs={"F": force}, max_step=0.2, rtol=1e-6)
     np.testing.assert_allclose(runs["x'"], 3.75, rtol=1e-4)
