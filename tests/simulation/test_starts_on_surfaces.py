@@ -12,7 +12,7 @@ import lagrangian as lg
 METHODS = ["dop853", "tsit5", "taylor", "gauss4", "RK45", "Radau"]
 
 
-def ball() -> tuple[lg.System, object]:
+def ball() -> tuple[lg.System, Any]:
     """A ball of 1 kg that falls along y."""
     s = lg.System("ball")
     y = s.coordinate("y")

@@ -15,7 +15,7 @@ import lagrangian as lg
 from lagrangian.cli import app
 from lagrangian.errors import RunError
 
-T: Any = dynamicsymbols._t
+T: Any = dynamicsymbols._t  # type: ignore[attr-defined]
 
 METHODS = ["dop853", "tsit5", "gauss4", "rk4", "Radau", "BDF", "RK45", "DOP853"]
 
