@@ -186,6 +186,15 @@ def test_a_deadline_is_kept_and_what_was_reached_too():
     assert np.all(found.reached[found.steps == 0] == 0)
 
 
+@pytest.fixture
+def interruptible():
+    """Interrupts as a terminal sends them, also where the tests run in the background, which has them ignored."""
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
+    yield
+    signal.signal(signal.SIGINT, before)
+
+
+@pytest.mark.usefixtures("interruptible")
 def test_an_interrupt_is_heard_within_a_second():
     solver = Solver(double_pendulum(), "dop853")
     solver.solve([1.0, 1.0, 0.0, 0.0], [0.0, 0.1])

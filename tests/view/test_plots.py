@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from matplotlib import _pylab_helpers
 
 import lagrangian as lg
 from lagrangian import examples
@@ -70,10 +71,12 @@ def test_angles_that_go_round_are_drawn_in_turns() -> None:
 
 
 def test_pictures_are_written_and_nothing_global_is_touched(run: lg.Trajectory, tmp_path: Path) -> None:
+    loaded = "matplotlib.pyplot" in sys.modules  # python-control loads it, and may have been here before
     run.plot().savefig(tmp_path / "run.png")
     assert (tmp_path / "run.png").read_bytes().startswith(b"\x89PNG")
     assert run.plot()._repr_png_().startswith(b"\x89PNG")
-    assert "matplotlib.pyplot" not in sys.modules
+    assert ("matplotlib.pyplot" in sys.modules) == loaded
+    assert not _pylab_helpers.Gcf.figs  # the figures that pyplot keeps
 
 
 def test_names_cannot_become_markup() -> None:
