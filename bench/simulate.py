@@ -82,8 +82,10 @@ FIXED: Mapping[str, tuple[Callable[[], Program], float]] = {
     "cart-pole": (cart_pole, math.nan),
     "7-joint arm": (arm, 2.8),
 }
-"""Name → program, and what C by hand reached on such a machine in a run of its own [million steps a second]: eight lanes,
-libmvec, gcc -O3 -march=native -ffast-math; it needs a compiler, so it is not run here."""
+"""Name → program, and what C by hand reached in a run of its own on such a machine [million steps a second].
+
+Eight lanes, libmvec, gcc -O3 -march=native -ffast-math; it needs a compiler, so it is not run here.
+"""
 
 
 # -- measuring ------------------------------------------------------------------------------------------------------
