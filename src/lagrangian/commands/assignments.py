@@ -13,8 +13,10 @@ def assignments(given: Sequence[str] | None, option: str) -> dict[str, str]:
     for item in given or ():
         name, equals, value = (part.strip() for part in item.partition("="))
         if not (name and equals and value):
-            raise typer.BadParameter(f"'{item}' is not name=value, as in {option} x=0.1 or {option} \"x=10 mm\"")
+            raise typer.BadParameter(
+                f"{option} takes name=value (got '{item[:80]}'), as in {option} x=0.1 or {option} \"x=10 mm\""
+            )
         if name in found:
-            raise typer.BadParameter(f"'{name}' is given twice with {option}")
+            raise typer.BadParameter(f"'{name[:64]}' is given twice with {option}")
         found[name] = value
     return found

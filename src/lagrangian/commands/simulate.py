@@ -9,6 +9,7 @@ from typing import Annotated, Any
 import numpy as np
 import typer
 
+from lagrangian.commands.assignments import assignments
 from lagrangian.commands.terminal import Example, OptionalFile, open_system, put, say
 from lagrangian.commands.wording import advising_options, in_options
 from lagrangian.errors import ModelError, Place
@@ -80,9 +81,9 @@ def simulate(
     with advising_options():
         run = system.simulate(
             duration,
-            initial=_pairs("--init", init),
-            params=_pairs("--set", set_),
-            inputs={name: _signal(name, value) for name, value in _pairs("--input", input_).items()},
+            initial=assignments(init, "--init"),
+            params=assignments(set_, "--set"),
+            inputs={name: _signal(name, value) for name, value in assignments(input_, "--input").items()},
             method=method,
             step=step,
             rtol=rtol,
@@ -104,20 +105,6 @@ def simulate(
     if not run.success:
         say(in_options(run.message))
         raise typer.Exit(1)
-
-
-def _pairs(option: str, given: list[str] | None) -> dict[str, Any]:
-    """``name=value`` texts as a mapping; the values stay text, which the run reads."""
-    found: dict[str, Any] = {}
-    for text in given or ():
-        name, sign, value = text.partition("=")
-        name, value = name.strip(), value.strip()
-        if not sign or not name or not value:
-            raise typer.BadParameter(f"{option} takes name=value (got '{text[:80]}')")
-        if name in found:
-            raise ModelError(f"'{name[:64]}' is given twice with {option}", fix="give it once", code="E404")
-        found[name] = value
-    return found
 
 
 def _signal(name: str, value: str) -> Any:
