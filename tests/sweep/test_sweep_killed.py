@@ -13,7 +13,7 @@ import pytest
 import lagrangian as lg
 from lagrangian import examples
 
-pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="there is no kill -9")
+pytestmark = [pytest.mark.slow, pytest.mark.skipif(sys.platform == "win32", reason="there is no kill -9")]
 
 SCRIPT = """
 import lagrangian as lg
@@ -41,7 +41,8 @@ def whole() -> lg.Ensemble:
 def test_killed_and_resumed_is_the_same_as_never_killed(
     tmp_path: pathlib.Path, whole: lg.Ensemble, share: float
 ) -> None:
-    path = {**os.environ, "PYTHONPATH": str(pathlib.Path(__file__).parent)}
+    known = [str(pathlib.Path(__file__).parent), *filter(None, [os.environ.get("PYTHONPATH")])]
+    path = {**os.environ, "PYTHONPATH": os.pathsep.join(known)}
     process = subprocess.Popen([sys.executable, "-c", SCRIPT], cwd=tmp_path, env=path)
     marks = tmp_path / "a.zarr" / "done" / "c" / "0"
     deadline = time.monotonic() + 60
