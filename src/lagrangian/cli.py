@@ -8,43 +8,21 @@ import sys
 
 import typer
 
-from lagrangian.commands import (
-    check,
-    compare,
-    conserved,
-    derive,
-    equilibria,
-    export,
-    linearize,
-    simulate,
-    start,
-    sweep,
-    verify,
-)
+from lagrangian.commands.verbs import Verbs
 from lagrangian.errors import Error, ModelError
 
 app = typer.Typer(
     name="lagrangian",
-    help="Equations of motion by the Lagrangian approach: every step shown, every result checked.",
+    cls=Verbs,
     no_args_is_help=True,
     add_completion=False,
     pretty_exceptions_enable=False,
 )
 
-app.command()(derive.derive)
-app.command()(verify.verify)
-app.command()(check.check)
-app.command()(export.export)
-app.command()(compare.compare)
-app.command()(linearize.linearize)
-app.command()(equilibria.equilibria)
-app.command()(conserved.conserved)
-app.command()(simulate.simulate)
-app.command()(sweep.sweep)
-app.command()(start.new)
-app.command("examples")(start.list_examples)
-app.command()(start.schema)
-app.command()(start.version)
+
+@app.callback()
+def verbs() -> None:
+    """Equations of motion by the Lagrangian approach: every step shown, every result checked."""
 
 
 def main(arguments: list[str] | None = None) -> int:

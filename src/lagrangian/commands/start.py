@@ -8,7 +8,6 @@ from typing import Annotated
 
 import typer
 
-from lagrangian import examples, read
 from lagrangian.commands.terminal import Output, put
 
 
@@ -17,11 +16,15 @@ def new(
     output: Output = None,
 ) -> None:
     """Print a model file to start from."""
+    from lagrangian import examples
+
     put(examples.text(name), output)
 
 
 def list_examples() -> None:
     """List the built-in examples."""
+    from lagrangian import examples
+
     names = examples.names()
     wide = max(len(name) for name in names)
     for name in names:
@@ -30,6 +33,8 @@ def list_examples() -> None:
 
 def schema(output: Output = None) -> None:
     """Print the JSON Schema of model files, for editors."""
+    from lagrangian import read
+
     put(json.dumps(read.schema(), ensure_ascii=False, indent=2), output)
 
 

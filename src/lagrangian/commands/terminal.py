@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from lagrangian import examples, read, write
 from lagrangian.errors import Error
-from lagrangian.system import System, load, loads
+
+if TYPE_CHECKING:
+    from lagrangian.system import System
 
 File = Annotated[str, typer.Argument(help="A model file; - is standard input.", show_default=False)]
 OptionalFile = Annotated[str | None, typer.Argument(help="A model file; - is standard input.", show_default=False)]
@@ -26,6 +27,9 @@ def open_system(file: str | None, example: str | None = None) -> System:
     """Return the system of a model file (``-`` is standard input) or of a built-in example; one of the two is given."""
     if (file is None) == (example is None):
         raise typer.BadParameter("name a model file, or a built-in example with --example NAME")
+    from lagrangian import examples
+    from lagrangian.system import load, loads
+
     if example is not None:
         return loads(examples.text(example), name=f"<example {example}>")
     assert file is not None
@@ -38,6 +42,8 @@ def standard_input() -> str:
     """Return the text of standard input; raises `Error` where it is closed."""
     if sys.stdin is None:
         raise Error("standard input is closed", fix="name a model file, or pipe one in", code="E702")
+    from lagrangian import read
+
     data = sys.stdin.buffer.read(read.MAX_BYTES + 1)
     return read.decode(data, "<standard input>")
 
@@ -49,7 +55,9 @@ def put(text: str, output: Path | None) -> None:
         sys.stdout.write(text)
         sys.stdout.flush()
     else:
-        write.write_file(output, text)
+        from lagrangian.write import write_file
+
+        write_file(output, text)
 
 
 def say(words: str) -> None:

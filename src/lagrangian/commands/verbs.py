@@ -1,0 +1,84 @@
+"""The verbs of the command: each with its line in the list, its file read only when the verb is used."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from importlib import import_module
+from typing import Any
+
+import typer
+import typer.core
+
+VERBS = {
+    "derive": ("derive", "derive", "Derive the equations of motion, step by step; exit 1 if a check does not hold."),
+    "verify": ("verify", "verify", "Check the equations by independent routes; exit 1 if one does not hold."),
+    "check": (
+        "check",
+        "check",
+        "Check an answer: equations, energies or a whole derivation; exit 1 if it is wrong or something is missing.",
+    ),
+    "export": ("export", "export", "Write the dynamics as source code that needs nothing of this package."),
+    "compare": (
+        "compare",
+        "compare",
+        "Compare two systems, row by row; exit 0 if they are the same motion, 1 if they differ.",
+    ),
+    "linearize": ("linearize", "linearize", "Linearize about an equilibrium: A, B, C, D, poles, modes, stability."),
+    "equilibria": (
+        "equilibria",
+        "equilibria",
+        "Find the equilibria in a box of coordinates, each with its residual and its stability.",
+    ),
+    "conserved": (
+        "conserved",
+        "conserved",
+        "List conserved quantities: momenta, total momenta, energy, each proved and watched along a run.",
+    ),
+    "simulate": (
+        "simulate",
+        "simulate",
+        "Run the system; print a summary. Exit 1 if the run could not be finished (what was reached is kept).",
+    ),
+    "sweep": (
+        "sweep",
+        "sweep",
+        "Run every combination of values, each for every draw; keep a few numbers of each run. "
+        "Exit 1 if all runs fail.",
+    ),
+    "new": ("start", "new", "Print a model file to start from."),
+    "examples": ("start", "list_examples", "List the built-in examples."),
+    "schema": ("start", "schema", "Print the JSON Schema of model files, for editors."),
+    "version": ("start", "version", "Print the version."),
+}
+"""Name → file, function, and the first line of its help."""
+
+
+class Deferred(typer.core.TyperCommand):
+    """A verb that is known by its name and its line of help until it is used."""
+
+    def __init__(self, name: str, file: str, function: str, help: str) -> None:
+        super().__init__(name, help=help)
+        self._file, self._function = file, function
+
+    @cached_property
+    def verb(self) -> Any:
+        """The command itself, with its options."""
+        alone = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+        alone.command(self.name)(getattr(import_module(f"lagrangian.commands.{self._file}"), self._function))
+        return typer.main.get_command(alone)
+
+    def make_context(self, *arguments: Any, **options: Any) -> Any:
+        """Return the context of the command itself: from here on it is the one that runs."""
+        return self.verb.make_context(*arguments, **options)
+
+    def get_params(self, ctx: Any) -> list[Any]:
+        """Return the options and arguments of the command itself."""
+        return self.verb.get_params(ctx)
+
+
+class Verbs(typer.core.TyperGroup):
+    """All verbs, in the order of the list."""
+
+    def __init__(self, **attributes: Any) -> None:
+        super().__init__(**attributes)
+        self.commands = {name: Deferred(name, *where) for name, where in VERBS.items()}
