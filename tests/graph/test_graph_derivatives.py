@@ -96,6 +96,19 @@ def test_jacobian_holds_only_what_is_not_zero_by_structure():
     assert set(jacobian(g, ids[:2], inputs)) == {(0, 0), (0, 1), (1, 2)}
 
 
+def test_nodes_of_which_one_is_computed_from_another_count_as_independent():
+    """f = c·(x·x) + (c·x)·y with m = c·x cut out is c x² + m y: its Hessian over (x, y, m) is known by hand."""
+    g = Graph()
+    c, x, y = (g.input("x", i) for i in range(3))
+    m = g.mul(c, x)
+    f = g.add(g.mul(c, g.mul(x, x)), g.mul(m, y))
+    two_c, one = g.mul(g.const(2.0), c), g.one
+    assert hessian(g, f, [x, y, m]) == {(0, 0): two_c, (1, 2): one, (2, 1): one}
+    columns = jacobian(g, [m, y, g.mul(m, x)], [x, m])  # more rows than columns: forwards
+    assert columns == {(0, 1): one, (2, 0): m, (2, 1): x}
+    assert jacobian(g, [g.mul(m, x)], [x, m]) == {(0, 0): m, (0, 1): x}  # backwards
+
+
 def test_derivatives_with_respect_to_nodes_inside():
     g, inputs, (inner,) = setup(x * y)
     outer = g.mul(g.sin(inner), inputs[0])

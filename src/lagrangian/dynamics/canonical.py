@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
 
-from lagrangian.dynamics.closed import SUPPLY, Feedback, replaced, with_feedback
+from lagrangian.dynamics.closed import SUPPLY, Feedback, with_feedback
 from lagrangian.dynamics.eliminate import solve
 from lagrangian.dynamics.impacts import Impact, impact_outputs
 from lagrangian.dynamics.observe import Observed
@@ -20,7 +20,7 @@ from lagrangian.dynamics.programs import _program
 from lagrangian.dynamics.tape import make_tape
 from lagrangian.dynamics.vectors import minus, plus
 from lagrangian.errors import ModelError
-from lagrangian.graph import Output, Program, gradient, reached
+from lagrangian.graph import Output, Program, gradient, reached, replaced
 from lagrangian.model import Model
 
 

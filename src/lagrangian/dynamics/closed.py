@@ -8,7 +8,7 @@ from outside for everything that differentiates.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -18,7 +18,7 @@ from lagrangian.dynamics.observe import Observed, holds_acceleration, observed
 from lagrangian.dynamics.power import balance, supplied
 from lagrangian.dynamics.programs import _program
 from lagrangian.errors import ModelError, did_you_mean
-from lagrangian.graph import Graph, Output, Program, operands, reached
+from lagrangian.graph import Output, Program, replaced
 from lagrangian.model import Input, Model, Point, as_expr, plain
 
 Feedback = Mapping[Any, sp.Expr]
@@ -101,25 +101,3 @@ def _in_order(model: Model, feedback: Feedback) -> list[tuple[Input, sp.Expr]]:
             raise ModelError(f"inputs depend on each other in a circle: {circle}", code="E413")
         done += [(inputs[s], waiting.pop(s)) for s in ready]
     return done
-
-
-def replaced(graph: Graph, ids: Iterable[int], known: Mapping[int, int]) -> list[int]:
-    """The nodes ``ids`` with every node of ``known`` replaced by what it is there, all at once."""
-    ends = list(ids)
-    value = dict(known)
-    for i in reached(graph, ends, known):
-        if i in value:
-            continue
-        node = graph.nodes[i]
-        below = operands(node)
-        new = tuple(value[k] for k in below)
-        value[i] = i if new == below else _made(graph, node, new)
-    return [value[i] for i in ends]
-
-
-def _made(graph: Graph, node: tuple[Any, ...], new: tuple[int, ...]) -> int:
-    """The operation of ``node`` on other operands."""
-    if node[0] == "powi":
-        return graph.powi(new[0], node[2])
-    method: Any = getattr(graph, node[0] + "_" if node[0] in ("and", "or", "not") else node[0])
-    return method(*new)

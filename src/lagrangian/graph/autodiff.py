@@ -4,7 +4,8 @@ Both walk the active nodes only: those that lie between what is asked for and wh
 
     jvp:  ẏ = Σ_k ∂f/∂x_k ẋ_k        vjp:  x̄_k = Σ_i ȳ_i ∂f_i/∂x_k
 
-What is varied may be any nodes, not inputs alone; nothing behind them is followed. At a kink the derivative is that of
+What is varied may be any nodes, not inputs alone. They count as independent of each other, even where one is computed
+from another, and nothing behind them is followed. At a kink the derivative is that of
 the branch the evaluation takes; abs has slope sign(a), which is 0 at 0.
 """
 
@@ -14,6 +15,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from lagrangian.graph.graph import CONDITIONS, Graph, Node, operands
 from lagrangian.graph.program import reached
+from lagrangian.graph.replace import replaced
 
 Partial = Callable[[Graph, int, int], int]
 
@@ -260,8 +262,9 @@ def jacobian(graph: Graph, outputs: Sequence[int], inputs: Sequence[int]) -> dic
                 if d != graph.zero:
                     entries[i, k] = d
     else:
+        held = dict.fromkeys(inputs, graph.zero)
         for k, x in enumerate(inputs):
-            for i, d in enumerate(jvp(graph, outputs, {x: graph.one})):
+            for i, d in enumerate(jvp(graph, outputs, {**held, x: graph.one})):
                 if d != graph.zero:
                     entries[i, k] = d
     return entries
@@ -274,12 +277,18 @@ def hessian_product(graph: Graph, output: int, inputs: Sequence[int], direction:
 
 
 def hessian(graph: Graph, output: int, inputs: Sequence[int]) -> dict[tuple[int, int], int]:
-    """The entries ∂²output/∂x_i∂x_k that are not zero by structure; ``[i, k]`` and ``[k, i]`` are the same node."""
-    first = gradient(graph, output, inputs)
+    """The entries ∂²output/∂x_i∂x_k that are not zero by structure; ``[i, k]`` and ``[k, i]`` are the same node.
+
+    Where an x is computed from other nodes it is cut out of the graph first: the gradient of c a²/2 + (c a) b by a is
+    c a, and must not be taken for the x that c a is itself.
+    """
+    cut = [x if graph.nodes[x][0] == "input" else graph.input("cut", k) for k, x in enumerate(inputs)]
+    (output,) = replaced(graph, [output], dict(zip(inputs, cut, strict=True)))
+    first = gradient(graph, output, cut)
     entries: dict[tuple[int, int], int] = {}
-    for k, x in enumerate(inputs):
+    for k, x in enumerate(cut):
         column = jvp(graph, first[: k + 1], {x: graph.one})
-        for i, d in enumerate(column):
+        for i, d in enumerate(replaced(graph, column, dict(zip(cut, inputs, strict=True)))):
             if d != graph.zero:
                 entries[i, k] = entries[k, i] = d
     return entries

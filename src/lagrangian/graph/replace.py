@@ -1,0 +1,31 @@
+"""Nodes with other nodes in the place of some that they read."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from lagrangian.graph.graph import Graph, operands
+from lagrangian.graph.program import reached
+
+
+def replaced(graph: Graph, ids: Iterable[int], known: Mapping[int, int]) -> list[int]:
+    """The nodes ``ids`` with every node of ``known`` replaced by what it is there, all at once."""
+    ends = list(ids)
+    value = dict(known)
+    for i in reached(graph, ends, known):
+        if i in value:
+            continue
+        node = graph.nodes[i]
+        below = operands(node)
+        new = tuple(value[k] for k in below)
+        value[i] = i if new == below else _made(graph, node, new)
+    return [value[i] for i in ends]
+
+
+def _made(graph: Graph, node: tuple[Any, ...], new: tuple[int, ...]) -> int:
+    """The operation of ``node`` on other operands."""
+    if node[0] == "powi":
+        return graph.powi(new[0], node[2])
+    method: Any = getattr(graph, node[0] + "_" if node[0] in ("and", "or", "not") else node[0])
+    return method(*new)
