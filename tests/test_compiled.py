@@ -190,3 +190,12 @@ def test_an_export_that_cannot_be_named_is_refused(name: str, tmp_path: pathlib.
     with pytest.raises(lg.ModelError):
         pendulum().export(tmp_path / name)
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("ending", ["c", "py"])
+def test_a_long_name_of_an_export_is_a_name_all_the_same(tmp_path, ending) -> None:
+    system = lg.loads(examples.text("pendulum"))
+    files = system.export(tmp_path / f"{'a' * 60}.{ending}")
+    assert f"{'a' * 60}_forward" in files[0].read_text()
+    with pytest.raises(lg.ModelError, match="has 300 characters"):
+        system.export(tmp_path / f"{'a' * 300}.{ending}")

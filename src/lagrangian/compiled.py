@@ -239,6 +239,10 @@ LANGUAGES = {"c": ".c", "python": ".py"}
 """The languages of source files, and how their names end."""
 
 
+LONGEST_STEM = 200
+"""Most characters before the ending of a source file: with it the name must fit into a folder's entry."""
+
+
 def sources(model: Model, language: str, stem: str) -> dict[str, str]:
     """Return source code as file name → text: C99 with its header, or Python with NumPy.
 
@@ -247,6 +251,12 @@ def sources(model: Model, language: str, stem: str) -> dict[str, str]:
     """
     if language not in LANGUAGES:
         raise ModelError(f"there is no export to '{language}'", fix=f"one of {', '.join(LANGUAGES)}", code="E402")
+    if len(stem) > LONGEST_STEM:
+        raise ModelError(
+            f"the name {stem[:20]}… has {len(stem)} characters, and functions are called after it",
+            fix=f"use at most {LONGEST_STEM}",
+            code="E702",
+        )
     if not (stem.isascii() and stem.isidentifier()):
         raise ModelError(
             f"'{stem}' cannot begin the name of a function", fix="use letters, digits and underscores", code="E702"

@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Any
 
 from lagrangian import analyze, derive, write
+from lagrangian.analyze.given import check_sampling
 from lagrangian.checking import CheckedAnswer, check_answer
 from lagrangian.model import Model
 from lagrangian.write import Notation
@@ -39,6 +40,7 @@ class Derivation(derive.Derivation):
 
     def verify(self, *, states: int = 50, seed: int = 1) -> tuple[derive.Check, ...]:
         """Check the equations by independent routes at random states; every check carries its figure."""
+        check_sampling(states, seed)
         return analyze.verify(self, states=states, seed=seed)
 
     def check(self, answer: Any, *, hint: int = 3) -> CheckedAnswer:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from copy import deepcopy
 from typing import Any, Self
 
 import sympy as sp
@@ -41,6 +42,10 @@ class Described:
 
     def __init__(self, name: str, *, _builder: Builder | None = None) -> None:
         self._builder = _builder if _builder is not None else Builder(name)
+
+    def __copy__(self) -> Self:
+        """A system of its own: nothing that is described in one of the two reaches the other."""
+        return type(self)(self.name, _builder=deepcopy(self._builder))
 
     # -- symbols ------------------------------------------------------------------------------------------------
 

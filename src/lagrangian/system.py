@@ -26,6 +26,7 @@ from lagrangian.analysis import (
 )
 from lagrangian.analyze import check_dimensions
 from lagrangian.analyze.change import carried
+from lagrangian.analyze.given import check_sampling
 from lagrangian.analyze.motion import verify_motion
 from lagrangian.checking import CheckedAnswer, check_answer
 from lagrangian.comparison import Comparison, compare
@@ -73,6 +74,7 @@ class System(Described):
 
         Derived equations as `Derivation.verify` does; where a frame floats, what is compiled instead.
         """
+        check_sampling(states, seed)
         if self.model.floating:
             return tuple(c for part in verify_motion(self.model, states=states, seed=seed).parts for c in part.checks)
         return self.derive().verify(states=states, seed=seed)

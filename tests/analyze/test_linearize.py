@@ -151,6 +151,10 @@ def test_a_drone_hovers_with_its_quaternion() -> None:
     assert found.mass is None
     with pytest.raises(RunError, match="symbols"):
         _ = found.symbolic
+    with pytest.raises(RunError, match=r"base_vz' = -9\.81") as caught:
+        system.linearize()
+    assert caught.value.fix is not None and "equilibria" not in caught.value.fix
+    assert system.linearize(operating_point=True).A.shape == (13, 13)  # what it advises works
     with pytest.raises(RunError, match="floating frame"):
         system.equilibria()
     with pytest.raises(ModelError, match="floating frame"):

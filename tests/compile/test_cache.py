@@ -178,3 +178,13 @@ def test_what_decides_the_key():
         key(program(lambda g, x: {"f": [(x["a"] * 2.5 + x["b"]) ** 3]}, q=("a", "b", "c"))),
     ]
     assert len({base, *others}) == len(others) + 1
+
+
+def test_a_relative_folder_counts_from_the_working_directory(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("LAGRANGIAN_CACHE_DIR", "kept/code")
+    assert cache.directory() == tmp_path / "kept" / "code"
+    assert cache.write("key", b"code") and cache.read("key") == b"code"
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.setenv("LAGRANGIAN_CACHE_DIR", "~/kept/code")
+    assert cache.read("key") == b"code"

@@ -54,6 +54,21 @@ def number(value: object, what: str, dim: Dim | None = None) -> float:
     return real
 
 
+MOST_STATES = 1_000_000
+"""Most random states at which a check is made."""
+
+
+def check_sampling(states: object, seed: object) -> None:
+    """Refuse a number of random states or a seed that is not a whole number in range."""
+    for name, value, least, most in (("states", states, 1, MOST_STATES), ("seed", seed, 0, None)):
+        whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+        if not whole or int(value) < least or (most is not None and int(value) > most):  # type: ignore[call-overload]
+            upper = f" to {most}" if most is not None else " or more"
+            raise RunError(
+                f"{name} must be a whole number, {least}{upper} (got {value!r:.40})", fix=f"{name}=1", code="E501"
+            )
+
+
 @dataclass(frozen=True)
 class Group:
     """The entries of one group of a program that values are given for: what an entry is called, and its dimension."""

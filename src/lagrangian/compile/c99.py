@@ -46,7 +46,7 @@ def to_c(program: Program, *, name: str | None = None) -> tuple[str, str]:
     and the header's (``name.h``); ``lg_`` and the program's name unless given.
     """
     function = name if name is not None else "lg_" + word(program.name)
-    if identifier("", function, 0) != function:
+    if not (function.isascii() and function.isidentifier()):
         raise ValueError(f"{function!r} is not a plain C identifier")
     tape = lower(program, hoist=()).body
     inputs = [(identifier("in_", g, k), g, entries) for k, (g, entries) in enumerate(program.inputs.items())]

@@ -5,7 +5,8 @@ place and renamed into it, so that readers and other writers never see half a fi
 taken for absent and written again. A directory that cannot be used (read-only, somebody else's, full) means that
 nothing is kept: compiling then takes its full time, and that is all.
 
-The directory is ``LAGRANGIAN_CACHE_DIR``, or the user's cache directory; the empty text turns keeping off.
+The directory is ``LAGRANGIAN_CACHE_DIR`` (a relative one counts from the working directory), or the user's cache
+directory; the empty text turns keeping off.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ def directory() -> Path | None:
     """Where object code is kept, or None if keeping is turned off."""
     named = os.environ.get("LAGRANGIAN_CACHE_DIR")
     if named is not None:
-        return Path(named) if named else None
+        return Path(named).expanduser().absolute() if named else None
     return Path(platformdirs.user_cache_dir("lagrangian", appauthor=False)) / "objects"
 
 

@@ -45,6 +45,13 @@ class Builder:
         self._checked: dict[int, Point | Frame] = {}  # once found right, a point and all it hangs on stay right
         self._frozen: Model | None = None
 
+    def __getstate__(self) -> dict[str, Any]:
+        """What a copy is made of: points and frames checked are told by identity, which a copy does not share."""
+        return {**self.__dict__, "_checked": list(self._checked.values()), "_frozen": None}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state, _checked={id(thing): thing for thing in state["_checked"]})
+
     # -- symbols ------------------------------------------------------------------------------------------------
 
     def _claim(self, name: str, what: str, place: Place | None) -> str:
@@ -381,6 +388,10 @@ class Builder:
 
     def lookup(self, name: str) -> Any:
         """Return the symbol of that name, or else the point, frame or element."""
+        if not isinstance(name, str):
+            raise ModelError(
+                f"what is looked up must be a name (got {type(name).__name__})", fix='system["theta"]', code="E402"
+            )
         for table in (self._coordinates, self._velocities, self._parameters, self._inputs, self._definitions):
             if name in table:
                 return table[name].symbol

@@ -79,7 +79,7 @@ def rest(
     found = _values(program, here, t)
     n = len(model.coordinates)
     here = replace(here, residual=_largest(found["xdot"][n:]), free=free_coordinates(program, here, n, t))
-    settled = _classified(here, found, n) if any_point else _settled(program, here, found, n, t)
+    settled = _classified(here, found, n) if any_point else _settled(model, program, here, found, n, t)
     later = None if settled.kind == "operating point" else _moved_later(program, settled, t)
     if later is None:
         return settled
@@ -151,7 +151,7 @@ def _classified(here: Rest, found: Arrays, n: int) -> Rest:
     return here
 
 
-def _settled(program: Program, here: Rest, found: Arrays, n: int, t: float) -> Rest:
+def _settled(model: Model, program: Program, here: Rest, found: Arrays, n: int, t: float) -> Rest:
     """The rest that the point is, or is within rounding of; else the error that teaches."""
     start = here.x
     moved = 0.0
@@ -167,7 +167,7 @@ def _settled(program: Program, here: Rest, found: Arrays, n: int, t: float) -> R
         here = replace(here, residual=_largest(found["xdot"][n:]))
     settled = _classified(here, found, n)
     if moved > NEAR or settled.kind == "operating point":
-        raise _refused(replace(here, x=start), program, n, t)
+        raise _refused(model, replace(here, x=start), program, n, t)
     if moved > 1e-12:
         note = f"moved by {moved:.1e} onto the rest at {point_words(here.names[:n], here.x[:n])}"
         settled = replace(settled, notes=(*settled.notes, note))
@@ -182,7 +182,7 @@ def _newton(here: Rest, found: Arrays, n: int) -> Array:
     return step
 
 
-def _refused(here: Rest, program: Program, n: int, t: float) -> RunError:
+def _refused(model: Model, here: Rest, program: Program, n: int, t: float) -> RunError:
     found = _values(program, here, t)
     worst = int(np.argmax(np.abs(found["xdot"][n:])))
     bound = ROUNDING * max(1.0, _largest(found["A"]))
@@ -192,8 +192,9 @@ def _refused(here: Rest, program: Program, n: int, t: float) -> RunError:
     else:
         k = int(np.argmax(np.abs(found["xdot"][:n])))
         why = f"{here.names[k]} changes at {found['xdot'][k]:.6g}"
+    search = "give the inputs that hold it still" if model.floating else "system.equilibria() finds them"
     return RunError(
-        f"{here.shown} is no equilibrium: {why}",
-        fix="system.equilibria() finds them; operating_point=True linearizes about any point and keeps the drift",
+        f"{here.shown} is not an equilibrium: {why}",
+        fix=f"{search}; operating_point=True linearizes about any point and keeps the drift",
         code="E521",
     )
