@@ -33,7 +33,7 @@ def test_text_has_the_parts_in_order(report: Report) -> None:
     assert lines[0] == "What is kept <i>"
     assert "Momentum of θ" in lines
     assert any("p = m L² θ̇" in line for line in lines)
-    assert "✓ it holds (1e-16)" in lines and "✗ it fails (3)" in lines
+    assert "✓ it holds (10⁻¹⁶)" in lines and "✗ it fails (3)" in lines
 
 
 def test_markup_is_escaped(report: Report) -> None:

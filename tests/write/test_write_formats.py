@@ -31,6 +31,7 @@ from lagrangian.write import (
 )
 from lagrangian.write.glyphs import columns
 from lagrangian.write.layout import lay_out
+from lagrangian.write.numerals import figures, unit
 
 
 def example_1() -> Builder:
@@ -210,8 +211,8 @@ def test_what_is_too_long_is_summarised_and_written_on_request(derivations):
 def test_a_check_that_fails_is_shown_as_failing(derivations):
     d = derivations["example 1"]
     changed = type(d)(**{**vars(d), "verified": (Check(text("energy"), False, "3e-1"), Check(text("M"), True))})
-    assert "✗ energy (3e-1)" in to_text(changed)
-    assert "✗ energy (3e-1)" in to_text(changed, brief=True)
+    assert "✗ energy (0.3)" in to_text(changed)
+    assert "✗ energy (0.3)" in to_text(changed, brief=True)
     assert 'class="fails"' in to_html(changed)
     assert to_dict(changed)["verified"][0] == {"what": "energy", "holds": False, "figure": "3e-1"}
 
@@ -320,11 +321,11 @@ def test_html_tells_where_each_term_came_from(derivations):
     rendered = to_html(derivations["example 1"])
     terms = re.findall(r'<span class="term (\w+)" tabindex="0" aria-label="from ([^"]*)"', rendered)
     assert terms == [
-        ("inertia", "particle &#x27;m&#x27;"),
-        ("damping", "damper &#x27;b&#x27;"),
-        ("stiffness", "spring &#x27;k&#x27;"),
-        ("gravity", "gravity &#x27;g&#x27;"),
-        ("input", "torque &#x27;tau&#x27;"),
+        ("inertia", "particle m"),
+        ("damping", "damper b"),
+        ("stiffness", "spring k"),
+        ("gravity", "gravity g"),
+        ("input", "torque τ"),
     ]
 
 
@@ -393,4 +394,46 @@ def test_units_and_small_values_stand_as_people_write_them() -> None:
         '[[particle]]\nmass = "m"\nat = ["x", "0"]\n[[gravity]]\ndirection = [0, -1]\n'
     )
     shown = system.derive().to_text()
-    assert "2·10⁻⁵ kg m²" in shown and "9.81 m/s²" in shown
+    assert "2·10⁻⁵ kg·m²" in shown and "9.81 m/s²" in shown
+
+
+def test_units_have_dots_between_factors_whatever_they_were_typed_with() -> None:
+    assert [unit(u) for u in ("N*m", "N m s", "kg*m^2", "m/s^2", "1/s", "N*s/m", None)] == [
+        "N·m",
+        "N·m·s",
+        "kg·m²",
+        "m/s²",
+        "1/s",
+        "N·s/m",
+        "",
+    ]
+
+
+def test_figures_are_numbers_as_people_write_them() -> None:
+    assert figures("largest difference 0.0e+00") == "largest difference 0"
+    assert figures("5.5e-16 at 10 random states") == "5.5·10⁻¹⁶ at 10 random states"
+    assert figures("smallest eigenvalue 1.59e-01") == "smallest eigenvalue 0.159"
+    assert figures("2 of 2") == "2 of 2" and figures("1e-12") == "10⁻¹²"
+    assert figures("the run1e5 of 0x1e5") == "the run1e5 of 0x1e5"
+
+
+def test_a_name_in_words_is_the_symbol_of_the_formulas(derivations) -> None:
+    """What is named after a symbol reads as the symbol, in titles, tables, reasons and checks; other names stay."""
+    for name in ("example 1", "example 2", "example 3A"):
+        shown = to_text(derivations[name], width=200)
+        assert not re.search(r"'(m|k|b|tau|g|F)\d?'", shown)
+    shown = to_text(derivations["example 2"], width=200)
+    for words in ("\nParticle m₁\n", "torque τ  ", "particle m₁, particle m₂, particle m₃", "particle m₂   T*"):
+        assert words in shown
+    system = lg.System("named")
+    x = system.coordinate("x")
+    system.particle(system.parameter("m"), at=system.origin + (x, 0), name="trolley")
+    assert "Particle 'trolley'" in system.derive().to_text()
+
+
+def test_why_is_a_reason(derivations) -> None:
+    """The reason of a step says the same for every system: no number of coordinates is a reason."""
+    for number in range(7):
+        whys = {str(derivations[name].steps[number].why) for name in ("example 1", "example 2")}
+        assert len(whys) == 1
+        assert not re.search(r"\d", whys.pop().replace("T*", ""))

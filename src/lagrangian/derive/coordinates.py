@@ -38,25 +38,29 @@ def coordinates(context: Context) -> Step:
     items.append(Table(header, tuple(rows)))
     items.append(
         text(
-            "Complete: with the coordinates (and t) given, the position of every mass follows; nothing else in the "
-            "system moves."
+            "Complete: the coordinates (and t) determine the position of every mass; nothing else in the system moves."
         )
     )
     items.append(
         text(
-            f"Independent: each one can wiggle while the others stay fixed. The velocities of all masses have rank "
-            f"{wiggle.rank} in the {n} rate{'s' if n > 1 else ''}, so no combination of the coordinates wiggles "
+            f"Independent: each of them can wiggle while the others stay fixed. As linear functions of the {n} rates, "
+            f"the velocities of all masses have rank {wiggle.rank}, so no combination of the coordinates wiggles "
             "without moving a mass."
+            if n > 1
+            else "Independent: there is no other coordinate that it could depend on, and a mass moves when it wiggles."
         )
     )
     if n > 1 or kinds[context.symbols[0]].to is not None:
-        items.append(text("The set is not unique: any complete and independent set is right, absolute or relative."))
+        items.append(text("The choice is not unique: any complete and independent set is right, absolute or relative."))
     reasons = tuple(text(c, ": ", *_kind_words(k)) for c, k in kinds.items())
     return Step(
         1,
         "Generalized coordinates",
         text("Chose the generalized coordinates and checked that they are complete and independent."),
-        text("There is one equation of motion for each; a missing or a dependent one would make them wrong."),
+        text(
+            "A complete set says where every mass is, so that both energies can be written down; in an independent set "
+            "each coordinate can be wiggled alone, which gives it an equation of its own."
+        ),
         tuple(items),
         {"coordinates": context.symbols, "rank": wiggle.rank, "relative": {c: k.to for c, k in kinds.items()}},
         reasons,

@@ -120,7 +120,10 @@ def kinetic(context: Context, pieces: tuple[Share, ...]) -> Step:
         2,
         "Kinetic co-energy",
         text("Wrote ½mv² for every mass and ½Jω² for every body that turns, and added them up."),
-        text("Kinetic co-energy is stored by what moves with mass; J is about the centre of mass, always."),
+        text(
+            "Every mass that moves stores kinetic co-energy. With the velocity of the centre of mass and J about it, "
+            "translation and rotation add without a mixed term."
+        ),
         tuple(items),
         {"T": readable},
         reasons,
@@ -256,7 +259,12 @@ def potential(context: Context, pieces: tuple[Share, ...]) -> Step:
         3,
         "Potential energy",
         text("Wrote ½k(Δx)² for every spring and mgh for every mass under gravity, and added them up."),
-        text("Conservative forces are counted here, once, and so never again among the ", Name("Xi"), "."),
+        text(
+            "The work of a spring's force or of a weight depends only on where it starts and ends, so it is the "
+            "difference of an energy. Such forces are counted here and never again among the ",
+            Name("Xi"),
+            ".",
+        ),
         tuple(items),
         {"V": readable},
         reasons,
@@ -328,7 +336,10 @@ def lagrangian(context: Context, pieces: tuple[Share, ...]) -> Step:
         4,
         "Lagrangian",
         text("Subtracted the potential energy from the kinetic co-energy."),
-        text("The Lagrangian holds all that the left-hand sides need."),
+        text(
+            "Inertia and all conservative forces follow from this one scalar by differentiation; no force between two "
+            "bodies has to be found."
+        ),
         (formula(Name("L"), Terms((Name("T*"), Minus(Name("V")))), written, brief=True),),
         {"L": readable},
         (text(Name("L"), " = ", Name("T*"), " − ", Name("V"), ": kinetic co-energy minus potential energy"),),

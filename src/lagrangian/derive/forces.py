@@ -84,16 +84,18 @@ def _story(context: Context, element: Element, ends: tuple[Action, ...], index: 
     outside = [w for w in outside if w not in inside]
     listed, beyond = _and(inside), _and(outside or [(element.title,)])
     if not inside:
-        return text(*beyond, f" stay{'s' if len(outside) <= 1 else ''} outside the box: nothing")
+        if outside and outside[0] == DEFLECTION:
+            return text(*beyond, " does not change with the box: it adds nothing")
+        return text(*beyond, f" {'is' if len(outside) <= 1 else 'are'} outside the box: it adds nothing")
     if virtual.is_zero:
         if len(inside) > 1:
             return text(*listed, " are inside the box and move together: the pair cancels")
         return text(*listed, " moves, but not along the force: no work")
     if outside:
-        return text(*listed, " inside the box, ", *beyond, " outside: it counts")
+        return text(*listed, " is inside the box, ", *beyond, " outside: it counts")
     if ends[0].on == DEFLECTION:
         return text("its deflection changes with the box: it counts")
-    return text(*listed, " inside the box: it counts")
+    return text(*listed, f" {'is' if len(inside) == 1 else 'are'} inside the box: it counts")
 
 
 def _and(words: list[Words]) -> Words:
@@ -143,7 +145,11 @@ def forces(context: Context, found: tuple[Contribution, ...], relative: Mapping[
         text(
             "Found what the forces, torques and dampers add to every equation, twice: by virtual work and by the box."
         ),
-        text("They are not in ", Name("V"), "; the right-hand side collects their actuation and their losses."),
+        text(
+            "They have no potential, so ",
+            Name("V"),
+            " does not hold them; what they do to a coordinate is the work they do when it wiggles alone.",
+        ),
         tuple(items),
         {"Xi": xi_of},
         tuple(reasons),

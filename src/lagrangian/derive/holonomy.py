@@ -8,7 +8,7 @@ import sympy as sp
 
 from lagrangian.derive.context import Context
 from lagrangian.derive.derivation import Step
-from lagrangian.derive.formula import Item, Name, formula, text
+from lagrangian.derive.formula import Item, Left, Name, formula, text
 from lagrangian.model import Model, time
 
 
@@ -19,17 +19,19 @@ def holonomic(context: Context) -> Step:
     """
     model = context.model
     n = len(model.coordinates)
-    listed = [p for c in context.symbols for p in (c, ", ")][:-1]
+    listed: list[str | Left] = [p for c in context.symbols for p in (c, ", ")][:-1]
+    if n > 1:
+        listed[-2] = " and "
     items: list[Item] = [
         formula(Name("#GC"), Name(str(n)), Name("#DDOF"), brief=True),
         text(
-            f"The system has no constraint on its velocities, so each of its {n} coordinates "
+            "No constraint ties the velocities together, so each of the coordinates "
             if n > 1
-            else "The system has no constraint on its velocity, so its one coordinate ",
+            else "No constraint restricts the velocity, so the one coordinate ",
             *listed,
-            " can wiggle on its own: ",
-            f"#GC = {n} coordinates say where it can get to in the long run, and #DDOF = {n} of them can change at "
-            "this instant. The two numbers are equal.",
+            f" can wiggle on its own. #GC = {n} is the number of generalized coordinates, #DDOF = {n} the number of "
+            "differential degrees of freedom: rates that can be chosen freely at any instant. The two are equal, so "
+            "the system is holonomic.",
         ),
     ]
     if any(model.expand(x).has(time) and not x.is_number for b in model.bodies for x in _explicit(model, b)):
@@ -43,7 +45,10 @@ def holonomic(context: Context) -> Step:
         0,
         "Holonomic?",
         text("Compared the number of generalized coordinates with the differential degrees of freedom."),
-        text("The Lagrangian approach, as used here, needs a holonomic system."),
+        text(
+            "Lagrange's equations come one by one from wiggling a single coordinate while the others stay fixed; only "
+            "in a holonomic system is each of these wiggles possible."
+        ),
         tuple(items),
         {"holonomic": True, "GC": n, "DDOF": n},
         (text(f"holonomic: #GC = #DDOF = {n}, because no constraint on velocities was described"),),

@@ -76,12 +76,18 @@ def left_hand_sides(context: Context, sides: tuple[LeftSide, ...]) -> Step:
                 " the springs, gravity and what turns with the geometry",
             )
         )
-    n, s = len(sides), "" if len(sides) == 1 else "s"
     return Step(
         5,
         "Left-hand sides",
-        text("Differentiated the Lagrangian for every coordinate: first by its rate, then in time, then by itself."),
-        text(f"A system with {n} generalized coordinate{s} has {n} equation{s} of motion."),
+        text("Differentiated the Lagrangian for every coordinate: by its rate, then in time, and by the coordinate."),
+        text(
+            "Wiggle one coordinate alone: by d'Alembert's principle the work of inertia, of the conservative forces "
+            "and of all others adds up to zero. The left-hand side is the part that follows from ",
+            Name("L"),
+            ", ",
+            Name("Xi", "i"),
+            " is the rest.",
+        ),
         tuple(items),
         {"left_hand_sides": expressions},
         tuple(reasons),

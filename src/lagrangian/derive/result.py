@@ -137,9 +137,7 @@ def closing(context: Context, eqs: Equations, mats: Matrices) -> tuple[Item, ...
     for left, right in zip(eqs.left, eqs.right, strict=True):
         items.append(formula(fit_terms(left), fit_terms(right), brief=True, boxed=True))
     if any(f.kind == "damping" for row in eqs.terms for f in row):
-        items.append(
-            text("What the dampers add to ", Xi, " stands on the left, with the sign turned, as one writes it.")
-        )
+        items.append(text("The dampers' part of ", Xi, " is written on the left-hand side, with its sign changed."))
     items.append(Heading(text("Matrix form")))
     q, dq, ddq = Name("q"), Name("q", "", 1), Name("q", "", 2)
     items.append(formula(Terms((Product((M, ddq)), Product((C, dq)), G)), Xi))

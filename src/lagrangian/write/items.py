@@ -21,7 +21,9 @@ from lagrangian.write.document import (
     Verdict,
     Verdicts,
 )
+from lagrangian.write.glyphs import unicode
 from lagrangian.write.math import Math, Number, Sum, Tagged
+from lagrangian.write.numerals import figures
 from lagrangian.write.quantities import Notation, Quantities
 
 DETAILS_OPERATIONS = 4000
@@ -97,7 +99,7 @@ class Items:
         """The checks; on the checklist all that hold share one line."""
         if self.brief and all(c.holds for c in checks):
             return Verdicts((Verdict((f"{len(checks)} checks hold",), True, ""),))
-        return Verdicts(tuple(Verdict(self.inline(c.what), c.holds, c.figure) for c in checks))
+        return Verdicts(tuple(Verdict(self.inline(c.what), c.holds, figures(c.figure)) for c in checks))
 
     # -- what is hidden, and where a term came from -------------------------------------------------------------------
 
@@ -119,7 +121,7 @@ class Items:
 
     def tagged(self, item: data.Formula, sides: tuple[Math, ...], known: Sequence[EquationTerm]) -> tuple[Math, ...]:
         """Mark each term of an equation of motion with the elements that make it."""
-        origin = {term.expr: term for term in known}
+        origin = {term.expr: (self.spoken(term.elements), term.kind) for term in known}
         if not origin or len(sides) != len(item.sides):
             return sides
         made: list[Math] = []
@@ -130,11 +132,15 @@ class Items:
                 made.append(shown)
                 continue
             tagged = tuple(
-                (minus, Tagged(math, origin[e].elements, origin[e].kind) if e in origin else math)
+                (minus, Tagged(math, *origin[e]) if e in origin else math)
                 for (minus, math), e in zip(pairs, exprs, strict=True)
             )
             made.append(Sum(tagged) if isinstance(shown, Sum) else tagged[0][1])
         return tuple(made)
+
+    def spoken(self, titles: Iterable[str]) -> tuple[str, ...]:
+        """Titles of elements as lines of text, symbols in them as in the formulas."""
+        return tuple("".join(x if isinstance(x, str) else unicode(x) for x in self.write.words(t)) for t in titles)
 
 
 def _terms(side: data.Left) -> tuple[sp.Expr, ...]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator
 
 from lagrangian.derive import Derivation, Step
@@ -12,6 +11,7 @@ from lagrangian.read import unit_factor
 from lagrangian.write.document import Block, Display, Document, Inline, Paragraph, Section, Table
 from lagrangian.write.items import Items
 from lagrangian.write.math import Math
+from lagrangian.write.numerals import figure, unit
 from lagrangian.write.quantities import Notation, Quantities
 
 
@@ -90,25 +90,11 @@ class _Layout(Items):
 def _symbols(model: Model, write: Quantities) -> Iterator[tuple[Math | str, str, str]]:
     """The symbols of the system: coordinates, parameters with their values, inputs."""
     for c in model.coordinates:
-        yield write.expressions(c.symbol), c.description or "coordinate", f"[{_raised(c.unit)}]" if c.unit else ""
+        yield write.expressions(c.symbol), c.description or "coordinate", f"[{unit(c.unit)}]" if c.unit else ""
     for p in model.parameters:
         # the value is kept in SI units; people read it in the unit they gave
-        value = "" if p.value is None else _figure(p.value / (unit_factor(p.unit) if p.unit else 1))
-        unit = f" {_raised(p.unit)}" if value and p.unit else ""
-        yield write.expressions(p.symbol), p.description or "parameter", value + unit
+        value = "" if p.value is None else figure(p.value / (unit_factor(p.unit) if p.unit else 1))
+        given = f" {unit(p.unit)}" if value and p.unit else ""
+        yield write.expressions(p.symbol), p.description or "parameter", value + given
     for i in model.inputs:
-        yield write.expressions(i.symbol), i.description or "input", f"[{_raised(i.unit)}]" if i.unit else ""
-
-
-_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-
-
-def _raised(unit: str | None) -> str:
-    """A unit with its whole exponents raised: m/s^2 → m/s²."""
-    return re.sub(r"\^(-?\d+)", lambda m: m.group(1).translate(_RAISED), unit or "")
-
-
-def _figure(x: float) -> str:
-    """A number of six digits, with a power of ten where it is far from 1: 2·10⁻⁵."""
-    mantissa, e, exponent = f"{x:.6g}".partition("e")
-    return f"{mantissa}·10{str(int(exponent)).translate(_RAISED)}" if e else mantissa
+        yield write.expressions(i.symbol), i.description or "input", f"[{unit(i.unit)}]" if i.unit else ""

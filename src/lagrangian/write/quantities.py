@@ -176,11 +176,12 @@ class Quantities:
     def words(self, words: str) -> Iterator[str | Math]:
         """Split words at the letters of the lecture that stand in them and lay those out in this notation.
 
-        What stands in quotation marks is a name that somebody gave, and stays.
+        What stands in quotation marks is a name that somebody gave: a symbol's is laid out as in the formulas, any
+        other stays as it is.
         """
         for i, part in enumerate(self._quoted.split(words)):
             if i % 2:
-                yield part
+                yield self.expressions.letters.get(part[1:-1], part)
                 continue
             at = 0
             for found in _LETTERS.finditer(part):

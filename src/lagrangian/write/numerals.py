@@ -1,0 +1,37 @@
+"""Numbers and units in words: 2·10⁻⁵ and N·m, not 2e-05 and N*m."""
+
+from __future__ import annotations
+
+import re
+
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_FIGURE = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)e([+-]?\d+)(?![\w.])")
+
+
+def unit(words: str | None) -> str:
+    """Return a unit with its whole exponents raised and dots between its factors: N*m/s^2 → N·m/s²."""
+    dotted = re.sub(r"(?<=[\w)])\s*[* ]\s*(?=[^\W\d_])", "·", (words or "").strip())
+    return re.sub(r"\^(-?\d+)", lambda m: m.group(1).translate(_RAISED), dotted)
+
+
+def figure(x: float) -> str:
+    """Return a number of six digits, with a power of ten where it is far from 1: 2·10⁻⁵."""
+    return figures(f"{x:.6g}")
+
+
+def figures(words: str) -> str:
+    """Return words with every number in them written as ``figure`` writes it, its digits kept: 5.5e-16 → 5.5·10⁻¹⁶.
+
+    A power of ten from 10⁻³ to 10³ is carried out: 1.59e-01 → 0.159.
+    """
+    return _FIGURE.sub(lambda m: _power_of_ten(m[1], int(m[2])), words)
+
+
+def _power_of_ten(mantissa: str, exponent: int) -> str:
+    if float(mantissa) == 0:
+        return "0"
+    if -3 <= exponent <= 3:
+        digits = max(0, len(mantissa.partition(".")[2]) - exponent)
+        return f"{float(mantissa) * 10.0**exponent:.{digits}f}"
+    raised = f"10{str(exponent).translate(_RAISED)}"
+    return raised if mantissa == "1" else f"{mantissa}·{raised}"
