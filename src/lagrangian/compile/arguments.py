@@ -140,7 +140,7 @@ def rows(array: NDArray[np.float64], lead: tuple[int, ...]) -> NDArray[np.float6
     """``array``, of shape (..., n), as (states, n) with the leading shape broadcast: a view where strides allow."""
     flags = array.flags
     if array.shape[:-1] == lead and flags.c_contiguous and flags.aligned:
-        return array if array.ndim == 2 else array.reshape(-1, array.shape[-1])
+        return array if array.ndim == 2 else array.reshape(math.prod(lead), array.shape[-1])
     if array.ndim == 1 and flags.c_contiguous and flags.aligned:  # one row for all states
         return np.ndarray((math.prod(lead), array.shape[0]), FLOAT, array, 0, (0, 8))
     full = np.broadcast_to(array, (*lead, array.shape[-1]))
@@ -148,7 +148,7 @@ def rows(array: NDArray[np.float64], lead: tuple[int, ...]) -> NDArray[np.float6
         view = _merged(full, len(lead))
         if view is not None:
             return view
-    return np.ascontiguousarray(full).reshape(-1, array.shape[-1])
+    return np.ascontiguousarray(full).reshape(math.prod(lead), array.shape[-1])
 
 
 def _merged(full: NDArray[np.float64], axes: int) -> NDArray[np.float64] | None:

@@ -87,7 +87,8 @@ class Batch:
         return final.reshape(self._count, size)
 
     def __call__(self) -> Any:
-        """Compute; return the output, or a dict of the outputs."""
+        """Compute; return the output, or a dict of the outputs. ``out`` is written before anything is raised."""
+        bad = -1
         if self._count:
             engine, count = self._engine, self._count
             whole = max(count, engine.lanes)
@@ -95,9 +96,7 @@ class Batch:
                 bad = self._range(0, whole)
             else:
                 bad = workers.over(whole, engine.lanes, engine.cost, self._threads, self._range)
-            if bad >= 0:
-                raise self._trouble(bad, min(bad + engine.lanes, count))
-            if self._views:
+            if self._views and bad < 0:
                 return self._views[0] if len(self._views) == 1 else dict(zip(engine.outputs, self._views, strict=True))
             if self._direct is not self._results:
                 for result, full in zip(self._results, self._direct, strict=True):
@@ -111,6 +110,8 @@ class Batch:
             if not np.may_share_memory(result, final):
                 final[...] = result.reshape(*self._lead, *shape)
             made[name] = final
+        if bad >= 0:
+            raise self._trouble(bad, min(bad + self._engine.lanes, self._count))
         return made.popitem()[1] if len(made) == 1 else made
 
     def _range(self, start: int, stop: int) -> int:

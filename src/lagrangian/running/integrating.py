@@ -17,6 +17,7 @@ from lagrangian import compile as machine
 from lagrangian import dynamics
 from lagrangian.graph import Output, Program, jacobian
 from lagrangian.model import Model
+from lagrangian.running import resets
 from lagrangian.running.driving import Driving
 from lagrangian.running.events import Event
 from lagrangian.simulate import STATUS, Events, Signals, Solver
@@ -147,7 +148,7 @@ def _by_machine(task: Task) -> Outcome:
     states = found.states[0]
     whole = np.isfinite(states).all(axis=1)
     kept = len(whole) if whole.all() else int(np.argmin(whole))
-    return Outcome(
+    outcome = Outcome(
         times[:kept],
         states[:kept],
         int(found.status[0]),
@@ -159,6 +160,7 @@ def _by_machine(task: Task) -> Outcome:
         _hits(task, found),
         "" if found.status[0] >= 0 else STATUS[int(found.status[0])],
     )
+    return resets.ended(task, outcome)
 
 
 def _hits(task: Task, found: Any) -> list[Hit]:
@@ -169,7 +171,7 @@ def _hits(task: Task, found: Any) -> list[Hit]:
         hits.append(Hit(k, time, before, None, task.events[k].terminal))
     if any(task.events[h.index].reset for h in hits):
         program = right_hand_side(task.model, task.drive, canonical=task.method in SYMPLECTIC)
-        kernel = machine.compile(_event_program(task, program))
+        kernel = resets.valued(machine.compile(_event_program(task, program)))
         for n, h in enumerate(hits):
             if task.events[h.index].reset:
                 t = np.array([h.time])
@@ -219,7 +221,7 @@ def _by_scipy(task: Task) -> Outcome:
         slope = remembered(model, ("jacobian", feedback), lambda: machine.compile(_jacobian(program)))
     crossings = None
     if task.events:
-        kernel = machine.compile(_event_program(task, program))
+        kernel = resets.valued(machine.compile(_event_program(task, program)))
         crossings = Crossings(
             kernel,
             task.p,
@@ -227,7 +229,7 @@ def _by_scipy(task: Task) -> Outcome:
             [e.terminal for e in task.events],
             [bool(e.reset) for e in task.events],
         )
-    return integrate_scipy(
+    outcome = integrate_scipy(
         task.method,
         rhs,
         task.x0,
@@ -240,3 +242,4 @@ def _by_scipy(task: Task) -> Outcome:
         atol=task.atol,
         bounds=task.bounds,
     )
+    return resets.ended(task, outcome)

@@ -224,6 +224,8 @@ class _March:
                 self.t, self.x = hit.time, hit.before if hit.after is None else hit.after
                 if hit.terminal:
                     self.status = 1
+                elif not np.all(np.isfinite(self.x)):
+                    self.status, self.reason, self.x = -2, "the state after an event is not finite", hit.before
                 elif len(self.hits) > self.bounds.max_events or stuck:
                     self.status = -4
                 return True
