@@ -2,6 +2,9 @@
 
 import builtins
 import math
+import os
+import subprocess
+import sys
 from typing import Any
 
 import control
@@ -173,6 +176,96 @@ def _top() -> lg.System:
     return system
 
 
+# -- poles that count more than once -------------------------------------------------------------------------------
+
+
+def test_critical_damping_is_one_mode_without_swinging() -> None:
+    """m = k = 1, b = 2: (λ + 1)² = 0."""
+    system = lg.System("critical")
+    x = system.coordinates("x")
+    m, k, b = system.parameters("m k b", m=1, k=1, b=2)
+    system.particle(m, at=system.origin + (x, 0))
+    system.spring(k, deflection=x)
+    system.damper(b, deflection=x)
+    found = system.linearize()
+    assert found.poles == pytest.approx([-1, -1], rel=1e-12) and (found.poles.imag == 0).all()
+    (mode,) = found.modes
+    assert mode.damping == 1 and not mode.pair
+
+
+def _ring(c: float) -> lg.System:
+    """Three equal masses in a ring of equal springs and dampers."""
+    system = lg.System("ring")
+    x = system.coordinates("x1 x2 x3")
+    m, k = system.parameters("m k", m=2, k=6)
+    for q, before in zip(x, (x[2], *x[:2]), strict=True):
+        system.particle(m, at=system.origin + (q, 0))
+        system.spring(k, deflection=q - before)
+        if c:
+            system.damper(c, deflection=q - before)
+    return system
+
+
+@pytest.mark.parametrize("c", [0, 0.4])
+def test_equal_poles_have_shapes_in_reduced_form(c: float) -> None:
+    """ω² = 3k/m twice, with any shape of sum 0."""
+    still, *swinging = _ring(c).linearize().modes
+    assert still.pole == 0 and list(still.shape.values()) == pytest.approx([1, 1, 1], rel=1e-14)
+    assert [m.frequency for m in swinging] == pytest.approx([3, 3], rel=1e-12)
+    assert np.allclose([list(m.shape.values()) for m in swinging], [[1, 0, -1], [0, 1, -1]], rtol=0, atol=1e-12)
+    assert [m.is_real for m in swinging] == [True, True]
+
+
+@pytest.mark.parametrize("rows", [2, 3, 4])
+def test_a_jordan_block_is_one_pole_with_one_vector(rows: int) -> None:
+    from lagrangian.analyze.linear.eigenspaces import eigenspaces
+
+    source = np.random.default_rng(rows)
+    for pole in (0.0, -1.5):
+        J = np.diag(np.array([pole] * rows + [-3.0, 2.0])) + np.diag([1.0] * (rows - 1) + [0.0, 0.0], 1)
+        turn = np.linalg.qr(source.standard_normal(J.shape))[0]
+        found = sorted(eigenspaces(turn @ J @ turn.T), key=lambda s: -s.times)
+        assert [s.times for s in found] == [rows, 1, 1]
+        assert found[0].pole == pytest.approx(pole, abs=1e-12)
+        (vector,) = found[0].basis.T
+        assert abs(vector @ turn[:, 0]) == pytest.approx(1, rel=1e-10)  # J e₁ = λ e₁
+
+
+def test_poles_that_differ_stay_apart() -> None:
+    from lagrangian.analyze.linear.modes import spectrum
+
+    apart = [-1e-7, -2e-7, -1.0, -1.0001, -1.0002, -500.0]
+    assert np.allclose(spectrum(np.diag(apart)).poles, apart, rtol=1e-14)
+
+
+_TEXTS = """
+import lagrangian as lg
+from lagrangian import examples
+for name in examples.names():
+    system = lg.loads(examples.text(name))
+    try:
+        rests = system.equilibria()
+        print(name, rests.to_text(), *(system.linearize(e).to_text() for e in rests[:3]))
+        print(name, system.linearize().to_text(), system.conserved().to_text())
+    except lg.Error as trouble:
+        print(name, trouble)
+"""
+
+
+@pytest.mark.slow
+def test_every_text_is_the_same_whatever_the_processor() -> None:
+    """OpenBLAS has kernels for many processors, each with other last digits; where another library is, all agree."""
+    texts = []
+    for core in ("Haswell", "SkylakeX", "Prescott"):
+        known = {**os.environ, "OPENBLAS_CORETYPE": core, "PYTHONIOENCODING": "utf-8"}
+        done = subprocess.run([sys.executable, "-c", _TEXTS], env=known, capture_output=True, check=False)
+        if done.returncode < 0 and core == "SkylakeX":
+            continue  # its instructions are not there
+        assert done.returncode == 0, done.stderr.decode()
+        texts.append(done.stdout.decode())
+    assert all(text == texts[0] for text in texts)
+
+
 # -- what inputs reach ---------------------------------------------------------------------------------------------
 
 
@@ -182,6 +275,30 @@ def test_two_carts_pushed_apart_keep_their_centre_of_mass() -> None:
     momentum = found.missing[0].combination
     assert set(momentum) == {"x1'", "x2'"}
     assert all(m.pole == 0 for m in found.missing)
+
+
+def _in_other_last_digits(a: Any, seed: int) -> Any:
+    """What another processor may have made of an array: every entry a few roundings away."""
+    source = np.random.default_rng(seed)
+    return a + 4e-16 * np.abs(a).max() * source.uniform(-1, 1, a.shape)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_what_runs_by_itself_is_named_alike_on_every_processor(seed: int) -> None:
+    """The momentum x1' + 2 x2' of masses 1 and 2 is the one combination with wᵀA = 0: a Jordan block of two rows."""
+    from lagrangian.analyze.linear.reach import controllable
+
+    found = built_in("lecture-3a").linearize()
+    (missing,) = controllable(_in_other_last_digits(found.A, seed), found.B, found.states).missing
+    assert missing.pole == 0 and missing.times == 2
+    assert set(missing.combination) == {"x1'", "x2'"}
+    assert missing.combination["x1'"] == pytest.approx(0.5, rel=1e-12)
+    assert missing.combination["x2'"] == 1
+
+
+def test_the_report_names_momentum_once() -> None:
+    text = " ".join(built_in("lecture-3a").linearize().to_text().split())
+    assert "not controllable: the pole 0 (2 times) of 0.5·x1' + x2'; not stabilizable." in text
 
 
 @pytest.mark.parametrize("name", ["acrobot", "ball-and-beam", "cart-pole", "segway", "furuta-pendulum", "lecture-2"])

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -19,7 +21,7 @@ def null_space(matrix: Array, tolerance: float = 1e-11) -> Array:
     return rows[full <= tolerance * max(float(full.max(initial=0.0)), 1e-300)]
 
 
-def reduced(rows: Array) -> tuple[Array, list[int]]:
+def reduced(rows: NDArray[Any]) -> tuple[NDArray[Any], list[int]]:
     """The reduced row echelon form of independent rows, and its leading columns; dust is swept to 0."""
     rows = rows.copy()
     leading: list[int] = []

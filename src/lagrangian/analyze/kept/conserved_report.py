@@ -13,6 +13,9 @@ from lagrangian.model import plain
 KEPT = 1e-8
 """Drift along a run up to which a quantity counts as kept: the integrator's tolerance, not rounding alone."""
 
+ROUNDING = 1e-10
+"""Drift below which only rounding and the integrator's last digits tell runs apart."""
+
 
 def conserved_report(found: ConservedQuantities) -> Report:
     """Return the report of what a system keeps."""
@@ -28,7 +31,8 @@ def _part(found: ConservedQuantities, c: Conserved) -> Part:
     every = f"any motion with constant {', '.join(c.while_constant)}" if c.while_constant else "any motion"
     checks = [Check(text(f"its rate along {every} is 0"), True, "exactly, in normal form")]
     if c.drift is not None:
-        checks.append(Check(text(f"along a run of {found.run:.3g} s"), c.drift < KEPT, f"drift {c.drift:.1e}"))
+        drift = f"drift below {ROUNDING:.0e}" if c.drift < ROUNDING else f"drift {c.drift:.1e}"
+        checks.append(Check(text(f"along a run of {found.run:.3g} s"), c.drift < KEPT, drift))
     title = c.name[0].upper() + c.name[1:]
     items = (formula(c.expression, Name("constant")), Text(("Kept because ", *c.reason.parts, ".")))
     return Part(text(title), items, tuple(checks))

@@ -3,28 +3,30 @@
     M δq̈ + D δq̇ + K δq = 0        δẋ = A δx,  x = [q; q̇]
 
 Without damping and with symmetric K the poles are ±√(−κ) of the symmetric pair K φ = κ M φ, and shapes are real; in
-general they are the eigenvalues of A. Sources: Meirovitch, Fundamentals of Vibrations (2001), ch. 7; the error of an
-eigenvalue is ε‖A‖ over the cosine between its left and right eigenvectors: Golub & Van Loan, Matrix Computations
-(4th ed.), §7.2.2.
+general they are the eigenvalues of A. Equal poles have shapes that span theirs, in reduced row echelon form. Sources:
+Meirovitch, Fundamentals of Vibrations (2001), ch. 7; the error of an eigenvalue is ε‖A‖ over the cosine between its
+left and right eigenvectors: Golub & Van Loan, Matrix Computations (4th ed.), §7.2.2.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from lagrangian.analyze.linear.eigenspaces import EPSILON, EQUAL, SLACK, eigenspaces, plain_basis
 
-EPSILON = float(np.finfo(float).eps)
-SLACK = 100.0
-"""How many times the first-order bound of its rounding error a real part must exceed to count as not zero."""
+Array = NDArray[np.float64]
 
 SYMMETRIC = 1e-10
 """Relative difference up to which K counts as symmetric and D as zero."""
+
+DUST = 1e-9
+"""Share of a shape, over the largest, that is shown as zero."""
 
 
 @dataclass(frozen=True)
@@ -79,17 +81,21 @@ def spectrum(
         return Spectrum(np.zeros(0, complex), np.zeros(0), np.zeros((0, 0), complex))
     if second_order is not None and is_conservative(*second_order):
         return _undamped(second_order[0], second_order[2], noise[1])
-    import scipy.linalg  # a third of a second that only who asks for poles pays
+    import scipy.linalg
 
     balanced, scaling = scipy.linalg.matrix_balance(A, permute=False, separate=False)
-    found: Any = scipy.linalg.eig(balanced, left=True, right=True)
-    poles, left, right = (np.asarray(x, np.complex128) for x in found)
-    cosine = np.abs(np.einsum("ik,ik->k", left.conj(), right))
-    error = SLACK * EPSILON * float(np.linalg.norm(balanced, 2)) + noise[0]
-    errors = error / np.maximum(cosine, np.sqrt(EPSILON))
+    spaces = eigenspaces(balanced, noise[0])
+    poles = np.array([s.pole for s in spaces for _ in range(s.times)], complex)
+    errors = np.array([s.error for s in spaces for _ in range(s.times)])
+    vectors = [scaling @ _columns(plain_basis(s.basis), s.times) for s in spaces]
     real = np.where(np.abs(poles.real) <= errors, 0.0, poles.real)
     imag = np.where(np.abs(poles) <= errors, 0.0, poles.imag)
-    return _sorted(real + 1j * imag, errors, scaling @ right)
+    return _sorted(np.asarray(real + 1j * imag, complex), errors, np.asarray(np.hstack(vectors), complex))
+
+
+def _columns(basis: NDArray[Any], count: int) -> NDArray[Any]:
+    """``count`` columns: those of the basis, and again where they are fewer."""
+    return basis[:, np.arange(count) % basis.shape[1]]
 
 
 def is_conservative(M: Array, D: Array, K: Array) -> bool:
@@ -111,6 +117,10 @@ def _undamped(M: Array, K: Array, noise: float) -> Spectrum:
     kappa, shapes = scipy.linalg.eigh((K + K.T) / 2, (M + M.T) / 2)
     bound = SLACK * EPSILON * float(np.abs(kappa).max(initial=0.0)) + noise
     kappa = np.where(np.abs(kappa) <= bound, 0.0, kappa)
+    unit = np.sqrt(np.diag(M))[:, None]
+    for group in _equal(kappa, bound):
+        kappa[group] = kappa[group].mean()
+        shapes[:, group] = plain_basis(shapes[:, group] * unit) / unit
     roots = np.sqrt(-kappa.astype(complex))
     poles = np.concatenate([roots, -roots])
     # of λ² = −κ: the error of λ is that of κ over 2|λ|
@@ -119,19 +129,33 @@ def _undamped(M: Array, K: Array, noise: float) -> Spectrum:
     return _sorted(poles, np.concatenate([error, error]), vectors)
 
 
+def _equal(rising: Array, bound: float) -> list[slice]:
+    """Where rising numbers, known up to ``bound``, are one."""
+    room = np.maximum(EQUAL * np.maximum(np.abs(rising[1:]), np.abs(rising[:-1])), 2 * bound)
+    ends = [0, *(np.flatnonzero(np.diff(rising) > room) + 1).tolist(), len(rising)]
+    return [slice(a, b) for a, b in pairwise(ends)]
+
+
 def _sorted(poles: NDArray[np.complex128], errors: Array, vectors: NDArray[np.complex128]) -> Spectrum:
     """The spectrum, slowest first; of a pair the pole above the real axis first."""
-    order = _order(poles)
+    order = slowest_first(poles)
     return Spectrum(np.asarray(poles[order] + 0.0, complex), errors[order], np.asarray(vectors[:, order], complex))
 
 
-def _order(poles: NDArray[np.complex128]) -> NDArray[np.int64]:
-    size = np.array([float(f"{abs(x):.9e}") for x in poles])
-    return np.lexsort((-poles.imag, poles.real, size))
+def slowest_first(poles: NDArray[np.complex128]) -> NDArray[np.int64]:
+    """The order of poles: by size, those of one size by real part, of a pair the one above the real axis first."""
+    size = np.abs(poles)
+    rising = np.sort(size)
+    steps = np.concatenate([[0], np.cumsum(np.diff(rising) > DUST * rising[1:])])
+    return np.lexsort((-poles.imag, poles.real, steps[np.searchsorted(rising, size)]))
 
 
 def modes(found: Spectrum, coordinates: tuple[str, ...]) -> tuple[Mode, ...]:
-    """One mode a real pole, conjugate pair or double 0, its shape by the names of the coordinates."""
+    """One mode a real pole or conjugate pair, its shape by the names of the coordinates.
+
+    A pole that counts twice has two modes where it has two shapes, else one: standing still and drifting, or what a
+    critical damper leaves.
+    """
     listed: list[Mode] = []
     for k, pole in enumerate(found.poles):
         if pole.imag < 0:
@@ -139,7 +163,7 @@ def modes(found: Spectrum, coordinates: tuple[str, ...]) -> tuple[Mode, ...]:
         size = abs(pole)
         ratio = float(-pole.real / size) if size else float("nan")
         shape = _shape(found.vectors[: len(coordinates), k], coordinates)
-        if not size and any(m.pole == 0 and m.shape == shape for m in listed):  # standing still and drifting
+        if any(m.pole == pole and m.shape == shape for m in listed):
             continue
         listed.append(Mode(complex(pole), float(size), ratio, shape, bool(pole.imag > 0)))
     return tuple(listed)
@@ -152,6 +176,6 @@ def _shape(vector: NDArray[np.complex128], names: tuple[str, ...]) -> dict[str, 
         return dict.fromkeys(names, 0j)
     lead = int(np.argmax(sizes >= (1 - 1e-9) * sizes.max()))
     scaled = vector / vector[lead]
-    real = np.where(np.abs(scaled.real) < 1e-12, 0.0, scaled.real)
-    imag = np.where(np.abs(scaled.imag) < 1e-12, 0.0, scaled.imag)
+    real = np.where(np.abs(scaled.real) < DUST, 0.0, scaled.real)
+    imag = np.where(np.abs(scaled.imag) < DUST, 0.0, scaled.imag)
     return {name: complex(a, b) for name, a, b in zip(names, real, imag, strict=True)}

@@ -3,7 +3,8 @@
 The staircase: orthogonal turns split off what B reaches, then what A makes of that, and so on; what is left over is
 never reached. Ranks are taken by singular values, of A balanced and B with columns of length one, so that units do not
 decide. The test of Popov, Belevitch and Hautus names the modes: a pole λ is uncontrollable where some w ≠ 0 has
-wᴴA = λ wᴴ and wᴴB = 0. Source: Paige, IEEE Trans. AC-26 (1981) 130–138.
+wᵀA = λ wᵀ and wᵀB = 0: the left null space of A − λ within what is left over. Source: Paige, IEEE Trans. AC-26 (1981)
+130–138.
 """
 
 from __future__ import annotations
@@ -14,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrangian.analyze.linear.eigenspaces import eigenspaces, plain_basis
 from lagrangian.errors import RunError
 
 Array = NDArray[np.float64]
@@ -27,16 +29,19 @@ class Missing:
     """A pole that inputs do not move (or outputs do not show), with its combination of states.
 
     For controllability ``combination`` is the w of Popov, Belevitch and Hautus: Σ w_i x_i runs by itself. For
-    observability it is the motion that leaves all outputs at rest. The largest share is 1.
+    observability it is the motion that leaves all outputs at rest. The largest share is 1. Where a pole has several,
+    they are a basis in reduced row echelon form. ``times`` is how often the pole counts among those that are missing:
+    more often than it has combinations where one of them drives another, as momentum does position.
     """
 
     pole: complex
     combination: dict[str, complex]
+    times: int = 1
 
 
 @dataclass(frozen=True)
 class Reach:
-    """``rank`` of ``order`` dimensions are reached; ``missing`` are the modes of the others."""
+    """``rank`` of ``order`` dimensions are reached; ``missing`` are the modes of the others, of a pair one."""
 
     order: int
     rank: int
@@ -81,13 +86,17 @@ def _reach(A: Array, B: Array, states: tuple[str, ...]) -> Reach:
     basis, rank = _staircase(balanced / size, inputs)
     rest = basis[:, rank:]
     own = rest.T @ balanced @ rest
-    values, vectors = np.linalg.eig(own.T)  # wᴴA = λ wᴴ within what is left over
     missing = []
-    for value, vector in zip(values, vectors.T, strict=True):
-        pole = _clean(complex(value), size)
+    for space in eigenspaces(own.T) if len(own) else []:
+        pole = _clean(space.pole, size)
         if pole.imag >= 0:
-            missing.append(Missing(pole, _named((rest @ vector) / scale, states)))
-    return Reach(len(A), rank, tuple(sorted(missing, key=lambda m: (abs(m.pole), m.pole.real))))
+            basis = plain_basis(rest @ space.basis) / scale[:, None]
+            missing += [Missing(pole, _named(w, states), space.times) for w in basis.T]
+    return Reach(len(A), rank, tuple(sorted(missing, key=_slowest_first)))
+
+
+def _slowest_first(missing: Missing) -> tuple[float, float]:
+    return float(f"{abs(missing.pole):.9e}"), missing.pole.real
 
 
 def _staircase(A: Array, B: Array) -> tuple[Array, int]:

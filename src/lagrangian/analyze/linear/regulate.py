@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from lagrangian.analyze.given import Group, number
 from lagrangian.analyze.linear.linearize import Linearization
+from lagrangian.analyze.linear.modes import slowest_first
 from lagrangian.analyze.linear.reach import controllable
 from lagrangian.analyze.linear.stability import shown
 from lagrangian.errors import MissingExtra, RunError
@@ -47,7 +48,7 @@ def to_control(linear: Linearization) -> Any:
 
 @dataclass(frozen=True, eq=False)
 class Regulator:
-    """u = u₀ − K (x − x₀): ``K`` (inputs × states), Riccati's ``S`` and the poles of A − B K [1/s].
+    """u = u₀ − K (x − x₀): ``K`` (inputs × states), Riccati's ``S`` and the poles of A − B K [1/s], slowest first.
 
     ``law`` is that feedback as expressions of the coordinates and rates by input symbol, for a simulation's inputs.
     """
@@ -100,7 +101,8 @@ def lqr(linear: Linearization, Q: Any, R: Any) -> Regulator:
             fix="weigh the states whose modes do not decay by themselves",
             code="E522",
         ) from trouble
-    return Regulator(linear, np.atleast_2d(K), np.asarray(S), np.asarray(poles, complex))
+    poles = np.asarray(poles, complex)
+    return Regulator(linear, np.atleast_2d(K), np.asarray(S), poles[slowest_first(poles)])
 
 
 def _weights(given: Any, what: str, noun: str, names: tuple[str, ...]) -> Array:

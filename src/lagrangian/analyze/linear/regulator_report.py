@@ -4,11 +4,19 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
 from lagrangian.analyze.figures import complex_figure, figure, matrix, plain_numbers
 from lagrangian.analyze.linear.regulate import Regulator
 from lagrangian.analyze.linear.report import symbol
 from lagrangian.analyze.report import Part, Report
 from lagrangian.derive.formula import Item, Name, Table, Text, formula, text
+
+Array = NDArray[np.float64]
+
+DUST = 1e-11
+"""Share of an entry, over the largest of its row, that is shown as zero."""
 
 
 def regulator_report(found: Regulator) -> Report:
@@ -22,7 +30,7 @@ def regulator_report(found: Regulator) -> Report:
         text(u, " = ", u, "₀ − ", K, " (", x, " − ", x, "₀), with"),
         _ordered(found, u, linear.inputs),
         _ordered(found, x, linear.states),
-        formula(K, matrix(found.K)),
+        formula(K, matrix(_swept(found.K, np.sqrt(np.abs(np.diag(found.S)))))),
         text("about the point"),
         Table((text("state, input"), text("value")), point),
     )
@@ -31,9 +39,15 @@ def regulator_report(found: Regulator) -> Report:
     parts = (
         Part(text("The law"), law),
         Part(text("The poles that it leaves"), (Table((text("pole [1/s]"),), poles),)),
-        Part(text("Riccati's matrix"), (cost, formula(S, matrix(found.S)))),
+        Part(text("Riccati's matrix"), (cost, formula(S, matrix(_swept(found.S, np.sqrt(np.abs(np.diag(found.S)))))))),
     )
     return Report(f"{linear.model.name}: linear-quadratic regulator", linear.model, parts, _data(found))
+
+
+def _swept(found: Array, unit: Array) -> Array:
+    """What rounding left of zeros is zero: entries far below the others of their row, columns in units of S's own."""
+    sized = np.abs(found) / np.where(unit > 0, unit, 1.0)
+    return np.where(sized > DUST * sized.max(axis=1, initial=0.0, keepdims=True), found, 0.0)
 
 
 def _symbol(found: Regulator, name: str) -> Text:

@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import groupby
 from typing import Any, cast
 
+import numpy as np
 import sympy as sp
 
 from lagrangian.analyze.figures import complex_figure, figure, matrix, or_none, plain_numbers, scientific
 from lagrangian.analyze.linear.linearize import Linearization
-from lagrangian.analyze.linear.reach import Reach
+from lagrangian.analyze.linear.reach import Missing, Reach
 from lagrangian.analyze.linear.symbolic import SymbolicLinearization
 from lagrangian.analyze.report import Part, Report
 from lagrangian.derive.formula import Item, Matrix, Name, Table, Text, formula, text
 from lagrangian.model import Model
+
+ROUNDING = 1e-12
+"""Acceleration left over, over the largest entry of A, that is rounding's."""
 
 LARGEST = 16
 """Columns up to which a matrix is written out."""
@@ -52,7 +57,8 @@ def _point(linear: Linearization) -> Part:
         "operating point": "Not a rest: the largest acceleration there is ",
     }[linear.kind]
     items: list[Item] = [Table((text("state, input"), text("value")), tuple(rows))]
-    items.append(text(f"{kind}{scientific(linear.residual, 2)}."))
+    small = linear.kind != "operating point" and linear.residual <= ROUNDING * float(np.abs(linear.A).max(initial=1.0))
+    items.append(text(f"{kind}{'0 up to rounding' if small else scientific(linear.residual, 2)}."))
     items += [text(note[0].upper() + note[1:] + ".") for note in linear.notes]
     return Part(text("The point"), tuple(items))
 
@@ -142,13 +148,23 @@ def _reach(linear: Linearization) -> Part:
 
 def _sentence(what: str, reach: Reach, lacking: str, enough: str) -> str:
     words = f"{what}: rank {reach.rank} of {reach.order}"
-    missed = []
-    for m in reach.missing:
-        shares = " + ".join(f"{complex_figure(_rounded(x))}·{name}" for name, x in m.combination.items())
-        missed.append(f"; {lacking}: the pole {complex_figure(m.pole)} of {shares}")
-    for one in dict.fromkeys(missed):
-        words += one + (f" ({missed.count(one)} times)" if missed.count(one) > 1 else "")
+    for _, alike in groupby(reach.missing, key=lambda m: (m.pole, m.times)):
+        lost = list(alike)
+        often = f" ({lost[0].times} times)" if lost[0].times > 1 else ""
+        shares = " and of ".join(_combination(m) for m in lost)
+        words += f"; {lacking}: the pole {complex_figure(lost[0].pole)}{often} of {shares}"
     return words + ("." if reach.complete else f"; {enough if reach.enough else 'not ' + enough}.")
+
+
+def _combination(missing: Missing) -> str:
+    """``0.5·x1' − x2'``."""
+    words = ""
+    for name, x in missing.combination.items():
+        share = complex_figure(_rounded(x))
+        sign, size = ("−", share[1:]) if share[0] == "−" and not (x.imag and x.real) else ("+", share)
+        term = name if size == "1" else f"({size})·{name}" if x.imag and x.real else f"{size}·{name}"
+        words += f" {sign} {term}" if words else f"{sign if sign == '−' else ''}{term}"
+    return words
 
 
 def _symbols(linear: Linearization, found: SymbolicLinearization) -> Part:
@@ -179,6 +195,7 @@ def _reach_data(reach: Reach) -> dict[str, Any]:
         "missing": [
             {
                 "pole": plain_numbers([m.pole])[0],
+                "times": m.times,
                 "combination": dict(zip(m.combination, plain_numbers(m.combination.values()), strict=True)),
             }
             for m in reach.missing

@@ -1,4 +1,4 @@
-"""Rests as a report: a table of where, how well, how stable, and what nothing depends on."""
+"""Rests as a report: a table of where and how stable, how well they balance, and what nothing depends on."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from lagrangian.analyze.figures import figure, scientific
 from lagrangian.analyze.linear.report import symbol
 from lagrangian.analyze.report import Part, Report
 from lagrangian.analyze.rests.equilibria import Equilibria, Equilibrium
+from lagrangian.analyze.rests.roots import EXACT
 from lagrangian.derive.formula import Item, Table, text
 
 
@@ -17,13 +18,12 @@ def equilibria_report(found: Equilibria) -> Report:
     letters = [symbol(found.model, name) for name in names]
     items: list[Item] = []
     if found:
-        header = (text(""), *(text(x) for x in letters), text("verdict"), text("residual"), text("starts"))
+        header = (text(""), *(text(x) for x in letters), text("verdict"), text("starts"))
         rows = tuple(
             (
                 text(str(k)),
                 *(text(_shown(found, e, name)) for name in names),
                 text(e.stability.verdict),
-                text(scientific(e.residual, 1)),
                 text(str(e.starts) if e.starts else "–"),
             )
             for k, e in enumerate(found)
@@ -33,6 +33,7 @@ def equilibria_report(found: Equilibria) -> Report:
             text(f"{k}: {e.stability.reason[0].upper()}{e.stability.reason[1:]}.{_family(e)}")
             for k, e in enumerate(found)
         ]
+        items.append(text(f"Forces balance there to {scientific(EXACT, 1)} of their own size in the box."))
     items += [text(note[0].upper() + note[1:] + ".") for note in found.notes]
     sides: list[Any] = []
     for name, letter in zip(names, letters, strict=True):
