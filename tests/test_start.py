@@ -1,6 +1,7 @@
 """What is imported, and when: the start of the package and of the command waits for nothing that it does not use."""
 
 import inspect
+import pathlib
 import subprocess
 import sys
 from importlib import import_module
@@ -21,7 +22,7 @@ def imported(code: str, *arguments: str) -> set[str]:
     done = subprocess.run(
         [sys.executable, "-c", code + ending, *arguments], capture_output=True, text=True, timeout=120, check=True
     )
-    return HEAVY & set(done.stderr.split("|"))
+    return HEAVY & set(done.stderr.splitlines()[-1].split("|"))
 
 
 def command(*arguments: str) -> str:
@@ -30,6 +31,59 @@ def command(*arguments: str) -> str:
 
 def test_importing_the_package_imports_nothing_heavy() -> None:
     assert imported("import lagrangian; lagrangian.__version__; dir(lagrangian)") == set()
+
+
+PENDULUM = """
+import sys
+sys.modules.update(dict.fromkeys({blocked!r}))  # as if they were not installed
+import lagrangian as lg
+from sympy import cos, sin
+pendulum = lg.System("pendulum")
+theta = pendulum.coordinates("theta")
+m, L = pendulum.parameters("m L")
+pendulum.particle(m, at=pendulum.origin + (L * sin(theta), -L * cos(theta)))
+pendulum.gravity(direction=(0, -1))
+"""
+
+
+def test_describing_a_system_imports_sympy_alone() -> None:
+    assert imported(PENDULUM.format(blocked=())) == {"sympy", "mpmath"}
+
+
+def test_a_derivation_needs_no_machine_code_units_or_files() -> None:
+    """From a blank page to the text, on a machine where nothing but SymPy and NumPy is installed."""
+    blocked = sorted(HEAVY - {"sympy", "mpmath", "numpy"})
+    last = "assert 'm L² θ̈ + m g L sin θ = 0' in pendulum.derive().to_text()"
+    assert "numpy" in imported(PENDULUM.format(blocked=blocked) + last)
+
+
+def test_source_code_is_written_without_llvm_and_its_absence_is_reported() -> None:
+    ending = """
+import pathlib, tempfile
+with tempfile.TemporaryDirectory() as folder:
+    made = pendulum.export(pathlib.Path(folder) / "pendulum.c") + pendulum.export(pathlib.Path(folder) / "pendulum.py")
+assert len(made) == 3
+for verb in (pendulum.compile, lambda: pendulum.simulate(1.0, params={{"m": 1, "L": 1}})):
+    try:
+        verb()
+    except lg.MissingExtra as missing:
+        assert "'llvmlite', which is not installed" in str(missing)
+    else:
+        raise AssertionError("machine code without LLVM")
+"""
+    imported((PENDULUM + ending).format(blocked=["llvmlite", "llvmlite.binding"]))
+
+
+@pytest.mark.parametrize("room", ["read", "analyze", "write", "compile", "simulate"])
+def test_a_lazy_room_has_all_its_names_and_no_file_of_that_name(room: str) -> None:
+    package = import_module(f"lagrangian.{room}")
+    assert package.__file__ is not None
+    files = {path.stem for path in pathlib.Path(package.__file__).parent.glob("*.py")}
+    for name in package.__all__:
+        assert not inspect.ismodule(getattr(package, name)), name
+    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
+        getattr(package, "nothing")  # noqa: B009
+    assert not files & set(package.__all__) - {"verify"}  # verify is imported together with its room
 
 
 @pytest.mark.parametrize("arguments", [["version"], ["examples"], ["new", "pendulum"], ["--help"], ["nonsense"], []])

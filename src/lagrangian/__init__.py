@@ -10,26 +10,21 @@ if TYPE_CHECKING:
     from lagrangian.running.events import Event, event
     from lagrangian.running.trajectory import Trajectory
     from lagrangian.system import System, load, loads
-else:  # imported where first used: whoever asks for the version, or for one name, does not wait for all of them
-    _ROOMS = {
-        "comparison": ("Comparison", "compare"),
-        "derivation": ("Derivation",),
-        "errors": ("Error", "MissingExtra", "ModelError", "ParseError", "Place", "RunError"),
-        "running.ensemble": ("Ensemble",),
-        "running.events": ("Event", "event"),
-        "running.trajectory": ("Trajectory",),
-        "system": ("System", "load", "loads"),
-    }
-    _WHERE = {name: room for room, names in _ROOMS.items() for name in names}
+else:
+    from lagrangian.lazily import lazily
 
-    def __getattr__(name: str) -> object:
-        if name not in _WHERE:
-            raise AttributeError(f"module 'lagrangian' has no attribute '{name}'")
-        from importlib import import_module
-
-        globals()[name] = found = getattr(import_module(f"lagrangian.{_WHERE[name]}"), name)
-        return found
-
+    __getattr__ = lazily(
+        __name__,
+        {
+            "comparison": "Comparison compare",
+            "derivation": "Derivation",
+            "errors": "Error MissingExtra ModelError ParseError Place RunError",
+            "running.ensemble": "Ensemble",
+            "running.events": "Event event",
+            "running.trajectory": "Trajectory",
+            "system": "System load loads",
+        },
+    )
 
 __all__ = [
     "Comparison",

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from lagrangian import analyze, derive, write
 from lagrangian.analyze.given import check_sampling
-from lagrangian.checking import CheckedAnswer, check_answer
 from lagrangian.model import Model
-from lagrangian.write import Notation
+
+if TYPE_CHECKING:
+    from lagrangian.checking import CheckedAnswer
+    from lagrangian.write import Notation
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,6 +52,8 @@ class Derivation(derive.Derivation):
         equations, or energies by name. ``hint`` is how much the words give away: 0 right or not, 1 the line, 2 the
         element and the step, 3 the term. Raises `ParseError` for a text that cannot be read.
         """
+        from lagrangian.checking import check_answer
+
         return check_answer(self, answer, hint=hint)
 
     def _repr_html_(self) -> str:

@@ -5,44 +5,32 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
-
-from numpy.typing import ArrayLike
+from typing import TYPE_CHECKING, Any
 
 from lagrangian import read
-from lagrangian.analysis import (
-    ConservedQuantities,
-    Equilibria,
-    Hamiltonian,
-    Linearization,
-    LinearizationAlong,
-    Routhian,
-    conserved,
-    equilibria,
-    hamiltonian,
-    linearize,
-    linearize_along,
-    routhian,
-)
-from lagrangian.analyze import check_dimensions
-from lagrangian.analyze.change import carried
-from lagrangian.analyze.given import check_sampling
-from lagrangian.analyze.motion import verify_motion
-from lagrangian.checking import CheckedAnswer, check_answer
-from lagrangian.comparison import Comparison, compare
-from lagrangian.compiled import LANGUAGES, Compiled, sources
-from lagrangian.derivation import Derivation, derive_and_verify
-from lagrangian.derive import Check
-from lagrangian.derive import derive as derive_model
 from lagrangian.describing import Described
 from lagrangian.errors import ModelError, Place
-from lagrangian.running.ensemble import Ensemble
-from lagrangian.running.events import Event
-from lagrangian.running.simulation import simulate as run_model
-from lagrangian.running.sweeping import ensemble as run_ensemble
-from lagrangian.running.sweeping import sweep as run_sweep
-from lagrangian.running.trajectory import Trajectory
 from lagrangian.write import write_file
+
+if TYPE_CHECKING:  # every verb imports what it needs: describing a system waits for none of them
+    from numpy.typing import ArrayLike
+
+    from lagrangian.analysis import (
+        ConservedQuantities,
+        Equilibria,
+        Hamiltonian,
+        Linearization,
+        LinearizationAlong,
+        Routhian,
+    )
+    from lagrangian.checking import CheckedAnswer
+    from lagrangian.comparison import Comparison
+    from lagrangian.compiled import Compiled
+    from lagrangian.derivation import Derivation
+    from lagrangian.derive import Check
+    from lagrangian.running.ensemble import Ensemble
+    from lagrangian.running.events import Event
+    from lagrangian.running.trajectory import Trajectory
 
 
 class System(Described):
@@ -60,6 +48,8 @@ class System(Described):
 
     def derive(self) -> Derivation:
         """Return the derivation: the seven steps, the equations, and what was verified."""
+        from lagrangian.derivation import derive_and_verify
+
         return derive_and_verify(self.model)
 
     def check(self, answer: Any, *, hint: int = 3) -> CheckedAnswer:
@@ -67,15 +57,22 @@ class System(Described):
 
         Derives anew each time: for many answers derive once, and check with the derivation.
         """
-        return check_answer(derive_model(self.model), answer, hint=hint)
+        from lagrangian.checking import check_answer
+        from lagrangian.derive import derive
+
+        return check_answer(derive(self.model), answer, hint=hint)
 
     def verify(self, *, states: int = 50, seed: int = 1) -> tuple[Check, ...]:
         """Check the equations by independent routes at random states; every check carries its figure.
 
         Derived equations as `Derivation.verify` does; where a frame floats, what is compiled instead.
         """
+        from lagrangian.analyze.given import check_sampling
+
         check_sampling(states, seed)
         if self.model.floating:
+            from lagrangian.analyze.motion import verify_motion
+
             return tuple(c for part in verify_motion(self.model, states=states, seed=seed).parts for c in part.checks)
         return self.derive().verify(states=states, seed=seed)
 
@@ -85,19 +82,28 @@ class System(Described):
         ``lanes`` states are computed side by side (the machine's widest unless given), ``threads`` cores work on a
         large batch (all unless given). No compiler is needed.
         """
+        from lagrangian.analyze import check_dimensions
+        from lagrangian.compiled import Compiled
+
         check_dimensions(self.model)
         return Compiled(self.model, lanes=lanes, threads=threads)
 
     def conserved(self, *, params: Mapping[Any, Any] | None = None) -> ConservedQuantities:
         """Return what every motion keeps: momenta of ignorable coordinates, total momenta, energy, each verified."""
+        from lagrangian.analysis import conserved
+
         return conserved(self.model, params=params)
 
     def hamiltonian(self) -> Hamiltonian:
         """Return momenta, H(q, p, t) and the canonical equations."""
+        from lagrangian.analysis import hamiltonian
+
         return hamiltonian(self.model)
 
     def routhian(self, ignorable: Sequence[Any] | None = None) -> Routhian:
         """Return the Routhian: the Lagrangian of what is left once ignorable coordinates (all, or these) are gone."""
+        from lagrangian.analysis import routhian
+
         return routhian(self.model, ignorable)
 
     def equilibria(
@@ -109,6 +115,8 @@ class System(Described):
         samples: int | None = None,
     ) -> Equilibria:
         """Return where the system can stay at rest: all equilibria found in a ``box`` of {name: (low, high)}."""
+        from lagrangian.analysis import equilibria
+
         return equilibria(self.model, inputs=inputs, params=params, box=box, samples=samples)
 
     def linearize(
@@ -126,6 +134,8 @@ class System(Described):
         ``at``: values of coordinates and rates by name or symbol (0 where not given), or an `Equilibrium`. ``outputs``:
         expressions, listed or by name. ``operating_point`` takes a point that is no equilibrium as it is.
         """
+        from lagrangian.analysis import linearize
+
         found: dict[str, Any] = {"inputs": inputs, "params": params, "outputs": outputs}
         return linearize(self.model, at, **found, time=time, operating_point=operating_point)
 
@@ -138,6 +148,8 @@ class System(Described):
         outputs: Any = None,
     ) -> LinearizationAlong:
         """Return A(t), B(t), C(t), D(t) along a run, or along (times, states)."""
+        from lagrangian.analysis import linearize_along
+
         return linearize_along(self.model, trajectory, inputs=inputs, params=params, outputs=outputs)
 
     def simulate(
@@ -180,7 +192,9 @@ class System(Described):
         Raises `RunError` or `ModelError` for what is wrong before the run; a run that fails on its way is returned as
         far as it went, with the reason in its ``message``.
         """
-        return run_model(
+        from lagrangian.running.simulation import simulate
+
+        return simulate(
             self.model,
             duration,
             initial=initial,
@@ -226,7 +240,9 @@ class System(Described):
         results on disk as they come, ``resume=True`` goes on after an end of any kind; ``scheduler`` is the address of
         a Dask scheduler. A run that fails is NaN, with a status, and counted. Raises `RunError` for what does not fit.
         """
-        return run_ensemble(self.model, duration, initial, params, inputs, dims, options)
+        from lagrangian.running.sweeping import ensemble
+
+        return ensemble(self.model, duration, initial, params, inputs, dims, options)
 
     def sweep(
         self,
@@ -251,7 +267,9 @@ class System(Described):
         ``grid``: texts as here, or name or symbol → values, an array or text: parameters, coordinates and rates at the
         start, inputs. The same ``seed`` draws the same samples. Everything else as in `ensemble`.
         """
-        return run_sweep(self.model, duration, grid, initial, params, inputs, samples, seed, options)
+        from lagrangian.running.sweeping import sweep
+
+        return sweep(self.model, duration, grid, initial, params, inputs, samples, seed, options)
 
     def in_coordinates(self, change: Mapping[Any, Any], *, name: str | None = None) -> System:
         """Return the same system in other coordinates: ``{x2: x1 + x2r}`` says what the old x2 is in kept and new ones.
@@ -259,6 +277,8 @@ class System(Described):
         Keys are coordinates or their names, values SymPy expressions or text; a coordinate that is not named is kept.
         Given the other way round, ``{"x2r": "x2 - x1"}``, it is solved where it is linear.
         """
+        from lagrangian.analyze.change import carried
+
         builder = carried(self.model, change, name=name)
         return System(builder.name, _builder=builder)
 
@@ -267,10 +287,14 @@ class System(Described):
 
         ``change`` says coordinates of one in those of the other; left out, it is found where positions tell it.
         """
+        from lagrangian.comparison import compare
+
         return compare(self, other, change)
 
     def export(self, path: str | Path) -> tuple[Path, ...]:
         """Write source code of the dynamics: to ``name.c`` (and ``name.h``) or ``name.py``; return what was written."""
+        from lagrangian.compiled import LANGUAGES, sources
+
         target = _path(path)
         languages = {suffix: language for language, suffix in LANGUAGES.items()}
         if target.suffix not in languages:

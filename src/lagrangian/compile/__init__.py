@@ -6,16 +6,27 @@ from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from lagrangian.errors import RunError
-
-from . import native
-from .build import Build, Options
-from .c99 import to_c
-from .kernel import Kernel
-from .numpy_source import to_numpy
-from .stage import RawFunction, aligned
+from lagrangian.lazily import lazily
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program
+
+    from .build import Build, Options
+    from .c99 import to_c
+    from .kernel import Kernel
+    from .numpy_source import to_numpy
+    from .stage import RawFunction, aligned
+else:
+    __getattr__ = lazily(
+        __name__,
+        {
+            "build": "Build Options",
+            "c99": "to_c",
+            "kernel": "Kernel",
+            "numpy_source": "to_numpy",
+            "stage": "RawFunction aligned",
+        },
+    )
 
 __all__ = ["Build", "Kernel", "Options", "RawFunction", "aligned", "compile", "to_c", "to_numpy"]
 
@@ -47,6 +58,10 @@ def compile(
     array([[4.],
            [2.]])
     """
+    from . import native  # here LLVM is loaded: source code is written without it
+    from .build import Build, Options
+    from .kernel import Kernel
+
     target = native.host()
     width = target.lanes if lanes is None else lanes
     if type(width) is not int or width not in (1, 2, 4, 8):

@@ -10,10 +10,17 @@ import os
 import threading
 from functools import cache
 
-import llvmlite
-import llvmlite.binding as llvm
+from lagrangian.errors import MissingExtra, RunError
 
-from lagrangian.errors import RunError
+try:
+    import llvmlite
+    import llvmlite.binding as llvm
+except ImportError:
+    raise MissingExtra(
+        "machine code is made by the package 'llvmlite', which is not installed here",
+        fix="pip install llvmlite; derivations and exported source code need no machine code",
+        code="E801",
+    ) from None
 
 from .elementary import LIBM
 from .ir import BIND, Target

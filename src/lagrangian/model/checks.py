@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any, cast
 
-import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
@@ -125,6 +124,8 @@ def _check_inertia(model: Model, body: RigidBody, error: Any) -> None:
         if entries[0] is not None and entries[0] < 0:
             raise error(f"its inertia {entries[0]:g} kg m² is negative", "J is not negative", "E106")
         return
+    import numpy as np  # a tenth of a second that only bodies in space pay
+
     moments = np.linalg.eigvalsh(np.array(entries, float).reshape(3, 3)).tolist()
     listed = ", ".join(f"{x:.6g}" for x in moments)
     slack = RELATIVE_TOLERANCE * max(abs(moments[2]), 1e-300)

@@ -1,13 +1,32 @@
 """Reading what people wrote: expressions, quantities with units, model files, answers; and writing model files."""
 
-from lagrangian.read.answers import Answer, AnswerLine, Unknown, parse_answer
-from lagrangian.read.expression import parse_expression
-from lagrangian.read.file_load import load, loads
-from lagrangian.read.file_save import dumps
-from lagrangian.read.file_schema import schema
-from lagrangian.read.quantity import Quantity, parse_quantity, unit_dimension, unit_factor
-from lagrangian.read.scope import Scope
-from lagrangian.read.validate import MAX_BYTES, decode
+from typing import TYPE_CHECKING
+
+from lagrangian.lazily import lazily
+
+if TYPE_CHECKING:
+    from lagrangian.read.answers import Answer, AnswerLine, Unknown, parse_answer
+    from lagrangian.read.expression import parse_expression
+    from lagrangian.read.file_load import load, loads
+    from lagrangian.read.file_save import dumps
+    from lagrangian.read.file_schema import schema
+    from lagrangian.read.quantity import Quantity, parse_quantity, unit_dimension, unit_factor
+    from lagrangian.read.scope import Scope
+    from lagrangian.read.validate import MAX_BYTES, decode
+else:
+    __getattr__ = lazily(
+        __name__,
+        {
+            "answers": "Answer AnswerLine Unknown parse_answer",
+            "expression": "parse_expression",
+            "file_load": "load loads",
+            "file_save": "dumps",
+            "file_schema": "schema",
+            "quantity": "Quantity parse_quantity unit_dimension unit_factor",
+            "scope": "Scope",
+            "validate": "MAX_BYTES decode",
+        },
+    )
 
 __all__ = [
     "MAX_BYTES",

@@ -4,43 +4,39 @@
 only room that knows page markup.
 """
 
-from __future__ import annotations
+from typing import TYPE_CHECKING
 
-import json
-from collections.abc import Callable, Mapping
-from typing import Any
+from lagrangian.lazily import lazily
 
-from lagrangian.derive import Derivation
-from lagrangian.write.data import to_dict
-from lagrangian.write.document import Document
-from lagrangian.write.files import write_file, write_with
-from lagrangian.write.html import to_html, to_html_fragment
-from lagrangian.write.latex import to_latex
-from lagrangian.write.layout import lay_out
-from lagrangian.write.markdown import to_markdown
-from lagrangian.write.quantities import Notation
-from lagrangian.write.report import ReportFormat, report_fragment, write_report
-from lagrangian.write.text import to_text, verdicts
-
-
-def to_json(derivation: Derivation, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
-    """Return `to_dict` as JSON text."""
-    return (
-        json.dumps(to_dict(derivation, notation=notation, brief=brief, full=full), ensure_ascii=False, indent=1) + "\n"
+if TYPE_CHECKING:
+    from lagrangian.write.data import to_dict
+    from lagrangian.write.document import Document
+    from lagrangian.write.files import write_file, write_with
+    from lagrangian.write.formats import FORMATS, NOTATIONS, to_json
+    from lagrangian.write.html import to_html, to_html_fragment
+    from lagrangian.write.latex import to_latex
+    from lagrangian.write.layout import lay_out
+    from lagrangian.write.markdown import to_markdown
+    from lagrangian.write.quantities import Notation
+    from lagrangian.write.report import ReportFormat, report_fragment, write_report
+    from lagrangian.write.text import to_text, verdicts
+else:
+    __getattr__ = lazily(
+        __name__,
+        {
+            "data": "to_dict",
+            "document": "Document",
+            "formats": "FORMATS NOTATIONS to_json",
+            "files": "write_file write_with",
+            "html": "to_html to_html_fragment",
+            "latex": "to_latex",
+            "layout": "lay_out",
+            "markdown": "to_markdown",
+            "quantities": "Notation",
+            "report": "ReportFormat report_fragment write_report",
+            "text": "to_text verdicts",
+        },
     )
-
-
-FORMATS: Mapping[str, Callable[..., str]] = {
-    "text": to_text,
-    "markdown": to_markdown,
-    "latex": to_latex,
-    "html": to_html,
-    "json": to_json,
-}
-"""Every format's writer: ``FORMATS[name](derivation, notation=…, brief=…, full=…) -> str``."""
-
-NOTATIONS: tuple[Any, ...] = ("lecture", "physics", "robotics")
-"""The notations that `lay_out` and every writer know."""
 
 __all__ = [
     "FORMATS",

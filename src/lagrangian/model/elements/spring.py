@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
 import sympy as sp
-from sympy.integrals.manualintegrate import manualintegrate
 
 from lagrangian.model.elements.base import (
     Element,
@@ -26,6 +25,8 @@ DELTA = sp.Symbol("delta")
 
 def antiderivative(element: Element, law: sp.Expr, variable: sp.Symbol, what: str) -> sp.Expr:
     """∫₀^variable law, in closed form, or `ModelError` when none is found by the elementary rules."""
+    from sympy.integrals.manualintegrate import manualintegrate  # slow to load, and few springs come here
+
     primitive = manualintegrate(law, variable)
     at_zero = primitive.subs(variable, 0)
     if primitive.has(sp.Integral) or at_zero.has(sp.nan, sp.zoo, sp.oo):
