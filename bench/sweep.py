@@ -12,6 +12,7 @@ sweep that was left alone, bit by bit.
 from __future__ import annotations
 
 import argparse
+import json
 import os
 import platform
 import signal
@@ -55,7 +56,10 @@ def sweep(path: str, runs: int, method: str, scheduler: str | None = None) -> lg
 def marks(path: Path) -> np.ndarray:
     """Which chunks of a store are done."""
     file = path / "done" / "c" / "0"
-    return np.frombuffer(file.read_bytes(), np.uint8) if file.exists() else np.zeros(1, np.uint8)
+    if not file.exists():
+        return np.zeros(1, bool)
+    results = json.loads((path / "zarr.json").read_bytes())["attributes"]["lagrangian"]["results"]
+    return np.frombuffer(file.read_bytes(), "<u8").reshape(-1, len(results)).all(axis=1)
 
 
 def started(path: Path, given: argparse.Namespace, scheduler: str = "") -> subprocess.Popen[bytes]:

@@ -62,6 +62,29 @@ def test_files(folder: pathlib.Path, capsys: pytest.CaptureFixture[str], name: s
         assert [float(line.split(",")[2]) for line in lines[1:]] == kept["max theta1"].tolist()
 
 
+def test_a_damaged_store_is_made_good_with_resume(folder: pathlib.Path, capsys: pytest.CaptureFixture[str]) -> None:
+    given = ("arm.toml", "theta1=0.1,0.2", "--output-of", "max theta1", *FAST, "-o", "a.zarr")
+    assert run(*given) == 0
+    before = lg.Ensemble.of_store("a.zarr")["max theta1"].tolist()
+    chunk = folder / "a.zarr" / "max theta1" / "c" / "0"
+    data = bytearray(chunk.read_bytes())
+    data[len(data) // 2] ^= 4
+    chunk.write_bytes(data)
+    with pytest.raises(lg.RunError, match="E804"):
+        lg.Ensemble.of_store("a.zarr")["max theta1"]
+    capsys.readouterr()
+    assert run(*given, "--resume") == 0
+    said = capsys.readouterr()
+    assert "'a.zarr' has 1 damaged chunk (2 runs): 'max theta1/c/0' is not what was written" in said.err
+    assert "it is computed again" in said.err
+    assert lg.Ensemble.of_store("a.zarr")["max theta1"].tolist() == before
+    (folder / "a.zarr" / "zarr.json").write_text("{}")
+    assert run(*given, "--resume") == 2
+    assert "is not a store of a sweep" in capsys.readouterr().err
+    assert run(*given, "--force") == 2
+    assert "is not replaced" in capsys.readouterr().err
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
@@ -110,7 +133,7 @@ def test_a_bar_on_a_terminal_and_an_interrupt_that_loses_nothing(folder: pathlib
     process = subprocess.Popen(command, stderr=theirs, stdout=subprocess.DEVNULL, preexec_fn=heard)
     os.close(theirs)
     marks, deadline = folder / "a.zarr" / "done" / "c" / "0", time.monotonic() + 60
-    while time.monotonic() < deadline and not (marks.exists() and sum(marks.read_bytes()) > 1):
+    while time.monotonic() < deadline and not (marks.exists() and finished(marks).sum() > 1):
         time.sleep(0.01)
     process.send_signal(signal.SIGINT)
     begin = time.monotonic()
@@ -123,7 +146,12 @@ def test_a_bar_on_a_terminal_and_an_interrupt_that_loses_nothing(folder: pathlib
     assert "100000" in text
     assert "go on with --resume" in text
     assert "Traceback" not in text
-    assert 1 < sum(marks.read_bytes()) < len(marks.read_bytes())
+    assert 1 < finished(marks).sum() < len(finished(marks))
+
+
+def finished(marks: pathlib.Path) -> np.ndarray:
+    """Which chunks are finished: those with a mark for each of the three results."""
+    return np.frombuffer(marks.read_bytes(), "<u8").reshape(-1, 3).all(axis=1)
 
 
 def _read(terminal: int) -> bytes:

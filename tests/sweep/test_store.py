@@ -12,6 +12,7 @@ from lagrangian.errors import Error, MissingExtra, RunError
 from lagrangian.simulate import store
 from lagrangian.simulate.portions import Portions
 from lagrangian.simulate.store import Plan, Variable
+from lagrangian.simulate.stored import NOT_RUN, Stored
 
 PORTIONS = Portions((3, 10), (1, 4))
 
@@ -44,12 +45,12 @@ def test_chunks_are_written_marked_and_read_back(tmp_path: pathlib.Path) -> None
     with store.resume(path, plan()) as again:
         assert again.done.all()
         assert again.portions == PORTIONS
-    group = store.read(path)
+    made = Stored(path)
     runs = np.arange(30.0).reshape(3, 10)
-    np.testing.assert_array_equal(group["max x"][...], runs)
-    np.testing.assert_array_equal(group["x"][...], runs[..., None] + np.arange(5) / 10)
-    assert group["k"][...].tolist() == [1, 2, 3]
-    assert group["done"][...].tolist() == [1] * len(PORTIONS)
+    np.testing.assert_array_equal(made.results["max x"][...], runs)
+    np.testing.assert_array_equal(made.results["x"][...], runs[..., None] + np.arange(5) / 10)
+    assert made.coordinates["k"].tolist() == [1, 2, 3]
+    assert made.done.all()
 
 
 def test_xarray_opens_it(tmp_path: pathlib.Path) -> None:
@@ -63,7 +64,7 @@ def test_xarray_opens_it(tmp_path: pathlib.Path) -> None:
     assert data["max x"].attrs["units"] == "m"
     assert data["max x"].sel(k=1.0).values[:4].tolist() == [0, 1, 2, 3]
     assert np.isnan(data["max x"].values).sum() == 26
-    assert (data["status"].values == store.NOT_RUN).sum() == 26
+    assert (data["status"].values == NOT_RUN).sum() == 26
 
 
 def test_an_unfinished_store_knows_what_is_missing(tmp_path: pathlib.Path) -> None:
@@ -72,6 +73,7 @@ def test_an_unfinished_store_knows_what_is_missing(tmp_path: pathlib.Path) -> No
         made.write(4, PORTIONS.box(4), values(4))
     with store.resume(path, plan()) as again:
         assert np.flatnonzero(again.done).tolist() == [4]
+        assert again.notices == []
 
 
 def test_another_task_is_refused_and_the_difference_told(tmp_path: pathlib.Path) -> None:
@@ -90,7 +92,7 @@ def test_what_exists_is_not_overwritten(tmp_path: pathlib.Path) -> None:
         assert not made.done.any()
     precious = tmp_path / "thesis"
     precious.mkdir()
-    with pytest.raises(Error, match="is no store and is not replaced"):
+    with pytest.raises(Error, match="is not a store of a sweep and is not replaced: it is an empty folder"):
         store.create(precious, plan(), overwrite=True)
     assert precious.is_dir()
     assert {p.name for p in tmp_path.iterdir()} == {"a.zarr", "thesis"}
@@ -117,7 +119,7 @@ def test_what_is_no_store_is_told(tmp_path: pathlib.Path, what: str) -> None:
         import zarr
 
         zarr.create_group(path)
-    with pytest.raises(Error, match=r"there is no|is no store of a sweep"):
+    with pytest.raises(Error, match=r"there is no|is not a store of a sweep"):
         store.resume(path, plan())
 
 

@@ -167,6 +167,8 @@ def _put(runs: Ensemble, output: Path | None, stored: bool, force: bool) -> None
         sys.stdout.write(summary(runs))
     elif not stored:
         runs.save(output, overwrite=force)
+    for notice in runs.notices:
+        say(notice)
     failures = runs.failures(LISTED)
     if failures:
         count = int((runs.status < 0).sum())

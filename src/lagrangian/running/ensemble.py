@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.running.varying import SAMPLE, TIME
 from lagrangian.simulate import STATUS
-from lagrangian.simulate.store import KEY, NOT_RUN, read
+from lagrangian.simulate.stored import LOST, NOT_RUN, Stored
 from lagrangian.view.many import Along, Result, draw_many
 from lagrangian.write.files import write_with
 from lagrangian.write.tables import check_target, needed
@@ -28,7 +28,8 @@ SHOWN = 20
 ROWS = 1 << 15
 """Rows that are written together."""
 
-UNDONE = "not run yet"
+UNDONE = {NOT_RUN: "not run yet", LOST: "its results are damaged"}
+"""Statuses of runs that have no results."""
 
 
 @dataclass(frozen=True)
@@ -64,22 +65,28 @@ class Ensemble(Mapping[str, NDArray[Any]]):
         coordinates: Mapping[str, tuple[tuple[str, ...], NDArray[np.float64]]],
         words: Mapping[str, Mapping[str, Any]],
         settings: Mapping[str, Any],
+        notices: tuple[str, ...] = (),
     ) -> None:
+        self.notices = notices
         self.name, self._arrays, self._dims, self._words = name, arrays, dims, words
         self.coordinates, self.settings = coordinates, settings
         self.dims, self.shape = dims["status"], tuple(arrays["status"].shape)
 
     @classmethod
-    def of_store(cls, path: str | Path) -> Ensemble:
-        """The results in a store, finished or not; arrays are read from disk when they are asked for."""
-        group = read(Path(path))
-        kept = group.attrs[KEY]
-        members = {name: group[name] for name in [*kept["results"], *kept["coordinates"]]}
-        dims = {name: tuple(array.metadata.dimension_names) for name, array in members.items()}
-        coordinates = {name: (dims[name], np.asarray(members[name][...])) for name in kept["coordinates"]}
-        arrays = {name: members[name] for name in kept["results"]}
+    def of_store(cls, path: str | Path, *, lost: bool = False) -> Ensemble:
+        """The results in a store, finished or not; arrays are read from disk when they are asked for.
+
+        What is read is what was written: raises `Error` where there is no store, `RunError` (code E804) where it is
+        damaged. With ``lost`` damaged runs are NaN with status −127, and the others can be read.
+        """
+        stored = Stored(Path(path), lost=lost)
+        task = stored.document.kept["task"]
+        members = stored.arrays
+        dims = {name: tuple(array.metadata.dimension_names or ()) for name, array in members.items()}
+        coordinates = {name: (dims[name], values) for name, values in stored.coordinates.items()}
         words = {name: dict(array.attrs) for name, array in members.items()}
-        return cls(kept["task"]["system"], arrays, dims, coordinates, words, kept["task"])
+        notices = (stored.said(),) if stored.lost else ()
+        return cls(task["system"], stored.results, dims, coordinates, words, task, notices)
 
     # -- results ------------------------------------------------------------------------------------------------
 
@@ -141,7 +148,7 @@ class Ensemble(Mapping[str, NDArray[Any]]):
     def failures(self, most: int = SHOWN) -> list[Failure]:
         """The first runs that failed, with what varied there and why they ended."""
         status = self.status
-        places = np.flatnonzero((status < 0) & (status != NOT_RUN))[:most]
+        places = np.flatnonzero((status < 0) & ~np.isin(status, list(UNDONE)))[:most]
         reached = self["reached"]
         found = []
         for place in places:
@@ -164,7 +171,8 @@ class Ensemble(Mapping[str, NDArray[Any]]):
         sizes = f" ({axes})" if axes else ""
         ends = ", ".join(f"{n} {words}" for words, n in self.counts.items())
         kept = ", ".join(n for n in self if n not in ("status", "reached"))
-        return f"<Ensemble {self.name!r}: {self.count} runs{sizes}, {self.settings['method']}; {ends}; {kept}>"
+        said = "".join(f"; notice: {notice}" for notice in self.notices)
+        return f"<Ensemble {self.name!r}: {self.count} runs{sizes}, {self.settings['method']}; {ends}; {kept}{said}>"
 
     # -- taking it elsewhere ------------------------------------------------------------------------------------
 
@@ -287,4 +295,4 @@ ENDINGS: Mapping[str, Callable[[Ensemble, Path], None]] = {".csv": _csv, ".nc": 
 
 
 def _reason(status: int) -> str:
-    return UNDONE if status == NOT_RUN else STATUS.get(status, f"status {status}")
+    return UNDONE.get(status) or STATUS.get(status, f"status {status}")

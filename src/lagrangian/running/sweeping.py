@@ -147,7 +147,9 @@ def _done(model: Model, varying: Varying, wanted: Wanted, inputs: dict[Any, Any]
         raise RunError(f"the store '{path.name}' must end in .zarr", fix='store="sweep.zarr"', code="E801")
     with resume(path, plan) if way.resume and path.exists() else create(path, plan, overwrite=way.overwrite) as sink:
         carry_out(study, design, sink.portions, sink, executor=executor, progress=way.progress)
-    return Ensemble.of_store(path)
+    made = Ensemble.of_store(path)
+    made.notices = tuple(sink.notices)
+    return made
 
 
 def _in_memory(study: Study, design: Design, plan: Plan, executor: Executor, progress: Progress | None) -> Ensemble:

@@ -20,7 +20,8 @@ from lagrangian.read.spread import Spread, parse_spread, parse_values
 from lagrangian.running.integrating import remembered
 from lagrangian.running.showing import Units
 from lagrangian.simulate.design import GROUPS, Column, Design, Drawn
-from lagrangian.simulate.store import DONE, Variable
+from lagrangian.simulate.seal import DONE
+from lagrangian.simulate.store import Variable
 
 Array: TypeAlias = NDArray[np.float64]
 

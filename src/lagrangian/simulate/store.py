@@ -1,20 +1,22 @@
-"""Results of an ensemble on disk, chunk by chunk, so that a kill loses at most the chunks under way.
+"""Results of an ensemble written to disk, chunk by chunk, so that a kill loses at most the chunks under way.
 
 A Zarr group (format 3) with one array a result over the ensemble's shape, coordinates beside them, and the array
-``done``: one byte a chunk, plain and uncompressed. A chunk's results are written first, each file beside its place
-and renamed into it, its byte last: a chunk is done or it is not. The group's attributes hold what the task is; another
-task is never carried on in the same store.
+``done`` of marks (`lagrangian.simulate.seal`), plain and uncompressed. A chunk's results are written first, each file
+beside its place and renamed into it, its marks last: a chunk is done or it is not. The group's attributes hold what the
+task is; another task is never carried on in the same store. To go on with a store, all of it is checked first: what is
+damaged is done again.
 """
 
 from __future__ import annotations
 
-import contextlib
 import errno
+import hashlib
+import json
 import os
 import shutil
 import tempfile
 import warnings
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -22,26 +24,23 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.errors import Error, MissingExtra, RunError
+from lagrangian.errors import Error, RunError
 from lagrangian.simulate.portions import Portions
+from lagrangian.simulate.seal import (
+    AGAIN,
+    DONE,
+    FORMAT,
+    KEY,
+    ROOT,
+    Document,
+    finished,
+    found,
+    open_document,
+    parsed,
+    seal,
+)
+from lagrangian.simulate.stored import explained, fill, library, lost_chunks, opened, whole
 from lagrangian.simulate.study import Values
-
-FORMAT = 1
-KEY = "lagrangian"
-DONE = "done"
-NOT_RUN = -128
-"""Status of a run that nobody has done yet."""
-
-
-def library() -> Any:
-    """The module zarr; raises `MissingExtra` where it is not installed."""
-    try:
-        import zarr
-    except ImportError:
-        raise MissingExtra(
-            "zarr is not installed, and results are kept on disk with it", fix="pip install 'lagrangian[sweep]'"
-        ) from None
-    return zarr
 
 
 @dataclass(frozen=True)
@@ -73,21 +72,21 @@ class Plan:
 class Store:
     """A sink on disk; use it as a context, so that it is closed. One process at a time may write to it.
 
-    ``done`` (chunks,): which chunks are there.
+    ``done`` (chunks,): which chunks are there. ``notices``: what was damaged and is made good.
     """
 
-    def __init__(self, path: Path, group: Any, portions: Portions) -> None:
-        self.path, self.group, self.portions = path, group, portions
-        self._file = _alone(path, len(portions))
+    def __init__(self, document: Document) -> None:
+        self.path, self.document, self.portions = document.path, document, document.portions
+        self.notices: list[str] = []
+        self._file = _alone(document.marks_file)
         os.lseek(self._file, 0, os.SEEK_SET)
-        marks = np.frombuffer(os.read(self._file, len(portions)), np.uint8)
-        if len(marks) != len(portions):
-            self.close()
-            raise RunError(
-                f"'{path}' is damaged: its list of finished chunks is cut off", code="E803", fix="start anew"
-            )
-        self.done = marks.astype(bool)
-        self._arrays = {name: group[name] for name in group.attrs[KEY]["results"]}
+        data = os.read(self._file, 1 << 30)
+        self.marks = document.marks(data)
+        if len(data) != self.marks.nbytes:
+            self.notices.append(f"the list of finished chunks in '{self.path}' had a wrong length")
+            os.ftruncate(self._file, self.marks.nbytes)  # what was cut off is filled with zeros: not done
+        self.done = finished(self.marks)
+        self._arrays = opened(document, "r+")
 
     def __enter__(self) -> Store:
         return self
@@ -102,14 +101,55 @@ class Store:
             self._file = -1
 
     def write(self, index: int, box: tuple[slice, ...], values: Values) -> None:
-        """Write the results of a chunk, then its mark."""
-        with _explained(self.path, "write", self._kept):
-            for name, array in self._arrays.items():
+        """Write the results of a chunk, then its marks."""
+        with explained(self.path, "write", self._kept):
+            for name in self.document.results:
                 sizes = tuple(part.stop - part.start for part in box)
-                array[(*box, ...)] = values[name].reshape(*sizes, *values[name].shape[1:])
-            os.lseek(self._file, index, os.SEEK_SET)
-            os.write(self._file, b"\x01")
+                self.document.chunk(name, index).unlink(missing_ok=True)  # of an end in the middle: never read
+                self._arrays[name][(*box, ...)] = values[name].reshape(*sizes, *values[name].shape[1:])
+            self._mark(index, [self.document.mark(name, index) for name in self.document.results])
         self.done[index] = True
+
+    def _mark(self, index: int, marks: Sequence[int]) -> None:
+        self.marks[index] = marks
+        os.lseek(self._file, index * self.marks[index].nbytes, os.SEEK_SET)
+        os.write(self._file, self.marks[index].astype("<u8").tobytes())
+
+    def mend(self, plan: Plan) -> None:
+        """Find all that is damaged: chunks are taken as not done, coordinates and metadata written again."""
+        with explained(self.path, "repair"):
+            self._mend_metadata()
+            for name, (_, values) in plan.coordinates.items():
+                self._mend_coordinate(name, values)
+            lost = self.document.unfit(self.marks, every_byte=True)
+            for index in lost:
+                self._mark(index, [0] * len(self.document.results))
+        if lost:
+            self.done[list(lost)] = False
+            they = "they are" if len(lost) > 1 else "it is"
+            self.notices.append(f"{lost_chunks(self.document, lost)}: {they} computed again")
+
+    def _mend_metadata(self) -> None:
+        for name, metadata in self.document.arrays.items():
+            file = self.path / name / ROOT
+            if not _holds(parsed(file.parent), metadata):
+                _put(file, json.dumps(metadata, indent=2).encode())
+                self.notices.append(f"'{name}/{ROOT}' in '{self.path}' was damaged: written again")
+
+    def _mend_coordinate(self, name: str, values: Iterable[Any]) -> None:
+        """Write a coordinate again where it is not what it was; ``values`` are those of the task."""
+        array, right = self._arrays[name], self.document.kept["coordinates"][name]
+        if whole(array, right) is not None:
+            return
+        shutil.rmtree(self.path / name / "c", ignore_errors=True)
+        _fill_array(array, values)
+        if whole(array, right) is None:
+            raise RunError(
+                f"'{self.path}' is damaged: the values of '{name}' are neither what was written nor those of this task",
+                fix=AGAIN,
+                code="E804",
+            )
+        self.notices.append(f"the values of '{name}' in '{self.path}' were damaged: written again")
 
     def _kept(self) -> str:
         ranges = map(self.portions.range, np.flatnonzero(self.done).tolist())
@@ -118,54 +158,71 @@ class Store:
 
 
 def create(path: Path, plan: Plan, *, overwrite: bool = False) -> Store:
-    """Make a store at ``path``, whole or not at all; an existing one is replaced only with ``overwrite``."""
-    zarr = library()
-    if path.exists() and not overwrite:
+    """Make a store at ``path``, whole or not at all; an existing one is replaced only with ``overwrite``.
+
+    Raises `Error` where something else than a store stands there: that is never removed.
+    """
+    library()
+    if os.path.lexists(path) and not overwrite:
         raise Error(
             f"'{path}' exists",
             fix="go on where it stopped with resume, replace it with overwrite, or take another name",
             code="E802",
         )
-    with _explained(path, "make"):
-        if not path.resolve().parent.is_dir():
+    with explained(path, "make"):
+        folder = path.resolve().parent
+        if not folder.is_dir():
             raise Error(f"cannot write '{path}': there is no folder '{path.parent}'", fix="make it first", code="E801")
-        beside = Path(tempfile.mkdtemp(dir=path.resolve().parent, prefix=f".{path.name[:100]}.", suffix=".part"))
+        beside = Path(tempfile.mkdtemp(dir=folder, prefix=f".{path.name[:100]}.", suffix=".part"))
         try:
-            beside.chmod(0o777 & ~_umask())
-            _fill(zarr, beside, plan)
-            if path.exists():
-                _remove(path)
-            beside.rename(path)
+            _fill(beside / "new", plan)
+            if os.path.lexists(path):
+                _move_away(path, beside / "old")
+            (beside / "new").rename(path)
         finally:
             shutil.rmtree(beside, ignore_errors=True)
-    return Store(path, zarr.open_group(path, mode="r+"), plan.portions)
+    return Store(open_document(path))
 
 
-def _fill(zarr: Any, path: Path, plan: Plan) -> None:
-    kept = {"format": FORMAT, "block": list(plan.portions.block), "results": list(plan.results), "task": plan.task}
-    kept["coordinates"] = list(plan.coordinates)
-    group = zarr.create_group(path, attributes={**plan.words, KEY: kept})
+def _fill(path: Path, plan: Plan) -> None:
+    """Write a new store: empty results, coordinates, no marks; then its seal."""
+    zarr = library()
+    said = {"format": FORMAT, "block": list(plan.portions.block), "results": list(plan.results), "task": plan.task}
+    group = zarr.create_group(path, attributes={**plan.words, KEY: said})
     squeezed = zarr.codecs.BloscCodec(cname="lz4", clevel=5, shuffle="shuffle")  # of smooth curves: fast, and smallest
+    how: dict[str, Any] = {"compressors": [squeezed, zarr.codecs.Crc32cCodec()]}
     for name, variable in plan.results.items():
         extra = variable.shape[len(plan.portions.block) :]
-        fill = np.nan if variable.dtype.startswith("float") else NOT_RUN if name == "status" else 0
-        _array(group, name, variable, chunks=(*plan.portions.block, *extra), fill_value=fill, compressors=[squeezed])
+        missing = fill(variable.dtype, name)
+        _array(group, name, variable, chunks=(*plan.portions.block, *extra), fill_value=missing, **how)
+    sums, how = {}, {**how, "config": {"write_empty_chunks": True}}
     for name, (variable, values) in plan.coordinates.items():
-        array, at = _array(group, name, variable, chunks=_chunks(variable.shape)), 0
-        if not variable.shape:
-            array[()] = next(iter(values))
-            continue
-        for part in values:
-            array[at : at + len(part)] = part
-            at += len(part)
-    count = len(plan.portions)
-    _array(group, DONE, Variable("uint8", ("chunk",), (count,)), chunks=(count,), compressors=None, fill_value=0)
-    marks = path / DONE / "c" / "0"
-    marks.parent.mkdir()
-    marks.write_bytes(bytes(count))
+        array = _array(group, name, variable, chunks=_chunks(variable.shape), **how)
+        sums[name] = _fill_array(array, values)
+    count = len(plan.portions) * len(plan.results)
+    _array(group, DONE, Variable("uint64", ("chunk",), (count,)), chunks=(count,), compressors=None, fill_value=0)
     with warnings.catch_warnings():  # zarr says that the listing is its own extension of the format; xarray expects it
         warnings.simplefilter("ignore")
         zarr.consolidate_metadata(path)
+    root = json.loads((path / ROOT).read_bytes())
+    root["attributes"][KEY]["coordinates"] = sums
+    root["attributes"][KEY]["seal"] = seal(root)
+    _put(path / ROOT, json.dumps(root, indent=2).encode())
+    _put(open_document(path).marks_file, bytes(8 * count))
+
+
+def _fill_array(array: Any, values: Iterable[Any]) -> str:
+    """Write portions one after the other along the first axis; return the checksum of them all."""
+    sums, at = hashlib.blake2b(digest_size=8), 0
+    for part in values:
+        part = np.asarray(part, array.dtype)
+        sums.update(np.ascontiguousarray(part).tobytes())
+        if array.shape:
+            array[at : at + len(part)] = part
+            at += len(part)
+        else:
+            array[()] = part.reshape(())
+    return sums.hexdigest()
 
 
 def _array(group: Any, name: str, variable: Variable, **more: Any) -> Any:
@@ -185,38 +242,34 @@ def _chunks(shape: tuple[int, ...]) -> tuple[int, ...]:
 
 
 def resume(path: Path, plan: Plan) -> Store:
-    """Open the store at ``path`` to go on with the same task; there must be one, of this task."""
-    zarr = library()
-    group, kept = _kept(zarr, path, "r+")
-    differing = differences(kept["task"], dict(plan.task))
+    """Open the store at ``path`` to go on with the same task; there must be one, of this task.
+
+    All of it is checked: damaged chunks are not ``done``, and ``notices`` says how many there are. Raises `RunError`
+    where it holds another task, or is damaged where nothing can be made good.
+    """
+    library()
+    document = open_document(path)
+    differing = differences(document.kept["task"], json.loads(json.dumps(plan.task)))
     if differing:
         raise RunError(
             f"'{path}' holds another task: " + "; ".join(differing),
             code="E803",
             fix="repeat the task it was made for, or take another name for this one",
         )
-    return Store(path, group, Portions(plan.portions.shape, tuple(kept["block"])))
-
-
-def read(path: Path) -> Any:
-    """The Zarr group of a store, to read."""
-    return _kept(library(), path, "r")[0]
-
-
-def _kept(zarr: Any, path: Path, mode: str) -> tuple[Any, dict[str, Any]]:
-    """The group at a path, and what its maker wrote about it."""
-    if not path.exists():
-        raise Error(f"there is no '{path}'", fix="start without resume", code="E801")
+    store = Store(document)
     try:
-        group = zarr.open_group(path, mode=mode)
-        kept = group.attrs[KEY]
-    except (KeyError, ValueError, FileNotFoundError, FileExistsError, NotADirectoryError):
-        raise Error(f"'{path}' is no store of a sweep", fix="name one that a sweep made", code="E803") from None
-    if kept.get("format") != FORMAT:
-        raise Error(
-            f"'{path}' has format {kept.get('format')}, known is {FORMAT}", fix="use the version it is of", code="E803"
-        )
-    return group, kept
+        store.mend(plan)
+    except BaseException:
+        store.close()
+        raise
+    return store
+
+
+def _holds(there: Any, metadata: Any) -> bool:
+    """Whether metadata on disk are ours, with attributes that someone added."""
+    if not isinstance(there, dict) or not isinstance(metadata, dict):
+        return there == metadata
+    return all(key in there and _holds(there[key], value) for key, value in metadata.items())
 
 
 def differences(before: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:
@@ -236,22 +289,12 @@ def _short(value: Any) -> str:
     return text if len(text) <= 60 else text[:59] + "…"
 
 
-@contextlib.contextmanager
-def _explained(path: Path, verb: str, kept: Any = None) -> Iterator[None]:
-    """Turn what the operating system refuses into an `Error` that says what is safe."""
-    try:
-        yield
-    except OSError as trouble:
-        reason = (trouble.strerror or str(trouble)).lower()
-        full = trouble.errno in (errno.ENOSPC, errno.EDQUOT)
-        fix = kept() if kept is not None else "make room" if full else "check the place and its permissions"
-        raise Error(f"cannot {verb} '{path}': {reason}", fix=fix, code="E801") from trouble
-
-
-def _alone(path: Path, chunks: int) -> int:
+def _alone(marks: Path) -> int:
     """Open the list of finished chunks for this process alone; the operating system lets go of it when that ends."""
-    with _explained(path, "open"):
-        file = os.open(path / DONE / "c" / "0", os.O_RDWR | getattr(os, "O_BINARY", 0))
+    path = marks.parents[2]
+    with explained(path, "open"):
+        marks.parent.mkdir(parents=True, exist_ok=True)
+        file = os.open(marks, os.O_RDWR | os.O_CREAT | getattr(os, "O_BINARY", 0), 0o666)
     try:
         if os.name == "posix":
             import fcntl
@@ -260,7 +303,7 @@ def _alone(path: Path, chunks: int) -> int:
         else:
             import msvcrt
 
-            os.lseek(file, chunks, os.SEEK_SET)  # behind the end: what is locked cannot be read by others
+            os.lseek(file, 1 << 30, os.SEEK_SET)  # far behind the end: what is locked cannot be read by others
             msvcrt.locking(file, msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined]
     except OSError as trouble:
         os.close(file)
@@ -273,17 +316,33 @@ def _alone(path: Path, chunks: int) -> int:
     return file
 
 
-def _remove(path: Path) -> None:
-    """Remove a store that nobody writes to; anything else that stands at its place is left alone."""
-    if not (path.is_dir() and (path / "zarr.json").is_file()):
-        raise Error(f"'{path}' is no store and is not replaced", fix="remove it yourself, or name another", code="E801")
+def _move_away(path: Path, where: Path) -> None:
+    """Move a store that nobody writes to; anything else that stands at its place, or in it, is left alone."""
+    root = None if path.is_symlink() else parsed(path)
+    attributes = root.get("attributes") if root is not None else None
+    kept = attributes.get(KEY) if isinstance(attributes, dict) else None
+    if not isinstance(kept, dict) or not {"format", "results", "task"} <= kept.keys():
+        what = "it is a link" if path.is_symlink() else found(path)
+        raise Error(
+            f"'{path}' is not a store of a sweep and is not replaced: {what}",
+            fix="remove it yourself, or take another name",
+            code="E801",
+        )
+    ours = {ROOT, DONE, *(name.partition("/")[0] for name in [*kept["results"], *kept["coordinates"]])}
+    if others := sorted(entry.name for entry in path.iterdir() if entry.name not in ours):
+        raise Error(
+            f"'{path}' is not replaced: '{others[0]}' in it was not put there by a sweep",
+            fix="move that to another place, or take another name",
+            code="E801",
+        )
     if (path / DONE / "c" / "0").is_file():
-        os.close(_alone(path, 0))
-    shutil.rmtree(path)
+        os.close(_alone(path / DONE / "c" / "0"))
+    path.rename(where)
 
 
-def _umask() -> int:
-    """The mask of permissions of new files; there is no way to read it but to set it."""
-    mask = os.umask(0o022)
-    os.umask(mask)
-    return mask
+def _put(file: Path, data: bytes) -> None:
+    """Write a file whole or not at all."""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    beside = file.with_name(f".{file.name}.part")
+    beside.write_bytes(data)
+    beside.replace(file)
