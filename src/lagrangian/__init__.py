@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from lagrangian.comparison import Comparison, compare
     from lagrangian.derivation import Derivation
-    from lagrangian.errors import Error, MissingExtra, ModelError, ParseError, Place, RunError
+    from lagrangian.errors import Error, MissingExtra, ModelError, Notice, ParseError, Place, RunError
     from lagrangian.running.ensemble import Ensemble
     from lagrangian.running.events import Event, event
     from lagrangian.running.trajectory import Trajectory
@@ -18,7 +18,7 @@ else:
         {
             "comparison": "Comparison compare",
             "derivation": "Derivation",
-            "errors": "Error MissingExtra ModelError ParseError Place RunError",
+            "errors": "Error MissingExtra ModelError Notice ParseError Place RunError",
             "running.ensemble": "Ensemble",
             "running.events": "Event event",
             "running.trajectory": "Trajectory",
@@ -34,6 +34,7 @@ __all__ = [
     "Event",
     "MissingExtra",
     "ModelError",
+    "Notice",
     "ParseError",
     "Place",
     "RunError",

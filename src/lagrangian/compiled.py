@@ -72,6 +72,10 @@ class Compiled:
             if name in _STILL:
                 optional["v"] = 0.0
             found = machine.compile(self.program(name), optional=optional, lanes=self._lanes, threads=self._threads)
+            if name in _SOLVING and self.parameters:
+                from lagrangian.running.masses import Admission  # here, as exporting source makes no machine code
+
+                found.admit = Admission(self._model)
             self._kernels[name] = found
         return found
 
@@ -231,6 +235,7 @@ _PROGRAMS: dict[str, Callable[[Model], Program]] = {
     "rates": dynamics.rates,
 }
 _STILL = ("mass_matrix", "gravity")
+_SOLVING = ("forward", "rhs")
 
 EXPORTED = ("forward", "inverse", "mass_matrix", "energy")
 """The programs that a source file is written of."""

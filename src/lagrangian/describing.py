@@ -10,7 +10,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import read
-from lagrangian.errors import ModelError
+from lagrangian.errors import ModelError, Notice
 from lagrangian.model import (
     Builder,
     Damper,
@@ -66,8 +66,19 @@ class Described:
 
     @property
     def model(self) -> Model:
-        """The frozen description; raises `ModelError` where it is not complete."""
-        return self._builder.model()
+        """The frozen description; raises `ModelError` where it is not complete, or no system can have its inertias."""
+        from lagrangian.dynamics import notices  # here, as describing needs no mechanics
+
+        model = self._builder.model()
+        notices(model)
+        return model
+
+    @property
+    def notices(self) -> tuple[Notice, ...]:
+        """What is to be known of the system that need not stop the work, such as an inertia that no body has."""
+        from lagrangian.dynamics import notices
+
+        return notices(self.model)
 
     @property
     def energy(self) -> sp.Expr:

@@ -6,7 +6,7 @@
     ├── RunError (ValueError)      what was handed to a compiled system is wrong
     └── MissingExtra (ImportError) an optional package is not installed
 
-A message reads: what is wrong, where it stands, what would be right.
+A message reads: what is wrong, where it stands, what would be right. A `Notice` stops nothing; results carry it.
 """
 
 from __future__ import annotations
@@ -96,6 +96,22 @@ class Error(Exception):
         if self.place is None:
             self.place = place
         return self
+
+
+@dataclass(frozen=True, slots=True)
+class Notice:
+    """Something to know that need not stop the work: ``text`` in one sentence, about ``where``, with a stable ``code``.
+
+    ``where`` names the piece of the model, with file and line where these are known.
+    """
+
+    code: str
+    where: str
+    text: str
+
+    def __str__(self) -> str:
+        """Read as ``[E105] rigid body 'link 3': its inertia fits no body …``."""
+        return f"[{self.code}] {self.where}: {self.text}"
 
 
 class ModelError(Error, ValueError):

@@ -314,7 +314,14 @@ class System(Described):
 
     def __repr__(self) -> str:
         """Say what the system has so far."""
-        return f"<System {self.name!r}: {self._builder.summary()}>"
+        return f"<System {self.name!r}: {self._builder.summary()}{self._told()}>"
+
+    def _told(self) -> str:
+        """The notices of a system that is complete, for its short description."""
+        try:
+            return "".join(f"; notice {n}" for n in self.notices)
+        except ModelError:  # not complete yet: a description must be seen all the same
+            return ""
 
 
 def load(path: str | Path) -> System:

@@ -8,7 +8,7 @@ dynamics must solve them; and M, C and the energy must keep their laws.
 from __future__ import annotations
 
 import random
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -20,7 +20,7 @@ from lagrangian.analyze.dimensions import check_dimensions
 from lagrangian.analyze.report import Part, Report
 from lagrangian.derive import Check
 from lagrangian.derive.formula import Name, text
-from lagrangian.errors import ModelError
+from lagrangian.errors import ModelError, Notice
 from lagrangian.graph import Graph, Output, Program, evaluate, jvp, reached
 from lagrangian.model import Model
 
@@ -90,10 +90,21 @@ def verify_motion(model: Model, *, states: int = 50, seed: int = 1) -> Report:
     )
     if dims is not None and not dims.loose:
         checks.append(Check(text("dimensions: the units of all elements fit together"), True, "all elements"))
+    known = dynamics.notices(model)
     shown = [{"what": str(c.what), "holds": c.holds, "figure": c.figure} for c in checks]
     return Report(
-        f"{model.name}: checked", model, (Part(text("What was checked"), (), tuple(checks)),), {"checks": shown}
+        f"{model.name}: checked",
+        model,
+        (Part(text("What was checked"), (), tuple(checks)), *_known(known)),
+        {"checks": shown, "notices": [{"code": n.code, "where": n.where, "text": n.text} for n in known]},
     )
+
+
+def _known(notices: Sequence[Notice]) -> list[Part]:
+    """What is to be known of the system as a part of the report, if anything is."""
+    if not notices:
+        return []
+    return [Part(text("Notices"), tuple(text(f"{n.where}: {n.text}. [{n.code}]") for n in notices))]
 
 
 def _measured(model: Model, states: int, seed: int) -> _Worst:

@@ -6,7 +6,7 @@ import ctypes
 import math
 import threading
 from collections import OrderedDict
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -76,6 +76,7 @@ class Kernel:
         self._engines: dict[str, Engine] = {}
         self._lone = len(self._outputs) == 1 and () not in self._outputs.values()
         self._lock = threading.Lock()
+        self.admit: Callable[[Array], None] | None = None  # looks at hoisted values before they are used; may raise
 
     def __reduce__(self) -> Any:
         return _rebuilt, (self.program, self.build.options, self._optional, self.threads)
@@ -180,6 +181,8 @@ class Kernel:
         arrays = [group.array(given) for group, given in zip(self._groups, slots, strict=True)]
         early = [arrays[k] for k in self._early]
         if any(a.size != a.shape[-1] for a in early):
+            if self.admit is not None:
+                self.admit(early[0])
             return arrays, self._lead(arrays), None
         lead = self._lead([arrays[k] for k in self._late] + [a[..., :0] for a in early])
         shared = self._shared_block([a.reshape(-1) for a in early])
@@ -209,6 +212,8 @@ class Kernel:
         for k, a in zip(self._early, early, strict=True):
             if trouble := not_finite_input(self._groups[k], a, ""):
                 raise trouble
+        if self.admit is not None:
+            self.admit(early[0])
         code = self.build.loaded("batch" if "batch" in self.build.ready else "single")
         sizes = self.build.sizes
         block, shared, scratch = aligned(sum(sizes.hoisted)), aligned(sizes.shared), aligned(sizes.scratch)

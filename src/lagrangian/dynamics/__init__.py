@@ -4,12 +4,14 @@
 """
 
 from lagrangian.dynamics.bodies import Bodies
+from lagrangian.dynamics.body_numbers import body_numbers
 from lagrangian.dynamics.canonical import canonical, canonical_impacts, momenta, velocities
 from lagrangian.dynamics.closed import SUPPLY, closed, observe_closed, power_closed
 from lagrangian.dynamics.describe import Inputs, describe
 from lagrangian.dynamics.impacts import impacts
 from lagrangian.dynamics.mechanics import Mechanics
 from lagrangian.dynamics.motion import Motion
+from lagrangian.dynamics.notices import configurations, notices
 from lagrangian.dynamics.observe import observe
 from lagrangian.dynamics.power import power
 from lagrangian.dynamics.programs import (
@@ -34,9 +36,11 @@ __all__ = [
     "Mechanics",
     "Motion",
     "bias",
+    "body_numbers",
     "canonical",
     "canonical_impacts",
     "closed",
+    "configurations",
     "coriolis",
     "describe",
     "energy",
@@ -48,6 +52,7 @@ __all__ = [
     "loss",
     "mass_matrix",
     "momenta",
+    "notices",
     "observe",
     "observe_closed",
     "point_jacobian",

@@ -9,11 +9,12 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian.errors import ModelError, Place, did_you_mean
-from lagrangian.model.checks import check_acted_on, check_body, check_kind, check_position, check_use, checked_number
+from lagrangian.model.checks import check_acted_on, check_kind, check_position, check_use, checked_number
 from lagrangian.model.effect import check_effect
-from lagrangian.model.elements import Element, GeneralizedForce
+from lagrangian.model.elements import Element, GeneralizedForce, Particle, RigidBody
 from lagrangian.model.floating import Floating
 from lagrangian.model.geometry import Frame, Point, as_expr, as_vector
+from lagrangian.model.masses import Numbers, check_body
 from lagrangian.model.model import Model, written_out
 from lagrangian.model.names import check_name, moving_symbol, time
 from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, Velocity
@@ -34,6 +35,7 @@ class Builder:
         self._coordinates: dict[str, Coordinate] = {}
         self._velocities: dict[str, Velocity] = {}  # quasi-velocities; rates of coordinates need no declaration
         self._parameters: dict[str, Parameter] = {}
+        self._values: dict[Any, float] = {}  # of the parameters that have one
         self._inputs: dict[str, Input] = {}
         self._definitions: dict[str, Definition] = {}
         self._points: dict[str, Point] = {"origin": self.origin}
@@ -99,6 +101,8 @@ class Builder:
         name = self._claim(name, "parameter", place)
         made = Parameter(name, sp.Symbol(name), checked_number(name, value, place), unit, description, place)
         self._parameters[name] = made
+        if made.value is not None:
+            self._values[made.symbol] = made.value
         self._symbols.add(made.symbol)
         return made
 
@@ -140,6 +144,11 @@ class Builder:
             hint = did_you_mean(name, names)
             fix = hint or f'declare it: coordinates("{name}"), parameters("{name}") or input("{name}")'
             raise ModelError(f"unknown {kind} '{name}' in {where}", place=place, fix=fix, code="E402")
+
+    @property
+    def _numbers(self) -> Numbers:
+        """The values of constant expressions, as declared so far."""
+        return Numbers(self._values, {d.symbol: d.expression for d in self._definitions.values()})
 
     # -- geometry -----------------------------------------------------------------------------------------------
 
@@ -324,6 +333,8 @@ class Builder:
             inputs = {i.symbol: i.name for i in self._inputs.values()}
             velocities = {v.symbol: v.name for v in self._velocities.values()}
             check_use(element, use, self._written_out(use.expr), inputs, velocities)
+        if isinstance(element, (Particle, RigidBody)):
+            check_body(self._numbers, element)
         self._elements.append(element)
         self._element_names[element.name] = element
         return element
@@ -442,8 +453,6 @@ class Builder:
             elements=tuple(self._elements),
             settings=dict(self.settings),
         )
-        for body in made.bodies:
-            check_body(made, body)
         check_effect(made)
         self._frozen = made
         return made

@@ -1,4 +1,4 @@
-"""Masses and moments of inertia with the values that a run has: what no body has is refused, as it is in a file."""
+"""Masses and inertias with the values that a run has, held to the rule that holds for a file's."""
 
 from __future__ import annotations
 
@@ -6,43 +6,53 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 import numpy as np
-import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian import dynamics
-from lagrangian.graph import Program
-from lagrangian.model import Model, RigidBody
-from lagrangian.model.checks import check_body
+from lagrangian.errors import Notice
+from lagrangian.model import Model
+from lagrangian.model.masses import Numbers, check_body
+from lagrangian.simulate.fitness import Fitness
 
 
-def check_masses(model: Model, p: NDArray[np.float64], varied: Iterable[str] = ()) -> None:
-    """Refuse bodies whose mass or inertia is none with the parameters ``p``; ``varied`` parameters count as unknown.
+def check_masses(model: Model, p: NDArray[np.float64], varied: Iterable[str] = ()) -> tuple[Notice, ...]:
+    """Return what is to be known of a system with the parameters ``p``; ``varied`` ones count as unknown.
 
-    Raises `ModelError`, which names the body.
+    Raises `ModelError`, which names the body, where a mass is not above 0 or an inertia makes M indefinite.
     """
     unknown = set(varied)
     values = [None if q.name in unknown else float(x) for q, x in zip(model.parameters, p, strict=True)]
     if all(value is None or value == q.value for q, value in zip(model.parameters, values, strict=True)):
-        return
+        return dynamics.notices(model)
     parameters = tuple(replace(q, value=x) for q, x in zip(model.parameters, values, strict=True))
     held = replace(model, parameters=parameters, _memo={})
+    numbers = Numbers.of_model(held)
     for body in held.bodies:
-        check_body(held, body)
+        check_body(numbers, body)
+    return dynamics.notices(held)
 
 
-def varied_masses(model: Model, varied: Iterable[str]) -> Program | None:
-    """The masses (``mass 0`` …) and moments of inertia (``inertia 0`` …) that varied parameters decide, if any.
+def fitness(model: Model, varied: Iterable[str]) -> Fitness | None:
+    """How parameter sets are looked at that differ in ``varied``; None where these decide no mass and no inertia."""
+    bodies = dynamics.body_numbers(model, varied)
+    if bodies is None:
+        return None
+    if not any(name.startswith("inertia") for name in bodies.outputs):
+        return Fitness(bodies)
+    return Fitness(bodies, dynamics.mass_matrix(model), np.array(list(dynamics.configurations(model))))
 
-    A program over x, u, p, t that reads p alone. In a run, masses are above 0 and moments of inertia not below.
-    """
-    names = set(varied)
-    symbols = {q.symbol for q in model.parameters if q.name in names}
-    found: dict[str, sp.Expr] = {}
-    for body in model.bodies:
-        listed = [("mass", body.mass)]
-        if isinstance(body, RigidBody):
-            listed += [("inertia", body.inertia[k, k]) for k in range(body.inertia.rows)]
-        for word, expr in listed:
-            if model.expand(expr, constants=True).free_symbols & symbols:
-                found[f"{word} {len(found)}"] = expr
-    return dynamics.observe_closed(model, found, {}) if found else None
+
+class Admission:
+    """Refuses parameter sets that no system can have, before anything is computed with them."""
+
+    def __init__(self, model: Model) -> None:
+        self._model = model
+        self._fitness = fitness(model, [p.name for p in model.parameters])
+
+    def __call__(self, p: NDArray[np.float64]) -> None:
+        """Look at parameter sets (..., n_p); raises `ModelError`, which names the body of the first bad one."""
+        if self._fitness is None:
+            return
+        rows = np.ascontiguousarray(p.reshape(-1, p.shape[-1]))
+        for k in np.flatnonzero(self._fitness.unfit(rows))[:1]:
+            check_masses(self._model, rows[k])

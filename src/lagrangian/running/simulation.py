@@ -88,7 +88,7 @@ def simulate(
     name = _method(method, drive, step)
     share = 1.0 if method in SCIPY else SHARE
     p = given.parameter_values(params)
-    check_masses(model, p)
+    notices = check_masses(model, p)
     task = Task(
         model,
         with_stops(model, drive, p, instants),
@@ -102,7 +102,9 @@ def simulate(
         listed_events(events),
         bounds,
     )
-    return _judged(_trajectory(task, run(task), {"rtol": rtol, "atol": atol}))
+    made = _trajectory(task, run(task), {"rtol": rtol, "atol": atol})
+    made.notices = notices
+    return _judged(made)
 
 
 def _judged(made: Trajectory) -> Trajectory:

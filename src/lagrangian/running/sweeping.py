@@ -22,7 +22,7 @@ from lagrangian.graph import Program
 from lagrangian.model import Model, plain
 from lagrangian.running.driving import Driving, check_covers, driving
 from lagrangian.running.ensemble import Ensemble
-from lagrangian.running.masses import check_masses, varied_masses
+from lagrangian.running.masses import check_masses, fitness
 from lagrangian.running.per_run import Wanted, instants, study_of
 from lagrangian.running.showing import Units
 from lagrangian.running.switching import with_stops_of_all
@@ -130,7 +130,7 @@ def _done(model: Model, varying: Varying, wanted: Wanted, inputs: dict[Any, Any]
     varied = [name for group, name in varying.columns if group == "p"]
     check_masses(model, design.base["p"], varied)
     study, expressions = study_of(model, wanted, drive, times)
-    study = replace(study, masses=varied_masses(model, varied))
+    study = replace(study, fitness=fitness(model, varied))
     task = _task(model, varying, wanted, drive, study)
     executor, cutting = _executor(way)
     memory = _bytes(way.memory)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from lagrangian import compile as machine
 from lagrangian import dynamics, read
-from lagrangian.errors import ModelError, RunError, did_you_mean
+from lagrangian.errors import ModelError, Notice, RunError, did_you_mean
 from lagrangian.model import Element, Model, Point, as_expr
 from lagrangian.running import showing
 from lagrangian.running.integrating import remembered
@@ -86,7 +86,8 @@ class Trajectory:
     ``t`` (S,) are the times [s], ``y`` (n_states, S) the states x = [q; v] in declared order, ``states`` their names.
     ``run["theta1"]``, ``run["theta1'"]``, ``run["theta1''"]`` and ``run[expression]`` are arrays (S,), in SI units.
     ``success`` is whether the run came to its end (or to a terminal event), ``message`` says how it ended; a run that
-    failed keeps what it reached. ``nfev`` counts evaluations of the right-hand side, ``method`` is what integrated.
+    failed keeps what it reached. ``notices`` say what is to be known of the system with these
+    parameters. ``nfev`` counts evaluations of the right-hand side, ``method`` is what integrated.
     """
 
     model: Model = field(repr=False)
@@ -106,6 +107,7 @@ class Trajectory:
     supplied: Array
     jumps: Array
     settings: Mapping[str, Any]
+    notices: tuple[Notice, ...] = ()
 
     # -- asking -------------------------------------------------------------------------------------------------
 
@@ -250,7 +252,7 @@ class Trajectory:
             audit = f"no energy balance: {trouble.what}"
         return (
             f"<Trajectory {self.model.name!r}: {span}, {len(self.t)} samples, {self.method}, {self.steps} steps, "
-            f"{audit}{end}>"
+            f"{audit}{end}{''.join(f'; notice {n}' for n in self.notices)}>"
         )
 
 

@@ -19,6 +19,7 @@ from lagrangian.compile import Kernel, compile
 from lagrangian.compile.workers import over
 from lagrangian.errors import RunError
 from lagrangian.simulate.design import Rows
+from lagrangian.simulate.fitness import Fitness
 from lagrangian.simulate.integrators.layout import UNFIT, ZENO
 
 if TYPE_CHECKING:
@@ -76,9 +77,8 @@ class Study:
 
     ``program`` is x, u, p, t → ẋ; ``outputs`` a program over the same groups with one number an output; ``times`` (S,)
     the samples. ``signals`` are inputs that change with time, the same for all runs. ``canonical``: where
-    ``program`` is over [q; p], the programs x → p and [q; p] → v. ``masses`` must be above 0, those whose names begin
-    with "inertia" not below; a run where it is not so is not begun. ``options`` go to the solver as they are (rtol,
-    atol, step, …).
+    ``program`` is over [q; p], the programs x → p and [q; p] → v. A run whose parameters ``fitness`` refuses is not
+    begun. ``options`` go to the solver as they are (rtol, atol, step, …).
     """
 
     program: Program
@@ -90,7 +90,7 @@ class Study:
     events_kept: tuple[EventsKept, ...] = ()
     signals: Any = None
     canonical: tuple[Program, Program] | None = None
-    masses: Program | None = None
+    fitness: Fitness | None = None
     options: Mapping[str, Any] = field(default_factory=dict)
 
     @property
@@ -157,26 +157,10 @@ class Study:
         return self._all(solver, rows, threads)
 
     def _unfit(self, rows: Rows) -> NDArray[np.bool_]:
-        """Which runs have a mass that nothing has."""
-        kernel, bad = self._weighed, np.zeros(len(rows), bool)
-        if kernel is not None:
-            p = np.broadcast_to(rows.p, (len(rows), rows.p.shape[-1]))
-            out = {name: np.empty(len(rows)) for name in kernel.program.outputs}
-            try:
-                kernel(x=rows.x, p=np.ascontiguousarray(p), out=out)
-            except RunError as trouble:  # what is no number is unfit as well
-                if trouble.code != NOT_FINITE:
-                    raise
-            for name, value in out.items():
-                bad |= ~(value >= 0 if name.startswith("inertia") else value > 0)
-        return bad
-
-    @cached_property
-    def _weighed(self) -> Kernel | None:
-        """The code of the masses that vary."""
-        if self.masses is None:
-            return None
-        return compile(self.masses, optional={"u": 0.0, "t": 0.0}, threads=1)
+        """Which runs have parameters that no system can have."""
+        if self.fitness is None:
+            return np.zeros(len(rows), bool)
+        return self.fitness.unfit(np.ascontiguousarray(np.broadcast_to(rows.p, (len(rows), rows.p.shape[-1]))))
 
     def _without(self, unfit: NDArray[np.bool_], solver: Any, rows: Rows, threads: int | None) -> Values:
         """The runs that are fit, among those that are not."""

@@ -18,6 +18,7 @@ also have ``"text"`` (one line of Unicode). Keys at the top:
     ledger                      list: "element", "column", "reason", "expression" (or null)
     verified                    list: "what", "holds", "figure"
     notes                       list of texts
+    notices                     list: "code", "where", "text": what is to be known of the system
 
 An item has a "kind": "text" ("text"), "heading" ("text"), "formula" ("plain", "text", "latex", "boxed", "note"; with an
 elided side also "operations") or "table" ("header", "rows": lists of text).
@@ -32,6 +33,7 @@ import sympy as sp
 
 from lagrangian.derive import Check, Derivation
 from lagrangian.derive import formula as data
+from lagrangian.dynamics import notices
 from lagrangian.model import plain
 from lagrangian.write.glyphs import unicode
 from lagrangian.write.items import operations
@@ -104,6 +106,7 @@ class _Data:
             ],
             "verified": self.checks(d.verified),
             "notes": [self.text(n) for n in d.notes],
+            "notices": [{"code": n.code, "where": n.where, "text": n.text} for n in notices(model)],
         }
 
     def expression(self, expr: sp.Basic) -> dict[str, str]:

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from lagrangian.derive import Derivation, Step
 from lagrangian.derive import formula as data
+from lagrangian.dynamics import notices
 from lagrangian.model import Model
 from lagrangian.read import unit_factor
 from lagrangian.write.document import Block, Display, Document, Inline, Paragraph, Section, Table
@@ -39,7 +40,9 @@ class _Layout(Items):
 
     def document(self) -> Document:
         d = self.derivation
-        sections = [] if self.brief and not d.model.definitions else [self.system()]
+        sections = [Section("notices", ("Notices",), tuple(noticed(d.model)))]
+        if not self.brief or d.model.definitions:
+            sections.append(self.system())
         for step in d.steps:
             title = self.inline(data.text(step.title))
             sections.append(Section(f"step-{step.number}", title, tuple(self.step(step)), step.number))
@@ -85,6 +88,12 @@ class _Layout(Items):
             how = "It opens where it stands." if self.details else "The option “full” writes it out."
             blocks.append(Paragraph((words + how,), "note"))
         return tuple(blocks)
+
+
+def noticed(model: Model) -> Iterator[Paragraph]:
+    """What is to be known of the system, a paragraph each."""
+    for notice in notices(model):
+        yield Paragraph((f"{notice.where}: {notice.text}. [{notice.code}]",), "note")
 
 
 def _symbols(model: Model, write: Quantities) -> Iterator[tuple[Math | str, str, str]]:

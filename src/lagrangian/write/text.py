@@ -57,9 +57,9 @@ def page(document: Document, width: int) -> str:
 
 
 def verdicts(derivation: Derivation, *, notation: Notation = "lecture", width: int = 80) -> str:
-    """Return what was verified, a mark and a figure each."""
-    sections = lay_out(derivation, notation=notation).sections
-    blocks = next((s.blocks for s in sections if s.anchor == "verified"), ())
+    """Return what was verified, a mark and a figure each, and what is to be known of the system."""
+    sections = {s.anchor: s.blocks for s in lay_out(derivation, notation=notation).sections}
+    blocks = [*sections.get("verified", ()), *sections.get("notices", ())]
     lines = [line for block in blocks for line in _block(block, width)]
     return "\n".join(line.rstrip().replace(_KEPT, " ") for line in lines) + "\n"
 

@@ -1,0 +1,41 @@
+"""Masses and inertias as numbers of the parameters alone."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian.graph import Graph, Output, Program, from_sympy
+from lagrangian.model import Model, RigidBody, time
+
+
+def body_numbers(model: Model, names: Iterable[str]) -> Program | None:
+    """p → the masses [kg] and inertias [kg m²] that the parameters ``names`` decide; None where they decide none.
+
+    Outputs are ``mass k`` of bodies that move and ``resting mass k`` of those that only turn, shape (), and
+    ``inertia k``, shape (d, d), k the body's place among the bodies.
+    """
+    wanted = set(names)
+    symbols = {p.symbol for p in model.parameters if p.name in wanted}
+    graph = Graph()
+    table = {p.symbol: graph.input("p", i) for i, p in enumerate(model.parameters)}
+    outputs: dict[str, Output] = {}
+
+    def add(name: str, exprs: list[sp.Expr], shape: tuple[int, ...]) -> None:
+        full = [model.expand(x, constants=True) for x in exprs]
+        if any(x.free_symbols & symbols for x in full):
+            outputs[name] = Output(tuple(from_sympy(graph, x, table) for x in full), shape)
+
+    for k, body in enumerate(model.bodies):
+        rests = isinstance(body, RigidBody) and not any(
+            model.expand(x).has(AppliedUndef, time) for x in model.position(body.at)
+        )
+        add(f"resting mass {k}" if rests else f"mass {k}", [body.mass], ())
+        if isinstance(body, RigidBody):
+            add(f"inertia {k}", list(body.inertia), body.inertia.shape)
+    if not outputs:
+        return None
+    parameters = tuple(p.name for p in model.parameters)
+    return Program("bodies", graph, {"p": parameters}, outputs, {p.name: p.value for p in model.parameters})

@@ -1,0 +1,176 @@
+"""What is to be known of a system that need not stop the work: inertias that no body has, decided by the mass matrix.
+
+T* = ½ Σ m v² + ½ Σ ωᵀ I ω is positive wherever every I is positive semidefinite, whether a body can have it or not.
+Where an I is not, M is looked at in random states: where it stays positive definite the equations can be solved and
+run, else the numbers are refused and those that make it so are named.
+"""
+
+from __future__ import annotations
+
+import math
+import random
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import sympy as sp
+
+from lagrangian.dynamics.programs import mass_matrix
+from lagrangian.errors import ModelError, Notice
+from lagrangian.graph import Program, evaluate
+from lagrangian.model import Model, Parameter, RigidBody
+from lagrangian.model.masses import Doubt, Numbers, doubt
+
+STATES = 20
+"""Random states at which M is looked at, for each drawing of the parameters."""
+
+DRAWINGS = 5
+"""Drawings of the parameters that have no value."""
+
+NEGATIVE = 1e-9
+"""Share of the largest eigenvalue below which the smallest counts as negative, not as rounding."""
+
+SHOWN = 6
+"""Coordinates and entries listed in a message."""
+
+
+def notices(model: Model) -> tuple[Notice, ...]:
+    """Return what is to be known of a system; raises `ModelError` (E106) where an inertia makes M indefinite."""
+    if "notices" not in model._memo:
+        numbers = Numbers.of_model(model)
+        found = [d for d in (doubt(numbers, body) for body in model.bodies) if d is not None]
+        negative = [d for d in found if d.negative]
+        if negative:
+            _decide(model, negative)
+        model._memo["notices"] = tuple(Notice(d.code, _where(d.body), _said(d)) for d in found)
+    return model._memo["notices"]
+
+
+def _where(body: RigidBody) -> str:
+    """The body in words, with file and line where a file describes it."""
+    if body.place is None or body.place.line is None:
+        return body.title
+    file = body.place.file or ""
+    return f"{body.title} ({file + ', ' if file and not file.startswith('<') else ''}line {body.place.line})"
+
+
+def _said(doubt: Doubt) -> str:
+    if doubt.negative:
+        return (
+            f"{doubt.what}, which no body has; the mass matrix is positive definite at {STATES} random states all the "
+            "same, and these numbers are used as given"
+        )
+    return (
+        f"{doubt.what}; the mass matrix stays positive definite all the same, and these numbers are used as given "
+        "(moments are about the centre of mass)"
+    )
+
+
+# -- by the mass matrix -----------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class _Low:
+    """A state at which M has a negative eigenvalue: groups q and p, the eigenvalue, and its direction along v."""
+
+    q: list[float]
+    p: list[float]
+    eigenvalue: float
+    direction: tuple[float, ...]
+
+
+def _decide(model: Model, doubts: Sequence[Doubt]) -> None:
+    """Raise where M has a negative eigenvalue in every drawing of the parameters that have no value."""
+    program = mass_matrix(model)
+    low: _Low | None = None
+    for seed in range(1 if all(p.value is not None for p in model.parameters) else DRAWINGS):
+        low = _lowest(model, program, seed)
+        if low is None:
+            return
+    assert low is not None
+    raise _refused(model, doubts, low)
+
+
+def _lowest(model: Model, program: Program, seed: int) -> _Low | None:
+    """The first random state where M has a negative eigenvalue, if any."""
+    import numpy as np  # here, as deriving waits for SymPy alone
+
+    source = random.Random(seed)
+    p = [source.uniform(0.4, 1.6) if x.value is None else x.value for x in model.parameters]
+    for q in configurations(model):
+        M = np.array(_at(program, model, q, p))
+        if not np.isfinite(M).all():
+            continue
+        values, vectors = np.linalg.eigh((M + M.T) / 2)
+        if values[0] < -NEGATIVE * np.abs(values).max():
+            return _Low(q, p, float(values[0]), tuple(vectors[:, 0].tolist()))
+    return None
+
+
+def configurations(model: Model) -> Iterator[list[float]]:
+    """Random coordinates at which M is looked at: positive ones, as lengths are, and from all around the circle."""
+    source = random.Random(1)
+    for k in range(STATES):
+        low, high = (0.4, 1.6) if k % 2 else (-math.pi, math.pi)
+        yield [source.uniform(low, high) for _ in model.coordinates]
+
+
+def _at(program: Program, model: Model, q: list[float], p: list[float]) -> list[list[float]]:
+    """M, row after row."""
+    n = len(model.velocities)
+    groups = {"q": q, "v": [0.0] * n, "u": [0.0] * len(model.inputs), "p": p, "t": [1.0]}
+    return evaluate(program, groups)["M"]
+
+
+# -- which entries ----------------------------------------------------------------------------------------------
+
+
+def _refused(model: Model, doubts: Sequence[Doubt], low: _Low) -> ModelError:
+    """The error that names what makes M indefinite: the body and the entries of its inertia that lower the energy."""
+    share, guilty, entries = min(
+        ((share, d, entries) for d in doubts for share, entries in [_shares(model, d.body, low)]), key=lambda x: x[0]
+    )
+    where = ", ".join(f"{c.name} = {x:.3g}" for c, x in list(zip(model.coordinates, low.q, strict=True))[:SHOWN])
+    along = [v.name.removesuffix("'") for v, x in zip(model.velocities, low.direction, strict=True) if abs(x) > 0.1]
+    listed = ", ".join(entries[:SHOWN])
+    lowers = f", lowered by {share:.3g} by {listed}" if entries else ""
+    return ModelError(
+        f"{guilty.what} and makes the mass matrix indefinite: at {where} its eigenvalue along "
+        f"{', '.join(along[:SHOWN])} is {low.eigenvalue:.3g}{lowers}",
+        element=guilty.body.title,
+        place=guilty.body.place,
+        fix="give moments about the centre of mass, none negative; products are the tensor's elements (−∫xy dm)",
+        code="E106",
+    )
+
+
+def _shares(model: Model, body: RigidBody, low: _Low) -> tuple[float, list[str]]:
+    """What a body's inertia adds to M's eigenvalue, and the entries that make it smaller, each with its value."""
+    size, numbers = body.inertia.rows, Numbers(dict(zip([x.symbol for x in model.parameters], low.p, strict=True)), {})
+    pairs = [(i, k) for i in range(size) for k in range(i, size)]
+    symbols = {pair: sp.Symbol(f"inertia_{pair[0]}{pair[1]} of {body.name}") for pair in pairs}
+    tensor = sp.ImmutableMatrix(size, size, lambda i, k: symbols[min(i, k), max(i, k)])
+    probe = replace(
+        model,
+        elements=tuple(
+            replace(e, inertia=tensor if size == 3 else tensor[0, 0]) if e is body else e for e in model.elements
+        ),  # type: ignore[call-arg]
+        parameters=(*model.parameters, *(Parameter(s.name, s) for s in symbols.values())),
+        _memo={},
+    )
+    program = mass_matrix(probe)
+    given = [numbers.of(model.expand(body.inertia[pair], constants=True)) or 0.0 for pair in pairs]
+
+    def energy(values: Sequence[float]) -> float:
+        M, w = _at(program, probe, low.q, [*low.p, *values]), low.direction
+        return sum(x * entry * y for x, row in zip(w, M, strict=True) for entry, y in zip(row, w, strict=True))
+
+    none = energy([0.0] * len(pairs))
+    found = []
+    for at, value in enumerate(given):
+        if (share := energy([value if k == at else 0.0 for k in range(len(pairs))]) - none) < 0:
+            found.append((share, f"{_entry(pairs[at], size)} = {value:.6g}"))
+    return energy(given) - none, [said for _, said in sorted(found)]
+
+
+def _entry(pair: tuple[int, int], size: int) -> str:
+    return "J" if size == 1 else "I" + "".join("xyz"[k] for k in pair)

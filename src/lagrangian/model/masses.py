@@ -1,0 +1,117 @@
+"""Masses and inertias with the numbers known for them: what no system can have is refused, what no body has is noted.
+
+A mass is above 0. An inertia is held to two laws of bodies:
+
+    principal moments A ≤ B ≤ C:   A + B ≥ C   (E105),   A ≥ 0   (E106)
+
+Where the first fails T* is positive all the same, and published data of robots do fail it: that is a doubt, never an
+error. Where the second fails the mass matrix decides (`lagrangian.dynamics.notices`).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, cast
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian.errors import ModelError
+from lagrangian.model.elements.rigid_body import RigidBody
+from lagrangian.model.model import written_out
+from lagrangian.model.names import time
+
+if TYPE_CHECKING:
+    from lagrangian.model.model import Model
+
+RELATIVE_TOLERANCE = 1e-9
+"""How far a principal moment may exceed the sum of the other two: rounding of a thin rod's."""
+
+
+@dataclass(frozen=True)
+class Numbers:
+    """The values of constant expressions: parameters that have one, and definitions."""
+
+    values: Mapping[Any, float]
+    definitions: Mapping[Any, sp.Expr]
+
+    @classmethod
+    def of_model(cls, model: Model) -> Numbers:
+        """Those that a model declares."""
+        return cls(model.values, {d.symbol: d.expression for d in model.definitions})
+
+    def of(self, expr: sp.Expr) -> float | None:
+        """The value of a constant expression, or None while a parameter in it has none."""
+        full = written_out(expr, self.definitions)
+        if full.free_symbols - self.values.keys():
+            return None
+        value = cast(
+            "sp.Expr", full.xreplace({s: sp.Float(self.values[cast("sp.Symbol", s)]) for s in full.free_symbols})
+        )
+        return float(value) if value.is_real else float("nan")
+
+    def moves(self, body: Any) -> bool:
+        """Whether its centre of mass can move."""
+        return any(written_out(x, self.definitions).has(AppliedUndef, time) for x in body.at.position)
+
+
+@dataclass(frozen=True)
+class Doubt:
+    """An inertia that fits no body: which law it breaks (E105 or E106), and in words how."""
+
+    body: RigidBody
+    code: str
+    what: str
+
+    @property
+    def negative(self) -> bool:
+        """Whether the body's own energy can be negative."""
+        return self.code == "E106"
+
+
+def check_body(numbers: Numbers, body: Any) -> None:
+    """Refuse a mass that is not above 0, and numbers that are not finite, as far as values are known."""
+    mass = numbers.of(body.mass)
+    shown = f"mass {body.mass} = {mass:g} kg" if mass is not None and body.mass.free_symbols else f"mass = {mass} kg"
+
+    def error(what: str, fix: str, code: str) -> ModelError:
+        return ModelError(what, element=body.title, place=body.place, fix=fix, code=code)
+
+    if mass is not None:
+        if not math.isfinite(mass):
+            raise error(f"its mass must be a finite positive number (got {mass})", "give it a mass above 0", "E101")
+        if mass < 0:
+            raise error(f"its {shown} is negative", "give it a mass above 0", "E102")
+        if mass == 0 and (not isinstance(body, RigidBody) or numbers.moves(body)):
+            raise error(f"its {shown} is zero", "give it a mass above 0, or leave it out", "E103")
+    if isinstance(body, RigidBody):
+        entries = [numbers.of(x) for x in body.inertia]
+        if not all(math.isfinite(x) for x in entries if x is not None):
+            raise error("its inertia must be made of finite numbers", "give finite moments of inertia", "E101")
+
+
+def doubt(numbers: Numbers, body: Any) -> Doubt | None:
+    """Return why an inertia fits no body, or None: where it may fit one, as far as values are known."""
+    if not isinstance(body, RigidBody):
+        return None
+    entries = [numbers.of(x) for x in body.inertia]
+    size = body.inertia.rows
+    if any(x is None for x in entries):
+        known = [x for x in entries[:: size + 1] if x is not None and x < 0]
+        return Doubt(body, "E106", f"its moment of inertia {known[0]:.6g} kg m² is negative") if known else None
+    if size == 1:
+        J = cast("float", entries[0])
+        return Doubt(body, "E106", f"its inertia {J:.6g} kg m² is negative") if J < 0 else None
+    import numpy as np  # here, as describing a system waits for SymPy alone
+
+    moments = np.linalg.eigvalsh(np.array(entries, float).reshape(size, size)).tolist()
+    listed = ", ".join(f"{x:.6g}" for x in moments)
+    slack = RELATIVE_TOLERANCE * max(abs(moments[2]), 1e-300)
+    if moments[0] < -slack:
+        return Doubt(body, "E106", f"its inertia is not positive semidefinite (principal moments {listed} kg m²)")
+    if moments[2] > moments[0] + moments[1] + slack:
+        sums = f"{moments[0]:.6g} + {moments[1]:.6g} ≥ {moments[2]:.6g}"
+        return Doubt(body, "E105", f"its inertia fits no body: principal moments {listed} kg m² violate {sums}")
+    return None
