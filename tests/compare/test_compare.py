@@ -58,7 +58,7 @@ def test_the_lecture_s_example_2_relative_and_absolute() -> None:
     assert [str(r.check.what) for r in found.rows] == ["1r = B-1 + B-2", "2r = B-2"]
     assert all(c.holds and c.figure == "exact" for c in (*found.energies, *found.forces))
     text = found.to_text()
-    assert "θ₂ₐ = θ₁ + θ₂ᵣ" in text  # one letter, two angles
+    assert "θ_2a = θ₁ + θ_2r" in text  # one letter, two angles
     assert "Now, add B-1 and B-2:" in text
 
 

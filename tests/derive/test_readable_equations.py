@@ -198,6 +198,11 @@ ENERGIES = [
     (k * (sp.sqrt(x1**2 + h**2) - l0) ** 2 / 2, "k*(-l0 + sqrt(h**2 + x1**2))**2/2"),
     (sp.sqrt((x1 - x2) ** 2 + (r - h) ** 2), "sqrt((-h + r)**2 + (x1 - x2)**2)"),
     (J / 2 + L**2 * m1 / 8 + L**2 * m2 / 2, "J/2 + L**2*(m1/4 + m2)/2"),
+    # one style of fractions: ½ (J + ¼ m L²), whatever stands behind it, and never ⅛ (4 J + m L²)
+    ((J + m * L**2 / 4) * dot(x1) ** 2 / 2, "x1'**2*(J + L**2*m/4)/2"),
+    ((J + m * L**2 / 4) * (x1 + x2) ** 2 / 2, "(J + L**2*m/4)*(x1 + x2)**2/2"),
+    ((J + m * L**2 / 4) * (x1 + x2) ** 2, "(J + L**2*m/4)*(x1 + x2)**2"),
+    (m * (1 + 4 * h**2 * x**2) * dot(x) ** 2 / 2, "m*x'**2*(4*h**2*x**2 + 1)/2"),
     (sp.sqrt(m) * x1 + m * x2, "sqrt(m)*x1 + m*x2"),
     (sp.Rational(1, 2) * (x1 + x2), "x1/2 + x2/2"),
     (sp.S.Zero * x, "0"),

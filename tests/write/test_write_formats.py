@@ -116,26 +116,26 @@ def boxed(rendered: str) -> list[str]:
 
 
 def test_equations_of_the_lecture_in_their_box(derivations):
-    assert boxed(to_text(derivations["example 1"])) == ["m Lₘ² θ̈ + b L_b² θ̇ + k Lₖ² θ + m g Lₘ sin θ = τ"]
+    assert boxed(to_text(derivations["example 1"])) == ["m L_m² θ̈ + b L_b² θ̇ + k L_k² θ + m g L_m sin θ = τ"]
     assert boxed(to_text(derivations["example 3A"])) == [
         "m₁ ẍ₁ + k (x₁ − x₂) = −F  (1)",
         "m₂ ẍ₂ − k (x₁ − x₂) = F   (2)",
     ]
     assert boxed(to_text(derivations["example 3B"])) == [
-        "(m₁ + m₂) ẍ₁ + m₂ ẍ₂ᵣ = 0   (1)",
-        "m₂ ẍ₁ + m₂ ẍ₂ᵣ + k x₂ᵣ = F  (2)",
+        "(m₁ + m₂) ẍ₁ + m₂ ẍ_2r = 0    (1)",
+        "m₂ ẍ₁ + m₂ ẍ_2r + k x_2r = F  (2)",
     ]
 
 
 def test_energies_of_the_lecture(derivations):
     lines = [line.strip() for line in to_text(derivations["example 1"]).splitlines()]
-    assert "ℒ = T* − V = ½ m Lₘ² θ̇² + m g Lₘ cos θ − ½ k Lₖ² θ²" in lines
-    assert "∂ℒ/∂θ̇ = m Lₘ² θ̇" in lines
-    assert "d/dt (∂ℒ/∂θ̇) = m Lₘ² θ̈" in lines
-    assert "d/dt (∂ℒ/∂θ̇) − ∂ℒ/∂θ = m Lₘ² θ̈ + k Lₖ² θ + m g Lₘ sin θ" in lines
+    assert "ℒ = T* − V = ½ m L_m² θ̇² + m g L_m cos θ − ½ k L_k² θ²" in lines
+    assert "∂ℒ/∂θ̇ = m L_m² θ̇" in lines
+    assert "d/dt (∂ℒ/∂θ̇) = m L_m² θ̈" in lines
+    assert "d/dt (∂ℒ/∂θ̇) − ∂ℒ/∂θ = m L_m² θ̈ + k L_k² θ + m g L_m sin θ" in lines
     assert "Ξ₁ = τ − b L_b² θ̇" in lines
     lines = [line.strip() for line in to_text(derivations["example 3B"]).splitlines()]
-    assert "T* = T₁* + T₂* = ½ m₁ ẋ₁² + ½ m₂ (ẋ₁ + ẋ₂ᵣ)²" in lines
+    assert "T* = T₁* + T₂* = ½ m₁ ẋ₁² + ½ m₂ (ẋ₁ + ẋ_2r)²" in lines
     lines = [line.strip() for line in to_text(derivations["example 2"]).splitlines()]
     assert "x₃ = x₂ + L_c cos(θ₁ + θ₂)" in lines
     assert "ẋ₃ = ẋ₂ − L_c (θ̇₁ + θ̇₂) sin(θ₁ + θ₂)" in lines
@@ -192,7 +192,7 @@ def test_what_is_too_long_is_summarised_and_written_on_request(derivations):
     step = type(d.steps[2])(2, "Kinetic co-energy", text("a"), text("b"), (long,))
     changed = type(d)(**{**vars(d), "steps": (*d.steps[:2], step, *d.steps[3:])})
     assert "T* = ⟨4321 operations⟩" in to_text(changed)
-    assert "T* = ½ m Lₘ² θ̇²" in to_text(changed, full=True)
+    assert "T* = ½ m L_m² θ̇²" in to_text(changed, full=True)
     assert "4321" not in to_text(changed, full=True)
     assert to_dict(changed)["steps"][2]["items"][0]["operations"] == 4321
     page = to_html(
@@ -437,3 +437,55 @@ def test_why_is_a_reason(derivations) -> None:
         whys = {str(derivations[name].steps[number].why) for name in ("example 1", "example 2")}
         assert len(whys) == 1
         assert not re.search(r"\d", whys.pop().replace("T*", ""))
+
+
+def bar() -> lg.System:
+    """A rigid bar on two springs at the distances a and b from its centre of mass."""
+    s = lg.System("bar")
+    x, phi = s.coordinates("x phi")
+    m, J, k1, k2, a, b = s.parameters("m J k1 k2 a b")
+    s.rigid_body(m, J, at=s.origin + (0, x), frame=phi)
+    s.spring(k1, deflection=x - a * phi)
+    s.spring(k2, deflection=x + b * phi)
+    return s
+
+
+def test_factors_keep_one_order_whatever_their_letters_mean_elsewhere() -> None:
+    shown = bar().derive().to_text(width=120)
+    assert "k₂ b" in shown and "b k₂" not in shown and "b² k₂" not in shown
+    damped = bar()
+    damped.damper(damped.parameter("c"), deflection=damped["x"])
+    assert "c ẋ" in damped.derive().to_text()
+
+
+def test_the_same_factors_stand_in_the_same_order_and_squares_face_one_way() -> None:
+    s = lg.System("net")
+    x, y = s.coordinates("x y")
+    m, k1, k2, D, L0 = s.parameters("m k1 k2 D L_0")
+    at = s.origin + (x, y)
+    s.particle(m, at=at)
+    s.spring(k1, between=(s.origin, at), rest=L0)
+    s.spring(k2, between=(s.origin + (D, 0), at), rest=L0)
+    shown = s.derive().to_text(width=120)
+    assert "m ẍ + k₁ x (1 − L₀/√(x² + y²)) + k₂ (x − D) (1 − L₀/√((x − D)² + y²)) = 0" in shown
+    assert "(L₀ − √" not in shown and "½ k₂ (√((x − D)² + y²) − L₀)²" in shown
+
+
+def matrix_form(shown: str) -> str:
+    return shown.split("Matrix form")[1].split("Energy ledger")[0]
+
+
+def test_the_lower_half_of_the_mass_matrix_is_not_printed_again(derivations) -> None:
+    d = derivations["example 2"]
+    for width, once in (
+        (120, "m₃ L_c (L_c + (L_a + L_b) cos θ₂)"),
+        (80, "M₁₂ = M₂₁ = m₃ L_c (L_c + (L_a + L_b) cos θ₂)"),
+    ):
+        shown = matrix_form(to_text(d, width=width))
+        assert shown.count("(L_c + (L_a + L_b) cos θ₂)") == 1 and once in shown
+    assert "sym." in matrix_form(to_text(d, width=120)) and "    M₂₁" not in to_text(d)
+    for rendered in (to_latex(d), to_markdown(d)):
+        assert r"\mathbf{M}_{12} &= \mathbf{M}_{21} = m_{3} L_{c}" in rendered
+    diagonal = matrix_form(to_text(derivations["example 3A"]))
+    assert "sym." not in diagonal and "⎡ m₁   0  ⎤" in diagonal and "C = 0\n" in diagonal
+    assert to_dict(d)["mass_matrix"][1][0] == to_dict(d)["mass_matrix"][0][1], "data hold every entry"

@@ -118,9 +118,10 @@ class Square:
 
 @dataclass(frozen=True)
 class Matrix:
-    """A matrix or column of expressions, row by row."""
+    """A matrix or column of expressions, row by row; of a symmetric one the writer shows the upper half."""
 
     rows: tuple[tuple[Left, ...], ...]
+    symmetric: bool = False
 
     def __str__(self) -> str:
         """Read as plain text."""

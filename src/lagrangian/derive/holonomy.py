@@ -19,7 +19,9 @@ def holonomic(context: Context) -> Step:
     """
     model = context.model
     n = len(model.coordinates)
-    listed: list[str | Left] = [p for c in context.symbols for p in (c, ", ")][:-1]
+    listed: list[str | Left] = []
+    for c in context.symbols:
+        listed += [", ", c] if listed else [c]
     if n > 1:
         listed[-2] = " and "
     items: list[Item] = [

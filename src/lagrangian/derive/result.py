@@ -79,12 +79,13 @@ def equations(context: Context, sides: tuple[LeftSide, ...], found: tuple[Contri
 
 @dataclass(frozen=True, eq=False)
 class Matrices:
-    """M ξ̈ + C ξ̇ + G = Ξ."""
+    """M ξ̈ + C ξ̇ + G = Ξ; ``rest`` holds the terms of G in the order of the equations."""
 
     M: sp.ImmutableMatrix
     C: sp.ImmutableMatrix
     G: sp.ImmutableMatrix
     Xi: sp.ImmutableMatrix
+    rest: tuple[Terms, ...]
 
 
 def matrices(context: Context, sides: tuple[LeftSide, ...], xi_of: dict[sp.Expr, sp.Expr]) -> Matrices:
@@ -110,6 +111,7 @@ def matrices(context: Context, sides: tuple[LeftSide, ...], xi_of: dict[sp.Expr,
         sp.ImmutableMatrix(n, n, lambda i, j: C[i][j].expr()),
         sp.ImmutableMatrix(n, 1, lambda i, _: G[i].expr()),
         sp.ImmutableMatrix(n, 1, list(xi_of.values())),
+        tuple(Terms(tuple(t.expr for t in context.terms(form))) for form in G),
     )
 
 
@@ -142,15 +144,22 @@ def closing(context: Context, eqs: Equations, mats: Matrices) -> tuple[Item, ...
     q, dq, ddq = Name("q"), Name("q", "", 1), Name("q", "", 2)
     items.append(formula(Terms((Product((M, ddq)), Product((C, dq)), G)), Xi))
     items.append(formula(q, Matrix(tuple((c.symbol,) for c in context.model.coordinates))))
-    for name, matrix in ((M, mats.M), (C, mats.C), (G, mats.G), (Xi, mats.Xi)):
-        items.append(formula(name, _shown(matrix)))
+    items.append(formula(M, _shown(mats.M, symmetric=True)))
+    items.append(formula(C, _shown(mats.C)))
+    items.append(formula(G, _shown(mats.G, mats.rest)))
+    items.append(formula(Xi, _shown(mats.Xi)))
     return tuple(items)
 
 
-def _shown(matrix: sp.ImmutableMatrix) -> Left:
-    rows = tuple(tuple(cast("sp.Expr", matrix[i, j]) for j in range(matrix.cols)) for i in range(matrix.rows))
-    operations = sum(int(sp.count_ops(x)) for row in rows for x in row)
-    return Matrix(rows) if operations <= READABLE else Elided(Matrix(rows), operations)
+def _shown(matrix: sp.ImmutableMatrix, column: tuple[Left, ...] = (), *, symmetric: bool = False) -> Left:
+    """A matrix for the page, or its column as it is to be written; one of nothing but zeros is 0."""
+    if matrix.is_zero_matrix:
+        return sp.S.Zero
+    entries = [[cast("sp.Expr", matrix[i, j]) for j in range(matrix.cols)] for i in range(matrix.rows)]
+    rows: tuple[tuple[Left, ...], ...] = tuple((x,) for x in column) if column else tuple(map(tuple, entries))
+    operations = sum(int(sp.count_ops(x)) for row in entries for x in row)
+    whole = Matrix(rows, symmetric)
+    return whole if operations <= READABLE else Elided(whole, operations)
 
 
 def ledger(model: Model, context: Context) -> tuple[LedgerRow, ...]:

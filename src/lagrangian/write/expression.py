@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from fractions import Fraction
 from typing import Any
 
@@ -55,7 +55,7 @@ class Expressions:
     def __init__(self, model: Model) -> None:
         moving = [c.symbol for c in model.coordinates] + [d.symbol for d in model.definitions if d.moving]
         self.letters = letters(model.symbols)
-        self._order = Order(moving, [i.symbol for i in model.inputs])
+        self._order = Order(moving, [i.symbol for i in model.inputs], _coefficients(model))
 
     def letter(self, name: str) -> Letter:
         """The symbol of a name of the system, or of any other name."""
@@ -117,14 +117,17 @@ class Expressions:
 
     def _sorted(self, expr: sp.Add) -> list[sp.Expr]:
         """The terms in textbook order, a positive one first where there is one."""
-        functions = any(isinstance(f, sp.Function) and not isinstance(f, AppliedUndef) for f in expr.atoms(sp.Function))
-        terms = sorted(expr.args, key=lambda t: self._order.term(t, functions))
+        terms = self._sorted_terms(expr)
         if _negative(terms[0]):
             first = next((t for t in terms if not _negative(t)), None)
             if first is not None:
                 terms.remove(first)
                 terms.insert(0, first)
         return terms
+
+    def _sorted_terms(self, expr: sp.Add) -> list[sp.Expr]:
+        functions = any(isinstance(f, sp.Function) and not isinstance(f, AppliedUndef) for f in expr.atoms(sp.Function))
+        return sorted(expr.args, key=lambda t: self._order.term(t, functions))
 
     # -- products ---------------------------------------------------------------------------------------------------
 
@@ -177,7 +180,15 @@ class Expressions:
             name = _FUNCTION_NAMES.get(base.func.__name__, base.func.__name__)
             if name in FUNCTIONS and not isinstance(base, sp.exp):
                 return self._function(base, self(exponent))
+        if isinstance(base, sp.Add) and exponent.is_Integer and exponent.is_even:
+            base = self._facing(base)
         return Power(self._base(base), self(exponent))
+
+    def _facing(self, base: sp.Add) -> sp.Expr:
+        """The sum under an even power with the sign that leaves what moves positive: (x − L₀)², not (L₀ − x)²."""
+        terms = self._sorted_terms(base)
+        first = next((t for t in terms if t.has(AppliedUndef)), terms[0])
+        return sp.Add(*[-t for t in terms]) if _negative(first) else base
 
     def _base(self, base: sp.Expr) -> Math:
         laid = self(base)
@@ -224,6 +235,14 @@ class Expressions:
 
     def _piecewise(self, expr: Any) -> Math:
         return Cases(tuple((self(value), None if cond == sp.true else self(cond)) for value, cond in expr.args))
+
+
+def _coefficients(model: Model) -> Iterator[sp.Basic]:
+    """The symbols in the stiffnesses of springs, in the coefficients of dampers and in given dissipations."""
+    for element in model.elements:
+        for expr in (getattr(element, "k", None), getattr(element, "b", None), element.dissipation(model)):
+            if isinstance(expr, sp.Basic):
+                yield from expr.free_symbols
 
 
 def _negative(expr: sp.Expr) -> bool:

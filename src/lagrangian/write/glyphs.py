@@ -28,13 +28,9 @@ from lagrangian.write.math import (
     tokens,
 )
 
-_SUBSCRIPTS = dict(zip("0123456789aehijklmnoprstuvx", "₀₁₂₃₄₅₆₇₈₉ₐₑₕᵢⱼₖₗₘₙₒₚᵣₛₜᵤᵥₓ", strict=True)) | {
-    "beta": "ᵦ",
-    "gamma": "ᵧ",
-    "rho": "ᵨ",
-    "phi": "ᵩ",
-    "chi": "ᵪ",
-}
+_SUBSCRIPTS = dict(zip("0123456789", "₀₁₂₃₄₅₆₇₈₉", strict=True))
+_RUNNING = {"i": "ᵢ", "j": "ⱼ"}
+"""Indices that run: ξᵢ is any of ξ₁, ξ₂, …"""
 _SUPERSCRIPTS = dict(zip("0123456789−+n", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺ⁿ", strict=True))
 _DOTS = ("", "\u0307", "\u0308", "\u20db")
 _VULGAR = {(1, 2): "½", (1, 3): "⅓", (2, 3): "⅔", (1, 4): "¼", (3, 4): "¾", (1, 5): "⅕", (1, 6): "⅙", (1, 8): "⅛"}
@@ -130,7 +126,7 @@ def _dotted(name: str, dots: int) -> str:
 def _part(part: str) -> str:
     """A part of a subscript after an underscore: φ₁ for phi1."""
     if found := numbered(part):
-        return GREEK[found[0]] + "".join(_SUBSCRIPTS[c] for c in found[1])
+        return GREEK.get(found[0], found[0]) + "".join(_SUBSCRIPTS[c] for c in found[1])
     return GREEK.get(part, part)
 
 
@@ -152,14 +148,12 @@ def _bold(c: str) -> str:
 
 
 def subscript(part: str) -> str | None:
-    """Return the part in subscript characters, or None where Unicode lacks one of its letters, and for words.
+    """Return the part in subscript characters where it is a number or a running index, else None.
 
-    Words are not set small even where Unicode could: V_suspension stands beside V_tyre, which it cannot.
+    Letters are not set small even where Unicode could: it has an ₐ for L_a, but nothing for the L_b beside it.
     """
-    if part[:2].isalpha() and len(part) > 1 and part not in _SUBSCRIPTS:
-        return None
-    if part in _SUBSCRIPTS or part in GREEK:
-        return _SUBSCRIPTS.get(part)
+    if part in _RUNNING:
+        return _RUNNING[part]
     return "".join(_SUBSCRIPTS[c] for c in part) if part and all(c in _SUBSCRIPTS for c in part) else None
 
 

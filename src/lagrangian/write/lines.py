@@ -7,23 +7,39 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from lagrangian.write.breaking import Row, break_lines
 from lagrangian.write.glyphs import columns, token, unicode
-from lagrangian.write.math import Grid, Letter, Math, Token, Value, break_lines, equality, tokens
+from lagrangian.write.math import Grid, Letter, Math, Number, Ratio, Root, Token, Value, Word, equality, tokens
 
 
 @dataclass(frozen=True)
 class Line:
-    """A line of a formula: what stands left of the alignment, the equals sign or not, what follows, set in or not."""
+    """A line of a formula: what stands left of the alignment, the equals sign or not, what follows, how far set in."""
 
     left: tuple[Token, ...]
     equals: bool
     right: tuple[Token, ...]
-    indented: bool = False
+    steps: int = 0
 
 
 def measure(piece: Token) -> int:
-    """Columns of a token."""
+    """Columns of a token in a line of text."""
     return columns(token(piece))
+
+
+def set_columns(piece: Token) -> int:
+    """Columns of a token where fractions are set, numerator over denominator."""
+    match piece.math:
+        case Ratio(over, under) if piece.role == "leaf":
+            return max(_set(over), _set(under))
+        case Root(of) if piece.role == "leaf":
+            return 1 + _set(of)
+        case _:
+            return measure(piece)
+
+
+def _set(math: Math) -> int:
+    return sum(set_columns(t) for t in tokens(math))
 
 
 def chain(sides: tuple[Math, ...], width: int, *, aligned: bool = False) -> list[Line]:
@@ -31,28 +47,33 @@ def chain(sides: tuple[Math, ...], width: int, *, aligned: bool = False) -> list
 
     An ``aligned`` one has its equals sign at the alignment in any case, as one of several chains.
     """
-    whole = equality(sides)
-    if columns(unicode(whole)) <= width and not aligned:
-        return [Line((), False, tuple(tokens(whole)))]
     first, *rest = sides
+    if sum(_set(side) + 3 for side in sides) - 3 <= width:
+        if aligned and rest:
+            return [Line(tuple(tokens(first)), True, tuple(tokens(equality(tuple(rest)))))]
+        return [Line((), False, tuple(tokens(equality(sides))))]
     left = tuple(tokens(first))
-    span = columns(unicode(first))
+    span = _set(first)
     lines: list[Line] = []
     if rest and span <= width // 3:
         for i, side in enumerate(rest):
-            for k, cut in enumerate(break_lines(list(tokens(side)), width - span - 3, measure)):
-                lines.append(Line(left if i == k == 0 else (), k == 0, tuple(cut), k > 0))
+            for k, row in enumerate(_rows(side, width - span - 3)):
+                lines.append(Line(left if i == k == 0 else (), k == 0, tuple(row.tokens), row.depth + (k > 0)))
         return lines
-    for k, cut in enumerate(break_lines(list(left), width, measure)):
-        lines.append(Line((), False, tuple(cut), k > 0))
+    for k, row in enumerate(_rows(first, width)):
+        lines.append(Line((), False, tuple(row.tokens), row.depth + (k > 0)))
     for side in rest:
         last = lines[-1].right
-        if sum(measure(t) for t in (*last, *tokens(side))) + 6 <= width:
-            lines[-1] = Line((), False, (*last, Token("sign", text="="), *tokens(side)), lines[-1].indented)
+        if sum(set_columns(t) for t in (*last, *tokens(side))) + 6 <= width:
+            lines[-1] = Line((), False, (*last, Token("sign", text="="), *tokens(side)), lines[-1].steps)
             continue
-        for k, cut in enumerate(break_lines(list(tokens(side)), width - 3, measure)):
-            lines.append(Line((), k == 0, tuple(cut), True))
+        for k, row in enumerate(_rows(side, width - 3)):
+            lines.append(Line((), k == 0, tuple(row.tokens), 1 + row.depth + (k > 0)))
     return lines
+
+
+def _rows(side: Math, width: int) -> list[Row]:
+    return break_lines(list(tokens(side)), width, set_columns, flat=False)
 
 
 def lines(sides: tuple[Math, ...], width: int) -> list[Line]:
@@ -69,7 +90,14 @@ def chains(sides: tuple[Math, ...], width: int) -> list[tuple[Math, ...]]:
         return [sides]
     made: list[tuple[Math, ...]] = []
     for side in sides[1:]:
-        made += [(entry(sides[0], i), x) for i, x in entries(side)] if isinstance(side, Grid) else [(sides[0], side)]
+        if not isinstance(side, Grid):
+            made.append((sides[0], side))
+            continue
+        listed = entries(side)
+        zero = Number("0")
+        rest = sum(x == zero for _, x in listed) > 2
+        made += [(*(entry(sides[0], i) for i in at), x) for at, x in listed if not rest or x != zero]
+        made += [(Word("all other entries are 0"),)] if rest else []
     return made
 
 
@@ -81,13 +109,20 @@ def grid_columns(grid: Grid) -> int:
     return sum(wide) + 3 * (len(wide) - 1) + 4
 
 
-def entries(grid: Grid) -> list[tuple[str, Math]]:
-    """The entries of a matrix with their indices: 12 for row 1, column 2; a column's with one index."""
-    many = len(grid.rows) > 9 or any(len(row) > 9 for row in grid.rows)
-    made: list[tuple[str, Math]] = []
+def entries(grid: Grid) -> list[tuple[tuple[str, ...], Math]]:
+    """The entries of a matrix with their indices: 12 for row 1, column 2; a column's with one index.
+
+    Two entries of a symmetric matrix that are the same are one, with both indices: 12 and 21.
+    """
+    comma = "," if len(grid.rows) > 9 or any(len(row) > 9 for row in grid.rows) else ""
+    made: list[tuple[tuple[str, ...], Math]] = []
     for i, row in enumerate(grid.rows, 1):
         for j, x in enumerate(row, 1):
-            made.append((f"{i}{',' if many else ''}{j}" if len(row) > 1 else str(i), x))
+            at = (f"{i}{comma}{j}",) if len(row) > 1 else (str(i),)
+            if grid.symmetric and i < j:
+                at += (f"{j}{comma}{i}",)
+            if not (grid.symmetric and i > j):
+                made.append((at, x))
     return made
 
 

@@ -1,14 +1,13 @@
 """Mathematics as it stands on a page, before it is text, LaTeX or MathML.
 
 Every format renders the same tree, so that order, signs, parentheses and line breaks are decided once. A formula is cut
-into lines where its *tokens* allow it: before + and −, best outside of parentheses, and between factors as a last
-resort.
+into lines where its *tokens* allow it, see `breaking`.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -73,11 +72,11 @@ class Letter:
     apart: bool = False
 
 
-_NUMBERED = re.compile(rf"({'|'.join(sorted(GREEK, key=len, reverse=True))})(\d+)\Z")
+_NUMBERED = re.compile(rf"({'|'.join(sorted(GREEK, key=len, reverse=True))}|[A-Za-z])([0-9]+)\Z")
 
 
 def numbered(part: str) -> tuple[str, str] | None:
-    """Return the Greek letter and the number of a subscript such as ``phi1``, or None."""
+    """Return the letter, Greek ones spelled, and the number of a subscript such as ``phi1`` or ``k2``, or None."""
     found = _NUMBERED.match(part)
     return (found.group(1), found.group(2)) if found else None
 
@@ -177,9 +176,10 @@ class Relation:
 
 @dataclass(frozen=True)
 class Grid:
-    """A matrix or column."""
+    """A matrix or column; where it is ``symmetric`` the cells under the diagonal hold no entries."""
 
     rows: tuple[tuple[Math, ...], ...]
+    symmetric: bool = False
 
 
 @dataclass(frozen=True)
@@ -218,14 +218,20 @@ Math: TypeAlias = (
 )
 
 
+LOOSE = 100
+"""The level of a line break in a product, before a function or between plain factors."""
+GLUED = 200
+"""The level of a line break between a factor and its parenthesis or its acceleration."""
+
+
 @dataclass(frozen=True)
 class Token:
     """A piece of a formula that is never cut.
 
     ``role``: "leaf" (``math`` is rendered), "plus", "minus" (between terms), "negative" (before the first term), "gap"
     (between factors), "open", "close" (``text`` is the fence), "exponent" (``math`` is raised), "sign" (``text`` is a
-    relation). ``level`` says how bad a line break before it is (0 best), None that there cannot be one. ``tall`` fences
-    hold a fraction.
+    relation). ``level`` says how bad a line break before it is (0 best), None that there cannot be one; ``depth``
+    counts the parentheses around it. ``tall`` fences hold a fraction.
     """
 
     role: str
@@ -233,6 +239,7 @@ class Token:
     text: str = ""
     level: int | None = None
     tall: bool = False
+    depth: int = 0
 
 
 def tokens(math: Math, depth: int = 0) -> Iterator[Token]:
@@ -240,17 +247,19 @@ def tokens(math: Math, depth: int = 0) -> Iterator[Token]:
     if isinstance(math, Sum):
         for i, (subtracted, term) in enumerate(math.terms):
             if i:
-                yield Token("minus" if subtracted else "plus", level=2 * depth)
+                yield Token("minus" if subtracted else "plus", level=1 + depth, depth=depth)
             elif subtracted:
                 yield Token("negative")
             yield from tokens(fenced(term, Sum), depth)
         if not math.terms:
             yield Token("leaf", Number("0"))
     elif isinstance(math, Times):
-        for i in range(len(math.factors)):
+        factors = [_in_product(math.factors, i) for i in range(len(math.factors))]
+        for i, factor in enumerate(factors):
             if i:
-                yield Token("gap", level=2 * depth + 1)
-            yield from tokens(_in_product(math.factors, i), depth)
+                loose = _stands_apart(factors[i - 1], factor)
+                yield Token("gap", level=(LOOSE if loose else GLUED) + depth, depth=depth)
+            yield from tokens(factor, depth)
     elif isinstance(math, Fence):
         tall = is_tall(math.of)
         yield Token("open", text=math.left, tall=tall)
@@ -262,12 +271,32 @@ def tokens(math: Math, depth: int = 0) -> Iterator[Token]:
     elif isinstance(math, Relation):
         for i, side in enumerate(math.sides):
             if i:
-                yield Token("sign", text=math.sign, level=None if math.sign == "," else 0)
+                yield Token("sign", text=math.sign, level=None if math.sign == "," else 0, depth=depth)
             yield from tokens(side, depth)
     elif isinstance(math, Tagged):
         yield from tokens(math.of, depth)
     else:
-        yield Token("leaf", math)
+        yield Token("leaf", math, depth=depth)
+
+
+def _stands_apart(before: Math, factor: Math) -> bool:
+    """Whether a product may be cut before a factor: a function, or a plain factor after a plain one."""
+    if isinstance(factor, Apply):
+        return before not in _SIGNS
+    return not any(isinstance(x, Fence) or _moves(x) or x in _SIGNS or _fences(x) for x in (before, factor))
+
+
+_SIGNS = (Word("·"), Ratio(Word("d"), Word("dt")))
+
+
+def _moves(math: Math) -> bool:
+    """Whether it is a rate or an acceleration, or its power."""
+    return (isinstance(math, Letter) and math.dots > 0) or (isinstance(math, Power) and _moves(math.base))
+
+
+def _fences(math: Math) -> bool:
+    """Whether it is a power of what stands in parentheses."""
+    return isinstance(math, Power) and isinstance(fenced(math.base, _Loose), Fence)
 
 
 _Loose = (Sum, Times, Ratio, Power, Mark, Relation, Cases)
@@ -351,57 +380,3 @@ def is_tall(math: Math | None) -> bool:
             return is_tall(math.of)
         case _:
             return False
-
-
-def _loosened(pieces: Sequence[Token], width: int, measure: Callable[[Token], int]) -> list[Token]:
-    """Write a fraction that is longer than a line as 1/b · a, so that a can be cut, and b if too long."""
-    made: list[Token] = []
-    for piece in pieces:
-        ratio = piece.math
-        if not (piece.role == "leaf" and isinstance(ratio, Ratio) and measure(piece) > width - 4):
-            made.append(piece)
-            continue
-        under = Token("leaf", Ratio(Number("1"), ratio.under))
-        cut = [under]
-        if measure(under) > width - 4:
-            cut = [Token("leaf", Word("1/")), *tokens(Fence(ratio.under), 1)]
-        if ratio.over != Number("1"):
-            over = ratio.over.factors if isinstance(ratio.over, Times) else (ratio.over,)
-            cut += [Token("gap", level=3), *tokens(Times((Word("·"), *over)), 1)]
-        made += _loosened(cut, width, measure) if len(cut) > 1 else cut
-    return made
-
-
-def break_lines(
-    pieces: Sequence[Token], width: int, measure: Callable[[Token], int], *, first: int | None = None
-) -> list[list[Token]]:
-    """Cut tokens into lines of at most ``width`` (the first one ``first``) where that is possible.
-
-    Among the breaks that fill a line to two fifths, the least bad one is taken, and of equally bad ones the last.
-    """
-    pieces = _loosened(pieces, width, measure)
-    lines: list[list[Token]] = []
-    start = 0
-    room = width if first is None else first
-    while start < len(pieces):
-        used, end = 0, start
-        breaks: list[tuple[int, int, int]] = []
-        while end < len(pieces):
-            level = pieces[end].level
-            if end > start and level is not None and (used <= room or not breaks):  # what is too wide stands alone
-                breaks.append((end, used, level))
-            used += measure(pieces[end])
-            end += 1
-            if used > room and breaks:
-                break
-        if used <= room or not breaks:
-            lines.append(list(pieces[start:]))
-            break
-        filled = [b for b in breaks if b[1] >= 0.4 * room] or breaks[-1:]
-        best = min(level for _, _, level in filled)
-        cut = max(at for at, _, level in filled if level == best)
-        lines.append(list(pieces[start:cut]))
-        start, room = cut, width
-        if pieces[start].role == "gap":
-            start += 1
-    return lines

@@ -58,7 +58,7 @@ def wide(sign: str, term: Math, width: int) -> str:
     if len(cut) == 1:
         return ""
     body = "".join(
-        f"<mtr><mtd>{'' if i else sign}</mtd><mtd>{_INDENT if i else ''}{row(line.right)}</mtd></mtr>"
+        f"<mtr><mtd>{'' if i else sign}</mtd><mtd>{_INDENT * line.steps}{row(line.right)}</mtd></mtr>"
         for i, line in enumerate(cut)
     )
     return f'<math displaystyle="true"><mtable displaystyle="true">{body}</mtable></math>'
@@ -66,8 +66,7 @@ def wide(sign: str, term: Math, width: int) -> str:
 
 def _line(line: Line) -> str:
     equals = "<mo>=</mo>" if line.equals else ""
-    indent = _INDENT if line.indented else ""
-    right = f"<mtd>{indent}{equals}{row(line.right)}</mtd>"
+    right = f"<mtd>{_INDENT * line.steps}{equals}{row(line.right)}</mtd>"
     return f"<mtr><mtd>{row(line.left)}</mtd>{right}</mtr>"
 
 
@@ -117,7 +116,7 @@ def _leaf(math: Math) -> str:
             return f"<mn>{escape(text)}</mn>"
         case Word("d" | "t" | "dt" as text):
             return "".join(f"<mi>{c}</mi>" for c in text)
-        case Word("·" | "∂" as text):
+        case Word("·" | "∂" | "√" | "δ" as text):
             return f"<mo>{text}</mo>"
         case Word(text):
             return f"<mtext>{escape(text)}</mtext>"
@@ -206,7 +205,7 @@ def _part(part: str) -> str:
     if part.isdigit():
         return f"<mn>{part}</mn>"
     if found := numbered(part):
-        return f"<msub><mi>{GREEK[found[0]]}</mi><mn>{found[1]}</mn></msub>"
+        return f"<msub><mi>{GREEK.get(found[0], found[0])}</mi><mn>{found[1]}</mn></msub>"
     if part in GREEK or len(part) == 1:
         return f"<mi>{escape(GREEK.get(part, part))}</mi>"
     digits = len(part) - len(part.lstrip("0123456789"))

@@ -1,4 +1,4 @@
-"""How a symbol's name is written: theta1 → θ₁, L_a → Lₐ, x2r → x₂ᵣ.
+"""How a symbol's name is written: theta1 → θ₁, L_a → L_a with a subscript, x2r → x_2r.
 
 A Greek letter may be spelled; what follows a first letter with a digit, or an underscore, is its subscript. Any other
 name of several letters is a word and stays one. Two names of one system never look the same.

@@ -1,7 +1,8 @@
 """The order of a textbook: m g L sin θ, m₁ l₁ l₂ θ̈₂ cos(θ₁ − θ₂), (m₁ + m₂) ẍ₁, k (x₁ − x₂).
 
-Factors: number, masses, stiffness, damping and inputs, g, other parameters, sums, coordinates, rates, accelerations,
-functions. Terms: accelerations, rates, the rest; among equals by coordinate as declared, then by name as people count.
+Factors: number, masses, stiffness, forces, damping, g, other parameters, sums, coordinates, rates, accelerations,
+functions. A letter b or c is damping where a damper or a spring of the system has it, else a parameter as any other.
+Terms: accelerations, rates, the rest; among equals by coordinate as declared, then by name as people count.
 """
 
 from __future__ import annotations
@@ -15,16 +16,23 @@ from sympy.core.function import AppliedUndef
 from lagrangian.write.names import natural
 
 _MASS, _STIFF, _GRAVITY, _OTHER, _SUM, _PLACE, _RATE, _ACCELERATION, _FUNCTION = range(1, 10)
+_LETTERS = {"k": 0, "f": 1, "b": 2, "c": 2}
+"""The order of stiffnesses, forces and damping coefficients among themselves."""
 _TRIGONOMETRIC = {"sin": 0, "cos": 1, "tan": 2}
 
 
 class Order:
     """Sort keys for the factors and terms of one system's expressions."""
 
-    def __init__(self, moving: Iterable[sp.Expr], inputs: Iterable[sp.Expr] = ()) -> None:
-        """``moving``: the coordinates as declared, then the definitions that move; ``inputs``: signals from outside."""
+    def __init__(
+        self, moving: Iterable[sp.Expr], inputs: Iterable[sp.Expr] = (), coefficients: Iterable[sp.Basic] = ()
+    ) -> None:
+        """``moving``: the coordinates as declared, then the definitions that move; ``inputs``: signals from outside;
+        ``coefficients``: the symbols in stiffnesses and damping coefficients.
+        """
         self._index: dict[sp.Basic, int] = {symbol: i for i, symbol in enumerate(moving)}
         self._inputs = frozenset(inputs)
+        self._coefficients = frozenset(coefficients)
         self._names: dict[sp.Expr, tuple[Any, ...]] = {}
         self._factors: dict[sp.Expr, tuple[Any, ...]] = {}
 
@@ -37,7 +45,7 @@ class Order:
     def _factor(self, factor: sp.Expr) -> tuple[Any, ...]:
         base, exponent = factor.as_base_exp() if isinstance(factor, sp.Pow) else (factor, sp.S.One)
         if isinstance(base, sp.Symbol):
-            return (_initial(base.name), 0, natural(base.name))
+            return (self._class(base), _LETTERS.get(base.name[:1].lower(), 3), natural(base.name))
         if isinstance(base, (AppliedUndef, sp.Derivative)):
             return self._moving(base)
         if isinstance(base, sp.Add):
@@ -50,7 +58,7 @@ class Order:
     def _moving(self, base: Any) -> tuple[Any, ...]:
         symbol = base.expr if isinstance(base, sp.Derivative) else base
         if symbol in self._inputs:
-            return (_STIFF, 1, natural(str(symbol.func)))
+            return (_STIFF, _LETTERS["f"], natural(str(symbol.func)))
         rank = _PLACE + (min(base.derivative_count, 2) if isinstance(base, sp.Derivative) else 0)
         return (rank, 0, self._index.get(symbol, len(self._index)), natural(str(getattr(symbol, "func", symbol))))
 
@@ -62,10 +70,18 @@ class Order:
             return (_PLACE + min(count, 2), 1, names)
         if base.has(sp.sin, sp.cos, sp.tan):
             return (_SUM, 1, names)
+        if any(not p.exp.is_Integer or p.exp.is_negative for p in base.atoms(sp.Pow) if p.atoms(AppliedUndef)):
+            return (_PLACE, 3, names)
         if base.atoms(AppliedUndef) - self._inputs:
             return (_PLACE, 1, names)
         ranks = {_initial(s.name) for s in base.free_symbols if isinstance(s, sp.Symbol)}
         return (_MASS if ranks == {_MASS} else _SUM, 2, names)
+
+    def _class(self, symbol: sp.Symbol) -> int:
+        """The class of a parameter: of a letter for damping by what it is in the system."""
+        if symbol.name[:1] in ("b", "c") and symbol not in self._coefficients:
+            return _OTHER
+        return _initial(symbol.name)
 
     def names(self, expr: sp.Expr) -> tuple[Any, ...]:
         """The names in an expression as a key, coordinates by their index."""

@@ -53,6 +53,7 @@ from lagrangian.write.math import (
     Word,
     equality,
     fenced,
+    numbered,
     product,
 )
 
@@ -149,7 +150,10 @@ class Quantities:
             return ()
         if index.isidentifier():
             made = self.expressions.letter(index)
-            return (made.base, *made.sub) if not made.literal else (index,)
+            whole = made.base + "".join(made.sub)
+            if made.literal:
+                return (index,)
+            return (whole,) if numbered(whole) else (made.base, *made.sub)
         return (index,)
 
     def name(self, name: Name) -> Math:
@@ -219,8 +223,10 @@ class Quantities:
                 return self._product(factors)
             case Square(coefficient, of):
                 return self._square(coefficient, of)
-            case Matrix(rows):
-                return Grid(tuple(tuple(self(x) for x in row) for row in rows))
+            case Matrix(rows, symmetric):
+                laid = tuple(tuple(self(x) for x in row) for row in rows)
+                diagonal = all(x == Number("0") for i, row in enumerate(laid) for x in row[i + 1 :])
+                return _upper(laid) if symmetric and not diagonal else Grid(laid)
             case Elided(expr, operations, terms):
                 if not self.full:
                     return Word(f"⟨{operations} operations⟩")
@@ -282,6 +288,13 @@ class Quantities:
             else:
                 made.append(self(part))
         return tuple(made)
+
+
+def _upper(rows: tuple[tuple[Math, ...], ...]) -> Grid:
+    """A symmetric matrix by its upper half, with "sym." in the lower corner."""
+    last = len(rows) - 1
+    corner = [[Word("sym." if (i, j) == (last, 0) else "") for j in range(i)] for i in range(len(rows))]
+    return Grid(tuple((*corner[i], *row[i:]) for i, row in enumerate(rows)), symmetric=True)
 
 
 _LETTERS = re.compile(r"T\*|Ξᵢ|ξᵢ|Ξ|ξ(?!̇)|(?<![\w*'’])[VL](?![\w*'’(])")

@@ -45,7 +45,7 @@ _DOTS = ("", r"\dot", r"\ddot", r"\dddot")
 _NUMBERS = {"π": r"\pi", "∞": r"\infty", "e": r"\mathrm{e}", "i": r"\mathrm{i}", "undefined": r"\text{undefined}"}
 _RELATIONS = {"=": "=", "<": "<", ">": ">", "≤": r"\le", "≥": r"\ge", "≠": r"\ne"}
 _MARKS = {"∂": r"\partial ", "d": "d", "δ": r"\delta "}
-_WORDS = {"d": "d", "t": "t", "dt": "dt", "·": r"\cdot", "∂": r"\partial"}
+_WORDS = {"d": "d", "t": "t", "dt": "dt", "·": r"\cdot", "∂": r"\partial", "δ": r"\delta", "√": r"\surd"}
 _KNOWN = {"sin", "cos", "tan", "sinh", "cosh", "tanh", "arcsin", "arccos", "arctan", "ln", "exp", "min", "max"}
 _COMMAND = re.compile(r"\\[A-Za-z]+\Z")
 
@@ -81,7 +81,7 @@ class Tex:
             case "exponent":
                 return f"^{{{self.latex(piece.math)}}}"  # type: ignore[arg-type]
             case "sign":
-                return ", " if piece.text == "," else f" {_RELATIONS[piece.text]} "
+                return ", " if piece.text == "," else f" {_RELATIONS.get(piece.text, piece.text)} "
             case "open":
                 bar = r"\lvert " if piece.text == "|" else piece.text
                 return (r"\Bigl" if piece.tall else "") + bar
@@ -98,9 +98,9 @@ class Tex:
             case Number(text):
                 return _NUMBERS.get(text, text)
             case Word(text):
-                if text in _WORDS:
-                    return _WORDS[text]
-                return rf"\text{{{self.words(text)}}}"
+                if text in _WORDS or text in _KNOWN:
+                    return _WORDS.get(text, rf"\{text}")
+                return rf"\text{{{self.words(text)}}}" if text else ""
             case Ratio(Number(over), Number(under)):
                 return rf"\tfrac{{{over}}}{{{under}}}"
             case Ratio(over, under):

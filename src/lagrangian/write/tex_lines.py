@@ -18,9 +18,12 @@ def rows(tex: Tex, sides: tuple[Math, ...], width: int = WIDTH) -> list[str]:
 def _row(tex: Tex, line: Line) -> str:
     right = tex.join(line.right)
     if line.equals:
-        indent = r"\quad " if line.indented else ""
-        return f"{tex.join(line.left)} &{indent}= {right}".strip()
-    return rf"&\qquad {{}} {right}" if line.indented else f"& {right}"
+        return f"{tex.join(line.left)} &{_indent(line.steps)}= {right}".strip()
+    return rf"& \quad {_indent(line.steps)}{{}} {right}" if line.steps else f"& {right}"
+
+
+def _indent(steps: int) -> str:
+    return r"\quad " * steps
 
 
 def displayed(tex: Tex, sides: tuple[Math, ...], width: int = WIDTH) -> str:
@@ -44,4 +47,4 @@ def boxed(tex: Tex, formulas: list[tuple[tuple[Math, ...], int | None]], width: 
 
 def _flush(tex: Tex, line: Line) -> str:
     inner = tex.join((*line.left,)) + (" = " if line.equals else "") + tex.join(line.right)
-    return (r"&\quad {} " if line.indented else "& ") + inner
+    return (rf"& {_indent(line.steps)}{{}} " if line.steps else "& ") + inner

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 from lagrangian.derive import Derivation
 from lagrangian.errors import ModelError
+from lagrangian.write.breaking import STEP, break_lines
 from lagrangian.write.document import (
     Block,
     Boxed,
@@ -22,12 +23,16 @@ from lagrangian.write.document import (
 from lagrangian.write.glyphs import columns, join, unicode
 from lagrangian.write.layout import lay_out
 from lagrangian.write.lines import chains, measure
-from lagrangian.write.math import Grid, Math, break_lines, equality, tokens
+from lagrangian.write.math import Grid, Math, Token, Word, equality, tokens
 from lagrangian.write.quantities import Notation
 
 NARROWEST = 40
-_KEPT = "\u00a0"
-"""A space inside a formula, where a line is broken last."""
+GAP = 3
+"""Columns between the columns of a table."""
+LONG_WORD = 16
+"""Columns of a word that may be cut in a table."""
+SHORT = 6
+"""Columns of a left-hand side beside which a formula always has room."""
 
 
 def to_text(
@@ -53,7 +58,7 @@ def page(document: Document, width: int) -> str:
     lines = [*wrap((title,), width), "═" * min(width, max(columns(title), 1))]
     for section in document.sections:
         lines += ["", *_section(section, width, document.brief)]
-    return "\n".join(line.rstrip().replace(_KEPT, " ") for line in lines) + "\n"
+    return "\n".join(line.rstrip().replace("\u00a0", " ") for line in lines) + "\n"
 
 
 def verdicts(derivation: Derivation, *, notation: Notation = "lecture", width: int = 80) -> str:
@@ -61,7 +66,7 @@ def verdicts(derivation: Derivation, *, notation: Notation = "lecture", width: i
     sections = {s.anchor: s.blocks for s in lay_out(derivation, notation=notation).sections}
     blocks = [*sections.get("verified", ()), *sections.get("notices", ())]
     lines = [line for block in blocks for line in _block(block, width)]
-    return "\n".join(line.rstrip().replace(_KEPT, " ") for line in lines) + "\n"
+    return "\n".join(line.rstrip().replace("\u00a0", " ") for line in lines) + "\n"
 
 
 def _section(section: Section, width: int, brief: bool) -> list[str]:
@@ -115,25 +120,43 @@ def clean(words: str) -> str:
 
 def wrap(text: Inline, width: int, hang: int = 0) -> list[str]:
     """Wrap words and formulas; a formula is only broken where it is longer than a line."""
-    pieces = "".join(clean(x) if isinstance(x, str) else unicode(x).replace(" ", _KEPT) for x in text)
-    lines: list[str] = []
-    line = ""
-    for word in pieces.split(" "):
-        for part in _fitting(word, width - hang):
-            candidate = f"{line} {part}" if line.strip() else line + part
-            if columns(candidate) > width and line.strip():
-                lines.append(line.rstrip())
-                candidate = " " * hang + part
+    lines, line = [], ""
+    for word in _split(text):
+        shown = "".join(x if isinstance(x, str) else unicode(x) for x in word)
+        candidate = f"{line} {shown}" if line.strip() else line + shown
+        if columns(candidate) <= width:
             line = candidate
+            continue
+        if line.strip() and (columns(shown) <= width - hang or len(word) == 1):
+            lines.append(line.rstrip())
+            line = ""
+        pieces = [t for x in word for t in ([Token("leaf", Word(x))] if isinstance(x, str) else tokens(x))]
+        room = width - columns(line) - 1 if line.strip() else width - (hang if lines else 0)
+        rows = [join(row.tokens) for row in break_lines(pieces, width - hang, measure, first=room)]
+        rows[0] = f"{line} {rows[0]}" if line.strip() else rows[0]
+        cut = [part for row in rows for part in _fitting(row, width - hang)]
+        lines += [" " * (hang if lines or i else 0) + x for i, x in enumerate(cut[:-1])]
+        line = " " * (hang if lines else 0) + cut[-1]
     return [*lines, line] if line.strip() or not lines else lines
 
 
+def _split(text: Inline) -> list[list[str | Math]]:
+    """Words as runs of letters and formulas with no space between them."""
+    words: list[list[str | Math]] = [[]]
+    for part in text:
+        if not isinstance(part, str):
+            words[-1].append(part)
+            continue
+        for i, run in enumerate(clean(part).split(" ")):
+            if i:
+                words.append([])
+            if run:
+                words[-1].append(run)
+    return words
+
+
 def _fitting(word: str, width: int) -> list[str]:
-    """A word, cut where it is longer than a line: at the spaces of a formula, else anywhere."""
-    if columns(word) <= width:
-        return [word]
-    if _KEPT in word:
-        return [part for piece in word.split(_KEPT) for part in _fitting(piece, width)]
+    """A word, cut anywhere where it is longer than a line."""
     parts, part = [], ""
     for c in word:
         if columns(part + c) > width:
@@ -153,11 +176,11 @@ def display(formula: Display, width: int) -> list[str]:
     else:
         lines = _chain(formula.sides, width)
     if formula.note:
-        note = "".join(clean(x) if isinstance(x, str) else unicode(x) for x in formula.note)
+        note = _words(formula.note)
         if len(lines) == 1 and columns(lines[0]) + columns(note) + 5 <= width:
             lines = [f"{lines[0]}   ({note})"]
         else:
-            lines += wrap((f"({note})",), width)
+            lines += ["  " + line for line in wrap((f"({note})",), width - 2, hang=1)]
     return lines
 
 
@@ -167,26 +190,25 @@ def _chain(sides: tuple[Math, ...], width: int) -> list[str]:
         return [whole]
     head, *rest = sides
     left = unicode(head)
-    if rest and columns(left) <= width // 3:
-        hang = columns(left) + 1
+    if rest and columns(left) <= max(width // 4, SHORT):
+        hang = columns(left) + 3
         lines: list[str] = []
         for i, side in enumerate(rest):
-            first = (left if i == 0 else " " * (hang - 1)) + " = "
-            lines += _broken(side, first, hang + 4, width)
+            first = (left if i == 0 else " " * columns(left)) + " = "
+            lines += _broken(side, first, hang, width)
         return lines
-    lines = _broken(head, "", 4, width)
+    lines = _broken(head, "", 2, width)
     for side in rest:
         if columns(lines[-1]) + 3 + columns(unicode(side)) <= width:
             lines[-1] += " = " + unicode(side)
         else:
-            lines += _broken(side, "  = ", 6, width)
+            lines += _broken(side, "  = ", 4, width)
     return lines
 
 
 def _broken(side: Math, first: str, indent: int, width: int) -> list[str]:
-    cut = break_lines(list(tokens(side)), width - indent, measure, first=width - columns(first))
-    rows = [first + join(cut[0])]
-    return rows + [" " * indent + join(row) for row in cut[1:]]
+    rows = break_lines(list(tokens(side)), width - indent, measure, first=width - columns(first))
+    return [(" " * (indent + STEP * row.depth) if i else first) + join(row.tokens) for i, row in enumerate(rows)]
 
 
 def _matrix(sides: tuple[Math, ...], width: int) -> list[str]:
@@ -244,25 +266,52 @@ def _box(displays: tuple[Display, ...], width: int) -> Iterator[str]:
 
 
 def _table(table: Table, width: int) -> Iterator[str]:
-    gap = 3
     count = len(table.header)
-    texts = [[_words(cell) for cell in row] for row in (table.header, *table.rows)]
     if count == 0:
         return
-    widths = [max(columns(row[j]) for row in texts) for j in range(count)]
-    room = width - gap * (count - 1)
+    rows = (table.header, *table.rows)
+    widths = [max(columns(_words(row[j])) for row in rows) for j in range(count)]
+    least = [max(_least(row[j]) for row in rows) for j in range(count)]
+    room = width - GAP * (count - 1)
+    if sum(least) > room:
+        yield from _listed(table, width)
+        return
     while sum(widths) > room:
-        widest = max(range(count), key=lambda j: widths[j])
-        others = sorted(widths)[-2] if count > 1 else 0
-        widths[widest] -= max(1, min(sum(widths) - room, widths[widest] - others))
-    cells = (table.header, *table.rows)
-    for i, row in enumerate(cells):
+        free = [j for j in range(count) if widths[j] > least[j]]
+        widest = max(free, key=lambda j: widths[j])
+        others = max((widths[j] for j in free if j != widest), default=0)
+        widths[widest] -= max(1, min(sum(widths) - room, widths[widest] - max(others, least[widest])))
+    for i, row in enumerate(rows):
         wrapped = [wrap(cell, w) if cell else [""] for cell, w in zip(row, widths, strict=True)]
         for k in range(max(len(lines) for lines in wrapped)):
             parts = [lines[k] if k < len(lines) else "" for lines in wrapped]
-            yield (" " * gap).join(p + " " * (w - columns(p)) for p, w in zip(parts, widths, strict=True)).rstrip()
+            yield (" " * GAP).join(p + " " * (w - columns(p)) for p, w in zip(parts, widths, strict=True)).rstrip()
         if i == 0:
-            yield (" " * gap).join("─" * w for w in widths)
+            yield (" " * GAP).join("─" * w for w in widths)
+
+
+def _listed(table: Table, width: int) -> Iterator[str]:
+    """A table too wide for the page, row by row: its first cell, below it the others with their heads."""
+    for i, row in enumerate(table.rows):
+        if i:
+            yield ""
+        yield from wrap(row[0], width)
+        for head, cell in zip(table.header[1:], row[1:], strict=True):
+            if cell:
+                yield from ("  " + line for line in wrap((*head, ": ", *cell), width - 2, hang=2))
+
+
+def _least(cell: Inline) -> int:
+    """Columns that a cell needs so that its words and formulas stay whole, a very long word excepted."""
+    return max(
+        (
+            columns(_words(tuple(word)))
+            if any(not isinstance(x, str) for x in word)
+            else min(columns(_words(tuple(word))), LONG_WORD)
+            for word in _split(cell)
+        ),
+        default=0,
+    )
 
 
 def _words(cell: Inline) -> str:

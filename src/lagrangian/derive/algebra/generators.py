@@ -64,7 +64,7 @@ class Trig:
 
 @dataclass(frozen=True, eq=False)
 class Sum:
-    """A sum of parameters as a letter on the page, such as Lₐ + L_b; forms keep its letters and never hold one."""
+    """A sum of parameters as a letter on the page, such as L_a + L_b; forms keep its letters and never hold one."""
 
     expr: sp.Expr
     moving: ClassVar[bool] = False

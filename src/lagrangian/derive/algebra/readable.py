@@ -7,7 +7,7 @@ Each class is grouped by itself, see `group`.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import sympy as sp
@@ -176,8 +176,26 @@ class Writer:
 
     # -- to SymPy ---------------------------------------------------------------------------------------------------
 
+    def _balanced(self, tree: Tree) -> Tree:
+        """The tree with its fractions in one style: ½ (J + ¼ m l²), not ⅛ (4 J + m l²).
+
+        A fraction before a parenthesis is the largest of the numbers in it, where that leaves whole numbers and 1/n.
+        """
+        number, sums = tree.coefficient, []
+        for terms, power in tree.sums:
+            largest = max(abs(t.coefficient) for t in terms)
+            inside = [t.coefficient / largest for t in terms]
+            short = all(1 in (abs(c.numerator), c.denominator) for c in inside)
+            bare = any(not t.monomial and not t.sums and c.denominator > 1 for t, c in zip(terms, inside, strict=True))
+            if power == 1 and number.denominator > 1 and short and not bare and abs(number * largest) <= 1:
+                number *= largest
+                terms = tuple(replace(t, coefficient=c) for t, c in zip(terms, inside, strict=True))
+            sums.append((terms, power))
+        return replace(tree, coefficient=number, sums=tuple(sums))
+
     def sympy(self, tree: Tree) -> sp.Expr:
         """Return a tree as an expression that keeps its shape."""
+        tree = self._balanced(tree)
         factors: list[sp.Expr] = [self.generators.power(i, e) for i, e in digits(tree.monomial)]
         for terms, power in tree.sums:
             factors.append(sp.Add(*[self.sympy(t) for t in terms]) ** power)

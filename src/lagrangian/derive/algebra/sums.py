@@ -1,8 +1,8 @@
-"""Sums of parameters that a system is described with, such as Lₐ + L_b: where they shorten, they are one letter.
+"""Sums of parameters that a system is described with, such as L_a + L_b: where they shorten, they are one letter.
 
-A mass at the end of link 1 sits at (Lₐ + L_b) cos θ₁; so m₁ Lₐ² + m₂ (Lₐ + L_b)² is read, not (m₁ + m₂) Lₐ² + m₂ L_b
-(2 Lₐ + L_b), which is no longer. With S for the sum, L_b = S − Lₐ is put in and multiplied out: what was a product of
-sums comes back as one.
+A mass at the end of link 1 sits at (L_a + L_b) cos θ₁; so m₁ L_a² + m₂ (L_a + L_b)² is read, not
+(m₁ + m₂) L_a² + m₂ L_b (2 L_a + L_b), which is no longer. With S for the sum, L_b = S − L_a is put in and multiplied
+out: what was a product of sums comes back as one.
 """
 
 from __future__ import annotations

@@ -1,0 +1,209 @@
+"""Where a formula that is longer than its line is cut.
+
+First at relations, then before + and − outside of every parenthesis, then inside of parentheses, deeper lines set in
+deeper. A product stays whole where it can: a factor is never parted from its parenthesis or its acceleration as long
+as another cut helps; where a product has to be cut, the line goes on with a dot for "times". A short parenthesis, such
+as (x₁ − x₂), stays whole to the last.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import pairwise
+
+from lagrangian.write.math import (
+    GLUED,
+    LOOSE,
+    Apply,
+    Cases,
+    Fence,
+    Letter,
+    Mark,
+    Number,
+    Power,
+    Ratio,
+    Relation,
+    Root,
+    Sum,
+    Times,
+    Token,
+    Word,
+    fenced,
+    in_parentheses,
+    tokens,
+)
+
+SMALL = 20
+"""Columns of a parenthesis that is short; on a narrow line a third of it."""
+WHOLE = 300
+"""The level of a line break inside a short parenthesis."""
+STEP = 2
+"""Columns by which a line inside one more pair of parentheses is set in."""
+
+Measure = Callable[[Token], int]
+
+
+@dataclass
+class Row:
+    """A line of a formula; ``depth`` counts the parentheses around its beginning."""
+
+    tokens: list[Token] = field(default_factory=list)
+    depth: int = 0
+
+
+def break_lines(
+    pieces: Sequence[Token], width: int, measure: Measure, *, first: int | None = None, flat: bool = True
+) -> list[Row]:
+    """Cut tokens into lines of at most ``width`` columns (the first one ``first``).
+
+    ``flat`` says that a fraction is written on one line, a/b; elsewhere it is set, a over b. A line is longer only
+    where a single symbol or number is.
+    """
+    made = _Breaker(width, width if first is None else first, measure, flat)
+    made.put(made.guarded(pieces))
+    return made.rows
+
+
+class _Breaker:
+    def __init__(self, width: int, first: int, measure: Measure, flat: bool) -> None:
+        self.width, self.measure, self.flat = width, measure, flat
+        self.rows = [Row()]
+        self.left = first
+        self.whole = True
+        self._sizes: dict[int, tuple[Token, int]] = {}
+
+    def put(self, pieces: list[Token]) -> None:
+        """Add tokens to the line at hand and, where they do not fit, to lines after it."""
+        if self._size(pieces) <= self.left:
+            self._add(pieces)
+            return
+        segments = self._segments(pieces)
+        if len(segments) == 1 or (segments[1][0].level or 0) >= LOOSE:
+            opened = self._opened(pieces) if any(self._size(s) > self.width for s in segments) else None
+            if opened is not None:
+                self.put(opened)
+                return
+        if len(segments) == 1:
+            self._add(pieces)
+            return
+        start = len(self.rows)
+        self.put(segments[0])
+        self.whole = len(self.rows) == start
+        for segment in segments[1:]:
+            product = segment[0].role == "gap"
+            if (not product and not self.whole) or self._size(segment) > self.left:
+                self._next_line(segment[0])
+                if product:  # the gap after the dot is no second chance to cut
+                    segment = [Token("leaf", Word("·")), replace(segment[0], level=None), *segment[1:]]
+            start = len(self.rows)
+            self.put(segment)
+            self.whole = len(self.rows) == start
+
+    def _next_line(self, piece: Token) -> None:
+        depth = piece.depth + (piece.role == "gap")
+        self.rows.append(Row(depth=depth))
+        self.left = self.width - STEP * depth
+        self.whole = True
+
+    def _add(self, pieces: list[Token]) -> None:
+        self.rows[-1].tokens += pieces
+        self.left -= self._size(pieces)
+
+    def _size(self, pieces: Sequence[Token]) -> int:
+        return sum(self._columns(p) for p in pieces)
+
+    def _columns(self, piece: Token) -> int:
+        if id(piece) not in self._sizes:
+            self._sizes[id(piece)] = (piece, self.measure(piece))
+        return self._sizes[id(piece)][1]
+
+    def _segments(self, pieces: list[Token]) -> list[list[Token]]:
+        """The pieces cut at the best level: a product before its functions, where that is enough, else in its sums."""
+        levels = [(p.level, p.depth, p.role) for p in pieces[1:] if p.level is not None]
+        if not levels:
+            return [pieces]
+        best, depth, _ = min(levels)
+        gaps = [d for _, d, role in levels if role == "gap"]
+        if gaps and min(gaps) < depth and best < LOOSE:
+            cut = _cut(pieces, LOOSE + min(gaps))
+            room = self.width - STEP * (min(gaps) + 1) - 2
+            if len(cut) > 1 and self._size(cut[0]) <= self.left and all(self._size(s) <= room for s in cut[1:]):
+                return cut
+        return _cut(pieces, best)
+
+    def _opened(self, pieces: list[Token]) -> list[Token] | None:
+        """The pieces with the longest one that can be opened taken apart; None where there is no long one."""
+        for i in sorted(range(len(pieces)), key=lambda i: -self._columns(pieces[i])):
+            if 2 * self._columns(pieces[i]) <= self.width:
+                return None
+            parts = _parts(pieces[i], self.flat)
+            if parts is not None:
+                return [*pieces[:i], *self.guarded(parts), *pieces[i + 1 :]]
+        return None
+
+    def guarded(self, pieces: Sequence[Token]) -> list[Token]:
+        """The pieces with cuts in short parentheses made the worst."""
+        made, open_at = list(pieces), []
+        short = max(SMALL // 2, min(SMALL, self.width // 3))
+        for i, piece in enumerate(made):
+            if piece.role == "open":
+                open_at.append(i)
+            elif piece.role == "close" and open_at:
+                inside = range(open_at.pop() + 1, i)
+                if sum(self._columns(made[k]) for k in inside) + 2 <= short:
+                    for k in inside:
+                        if made[k].level is not None:
+                            made[k] = replace(made[k], level=WHOLE + made[k].depth)
+        return made
+
+
+def _cut(pieces: list[Token], level: int) -> list[list[Token]]:
+    starts = [0, *(i for i, p in enumerate(pieces) if i and p.level == level), len(pieces)]
+    return [pieces[a:b] for a, b in pairwise(starts)]
+
+
+def _parts(piece: Token, flat: bool) -> list[Token] | None:
+    """What a long fraction, root or function is made of, so that it can be cut inside; None for what has no inside."""
+    math, depth = piece.math, piece.depth
+    if piece.role != "leaf":
+        return None
+    match math:
+        case Ratio(Number(), Number()):
+            return None
+        case Ratio(over, under) if flat or over == Number("1"):
+            plain = isinstance(under, (Letter, Number, Word, Mark, Power, Root, Fence))
+            slash = Token("sign", text="/", level=LOOSE + depth, depth=depth + 1)
+            bottom = under if plain else Fence(under)
+            return [*tokens(fenced(over, (Sum, Ratio, Relation)), depth), slash, *tokens(bottom, depth)]
+        case Ratio(over, under):
+            factors = over.factors if isinstance(over, Times) else (over,)
+            inverse = Token("leaf", Ratio(Number("1"), under), depth=depth)
+            return [inverse, Token("gap", level=GLUED + depth, depth=depth), *tokens(Times(factors), depth)]
+        case Root(of):
+            return [Token("leaf", Word("√"), depth=depth), *tokens(Fence(of), depth)]
+        case Apply(name, args, power):
+            raised = [Token("exponent", power)] if power is not None else []
+            inner = [t for i, a in enumerate(args) for t in ((Token("sign", text=","),) if i else ()) + _in(a, depth)]
+            if len(args) == 1 and in_parentheses(args[0]):
+                inner = list(_in(args[0].of, depth))  # type: ignore[union-attr]
+            fence = (Token("open", text="("), Token("close", text=")"))
+            return [Token("leaf", Word(name), depth=depth), *raised, fence[0], *inner, fence[1]]
+        case Mark(sign, of):
+            return [Token("leaf", Word(sign), depth=depth), *tokens(of if in_parentheses(of) else Fence(of), depth)]
+        case Power(base, exponent) if isinstance(base, (Root, Apply)):
+            return [*tokens(Fence(base), depth), Token("exponent", exponent)]
+        case Cases(branches) if flat:
+            made = [Token("open", text="{")]
+            for i, (value, condition) in enumerate(branches):
+                made += [Token("sign", text=";", level=1 + depth, depth=depth + 1)] if i else []
+                made += tokens(value, depth + 1)
+                made += [Token("leaf", Word(" otherwise" if condition is None else " if "))]
+                made += [] if condition is None else tokens(condition, depth + 1)
+            return [*made, Token("close", text="}")]
+        case _:
+            return None
+
+
+def _in(math: object, depth: int) -> tuple[Token, ...]:
+    return tuple(tokens(math, depth + 1))  # type: ignore[arg-type]
