@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import sympy as sp
 from run_systems import ball, oscillator
 
 import lagrangian as lg
@@ -120,3 +121,50 @@ def test_what_the_last_impact_takes_is_accounted_for(method: str) -> None:
     assert run["y'"][-1] == pytest.approx(0.5 * 9.81 * FALL, rel=1e-8)
     assert run.events["last"].y[1] == pytest.approx([-9.81 * FALL], rel=1e-8)
     assert float(run.audit) < 1e-9
+
+
+@pytest.mark.parametrize("method", [*METHODS, "LSODA", "BDF", "RK23", "gauss4", "rk4"])
+def test_no_crossing_between_the_places_a_step_is_judged_at_is_lost(method: str) -> None:
+    """sin(30 t) has 28 zeros in (0, 3]; the amplitude less 1e-5 is passed twice within 9 ms of a step of some 0.5 s."""
+    s = oscillator(m=1.0, k=1.0, b=0.0)
+    q, t = s["q"], s.t
+    options = {"step": 0.05} if method in ("gauss4", "rk4") else {"rtol": 1e-7}
+    beat = lg.event(sp.sin(30 * t), name="beat")
+    peak = lg.event(q - (1 - 1e-5), name="peak")
+    run = s.simulate(3.0, initial={"q'": 1.0}, events=[beat, peak], method=method, **options)
+    assert run.events["beat"].t == pytest.approx(np.arange(1, 29) * np.pi / 30, abs=1e-12)
+    half = np.arccos(1 - 1e-5)
+    assert run.events["peak"].t == pytest.approx(np.pi / 2 + np.array([-half, half]), abs=1e-3)
+    top = lg.event(q - (1 - 1e-5), direction=1, terminal=True, name="top")
+    ended = s.simulate(3.0, initial={"q'": 1.0}, events=top, method=method, **options)
+    assert ended.status == 1 and ended.t[-1] == pytest.approx(np.pi / 2 - half, abs=1e-3)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_what_dips_through_zero_is_found_and_what_stays_short_of_it_is_not(method: str) -> None:
+    """(q − 1/2)² ∓ 1e-8 along q = sin t: two crossings at each of two places, 2e-4 apart, or none."""
+    s = oscillator(m=1.0, k=1.0, b=0.0)
+    dip = (s["q"] - 0.5) ** 2
+    events = [lg.event(dip - 1e-8, name="through"), lg.event(dip + 1e-8, name="short")]
+    run = s.simulate(3.0, initial={"q'": 1.0}, events=events, method=method)
+    exact = [np.arcsin(0.5 - 1e-4), np.arcsin(0.5 + 1e-4)]
+    exact = [*exact, np.pi - exact[1], np.pi - exact[0]]
+    assert run.events["through"].t == pytest.approx(np.array(exact), abs=1e-6)
+    assert not len(run.events["short"].t)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_a_rise_right_after_a_fall_is_found(method: str) -> None:
+    """A condition that counts rising only has fallen before within the same step: cos 40 t in 3 s."""
+    s = oscillator(m=1.0, k=1.0, b=0.0)
+    run = s.simulate(3.0, q=1.0, events=lg.event(sp.cos(40 * s.t), direction=1, name="up"), method=method)
+    assert run.events["up"].t == pytest.approx((np.arange(19) * 2 + 1.5) * np.pi / 40, abs=1e-12)
+
+
+@pytest.mark.parametrize("method", ["dop853", "Radau"])
+def test_a_condition_that_stays_zero_is_no_event(method: str) -> None:
+    """A force that is zero throughout, and a state that rests."""
+    s = oscillator(m=1.0, k=1.0, b=0.0)
+    still = [lg.event(s["F"], name="force"), lg.event(s["q"] * s["q"].diff(), name="rest")]
+    run = s.simulate(3.0, events=still, method=method)
+    assert run.success and not len(run.events["force"].t) and not len(run.events["rest"].t)

@@ -102,8 +102,10 @@ class Driving:
         """The stretches between knots, each with u(t, x)."""
         knots, value, slope = self.pieces(start, end)
         ends = [*knots[1:], end]
+        asked = tuple(k for k, s in enumerate(self.sources) if callable(s))
         return [
-            Leg(float(e), self._along(float(k), v, s)) for k, e, v, s in zip(knots, ends, value, slope, strict=True)
+            Leg(float(e), self._along(float(k), v, s), asked)
+            for k, e, v, s in zip(knots, ends, value, slope, strict=True)
         ]
 
     def _along(self, knot: float, value: Array, slope: Array) -> Callable[[float, Array], Array]:

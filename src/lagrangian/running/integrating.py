@@ -221,9 +221,10 @@ def _by_scipy(task: Task) -> Outcome:
         slope = remembered(model, ("jacobian", feedback), lambda: machine.compile(_jacobian(program)))
     crossings = None
     if task.events:
-        kernel = resets.valued(machine.compile(_event_program(task, program)))
+        watched = _event_program(task, program)
         crossings = Crossings(
-            kernel,
+            resets.valued(machine.compile(watched)),
+            watched,
             task.p,
             [e.direction for e in task.events],
             [e.terminal for e in task.events],

@@ -1,4 +1,7 @@
-"""Zero crossings of event functions on a step's dense output, for runs made step by step in Python."""
+"""Zero crossings of event functions on a step's dense output, for runs made step by step in Python.
+
+A step is cut into pieces as in the machine code (``integrators/pieces.py``), all pieces of one length together.
+"""
 
 from __future__ import annotations
 
@@ -9,13 +12,21 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrangian.compile import compile
+from lagrangian.graph import Program, bounds, reached, states_read
+
+from .integrators.pieces import COARSE, FINEST, MOST
+
 Array = NDArray[np.float64]
 Control = Callable[[float, Array], Array]
 
-WITHIN = 4
-"""Places inside a step where events are looked at: of two crossings in one step both are seen if one lies between."""
+DEGREE = 12
+"""The highest degree of a polynomial inside a step (LSODA's)."""
 
-FINEST = 60
+ASKED = 16
+"""Places in a step at which a function is looked at that reads an input which is a Python function."""
+
+NEAREST = 60
 """After an event its function is 0: it is looked at after h/2^60, h/2^59, … of the next step to see where it goes."""
 
 AHEAD = 1e-8
@@ -34,7 +45,9 @@ class Hit:
 
 
 class Crossings:
-    """Watches the functions g of a kernel (outputs ``g`` (ne,) and, with resets, ``after`` (ne, nx)) along a run.
+    """Watches functions g along a run.
+
+    ``program`` has the outputs ``g`` (ne,) and, with resets, ``after`` (ne, nx); ``kernel`` evaluates it.
 
     ``side`` is the sign each g had last, 0 right after its own event: it then has to leave zero before it can cross.
     ``settled`` is the number of an event whose state change sends its function back, but so weakly that it would cross
@@ -42,7 +55,13 @@ class Crossings:
     """
 
     def __init__(
-        self, kernel: Any, p: Array, direction: Sequence[int], terminal: Sequence[bool], reset: Sequence[bool]
+        self,
+        kernel: Callable[..., Any],
+        program: Program,
+        p: Array,
+        direction: Sequence[int],
+        terminal: Sequence[bool],
+        reset: Sequence[bool],
     ) -> None:
         self.kernel, self.p = kernel, p
         self.direction, self.terminal, self.reset = list(direction), list(terminal), list(reset)
@@ -54,6 +73,12 @@ class Crossings:
         self.settled: int | None = None
         self.begun = False  # a run that begins at zero and moves in an event's direction has its event there
         self.field: Control = lambda t, x: x
+        self.inputs = len(program.inputs.get("u", ()))
+        self.judge = compile(bounds(program), threads=1)
+        self.read = list(states_read(program))
+        nodes = program.graph.nodes
+        guards = reached(program.graph, program.outputs["g"].ids)
+        self.driven = {nodes[i][2] for i in guards if nodes[i][:2] == ("input", "u")}
 
     def start(self, t: float, x: Array, u: Control, field: Control) -> None:
         """Look at the functions where a stretch of ẋ = field(t, x) begins; one that just had its event may leave 0."""
@@ -76,11 +101,14 @@ class Crossings:
         later = self.field(t, x + AHEAD * self.field(t, x))
         return np.sign(self._g(t + AHEAD, x + AHEAD * later, u)) if np.all(np.isfinite(later)) else self.side
 
-    def between(self, start: float, end: float, dense: Any, u: Control) -> list[Hit]:
-        """The events of a step in order of time, up to and with the first that stops the run or changes the state."""
-        fractions = np.arange(1, WITHIN + 2) / (WITHIN + 1)
+    def between(self, start: float, end: float, dense: Any, u: Control, asked: Sequence[int] = ()) -> list[Hit]:
+        """The events of a step in order of time, up to and with the first that stops the run or changes the state.
+
+        ``asked``: the inputs that are Python functions; the others are linear in time.
+        """
+        fractions = self._pieces(start, end, dense, u, asked)
         if not self.side.all():
-            fractions = np.concatenate([2.0 ** -np.arange(FINEST, 2, -1), fractions])
+            fractions = np.concatenate([2.0 ** -np.arange(NEAREST, 2, -1), fractions])
         places = np.unique(np.minimum(start + (end - start) * fractions, end))
         sent = (self.last == start) & np.array(self.reset) & (self.bound != -self.came_from)
         before, found = start, []
@@ -101,6 +129,46 @@ class Crossings:
             self.side = np.where((now != 0) & ~astray, now, moved)
             before = place
         return found
+
+    def _pieces(self, start: float, end: float, dense: Any, u: Control, asked: Sequence[int]) -> Array:
+        """The ends of pieces, as parts of the step, so short that no function crosses zero twice in one."""
+        z = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
+        middle, half = (start + end) / 2, (end - start) / 2
+        powers = np.linalg.solve(np.vander(z, increasing=True), dense(middle + half * z)[self.read].T)
+        inputs = [u(t, dense(t)) if self.driven else np.zeros(self.inputs) for t in (start, end)]
+        ends: list[Array] = []
+        low, high, count = np.array([-1.0]), np.array([1.0]), 0
+        while len(low):
+            proved = self._proved(low, high, powers, (middle, half), inputs)
+            count += len(low)
+            settled = proved | (high - low <= 2 * (FINEST if count <= MOST else COARSE))
+            ends.append(high[settled])
+            low, high = low[~settled], high[~settled]
+            cut = (low + high) / 2
+            low, high = np.concatenate([low, cut]), np.concatenate([cut, high])
+        if self.driven & set(asked):
+            ends.append(np.linspace(-1, 1, ASKED + 1)[1:])
+        return np.unique(np.concatenate(ends)) / 2 + 0.5
+
+    def _proved(
+        self, low: Array, high: Array, powers: Array, at: tuple[float, float], inputs: Sequence[Array]
+    ) -> NDArray[np.bool_]:
+        """On which stretches of the step, from −1 to 1, no function can cross zero twice."""
+        centre, r = (low + high) / 2, (high - low) / 2
+        value, rate, bend = (np.zeros((len(low), len(self.read))) for _ in range(3))
+        third, z, far = np.zeros_like(value), centre[:, None], (np.abs(centre) + r)[:, None]
+        for j in range(DEGREE, -1, -1):
+            bend, rate, value = bend * z + rate, rate * z + value, value * z + powers[j]
+            if j > 2:
+                third = third * far + j * (j - 1) * (j - 2) * np.abs(powers[j])
+        given = {
+            "x": value, "rate": rate, "bend": 2 * np.abs(bend) + third * r[:, None],
+            "u": (inputs[0] + inputs[1]) / 2 + z * (inputs[1] - inputs[0]) / 2,
+            "drift": np.broadcast_to((inputs[1] - inputs[0]) / 2, (len(low), len(inputs[0]))),
+            "p": self.p, "t": at[0] + at[1] * centre, "stretch": np.stack([np.full(len(r), at[1]), r], axis=1),
+        }  # fmt: skip
+        found = self.judge(**{name: array for name, array in given.items() if name in self.judge.program.inputs})
+        return np.all((found["clear"] > 0) | (found["steady"] > 0), axis=1)
 
     def _crossed(self, before: float, place: float, now: Array, dense: Any, u: Control) -> list[Hit]:
         """The events between two places, in order of time."""

@@ -48,7 +48,7 @@ class Machine:
         self.variant = variant
         self._loaded = build.extended(name, printer)
         self.call = _RUN(self._loaded.address("run"))
-        facts = (ctypes.c_int64 * 4)()
+        facts = (ctypes.c_int64 * 5)()
         ctypes.CFUNCTYPE(None, ctypes.c_void_p)(self._loaded.address("facts"))(ctypes.addressof(facts))
         self.slots, *self._shared = facts
 
@@ -73,6 +73,7 @@ _BLOCKS = {
     "shared": "body_prologue_1",
     "guard_shared": "guard_prologue_1",
     "after_shared": "after_prologue_1",
+    "bounds_shared": "bounds_prologue_1",
 }
 """Entries of the table and the functions that fill what they point to."""
 

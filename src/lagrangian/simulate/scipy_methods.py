@@ -36,10 +36,11 @@ MAX_NOT_FINITE = 1000
 
 @dataclass(frozen=True)
 class Leg:
-    """A stretch of time up to ``end`` on which the inputs u(t, x) are smooth."""
+    """A stretch of time up to ``end`` on which the inputs u(t, x) are linear in time, but for those ``asked``."""
 
     end: float
     u: Control
+    asked: tuple[int, ...] = ()
 
 
 @dataclass
@@ -215,7 +216,7 @@ class _March:
     def _advance(self, solver: Any, leg: Leg) -> bool:
         """Take in one step up to its end, or to an event that stops or changes the state; return whether it did."""
         dense, end = solver.dense_output(), solver.t
-        hits = [] if self.crossings is None else self.crossings.between(self.t, end, dense, leg.u)
+        hits = [] if self.crossings is None else self.crossings.between(self.t, end, dense, leg.u, leg.asked)
         for hit in hits:
             self.hits.append(hit)
             if hit.terminal or hit.after is not None:

@@ -8,7 +8,7 @@ The state of an event is the last one before it: a reset that turns the motion b
 and of two events at one time the other is still to come. After its own reset an event whose g is zero but for rounding
 is armed by the change of g along ẋ. One that happens again before g was ever seen on the armed side accumulates.
 
-Crossings that come in pairs within one step show at its middle, by Hermite's cubic.
+A step is looked through piece by piece (``pieces.py``), each so short that no function crosses zero twice in it.
 """
 
 from __future__ import annotations
@@ -23,6 +23,7 @@ from . import layout as at
 from .evaluate import Tapes
 from .layout import Lanes
 from .method import Method, Step
+from .pieces import Pieces
 from .printer import Printer, Vec
 
 if TYPE_CHECKING:
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 
     from .service import Service
 
-ROUNDS = 16
+ROUNDS = 128
 """Times of events in one step after which the step is cut."""
 
 SOON = 2.0**-46
@@ -70,10 +71,11 @@ class Watch:
         self.events, self.count = events, len(events.direction)
         guard, after = parts(events)
         own = own and bool(guard.inputs.get("p"))
-        self.guard = Tapes(p, guard, "guard", own=own, copies=6)
-        self.after = None if after is None else Tapes(p, after, "after", own=own, copies=6)
+        self.guard = Tapes(p, guard, "guard", own=own, copies=5)
+        self.after = None if after is None else Tapes(p, after, "after", own=own, copies=5)
+        self.pieces = Pieces(p, lanes, method, service, guard, own=own)
         self.armed, self.mood, self.fresh, self.fired = (p.reserve(self.count) for _ in range(4))
-        self.low, self.high, self.busy, self.cut, self.rounds = (p.reserve(1) for _ in range(5))
+        self.low, self.high, self.busy, self.settled, self.cut, self.rounds = (p.reserve(1) for _ in range(6))
         self.latest, self.same, self.when = (p.reserve(1) for _ in range(3))
         self.there, self.beyond, self.kept, self.states = (
             p.block(),
@@ -87,6 +89,7 @@ class Watch:
         p = self.p
         self.guard_shared = p.entry(at.TABLE.index("guard_shared"), "ptr")
         self.after_shared = p.entry(at.TABLE.index("after_shared"), "ptr")
+        self.pieces.prepare()
         self.log, self.room = p.word(at.LOG, "ptr"), p.word(at.ROOM)
         self.most = p.entry(at.TABLE.index("max_events"))
 
@@ -97,7 +100,7 @@ class Watch:
 
     def prologues(self) -> None:
         """Print what follows from every lane's parameters."""
-        for tapes in (self.guard, self.after):
+        for tapes in (self.guard, self.after, self.pieces.tapes):
             if tapes is not None and tapes.own:
                 tapes.prologue(self.lanes.p_in)
 
@@ -187,20 +190,11 @@ class Watch:
 
     # A step ------------------------------------------------------------------------------------------------------
 
-    def suspicious(self, s: Step, inputs: Callable[[Value], Vec], ends: Sequence[Value]) -> str:
-        """Where something happened by the end of the step or, roughly, by its middle."""
-        f = self.f
-        flag = self.some(ends)
-        half = self.method.middle(s)
-        if half is None:
-            return flag
-        return f.logic("or", flag, self.some(self.value(inputs, s.t + s.h * 0.5, half)))
-
     def find(self, s: Step, coefficients: list[Vec], inputs: Callable[[Value], Vec], good: str, new_t: Value) -> None:
         """Print the search through a step. Events are logged. Where ``self.cut`` is not 0 afterwards, a lane leaves the
         step at the time in ``lanes.end`` with the state in ``self.kept``.
         """
-        p, f, lanes = self.p, self.f, self.lanes
+        p, f, lanes, pieces = self.p, self.f, self.lanes, self.pieces
 
         def place(theta: Value, into: Vec) -> tuple[Vec, Value]:
             whole = f.compare("oge", theta, 1.0)
@@ -212,36 +206,57 @@ class Watch:
             p.map(entry, s.x, s.new_x, *coefficients, into=(into,))
             return Vec(slot=into.slot), f.select(whole, new_t, f.fma(theta, s.h, s.t))
 
-        def some_at(theta: Value) -> str:
+        def values_at(theta: Value) -> tuple[Value, ...]:
             x, t = place(theta, self.there)
-            return self.some(self.value(inputs, t, x))
+            return self.value(inputs, t, x)
 
         p.store(new_t, lanes.end)
         p.store(0.0, self.low)
         for slot in (self.cut, self.rounds):
             p.store_whole(f.integer(0), slot)
-        middle, end = (some_at(Value(f, f.constant(theta))) for theta in (0.5, 1.0))
-        p.store(f.select(middle, 0.5, 1.0), self.high)
-        self._note(f.logic("and", good, f.logic("or", middle, end)), self.busy)
+        pieces.begin(s, coefficients)
         with p.forever() as leave:
-            busy = self._noted(self.busy)
+            free = f.logic("and", good, p.whole_is(p.load_whole(self.cut), 0))
+            busy = f.logic("and", free, f.compare("olt", p.load(self.low), 1.0))
             leave(f.put(f"xor i1 {p.any(busy)}, true"))
-            with p.forever() as found:
-                low, high = p.load(self.low), p.load(self.high)
-                half = (low + high) * 0.5
-                apart = f.compare("olt", f.fma(low, s.h, s.t), f.fma(high, s.h, s.t))
-                apart = f.logic("and", apart, f.logic("and", f.compare("ogt", half, low), f.compare("olt", half, high)))
-                apart = f.logic("and", apart, busy)
-                found(f.put(f"xor i1 {p.any(apart)}, true"))
-                before = some_at(half)
-                p.store(f.select(f.logic("and", apart, before), half, high), self.high)
-                p.store(f.select(f.logic("and", apart, f.opposite(before)), half, low), self.low)
-            self._handle(place, inputs)
-            p.store(p.load(self.high), self.low)
-            p.store(1.0, self.high)
-            free = p.whole_is(p.load_whole(self.cut), 0)
-            again = f.logic("and", f.logic("and", busy, free), some_at(Value(f, f.constant(1.0))))
-            self._note(again, self.busy)
+            settled, high = pieces.judged(s, inputs, p.load(self.low), busy)
+            p.store(high, self.high)
+            self._note(settled, self.settled)
+            with p.when(p.any(settled)):
+                gs = values_at(p.load(self.high))
+                settled = self._noted(self.settled)
+                crossed = f.logic("and", settled, self.some(gs))
+                self._note(crossed, self.busy)
+                self._pass(gs, f.logic("and", settled, f.opposite(crossed)))
+                with p.when(p.any(crossed)):
+                    self._locate(s, values_at)
+                    self._handle(place, inputs)
+                    busy = self._noted(self.busy)
+                    p.store(f.select(busy, p.load(self.high), p.load(self.low)), self.low)
+                    pieces.refresh(busy)
+
+    def _pass(self, gs: Sequence[Value], clear: str) -> None:
+        """Arm with what g is at the end of a piece without events, and go on behind it."""
+        p, f = self.p, self.f
+        for k, g in enumerate(gs):
+            armed = p.load(self.armed, k)
+            p.store(f.select(f.logic("and", clear, f.compare("une", g, 0.0)), g, armed), self.armed, k)
+        p.store(f.select(clear, p.load(self.high), p.load(self.low)), self.low)
+
+    def _locate(self, s: Step, values_at: Callable[[Value], tuple[Value, ...]]) -> None:
+        """Halve the piece in which something happened, in busy lanes, until no time lies between its ends."""
+        p, f = self.p, self.f
+        with p.forever() as found:
+            busy = self._noted(self.busy)
+            low, high = p.load(self.low), p.load(self.high)
+            half = (low + high) * 0.5
+            apart = f.compare("olt", f.fma(low, s.h, s.t), f.fma(high, s.h, s.t))
+            apart = f.logic("and", apart, f.logic("and", f.compare("ogt", half, low), f.compare("olt", half, high)))
+            apart = f.logic("and", apart, busy)
+            found(f.put(f"xor i1 {p.any(apart)}, true"))
+            before = self.some(values_at(half))
+            p.store(f.select(f.logic("and", apart, before), half, high), self.high)
+            p.store(f.select(f.logic("and", apart, f.opposite(before)), half, low), self.low)
 
     def _note(self, flag: str, slot: int) -> None:
         self.p.store_whole(self.f.put(f"zext {self.f.flag} {flag} to {self.f.whole}"), slot)
@@ -251,10 +266,14 @@ class Watch:
 
     def _handle(self, place: Callable[[Value, Vec], tuple[Vec, Value]], inputs: Callable[[Value], Vec]) -> None:
         """At the places found, lane by lane: log, arm anew, reset, end."""
-        p = self.p
+        p, f = self.p, self.f
         x, t = place(p.load(self.high), self.beyond)
+        busy = self._noted(self.busy)
         for k, g in enumerate(self.value(inputs, t, x)):
-            self._note(self.happened(k, g), self.fired + k)
+            fired, armed = self.happened(k, g), p.load(self.armed, k)
+            self._note(fired, self.fired + k)
+            crossed = f.logic("and", f.logic("and", busy, f.opposite(fired)), f.compare("une", g, 0.0))
+            p.store(f.select(crossed, g, armed), self.armed, k)  # it may have crossed the way that does not count
         x, t = place(p.load(self.low), self.there)
         p.store(t, self.when)
         if self.after is not None:

@@ -90,9 +90,9 @@ class Loop:
         widest = f.module.target.lanes
         width = widest if self.method.expands else min(p.lanes, widest)  # expansions of one run are packed
         f.finish("run", "i64", "ptr %table, ptr %work, i64 %budget", attributes(width))
-        sizes = [0, 0]
+        sizes = [0, 0, 0]
         if self.watch is not None:
-            tapes = (self.watch.guard, self.watch.after)
+            tapes = (self.watch.guard, self.watch.after, self.watch.pieces.tapes)
             sizes = [0 if t is None else len(t.low.prologue.outputs) for t in tapes]
         facts = (p.slots, len(self.tapes.low.prologue.outputs), *sizes)
         lines = ["define void @facts(ptr %out) {"]
@@ -176,7 +176,7 @@ class Loop:
         if unsettled is not None:
             fine = f.logic("and", fine, f.compare("oeq", unsettled, 0.0))
         good = f.logic("and", running, fine)
-        self._inspect(s, good, new_t, gs)
+        self._inspect(s, good, new_t)
         self._commit(s, good, new_t, gs)
         p.store(f.select(good, left, p.load(lanes.left)), lanes.left)
         arrived = f.logic("and", good, f.compare("ole", left, 0.0))
@@ -199,7 +199,7 @@ class Loop:
         assert error is not None
         gs, error = self._watched(s, new_t, error)
         good = f.logic("and", running, f.compare("ole", error, 1.0))
-        self._inspect(s, good, new_t, gs)
+        self._inspect(s, good, new_t)
         next_h, finite = self._next_step(h, wanted, error, good)
         bad = f.logic("and", running, f.opposite(good))
         stuck = f.logic("and", bad, f.compare("ole", t + next_h * 0.125, t))
@@ -231,7 +231,7 @@ class Loop:
         fine = f.compare("oeq", trouble, 0.0)
         good = f.logic("and", running, fine)
         stuck = f.logic("and", running, f.compare("ole", t + wanted * 0.125, t))
-        self._inspect(s, good, new_t, gs)
+        self._inspect(s, good, new_t)
         p.store(f.select(f.logic("and", good, f.compare("ogt", wanted, 0.0)), wanted, unit), lanes.h)
         self._commit(s, good, new_t, gs)
         broken = f.logic("or", stuck, f.logic("and", running, f.opposite(fine)))
@@ -294,26 +294,22 @@ class Loop:
     def _constant(self, x: int) -> str:
         return self.f.integer(x)
 
-    def _inspect(self, s: Step, good: str, new_t: Value, gs: tuple[Value, ...]) -> None:
+    def _inspect(self, s: Step, good: str, new_t: Value) -> None:
         """Requested times and events inside the step."""
         p, f, lanes, watch = self.p, self.f, self.lanes, self.watch
-        wants = None
-        if self.method.adaptive:
-            wants = f.logic("and", good, f.compare("ole", p.load(lanes.next), new_t))
-        suspects = None
-        if watch is not None:
-            suspects = f.logic("and", good, watch.suspicious(s, self.inputs_at, gs))
-            wants = suspects if wants is None else f.logic("or", wants, suspects)
-            p.store_whole(self._constant(0), watch.cut)
-        if wants is None:
+        if watch is None and not self.method.adaptive:
             return
+        wants = good
+        if watch is None:
+            wants = f.logic("and", good, f.compare("ole", p.load(lanes.next), new_t))
+        else:
+            p.store_whole(self._constant(0), watch.cut)
         with p.when(p.any(wants)):
             coefficients = self.method.interpolant(s)
             self.spend(wants, self.method.dense_evaluations)
             p.store(new_t, lanes.end)
-            if watch is not None and suspects is not None:
-                with p.when(p.any(suspects)):
-                    watch.find(s, coefficients, self.inputs_at, suspects, new_t)
+            if watch is not None:
+                watch.find(s, coefficients, self.inputs_at, good, new_t)
                 if not self.method.adaptive:  # requested times are stop points, unless a lane never gets there
                     free = p.whole_is(p.load_whole(watch.cut), 0)
                     p.store(f.select(free, -float("inf"), p.load(lanes.end)), lanes.end)
@@ -330,7 +326,7 @@ class Loop:
             for k, g in enumerate(gs):
                 armed = p.load(watch.armed, k)
                 on = f.logic("and", good, stays)
-                p.store(f.select(on, g, armed), watch.armed, k)
+                p.store(f.select(f.logic("and", on, f.compare("une", g, 0.0)), g, armed), watch.armed, k)
                 p.store(f.select(on, 0.0, p.load(watch.fresh, k)), watch.fresh, k)
 
         def keep(new: Value, old: Value) -> Value:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
@@ -110,16 +110,6 @@ class Method(ABC):
         """The method for a relative tolerance, where that decides more than the length of steps."""
         return self
 
-    def middle(self, s: Step) -> Vec | None:
-        """Roughly the state at the middle of a step, if that costs nothing much: Hermite's cubic."""
-        if not self.follows:
-            return None
-
-        def half(x: Value, new: Value, k: Value, new_k: Value) -> Value:
-            return (x + new) * 0.5 + s.h * 0.125 * (k - new_k)
-
-        return s.p.map(half, s.x, s.new_x, s.k, s.new_k)[0]
-
     @abstractmethod
     def trial(self, s: Step) -> Value | None:
         """Print a step; return the size of its error, 1 being the tolerance.
@@ -157,6 +147,30 @@ class Method(ABC):
             return x + total
 
         return value
+
+    origin: float = 0.5
+    """Where in the step, in θ, the powers of :meth:`powers` are 0."""
+
+    def powers(self, s: Step, coefficients: list[Vec], entry: int) -> list[Value]:
+        """An entry inside the step as a polynomial: its coefficients of (θ − origin)⁰, (θ − origin)¹, …"""
+        p = s.p
+        given = [p.read(c, entry) for c in coefficients]
+        found = [p.weighted(pairs) for pairs in _in_powers(given)]
+        found[0] = found[0] + p.read(s.x, entry)
+        return found
+
+
+def _in_powers(given: Sequence[Value]) -> list[list[tuple[float, Value]]]:
+    """The weights of F0, F1, … (see :meth:`Method.interpolant`) in the coefficients of (θ − ½)ʲ."""
+    rows: list[list[tuple[float, Value]]] = [[] for _ in range(len(given) + 1)]
+    product = [1.0]
+    for k, value in enumerate(given):
+        sign = 1.0 if k % 2 == 0 else -1.0  # θ = ½ + z and 1 − θ = ½ − z by turns
+        product = [a * 0.5 + sign * b for a, b in zip([*product, 0.0], [0.0, *product], strict=True)]
+        for j, weight in enumerate(product):
+            if weight:
+                rows[j].append((weight, value))
+    return rows
 
 
 def rough_power(f: Function, x: Value, exponent: float) -> Value:

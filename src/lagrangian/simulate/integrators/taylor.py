@@ -31,6 +31,7 @@ class Taylor(Method):
     evaluations = 1
     expands = True
     limits = (0.0, 2.0)
+    origin = 0.0
 
     def __init__(self, order: int = 15) -> None:
         self.order = order
@@ -95,12 +96,6 @@ class Taylor(Method):
             total = s.p.f.fma(total, tau, c)
         return total * tau
 
-    def middle(self, s: Step) -> Vec:
-        """The state at the middle of the step."""
-        assert s.unit is not None
-        tau = s.h / s.unit * 0.5
-        return s.p.map(lambda x, *c: x + self._horner(s, c, tau), s.x, *s.stages)[0]
-
     def interpolant(self, s: Step) -> list[Vec]:
         """The series' coefficients."""
         return s.stages
@@ -110,6 +105,16 @@ class Taylor(Method):
         assert s.unit is not None
         tau = theta * (s.h / s.unit)
         return lambda x, *c: x + self._horner(s, c, tau)
+
+    def powers(self, s: Step, coefficients: list[Vec], entry: int) -> list[Value]:
+        """The series of an entry in θ: the coefficients times powers of h over the unit of time."""
+        assert s.unit is not None
+        ratio = s.h / s.unit
+        found, power = [s.p.read(s.x, entry)], ratio
+        for c in coefficients:
+            found.append(s.p.read(c, entry) * power)
+            power = power * ratio
+        return found
 
 
 TAYLOR = Taylor()
