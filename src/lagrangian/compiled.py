@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 from lagrangian import compile as machine
 from lagrangian import dynamics
 from lagrangian.errors import ModelError, RunError
+from lagrangian.graph import reached
 from lagrangian.model import plain
 
 if TYPE_CHECKING:
@@ -53,6 +54,8 @@ class Compiled:
         self._floats = [f.floating for f in model.floating if f.floating is not None]
         self.inputs = tuple(u.name for u in model.inputs)
         self.parameters = tuple(p.name for p in model.parameters)
+        self.exported = (*EXPORTED, "rates") if model.floating else EXPORTED
+        """The programs that a source file is written of."""
         self._kernel("forward")  # a coordinate without mass is found now, not at the first call
 
     def __repr__(self) -> str:
@@ -94,9 +97,20 @@ class Compiled:
         """Return the generalized forces that the motion needs beyond those described: M a + C v + G − Ξ(u)."""
         return self._run("inverse", q, p, t, q, v, a, _named(u))
 
-    def mass_matrix(self, q: ArrayLike, p: Values = None, t: ArrayLike = 0.0) -> NDArray[np.float64]:
-        """Return M(q), shape ``(..., n, n)``."""
-        return self._run("mass_matrix", q, p, t, q, None, None)
+    def mass_matrix(
+        self, q: ArrayLike, p: Values = None, t: ArrayLike = 0.0, *, v: ArrayLike | None = None
+    ) -> NDArray[np.float64]:
+        """Return M(q), shape ``(..., n, n)``.
+
+        Where T* is not quadratic in the rates M depends on them, and ``v`` must be given; `RunError` without it.
+        """
+        if v is None and not self.quadratic:
+            raise RunError(
+                "M depends on the rates: the kinetic co-energy is not quadratic in them",
+                fix="give the rates as well, mass_matrix(q, v=…)",
+                code="E501",
+            )
+        return self._run("mass_matrix", q, p, t, q, v, None)
 
     def bias(
         self, q: ArrayLike, v: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
@@ -108,8 +122,14 @@ class Compiled:
         """Return C(q, v) by Christoffel's symbols, shape ``(..., n, n)``: Ṁ − 2C is skew-symmetric, C v is the bias.
 
         Along the velocities of a floating frame the symbols are those of M's connection in these directions, whose
-        brackets do not vanish; both properties stay.
+        brackets do not vanish; both properties stay. Raises `RunError` where T* is not quadratic in the rates.
         """
+        if not self.quadratic:
+            raise RunError(
+                "there are no Christoffel symbols: the kinetic co-energy is not quadratic in the rates",
+                fix="bias(q, v) is all that the velocities and the positions do",
+                code="E501",
+            )
         return self._run("coriolis", q, p, t, q, v, None)
 
     def gravity(self, q: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0) -> NDArray[np.float64]:
@@ -166,6 +186,12 @@ class Compiled:
             return self._kernel(name)(*given, _named(p), t)
         except RunError as trouble:
             raise self._explained(trouble, q, p, t) from None
+
+    @cached_property
+    def quadratic(self) -> bool:
+        """Whether T* is quadratic in the rates, as that of bodies is: then M depends on q, and perhaps t, alone."""
+        program = self._kernel("mass_matrix").program
+        return not any(program.graph.nodes[i][:2] == ("input", "v") for i in reached(program.graph, program.ids))
 
     @cached_property
     def operations(self) -> int:

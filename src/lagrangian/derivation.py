@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from lagrangian import analyze, derive, write
@@ -11,6 +12,7 @@ from lagrangian.model import Model
 
 if TYPE_CHECKING:
     from lagrangian.checking import CheckedAnswer
+    from lagrangian.derive import Check
     from lagrangian.write import Notation
 
 
@@ -40,10 +42,17 @@ class Derivation(derive.Derivation):
         """Return plain data for JSON."""
         return write.to_dict(self, notation=notation, brief=brief, full=full)
 
-    def verify(self, *, states: int = 50, seed: int = 1) -> tuple[derive.Check, ...]:
-        """Check the equations by independent routes at random states; every check carries its figure."""
-        check_sampling(states, seed)
-        return analyze.verify(self, states=states, seed=seed)
+    def verify(self, *, states: int = 50, seed: int = 1) -> tuple[Check, ...]:
+        """Check the equations, and all that is made of them, by independent routes at random states.
+
+        The equations against virtual work and against L differentiated by the machine; every function of
+        `lagrangian.Compiled` against its formulas and against those equations; the exported Python and C, run; the
+        linearization against difference quotients. Every check carries its figure. ``holds`` is None for what could
+        not be checked on this machine, such as C without a compiler. Raises `ModelError` for numbers of states that
+        are none.
+        """
+        found = analyze.verify(self, states=states, seed=seed)
+        return (*found, *verify_compiled(self.model, states=states, seed=seed))
 
     def check(self, answer: Any, *, hint: int = 3) -> CheckedAnswer:
         """Return whether an answer is right, in which shape, or where it is wrong and why.
@@ -62,6 +71,19 @@ class Derivation(derive.Derivation):
     def __str__(self) -> str:
         """Read as text."""
         return self.to_text()
+
+
+def verify_compiled(model: Model, *, states: int, seed: int) -> tuple[Check, ...]:
+    """Check what is compiled, exported and linearized from a model."""
+    from lagrangian.compiled import Compiled, sources
+
+    return analyze.verify_products(model, Compiled(model), partial(sources, model), states=states, seed=seed)
+
+
+def verify_floating(model: Model, *, states: int, seed: int) -> tuple[Check, ...]:
+    """Check a model whose frames float: its programs against each other, then what is made of them."""
+    found = analyze.verify_motion(model, states=states, seed=seed)
+    return (*found, *verify_compiled(model, states=states, seed=seed))
 
 
 def derive_and_verify(model: Model) -> Derivation:

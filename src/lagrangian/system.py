@@ -63,17 +63,18 @@ class System(Described):
         return check_answer(derive(self.model), answer, hint=hint)
 
     def verify(self, *, states: int = 50, seed: int = 1) -> tuple[Check, ...]:
-        """Check the equations by independent routes at random states; every check carries its figure.
+        """Check everything that can be taken from the system by independent routes at random states.
 
-        Derived equations as `Derivation.verify` does; where a frame floats, what is compiled instead.
+        The derived equations, the compiled functions, the exported sources, the linearization: see `Derivation.verify`.
+        Where a frame floats there are no derived equations; all else is checked.
         """
         from lagrangian.analyze.given import check_sampling
 
         check_sampling(states, seed)
         if self.model.floating:
-            from lagrangian.analyze.motion import verify_motion
+            from lagrangian.derivation import verify_floating
 
-            return tuple(c for part in verify_motion(self.model, states=states, seed=seed).parts for c in part.checks)
+            return verify_floating(self.model, states=states, seed=seed)
         return self.derive().verify(states=states, seed=seed)
 
     def compile(self, *, lanes: int | None = None, threads: int | None = None) -> Compiled:

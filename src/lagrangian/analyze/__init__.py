@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING
 
-from lagrangian.analyze.verify import verify
+from lagrangian.analyze.verify.equations import verify
 from lagrangian.lazily import lazily
 
 if TYPE_CHECKING:
@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from lagrangian.analyze.linear.regulate import Regulator, lqr, to_control
     from lagrangian.analyze.linear.symbolic import SymbolicLinearization, symbolic
     from lagrangian.analyze.rests.equilibria import Equilibria, Equilibrium, equilibria
+    from lagrangian.analyze.verify.motion import verify_motion
+    from lagrangian.analyze.verify.products import verify_products
+    from lagrangian.analyze.verify.report import verification_report
 else:
     __getattr__ = lazily(
         __name__,
@@ -28,6 +31,9 @@ else:
             "linear.regulate": "Regulator lqr to_control",
             "linear.symbolic": "SymbolicLinearization symbolic",
             "rests.equilibria": "Equilibria Equilibrium equilibria",
+            "verify.motion": "verify_motion",
+            "verify.products": "verify_products",
+            "verify.report": "verification_report",
         },
     )
 
@@ -52,5 +58,8 @@ __all__ = [
     "routhian",
     "symbolic",
     "to_control",
+    "verification_report",
     "verify",
+    "verify_motion",
+    "verify_products",
 ]

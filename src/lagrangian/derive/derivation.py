@@ -19,10 +19,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Check:
-    """Something that was verified: in words, whether it holds, and the figure."""
+    """Something that was verified: in words, whether it holds, and the figure.
+
+    ``holds`` is None for what could not be checked here; the figure then says why.
+    """
 
     what: Text
-    holds: bool
+    holds: bool | None
     figure: str = ""
 
 

@@ -6,7 +6,7 @@
 from lagrangian.dynamics.bodies import Bodies
 from lagrangian.dynamics.body_numbers import body_numbers
 from lagrangian.dynamics.canonical import canonical, canonical_impacts, momenta, velocities
-from lagrangian.dynamics.closed import SUPPLY, closed, observe_closed, power_closed
+from lagrangian.dynamics.closed import SUPPLY, balance_terms_closed, closed, observe_closed, power_closed
 from lagrangian.dynamics.describe import Inputs, describe
 from lagrangian.dynamics.impacts import impacts
 from lagrangian.dynamics.mechanics import Mechanics
@@ -35,6 +35,7 @@ __all__ = [
     "Inputs",
     "Mechanics",
     "Motion",
+    "balance_terms_closed",
     "bias",
     "body_numbers",
     "canonical",

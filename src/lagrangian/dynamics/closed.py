@@ -15,7 +15,7 @@ from typing import Any
 import sympy as sp
 
 from lagrangian.dynamics.observe import Observed, holds_acceleration, observed
-from lagrangian.dynamics.power import balance, supplied
+from lagrangian.dynamics.power import balance, balance_terms, supplied
 from lagrangian.dynamics.programs import _program
 from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.graph import Output, Program, replaced
@@ -56,6 +56,12 @@ def power_closed(model: Model, feedback: Feedback) -> Program:
     """`lagrangian.dynamics.power.power` with inputs replaced as in `closed`."""
     seen = Observed(model)
     return with_feedback(seen, balance(seen), feedback, "power")
+
+
+def balance_terms_closed(model: Model, feedback: Feedback) -> Program:
+    """`lagrangian.dynamics.power.balance_terms` with inputs replaced as in `closed`."""
+    seen = Observed(model)
+    return with_feedback(seen, balance_terms(seen), feedback, "balance terms")
 
 
 def with_feedback(

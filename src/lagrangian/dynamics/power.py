@@ -32,6 +32,20 @@ def balance(seen: Observed) -> dict[str, Output]:
     return {name: Output((node,), ()) for name, node in found.items()}
 
 
+def balance_terms(seen: Observed) -> dict[str, Output]:
+    """The terms of dh/dt − P at a state and its accelerations by forward dynamics, which add up to 0.
+
+    dh/dt = ∂h/∂q·q̇ + ∂h/∂v·v̇ + ∂h/∂t, entry by entry, and −P.
+    """
+    g, m = seen.graph, seen.mechanics
+    moving = [*m.q, *m.v, seen.inputs.t]
+    rates = [*m.motion.rates, *seen.vdot, g.one]
+    slopes = gradient(g, balanced(seen), moving)
+    terms = [g.mul(slope, rate) for slope, rate in zip(slopes, rates, strict=True)]
+    terms.append(g.neg(supplied(seen)))
+    return {"terms": Output(tuple(terms), (len(terms),))}
+
+
 def balanced(seen: Observed) -> int:
     """h = Σ v_i ∂T/∂v_i − T + V, without the potentials that read inputs."""
     g, m = seen.graph, seen.mechanics

@@ -18,6 +18,7 @@ from lagrangian.compile.arguments import numbers
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.graph import Graph, Program
 from lagrangian.model import Model
+from lagrangian.running.disagreement import disagreement
 from lagrangian.running.driving import Driving, check_covers, driving
 from lagrangian.running.ending import message
 from lagrangian.running.events import Event, listed_events
@@ -108,12 +109,14 @@ def simulate(
 
 
 def _judged(made: Trajectory) -> Trajectory:
-    """The run with a word in its message where its energy balance is missed."""
+    """The run, with a missed energy balance in its message; a failed one where motion and energy contradict."""
     try:
         missed = made.audit.missed
     except RunError as trouble:  # an energy that is not finite somewhere must not hide the run
         missed = f"no energy balance: {trouble.what}"
-    if missed:
+    if missed and (contradiction := disagreement(made)):
+        made.success, made.message = False, contradiction
+    elif missed:
         made.message = f"{made.message}; {missed}"
     return made
 

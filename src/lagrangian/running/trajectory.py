@@ -247,7 +247,7 @@ class Trajectory:
         span = f"t = {self.t[0]:g} … {self.t[-1]:g} s" if len(self.t) else "nothing"
         end = "" if self.success else f"; FAILED: {self.message}"
         try:
-            audit = self.audit.missed or str(self.audit)
+            audit = (self.success and self.audit.missed) or str(self.audit)
         except RunError as trouble:  # an energy that is not finite somewhere must not hide the run
             audit = f"no energy balance: {trouble.what}"
         return (

@@ -163,7 +163,7 @@ class _Data:
         return made
 
     def checks(self, checks: Iterable[Check]) -> list[dict[str, Any]]:
-        return [{"what": self.text(c.what), "holds": bool(c.holds), "figure": c.figure} for c in checks]
+        return [{"what": self.text(c.what), "holds": c.holds, "figure": c.figure} for c in checks]
 
 
 def _rows(matrix: Any) -> list[list[str]]:

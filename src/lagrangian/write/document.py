@@ -53,11 +53,21 @@ class Table:
 
 @dataclass(frozen=True)
 class Verdict:
-    """Something that was verified: in words, whether it holds, and the figure."""
+    """Something that was verified: in words, whether it holds (None: not checked), and the figure."""
 
     what: Inline
-    holds: bool
+    holds: bool | None
     figure: str
+
+    @property
+    def mark(self) -> str:
+        """✓, ✗, or – for what was not checked."""
+        return {True: "✓", False: "✗", None: "–"}[self.holds]
+
+    @property
+    def standing(self) -> str:
+        """The mark in a word."""
+        return {True: "holds", False: "fails", None: "not checked"}[self.holds]
 
 
 @dataclass(frozen=True)

@@ -124,9 +124,8 @@ def _block(block: Block, anchors: bool) -> Iterator[str]:
             yield _table(block)
         case Verdicts(verdicts):
             items = "".join(
-                f'<li class="{"holds" if v.holds else "fails"}">'
-                f'<span aria-hidden="true">{"✓" if v.holds else "✗"}</span> '
-                f'<span class="unseen">{"holds: " if v.holds else "fails: "}</span>{inline(v.what)}'
+                f'<li class="{v.standing.replace(" ", "-")}"><span aria-hidden="true">{v.mark}</span> '
+                f'<span class="unseen">{v.standing}: </span>{inline(v.what)}'
                 + (f' <span class="figure">({escape(v.figure)})</span>' if v.figure else "")
                 + "</li>"
                 for v in verdicts

@@ -139,8 +139,7 @@ def _block(block: Block) -> Iterator[str]:
             yield _table(block)
         case Verdicts(verdicts):
             items = [
-                rf"\item[{words('✓' if v.holds else '✗')}] {inline(v.what)}"
-                + (f" ({words(v.figure)})" if v.figure else "")
+                rf"\item[{words(v.mark)}] {inline(v.what)}" + (f" ({words(v.figure)})" if v.figure else "")
                 for v in verdicts
             ]
             yield "\n".join((r"\begin{itemize}\setlength{\itemsep}{0pt}", *items, r"\end{itemize}"))

@@ -75,8 +75,7 @@ def _block(block: Block) -> Iterator[str]:
             yield "\n".join(lines)
         case Verdicts(verdicts):
             yield "\n".join(
-                f"- {'✓' if v.holds else '✗'} {inline(v.what)}" + (f" ({escape(v.figure)})" if v.figure else "")
-                for v in verdicts
+                f"- {v.mark} {inline(v.what)}" + (f" ({escape(v.figure)})" if v.figure else "") for v in verdicts
             )
         case Details(summary, blocks):
             yield f"*{inline(summary)}*"

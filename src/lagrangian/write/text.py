@@ -103,7 +103,7 @@ def _block(block: Block, width: int) -> Iterator[str]:
         case Verdicts(verdicts):
             for verdict in verdicts:
                 figure = f" ({verdict.figure})" if verdict.figure else ""
-                yield from wrap(("✓ " if verdict.holds else "✗ ", *verdict.what, clean(figure)), width, hang=2)
+                yield from wrap((f"{verdict.mark} ", *verdict.what, clean(figure)), width, hang=2)
         case Details(summary, blocks):
             yield from wrap(summary, width)
             for inner in blocks:

@@ -7,8 +7,6 @@ dynamics must solve them; and M, C and the energy must keep their laws.
 
 from __future__ import annotations
 
-import random
-from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias
 
@@ -17,18 +15,15 @@ from numpy.typing import NDArray
 
 from lagrangian import dynamics
 from lagrangian.analyze.dimensions import check_dimensions
-from lagrangian.analyze.report import Part, Report
+from lagrangian.analyze.given import check_sampling
+from lagrangian.analyze.verify.states import evaluated, random_states
 from lagrangian.derive import Check
 from lagrangian.derive.formula import Name, text
-from lagrangian.errors import ModelError, Notice
-from lagrangian.graph import Graph, Output, Program, evaluate, jvp, reached
+from lagrangian.graph import Graph, Output, Program, jvp, reached
 from lagrangian.model import Model
 
 TOLERANCE = 1e-9
 """Relative difference up to which two numbers count as equal: rounding, no more."""
-
-TRIES = 60
-"""Random states without finite forces after which there are none."""
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -50,11 +45,12 @@ class _Worst:
         setattr(self, name, float(np.maximum(getattr(self, name), value)))
 
 
-def verify_motion(model: Model, *, states: int = 50, seed: int = 1) -> Report:
+def verify_motion(model: Model, *, states: int = 50, seed: int = 1) -> tuple[Check, ...]:
     """Check the programs of a model against each other at ``states`` random states.
 
     Raises `ModelError` where a unit does not fit, a velocity moves no mass, or no random state has finite forces.
     """
+    check_sampling(states, seed)
     dims = check_dimensions(model)
     worst, timed = _measured(model, states, seed), _reads_time(model)
     M, C, n = Name("M"), Name("C"), f"{states} random state{'s' if states != 1 else ''}"
@@ -90,21 +86,7 @@ def verify_motion(model: Model, *, states: int = 50, seed: int = 1) -> Report:
     )
     if dims is not None and not dims.loose:
         checks.append(Check(text("dimensions: the units of all elements fit together"), True, "all elements"))
-    known = dynamics.notices(model)
-    shown = [{"what": str(c.what), "holds": c.holds, "figure": c.figure} for c in checks]
-    return Report(
-        f"{model.name}: checked",
-        model,
-        (Part(text("What was checked"), (), tuple(checks)), *_known(known)),
-        {"checks": shown, "notices": [{"code": n.code, "where": n.where, "text": n.text} for n in known]},
-    )
-
-
-def _known(notices: Sequence[Notice]) -> list[Part]:
-    """What is to be known of the system as a part of the report, if anything is."""
-    if not notices:
-        return []
-    return [Part(text("Notices"), tuple(text(f"{n.where}: {n.text}. [{n.code}]") for n in notices))]
+    return tuple(checks)
 
 
 def _measured(model: Model, states: int, seed: int) -> _Worst:
@@ -112,59 +94,27 @@ def _measured(model: Model, states: int, seed: int) -> _Worst:
     second, gravity, bias = dynamics.inverse_from_lagrangian(model), dynamics.gravity(model), dynamics.bias(model)
     matrices, balance, rhs = _matrices(model), _balance(model), dynamics.rhs(model)
     worst = _Worst()
-    for state in _states(model, forward, states, seed):
-        by_work, by_energy = (np.array(_run(p, state)["r"]) for p in (inverse, second))
-        got = {name: np.array(x) for name, x in _run(matrices, state).items()}
+    for state in random_states(model, forward, states, seed):
+        by_work, by_energy = (np.array(evaluated(p, state)["r"]) for p in (inverse, second))
+        got = {name: np.array(x) for name, x in evaluated(matrices, state).items()}
         n = len(model.velocities)
         M, Mdot, C = (got[k].reshape(n, n) for k in ("M", "Mdot", "C"))
-        v, G = np.array(state["v"]), np.array(_run(gravity, state)["G"])
+        v, G = np.array(state["v"]), np.array(evaluated(gravity, state)["G"])
         size = max(1.0, float(np.abs(M * np.array(state["a"])).max()), float(np.abs(G).max()))
         worst.note("routes", float(np.abs(by_work - by_energy).max()) / size)
         worst.note("asymmetry", float(np.abs(M - M.T).max() / np.abs(M).max()))
         worst.smallest = float(np.minimum(worst.smallest, np.linalg.eigvalsh((M + M.T) / 2).min()))
         skew = Mdot - 2 * C
         worst.note("skew", float(np.abs(skew + skew.T).max()) / max(1.0, float(np.abs(C).max())))
-        without = np.array(_run(bias, state)["h"]) + got["Xi"] - G
+        without = np.array(evaluated(bias, state)["h"]) + got["Xi"] - G
         worst.note("rates", float(np.abs(C @ v - without).max()) / size)
-        found = {**state, "a": list(_run(forward, state)["a"])}
-        worst.note("solved", float(np.abs(_run(inverse, found)["r"]).max()) / size)
+        found = {**state, "a": list(evaluated(forward, state)["a"])}
+        worst.note("solved", float(np.abs(evaluated(inverse, found)["r"]).max()) / size)
         x = [*state["q"], *state["v"]]
-        along = {**state, "x": x, "xdot": list(_run(rhs, {**state, "x": x})["xdot"])}
-        power = {name: float(np.array(y)) for name, y in _run(balance, along).items()}
+        along = {**state, "x": x, "xdot": list(evaluated(rhs, {**state, "x": x})["xdot"])}
+        power = {name: float(np.array(y)) for name, y in evaluated(balance, along).items()}
         worst.note("power", abs(power["hdot"] - power["P"]) / max(1.0, float(np.abs(G).max()), abs(power["P"])))
     return worst
-
-
-def _run(program: Program, state: Mapping[str, list[float]]) -> dict[str, list[float]]:
-    return evaluate(program, {group: state[group] for group in program.inputs})
-
-
-def _states(model: Model, forward: Program, count: int, seed: int) -> Iterator[dict[str, list[float]]]:
-    """Random states at which the accelerations are finite; quaternions of any length are orientations."""
-    source, missed = random.Random(seed), 0
-    quaternions = {c.name for f in model.floating if f.floating is not None for c in f.floating.coordinates[3:]}
-    while count:
-        state = {
-            "q": [source.gauss() if c.name in quaternions else source.uniform(-1, 1) for c in model.coordinates],
-            "v": [source.uniform(-1, 1) for _ in model.velocities],
-            "a": [source.uniform(-1, 1) for _ in model.velocities],
-            "u": [source.uniform(-1, 1) for _ in model.inputs],
-            "p": [source.uniform(0.4, 1.6) if p.value is None else p.value for p in model.parameters],
-            "t": [source.uniform(0, 1)],
-        }
-        try:
-            fine = np.isfinite(_run(forward, state)["a"]).all()
-        except (ZeroDivisionError, ValueError, OverflowError):
-            fine = False
-        if fine:
-            count -= 1
-            yield state
-        elif (missed := missed + 1) > TRIES:
-            raise ModelError(
-                f"the accelerations of system '{model.name}' are not finite at any of {TRIES} random states",
-                fix="check square roots, logarithms and divisions for arguments that are never allowed",
-                code="E503",
-            )
 
 
 def _matrices(model: Model) -> Program:

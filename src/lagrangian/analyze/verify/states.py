@@ -1,0 +1,55 @@
+"""Random states of a model by the groups of its programs."""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterator, Mapping
+from typing import Any, TypeAlias
+
+import numpy as np
+
+from lagrangian.errors import ModelError
+from lagrangian.graph import Program, evaluate
+from lagrangian.model import Model
+
+State: TypeAlias = Mapping[str, list[float]]
+"""Values of the groups q, v, a, u, p and t."""
+
+TRIES = 60
+"""Random states without finite accelerations after which there are none."""
+
+
+def evaluated(program: Program, state: Mapping[str, list[float]]) -> dict[str, Any]:
+    """The outputs of a program at a state, by the slow evaluator."""
+    return evaluate(program, {group: state[group] for group in program.inputs})
+
+
+def random_states(model: Model, forward: Program, count: int, seed: int) -> Iterator[dict[str, list[float]]]:
+    """``count`` random states at which the accelerations are finite; parameters keep the values they have.
+
+    Quaternions of any length are orientations. Raises `ModelError` where `TRIES` states have no finite accelerations.
+    """
+    source, missed = random.Random(seed), 0
+    quaternions = {c.name for f in model.floating if f.floating is not None for c in f.floating.coordinates[3:]}
+    while count:
+        state = {
+            "q": [source.gauss() if c.name in quaternions else source.uniform(-1, 1) for c in model.coordinates],
+            "v": [source.uniform(-1, 1) for _ in model.velocities],
+            "a": [source.uniform(-1, 1) for _ in model.velocities],
+            "u": [source.uniform(-1, 1) for _ in model.inputs],
+            "p": [source.uniform(0.4, 1.6) if p.value is None else p.value for p in model.parameters],
+            "t": [source.uniform(0, 1)],
+        }
+        try:
+            fine = np.isfinite(evaluated(forward, state)["a"]).all()
+        except (ZeroDivisionError, ValueError, OverflowError):
+            fine = False
+        if fine:
+            count -= 1
+            yield state
+        elif (missed := missed + 1) > TRIES:
+            raise ModelError(
+                f"the accelerations of system '{model.name}' are not finite at any of {TRIES} random states",
+                fix="check square roots, logarithms and divisions for arguments that are never allowed",
+                code="E503",
+            )
