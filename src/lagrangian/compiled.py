@@ -54,7 +54,7 @@ class Compiled:
         self._floats = [f.floating for f in model.floating if f.floating is not None]
         self.inputs = tuple(u.name for u in model.inputs)
         self.parameters = tuple(p.name for p in model.parameters)
-        self.exported = (*EXPORTED, "rates") if model.floating else EXPORTED
+        self.exported: tuple[str, ...] = (*EXPORTED, "rates") if model.floating else EXPORTED
         """The programs that a source file is written of."""
         self._kernel("forward")  # a coordinate without mass is found now, not at the first call
 
@@ -187,9 +187,13 @@ class Compiled:
         except RunError as trouble:
             raise self._explained(trouble, q, p, t) from None
 
-    @cached_property
+    @property
     def quadratic(self) -> bool:
         """Whether T* is quadratic in the rates, as that of bodies is: then M depends on q, and perhaps t, alone."""
+        return self._quadratic
+
+    @cached_property
+    def _quadratic(self) -> bool:
         program = self._kernel("mass_matrix").program
         return not any(program.graph.nodes[i][:2] == ("input", "v") for i in reached(program.graph, program.ids))
 

@@ -7,7 +7,6 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from lagrangian import analyze, derive, write
-from lagrangian.analyze.given import check_sampling
 from lagrangian.model import Model
 
 if TYPE_CHECKING:

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from lagrangian.write.markdown import to_markdown
     from lagrangian.write.quantities import Notation
     from lagrangian.write.report import ReportFormat, report_fragment, write_report
-    from lagrangian.write.text import to_text, verdicts
+    from lagrangian.write.text import to_text
 else:
     __getattr__ = lazily(
         __name__,
@@ -34,7 +34,7 @@ else:
             "markdown": "to_markdown",
             "quantities": "Notation",
             "report": "ReportFormat report_fragment write_report",
-            "text": "to_text verdicts",
+            "text": "to_text",
         },
     )
 
@@ -53,7 +53,6 @@ __all__ = [
     "to_latex",
     "to_markdown",
     "to_text",
-    "verdicts",
     "write_file",
     "write_report",
     "write_with",

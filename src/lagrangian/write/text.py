@@ -61,14 +61,6 @@ def page(document: Document, width: int) -> str:
     return "\n".join(line.rstrip().replace("\u00a0", " ") for line in lines) + "\n"
 
 
-def verdicts(derivation: Derivation, *, notation: Notation = "lecture", width: int = 80) -> str:
-    """Return what was verified, a mark and a figure each, and what is to be known of the system."""
-    sections = {s.anchor: s.blocks for s in lay_out(derivation, notation=notation).sections}
-    blocks = [*sections.get("verified", ()), *sections.get("notices", ())]
-    lines = [line for block in blocks for line in _block(block, width)]
-    return "\n".join(line.rstrip().replace("\u00a0", " ") for line in lines) + "\n"
-
-
 def _section(section: Section, width: int, brief: bool) -> list[str]:
     number = f"{section.number}  " if section.number is not None else ""
     title = number + "".join(x if isinstance(x, str) else unicode(x) for x in section.title)

@@ -42,7 +42,7 @@ class Row:
     @property
     def holds(self) -> bool:
         """Whether it is so."""
-        return self.check.holds
+        return self.check.holds is True
 
 
 @dataclass(frozen=True)

@@ -39,21 +39,36 @@ ONE_BY_ONE = 3
 Array: TypeAlias = NDArray[np.float64]
 
 
+Function: TypeAlias = Callable[..., Array]
+
+
 class Functions(Protocol):
     """The compiled functions of a system, as `lagrangian.Compiled` has them."""
 
-    forward: Callable[..., Array]
-    inverse: Callable[..., Array]
-    mass_matrix: Callable[..., Array]
-    bias: Callable[..., Array]
-    gravity: Callable[..., Array]
-    coriolis_matrix: Callable[..., Array]
-    energies: Callable[..., tuple[Array, Array]]
-    rates: Callable[..., Array]
-    rhs: Callable[..., Array]
-    program: Callable[[str], Program]
-    exported: tuple[str, ...]
-    quadratic: bool
+    @property
+    def forward(self) -> Function: ...  # noqa: D102
+    @property
+    def inverse(self) -> Function: ...  # noqa: D102
+    @property
+    def mass_matrix(self) -> Function: ...  # noqa: D102
+    @property
+    def bias(self) -> Function: ...  # noqa: D102
+    @property
+    def gravity(self) -> Function: ...  # noqa: D102
+    @property
+    def coriolis_matrix(self) -> Function: ...  # noqa: D102
+    @property
+    def energies(self) -> Callable[..., tuple[Array, Array]]: ...  # noqa: D102
+    @property
+    def rates(self) -> Function: ...  # noqa: D102
+    @property
+    def rhs(self) -> Function: ...  # noqa: D102
+    @property
+    def program(self) -> Callable[[str], Program]: ...  # noqa: D102
+    @property
+    def exported(self) -> tuple[str, ...]: ...  # noqa: D102
+    @property
+    def quadratic(self) -> bool: ...  # noqa: D102
 
 
 @dataclass
