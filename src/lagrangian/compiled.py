@@ -54,7 +54,7 @@ class Compiled:
         self._floats = [f.floating for f in model.floating if f.floating is not None]
         self.inputs = tuple(u.name for u in model.inputs)
         self.parameters = tuple(p.name for p in model.parameters)
-        self.exported: tuple[str, ...] = (*EXPORTED, "rates") if model.floating else EXPORTED
+        self.exported = exported(model)
         """The programs that a source file is written of."""
         self._kernel("forward")  # a coordinate without mass is found now, not at the first call
 
@@ -270,6 +270,12 @@ _SOLVING = ("forward", "rhs")
 EXPORTED = ("forward", "inverse", "mass_matrix", "energy")
 """The programs that a source file is written of."""
 
+
+def exported(model: Model) -> tuple[str, ...]:
+    """Return the names of the programs that a source file of this model is written of."""
+    return (*EXPORTED, "rates") if model.floating else EXPORTED
+
+
 LANGUAGES = {"c": ".c", "python": ".py"}
 """The languages of source files, and how their names end."""
 
@@ -296,8 +302,7 @@ def sources(model: Model, language: str, stem: str) -> dict[str, str]:
         raise ModelError(
             f"'{stem}' cannot begin the name of a function", fix="use letters, digits and underscores", code="E702"
         )
-    exported = (*EXPORTED, "rates") if model.floating else EXPORTED
-    programs = {f"{stem}_{name}": _PROGRAMS[name](model) for name in exported}
+    programs = {f"{stem}_{name}": _PROGRAMS[name](model) for name in exported(model)}
     if language == "python":
         functions = [_renamed(machine.to_numpy(program), name) for name, program in programs.items()]
         first = f'"""The dynamics of a system with coordinates {", ".join(c.name for c in model.coordinates)}."""'

@@ -9,7 +9,7 @@ import pytest
 from sympy import Abs, cos, sin
 
 import lagrangian as lg
-from lagrangian import compiled, derivation
+from lagrangian import compiled
 from lagrangian.analyze import jacobians
 from lagrangian.analyze.verify import exports, slopes
 from lagrangian.cli import main
@@ -169,7 +169,7 @@ def test_an_exported_source_with_a_fault_is_noticed(
     right = compiled.sources
     wrong = flawed(right, old, new)
     monkeypatch.setattr(
-        derivation, "sources", lambda m, to, stem: wrong(m, to, stem) if to == language else right(m, to, stem)
+        compiled, "sources", lambda m, to, stem: wrong(m, to, stem) if to == language else right(m, to, stem)
     )
     assert failing(crane().verify(states=2)) == {noticed}
 
