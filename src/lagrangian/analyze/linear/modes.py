@@ -85,12 +85,12 @@ def spectrum(
 
     balanced, scaling = scipy.linalg.matrix_balance(A, permute=False, separate=False)
     spaces = eigenspaces(balanced, noise[0])
-    poles = np.array([s.pole for s in spaces for _ in range(s.times)], complex)
+    poles: NDArray[np.complex128] = np.array([s.pole for s in spaces for _ in range(s.times)], np.complex128)
     errors = np.array([s.error for s in spaces for _ in range(s.times)])
     vectors = [scaling @ _columns(plain_basis(s.basis), s.times) for s in spaces]
     real = np.where(np.abs(poles.real) <= errors, 0.0, poles.real)
     imag = np.where(np.abs(poles) <= errors, 0.0, poles.imag)
-    return _sorted(np.asarray(real + 1j * imag, complex), errors, np.asarray(np.hstack(vectors), complex))
+    return _sorted(np.asarray(real + 1j * imag, np.complex128), errors, np.asarray(np.hstack(vectors), complex))
 
 
 def _columns(basis: NDArray[Any], count: int) -> NDArray[Any]:
