@@ -12,12 +12,13 @@ import numpy as np
 import pytest
 import scipy.linalg
 import sympy as sp
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import lagrangian as lg
 from lagrangian import examples
 from lagrangian.errors import MissingExtra, RunError
+from size import sized
 
 
 def built_in(name: str) -> lg.System:
@@ -402,7 +403,7 @@ def test_the_regulators_law_balances_the_pole_in_a_run() -> None:
     assert np.allclose(along.u[0, 0], -regulator.K[0] @ [0, 0.15, 0, 0])
 
 
-@settings(max_examples=40, deadline=None, derandomize=True)
+@sized(40, 10)
 @given(n=st.integers(1, 6), seed=st.integers(0, 10_000), floor=st.sampled_from([0, 0, 1, 2]))
 def test_undamped_spectra_are_those_of_scipys_pencil(n: int, seed: int, floor: int) -> None:
     """K with ``floor`` directions that nothing restores: as many double poles at 0, the others imaginary exactly."""

@@ -3,13 +3,14 @@
 from functools import cache
 
 import sympy as sp
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
 
 from lagrangian import System
 from lagrangian.analyze.check import Line, Status, check
 from lagrangian.derivation import Derivation
+from size import sized
 
 
 @cache
@@ -41,7 +42,7 @@ WHOLE = st.integers(-3, 3)
 SHAPES = [lambda e: e, sp.expand, sp.expand_trig, lambda e: sp.expand(sp.expand_trig(e)), lambda e: e.rewrite(sp.cos)]
 
 
-@settings(max_examples=25, derandomize=True, deadline=None)
+@sized(25, 4)
 @given(WHOLE, WHOLE, WHOLE, WHOLE, st.sampled_from(range(len(SHAPES))), st.sampled_from(range(5)))
 def test_combinations_with_factors_in_other_identities(p: int, q: int, r: int, s: int, shape: int, by: int) -> None:
     derivation, rows, symbols = arm()
@@ -51,7 +52,7 @@ def test_combinations_with_factors_in_other_identities(p: int, q: int, r: int, s
     assert verdict.status is not Status.WRONG
 
 
-@settings(max_examples=25, derandomize=True, deadline=None)
+@sized(25, 4)
 @given(
     st.integers(0, 1),
     st.integers(0, 40),

@@ -70,6 +70,7 @@ def test_what_is_wrong_in_numbers_is_told_in_the_answers_numbers() -> None:
     assert verdict.mistake is not None and verdict.mistake.name == "coriolis_half"
 
 
+@pytest.mark.slow
 def test_numbers_in_other_coordinates() -> None:
     answer = "0.5*x'' + 30*x*(1 - 0.6/sqrt(x^2 + y^2)) = 0\n0.5*y'' + 30*y*(1 - 0.6/sqrt(x^2 + y^2)) + {w} = 0"
     assert derived("elastic-pendulum").check(answer.format(w="4.905")).status is Status.OTHER_COORDINATES

@@ -10,6 +10,7 @@ import pytest
 
 from lagrangian import loads
 from lagrangian.derivation import Derivation
+from size import rest_slow
 
 BODY = """
 name = "mass on a spring"
@@ -63,7 +64,7 @@ def test_a_distance_is_positive(spring: str, answer: str) -> None:
     assert verdict.right, verdict.to_text()
 
 
-@pytest.mark.parametrize("spring", SPRINGS)
+@pytest.mark.parametrize("spring", rest_slow(SPRINGS, {"between"}))
 @pytest.mark.parametrize(
     "answer",
     [

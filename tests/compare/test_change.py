@@ -9,13 +9,14 @@ import mpmath
 import numpy as np
 import pytest
 import sympy as sp
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import lagrangian as lg
 from lagrangian import examples
 from lagrangian.analyze.change import changed, read_change
 from lagrangian.model import Model, time
+from size import rest_slow, sized
 
 
 def _oracle_rows(model: Model) -> list[sp.Expr]:
@@ -139,7 +140,7 @@ CHANGES: dict[str, dict[str, str]] = {
 }
 
 
-@pytest.mark.parametrize("name", CHANGES)
+@pytest.mark.parametrize("name", rest_slow(CHANGES, {"linear", "moving"}))
 def test_every_kind_of_element_is_carried_over(name: str) -> None:
     system = _everything()
     change = read_change(system.model, CHANGES[name])
@@ -149,6 +150,7 @@ def test_every_kind_of_element_is_carried_over(name: str) -> None:
     assert [d.name for d in new.definitions] == ["L", "h"]
 
 
+@pytest.mark.slow
 def test_in_space_parents_stay_parents() -> None:
     system = lg.loads(examples.text("scara"))
     old = system.model
@@ -174,7 +176,7 @@ def test_a_file_in_other_coordinates_is_read_back() -> None:
     assert again.derive().equations == new.derive().equations
 
 
-@settings(max_examples=6, deadline=None, derandomize=True)
+@sized(6, 2)
 @given(
     st.integers(2, 3).flatmap(
         lambda n: st.lists(st.lists(st.integers(-2, 2), min_size=n, max_size=n), min_size=n, max_size=n)

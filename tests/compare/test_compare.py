@@ -76,7 +76,7 @@ def test_generalized_forces_are_j_transposed_times_the_old_ones() -> None:
     ("name", "change"),
     [
         ("triple-pendulum", {"theta3": "theta2 + theta3", "theta2": "theta1 + theta2"}),
-        ("spring-net", {"x1": "r*cos(a)", "y1": "r*sin(a)"}),
+        pytest.param("spring-net", {"x1": "r*cos(a)", "y1": "r*sin(a)"}, marks=pytest.mark.slow),
         ("cart-pole", {"theta": "phi - pi/2"}),
         ("elastic-pendulum", {"r": "sqrt(x^2 + y^2)", "theta": "atan2(x, -y)"}),
         ("spherical-pendulum", {"phi": "psi - theta"}),
@@ -96,7 +96,7 @@ def test_the_change_is_found_from_what_both_put_in_the_same_places(name: str, ch
     assert found.change.replaced
 
 
-@pytest.mark.parametrize("links", [3, 6])
+@pytest.mark.parametrize("links", [3, pytest.param(6, marks=pytest.mark.slow)])
 def test_chains_absolute_and_relative(links: int) -> None:
     def chain(relative: bool) -> lg.System:
         s = lg.System("chain")

@@ -11,16 +11,16 @@ import subprocess
 import numpy as np
 import pytest
 from compile_programs import Ambiguous, double_pendulum, flat, oracle, program, random_programs, rounding
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import HealthCheck, assume, given
 from hypothesis import strategies as st
 
 from lagrangian.compile import compile, native, to_c, to_numpy
 from lagrangian.compile.build import Build, Options
 from lagrangian.compile.kernel import Kernel
+from size import also_in_full, sized
 
 HOST = native.host()
 NUMBERS = st.floats(-4, 4, allow_subnormal=False)
-RANDOM = settings(deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
 
 
 def machine(made, **options):
@@ -97,7 +97,7 @@ def points(draw_q, draw_p, t):
     return {"q": draw_q, "p": draw_p, "t": [t]}
 
 
-@settings(RANDOM, max_examples=60)
+@sized(60, 12, suppress_health_check=list(HealthCheck))
 @given(random_programs(), st.lists(NUMBERS, min_size=3, max_size=3), st.lists(NUMBERS, min_size=2, max_size=2), NUMBERS)
 def test_machine_code_of_random_programs(made, q, p, t):
     pairs = bounded(made, points(q, p, t))
@@ -111,7 +111,7 @@ def test_machine_code_of_random_programs(made, q, p, t):
         assert np.array_equal(sweep[name], batch[name])
 
 
-@settings(RANDOM, max_examples=20)
+@sized(20, 4, suppress_health_check=list(HealthCheck))
 @given(random_programs(), st.lists(NUMBERS, min_size=3, max_size=3), st.lists(NUMBERS, min_size=2, max_size=2), NUMBERS)
 def test_machine_code_without_fused_operations(made, q, p, t):
     pairs = bounded(made, points(q, p, t))
@@ -122,7 +122,7 @@ def test_machine_code_without_fused_operations(made, q, p, t):
     assert all(np.array_equal(batch[n], np.broadcast_to(single[n], batch[n].shape)) for n in made.outputs)
 
 
-@settings(RANDOM, max_examples=20)
+@sized(20, 4, suppress_health_check=list(HealthCheck))
 @given(random_programs(), st.lists(NUMBERS, min_size=3, max_size=3), st.lists(NUMBERS, min_size=2, max_size=2), NUMBERS)
 def test_machine_code_in_short_pieces(made, q, p, t):
     pairs = bounded(made, points(q, p, t))
@@ -132,7 +132,7 @@ def test_machine_code_in_short_pieces(made, q, p, t):
     check({n: b[4] for n, b in batch.items()}, pairs)
 
 
-@settings(RANDOM, max_examples=60)
+@sized(60, 12, suppress_health_check=list(HealthCheck))
 @given(random_programs(), st.lists(NUMBERS, min_size=3, max_size=3), st.lists(NUMBERS, min_size=2, max_size=2), NUMBERS)
 def test_numpy_source_of_random_programs(made, q, p, t):
     pairs = bounded(made, points(q, p, t))
@@ -142,8 +142,9 @@ def test_numpy_source_of_random_programs(made, q, p, t):
     check({n: a[1, 2] for n, a in many.items()}, pairs)
 
 
+@also_in_full
 def test_c_source_of_random_programs(c_function):
-    @settings(RANDOM, max_examples=25)
+    @sized(25, 6, suppress_health_check=list(HealthCheck))
     @given(
         random_programs(), st.lists(NUMBERS, min_size=3, max_size=3), st.lists(NUMBERS, min_size=2, max_size=2), NUMBERS
     )

@@ -135,7 +135,7 @@ def test_two_processes_at_once(folder):
         "print(k(np.array([0.3, -0.4]), np.array([1.0, 2.0])).tolist())\n"
     )
     running = [subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) for _ in range(3)]
-    answers = {process.communicate(timeout=120)[0] for process in running}
+    answers = {process.communicate()[0] for process in running}
     assert all(process.returncode == 0 for process in running)
     assert len(answers) == 1
     (file,) = folder.iterdir()

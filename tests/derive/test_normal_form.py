@@ -7,13 +7,14 @@ from dataclasses import dataclass
 
 import pytest
 import sympy as sp
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from sympy.core.function import AppliedUndef
 from sympy.physics.mechanics import dynamicsymbols
 
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach, equations
 from lagrangian.errors import ModelError
+from size import sized
 
 t = dynamicsymbols._t
 x, theta, phi = dynamicsymbols("x theta phi")
@@ -122,7 +123,7 @@ def _times(pair: tuple[sp.Expr, sp.Expr]) -> sp.Expr:
     return pair[0] * pair[1]
 
 
-@settings(max_examples=25, deadline=None, derandomize=True)
+@sized(25, 4)
 @given(trigonometric(), trigonometric())
 def test_equal_expressions_have_one_form(a: sp.Expr, b: sp.Expr) -> None:
     ring = algebra()
@@ -135,7 +136,7 @@ def test_equal_expressions_have_one_form(a: sp.Expr, b: sp.Expr) -> None:
     assert same((fa * fb + fa).expr(), a * b + a, 1)
 
 
-@settings(max_examples=25, deadline=None, derandomize=True)
+@sized(25, 6)
 @given(trigonometric())
 def test_random_gradients(a: sp.Expr) -> None:
     form = algebra().form(a)

@@ -4,11 +4,12 @@ import random
 
 import pytest
 import sympy as sp
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, given
 from hypothesis import strategies as st
 from sympy import cos, sin
 
 import lagrangian as lg
+from size import sized
 
 t = sp.Symbol("t")
 
@@ -90,7 +91,7 @@ def value(expr: sp.Expr, state: dict[sp.Basic, sp.Expr]) -> sp.Expr:
     return sp.N(expr.xreplace(high).xreplace(rates).xreplace(rest), 30)
 
 
-@settings(max_examples=25, deadline=None, derandomize=True, suppress_health_check=list(HealthCheck))
+@sized(25, 4, suppress_health_check=list(HealthCheck))
 @given(mechanisms())
 def test_readable_equations_are_the_definition(s: lg.System) -> None:
     source = random.Random(7)

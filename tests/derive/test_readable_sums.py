@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 import sympy as sp
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from sympy.physics.mechanics import dynamicsymbols
 
@@ -16,6 +16,7 @@ from lagrangian.derive.algebra import Algebra, Form, equations
 from lagrangian.derive.algebra.factor import Flat
 from lagrangian.derive.algebra.monomials import packed
 from lagrangian.derive.algebra.sums import sums_in, with_sums
+from size import sized
 
 t = dynamicsymbols._t
 sin, cos = sp.sin, sp.cos
@@ -91,7 +92,7 @@ def test_sums_are_found_themselves_or_squared(expr: sp.Expr, expected: dict[Any,
     assert sp.expand(written - wanted) == 0 or sp.expand(written + wanted) == 0
 
 
-@settings(max_examples=40, deadline=None, derandomize=True)
+@sized(40, 8)
 @given(st.dictionaries(st.tuples(*[st.integers(0, 3)] * 3), st.integers(-4, 4).filter(bool), min_size=2, max_size=9))
 def test_sums_put_in_multiply_out_to_what_they_came_from(terms: dict[tuple[int, ...], int]) -> None:
     """Against SymPy's expansion."""

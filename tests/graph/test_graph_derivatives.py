@@ -3,7 +3,7 @@
 import mpmath
 import pytest
 import sympy as sp
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from lagrangian.graph import (
@@ -19,6 +19,7 @@ from lagrangian.graph import (
     jvp,
     vjp,
 )
+from size import sized
 
 x, y, z = sp.symbols("x y z", real=True)
 AT = {x: sp.Rational(3, 7), y: sp.Rational(5, 4), z: sp.Rational(-2, 3)}
@@ -143,7 +144,7 @@ steps = st.lists(
 )
 
 
-@settings(max_examples=60, deadline=None, derandomize=True)
+@sized(60, 12)
 @given(steps, st.lists(st.floats(0.3, 1.5), min_size=3, max_size=3))
 def test_random_expressions_against_numerical_differentiation(steps, at):
     g = Graph()

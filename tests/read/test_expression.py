@@ -2,13 +2,14 @@
 
 import pytest
 import sympy as sp
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from sympy.physics.vector import dynamicsymbols
 
 from lagrangian.model.names import time
 from lagrangian.model.plain import plain
 from lagrangian.read.expression import parse_expression
+from size import sized
 
 x, y, theta1, theta2 = dynamicsymbols("x y theta1 theta2")
 m, g, L, L_a, k, E, I, N, S, beta, gamma, lam = sp.symbols("m g L L_a k E I N S beta gamma lambda")
@@ -145,7 +146,7 @@ def _grow(children: st.SearchStrategy[sp.Expr]) -> st.SearchStrategy[sp.Expr]:
     )
 
 
-@settings(max_examples=150, derandomize=True, deadline=None)
+@sized(150, 30)
 @given(st.recursive(LEAVES | NUMBERS, _grow, max_leaves=8))
 def test_what_is_printed_is_read_back(expr: sp.Expr) -> None:
     if expr.has(sp.zoo, sp.nan, sp.oo, sp.I, sp.re, sp.im, sp.E):

@@ -5,7 +5,7 @@ import tomllib
 import jsonschema
 import pytest
 import sympy as sp
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from lagrangian import examples
@@ -27,6 +27,7 @@ from lagrangian.model import (
     time,
 )
 from lagrangian.read import dumps, load, loads, schema
+from size import sized
 
 CARTS = """
 name = "two carts and a spring"
@@ -256,7 +257,7 @@ def test_a_saved_file_loads(tmp_path) -> None:  # type: ignore[no-untyped-def]
     assert summary(load(path).model()) == summary(loads(CARTS).model())
 
 
-@settings(max_examples=150, derandomize=True, deadline=None)
+@sized(150, 20)
 @given(
     st.floats(allow_nan=False, allow_infinity=False).filter(lambda v: v == 0 or 1e-150 < abs(v) < 1e150),
     st.sampled_from([None, "kg", "mm", "deg", "lbf", "N/m", "km/h", "rpm", "°", "m^(1/2)"]),
@@ -269,7 +270,7 @@ def test_parameter_values_survive_to_the_last_bit(value: float, unit: str | None
     assert loads(dumps(b.model())).model().parameters[0].value == value
 
 
-@settings(max_examples=100, derandomize=True, deadline=None)
+@sized(100, 15)
 @given(st.text(max_size=30), st.text(max_size=30))
 def test_any_description_survives(first: str, second: str) -> None:
     b = Builder("x")

@@ -1,18 +1,23 @@
 """Numbers with units against pint's own conversion and against the definitions of the units."""
 
 import math
-import time
 
 import pint
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
+from effort import at_most
 from lagrangian.errors import ParseError
 from lagrangian.read import parse_quantity, unit_dimension
 from lagrangian.read.units import SYMBOLS, registry
+from size import sized
 
 PINT = {"°": "degree", "Ω": "ohm"}
+
+
+CALLS = 10_000_000
+"""Of Python functions, that any one of these takes at most."""
 
 
 @pytest.mark.parametrize("name", SYMBOLS)
@@ -108,7 +113,7 @@ def test_what_is_wrong_is_said_and_pointed_at(text: str, column: int | None, fra
         assert caught.value.place is not None and caught.value.place.column == column
 
 
-@settings(max_examples=200, derandomize=True, deadline=5000)
+@sized(200, 60)
 @given(
     st.one_of(
         st.text(max_size=20),
@@ -118,15 +123,16 @@ def test_what_is_wrong_is_said_and_pointed_at(text: str, column: int | None, fra
     )
 )
 def test_any_text_gives_a_finite_value_or_a_parse_error(text: str) -> None:
-    start = time.perf_counter()
     try:
-        assert math.isfinite(parse_quantity(text).value)
+        with at_most(CALLS):
+            value = parse_quantity(text).value
     except ParseError as error:
         assert str(error)
-    assert time.perf_counter() - start < 4
+    else:
+        assert math.isfinite(value)
 
 
-@settings(max_examples=60, derandomize=True, deadline=None)
+@sized(60, 15)
 @given(
     st.integers(-1000, 1000),
     st.lists(

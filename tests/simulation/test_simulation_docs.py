@@ -33,6 +33,7 @@ def test_the_python_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys
     assert float(names["run"].audit) < 1e-9
 
 
+@pytest.mark.slow
 def test_the_command_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     (tmp_path / "carts.toml").write_text(examples.text("two-carts"), encoding="utf-8")

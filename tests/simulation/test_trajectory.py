@@ -156,7 +156,7 @@ for ending in ("csv", "nc", "parquet", "npz"):
     except lg.Error as error:
         print(error)
 """
-    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True)
     assert done.stderr == "" and done.stdout.count("file too large") == 4
     for ending in ("csv", "nc", "parquet", "npz"):
         assert (tmp_path / f"x.{ending}").read_text() == "precious"

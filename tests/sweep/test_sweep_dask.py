@@ -46,6 +46,7 @@ def cluster() -> Iterator[Any]:
     gc.collect()  # what the cluster left open is closed, and warned of, here
 
 
+@pytest.mark.slow
 def test_two_workers_one_of_them_killed_and_then_resumed(
     system: lg.System, here: lg.Ensemble, cluster: Any, tmp_path: pathlib.Path
 ) -> None:

@@ -50,8 +50,7 @@ def test_killed_and_resumed_is_the_same_as_never_killed(
     path = {**os.environ, "PYTHONPATH": os.pathsep.join(known)}
     process = subprocess.Popen([sys.executable, "-c", SCRIPT], cwd=tmp_path, env=path)
     marks = tmp_path / "a.zarr" / "done" / "c" / "0"
-    deadline = time.monotonic() + 60
-    while time.monotonic() < deadline and process.poll() is None:
+    while process.poll() is None:
         if marks.exists() and (done := finished(marks)).size and done.sum() >= share * len(done):
             break
         time.sleep(0.001)

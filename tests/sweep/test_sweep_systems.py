@@ -5,7 +5,7 @@ import csv
 import numpy as np
 import pytest
 import sympy as sp
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
@@ -14,6 +14,7 @@ from lagrangian import examples
 from lagrangian.running.driving import driving
 from lagrangian.running.per_run import Wanted, study_of
 from lagrangian.simulate import Solver
+from size import sized
 
 
 @pytest.fixture(scope="module")
@@ -119,7 +120,7 @@ def test_the_same_bits_whatever_the_chunks_and_threads() -> None:
     assert len(bits) == 1
 
 
-@settings(max_examples=8, derandomize=True, deadline=None)
+@sized(8, 2)
 @given(st.integers(0, 2**32 - 1))
 def test_random_double_pendulums_against_scipy(seed: int) -> None:
     rng = np.random.default_rng(seed)

@@ -9,7 +9,7 @@ from typing import ClassVar
 
 import pytest
 import sympy as sp
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from lagrangian.model import Builder, Particle, time
@@ -21,6 +21,7 @@ from lagrangian.write.math import Grid, Letter, Number, Power, Ratio, Sum, Times
 from lagrangian.write.mathml import mathml
 from lagrangian.write.names import letters
 from lagrangian.write.tex import PAGE, WEB
+from size import sized
 
 
 def _model():
@@ -252,7 +253,7 @@ def _grow(children):
 expressions = st.recursive(atoms, _grow, max_leaves=7)
 
 
-@settings(max_examples=200, deadline=None, derandomize=True)
+@sized(200, 25)
 @given(expressions)
 def test_what_is_printed_means_what_was_meant(expr):
     table = {symbol: sp.Float(VALUES[unicodedata.normalize("NFC", name)]) for name, symbol in ATOMS.items()}
@@ -264,7 +265,7 @@ def test_what_is_printed_means_what_was_meant(expr):
     assert not reader.peek(), text
 
 
-@settings(max_examples=60, deadline=None, derandomize=True)
+@sized(60, 10)
 @given(expressions, st.integers(16, 60))
 def test_a_formula_cut_into_lines_still_means_the_same_and_fits(expr, width):
     """Cut at any width and read line by line; only a line with one symbol or number on it may be longer."""

@@ -1,0 +1,38 @@
+"""How large a test is: small by default, full where the tests that take long are run (``pytest -m slow``)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Sequence
+from typing import Any
+
+import pytest
+from hypothesis import settings
+
+FULL = False
+"""Whether the tests that take long are run; ``conftest.py`` sets it before any test is read."""
+
+
+def sized(full: int, small: int, **others: Any) -> Callable[[Any], Any]:
+    """Decorate a test by Hypothesis: ``small`` examples by default, ``full`` among the tests that take long."""
+
+    def decorate(test: Any) -> Any:
+        chosen = settings(max_examples=full if FULL else small, deadline=None, derandomize=True, **others)
+        return also_in_full(chosen(test))
+
+    return decorate
+
+
+def also_in_full(test: Any) -> Any:
+    """Mark a test whose cases are a sample by default: all of them are run among the tests that take long."""
+    return pytest.mark.slow(test) if FULL else test
+
+
+def cases(every: Sequence[Any], small: Sequence[Any]) -> list[Any]:
+    """The values of a parameter: ``small`` by default, ``every`` one among the tests that take long."""
+    assert set(map(str, small)) <= set(map(str, every))
+    return list(every) if FULL else list(small)
+
+
+def rest_slow(every: Iterable[Any], quick: Collection[Any]) -> list[Any]:
+    """The values of a parameter, those that are not ``quick`` marked as taking long."""
+    return [value if value in quick else pytest.param(value, marks=pytest.mark.slow) for value in every]
