@@ -10,7 +10,7 @@ import pytest
 import typer
 
 import lagrangian
-from lagrangian.cli import app
+from lagrangian.commands.app import app
 from lagrangian.commands.verbs import VERBS
 
 HEAVY = {"sympy", "numpy", "scipy", "llvmlite", "pint", "pydantic", "lark", "rich", "typer", "matplotlib", "mpmath"}

@@ -89,7 +89,7 @@ def test_a_line_for_each_answer(tmp_path: Path, capsys: pytest.CaptureFixture[st
 
     def cells(hint: str) -> list[list[str]]:
         arguments = ("-e", "lecture-3b", str(answers), "--answers", str(table), "--hint", hint)
-        assert run(capsys, *arguments)[0] == 1
+        assert run(capsys, *arguments, "--force")[0] == 1
         rows = list(csv.reader(table.read_text().splitlines()))
         assert rows[0] == ["file", "verdict", "right lines", "lines", "first wrong line", "mistakes", "trouble"]
         assert rows[4][:2] == ["eve.txt", "cannot be read"] and rows[4][6]

@@ -12,7 +12,8 @@ from typer.testing import CliRunner
 
 import lagrangian as lg
 from lagrangian import examples
-from lagrangian.cli import app, main
+from lagrangian.cli import main
+from lagrangian.commands.app import app
 
 
 def _example(name: str) -> lg.System:

@@ -27,6 +27,15 @@ at = ["x", "0"]
         (["simulate", "FILE", "-d", "1", "--set", "m=1", "--method", "rk4"], "Fix: give --step 0.01"),
         (["sweep", "FILE", "x=0:1:3", "-d", "1"], "Fix: give --set m=…"),
         (["sweep", "FILE", "m=1:2:3"], "Fix: --duration 10"),
+        (["sweep", "FILE", "-d", "1", "--set", "m=1"], "its values: k=10:100:50"),
+        (["sweep", "FILE", "m~normal(1,0.1)", "-d", "1"], "Fix: --samples 1000"),
+        (["simulate", "FILE", "-d", "1", "--set", "m=1", "--step", "1"], "Fix: give --rtol and --atol, or --max-step"),
+        (
+            ["simulate", "FILE", "-d", "9", "--set", "m=1", "--max-steps", "3"],
+            "a larger --max-steps, or --method Radau",
+        ),
+        (["linearize", "-e", "cart-pole", "--at", "theta=1"], "`lagrangian equilibria` finds them; --operating-point"),
+        (["linearize", "FILE"], "Fix: give --set m=…"),
     ],
 )
 def test_advice_is_in_options(argv: list[str], advice: str, tmp_path: Any, capsys: pytest.CaptureFixture[str]) -> None:

@@ -7,7 +7,7 @@ import pytest
 from typer.testing import CliRunner
 
 import lagrangian as lg
-from lagrangian.cli import app
+from lagrangian.commands.app import app
 from lagrangian.errors import ModelError
 
 

@@ -12,7 +12,7 @@ from sympy.physics.vector import dynamicsymbols
 from typer.testing import CliRunner
 
 import lagrangian as lg
-from lagrangian.cli import app
+from lagrangian.commands.app import app
 from lagrangian.errors import RunError
 
 T: Any = dynamicsymbols._t  # type: ignore[attr-defined]

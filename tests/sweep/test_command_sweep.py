@@ -91,7 +91,7 @@ def test_a_damaged_store_is_made_good_with_resume(folder: pathlib.Path, capsys: 
         (["arm.toml", "kk=1:2:3", *FAST], "kk"),
         (["arm.toml", "m2=1:2", *FAST], "three parts"),
         (["arm.toml", *FAST], "nothing is varied"),
-        (["m2=1:2:3", *FAST], "is no model file"),
+        (["m2=1:2:3", *FAST], "is not a model file"),
         (["arm.toml", "m2=1:2:3", *FAST, "-o", "a.xls"], "a.xls"),
         (["arm.toml", "m2=1:2:3", *FAST, "-o", "a.csv", "--resume"], "only a .zarr store"),
         (["arm.toml", "m2=1:2:3", *FAST, "-o", "nowhere/a.zarr"], "no folder"),
@@ -123,7 +123,7 @@ def test_failures_are_told_and_counted(folder: pathlib.Path, capsys: pytest.Capt
     assert run("arm.toml", "theta1'=1e200,2e200", *FAST) == 1
 
 
-def test_a_bar_on_a_terminal_and_an_interrupt_that_loses_nothing(folder: pathlib.Path) -> None:
+def test_an_interrupt_on_a_terminal_loses_nothing(folder: pathlib.Path) -> None:
     pty = pytest.importorskip("pty")
     ours, theirs = pty.openpty()
     grid = ["theta1=0.1:3:200", "m2~normal(1,0.1)", "--samples", "500", "-o", "a.zarr", "--output-of", "max theta1"]
@@ -141,7 +141,6 @@ def test_a_bar_on_a_terminal_and_an_interrupt_that_loses_nothing(folder: pathlib
         said += chunk
     assert process.wait() == 130
     text = said.decode()
-    assert "100000" in text
     assert "go on with --resume" in text
     assert "Traceback" not in text
     assert 1 < finished(marks).sum() < len(finished(marks))

@@ -12,6 +12,7 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian import read
+from lagrangian.advice import Advice, Argument
 from lagrangian.analyze.dimensions import RATE, SECOND, Dim, Dimensions, check_dimensions
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.graph import Program
@@ -143,7 +144,7 @@ class Given:
         if missing:
             raise RunError(
                 f"parameter '{missing[0]}' has no value. Missing: {', '.join(missing)}",
-                fix=f"give params = {{'{missing[0]}': …}}, or a value where it is declared",
+                fix=Advice("give ", Argument("params", "…", missing[0]), ", or a value where it is declared"),
                 code="E401",
             )
         return np.array(list(values.values()), float)

@@ -4,19 +4,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import typer
+from lagrangian.errors import Error
 
 
 def assignments(given: Sequence[str] | None, option: str) -> dict[str, str]:
-    """Return name → value as text. Raises `typer.BadParameter` for what is not ``name=value`` and for a name twice."""
+    """Return name → value as text. Raises `Error` for what is not ``name=value`` and for a name twice."""
     found: dict[str, str] = {}
     for item in given or ():
         name, equals, value = (part.strip() for part in item.partition("="))
         if not (name and equals and value):
-            raise typer.BadParameter(
-                f"{option} takes name=value (got '{item[:80]}'), as in {option} x=0.1 or {option} \"x=10 mm\""
+            raise Error(
+                f"{option} takes name=value (got '{item[:80]}')",
+                fix=f'{option} x=0.1 or {option} "x=10 mm"',
+                code="E406",
             )
         if name in found:
-            raise typer.BadParameter(f"'{name[:64]}' is given twice with {option}")
+            raise Error(f"'{name[:64]}' is given twice with {option}", fix="leave one of the two out", code="E404")
         found[name] = value
     return found

@@ -6,50 +6,69 @@ from typing import Annotated
 
 import typer
 
-from lagrangian import write
-from lagrangian.commands.derive import Format, Notation
-from lagrangian.commands.terminal import Output, open_system, put
+from lagrangian.commands.formats import FormatOption, Notation, NotationOption, chosen, put_report
+from lagrangian.commands.terminal import Force, Json, Output, Width, example_names, open_system
 from lagrangian.comparison import compare as compared
+from lagrangian.errors import Error
 from lagrangian.system import System
 
 
 def compare(
     files: Annotated[
-        list[str] | None, typer.Argument(help="Two model files; - is standard input.", show_default=False)
+        list[str] | None,
+        typer.Argument(metavar="FILE FILE", help="Two model files; - is standard input.", show_default=False),
     ] = None,
     examples: Annotated[
         list[str] | None,
-        typer.Option("--example", "-e", help="A built-in example in place of a file.", show_default=False),
+        typer.Option(
+            "--example",
+            "-e",
+            metavar="NAME",
+            help="A built-in example in place of a file.",
+            show_default=False,
+            autocompletion=example_names,
+        ),
     ] = None,
     change: Annotated[
         list[str] | None,
-        typer.Option("--change", "-c", help='A coordinate of one in those of the other: "x2 = x1 + x2r".'),
+        typer.Option(
+            "--change", "-c", metavar="EQUATION", help='A coordinate of one in those of the other: "x2 = x1 + x2r".'
+        ),
     ] = None,
-    format: Annotated[Format, typer.Option("--format", "-f", help="What to write.")] = Format.TEXT,
-    notation: Annotated[Notation, typer.Option(help="Whose letters.")] = Notation.LECTURE,
-    json: Annotated[bool, typer.Option("--json", help="Write data.")] = False,
-    width: Annotated[int, typer.Option(help="Columns of the text.", min=40, max=400)] = 80,
+    format: FormatOption = None,
+    notation: NotationOption = Notation.LECTURE,
+    json: Json = False,
+    width: Width = None,
     output: Output = None,
+    force: Force = False,
 ) -> None:
     """Compare two systems, row by row; exit 0 if they are the same motion, 1 if they differ.
 
-    Files come before examples: ``lagrangian compare mine.toml -e lecture-3b``.
+    Files come before examples.
+
+    \b
+    Examples:
+      lagrangian compare -e lecture-3a -e lecture-3b
+      lagrangian compare mine.toml -e lecture-3b
+      lagrangian compare mine.toml theirs.toml --change "x2 = x1 + x2r" -o both.html
     """
+    wanted = chosen(format, json, output, force)
     a, b = _two(files or [], examples or [])
     found = compared(a, b, _changes(change))
-    written = Format.JSON.value if json else format.value
-    put(write.write_report(found.report(), written, notation=notation.value, width=width), output)
+    put_report(found.report(), wanted, width, output, notation=notation)
     if not found.same:
         raise typer.Exit(1)
 
 
 def _two(files: list[str], examples: list[str]) -> tuple[System, System]:
     if len(files) + len(examples) != 2:
-        raise typer.BadParameter(
-            f"name two systems to compare (got {len(files) + len(examples)}): model files, or examples with -e NAME"
+        raise Error(
+            f"two systems are compared (got {len(files) + len(examples)})",
+            fix="name two model files, or examples with -e: lagrangian compare mine.toml -e lecture-3b",
+            code="E401",
         )
     if files.count("-") > 1:
-        raise typer.BadParameter("only one of the two can be standard input")
+        raise Error("only one of the two can be standard input", fix="name a file for the other", code="E404")
     first, second = [open_system(f) for f in files] + [open_system(None, e) for e in examples]
     return first, second
 
@@ -61,8 +80,9 @@ def _changes(given: list[str] | None) -> dict[str, str] | None:
     for item in given:
         left, equals, right = item.partition("=")
         if not equals or not left.strip() or not right.strip():
-            raise typer.BadParameter(f"'{item[:60]}' is no change of coordinates: write --change \"x2 = x1 + x2r\"")
+            raise Error(f"'{item[:60]}' is not a change of coordinates", fix='--change "x2 = x1 + x2r"', code="E406")
         if left.strip() in found:
-            raise typer.BadParameter(f"'{left.strip()[:60]}' is given twice in --change")
+            name = left.strip()[:60]
+            raise Error(f"'{name}' is given twice with --change", fix="leave one of the two out", code="E404")
         found[left.strip()] = right
     return found

@@ -2,52 +2,44 @@
 
 from __future__ import annotations
 
-from enum import StrEnum
 from typing import Annotated
 
 import typer
 
 from lagrangian import write
-from lagrangian.commands.terminal import Example, OptionalFile, Output, open_system, put, say
-from lagrangian.derivation import Derivation
-
-
-class Format(StrEnum):
-    """What is written: text, markup, or data."""
-
-    TEXT = "text"
-    MARKDOWN = "markdown"
-    LATEX = "latex"
-    HTML = "html"
-    JSON = "json"
-
-
-class Notation(StrEnum):
-    """Whose letters: ξ, T*, Ξ of the lecture; q, T, Q of physics; M, C, g, τ of robotics."""
-
-    LECTURE = "lecture"
-    PHYSICS = "physics"
-    ROBOTICS = "robotics"
+from lagrangian.commands.door import put, say
+from lagrangian.commands.door import width as columns
+from lagrangian.commands.formats import Format, FormatOption, Notation, NotationOption, chosen
+from lagrangian.commands.terminal import Example, Force, Json, OptionalFile, Output, Width, open_system
 
 
 def derive(
     file: OptionalFile = None,
     example: Example = None,
-    format: Annotated[Format, typer.Option("--format", "-f", help="What to write.")] = Format.TEXT,
-    notation: Annotated[Notation, typer.Option(help="Whose letters.")] = Notation.LECTURE,
+    format: FormatOption = None,
+    notation: NotationOption = Notation.LECTURE,
     brief: Annotated[bool, typer.Option("--brief", help="The one-page checklist.")] = False,
     full: Annotated[bool, typer.Option("--full", help="Write out what is too long to read.")] = False,
-    width: Annotated[int, typer.Option(help="Columns of the text.", min=40, max=400)] = 80,
+    json: Json = False,
+    width: Width = None,
     output: Output = None,
+    force: Force = False,
 ) -> None:
-    """Derive the equations of motion, step by step; exit 1 if a check does not hold."""
+    """Derive the equations of motion, step by step; exit 1 if a check does not hold.
+
+    \b
+    Examples:
+      lagrangian derive --example lecture-3b
+      lagrangian derive carts.toml --brief
+      lagrangian derive carts.toml --notation physics -o carts.tex
+    """
+    wanted = chosen(format, json, output, force)
     derivation = open_system(file, example).derive()
-    put(_written(derivation, format, notation, brief, full, width), output)
+    if wanted is Format.TEXT:
+        document = write.lay_out(derivation, notation=notation.value, brief=brief, full=full)
+        put(write.page_rows(document, columns(width, output)), output)
+    else:
+        put(write.FORMATS[wanted.value](derivation, notation=notation.value, brief=brief, full=full), output)
     if any(check.holds is False for check in derivation.verified):
         say("a check at the end of the derivation does not hold; see its ✗")
         raise typer.Exit(1)
-
-
-def _written(derivation: Derivation, format: Format, notation: Notation, brief: bool, full: bool, width: int) -> str:
-    columns = {"width": width} if format is Format.TEXT else {}
-    return write.FORMATS[format.value](derivation, notation=notation.value, brief=brief, full=full, **columns)

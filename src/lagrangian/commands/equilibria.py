@@ -6,38 +6,54 @@ from typing import Annotated
 
 import typer
 
-from lagrangian import write
 from lagrangian.commands.assignments import assignments
-from lagrangian.commands.derive import Format
-from lagrangian.commands.terminal import Example, OptionalFile, Output, open_system, put
+from lagrangian.commands.formats import FormatOption, chosen, put_report
+from lagrangian.commands.terminal import Example, Force, Json, OptionalFile, Output, Width, open_system
+from lagrangian.errors import Error
 
 
 def equilibria(
     file: OptionalFile = None,
     example: Example = None,
     box: Annotated[
-        list[str] | None, typer.Option("--box", help='Where to look: theta1=-pi:pi, "x=0 m : 30 cm".')
+        list[str] | None,
+        typer.Option("--box", metavar="NAME=LOW:HIGH", help='Where to look: theta1=-pi:pi, "x=0 m : 30 cm".'),
     ] = None,
-    values: Annotated[list[str] | None, typer.Option("--set", help='A parameter\'s value: k=80, "m1=2 kg".')] = None,
-    inputs: Annotated[list[str] | None, typer.Option("--input", help="An input's constant value: F=2.")] = None,
-    samples: Annotated[int | None, typer.Option(help="How many starts; as many as it takes unless given.")] = None,
-    format: Annotated[Format, typer.Option("--format", "-f", help="What to write.")] = Format.TEXT,
-    json: Annotated[bool, typer.Option("--json", help="Write data, as --format json.")] = False,
-    width: Annotated[int, typer.Option(help="Columns of the text.", min=40, max=400)] = 80,
+    values: Annotated[
+        list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help='A parameter\'s value: k=80, "m1=2 kg".')
+    ] = None,
+    inputs: Annotated[
+        list[str] | None, typer.Option("--input", metavar="NAME=VALUE", help="An input's constant value: F=2.")
+    ] = None,
+    samples: Annotated[
+        int | None, typer.Option(metavar="N", help="How many starts; as many as it takes unless given.")
+    ] = None,
+    format: FormatOption = None,
+    json: Json = False,
+    width: Width = None,
     output: Output = None,
+    force: Force = False,
 ) -> None:
-    """Find the equilibria in a box of coordinates, each with its residual and its stability."""
+    """Find the equilibria in a box of coordinates, each with its residual and its stability.
+
+    \b
+    Examples:
+      lagrangian equilibria --example double-pendulum
+      lagrangian equilibria arm.toml --box theta1=-pi:pi --set m1=2 --input tau=3
+      lagrangian equilibria arm.toml --json
+    """
+    wanted = chosen(format, json, output, force)
     found = open_system(file, example).equilibria(
         inputs=assignments(inputs, "--input"),
         params=assignments(values, "--set"),
         box={name: _ends(name, side) for name, side in assignments(box, "--box").items()},
         samples=samples,
     )
-    put(write.write_report(found.report(), "json" if json else format.value, width=width), output)
+    put_report(found.report(), wanted, width, output)
 
 
 def _ends(name: str, side: str) -> tuple[str, str]:
     low, colon, high = (part.strip() for part in side.partition(":"))
     if not (low and colon and high):
-        raise typer.BadParameter(f"the box of '{name}' is not low:high, as in --box {name}=-1:1")
+        raise Error(f"the box of '{name}' is not low:high", fix=f"--box {name}=-1:1")
     return low, high

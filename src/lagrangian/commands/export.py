@@ -9,7 +9,9 @@ from typing import Annotated
 import typer
 
 from lagrangian import write
-from lagrangian.commands.terminal import Example, OptionalFile, open_system, say
+from lagrangian.commands.door import put, say
+from lagrangian.commands.formats import as_json
+from lagrangian.commands.terminal import Example, Force, Json, OptionalFile, open_system
 from lagrangian.compiled import sources
 from lagrangian.errors import Error
 
@@ -25,13 +27,32 @@ def export(
     to: Annotated[Language, typer.Option("--to", help="The language.")],
     file: OptionalFile = None,
     example: Example = None,
-    output: Annotated[Path, typer.Option("--output", "-o", help="The folder to write into.")] = Path(),
-    name: Annotated[str, typer.Option(help="What the files and functions are called.")] = "dynamics",
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="FOLDER", help="The folder to write into.")
+    ] = Path(),
+    name: Annotated[str, typer.Option(metavar="NAME", help="What the files and functions are called.")] = "dynamics",
+    json: Json = False,
+    force: Force = False,
 ) -> None:
-    """Write the dynamics as source code that needs nothing of this package."""
+    """Write the dynamics as source code that needs nothing of this package.
+
+    \b
+    Examples:
+      lagrangian export carts.toml --to c -o out
+      lagrangian export --example two-link-arm --to python --name arm
+    """
+    if output.exists() and not output.is_dir():
+        raise Error(f"'{output}' is a file, not a folder", fix="name a folder with -o: -o out", code="E801")
+    files = {output / title: text for title, text in sources(open_system(file, example).model, to.value, name).items()}
+    if output.is_dir():
+        for path in files:
+            write.check_free(path, overwrite=force)
     try:
         output.mkdir(parents=True, exist_ok=True)
     except OSError as trouble:
-        raise Error(f"cannot make the folder '{output}': {trouble.strerror}", code="E801") from None
-    for file_name, text in sources(open_system(file, example).model, to.value, name).items():
-        say(f"wrote {write.write_file(output / file_name, text)}")
+        raise Error(f"cannot make the folder '{output}': {(trouble.strerror or '').lower()}", code="E801") from None
+    for path, text in files.items():
+        write.write_file(path, text)
+        say(f"wrote {path}")
+    if json:
+        put(as_json({"language": to.value, "files": [str(path) for path in files]}))

@@ -6,33 +6,47 @@ from typing import Annotated
 
 import typer
 
-from lagrangian import write
 from lagrangian.commands.assignments import assignments
-from lagrangian.commands.derive import Format
-from lagrangian.commands.terminal import Example, OptionalFile, Output, open_system, put
+from lagrangian.commands.formats import FormatOption, chosen, put_report
+from lagrangian.commands.terminal import Example, Force, Json, OptionalFile, Output, Width, open_system
 
 
 def linearize(
     file: OptionalFile = None,
     example: Example = None,
     at: Annotated[
-        list[str] | None, typer.Option("--at", help='A coordinate or rate there: x2=0, "theta=12 deg".')
+        list[str] | None,
+        typer.Option("--at", metavar="NAME=VALUE", help='A coordinate or rate there: x2=0, "theta=12 deg".'),
     ] = None,
-    values: Annotated[list[str] | None, typer.Option("--set", help='A parameter\'s value: k=80, "m1=2 kg".')] = None,
-    inputs: Annotated[list[str] | None, typer.Option("--input", help="An input's constant value: F=2.")] = None,
+    values: Annotated[
+        list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help='A parameter\'s value: k=80, "m1=2 kg".')
+    ] = None,
+    inputs: Annotated[
+        list[str] | None, typer.Option("--input", metavar="NAME=VALUE", help="An input's constant value: F=2.")
+    ] = None,
     outputs: Annotated[
-        list[str] | None, typer.Option("--outputs", help="What is measured: an expression, or name=expression.")
+        list[str] | None,
+        typer.Option("--outputs", metavar="EXPRESSION", help="What is measured: an expression, or name=expression."),
     ] = None,
     operating_point: Annotated[
         bool, typer.Option("--operating-point", help="Take a point that is no equilibrium as it is.")
     ] = False,
     symbols: Annotated[bool, typer.Option("--symbols", help="Add the matrices with parameters as letters.")] = False,
-    format: Annotated[Format, typer.Option("--format", "-f", help="What to write.")] = Format.TEXT,
-    json: Annotated[bool, typer.Option("--json", help="Write data, as --format json.")] = False,
-    width: Annotated[int, typer.Option(help="Columns of the text.", min=40, max=400)] = 80,
+    format: FormatOption = None,
+    json: Json = False,
+    width: Width = None,
     output: Output = None,
+    force: Force = False,
 ) -> None:
-    """Linearize about an equilibrium: A, B, C, D, poles, modes, stability."""
+    """Linearize about an equilibrium: A, B, C, D, poles, modes, stability.
+
+    \b
+    Examples:
+      lagrangian linearize --example cart-pole
+      lagrangian linearize cart.toml --at theta=0 --set M=2 --outputs "tip=x + l*sin(theta)"
+      lagrangian linearize cart.toml --symbols -o cart.html
+    """
+    wanted = chosen(format, json, output, force)
     found = open_system(file, example).linearize(
         assignments(at, "--at"),
         params=assignments(values, "--set"),
@@ -40,7 +54,7 @@ def linearize(
         outputs=_outputs(outputs),
         operating_point=operating_point,
     )
-    put(write.write_report(found.report(symbols=symbols), "json" if json else format.value, width=width), output)
+    put_report(found.report(symbols=symbols), wanted, width, output)
 
 
 def _outputs(given: list[str] | None) -> dict[str, str] | None:

@@ -6,16 +6,16 @@ import math
 from pathlib import Path
 from typing import Annotated, Any
 
-import numpy as np
 import typer
 
 from lagrangian.commands.assignments import assignments
-from lagrangian.commands.terminal import Example, OptionalFile, open_system, put, say
-from lagrangian.commands.wording import advising_options, in_options
-from lagrangian.errors import ModelError, Place
-from lagrangian.running import showing
+from lagrangian.commands.door import fail, put, say
+from lagrangian.commands.formats import as_json
+from lagrangian.commands.run_summary import figures, summary
+from lagrangian.commands.terminal import Example, Force, OptionalFile, open_system
+from lagrangian.commands.wording import in_options
+from lagrangian.errors import Error, ModelError, Place
 from lagrangian.running.driving import MAX_KNOTS
-from lagrangian.running.trajectory import Trajectory
 from lagrangian.simulate import METHODS
 from lagrangian.simulate.scipy_methods import SCIPY
 from lagrangian.write import write_with
@@ -33,65 +33,98 @@ def simulate(
     duration: Annotated[
         str | None,
         typer.Option(
-            "--duration", "-d", help="How long, in seconds or with a unit; else what the file says.", show_default=False
+            "--duration",
+            "-d",
+            metavar="TIME",
+            help="How long, in seconds or with a unit; else what the file says.",
+            show_default=False,
         ),
     ] = None,
     set_: Annotated[
         list[str] | None,
-        typer.Option("--set", "-s", help="A parameter: k=80 or 'm1=2 kg'. Any number of times.", show_default=False),
+        typer.Option(
+            "--set",
+            "-s",
+            metavar="NAME=VALUE",
+            help="A parameter: k=80 or 'm1=2 kg'. Any number of times.",
+            show_default=False,
+        ),
     ] = None,
     init: Annotated[
         list[str] | None,
-        typer.Option("--init", help="An initial value: 'theta1=30 deg', \"x'=0.1\".", show_default=False),
+        typer.Option(
+            "--init", metavar="NAME=VALUE", help="An initial value: 'theta1=30 deg', \"x'=0.1\".", show_default=False
+        ),
     ] = None,
     input_: Annotated[
         list[str] | None,
         typer.Option(
             "--input",
             "-i",
+            metavar="NAME=VALUE",
             help="An input: tau=2, 'tau=3*sin(t)', \"F=-k*x\", F=@force.csv (a table), 'F=@force.csv hold'.",
             show_default=False,
         ),
     ] = None,
     method: Annotated[
-        str | None, typer.Option(help=f"{', '.join(METHODS)} in machine code; {', '.join(SCIPY)} of SciPy.")
+        str | None,
+        typer.Option(metavar="NAME", help=f"{', '.join(METHODS)} in machine code; {', '.join(SCIPY)} of SciPy."),
     ] = None,
-    step: Annotated[str | None, typer.Option(help="Seconds a step, for methods with steps of one length.")] = None,
+    step: Annotated[
+        str | None, typer.Option(metavar="TIME", help="Seconds a step, for methods with steps of one length.")
+    ] = None,
     rtol: Annotated[float, typer.Option(help="Relative tolerance.")] = 1e-9,
     atol: Annotated[float, typer.Option(help="Absolute tolerance.")] = 1e-12,
     max_step: Annotated[
-        str | None, typer.Option("--max-step", help="The longest step: 0.01, '10 ms'.", show_default=False)
+        str | None,
+        typer.Option("--max-step", metavar="TIME", help="The longest step: 0.01, '10 ms'.", show_default=False),
     ] = None,
-    samples: Annotated[int | None, typer.Option(help="Times kept, evenly spaced.", show_default="1001")] = None,
-    timeout: Annotated[float | None, typer.Option(help="Seconds of computing allowed.")] = None,
+    samples: Annotated[
+        int | None, typer.Option(metavar="N", help="Times kept, evenly spaced; 1001 unless given.")
+    ] = None,
+    max_steps: Annotated[int, typer.Option(metavar="N", help="Steps after which the run is given up.")] = 10_000_000,
+    max_events: Annotated[int, typer.Option(metavar="N", help="Events after which it is given up.")] = 1000,
+    timeout: Annotated[float | None, typer.Option(metavar="SECONDS", help="Seconds of computing allowed.")] = None,
     plot: Annotated[
-        Path | None, typer.Option("--plot", help="Draw a picture: .png, .pdf or .svg.", show_default=False)
+        Path | None,
+        typer.Option("--plot", metavar="PATH", help="Draw a picture: .png, .pdf or .svg.", show_default=False),
     ] = None,
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", help="Write .csv, .nc, .parquet or .npz; - is CSV on standard output."),
+        typer.Option(
+            "--output", "-o", metavar="PATH", help="Write .csv, .nc, .parquet or .npz; - is CSV on standard output."
+        ),
     ] = None,
-    force: Annotated[bool, typer.Option("--force", help="Replace files that exist.")] = False,
+    json: Annotated[bool, typer.Option("--json", help="Write the summary as data (JSON).")] = False,
+    force: Force = False,
 ) -> None:
-    """Run the system; print a summary. Exit 1 if the run could not be finished (what was reached is kept)."""
+    """Run the system; print a summary. Exit 1 if the run could not be finished (what was reached is kept).
+
+    \b
+    Examples:
+      lagrangian simulate --example double-pendulum --duration 10 --plot run.png
+      lagrangian simulate carts.toml -d 10 --set k=80 --init "x2=0.4 m" -o run.csv
+      lagrangian simulate cart.toml -d "500 ms" --input "F=3*sin(t)" --method taylor
+    """
     for path, endings in ((plot, PICTURES), (output, [*ENDINGS])):
         if path is not None and str(path) != "-":
             check_target(path, list(endings), overwrite=force)
     system = open_system(file, example)
-    with advising_options():
-        run = system.simulate(
-            duration,
-            initial=assignments(init, "--init"),
-            params=assignments(set_, "--set"),
-            inputs={name: _signal(name, value) for name, value in assignments(input_, "--input").items()},
-            method=method,
-            step=step,
-            rtol=rtol,
-            atol=atol,
-            samples=samples,
-            timeout=timeout,
-            max_step=math.inf if max_step is None else max_step,
-        )
+    run = system.simulate(
+        duration,
+        initial=assignments(init, "--init"),
+        params=assignments(set_, "--set"),
+        inputs={name: _signal(name, value) for name, value in assignments(input_, "--input").items()},
+        method=method,
+        step=step,
+        rtol=rtol,
+        atol=atol,
+        samples=samples,
+        timeout=timeout,
+        max_step=math.inf if max_step is None else max_step,
+        max_steps=max_steps,
+        max_events=max_events,
+    )
     if plot is not None:
         figure = run.plot()
         kind = plot.suffix.lower().removeprefix(".")
@@ -99,11 +132,14 @@ def simulate(
         say(f"wrote {plot}")
     if output is not None and str(output) != "-":
         say(f"wrote {run.save(output, overwrite=force)}")
-    put(run.to_csv() if output is not None and str(output) == "-" else summary(run), None)
+    if output is not None and str(output) == "-":
+        put(run.to_csv())
+    else:
+        put(as_json(figures(run)) if json else summary(run))
     if run.audit.missed and run.success:
-        say(in_options(run.audit.missed))
+        say(f"note: {in_options(run.audit.missed)}")
     if not run.success:
-        say(in_options(run.message))
+        fail(in_options(run.message))
         raise typer.Exit(1)
 
 
@@ -113,7 +149,8 @@ def _signal(name: str, value: str) -> Any:
         return value
     path, _, kind = value[1:].strip().partition(" ")
     if kind.strip() not in ("", "hold", "linear"):
-        raise typer.BadParameter(f"--input {name}=@FILE takes 'hold' or 'linear' (got '{kind.strip()[:40]}')")
+        what = f"--input {name}=@FILE takes 'hold' or 'linear' (got '{kind.strip()[:40]}')"
+        raise Error(what, fix=f"--input '{name}=@{path} hold'", code="E406")
     return (*_columns(path), kind.strip() or "linear")
 
 
@@ -161,27 +198,3 @@ def _table_text(path: str) -> str:
     if len(data) > MAX_BYTES:
         raise ModelError(f"the table has more than {MAX_BYTES} bytes", place=Place(path), code="E703")
     return text
-
-
-def summary(run: Trajectory) -> str:
-    """A run on a screen: how it went, and where every state began, ended and stayed between."""
-    lines = [
-        f"{run.model.name}: t = {run.t[0]:g} … {run.t[-1]:g} s, {len(run.t)} samples",
-        f"  {run.method}: {run.steps} steps, {run.rejected} rejected, {run.nfev} evaluations",
-        f"  {run.audit}",
-        f"  {in_options(run.message)}",
-        "",
-    ]
-    rows: list[tuple[str, ...]] = [("", "start", "end", "least", "greatest", "")]
-    for column in showing.table(run).columns:
-        if "." not in column.name:
-            values, unit = column.values, column.unit
-            if unit == "rad":
-                values, unit = np.degrees(values), "deg"
-            numbers = (values[0], values[-1], values.min(), values.max())
-            rows.append((column.name, *(f"{x:.6g}" for x in numbers), unit))
-    wide = [max(len(row[k]) for row in rows) for k in range(6)]
-    for row in rows:
-        cells = [row[0].ljust(wide[0]), *(row[k].rjust(wide[k]) for k in range(1, 5)), row[5]]
-        lines.append(("  " + "  ".join(cells)).rstrip())
-    return "\n".join(lines)

@@ -2,44 +2,85 @@
 
 from __future__ import annotations
 
-import json
-import sys
+import platform
 from typing import Annotated
 
 import typer
 
-from lagrangian.commands.terminal import Output, put
+from lagrangian.commands.door import put
+from lagrangian.commands.formats import as_json, check_output
+from lagrangian.commands.terminal import Force, Json, Output, example_names
 
 
 def new(
-    name: Annotated[str, typer.Argument(help="The example to start from; see `lagrangian examples`.")],
+    name: Annotated[
+        str,
+        typer.Argument(
+            metavar="NAME", help="The example to start from; see `lagrangian examples`.", autocompletion=example_names
+        ),
+    ],
+    json: Json = False,
     output: Output = None,
+    force: Force = False,
 ) -> None:
-    """Print a model file to start from."""
+    """Print a model file to start from.
+
+    \b
+    Examples:
+      lagrangian new lecture-3b > carts.toml
+      lagrangian new pendulum -o pendulum.toml
+    """
     from lagrangian import examples
 
-    put(examples.text(name), output)
+    check_output(output, force)
+    text = examples.text(name)
+    put(as_json({"name": name, "description": examples.describe(name), "text": text}) if json else text, output)
 
 
-def list_examples() -> None:
-    """List the built-in examples."""
+def list_examples(json: Json = False) -> None:
+    """List the built-in examples.
+
+    \b
+    Examples:
+      lagrangian examples
+      lagrangian examples --json
+    """
     from lagrangian import examples
 
-    names = examples.names()
-    wide = max(len(name) for name in names)
-    for name in names:
-        sys.stdout.write(f"{name:<{wide}}  {examples.describe(name)}\n")
+    known = {name: examples.describe(name) for name in examples.names()}
+    if json:
+        put(as_json([{"name": name, "description": words} for name, words in known.items()]))
+    else:
+        wide = max(map(len, known))
+        put([f"{name:<{wide}}  {words}" for name, words in known.items()])
 
 
-def schema(output: Output = None) -> None:
-    """Print the JSON Schema of model files, for editors."""
+def schema(
+    json: Annotated[bool, typer.Option("--json", help="A schema is JSON in any case.")] = False,
+    output: Output = None,
+    force: Force = False,
+) -> None:
+    """Print the JSON Schema of model files, for editors.
+
+    \b
+    Examples:
+      lagrangian schema -o lagrangian.schema.json
+    """
     from lagrangian import read
 
-    put(json.dumps(read.schema(), ensure_ascii=False, indent=2), output)
+    check_output(output, force)
+    put(as_json(read.schema()), output)
 
 
-def version() -> None:
-    """Print the version."""
+def version(json: Json = False) -> None:
+    """Print the version.
+
+    \b
+    Examples:
+      lagrangian version
+      lagrangian version --json
+    """
     from lagrangian import __version__
 
-    sys.stdout.write(f"lagrangian {__version__}\n")
+    data = {"version": __version__, "python": platform.python_version()}
+    put(as_json(data) if json else f"lagrangian {__version__}")

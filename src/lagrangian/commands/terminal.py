@@ -1,4 +1,4 @@
-"""What every command shares with the terminal: how a model is opened, and how results are put out."""
+"""Options that commands share, and how a model is opened."""
 
 from __future__ import annotations
 
@@ -8,25 +8,58 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
+from lagrangian.commands.door import NARROWEST, USUAL, WIDEST
 from lagrangian.errors import Error
 
 if TYPE_CHECKING:
     from lagrangian.system import System
 
-File = Annotated[str, typer.Argument(help="A model file; - is standard input.", show_default=False)]
-OptionalFile = Annotated[str | None, typer.Argument(help="A model file; - is standard input.", show_default=False)]
+
+def example_names(begun: str) -> list[str]:
+    """The names of the examples that begin so, for a shell to complete."""
+    from lagrangian import examples
+
+    return [name for name in examples.names() if name.startswith(begun)]
+
+
+File = Annotated[str, typer.Argument(metavar="FILE", help="A model file; - is standard input.", show_default=False)]
+OptionalFile = Annotated[
+    str | None, typer.Argument(metavar="FILE", help="A model file; - is standard input.", show_default=False)
+]
 Example = Annotated[
-    str | None, typer.Option("--example", "-e", help="Use a built-in example instead of a file.", show_default=False)
+    str | None,
+    typer.Option(
+        "--example",
+        "-e",
+        metavar="NAME",
+        help="Use a built-in example instead of a file.",
+        show_default=False,
+        autocompletion=example_names,
+    ),
 ]
+Width = Annotated[
+    int | None,
+    typer.Option(
+        metavar="COLUMNS",
+        help=f"Columns of the text; the terminal's, or {USUAL}, unless given.",
+        min=NARROWEST,
+        max=WIDEST,
+        show_default=False,
+    ),
+]
+Json = Annotated[bool, typer.Option("--json", help="Write data (JSON).")]
 Output = Annotated[
-    Path | None, typer.Option("--output", "-o", help="Write here instead of standard output.", show_default=False)
+    Path | None,
+    typer.Option("--output", "-o", metavar="PATH", help="Write here instead of standard output.", show_default=False),
 ]
+Force = Annotated[bool, typer.Option("--force", help="Replace a file that is there.")]
 
 
 def open_system(file: str | None, example: str | None = None) -> System:
     """Return the system of a model file (``-`` is standard input) or of a built-in example; one of the two is given."""
     if (file is None) == (example is None):
-        raise typer.BadParameter("name a model file, or a built-in example with --example NAME")
+        what = "there is no model to work on" if file is None else "a file and --example are given: one is worked on"
+        raise Error(what, fix="name a model file, or a built-in example with --example NAME", code="E401")
     from lagrangian import examples
     from lagrangian.system import load, loads
 
@@ -46,20 +79,3 @@ def standard_input() -> str:
 
     data = sys.stdin.buffer.read(read.MAX_BYTES + 1)
     return read.decode(data, "<standard input>")
-
-
-def put(text: str, output: Path | None) -> None:
-    """Write text, ended by a newline, to a file (whole or not at all) or to standard output."""
-    text = text if text.endswith("\n") else text + "\n"
-    if output is None:
-        sys.stdout.write(text)
-        sys.stdout.flush()
-    else:
-        from lagrangian.write import write_file
-
-        write_file(output, text)
-
-
-def say(words: str) -> None:
-    """Talk: a line on standard error."""
-    sys.stderr.write(words + "\n")

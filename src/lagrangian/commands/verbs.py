@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import cached_property
 from importlib import import_module
 from typing import Any
@@ -11,7 +12,11 @@ import typer.core
 
 VERBS = {
     "derive": ("derive", "derive", "Derive the equations of motion, step by step; exit 1 if a check does not hold."),
-    "verify": ("verify", "verify", "Check the equations by independent routes; exit 1 if one does not hold."),
+    "verify": (
+        "verify",
+        "verify",
+        "Check the equations, the compiled code, its exports and the linearization; exit 1 if a check fails.",
+    ),
     "check": (
         "check",
         "check",
@@ -53,17 +58,21 @@ VERBS = {
 """Name → file, function, and the first line of its help."""
 
 
+_ENDING = re.compile(r"[;.] [Ee]xit \d")
+"""Where the line of a verb goes over to exit codes, which the list of verbs leaves out."""
+
+
 class Deferred(typer.core.TyperCommand):
     """A verb that is known by its name and its line of help until it is used."""
 
     def __init__(self, name: str, file: str, function: str, help: str) -> None:
-        super().__init__(name, help=help)
+        super().__init__(name, help=help, short_help=_ENDING.split(help)[0].rstrip(".") + ".")
         self._file, self._function = file, function
 
     @cached_property
     def verb(self) -> Any:
         """The command itself, with its options."""
-        alone = typer.Typer(add_completion=False, pretty_exceptions_enable=False)
+        alone = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
         alone.command(self.name)(getattr(import_module(f"lagrangian.commands.{self._file}"), self._function))
         return typer.main.get_command(alone)
 

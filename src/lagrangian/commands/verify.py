@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import sys
 from typing import Annotated
 
 import typer
 
-from lagrangian import write
 from lagrangian.analyze.verify.report import verification_report
-from lagrangian.commands.terminal import Example, OptionalFile, open_system
+from lagrangian.commands.formats import FormatOption, chosen, put_report
+from lagrangian.commands.terminal import Example, Force, Json, OptionalFile, Output, Width, open_system
 
 
 def verify(
@@ -17,10 +16,23 @@ def verify(
     example: Example = None,
     states: Annotated[int, typer.Option(help="Random states to compare at.", min=1, max=100_000)] = 100,
     seed: Annotated[int, typer.Option(help="Which random states.")] = 1,
+    format: FormatOption = None,
+    json: Json = False,
+    width: Width = None,
+    output: Output = None,
+    force: Force = False,
 ) -> None:
-    """Check the equations, the compiled code, its exports and the linearization; exit 1 if a check fails."""
+    """Check the equations, the compiled code, its exports and the linearization; exit 1 if a check fails.
+
+    \b
+    Examples:
+      lagrangian verify carts.toml
+      lagrangian verify --example double-pendulum --states 1000
+      lagrangian verify carts.toml --json
+    """
+    wanted = chosen(format, json, output, force)
     system = open_system(file, example)
     checks = system.verify(states=states, seed=seed)
-    sys.stdout.write(write.write_report(verification_report(system.model, checks)))
+    put_report(verification_report(system.model, checks), wanted, width, output)
     if any(check.holds is False for check in checks):
         raise typer.Exit(1)

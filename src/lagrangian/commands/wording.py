@@ -1,38 +1,26 @@
-"""What the Python library advises, in the words of the command line: ``step=0.01`` is ``--step 0.01`` there."""
+"""Advice in the command's own words: what Python writes ``step=0.01`` is ``--step 0.01`` there."""
 
 from __future__ import annotations
 
-import contextlib
-import re
-from collections.abc import Iterator
+from lagrangian.advice import Advice, Argument, Verb
 
-from lagrangian.errors import Error
-
-_WORDS = (
-    (r"simulate\(10\.0\)|a duration(?=, or duration =)", "--duration 10"),
-    (r"params\s*=\s*\{'([^']+)': …\}", r"--set \1=…"),
-    (r"inputs=\{'([^']+)': ([^}]*)\}", r"--input \1=\2"),
-    (r"samples=\d+ \((--samples \d+)\)", r"\1"),
-    (r"\bmax_step=([\d.]+)", r"--max-step \1"),
-    (r"\bstep=([\d.]+)", r"--step \1"),
-    (r"\bmax_step\b", "--max-step"),
-    (r"method='(\w+)'", r"--method \1"),
-)
+_OPTIONS = {"params": "--set", "inputs": "--input", "initial": "--init", "overwrite": "--force", "store": "-o"}
+"""Options that are not called after the argument."""
 
 
 def in_options(text: str) -> str:
-    """The text with what is written in Python as options of a command."""
-    for pattern, option in _WORDS:
-        text = re.sub(pattern, option, text)
-    return text
+    """Advice as the command gives it; other text as it is."""
+    return text.spelled(_spelled) if isinstance(text, Advice) else text
 
 
-@contextlib.contextmanager
-def advising_options() -> Iterator[None]:
-    """Errors that come out of the block advise options of a command."""
-    try:
-        yield
-    except Error as trouble:
-        if trouble.fix:
-            trouble.fix = in_options(trouble.fix)
-        raise
+def _spelled(piece: Argument | Verb) -> str:
+    if isinstance(piece, Verb):
+        return f"`lagrangian {piece.name}`"
+    if piece.name == "grid":
+        return f"{piece.key or 'k'}=10:100:50"
+    option = _OPTIONS.get(piece.name, "--" + piece.name.replace("_", "-"))
+    if piece.value is None or piece.value == "True":
+        return option
+    value = piece.value.strip("'\"")
+    given = value if piece.key is None else f"{piece.key}={value}"
+    return f"{option} " + (f'"{given}"' if " " in given else given)

@@ -18,6 +18,7 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian import read
+from lagrangian.advice import Advice, Argument
 from lagrangian.analyze.dimensions import Dim
 from lagrangian.analyze.given import key_name, number
 from lagrangian.compile.arguments import numbers
@@ -192,7 +193,7 @@ def _items(given: Mapping[Any, Any] | None) -> list[tuple[Any, Any]]:
     if not isinstance(given, Mapping):
         raise RunError(
             f"inputs must be a mapping from inputs to signals (got {type(given).__name__})",
-            fix="inputs={'tau': 2.0}",
+            fix=Advice(Argument("inputs", "2.0", "tau")),
             code="E501",
         )
     return list(given.items())

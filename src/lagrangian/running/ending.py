@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from lagrangian import compile as machine
 from lagrangian import dynamics
+from lagrangian.advice import Advice, Argument
 from lagrangian.errors import RunError
 from lagrangian.graph import evaluate
 from lagrangian.running.integrating import Task, remembered, right_hand_side
@@ -24,10 +25,13 @@ SHOWN = 8
 JUMP = "a force that jumps with the state is better smooth (tanh for sign) or an event's reset"
 """What no shorter step helps against."""
 
+RADAU = Argument("method", "'Radau'")
+"""What helps where a system is stiff."""
+
 UNDERFLOW, NOT_FINITE, TOO_MANY, ZENO, NO_CONVERGENCE, LATE = -1, -2, -3, -4, -5, -6
 
 
-def message(task: Task, outcome: Outcome) -> str:
+def message(task: Task, outcome: Outcome) -> Advice:
     """One sentence for a run that came to its end; time, state, reason and advice for one that did not."""
     slow = (
         " (an input is a Python function: SciPy's solver asked it at every evaluation)"
@@ -35,12 +39,12 @@ def message(task: Task, outcome: Outcome) -> str:
         else ""
     )
     if outcome.status == 0:
-        return f"the end of the interval was reached, t = {outcome.reached:g} s{slow}"
+        return Advice(f"the end of the interval was reached, t = {outcome.reached:g} s{slow}")
     if outcome.status == 1:
         name = task.events[outcome.hits[-1].index].title
-        return f"event '{name}' ended the run at t = {outcome.reached:.9g} s{slow}"
+        return Advice(f"event '{name}' ended the run at t = {outcome.reached:.9g} s{slow}")
     reason, fix = _reason(task, outcome)
-    return f"stopped at t = {outcome.reached:.9g} s: {reason}; state {_state(task, outcome.final)}. Fix: {fix}"
+    return Advice(f"stopped at t = {outcome.reached:.9g} s: {reason}; state {_state(task, outcome.final)}. Fix: ", fix)
 
 
 def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
@@ -59,17 +63,18 @@ def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
         case s if s == TOO_MANY:
             return (
                 f"[E505] gave up after {task.bounds.max_steps} steps",
-                "a shorter run, a larger max_steps, or method='Radau'",
+                Advice("a shorter run, a larger ", Argument("max_steps"), ", or ", RADAU),
             )
         case s if s == ZENO:
             name = task.events[outcome.hits[-1].index].title if outcome.hits else task.events[0].title
             return (
                 f"[E505] event '{name}' repeats itself without end: {len(outcome.hits)} events, "
                 "each sooner after the last",
-                "let what touches come to rest with a terminal event, or raise max_events",
+                Advice("let what touches come to rest with a terminal event, or raise ", Argument("max_events")),
             )
         case s if s == LATE:
-            return f"[E505] the time allowed for computing was over after {outcome.steps} steps", "a larger timeout"
+            over = f"[E505] the time allowed for computing was over after {outcome.steps} steps"
+            return over, Advice("a larger ", Argument("timeout"))
         case _:
             return f"[E504] {said}", "a shorter step"
 
@@ -125,4 +130,4 @@ def _gentler(task: Task, outcome: Outcome) -> str:
     fast = names[int(np.argmax(np.abs(rates) / (np.abs(outcome.final[: task.size]) + task.atol)))]
     if task.method in SCIPY and task.method in IMPLICIT:
         return f"looser tolerances; '{fast}' changes fastest there; {JUMP}"
-    return f"method='Radau' if the system is stiff; '{fast}' changes fastest there; {JUMP}"
+    return Advice(RADAU, f" if the system is stiff; '{fast}' changes fastest there; {JUMP}")

@@ -6,7 +6,7 @@ import csv
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TextIO
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -280,7 +280,15 @@ def _csv(runs: Ensemble, path: Path) -> None:
         write_csv(runs, file)
 
 
-def write_csv(runs: Ensemble, file: TextIO) -> None:
+class Writable(Protocol):
+    """What text can be written into, piece by piece."""
+
+    def write(self, text: str, /) -> object:
+        """Write a piece of text."""
+        ...
+
+
+def write_csv(runs: Ensemble, file: Writable) -> None:
     """Write a line of names and a line a row; numbers with all their digits."""
     columns = runs.columns()
     writer = csv.writer(file, lineterminator="\n")

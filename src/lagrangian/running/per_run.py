@@ -12,6 +12,7 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian import dynamics, read
+from lagrangian.advice import Advice, Argument
 from lagrangian.analyze.dimensions import SECOND
 from lagrangian.analyze.given import number
 from lagrangian.errors import ModelError, RunError, did_you_mean
@@ -19,7 +20,7 @@ from lagrangian.model import Model, plain
 from lagrangian.running.driving import Driving
 from lagrangian.running.events import Event, listed_events
 from lagrangian.running.integrating import SYMPLECTIC
-from lagrangian.running.simulation import FINEST, SHARE
+from lagrangian.running.simulation import FINEST, NO_DURATION, SHARE
 from lagrangian.running.varying import TAKEN
 from lagrangian.simulate import METHODS, Events, Signals
 from lagrangian.simulate.study import REDUCTIONS, EventsKept, Kept, Study
@@ -67,12 +68,12 @@ def instants(model: Model, wanted: Wanted) -> Array:
                 code="E501",
             )
         if duration is None:
-            raise RunError(
-                "how long to run is not said", fix="a duration, or duration = '10 s' under [simulate]", code="E401"
-            )
+            raise RunError("how long to run is not said", fix=NO_DURATION, code="E401")
         length = number(duration, "duration", SECOND)
         if not (length > 0 and begin + length > begin):
-            raise RunError(f"the duration must be above 0 (got {length:g} s)", fix="such as 10.0", code="E501")
+            raise RunError(
+                f"the duration must be above 0 (got {length:g} s)", fix=Advice(Argument("duration", "10")), code="E501"
+            )
         return np.linspace(begin, begin + length, int(given))
     if wanted.duration is not None:
         raise RunError("times say how long to run: give no duration beside them", code="E501")

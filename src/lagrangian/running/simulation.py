@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from lagrangian import compile as machine
 from lagrangian import dynamics
+from lagrangian.advice import Advice, Argument
 from lagrangian.analyze.dimensions import SECOND
 from lagrangian.analyze.given import Given, number
 from lagrangian.compile.arguments import numbers
@@ -40,6 +41,9 @@ MAX_STORED = 1 << 28
 
 DEFAULT, IN_PYTHON = "dop853", "DOP853"
 """The methods taken unless told: in machine code, and for inputs that are Python functions."""
+
+NO_DURATION = Advice(Argument("duration", "10"), ", or duration = '10 s' under [simulate] in the model file")
+"""What says how long a run is."""
 
 SHARE = 1e-3
 """Share of the run's tolerances for one step of a method of ours or one chosen by itself: errors add up."""
@@ -117,7 +121,7 @@ def _judged(made: Trajectory) -> Trajectory:
     if missed and (contradiction := disagreement(made)):
         made.success, made.message = False, contradiction
     elif missed:
-        made.message = f"{made.message}; {missed}"
+        made.message = Advice(made.message, "; ", missed)
     return made
 
 
@@ -141,9 +145,7 @@ def _times(
     if duration is None:
         duration = settings.get("duration")
     if duration is None:
-        raise RunError(
-            "how long to run is not said", fix="simulate(10.0), or duration = '10 s' under [simulate]", code="E401"
-        )
+        raise RunError("how long to run is not said", fix=NO_DURATION, code="E401")
     length = number(duration, "duration", SECOND)
     if length < 0:
         raise RunError(f"the duration is negative ({length:g} s)", fix="give 0 or more", code="E501")
@@ -210,9 +212,9 @@ def _initial(
 def _not_a_state(model: Model, name: str, states: Sequence[str]) -> NoReturn:
     """A keyword that is neither an option nor a state."""
     if any(p.name == name for p in model.parameters):
-        fix = f"it is a parameter: params={{'{name}': …}}"
+        fix = Advice("it is a parameter: ", Argument("params", "…", name))
     elif any(u.name == name for u in model.inputs):
-        fix = f"it is an input: inputs={{'{name}': …}}"
+        fix = Advice("it is an input: ", Argument("inputs", "…", name))
     else:
         options = [p for p in inspect.signature(simulate).parameters if p not in ("model", "by_name")]
         fix = did_you_mean(name, [*states, *options]) or f"states: {', '.join(states[:12])}"
@@ -237,9 +239,12 @@ def _method(method: str | None, drive: Driving, step: Any) -> str:
         )
     fixed = method in METHODS and not METHODS[method].adaptive
     if fixed and step is None:
-        raise RunError(f"method '{method}' has steps of one length", fix="give step=0.01", code="E401")
+        raise RunError(
+            f"method '{method}' has steps of one length", fix=Advice("give ", Argument("step", "0.01")), code="E401"
+        )
     if not fixed and step is not None:
-        raise RunError(f"method '{method}' chooses its steps", fix="give rtol and atol, or max_step", code="E501")
+        fix = Advice("give ", Argument("rtol"), " and ", Argument("atol"), ", or ", Argument("max_step"))
+        raise RunError(f"method '{method}' chooses its steps", fix=fix, code="E501")
     return method
 
 

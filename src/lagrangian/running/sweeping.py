@@ -15,6 +15,7 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
+from lagrangian.advice import Advice, Argument
 from lagrangian.analyze.dimensions import SECOND
 from lagrangian.analyze.given import key_name, number
 from lagrangian.errors import RunError, did_you_mean
@@ -34,6 +35,9 @@ from lagrangian.simulate.store import Plan, Variable, create, resume
 from lagrangian.simulate.study import Kept, Study
 
 Array: TypeAlias = NDArray[np.float64]
+
+STORE = Argument("store", '"sweep.zarr"')
+"""What keeps results on disk."""
 
 LARGEST = 2**30
 """Bytes of a chunk on disk at most: compressors take no more than 2 GiB at a time."""
@@ -140,11 +144,11 @@ def _done(model: Model, varying: Varying, wanted: Wanted, inputs: dict[Any, Any]
     plan = _plan(model, varying, study, expressions, portions, task)
     if way.store is None:
         if way.resume or way.overwrite:
-            raise RunError("resume and overwrite are about a store", fix='store="sweep.zarr"', code="E501")
+            raise RunError("resume and overwrite are about a store", fix=Advice(STORE), code="E501")
         return _in_memory(study, design, plan, executor, way.progress)
     path = Path(way.store)
     if path.suffix != ".zarr":
-        raise RunError(f"the store '{path.name}' must end in .zarr", fix='store="sweep.zarr"', code="E801")
+        raise RunError(f"the store '{path.name}' must end in .zarr", fix=Advice(STORE), code="E801")
     with resume(path, plan) if way.resume and path.exists() else create(path, plan, overwrite=way.overwrite) as sink:
         carry_out(study, design, sink.portions, sink, executor=executor, progress=way.progress)
     made = Ensemble.of_store(path)
@@ -157,7 +161,7 @@ def _in_memory(study: Study, design: Design, plan: Plan, executor: Executor, pro
     if size > MOST_MEMORY * _machine_memory():
         raise RunError(
             f"the results of {design.count} runs take {size / 2**30:.3g} GiB",
-            fix='keep less of each run, or write to a store: store="sweep.zarr"',
+            fix=Advice("keep less of each run, or write to a store: ", STORE),
             code="E505",
         )
     sink = Memory(study, plan.portions)

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian import compile as machine
+from lagrangian.advice import Advice, Argument
 from lagrangian.errors import RunError
 from lagrangian.graph import Graph, Output, Program, operands, reached
 from lagrangian.model import Model
@@ -182,7 +183,7 @@ def with_stops_of_all(model: Model, drive: Driving, design: Design, times: Array
     if varied_inputs:
         raise RunError(
             "an input varies from run to run while conditions in time switch",
-            fix="make what varies a parameter, or bound the steps: max_step=0.01",
+            fix=Advice("make what varies a parameter, or bound the steps: ", Argument("max_step", "0.01")),
             code="E501",
         )
     p = np.array(design.base["p"])[np.newaxis]
@@ -205,6 +206,6 @@ def with_stops_of_all(model: Model, drive: Driving, design: Design, times: Array
 def _too_many(count: int, names: list[str]) -> NoReturn:
     raise RunError(
         f"conditions in time switch at other times in each of {count} runs, with {', '.join(names)}",
-        fix="bound the steps by less than the shortest pulse: max_step=0.01",
+        fix=Advice("bound the steps by less than the shortest pulse: ", Argument("max_step", "0.01")),
         code="E505",
     )

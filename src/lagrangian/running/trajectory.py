@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from lagrangian import compile as machine
 from lagrangian import dynamics, read
+from lagrangian.advice import Advice, Argument
 from lagrangian.errors import ModelError, Notice, RunError, did_you_mean
 from lagrangian.model import Element, Model, Point, as_expr
 from lagrangian.running import showing
@@ -54,13 +55,17 @@ class Audit:
         return self.figure
 
     @property
-    def missed(self) -> str:
+    def missed(self) -> Advice:
         """What is to be said of a balance that is off by more than `TRUSTED`, else nothing."""
         if self.figure <= TRUSTED:
-            return ""
-        return (
+            return Advice()
+        return Advice(
             f"energy balance missed by {100 * self.figure:.2g} % at t = {self.time:.4g} s: the integration is not to "
-            "be trusted: smaller max_step, step or tolerances"
+            "be trusted: smaller ",
+            Argument("max_step"),
+            ", ",
+            Argument("step"),
+            " or tolerances",
         )
 
     def __str__(self) -> str:

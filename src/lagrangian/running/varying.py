@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian import dynamics, read
+from lagrangian.advice import Advice, Argument
 from lagrangian.analyze.dimensions import Dim
 from lagrangian.analyze.given import Given, Group, key_name, number
 from lagrangian.compile.arguments import numbers
@@ -82,7 +83,7 @@ class Entries:
         if missing:
             raise RunError(
                 f"parameter '{missing[0]}' has no value. Missing: {', '.join(missing)}",
-                fix=f"give params={{'{missing[0]}': …}}, or vary it",
+                fix=Advice("give ", Argument("params", "…", missing[0]), ", or vary it"),
                 code="E401",
             )
         return {g: np.array([0.0 if v is None else v for v in self.base[g].values()]) for g in GROUPS}
@@ -281,7 +282,9 @@ def from_grid(
     if spare:
         name = next(iter(spare))[1]
         raise RunError(
-            f"'{name}' is an array: what varies stands in the grid", fix=f"grid={{'{name}': …}}", code="E501"
+            f"'{name}' is an array: what varies stands in the grid",
+            fix=Advice(Argument("grid", "…", name)),
+            code="E501",
         )
     axes: dict[str, Array] = {}
     drawn: dict[tuple[str, str], Drawn] = {}
@@ -320,7 +323,7 @@ def _grid_items(grid: Mapping[Any, Any] | Iterable[str] | str) -> Iterator[tuple
     if not isinstance(listed, Iterable):
         raise RunError(
             f"a grid is a mapping from names to values (got {type(grid).__name__})",
-            fix="grid={'k': np.linspace(10, 100, 50)}",
+            fix=Advice(Argument("grid", "np.linspace(10, 100, 50)", "k")),
             code="E501",
         )
     for text in listed:
@@ -366,7 +369,7 @@ def _axis(values: Any, name: str) -> Array:
 
 def _samples(samples: int | None) -> int:
     if samples is None:
-        raise RunError("how many samples are drawn is not said", fix="samples=1000 (--samples 1000)", code="E401")
+        raise RunError("how many samples are drawn is not said", fix=Advice(Argument("samples", "1000")), code="E401")
     if isinstance(samples, bool) or not isinstance(samples, (int, np.integer)) or samples < 1:
         raise RunError(f"samples must be a whole number, at least 1 (got {samples!r:.30})", code="E501")
     return int(samples)

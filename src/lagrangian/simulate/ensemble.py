@@ -12,6 +12,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrangian.advice import Advice, Argument
 from lagrangian.errors import RunError
 from lagrangian.simulate.design import Design
 from lagrangian.simulate.portions import Portions
@@ -52,7 +53,7 @@ class Memory:
                 raise RunError(
                     f"the results '{name}' of {np.prod(portions.shape):.0f} runs do not fit in memory",
                     code="E505",
-                    fix='keep less of each run, or write to a store: store="sweep.zarr"',
+                    fix=Advice("keep less of each run, or write to a store: ", Argument("store", '"sweep.zarr"')),
                 ) from None
 
     def write(self, index: int, box: tuple[slice, ...], values: Values) -> None:

@@ -17,10 +17,12 @@ from collections.abc import Iterable, Iterator
 from concurrent.futures import CancelledError
 from typing import Any
 
+from lagrangian.advice import Advice, Argument
 from lagrangian.errors import Error, MissingExtra, RunError
 from lagrangian.simulate.design import Design, Rows
 from lagrangian.simulate.ensemble import solver_of
 from lagrangian.simulate.portions import Portions
+from lagrangian.simulate.store import RESUME
 from lagrangian.simulate.study import Study, Values
 
 PATIENCE = 30.0
@@ -132,11 +134,16 @@ class Dask:
             raise RunError(
                 "one chunk ended every worker that tried it",
                 code="E506",
-                fix="look at the workers' memory: a smaller `memory` makes smaller chunks; then go on with resume",
+                fix=Advice(
+                    "look at the workers' memory: a smaller ",
+                    Argument("memory"),
+                    " makes smaller chunks; then go on with ",
+                    RESUME,
+                ),
             ) from trouble
         except ModuleNotFoundError as trouble:
             raise RunError(f"a worker lacks a package: {trouble}", code="E506", fix="pip install lagrangian") from None
         except (CancelledError, OSError) as trouble:
             raise RunError(
-                f"the scheduler was lost: {trouble}", code="E506", fix="start it, then go on with resume"
+                f"the scheduler was lost: {trouble}", code="E506", fix=Advice("start it, then go on with ", RESUME)
             ) from trouble

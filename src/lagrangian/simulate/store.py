@@ -24,6 +24,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrangian.advice import Advice, Argument
 from lagrangian.errors import Error, RunError
 from lagrangian.simulate.portions import Portions
 from lagrangian.simulate.seal import (
@@ -41,6 +42,9 @@ from lagrangian.simulate.seal import (
 )
 from lagrangian.simulate.stored import explained, fill, library, lost_chunks, opened, whole
 from lagrangian.simulate.study import Values
+
+RESUME, OVERWRITE = Argument("resume", "True"), Argument("overwrite", "True")
+"""What is done about a store that is there."""
 
 
 @dataclass(frozen=True)
@@ -154,7 +158,7 @@ class Store:
     def _kept(self) -> str:
         ranges = map(self.portions.range, np.flatnonzero(self.done).tolist())
         safe = sum(stop - start for start, stop in ranges)
-        return f"{safe} runs are safely there: make room, then go on with resume"
+        return Advice(f"{safe} runs are safely there: make room, then go on with ", RESUME)
 
 
 def create(path: Path, plan: Plan, *, overwrite: bool = False) -> Store:
@@ -166,7 +170,9 @@ def create(path: Path, plan: Plan, *, overwrite: bool = False) -> Store:
     if os.path.lexists(path) and not overwrite:
         raise Error(
             f"'{path}' exists",
-            fix="go on where it stopped with resume, replace it with overwrite, or take another name",
+            fix=Advice(
+                "go on where it stopped with ", RESUME, ", replace it with ", OVERWRITE, ", or take another name"
+            ),
             code="E802",
         )
     with explained(path, "make"):

@@ -11,15 +11,15 @@ from lagrangian.lazily import lazily
 if TYPE_CHECKING:
     from lagrangian.write.data import to_dict
     from lagrangian.write.document import Document
-    from lagrangian.write.files import write_file, write_with
+    from lagrangian.write.files import check_free, write_file, write_with
     from lagrangian.write.formats import FORMATS, NOTATIONS, to_json
     from lagrangian.write.html import to_html, to_html_fragment
     from lagrangian.write.latex import to_latex
     from lagrangian.write.layout import lay_out
     from lagrangian.write.markdown import to_markdown
     from lagrangian.write.quantities import Notation
-    from lagrangian.write.report import ReportFormat, report_fragment, write_report
-    from lagrangian.write.text import to_text
+    from lagrangian.write.report import ReportFormat, report_fragment, report_rows, write_report
+    from lagrangian.write.text import Title, page_rows, to_text
 else:
     __getattr__ = lazily(
         __name__,
@@ -27,14 +27,14 @@ else:
             "data": "to_dict",
             "document": "Document",
             "formats": "FORMATS NOTATIONS to_json",
-            "files": "write_file write_with",
+            "files": "check_free write_file write_with",
             "html": "to_html to_html_fragment",
             "latex": "to_latex",
             "layout": "lay_out",
             "markdown": "to_markdown",
             "quantities": "Notation",
-            "report": "ReportFormat report_fragment write_report",
-            "text": "to_text",
+            "report": "ReportFormat report_fragment report_rows write_report",
+            "text": "Title page_rows to_text",
         },
     )
 
@@ -44,8 +44,12 @@ __all__ = [
     "Document",
     "Notation",
     "ReportFormat",
+    "Title",
+    "check_free",
     "lay_out",
+    "page_rows",
     "report_fragment",
+    "report_rows",
     "to_dict",
     "to_html",
     "to_html_fragment",

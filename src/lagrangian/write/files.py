@@ -7,6 +7,7 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
+from lagrangian.advice import Advice, Argument
 from lagrangian.errors import Error
 
 
@@ -33,12 +34,8 @@ def write_with(path: str | os.PathLike[str], fill: Callable[[Path], object]) -> 
     there are kept. Raises `Error` for a folder that is missing, a path that is no file, a place where writing is not
     allowed, and a full disk.
     """
-    target = Path(os.path.realpath(path))
+    target = _target(path)
     folder = target.parent
-    if target.is_dir():
-        raise Error(f"'{path}' is a folder", fix="name a file in it", code="E801")
-    if not folder.is_dir():
-        raise Error(f"cannot write '{path}': there is no folder '{folder}'", fix="make the folder first", code="E801")
     if target.exists() and not target.is_file():
         raise Error(f"'{path}' is a device: only text is written into one", fix="name a file", code="E801")
     beside: Path | None = None
@@ -60,6 +57,27 @@ def write_with(path: str | os.PathLike[str], fill: Callable[[Path], object]) -> 
         if beside is not None:
             beside.unlink(missing_ok=True)
     return Path(path)
+
+
+def check_free(path: str | os.PathLike[str], *, overwrite: bool) -> None:
+    """Refuse, before the work, what cannot be written later: a folder, a file in no folder, one that is there already.
+
+    Raises `Error`; a file that is there is refused unless ``overwrite``.
+    """
+    if _target(path).is_file() and not overwrite:
+        fix = Advice("choose another name, or replace it: ", Argument("overwrite", "True"))
+        raise Error(f"'{path}' exists already", fix=fix, code="E802")
+
+
+def _target(path: str | os.PathLike[str]) -> Path:
+    """The file behind a path, links followed; raises `Error` where there can be none."""
+    target = Path(os.path.realpath(path))
+    if target.is_dir():
+        raise Error(f"'{path}' is a folder", fix="name a file in it", code="E801")
+    if not target.parent.is_dir():
+        what = f"cannot write '{path}': there is no folder '{target.parent}'"
+        raise Error(what, fix="make the folder first", code="E801")
+    return target
 
 
 def _into(device: Path, text: str) -> Path:

@@ -68,6 +68,11 @@ def write_report(
     return latex.page(document) if format == "latex" else markdown.page(document)
 
 
+def report_rows(report: Report, *, notation: Notation = "lecture", full: bool = False, width: int = 80) -> list[str]:
+    """Return the lines of a report as text; the titles among them are `Title`."""
+    return text.page_rows(lay_out_report(report, notation=notation, full=full), width)
+
+
 def report_fragment(report: Report, *, notation: Notation = "lecture") -> str:
     """Return a report as a piece of HTML for a notebook."""
     return html.fragment(lay_out_report(report, notation=notation, details=True))

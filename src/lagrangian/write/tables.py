@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.errors import Error, MissingExtra, ModelError, did_you_mean
-from lagrangian.write.files import write_file, write_with
+from lagrangian.errors import MissingExtra, ModelError, did_you_mean
+from lagrangian.write.files import check_free, write_file, write_with
 
 if TYPE_CHECKING:
     import pandas
@@ -156,8 +156,7 @@ def check_target(path: Path, endings: Sequence[str], *, overwrite: bool) -> None
     if path.suffix.lower() not in endings:
         fix = did_you_mean(path.suffix.lower(), endings) or f"one of {', '.join(endings)}"
         raise ModelError(f"'{path.name}' names no kind of file by its ending", fix=fix, code="E402")
-    if path.is_file() and not overwrite:
-        raise Error(f"'{path}' exists already", fix="choose another name, or overwrite=True (--force)", code="E802")
+    check_free(path, overwrite=overwrite)
 
 
 def save(table: Table, path: str | Path, *, overwrite: bool = False) -> Path:

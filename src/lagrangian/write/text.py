@@ -35,6 +35,12 @@ SHORT = 6
 """Columns of a left-hand side beside which a formula always has room."""
 
 
+class Title(str):
+    """A line that is a title: a terminal shows it bold."""
+
+    __slots__ = ()
+
+
 def to_text(
     derivation: Derivation,
     *,
@@ -54,17 +60,22 @@ def to_text(
 
 def page(document: Document, width: int) -> str:
     """Return a document as Unicode text of at most ``width`` columns."""
+    return "\n".join(page_rows(document, width)) + "\n"
+
+
+def page_rows(document: Document, width: int) -> list[str]:
+    """Return the lines of a document as text; the titles among them are `Title`."""
     title = " ".join(clean(document.title).split())
-    lines = [*wrap((title,), width), "═" * min(width, max(columns(title), 1))]
+    lines: list[str] = [*map(Title, wrap((title,), width)), "═" * min(width, max(columns(title), 1))]
     for section in document.sections:
         lines += ["", *_section(section, width, document.brief)]
-    return "\n".join(line.rstrip().replace("\u00a0", " ") for line in lines) + "\n"
+    return [type(line)(line.rstrip().replace("\u00a0", " ")) for line in lines]
 
 
 def _section(section: Section, width: int, brief: bool) -> list[str]:
     number = f"{section.number}  " if section.number is not None else ""
-    title = number + "".join(x if isinstance(x, str) else unicode(x) for x in section.title)
-    lines = [title] if brief else [title, "─" * min(width, columns(title))]
+    title = Title(number + "".join(clean(x) if isinstance(x, str) else unicode(x) for x in section.title))
+    lines: list[str] = [title] if brief else [title, "─" * min(width, columns(title))]
     previous: Block | None = None
     for block in section.blocks:
         if previous is not None and not brief and not (_tight(previous) and _tight(block)):
@@ -81,7 +92,7 @@ def _tight(block: Block) -> bool:
 def _block(block: Block, width: int) -> Iterator[str]:
     match block:
         case Heading(text):
-            yield from wrap((*text,), width)
+            yield from map(Title, wrap((*text,), width))
         case Paragraph(text, role):
             lead: Inline = ("Why: ",) if role == "why" else ()
             yield from wrap((*lead, *text), width)

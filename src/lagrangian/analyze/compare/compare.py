@@ -12,6 +12,7 @@ from typing import Any, cast
 
 import sympy as sp
 
+from lagrangian.advice import Advice, Argument
 from lagrangian.analyze.change import Change, check_regular, is_regular
 from lagrangian.analyze.compare.comparison import Comparison, Rewritten, Row, Side
 from lagrangian.analyze.compare.differences import differing, parameter_differences, unmatched
@@ -87,7 +88,9 @@ def _correspondence(a: Model, b: Model, given: Mapping[Any, Any] | None) -> tupl
         ours, theirs = (", ".join(c.name for c in m.coordinates) for m in (a, b))
         raise ModelError(
             f"how {ours} of '{a.name}' follow from {theirs} of '{b.name}' cannot be told from what they place",
-            fix='say it: change={"x2": "x1 + x2r"}, coordinates of one system in those of the other',
+            fix=Advice(
+                "say it: ", Argument("change", "'x1 + x2r'", "x2"), ", coordinates of one by those of the other"
+            ),
             code="E210",
         )
     score, _, change, turned = max(proposals, key=lambda p: p[:2])

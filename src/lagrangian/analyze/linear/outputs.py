@@ -9,6 +9,7 @@ from typing import Any
 import sympy as sp
 
 from lagrangian import dynamics, read
+from lagrangian.advice import Advice, Argument
 from lagrangian.analyze.jacobians import with_jacobians
 from lagrangian.errors import RunError
 from lagrangian.graph import Graph, Output, Program
@@ -61,7 +62,9 @@ def _named(model: Model, outputs: Any) -> dict[str, sp.Expr]:
         raise RunError("no output was named", fix="outputs=[expression, …]; the coordinates unless given", code="E401")
     names = [name for name, _ in given]
     if (twice := next((n for n in names if names.count(n) > 1), None)) is not None:
-        raise RunError(f"two outputs are called '{twice}'", fix="name them: outputs={'a': …, 'b': …}", code="E404")
+        raise RunError(
+            f"two outputs are called '{twice}'", fix=Advice("name them: ", Argument("outputs", "…", "a")), code="E404"
+        )
     return dict(given)
 
 

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrangian.advice import Advice, Argument, Verb
 from lagrangian.analyze.given import Given, Named
 from lagrangian.analyze.jacobians import Arrays, reads, values
 from lagrangian.errors import RunError
@@ -16,6 +17,9 @@ from lagrangian.graph import Program
 from lagrangian.model import Model
 
 Array = NDArray[np.float64]
+
+ANY_POINT = Argument("operating_point", "True")
+"""What takes a point that is no equilibrium as it is."""
 
 NEAR = 1e-4
 """Newton's step, relative to 1 + |q|, up to which a point counts as a rest that was typed with few digits."""
@@ -87,7 +91,7 @@ def rest(
         return replace(settled, kind="operating point")
     raise RunError(
         f"{settled.shown} is at rest at t = {t:g} s only: forces change with time, and at {later:g} s it moves",
-        fix="operating_point=True linearizes about any point and keeps the drift of that moment",
+        fix=Advice(ANY_POINT, " linearizes about any point and keeps the drift of that moment"),
         code="E521",
     )
 
@@ -192,9 +196,9 @@ def _refused(model: Model, here: Rest, program: Program, n: int, t: float) -> Ru
     else:
         k = int(np.argmax(np.abs(found["xdot"][:n])))
         why = f"{here.names[k]} changes at {found['xdot'][k]:.6g}"
-    search = "give the inputs that hold it still" if model.floating else "system.equilibria() finds them"
+    search = ["give the inputs that hold it still"] if model.floating else [Verb("equilibria"), " finds them"]
     return RunError(
         f"{here.shown} is not an equilibrium: {why}",
-        fix=f"{search}; operating_point=True linearizes about any point and keeps the drift",
+        fix=Advice(*search, "; ", ANY_POINT, " linearizes about any point and keeps the drift"),
         code="E521",
     )
