@@ -1,4 +1,4 @@
-"""Numbers with units against pint's own conversion and against the definitions of the units."""
+"""Numbers with units against pint's own conversion and against values that others computed."""
 
 import math
 
@@ -10,24 +10,10 @@ from hypothesis import strategies as st
 from effort import at_most
 from lagrangian.errors import ParseError
 from lagrangian.read import parse_quantity, unit_dimension
-from lagrangian.read.units import SYMBOLS, registry
 from size import sized
 
-PINT = {"°": "degree", "Ω": "ohm"}
-
-
-CALLS = 10_000_000
+CALLS = 100_000
 """Of Python functions, that any one of these takes at most."""
-
-
-@pytest.mark.parametrize("name", SYMBOLS)
-def test_the_table_of_symbols_agrees_with_pint(name: str) -> None:
-    there = registry().Quantity(1.0, PINT.get(name, name)).to_base_units()
-    mine = SYMBOLS[name]
-    assert float(mine.factor) == pytest.approx(there.magnitude, rel=1e-15)
-    expected = {k: float(v) for k, v in there.dimensionality.items()}
-    names = ("[mass]", "[length]", "[time]", "[current]", "[temperature]", "[substance]", "[luminosity]")
-    assert {n: float(e) for n, e in zip(names, mine.dimension.exponents, strict=True) if e} == expected
 
 
 @pytest.mark.parametrize(
@@ -70,6 +56,8 @@ def test_mechanical_exponents() -> None:
     assert unit_dimension("deg") == (0, 0, 0)
 
 
+REGISTRY = pint.UnitRegistry()
+
 BAD = [
     ("", 1, "empty"),
     ("1,5 kg", 2, "use a decimal point: 1.5"),
@@ -84,8 +72,13 @@ BAD = [
     ("1e308 km^20", 1, "too large"),
     ("5 6 kg", 3, "two numbers"),
     ("40 N/m s", 8, "needs parentheses"),
-    ("20 degC", 4, "zero is somewhere else"),
-    ("10 dB", 4, "zero is somewhere else"),
+    ("20 degC", 4, "the zero of 'degC' is at 273.15 K"),
+    ("20 °C", 4, "the zero of 'degC' is at 273.15 K"),
+    ("5 deg F", 3, "a difference of one degree is 5/9 K"),
+    ("5 °K", 3, "write K"),
+    ("10 dB", 4, "is a logarithm of a ratio"),
+    ("5 N-m", 4, "write * for a product: N*m"),
+    ("5 ft-lbf", 5, "write * for a product: ft*lbf"),
     ("5 kg^99", 6, "exponent is too large"),
     ("5 kg^x", 6, "an exponent must be a number"),
     ("5 " + "(" * 10 + "m" + ")" * 10, 11, "nested more than 8 deep"),
@@ -143,8 +136,7 @@ def test_any_text_gives_a_finite_value_or_a_parse_error(text: str) -> None:
 )
 def test_products_of_units_agree_with_pint(number: int, factors: list[tuple[str, int]]) -> None:
     text = "*".join(f"{name}^{power}" for name, power in factors)
-    there = registry().Quantity(float(number), "dimensionless")
+    there = REGISTRY.Quantity(float(number), "dimensionless")
     for name, power in factors:
-        there = there * registry().Quantity(1.0, name) ** power
-    assert isinstance(registry(), pint.UnitRegistry)
+        there = there * REGISTRY.Quantity(1.0, name) ** power
     assert parse_quantity(f"{number} {text}").value == pytest.approx(there.to_base_units().magnitude, rel=1e-12)

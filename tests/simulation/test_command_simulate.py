@@ -25,6 +25,8 @@ def test_a_summary_is_printed(capsys: pytest.CaptureFixture[str]) -> None:
     assert "power balance" in out and "dop853" in out
     row = next(line.split() for line in out.splitlines() if line.split()[:1] == ["theta"])
     assert row[1] == "30" and row[-1] == "deg"
+    below = next(line.split() for line in out.splitlines() if line.split()[-1:] == ["(rad)"])
+    assert below[0] == f"({np.pi / 6:.4g})"
 
 
 def test_csv_on_standard_output_holds_the_run(capsys: pytest.CaptureFixture[str]) -> None:

@@ -16,7 +16,7 @@ from lagrangian.write.tables import Column
 
 
 def summary(run: Trajectory) -> list[str]:
-    """A run on a screen; angles in degrees."""
+    """A run on a screen; angles in degrees, with radians below."""
     lines = [
         Title(f"{run.model.name}: t = {run.t[0]:g} … {run.t[-1]:g} s, {len(run.t)} samples"),
         f"  {run.method}: {run.steps} steps, {run.rejected} rejected, {run.nfev} evaluations",
@@ -26,10 +26,12 @@ def summary(run: Trajectory) -> list[str]:
     ]
     rows: list[tuple[str, ...]] = [("", "start", "end", "least", "greatest", "")]
     for column in _columns(run):
-        values, unit = column.values, column.unit
-        if unit == "rad":
-            values, unit = np.degrees(values), "deg"
-        rows.append((column.name, *(f"{x:.6g}" for x in _four(values)), unit))
+        numbers = np.array(list(_four(column.values)))
+        if column.unit == "rad":  # people think in degrees; the SI values stand below
+            rows.append((column.name, *(f"{x:.6g}" for x in np.degrees(numbers)), "deg"))
+            rows.append(("", *(f"({x:.4g})" for x in numbers), "(rad)"))
+        else:
+            rows.append((column.name, *(f"{x:.6g}" for x in numbers), column.unit))
     wide = [max(len(row[k]) for row in rows) for k in range(6)]
     for row in rows:
         cells = [row[0].ljust(wide[0]), *(row[k].rjust(wide[k]) for k in range(1, 5)), row[5]]

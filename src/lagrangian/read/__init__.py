@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from lagrangian.read.file_load import load, loads
     from lagrangian.read.file_save import dumps
     from lagrangian.read.file_schema import schema
-    from lagrangian.read.quantity import Quantity, parse_quantity, unit_dimension, unit_factor
+    from lagrangian.read.quantity import Quantity, parse_quantity, si_unit, unit_dimension, unit_factor
     from lagrangian.read.scope import Scope
     from lagrangian.read.validate import MAX_BYTES, decode
 else:
@@ -22,7 +22,7 @@ else:
             "file_load": "load loads",
             "file_save": "dumps",
             "file_schema": "schema",
-            "quantity": "Quantity parse_quantity unit_dimension unit_factor",
+            "quantity": "Quantity parse_quantity si_unit unit_dimension unit_factor",
             "scope": "Scope",
             "validate": "MAX_BYTES decode",
         },
@@ -43,6 +43,7 @@ __all__ = [
     "parse_expression",
     "parse_quantity",
     "schema",
+    "si_unit",
     "unit_dimension",
     "unit_factor",
 ]

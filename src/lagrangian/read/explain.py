@@ -7,7 +7,7 @@ import re
 from lagrangian.errors import ParseError
 from lagrangian.model.names import FUNCTIONS
 from lagrangian.read.source import Source, character, shown
-from lagrangian.read.units import SYMBOLS
+from lagrangian.read.units import BEFORE_WORDS
 
 ALLOWED = "only numbers, names, + - * / ^ ( ) and the listed functions are allowed"
 _WORD = re.compile(r"[^\W\d]\w*")
@@ -170,7 +170,7 @@ def _is_quantity(before: str, left: str, rest: str) -> bool:
     """Whether the text is one number and then a unit: ``10 kg``, ``-5 N/m``."""
     if before.lstrip("+-− ") != left or not re.fullmatch(_NUMBER, left):
         return False
-    return all(unit in SYMBOLS for unit in _WORD.findall(rest))
+    return all(unit in BEFORE_WORDS for unit in _WORD.findall(rest))
 
 
 def _no_operator(source: Source, offset: int, before: str, rest: str) -> ParseError:

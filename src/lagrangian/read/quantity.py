@@ -18,7 +18,8 @@ from typing import NoReturn
 
 from lagrangian.errors import ParseError, Place
 from lagrangian.read.source import Source, character, shown
-from lagrangian.read.units import ONE, SYMBOLS, Dimension, Unit, lookup, similar
+from lagrangian.read.unit_hints import refusal, similar
+from lagrangian.read.units import BEFORE_WORDS, ONE, Dimension, Unit, lookup
 
 MAX_CHARACTERS = 200
 MAX_EXPONENT = 20
@@ -104,13 +105,19 @@ def unit_and_words(text: str) -> tuple[str | None, str]:
     """Split ``"N, pushes the carts apart"``. What stands before the comma is a unit where it is made of SI symbols."""
     first, comma, rest = text.partition(",")
     words = re.findall(r"[^\W\d]+|°", first)
-    if words and all(w in SYMBOLS for w in words) and not re.search(r"[^\W\d]\s+[^\W\d]", first):
+    if words and all(w in BEFORE_WORDS for w in words) and not re.search(r"[^\W\d]\s+[^\W\d]", first):
         try:
             parse_unit(first.strip())
         except ParseError:
             return None, text
         return first.strip(), rest.strip() if comma else ""
     return None, text
+
+
+def si_unit(text: str) -> str | None:
+    """Return the SI unit that values in a unit are turned into: ``kg`` for g; None where it is an SI unit itself."""
+    unit = parse_unit(text)
+    return None if unit.plain else unit.si
 
 
 def unit_factor(text: str) -> float:
@@ -239,8 +246,16 @@ class _Reader:
         except (OverflowError, ZeroDivisionError):
             self.fail("the unit is too large or too small", start, code="E703")
         if self.peek().kind != "end":
-            self.fail(f"found {shown(self.peek().text)}", self.offset, "write a unit such as N/m or kg*m^2", "E408")
+            self._behind()
         return unit
+
+    def _behind(self) -> NoReturn:
+        """Refuse what stands behind a unit."""
+        token = self.peek()
+        fix = "write a unit such as N/m or kg*m^2"
+        if token.kind == "sign" and self.peek(1).kind == "name" and self.tokens[self.at - 1].kind == "name":
+            fix = f"write * for a product: {self.tokens[self.at - 1].text}*{self.peek(1).text}"
+        self.fail(f"found {shown(token.text)}", token.start, fix, "E408")
 
     def _product(self, depth: int, divide: bool) -> Unit:
         unit, divided = ONE, divide
@@ -276,15 +291,10 @@ class _Reader:
         return ONE.times(base, self._exponent())
 
     def _named(self, token: _Token) -> Unit:
-        try:
-            unit = lookup(token.text)
-        except ValueError:
-            self.fail(
-                f"'{token.text}' is no plain factor: its zero is somewhere else",
-                token.start,
-                "use K or a plain unit",
-                "E408",
-            )
+        degrees = token.text in ("°", "deg") and self.peek().text in ("C", "F", "K")
+        if reason := refusal(f"deg{self.peek().text}" if degrees else token.text):
+            self.fail(reason[0], token.start, reason[1], "E408")
+        unit = lookup(token.text)
         if unit is None:
             self.fail(
                 f"unknown unit {shown(token.text)}",

@@ -8,11 +8,10 @@ from lagrangian.derive import Derivation, Step
 from lagrangian.derive import formula as data
 from lagrangian.dynamics import notices
 from lagrangian.model import Model
-from lagrangian.read import unit_factor
 from lagrangian.write.document import Block, Display, Document, Inline, Paragraph, Section, Table
 from lagrangian.write.items import Items
 from lagrangian.write.math import Math
-from lagrangian.write.numerals import figure, unit
+from lagrangian.write.numerals import measured, unit
 from lagrangian.write.quantities import Notation, Quantities
 
 
@@ -101,9 +100,7 @@ def _symbols(model: Model, write: Quantities) -> Iterator[tuple[Math | str, str,
     for c in model.coordinates:
         yield write.expressions(c.symbol), c.description or "coordinate", f"[{unit(c.unit)}]" if c.unit else ""
     for p in model.parameters:
-        # the value is kept in SI units; people read it in the unit they gave
-        value = "" if p.value is None else figure(p.value / (unit_factor(p.unit) if p.unit else 1))
-        given = f" {unit(p.unit)}" if value and p.unit else ""
-        yield write.expressions(p.symbol), p.description or "parameter", value + given
+        value = "" if p.value is None else measured(p.value, p.unit)
+        yield write.expressions(p.symbol), p.description or "parameter", value
     for i in model.inputs:
         yield write.expressions(i.symbol), i.description or "input", f"[{unit(i.unit)}]" if i.unit else ""

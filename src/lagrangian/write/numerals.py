@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import re
 
+from lagrangian.read import si_unit, unit_factor
+
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _FIGURE = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)e([+-]?\d+)(?![\w.])")
 
@@ -17,6 +19,17 @@ def unit(words: str | None) -> str:
 def figure(x: float) -> str:
     """Return a number of six digits, with a power of ten where it is far from 1: 2·10⁻⁵."""
     return figures(f"{x:.6g}")
+
+
+def measured(value: float, given: str | None) -> str:
+    """Return an SI value in the unit it was given in, with the SI value beside any other unit: 200 g (0.2 kg)."""
+    if not given:
+        return figure(value)
+    words, si = f"{figure(value / unit_factor(given))} {unit(given)}", si_unit(given)
+    if si is None:
+        return words
+    rounded = figure(float(f"{value:.4g}"))
+    return f"{words} ({rounded} {unit(si)})" if si else f"{words} ({rounded})"
 
 
 def figures(words: str) -> str:
