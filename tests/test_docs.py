@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 import typer
 
-from lagrangian.cli import app
+from lagrangian.commands.app import app
 
 ROOT = pathlib.Path(__file__).parent.parent
 

@@ -10,6 +10,7 @@ from lagrangian import examples, loads
 from lagrangian.analyze.check import effects, misconceptions
 from lagrangian.analyze.check.misconceptions import MISCONCEPTIONS, Ingredients
 from lagrangian.derivation import Derivation
+from size import also_in_full, cases
 
 PENDULUM_R = "m*r'' - m*r*theta'^2 + k*(r - L_0) - m*g*cos(theta) = 0"
 PENDULUM_THETA = "m*r^2*theta'' + 2*m*r*r'*theta' + m*g*r*sin(theta) = 0"
@@ -101,7 +102,10 @@ def derived(name: str) -> Derivation:
     return loads(examples.text(name)).derive()
 
 
-@pytest.mark.parametrize(("name", "lines", "mistake"), BY_HAND, ids=NAMES)
+@also_in_full
+@pytest.mark.parametrize(
+    ("name", "lines", "mistake"), cases(BY_HAND, BY_HAND[::3]), ids=cases(NAMES, NAMES[::3])
+)  # one mistake in three by default
 def test_a_mistake_made_by_hand_is_named(name: str, lines: list[str], mistake: str) -> None:
     verdict = derived(name).check("\n".join(lines))
     assert not verdict.right
@@ -142,6 +146,7 @@ def test_every_misconception_is_a_file_with_words() -> None:
         assert module.__doc__ and 0 <= module.STEP <= 6 and len(str(module.WHY)) > 30, module
 
 
+@pytest.mark.slow
 def test_every_misconception_can_be_made_in_some_example() -> None:
     made: Counter[str] = Counter()
     chosen = [

@@ -14,6 +14,7 @@ import lagrangian as lg
 from lagrangian import examples
 from lagrangian.cli import main
 from lagrangian.commands.app import app
+from size import rest_slow
 
 
 def _example(name: str) -> lg.System:
@@ -76,15 +77,17 @@ def test_generalized_forces_are_j_transposed_times_the_old_ones() -> None:
 @pytest.mark.parametrize(
     ("name", "change"),
     [
-        ("triple-pendulum", {"theta3": "theta2 + theta3", "theta2": "theta1 + theta2"}),
+        pytest.param(
+            "triple-pendulum", {"theta3": "theta2 + theta3", "theta2": "theta1 + theta2"}, marks=pytest.mark.slow
+        ),
         pytest.param("spring-net", {"x1": "r*cos(a)", "y1": "r*sin(a)"}, marks=pytest.mark.slow),
         ("cart-pole", {"theta": "phi - pi/2"}),
         ("elastic-pendulum", {"r": "sqrt(x^2 + y^2)", "theta": "atan2(x, -y)"}),
         ("spherical-pendulum", {"phi": "psi - theta"}),
         ("quarter-car", {"z_u": "z_u/2 + 3*z_s"}),
         ("crane", {"l": "l + x"}),
-        ("furuta-pendulum", {"theta2": "theta2 - theta1"}),
-        ("scara", {"theta2": "psi - theta1"}),
+        pytest.param("furuta-pendulum", {"theta2": "theta2 - theta1"}, marks=pytest.mark.slow),
+        pytest.param("scara", {"theta2": "psi - theta1"}, marks=pytest.mark.slow),
     ],
 )
 def test_the_change_is_found_from_what_both_put_in_the_same_places(name: str, change: dict[str, str]) -> None:
@@ -223,7 +226,7 @@ DIFFERENT = {
 }
 
 
-@pytest.mark.parametrize("case", DIFFERENT)
+@pytest.mark.parametrize("case", rest_slow(DIFFERENT, list(DIFFERENT)[::2]))
 def test_systems_that_differ_and_where_first(case: str) -> None:
     one, other, expected = DIFFERENT[case]
     found = lg.compare(lg.loads(one), lg.loads(other))

@@ -285,6 +285,7 @@ def long_chain(links=400):
     return program(build, q=("a", "b"), p=("k",))
 
 
+@pytest.mark.slow
 def test_long_programs_are_cut_into_functions(c_function):
     made = long_chain()
     q, p = np.array([[0.3, 0.5], [-1.0, 0.2], [0.1, -0.4]]), np.array([0.6])
