@@ -1,0 +1,103 @@
+"""CPU time until something is there: the package imported, the version printed, a pendulum derived.
+
+    python bench/startup.py                 print a Markdown table
+    python bench/startup.py --append        and append it to bench/RESULTS.md, with the machine
+
+Every figure is the user and system time of a fresh interpreter, the median of `--runs` of them; the rows take turns,
+so that what else the machine does falls on all of them alike. Python itself is in all rows.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import platform
+import statistics
+import subprocess
+import sys
+import time
+from importlib.metadata import version
+from pathlib import Path
+
+HERE = Path(__file__).parent
+
+DESCRIBED = """
+import lagrangian as lg
+from sympy import cos, sin
+pendulum = lg.System("pendulum")
+theta = pendulum.coordinates("theta")
+m, L = pendulum.parameters("m L")
+pendulum.particle(m, at=pendulum.origin + (L*sin(theta), -L*cos(theta)))
+pendulum.gravity(direction=(0, -1))
+"""
+COMMAND = "import sys; from lagrangian.cli import run; sys.argv = ['lagrangian', *{!r}]; run()"
+
+ROWS = {
+    "python": "pass",
+    "import numpy": "import numpy",
+    "import sympy": "import sympy",
+    "import lagrangian": "import lagrangian",
+    "import lagrangian, touch lg.System": "import lagrangian as lg; lg.System, lg.load",
+    "describe a pendulum": DESCRIBED,
+    "derive a pendulum, to_text()": DESCRIBED + "pendulum.derive().to_text()",
+    "compile a pendulum, one call": DESCRIBED + "pendulum.compile().forward([0.1], [0.0], p=[1.0, 1.0, 9.81])",
+    "lagrangian version": COMMAND.format(["version"]),
+    "lagrangian --help": COMMAND.format(["--help"]),
+    "lagrangian derive -e pendulum": COMMAND.format(["derive", "-e", "pendulum"]),
+}
+"""What is timed → the program."""
+
+AIMS = {
+    "import lagrangian, touch lg.System": "import sympy + 0.15",
+    "derive a pendulum, to_text()": "1.2",
+    "lagrangian version": "0.3",
+    "lagrangian --help": "0.3",
+}
+
+
+def cpu(program: str) -> float:
+    """User and system time [s] of an interpreter that runs the program."""
+    before = os.times()
+    subprocess.run([sys.executable, "-c", program], check=True, stdout=subprocess.DEVNULL)
+    after = os.times()
+    return after.children_user + after.children_system - before.children_user - before.children_system
+
+
+def table(runs: int) -> str:
+    for program in ROWS.values():  # the bytecode of every module is on disk from here on, and the machine code
+        cpu(program)
+    taken: dict[str, list[float]] = {name: [] for name in ROWS}
+    for _ in range(runs):
+        for name, program in ROWS.items():
+            taken[name].append(cpu(program))
+    sympy = statistics.median(taken["import sympy"])
+    lines = ["| | CPU [s] | least | times `import sympy` | aim |", "| --- | ---: | ---: | ---: | ---: |"]
+    for name, found in taken.items():
+        middle = statistics.median(found)
+        lines.append(f"| {name} | {middle:.2f} | {min(found):.2f} | {middle / sympy:.2f} | {AIMS.get(name, '')} |")
+    return "\n".join(lines)
+
+
+def machine() -> str:
+    load = f"load {os.getloadavg()[0]:.1f}" if hasattr(os, "getloadavg") else ""
+    packages = ", ".join(f"{name} {version(name)}" for name in ("sympy", "numpy", "typer"))
+    return (
+        f"{platform.machine()}, {os.cpu_count()} cores, {load}; {platform.system()}; "
+        f"Python {platform.python_version()}, {packages}; {time.strftime('%Y-%m-%d')}"
+    )
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--runs", type=int, default=9)
+    parser.add_argument("--append", action="store_true")
+    options = parser.parse_args()
+    text = f"## Start\n\n`python bench/startup.py`, median of {options.runs}. {machine()}.\n\n{table(options.runs)}\n"
+    print(text)
+    if options.append:
+        with (HERE / "RESULTS.md").open("a", encoding="utf-8") as file:
+            file.write(f"\n{text}")
+
+
+if __name__ == "__main__":
+    main()
