@@ -87,7 +87,7 @@ class Compiled:
     ) -> NDArray[np.float64]:
         """Return the accelerations q̈, shape ``(..., n)``, in the time of O(n) for chains and trees."""
         try:
-            return self._kernels["forward"](q, v, u if u is None else _named(u), p if p is None else _named(p), t)
+            return self._kernels["forward"](q, v, _named(u), _named(p), t)
         except RunError as trouble:
             raise self._explained(trouble, q, p, t) from None
 
@@ -246,8 +246,15 @@ class Compiled:
         )
 
 
+_TEXT = frozenset((str,))
+
+
 def _named(given: Values) -> Any:
     """A mapping with names for keys, whether it was given with names or symbols; anything else as it is."""
+    if given is None or type(given) is np.ndarray:
+        return given
+    if type(given) is dict and _TEXT.issuperset(map(type, given)):
+        return given
     if isinstance(given, Mapping):
         return {plain(k) if isinstance(k, sp.Basic) else k: value for k, value in given.items()}
     return given

@@ -384,6 +384,80 @@ def test_a_result_that_is_not_finite_is_an_error():
         k(a)
 
 
+# The quick ways: the same answers without a closer look
+# -----------------------------------------------------------------------------------------
+
+ROW = np.array(list(P.values()))
+QUICK = {
+    "states alone": lambda q, v: (q, v),
+    "every group": lambda q, v: (q, v, np.array([0.5]), ROW, 0.25),
+    "new parameters": lambda q, v: (q, v, None, ROW * (1 + q.flat[0] ** 2)),
+    "parameters by name": lambda q, v: (q, v, None, dict(P), 1),
+    "some parameters by name": lambda q, v: (q, v, {"tau": 2.0}, {"g": 1.62}),
+    "lists": lambda q, v: (q, v, [0.5], list(P.values()), np.float64(0.5)),
+    "strides": lambda q, v: (np.repeat(q, 3, axis=0)[::3] if q.ndim == 2 else q, v[..., ::-1]),
+    "one row for all": lambda q, v: (q, v.reshape(-1, 2)[0], np.array([0.5])),
+}
+
+
+@pytest.mark.parametrize("count", [None, 1, 3, 8, 21])
+@pytest.mark.parametrize("form", QUICK.values(), ids=QUICK)
+def test_usual_calls_need_no_closer_look(kernel, monkeypatch, form, count):
+    """The quick ways answer, with the general way's numbers, and every answer is an array of its own."""
+    q, v = states() if count is None else states(count)
+    given = form(q, v)
+    want = kernel(*given, out=np.empty(q.shape))
+    kernel(*given)
+    general: list[object] = []
+    whole = Kernel._general
+    monkeypatch.setattr(Kernel, "_general", lambda self, *a: general.append(a) or whole(self, *a))
+    first = kernel(*given)
+    kept = first.copy()
+    second = kernel(*form(-q, v))
+    assert not general
+    np.testing.assert_array_equal(first, kept)
+    np.testing.assert_array_equal(first, want)
+    assert first.shape == q.shape and first.flags.writeable and not np.may_share_memory(first, second)
+
+
+def test_parameters_for_every_state_need_no_closer_look_either(kernel, monkeypatch):
+    q, v = states(21)
+    p = ROW * np.linspace(0.5, 2, 21)[:, None]
+    want = kernel(q, v, None, p)
+    monkeypatch.setattr(Kernel, "_general", None)
+    np.testing.assert_array_equal(kernel(q, v, None, p), want)
+    np.testing.assert_array_equal(kernel(q[:3], v[:3], None, p[:3]), want[:3])
+
+
+@pytest.mark.parametrize("count", [None, 3, 21])
+@pytest.mark.parametrize("name", list(P))
+def test_a_parameter_that_is_not_finite_is_named_on_every_way(kernel, name, count):
+    """Even where the answer does not depend on it, and after calls that went well."""
+    q, v = states() if count is None else states(count)
+    fine = kernel(q, v, None, ROW)
+    for bad in (np.nan, np.inf):
+        wrong = ROW.copy()
+        wrong[list(P).index(name)] = bad
+        for given in (wrong, wrong.tolist(), P | {name: bad}):
+            with pytest.raises(RunError, match=f"parameter '{name}' is {bad}"):
+                kernel(q, v, None, given)
+    np.testing.assert_array_equal(kernel(q, v, None, ROW), fine)
+
+
+@pytest.mark.parametrize("wrong", [[True, 0.5], ["1", "2"], [1j, 0], [10**400, 1.0], [1.0], [None, 1.0]])
+def test_the_quick_ways_take_no_liberties(kernel, wrong):
+    """What is refused, or read in its own way, is so after calls that went well too."""
+    q, v = states()
+    kernel(q, v)
+    if wrong == [True, 0.5]:
+        np.testing.assert_array_equal(kernel(wrong, v), kernel(np.array([1.0, 0.5]), v))
+    else:
+        with pytest.raises(RunError):
+            kernel(wrong, v)
+    with pytest.raises(RunError, match="unknown parameter 'h'"):
+        kernel(q, v, None, {"h": 1.0})
+
+
 # Threads, processes, lifetimes
 # -----------------------------------------------------------------------------------------
 
@@ -407,6 +481,29 @@ def test_calls_from_many_threads(kernel):
                 wrong.append(k)
         if not np.array_equal(kernel(q, v), want):
             wrong.append(start)
+
+    threads = [threading.Thread(target=work, args=(k,)) for k in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not wrong
+
+
+def test_parameters_of_one_thread_do_not_reach_another(kernel):
+    """Every thread has its own parameters, new ones at every call, one state and many in turns."""
+    q, v = states(12)
+    sets = [[ROW * (1 + k + 0.01 * j) for j in range(40)] for k in range(4)]
+    want = [[kernel(q, v, None, row) for row in rows] for rows in sets]
+    wrong = []
+
+    def work(k):
+        for row, right in zip(sets[k], want[k], strict=True):
+            for j in (0, 7):
+                if not np.array_equal(kernel(q[j], v[j], None, row), right[j]):
+                    wrong.append((k, j))
+            if not np.array_equal(kernel(q, v, None, row), right):
+                wrong.append((k, None))
 
     threads = [threading.Thread(target=work, args=(k,)) for k in range(4)]
     for thread in threads:

@@ -21,6 +21,7 @@ from lagrangian.errors import RunError, did_you_mean
 
 FLOAT = np.dtype(np.float64)
 NOUNS = {"q": "coordinate", "v": "velocity", "a": "acceleration", "x": "state", "p": "parameter"}
+PLAIN = frozenset((float, int, np.float64))  # no booleans, no text
 SHOWN = 12  # names listed in a message before "…"
 
 
@@ -67,6 +68,33 @@ class Group:
                 fix=f"give an array of shape (..., {size}), entries in that order",
             )
         return array
+
+    def row(self, given: Any) -> NDArray[np.float64] | None:
+        """A list of plain numbers, or a mapping of names to them, as one row; None for whatever needs a closer look."""
+        kind = type(given)
+        if kind is dict and tuple(given) == self.entries:
+            given = [*given.values()]
+        elif kind is dict:
+            filled: list[Any] = list(self.defaults)
+            for name, value in given.items():
+                place = self._places.get(name)
+                if place is None:
+                    return None
+                filled[place] = value
+            given = filled
+        elif kind is not list and kind is not tuple:
+            return None
+        if len(given) != len(self.entries) or not PLAIN.issuperset(map(type, given)):
+            return None
+        try:
+            return np.array(given, FLOAT)
+        except OverflowError:  # an integer beyond all floats
+            return None
+
+    @cached_property
+    def _places(self) -> dict[Any, int]:
+        """Entry → its place."""
+        return {name: k for k, name in enumerate(self.entries)}
 
     @cached_property
     def _standard(self) -> NDArray[np.float64]:
@@ -176,6 +204,8 @@ def where(lead: tuple[int, ...], state: int) -> str:
 
 def not_finite_input(group: Group, row: NDArray[np.float64], at: str) -> RunError | None:
     """The error for the first entry of a row that is NaN or infinite, if any."""
+    if np.isfinite(row).all():
+        return None
     for name, value in zip(group.entries, row, strict=True):
         if not np.isfinite(value):
             return RunError(f"{group.noun} '{name}' is {value}{at}", code="E502", fix="give a finite number")

@@ -24,7 +24,7 @@ Shapes = Mapping[str, tuple[int, ...]]  # outputs by name
 class Engine:
     """One of a program's ``batch`` functions: its groups of inputs in the order of its table, and what it needs."""
 
-    call: Callable[[int, int, int, int], int]
+    call: Callable[[int | bytes, int, int, int], int]
     groups: tuple[Group, ...]
     outputs: Shapes
     lanes: int
@@ -32,6 +32,26 @@ class Engine:
     cost: int  # operations a state, roughly
     owner: object  # what keeps the code in memory
     spaces: list[tuple[int, Array]] = field(default_factory=list)  # work areas not in use, with their addresses
+
+    def run(self, table: int | bytes, count: int, threads: int | None) -> int:
+        """Compute states 0 … count − 1 on as many cores as that is worth; return −1, or where something is not finite.
+
+        ``count`` is at least ``lanes``.
+        """
+        if workers.alone(count, self.cost, threads):
+            return self._range(table, 0, count)
+        return workers.over(count, self.lanes, self.cost, threads, lambda *ends: self._range(table, *ends))
+
+    def _range(self, table: int | bytes, start: int, stop: int) -> int:
+        """Compute states start … stop − 1."""
+        try:
+            space = self.spaces.pop()
+        except IndexError:
+            made = aligned(self.work)
+            space = address(made), made
+        bad = self.call(table, start, stop, space[0])
+        self.spaces.append(space)
+        return bad
 
 
 class Batch:
@@ -66,7 +86,6 @@ class Batch:
         entries = [n for a in (*self.inputs, *self._direct) for n in (address(a), *a.strides)]
         self._table = np.array([*entries, 0 if shared is None else address(shared)], np.int64)
         self._at = address(self._table)
-        self._alone = workers.alone(self._count, engine.cost, threads)
         self._views: list[Any] = []  # of what is returned, where that is computed in place
         if out is None and self.direct and lead:
             shapes = engine.outputs.values()
@@ -92,10 +111,7 @@ class Batch:
         if self._count:
             engine, count = self._engine, self._count
             whole = max(count, engine.lanes)
-            if self._alone:
-                bad = self._range(0, whole)
-            else:
-                bad = workers.over(whole, engine.lanes, engine.cost, self._threads, self._range)
+            bad = engine.run(self._at, whole, self._threads)
             if self._views and bad < 0:
                 return self._views[0] if len(self._views) == 1 else dict(zip(engine.outputs, self._views, strict=True))
             if self._direct is not self._results:
@@ -113,18 +129,6 @@ class Batch:
         if bad >= 0:
             raise self._trouble(bad, min(bad + self._engine.lanes, self._count))
         return made.popitem()[1] if len(made) == 1 else made
-
-    def _range(self, start: int, stop: int) -> int:
-        """Compute states start … stop − 1."""
-        engine = self._engine
-        try:
-            space = engine.spaces.pop()
-        except IndexError:
-            made = aligned(engine.work)
-            space = address(made), made
-        bad = engine.call(self._at, start, stop, space[0])
-        engine.spaces.append(space)
-        return bad
 
     def _trouble(self, start: int, stop: int) -> RunError:
         for state in range(start, stop):

@@ -1,7 +1,8 @@
 """What stands around a tape's functions: one state from Python, and ranges of states in strided arrays.
 
 ``i64 single(ptr table)``: the table holds the addresses of the in, shared, out and scratch blocks. Returns 0, or 1 if
-an input or an output is not finite.
+an input or an output is not finite. ``i64 parameters(ptr table)``: two more addresses, of the hoisted inputs and of the
+shared block that is made of them. Returns 0, or 1 if a hoisted input is not finite.
 
 ``i64 batch(ptr table, i64 start, i64 stop, ptr work)``: states start … stop − 1, ``lanes`` at a time. The table
 holds, for each input group, each hoisted group (if every state has its own) and each output, an address and two
@@ -12,7 +13,7 @@ so every state goes through the same code, wherever a range begins and ends.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from .emit import attributes
@@ -46,11 +47,9 @@ class Sizes:
         return lanes * max(1, blocks)
 
 
-def emit_single(module: Module, sizes: Sizes, body: str = "body_1") -> None:
-    """Print ``single`` around the scalar body."""
-    lines = []
-    for k, name in enumerate(("in", "shared", "out", "scratch")):
-        lines += [f"  %a{k} = getelementptr ptr, ptr %table, i64 {k}", f"  %{name} = load ptr, ptr %a{k}"]
+def emit_single(module: Module, sizes: Sizes, body: str = "body_1", prologue: str = "prologue_1") -> None:
+    """Print ``single`` around the scalar body, and ``parameters`` around the scalar prologue."""
+    lines = _entries({0: "in", 1: "shared", 2: "out", 3: "scratch"})
     lines.append(f"  call void @{body}(ptr %in, ptr %shared, ptr %out, ptr %scratch)")
     for name, count in (("in", sum(sizes.groups)), ("out", sum(sizes.outputs))):
         lines.append(f"  %{name}_top = call i64 @greatest(ptr %{name}, i64 {count})")
@@ -63,6 +62,23 @@ def emit_single(module: Module, sizes: Sizes, body: str = "body_1") -> None:
     module.declare("llvm.umax.i64", "i64", ["i64", "i64"])
     module.define("greatest", _GREATEST)
     module.define("single", "\n".join(["define i64 @single(ptr %table) nounwind {", "entry:", *lines, "}"]))
+    lines = [
+        *_entries({3: "scratch", 4: "hoisted", 5: "own"}),
+        f"  call void @{prologue}(ptr %hoisted, ptr null, ptr %own, ptr %scratch)",
+        f"  %top = call i64 @greatest(ptr %hoisted, i64 {sum(sizes.hoisted)})",
+        f"  %bad = icmp uge i64 %top, {INFINITE}",
+        "  %answer = zext i1 %bad to i64",
+        "  ret i64 %answer",
+    ]
+    module.define("parameters", "\n".join(["define i64 @parameters(ptr %table) nounwind {", "entry:", *lines, "}"]))
+
+
+def _entries(names: Mapping[int, str]) -> list[str]:
+    """Load addresses from the table of ``single``."""
+    lines = []
+    for k, name in names.items():
+        lines += [f"  %a{k} = getelementptr ptr, ptr %table, i64 {k}", f"  %{name} = load ptr, ptr %a{k}"]
+    return lines
 
 
 # The greatest magnitude among n numbers, compared as bits: NaN and infinity are above everything finite.

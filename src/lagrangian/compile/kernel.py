@@ -5,7 +5,6 @@ from __future__ import annotations
 import ctypes
 import math
 import threading
-from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -15,10 +14,11 @@ from numpy import ndarray
 from lagrangian.errors import RunError, did_you_mean
 
 from . import native
-from .arguments import FLOAT, Group, not_finite_input
+from .arguments import Group, not_finite_input
 from .batch import Array, Batch, Engine, trouble
 from .build import Build, Options
-from .stage import RawFunction, Stage, address, aligned
+from .quick import Quick
+from .stage import RawFunction, address, aligned
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program
@@ -29,7 +29,6 @@ _BATCH = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctype
 _SINGLE_SHORT = ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)
 _SINGLE_LONG = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)
 
-_NONE = (0,)  # the shape of a group without entries
 LONG = 20_000  # nodes from which one state is long
 REMEMBERED = 64  # parameter sets whose shared block is kept
 
@@ -64,19 +63,11 @@ class Kernel:
         hoist = build.options.hoist
         self._late = [k for k, g in enumerate(self._groups) if g.name not in hoist]
         self._early = [k for k, g in enumerate(self._groups) if g.name in hoist]
-        # For the quick way: what fills up a call with fewer groups, one more place for where there is no hoisted group,
-        # and nothing at all where several groups are hoisted.
-        count = len(self._groups) if len(self._early) < 2 else -1
-        self._missing = {n: (None,) * (count + 1 - n) for n in range(count + 1)}
-        self._early_at = self._early[0] if self._early else count
-        self._stages: list[Stage] = []
-        self._blocks: OrderedDict[bytes, Array] = OrderedDict()
-        self._standard: Array | None = None  # the shared block of the default parameters, once used
-        self._single: Any = None
-        self._engines: dict[str, Engine] = {}
-        self._lone = len(self._outputs) == 1 and () not in self._outputs.values()
+        self._quick = Quick(self._groups, self._late, self._early, self._outputs, self._block_of, threads)
+        self._stages, self._blocks, self._engines = self._quick.stages, self._quick.blocks, self._quick.engines
+        self._areas: list[tuple[Array, Array]] = []  # where prologues read and work, not in use
+        self._prologue: Any = None
         self._lock = threading.Lock()
-        self.admit: Callable[[Array], None] | None = None  # looks at hoisted values before they are used; may raise
 
     def __reduce__(self) -> Any:
         return _rebuilt, (self.program, self.build.options, self._optional, self.threads)
@@ -85,6 +76,15 @@ class Kernel:
         inputs = ", ".join(f"{g.name}[{len(g.entries)}]" for g in self._groups)
         outputs = ", ".join(f"{n}{list(s)}" for n, s in self._outputs.items())
         return f"<Kernel {self.name!r}: {inputs} -> {outputs}>"
+
+    @property
+    def admit(self) -> Callable[[Array], None] | None:
+        """What looks at hoisted values, (..., n), before they are used, and may raise."""
+        return self._quick.admit
+
+    @admit.setter
+    def admit(self, look: Callable[[Array], None]) -> None:
+        self._quick.admit = look
 
     @property
     def operations(self) -> int:
@@ -96,61 +96,15 @@ class Kernel:
         """Operations a parameter set takes, once."""
         return self.build.lowered.prologue.operations
 
-    # One state, plain arrays: as little Python as possible ---------------------------------------------------------
-
     def __call__(self, *given: Any, out: Any = None, **named: Any) -> Any:
         """Evaluate; see the class."""
-        if out is None and not named and self._stages:
+        if named:
+            given = tuple(self._assigned(given, named))
+        if out is None:
             answer = self._quick(given)
             if answer is not None:
                 return answer
-        return self._general(self._assigned(given, named), out)
-
-    def _quick(self, given: tuple[Any, ...]) -> Any:
-        """The answer for one state in float64 vectors of the right length; None if anything needs a closer look."""
-        missing = self._missing.get(len(given))
-        if missing is None:
-            return None
-        given += missing
-        early = given[self._early_at]
-        if early is None:
-            shared = self._standard
-        elif type(early) is ndarray and early.dtype is FLOAT and early.ndim == 1:
-            shared = self._blocks.get(early.tobytes())
-        else:
-            return None
-        if shared is None:
-            return None
-        try:
-            stage = self._stages.pop()
-        except IndexError:  # another thread took it
-            return None
-        answer = None
-        for k, part, shape, scalar, default in stage.parts:
-            array = given[k]
-            if type(array) is ndarray:
-                if array.dtype is not FLOAT or array.shape != shape or scalar:
-                    break
-                part[...] = array  # a third of the time of part[:]
-            elif array is None and default is not None:
-                if shape != _NONE:
-                    part[...] = default
-            elif scalar and isinstance(array, float):
-                part[0] = array
-            else:
-                break
-        else:
-            if stage.shared is not shared:
-                stage.share(shared)
-            if self._single(stage.where) == 0:
-                answer = stage.results[0].copy() if self._lone else self._answer(stage)
-        self._stages.append(stage)
-        return answer
-
-    def _answer(self, stage: Stage) -> Any:
-        """The outputs of a stage, copied."""
-        answers = [result.copy()[()] for result in stage.results]
-        return answers[0] if len(answers) == 1 else dict(zip(self._outputs, answers, strict=True))
+        return self._general(self._assigned(given, {}), out)
 
     # Everything else ---------------------------------------------------------------------------------------------
 
@@ -187,7 +141,7 @@ class Kernel:
         lead = self._lead([arrays[k] for k in self._late] + [a[..., :0] for a in early])
         shared = self._shared_block([a.reshape(-1) for a in early])
         if all(slots[k] is None for k in self._early):
-            self._standard = shared
+            self._quick.standard = shared
         return arrays, lead, shared
 
     def _lead(self, arrays: list[Array]) -> tuple[int, ...]:
@@ -203,6 +157,10 @@ class Kernel:
                 fix="make all but the last axis equal, or 1",
             ) from cause
 
+    def _block_of(self, row: Array) -> Array:
+        """The shared block of one parameter set, where one group is hoisted."""
+        return self._shared_block([row])
+
     def _shared_block(self, early: list[Array]) -> Array:
         """The prologue's results for one parameter set; the latest few sets are remembered."""
         key = b"".join(a.tobytes() for a in early)
@@ -214,12 +172,18 @@ class Kernel:
                 raise trouble
         if self.admit is not None:
             self.admit(early[0])
-        code = self.build.loaded("batch" if "batch" in self.build.ready else "single")
+        if self._prologue is None:
+            code = self.build.loaded("batch" if "batch" in self.build.ready else "single")
+            self._prologue = _TAPE(code.address("prologue_1"))
         sizes = self.build.sizes
-        block, shared, scratch = aligned(sum(sizes.hoisted)), aligned(sizes.shared), aligned(sizes.scratch)
-        block[:] = np.concatenate([*early, np.empty(0)])
-        _TAPE(code.address("prologue_1"))(address(block), None, address(shared), address(scratch))
-        shared.flags.writeable = False
+        try:
+            block, scratch = self._areas.pop()
+        except IndexError:
+            block, scratch = aligned(sum(sizes.hoisted)), aligned(sizes.scratch)
+        block[...] = early[0] if len(early) == 1 else np.concatenate([*early, np.empty(0)])
+        shared = aligned(sizes.shared)
+        self._prologue(address(block), None, address(shared), address(scratch))
+        self._areas.append((block, scratch))
         with self._lock:
             while len(self._blocks) >= REMEMBERED:
                 self._blocks.popitem(last=False)
@@ -228,19 +192,18 @@ class Kernel:
 
     def _one(self, late: list[Array], shared: Array) -> Any:
         """One state."""
-        if self._single is None:
+        quick = self._quick
+        if not quick.stages:
             kind = _SINGLE_LONG if len(self.program.graph.nodes) > LONG else _SINGLE_SHORT
-            self._single = kind(self.build.loaded("single").address("single"))
-        try:
-            stage = self._stages.pop()
-        except IndexError:
-            stage = Stage(self.build.sizes, [(k, self._groups[k]) for k in self._late], tuple(self._outputs.values()))
+            code = self.build.loaded("single")
+            quick.single, quick.parameters = kind(code.address("single")), kind(code.address("parameters"))
+        stage = quick.stage(self.build.sizes)
         for array, (_, part, *_) in zip(late, stage.parts, strict=True):
             part[...] = array
         stage.share(shared)
-        fine = self._single(stage.where) == 0
-        answer = self._answer(stage)
-        self._stages.append(stage)
+        fine = quick.single(stage.where) == 0
+        answer = quick.answer(stage)
+        quick.stages.append(stage)
         if not fine:
             inputs, groups = [a.reshape(-1) for a in late], [self._groups[k] for k in self._late]
             results = [np.ravel(x) for x in (answer.values() if len(self._outputs) != 1 else [answer])]
@@ -307,6 +270,7 @@ class Kernel:
     def shared(self, *early: Any) -> Array:
         """The shared block of a parameter set (of values for the hoisted groups), for :meth:`raw` functions."""
         given = [*early, *[None] * (len(self._early) - len(early))]
-        return self._shared_block(
-            [self._groups[k].array(x).reshape(-1) for k, x in zip(self._early, given, strict=True)]
-        )
+        rows = [self._groups[k].array(x).reshape(-1) for k, x in zip(self._early, given, strict=True)]
+        block = self._shared_block(rows).view()
+        block.flags.writeable = False
+        return block
