@@ -134,3 +134,35 @@ def test_parameters_without_values_leave_the_matter_open() -> None:
 
 def test_it_is_plain_data(plate: lg.System) -> None:
     assert json.loads(json.dumps(plate.derive().to_dict()))["notices"][0]["code"] == "E105"
+
+
+INERTIAS = {
+    "diagonal": lambda J: [J, 2 * J, 3 * J],
+    "full": lambda J: [[2 * J, J / 2, 0.1], [J / 2, 3 * J, 0.2], [0.1, 0.2, J]],
+    "rod": lambda J: [0, J, J],
+}
+
+
+@pytest.mark.parametrize("inertia", INERTIAS.values(), ids=INERTIAS)
+@pytest.mark.parametrize("value", [2.0, 1e-3, -0.4, -50.0])
+def test_many_calls_with_new_values_are_held_to_it_too(inertia, value: float) -> None:
+    """After a few sets that were looked at closely, numbers tell what is beyond doubt, with the same verdict."""
+    s = lg.System("top")
+    a, b = s.coordinates("a b")
+    m, J = s.parameters("m J", m=1.0, J=1.0)
+    outer = s.frame(a, axis=(0, 0, 1))
+    frame = s.frame(b, axis=(0, 1, 0), parent=outer)
+    s.rigid_body(m, inertia(J), at=s.origin + (sp.cos(a), sp.sin(a), 0), frame=frame, name="rod")
+    fresh, used = s.compile(), s.compile()
+    for k in range(10):
+        used.forward([0.3, 0.2], [0.0, 1.0], p=[1.0, 1 + 0.1 * k])
+    given = {"p": np.array([1.0, value])}
+    try:
+        wanted = fresh.forward([0.3, 0.2], [0.0, 1.0], **given)
+    except ModelError as refused:
+        with pytest.raises(ModelError, match=str(refused.code)):
+            used.forward([0.3, 0.2], [0.0, 1.0], **given)
+    else:
+        np.testing.assert_array_equal(used.forward([0.3, 0.2], [0.0, 1.0], **given), wanted)
+    with pytest.raises(ModelError, match="negative"):
+        used.forward([0.3, 0.2], [0.0, 1.0], p=[-1.0, 1.0])

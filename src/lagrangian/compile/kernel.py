@@ -179,7 +179,7 @@ class Kernel:
         try:
             block, scratch = self._areas.pop()
         except IndexError:
-            block, scratch = aligned(sum(sizes.hoisted)), aligned(sizes.scratch)
+            block, scratch = aligned(sum(sizes.hoisted)), aligned(max(1, sizes.scratch))
         block[...] = early[0] if len(early) == 1 else np.concatenate([*early, np.empty(0)])
         shared = aligned(sizes.shared)
         self._prologue(address(block), None, address(shared), address(scratch))

@@ -82,7 +82,7 @@ class Stage:
 def aligned(count: int) -> NDArray[np.float64]:
     """Uninitialised doubles that start at a multiple of 64 bytes."""
     raw = np.empty(8 * count + 64, np.uint8)
-    start = -raw.__array_interface__["data"][0] % 64
+    start = -address(raw) % 64
     return raw[start : start + 8 * count].view(FLOAT)
 
 

@@ -5,17 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.compile import Kernel, compile
 from lagrangian.errors import RunError
-from lagrangian.graph import evaluate
-
-if TYPE_CHECKING:
-    from lagrangian.graph import Program
+from lagrangian.graph import Output, Program, evaluate
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -26,6 +23,9 @@ ROUNDING = 1e-9
 
 FEW = 4
 """Parameter sets up to which no machine code is made."""
+
+MOST = 100
+"""Numbers up to which it is quicker to look at them one by one."""
 
 
 @dataclass(frozen=True)
@@ -57,6 +57,15 @@ class Fitness:
             bad[doubtful] = self._indefinite(p[doubtful])
         return bad
 
+    def surely(self, p: Array) -> bool:
+        """Whether one parameter set (n_p) is beyond doubt: no slower than a state. False where a closer look is due."""
+        kernel, strict = self._doubtless
+        try:
+            values = kernel(p).tolist() if kernel is not None else [0.0]
+        except RunError:
+            return False
+        return min(values) > 0 or (min(values[:strict], default=1.0) > 0 and min(values) >= 0)
+
     def _indefinite(self, p: Array) -> NDArray[np.bool_]:
         """Which parameter sets (k, n_p) give M a negative eigenvalue in one of the states."""
         assert self.metric is not None and self.states is not None
@@ -70,6 +79,34 @@ class Fitness:
     @cached_property
     def _bodies(self) -> Kernel:
         return compile(self.bodies, threads=1)
+
+    @cached_property
+    def _doubtless(self) -> tuple[Kernel | None, int]:
+        """p → numbers of which so many must be above 0, the rest not below, for `bodies` to be fit; None if too many.
+
+        Masses; of an inertia its leading minors, or its diagonal where nothing else is in it.
+        """
+        above, rest = [], []
+        g = self.bodies.graph
+        for name, output in self.bodies.outputs.items():
+            ids = output.ids
+            if not name.startswith("inertia"):
+                (rest if name.startswith("resting") else above).extend(ids)
+            elif len(ids) == 1 or all(g.value(i) == 0 for k, i in enumerate(ids) if k % 4):
+                rest += ids[::4]
+            else:
+                a, b, c, d, e, f = (ids[k] for k in (0, 1, 2, 4, 5, 8))
+                if (ids[3], ids[6], ids[7]) != (b, c, e):
+                    return None, 1
+                minor = g.sub(g.mul(a, d), g.mul(b, b))
+                last = g.sub(g.mul(b, e), g.mul(c, d))
+                whole = g.add(g.mul(f, minor), g.sub(g.mul(c, last), g.mul(e, g.sub(g.mul(a, e), g.mul(b, c)))))
+                above += [a, minor, whole]
+        if len(above) + len(rest) > MOST:
+            return None, 1
+        outputs = {"numbers": Output((*above, *rest), (len(above) + len(rest),))}
+        program = Program("fit", g, self.bodies.inputs, outputs, self.bodies.defaults)
+        return compile(program, hoist=(), threads=1), len(above)
 
     @cached_property
     def _metric(self) -> Kernel:
