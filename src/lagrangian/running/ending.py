@@ -10,6 +10,7 @@ from lagrangian import dynamics
 from lagrangian.advice import Advice, Argument
 from lagrangian.errors import RunError
 from lagrangian.graph import evaluate
+from lagrangian.running import sticking
 from lagrangian.running.integrating import Task, remembered, right_hand_side
 from lagrangian.simulate import STATUS
 from lagrangian.simulate.scipy_methods import IMPLICIT, SCIPY, Outcome
@@ -28,7 +29,7 @@ JUMP = "a force that jumps with the state is better smooth (tanh for sign) or an
 RADAU = Argument("method", "'Radau'")
 """What helps where a system is stiff."""
 
-UNDERFLOW, NOT_FINITE, TOO_MANY, ZENO, NO_CONVERGENCE, LATE = -1, -2, -3, -4, -5, -6
+UNDERFLOW, NOT_FINITE, TOO_MANY, ZENO, NO_CONVERGENCE, LATE, CHATTERS = -1, -2, -3, -4, -5, -6, -8
 
 
 def message(task: Task, outcome: Outcome) -> Advice:
@@ -72,6 +73,8 @@ def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
                 "each sooner after the last",
                 Advice("let what touches come to rest with a terminal event, or raise ", Argument("max_events")),
             )
+        case s if s == CHATTERS:
+            return sticking.stuck(task, outcome)
         case s if s == LATE:
             over = f"[E505] the time allowed for computing was over after {outcome.steps} steps"
             return over, Advice("a larger ", Argument("timeout"))

@@ -15,6 +15,7 @@ from lagrangian.compile import Build, Options, aligned, native
 from lagrangian.compile.build import fingerprint
 from lagrangian.compile.stage import address
 
+from .integrators.layout import PLACES
 from .integrators.loop import Loop, Variant
 from .integrators.method import Method
 
@@ -48,9 +49,11 @@ class Machine:
         self.variant = variant
         self._loaded = build.extended(name, printer)
         self.call = _RUN(self._loaded.address("run"))
-        facts = (ctypes.c_int64 * 5)()
+        facts = (ctypes.c_int64 * (1 + len(_BLOCKS) + len(PLACES)))()
         ctypes.CFUNCTYPE(None, ctypes.c_void_p)(self._loaded.address("facts"))(ctypes.addressof(facts))
-        self.slots, *self._shared = facts
+        self.slots, *rest = facts
+        self._shared = rest[: len(_BLOCKS)]
+        self.places = dict(zip(PLACES, rest[len(_BLOCKS) :], strict=True))
 
     def space(self) -> NDArray[np.float64]:
         """Work space for a range of runs, every lane empty."""

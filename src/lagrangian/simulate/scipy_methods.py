@@ -18,8 +18,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.errors import RunError
+from lagrangian.simulate.chattering import LEAST, NEAR, Pace, Sticking
 from lagrangian.simulate.crossings import Crossings, Hit
-from lagrangian.simulate.integrators.layout import MARGIN
+from lagrangian.simulate.integrators.layout import CHATTERS, MARGIN, TOO_MANY, UNDERFLOW
 
 Array = NDArray[np.float64]
 Control = Callable[[float, Array], Array]
@@ -141,6 +142,8 @@ def integrate_scipy(
         try:
             for leg in legs:
                 if not march.over(leg):
+                    if march.status in (TOO_MANY, UNDERFLOW):
+                        march.sticks(leg, last=True)
                     break
             else:
                 march.status = 0
@@ -176,6 +179,8 @@ class _March:
         self.status, self.reason, self.steps = 0, "", 0
         self.deadline = math.inf if bounds.seconds is None else clock.monotonic() + bounds.seconds
         self.hits: list[Hit] = []
+        self.pace = Pace(self.t)
+        self.sticking: Sticking | None = None
 
     def over(self, leg: Leg) -> bool:
         """March over a leg; return whether to go on after it."""
@@ -186,7 +191,7 @@ class _March:
             solver = self.make(self.f, self.t, self.x, leg.end, **self.options)
             jumped = False
             while solver.status == "running" and not jumped:
-                if not self._within_bounds():
+                if not self._within_bounds() or self.sticks(leg):
                     return False
                 words = solver.step()
                 self.steps += 1
@@ -207,6 +212,21 @@ class _March:
         elif clock.monotonic() > self.deadline:
             self.status = -6
         return self.status == 0
+
+    def sticks(self, leg: Leg, *, last: bool = False) -> bool:
+        """Whether the run sticks where ẋ jumps and gets on no more: looked at now and then, and at the ``last``."""
+        if not last and (self.steps == 0 or self.steps % (2 * LEAST)):
+            return False
+        self.sticking = self.sticking or Sticking(self.f.rhs.program)
+        start, end = float(self.times[0]), float(self.times[-1])
+        if not self.sticking or not (
+            last or self.sticking.hopeless(self.pace, self.t, self.steps, end, self.bounds.max_steps)
+        ):
+            return False
+        u = leg.u(self.t, self.x)
+        if self.sticking.at(self.x, u, self.f.p, self.t, NEAR * (end - start)) is not None:
+            self.status, self.reason = CHATTERS, ""
+        return self.status == CHATTERS
 
     def _failed(self, words: str | None) -> None:
         broken = self.f.trouble > 0

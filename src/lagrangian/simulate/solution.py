@@ -24,6 +24,7 @@ STATUS: Mapping[int, str] = MappingProxyType(
         layout.ZENO: "events accumulate: the limit on their number was reached, or no time passes between them",
         layout.NO_CONVERGENCE: "the implicit stages do not converge",
         layout.LATE: "the time allowed for computing was over",
+        layout.CHATTERS: "the motion sticks where a force jumps, and steps get ever shorter",
         layout.UNFIT: "a mass is not above 0, or a moment of inertia is below",
     }
 )

@@ -17,12 +17,14 @@ from lagrangian.errors import RunError, did_you_mean
 from lagrangian.graph import reached
 
 from . import check
+from .chattering import NEAR, Pace, Sticking
 from .integrators import METHODS, layout
 from .integrators.events import ROUNDS
 from .integrators.loop import Variant
 from .machine import Machine, build_of
 from .problem import Events, Signals
 from .solution import Solution
+from .study import signals_at
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program
@@ -31,6 +33,9 @@ Array = NDArray[np.float64]
 
 BUDGET = 50_000_000
 """Operations, of a vector of runs at a time, between two looks at the clock: some hundredths of a second."""
+
+OFTEN = 16
+"""How much sooner the next look at the clock comes where the right-hand side jumps and a run may stick."""
 
 SHORT = 300
 """Nodes of the longest program of which two vectors of runs are computed together."""
@@ -84,7 +89,7 @@ class Solver:
             )
         if strange := set(program.inputs) - GROUPS:
             raise RunError(f"group '{strange.pop()}' is none of x, u, p, t", code="E402")
-        self.program, self.method = program, METHODS[method]
+        self.program, self.method, self.sticking = program, METHODS[method], Sticking(program)
         check.suits(self.method, program)
         self.events = None if events is None else events.checked(program)
         self.threads, self._lanes = threads, lanes
@@ -175,6 +180,7 @@ class _Task:
             shapes = ", ".join(f"{n} {a.shape}" for n, a in zip(("x0", "u", "p"), given, strict=True))
             raise RunError(f"the numbers of runs differ: {shapes}", code="E501", fix="one row each, or one for all")
         self.count = counts.pop() if counts else 1
+        self.signals, self.inputs, self.parameters = signals, inputs, parameters
         tolerance = check.number(rtol, "rtol")
         self.machine = solver.machine(self.count, parameters.ndim == 2, signals is not None, tolerance)
         size, count, samples = x0.shape[-1], self.count, len(self.times)
@@ -233,13 +239,15 @@ class _Task:
         self._halt = threading.Event()
         self._events: list[Array] = []
         cost = len(self.solver.program.graph.nodes) * self.solver.method.cost
-        self._budget = max(1, BUDGET // max(1, cost))
+        self._budget = max(1, BUDGET // max(1, cost) // (OFTEN if self.solver.sticking else 1))
         try:
             if self.count:
                 workers.over(self.count, self.machine.variant.lanes, 100 * cost, self.solver.threads, self._range)
         except BaseException:
             self._halt.set()  # the other threads stop at their next pause
             raise
+        if self.solver.sticking:
+            self._stuck_at_last()
         return self._solution()
 
     def _range(self, start: int, stop: int) -> int:
@@ -249,6 +257,7 @@ class _Task:
         words[layout.CURSOR], words[layout.LAST] = start, stop
         here, table = address(space), address(self._table)
         log = self._log(words)
+        paces: dict[int, Pace] = {}
         while not self._halt.is_set():
             why = self.machine.call(table, here, self._budget)
             if why == layout.DONE:
@@ -257,8 +266,39 @@ class _Task:
                 self._keep(words, log)
             if time.monotonic() > self._deadline:
                 words[layout.QUIT], words[layout.CURSOR] = 1, stop
+            if why == layout.PAUSED and self.solver.sticking:
+                self._look(space, words, paces)
         self._keep(words, log)
         return -1
+
+    def _look(self, space: Array, words: NDArray[np.int64], paces: dict[int, Pace]) -> None:
+        """End the runs in the work space that stick and do not get on."""
+        lanes, at, sticking = self.machine.variant.lanes, self.machine.places, self.solver.sticking
+        end, most = float(self.times[-1]), int(self.table["max_steps"])
+        for lane in range(lanes):
+            state, code, run, t, steps, rejected, x = (at[name] * lanes + lane for name in layout.PLACES)
+            if words[state] != layout.RUNNING:
+                continue
+            here = int(words[run])
+            pace = paces.setdefault(here, Pace(float(self.times[0])))
+            if not sticking.hopeless(pace, float(space[t]), int(words[steps] + words[rejected]), end, most):
+                continue
+            if self._sticks(here, space[x : x + lanes * self.final.shape[1] : lanes], float(space[t])):
+                words[state], words[code] = layout.ENDED, layout.CHATTERS
+
+    def _sticks(self, run: int, x: Array, t: float) -> bool:
+        """Whether a run sticks in a state; `lagrangian.simulate.chattering`."""
+        u = self.inputs if self.inputs.ndim == 1 else self.inputs[run]
+        u = u if self.signals is None else signals_at(self.signals, np.array([t]))[0]
+        p = self.parameters if self.parameters.ndim == 1 else self.parameters[run]
+        reach = max(NEAR * float(self.times[-1] - self.times[0]), OFTEN * float(self.table["step"]))
+        return self.solver.sticking.at(x, u, p, t, reach) is not None
+
+    def _stuck_at_last(self) -> None:
+        """Of the runs that gave up, those that stick where they stopped have that status."""
+        for run in np.flatnonzero(np.isin(self.status, (layout.TOO_MANY, layout.UNDERFLOW, layout.NO_CONVERGENCE))):
+            if self._sticks(int(run), self.final[run], float(self.reached[run])):
+                self.status[run] = layout.CHATTERS
 
     def _log(self, words: NDArray[np.int64]) -> Array:
         """Room for events, told to the machine code."""

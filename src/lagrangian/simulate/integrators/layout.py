@@ -28,6 +28,9 @@ REACHED, TERMINAL, UNDERFLOW, NOT_FINITE, TOO_MANY, ZENO, NO_CONVERGENCE, LATE =
 UNFIT = -7
 """A run that was not begun."""
 
+CHATTERS = -8
+"""A run that sticks where its right-hand side jumps."""
+
 DONE, PAUSED, FULL = 0, 1, 2
 """Why the machine code came back: all runs of the range are over, the budget is spent, the log of events is full."""
 
@@ -54,6 +57,15 @@ class Lanes:
         self.u, self.slope, self.p_in = p.reserve(self.inputs), p.reserve(self.inputs), p.reserve(self.parameters)
         self.sampled = p.block()
 
+    @property
+    def places(self) -> tuple[int, ...]:
+        """The slots that Python looks at between two calls, in the order of `PLACES`."""
+        assert self.x.slot is not None
+        return (self.state, self.code, self.run, self.t, self.steps, self.rejected, self.x.slot)
+
+
+PLACES = ("state", "code", "run", "t", "steps", "rejected", "x")
+"""What `Lanes.places` are."""
 
 MARGIN = 2.0**-50
 """Part of it by which one looks before a stop point in a step that ends there: what switches there has not yet."""

@@ -94,7 +94,7 @@ class Loop:
         if self.watch is not None:
             tapes = (self.watch.guard, self.watch.after, self.watch.pieces.tapes)
             sizes = [0 if t is None else len(t.low.prologue.outputs) for t in tapes]
-        facts = (p.slots, len(self.tapes.low.prologue.outputs), *sizes)
+        facts = (p.slots, len(self.tapes.low.prologue.outputs), *sizes, *self.lanes.places)
         lines = ["define void @facts(ptr %out) {"]
         for k, x in enumerate(facts):
             lines += [f"  %a{k} = getelementptr i64, ptr %out, i64 {k}", f"  store i64 {x}, ptr %a{k}"]
