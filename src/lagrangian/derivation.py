@@ -85,9 +85,9 @@ def verify_floating(model: Model, *, states: int, seed: int) -> tuple[Check, ...
     return (*found, *verify_compiled(model, states=states, seed=seed))
 
 
-def derive_and_verify(model: Model) -> Derivation:
-    """Derive, and end with what was verified."""
+def derive_and_verify(model: Model, *, detail: derive.Detail = "usual") -> Derivation:
+    """Derive, and end with what was verified; ``detail="full"`` writes d/dt out term by term."""
     analyze.check_dimensions(model)
-    data = derive.derive(model)
+    data = derive.derive(model, detail=detail)
     made = Derivation(**{f.name: getattr(data, f.name) for f in fields(data)})
     return replace(made, verified=analyze.verify(made, states=10, seed=1))

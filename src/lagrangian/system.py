@@ -27,7 +27,7 @@ if TYPE_CHECKING:  # every verb imports what it needs: describing a system waits
     from lagrangian.comparison import Comparison
     from lagrangian.compiled import Compiled
     from lagrangian.derivation import Derivation
-    from lagrangian.derive import Check
+    from lagrangian.derive import Check, Detail
     from lagrangian.running.ensemble import Ensemble
     from lagrangian.running.events import Event
     from lagrangian.running.trajectory import Trajectory
@@ -46,11 +46,15 @@ class System(Described):
     Eq(L**2*m*Derivative(theta(t), (t, 2)) + L*g*m*sin(theta(t)), 0)
     """
 
-    def derive(self) -> Derivation:
-        """Return the derivation: the seven steps, the equations, and what was verified."""
+    def derive(self, *, detail: Detail = "usual") -> Derivation:
+        """Return the derivation: the seven steps, the equations, and what was verified.
+
+        ``detail="full"`` writes d/dt of every term out before it is gathered. Raises `ModelError` for a model whose
+        coordinates are dependent, incomplete or move nothing.
+        """
         from lagrangian.derivation import derive_and_verify
 
-        return derive_and_verify(self.model)
+        return derive_and_verify(self.model, detail=detail)
 
     def check(self, answer: Any, *, hint: int = 3) -> CheckedAnswer:
         """Return whether an answer (text, LaTeX, SymPy equations, energies by name) is right; see `Derivation.check`.

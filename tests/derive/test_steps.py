@@ -5,6 +5,7 @@ import sympy as sp
 from sympy import cos, sin
 
 import lagrangian as lg
+from lagrangian.derive.formula import Formula, Terms, Total
 
 Pair = tuple[sp.Expr, sp.Expr]
 
@@ -216,3 +217,32 @@ def test_from_energies_gives_the_same_as_from_elements() -> None:
     (equation,) = s.derive().equations
     solved = sp.solve(sp.expand(equation.lhs - equation.rhs), x.diff(s.t, 2))[0]
     assert sp.simplify(solved - (m1 - m2) / (m1 + m2) * g) == 0
+
+
+def test_detail_takes_the_time_derivative_term_by_term() -> None:
+    """Against SymPy: each term's derivative is its own, and they add up to d/dt(∂L/∂ξ̇)."""
+    s = arm(relative=True)
+    usual, full = s.derive(), s.derive(detail="full")
+    assert len(full.steps[5].items) > len(usual.steps[5].items)
+    taken = [
+        item.sides
+        for item in full.steps[5].items
+        if isinstance(item, Formula) and isinstance(item.sides[0], Total) and isinstance(item.sides[0].of, sp.Expr)
+    ]
+    whole = sp.S.Zero
+    for left, right in taken:
+        assert isinstance(left, Total) and isinstance(right, Terms)
+        result = sp.Add(*[t for t in right.terms if isinstance(t, sp.Expr)])
+        assert sp.simplify(sp.diff(left.of, s.t) - result) == 0
+        whole += result
+    momenta = sum(sp.diff(sp.diff(full.L, q.diff(s.t)), s.t) for q in full.coordinates)
+    assert sp.simplify(sp.expand(sp.expand_trig(momenta - whole))) == 0
+    with pytest.raises(lg.ModelError, match="there is no detail 'ful'"):
+        s.derive(detail="ful")  # type: ignore[arg-type]
+
+
+def test_detail_adds_nothing_where_only_a_rate_moves() -> None:
+    s = lg.System("mass")
+    x = s.coordinate("x")
+    s.particle(s.parameter("m"), s.origin + (x, 0))
+    assert len(s.derive(detail="full").steps[5].items) == len(s.derive().steps[5].items)

@@ -168,7 +168,7 @@ def test_unknown_notation_and_narrow_width_are_refused(derivations):
         to_text(derivations["example 1"], width=10)
 
 
-@pytest.mark.parametrize("width", [50, 80, 120])
+@pytest.mark.parametrize("width", [40, 50, 80, 200])
 @pytest.mark.parametrize("notation", NOTATIONS)
 def test_no_line_is_wider_than_the_terminal(derivations, width, notation):
     for name, d in derivations.items():
@@ -489,3 +489,35 @@ def test_the_lower_half_of_the_mass_matrix_is_not_printed_again(derivations) -> 
     diagonal = matrix_form(to_text(derivations["example 3A"]))
     assert "sym." not in diagonal and "⎡ m₁   0  ⎤" in diagonal and "C = 0\n" in diagonal
     assert to_dict(d)["mass_matrix"][1][0] == to_dict(d)["mass_matrix"][0][1], "data hold every entry"
+
+
+def test_a_table_that_does_not_fit_is_written_row_by_row(derivations) -> None:
+    narrow = to_text(derivations["example 2"], width=40)
+    assert "torque τ\n  the box: what turns with θ₁ + θ₂ is\n" in narrow
+    assert re.search(r"^element    the box +virtual work   adds$", to_text(derivations["example 2"]), re.MULTILINE)
+
+
+def test_steps_fold_away_in_html_and_are_open_at_first(derivations) -> None:
+    rendered = to_html(derivations["example 2"])
+    steps = re.findall(
+        r'<section id="step-(\d)">\n<details class="step" open><summary><h2>(.*?)</h2></summary>', rendered
+    )
+    assert [number for number, _ in steps] == [str(i) for i in range(7)]
+    assert "<details" not in re.sub(
+        r"<style>.*?</style>", "", to_html(derivations["example 2"], brief=True), flags=re.S
+    )
+    assert "details.step::details-content" in rendered, "folded steps are printed too"
+
+
+def test_a_formula_in_html_can_end_its_line_before_every_term(derivations) -> None:
+    """Every term is an element of its own, so that a narrow screen wraps between them."""
+    rendered = to_html(derivations["example 2"])
+    terms = re.search(r"Equation 1:.*?(<div class=\"terms\">.*?</div>)", rendered, re.DOTALL)
+    assert terms is not None and terms.group(1).count("<math") >= 4
+
+
+def test_heads_of_a_latex_table_stand_over_their_columns_at_once(derivations) -> None:
+    """Without a second run: `longtable` finds the widths of natural columns only by then."""
+    rendered = to_latex(derivations["example 2"])
+    assert r"\begin{tabular}{ll" in rendered
+    assert not re.search(r"begin\{longtable\}\[l\]\{l", rendered)

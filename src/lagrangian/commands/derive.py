@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
 from typing import Annotated
 
 import typer
@@ -13,6 +14,13 @@ from lagrangian.commands.formats import Format, FormatOption, Notation, Notation
 from lagrangian.commands.terminal import Example, Force, Json, OptionalFile, Output, Width, open_system
 
 
+class Detail(StrEnum):
+    """How much of the differentiation is written."""
+
+    USUAL = "usual"
+    FULL = "full"
+
+
 def derive(
     file: OptionalFile = None,
     example: Example = None,
@@ -20,6 +28,7 @@ def derive(
     notation: NotationOption = Notation.LECTURE,
     brief: Annotated[bool, typer.Option("--brief", help="The one-page checklist.")] = False,
     full: Annotated[bool, typer.Option("--full", help="Write out what is too long to read.")] = False,
+    detail: Annotated[Detail, typer.Option(help="“full” takes d/dt of every term by itself.")] = Detail.USUAL,
     json: Json = False,
     width: Width = None,
     output: Output = None,
@@ -34,7 +43,7 @@ def derive(
       lagrangian derive carts.toml --notation physics -o carts.tex
     """
     wanted = chosen(format, json, output, force)
-    derivation = open_system(file, example).derive()
+    derivation = open_system(file, example).derive(detail=detail.value)
     if wanted is Format.TEXT:
         document = write.lay_out(derivation, notation=notation.value, brief=brief, full=full)
         put(write.page_rows(document, columns(width, output)), output)

@@ -5,5 +5,6 @@
 
 from lagrangian.derive.derivation import Check, Derivation, EquationTerm, LedgerRow, Origin, Step
 from lagrangian.derive.derive import derive
+from lagrangian.derive.lagrange import Detail
 
-__all__ = ["Check", "Derivation", "EquationTerm", "LedgerRow", "Origin", "Step", "derive"]
+__all__ = ["Check", "Derivation", "Detail", "EquationTerm", "LedgerRow", "Origin", "Step", "derive"]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import get_args
+
 import sympy as sp
 
 from lagrangian.derive.algebra import Algebra
@@ -11,18 +13,25 @@ from lagrangian.derive.derivation import Derivation
 from lagrangian.derive.energies import kinetic, lagrangian, potential, shares
 from lagrangian.derive.forces import contributions, forces
 from lagrangian.derive.holonomy import holonomic
-from lagrangian.derive.lagrange import left_hand_sides, left_sides
+from lagrangian.derive.lagrange import Detail, left_hand_sides, left_sides
 from lagrangian.derive.result import Shares, closing, equations, ledger, ledger_items, matrices
 from lagrangian.derive.wiggle import study
+from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.model import Model
 
 
-def derive(model: Model) -> Derivation:
+def derive(model: Model, *, detail: Detail = "usual") -> Derivation:
     """Return the equations of motion of a model and the steps that lead to them.
 
-    d/dt(∂L/∂ξ̇_i) − ∂L/∂ξ_i = Ξ_i with L = T* − V, for every coordinate. Raises `ModelError` for coordinates that are
-    dependent or move nothing, by name. Source: the lecture's steps 0 to 6.
+    d/dt(∂L/∂ξ̇_i) − ∂L/∂ξ_i = Ξ_i with L = T* − V, for every coordinate. ``detail="full"`` writes d/dt out term by term.
+    Raises `ModelError` for coordinates that are dependent or move nothing, by name, and for another ``detail``. Source:
+    the lecture's steps 0 to 6.
     """
+    if detail not in get_args(Detail):
+        known = get_args(Detail)
+        raise ModelError(
+            f"there is no detail '{detail}'", fix=did_you_mean(str(detail), known) or f"one of {', '.join(known)}"
+        )
     wiggle = study(model)
     context = Context(model, Algebra(model, _everything(model)), wiggle)
     pieces = shares(model, context.algebra)
@@ -34,7 +43,7 @@ def derive(model: Model) -> Derivation:
     T, V = step2.expressions["T"], step3.expressions["V"]
     step4 = lagrangian(context, pieces)
     sides = left_sides(context, pieces)
-    step5 = left_hand_sides(context, sides)
+    step5 = left_hand_sides(context, sides, detail)
     found = contributions(context)
     step6 = forces(context, found, step1.expressions["relative"])
 

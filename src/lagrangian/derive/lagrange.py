@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Literal, TypeAlias
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian.derive.algebra import Form
-from lagrangian.derive.context import Context
+from lagrangian.derive.context import Context, fit
 from lagrangian.derive.derivation import Step
 from lagrangian.derive.energies import Share
 from lagrangian.derive.formula import Heading, Item, Minus, Name, Partial, Terms, Total, formula, text
-from lagrangian.model import Coordinate
+from lagrangian.model import Coordinate, time
+
+Detail: TypeAlias = Literal["usual", "full"]
+"""How much of step 5 is written: "full" takes d/dt of every term by itself."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,8 +54,11 @@ def left_sides(context: Context, pieces: tuple[Share, ...]) -> tuple[LeftSide, .
     return tuple(sides)
 
 
-def left_hand_sides(context: Context, sides: tuple[LeftSide, ...]) -> Step:
-    """Write out ∂L/∂ξ̇_i, its d/dt, ∂L/∂ξ_i and the left-hand side of every coordinate."""
+def left_hand_sides(context: Context, sides: tuple[LeftSide, ...], detail: Detail = "usual") -> Step:
+    """Write out ∂L/∂ξ̇_i, its d/dt, ∂L/∂ξ_i and the left-hand side of every coordinate.
+
+    With ``detail="full"`` d/dt is taken term by term before its result is gathered.
+    """
     by_xi = Partial(Name("L"), Name("xi", "i", 1))
     law = Terms((Total(by_xi), Minus(Partial(Name("L"), Name("xi", "i")))))
     items: list[Item] = [formula(law, Name("Xi", "i"), brief=True)]
@@ -62,6 +71,7 @@ def left_hand_sides(context: Context, sides: tuple[LeftSide, ...]) -> Step:
         items += [
             Heading(text(f"Equation {i + 1}: ", c.symbol)),
             formula(by_rate, context.written(side.momentum)),
+            *(_term_by_term(context, side.momentum) if detail == "full" else ()),
             formula(Total(by_rate), context.written(side.momentum_rate)),
             formula(by_place, context.written(side.gradient)),
             formula(whole, context.written(side.whole), brief=True),
@@ -92,3 +102,20 @@ def left_hand_sides(context: Context, sides: tuple[LeftSide, ...]) -> Step:
         {"left_hand_sides": expressions},
         tuple(reasons),
     )
+
+
+def _term_by_term(context: Context, momentum: Form) -> Iterator[Item]:
+    """d/dt of every term of ∂L/∂ξ̇_i by the product and chain rules, before the results are added."""
+    terms = [term.expr for term in context.terms(momentum)]
+    if len(terms) == 1 and not _has_product_rule(terms[0]):
+        return
+    yield text("Term by term, by the product rule and the chain rule:" if len(terms) > 1 else "By the product rule:")
+    for term in terms:
+        yield formula(Total(fit(term)), context.written(context.form(term).total_derivative()))
+
+
+def _has_product_rule(term: sp.Expr) -> bool:
+    """Whether anything but one rate moves in a term."""
+    rates = [a for a in term.atoms(sp.Derivative) if isinstance(a, sp.Derivative)]
+    rest = term.xreplace({a: sp.Dummy() for a in rates})
+    return len(rates) != 1 or rest.has(AppliedUndef, time)

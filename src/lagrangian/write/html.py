@@ -1,6 +1,7 @@
 """A derivation as one HTML page that works offline: MathML, no scripts, nothing loaded from anywhere.
 
 Hovering over a term of the final equations, or focusing it with the keyboard or a tap, shows the elements it came from.
+Every step can be folded away; on paper all of them are open. A formula that is wider than the screen is scrolled.
 """
 
 from __future__ import annotations
@@ -24,14 +25,20 @@ from lagrangian.write.document import (
     Verdicts,
 )
 from lagrangian.write.layout import lay_out
-from lagrangian.write.math import Math, Number, Sum, Tagged, tokens
-from lagrangian.write.mathml import displayed, mathml, row, wide
+from lagrangian.write.lines import lines, set_columns
+from lagrangian.write.math import Grid, Math, Number, Sum, Tagged, Token, tokens
+from lagrangian.write.mathml import displayed, row, wide
 from lagrangian.write.quantities import Notation
 from lagrangian.write.text import clean
 from lagrangian.write.text import display as text_lines
 
 WIDTH = 96
 """Columns of Unicode text that fit the width of the page's text."""
+
+SHORT = 24
+"""Columns up to which a formula among words is kept in one piece."""
+
+EQUALS = '<span class="sign"><math><mo>=</mo></math></span>&#xa0;'
 
 KINDS = {
     "inertia": "inertia: with an acceleration",
@@ -53,7 +60,7 @@ def to_html(derivation: Derivation, *, notation: Notation = "lecture", brief: bo
 def page(document: Document, subject: str) -> str:
     """Return a document as a self-contained HTML page; ``subject`` stands in its title beside the document's own."""
     title = escape(document.title)
-    body = "\n".join(_section(section) for section in document.sections)
+    body = "\n".join(_section(section, brief=document.brief) for section in document.sections)
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
@@ -71,7 +78,7 @@ def to_html_fragment(derivation: Derivation, *, notation: Notation = "lecture", 
 
 def fragment(document: Document) -> str:
     """Return a document as a piece of HTML that brings its own style."""
-    body = "\n".join(_section(section, anchors=False) for section in document.sections)
+    body = "\n".join(_section(section, brief=document.brief, anchors=False) for section in document.sections)
     nested = _style().replace(":root", "&").replace("body {", "& {")  # the page's rules, for this piece alone
     style = f"<style>\n.lagrangian {{\n{nested}}}\n</style>"
     head = f'<div class="lagrangian" lang="en">{style}\n<div class="{"brief" if document.brief else "whole"}">'
@@ -89,7 +96,17 @@ def escape(words: str) -> str:
 
 def inline(text: Inline) -> str:
     """Words and mathematics in a line."""
-    return "".join(escape(x) if isinstance(x, str) else mathml(x) for x in text)
+    return "".join(escape(x) if isinstance(x, str) else _flowing(x) for x in text)
+
+
+def _flowing(formula: Math) -> str:
+    """A formula in a line of words; a long one in pieces, between which the line can end."""
+    pieces: list[list[Token]] = [[]]
+    for token in tokens(formula):
+        if token.level is not None and token.level <= 1 and sum(set_columns(t) for t in pieces[-1]) > SHORT:
+            pieces.append([])
+        pieces[-1].append(token)
+    return "<wbr>".join(f"<math>{row(piece)}</math>" for piece in pieces)
 
 
 def _contents(document: Document) -> str:
@@ -103,10 +120,14 @@ def _number(section: Section) -> str:
     return f'<span class="number">{section.number}</span> ' if section.number is not None else ""
 
 
-def _section(section: Section, *, anchors: bool = True) -> str:
+def _section(section: Section, *, brief: bool, anchors: bool = True) -> str:
     identity = f' id="{section.anchor}"' if anchors else ""
     blocks = "\n".join(line for block in section.blocks for line in _block(block, anchors))
-    return f"<section{identity}>\n<h2>{_number(section)}{inline(section.title)}</h2>\n{blocks}\n</section>"
+    title = f"<h2>{_number(section)}{inline(section.title)}</h2>"
+    if section.number is None or brief:
+        return f"<section{identity}>\n{title}\n{blocks}\n</section>"
+    step = f'<details class="step" open><summary>{title}</summary>\n{blocks}\n</details>'
+    return f"<section{identity}>\n{step}\n</section>"
 
 
 def _block(block: Block, anchors: bool) -> Iterator[str]:
@@ -138,32 +159,44 @@ def _block(block: Block, anchors: bool) -> Iterator[str]:
 
 def _preformatted(blocks: tuple[Block, ...]) -> str:
     """Formulas as lines of text: mathematics of this length takes a browser long."""
-    lines = [line for block in blocks if isinstance(block, Display) for line in text_lines(block, WIDTH)]
-    return f"<pre>{escape_lines(lines)}</pre>"
+    shown = [line for block in blocks if isinstance(block, Display) for line in text_lines(block, WIDTH)]
+    return f"<pre>{escape_lines(shown)}</pre>"
 
 
-def escape_lines(lines: list[str]) -> str:
+def escape_lines(listed: list[str]) -> str:
     """Lines of text so that a browser shows them."""
-    return "\n".join(escape(line) for line in lines)
+    return "\n".join(escape(line) for line in listed)
 
 
 def _display(block: Display, anchors: bool) -> str:
     identity = f' id="{block.anchor}"' if anchors and block.anchor else ""
     note = f' <span class="note">{inline(block.note)}</span>' if block.note else ""
-    return f'<div class="formula"{identity}>{displayed(block.sides, WIDTH)}{note}</div>'
+    return f'<div class="formula"{identity}>{_chain(block.sides)}{note}</div>'
+
+
+def _chain(sides: tuple[Math, ...]) -> str:
+    """A formula term by term, so that its lines end where the screen does; a matrix in one piece."""
+    if any(isinstance(side, Grid) for side in sides):
+        return displayed(sides, WIDTH)
+    laid = [_terms(side, []) for side in sides]
+    if len(lines(sides, WIDTH)) == 1 or len(sides) < 3:
+        return f'<div class="terms">{_kept(laid, EQUALS)}</div>'
+    blocks = [_kept(laid[:2], EQUALS), *(EQUALS + side for side in laid[2:])]
+    return f'<div>{"".join(f"""<div class="terms">{x}</div>""" for x in blocks)}</div>'
 
 
 def _boxed(displays: tuple[Display, ...], anchors: bool) -> Iterator[str]:
     """The results, term by term; each term can be asked for the elements it came from."""
-    lines: list[str] = []
+    equations: list[str] = []
     kinds: list[str] = []
     for formula in displays:
         sides = [_terms(side, kinds) for side in formula.sides]
-        equals = '<span class="sign"><math><mo>=</mo></math></span>&#xa0;'
         identity = f' id="{formula.anchor}"' if anchors else ""
         number = f'<span class="tag">({formula.number})</span>' if len(displays) > 1 else ""
-        lines.append(f'<div class="equation"{identity}><div class="terms">{_kept(sides, equals)}</div>{number}</div>')
-    yield f'<div class="result" role="group" aria-label="Equations of motion">{"".join(lines)}</div>'
+        equations.append(
+            f'<div class="equation"{identity}><div class="terms">{_kept(sides, EQUALS)}</div>{number}</div>'
+        )
+    yield f'<div class="result" role="group" aria-label="Equations of motion">{"".join(equations)}</div>'
     if kinds:
         shown = "".join(f'<li><span class="swatch {k}"></span>{escape(KINDS[k])}</li>' for k in KINDS if k in kinds)
         yield f'<p class="hint">Point at a term to see the elements it came from.</p><ul class="legend">{shown}</ul>'

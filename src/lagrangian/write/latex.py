@@ -17,8 +17,10 @@ from lagrangian.write.document import (
     Table,
     Verdicts,
 )
-from lagrangian.write.glyphs import columns, unicode
+from lagrangian.write.glyphs import columns
 from lagrangian.write.layout import lay_out
+from lagrangian.write.lines import set_columns
+from lagrangian.write.math import tokens
 from lagrangian.write.quantities import Notation
 from lagrangian.write.tex import PAGE
 from lagrangian.write.tex_lines import WIDTH, boxed, displayed, rows
@@ -27,6 +29,8 @@ from lagrangian.write.text import clean
 
 MOST_BOXED = 30
 """Rows of results that one box holds; more of them run over pages between two rules."""
+MOST_ROWS = 30
+"""Rows of a table that is kept on one page."""
 MOST_ALIGNED = 20
 """Rows of a formula that are kept on one page."""
 
@@ -157,19 +161,19 @@ def _boxed(displays: tuple[Display, ...]) -> str:
 
 
 def _table(table: Table) -> str:
-    """A table that may run over pages; the columns share the width by what is longest in them."""
+    """A table; a long one runs over pages, its columns of fixed widths, so that the heads stand over them at once."""
     rows_of = (table.header, *table.rows)
     lengths = [max(_length(row[j]) for row in rows_of) for j in range(len(table.header))]
-    if sum(lengths) + 2 * len(lengths) <= WIDTH - 8:
-        spec = "l" * len(lengths)
-    else:
-        capped = [min(max(n, 1.6 * _length(h) + 2), 60) for n, h in zip(lengths, table.header, strict=True)]
-        share = [f"{n / sum(capped):.3f}" for n in capped]
-        spec = "".join(rf">{{\raggedright\arraybackslash}}p{{\dimexpr{x}\linewidth-2\tabcolsep}}" for x in share)
-    head = " & ".join(rf"\textbf{{{inline(h)}}}" for h in table.header) + r" \\ \hline \endhead"
+    head = " & ".join(rf"\textbf{{{inline(h)}}}" for h in table.header) + r" \\ \hline"
     body = [" & ".join(inline(c) for c in row) + r" \\" for row in table.rows]
-    return "\n".join((rf"\begin{{longtable}}[l]{{{spec}}}", head, *body, r"\end{longtable}"))
+    if sum(lengths) + 2 * len(lengths) <= WIDTH - 8 and len(table.rows) <= MOST_ROWS:
+        spec = "l" * len(lengths)
+        return "\n".join((rf"\begin{{tabular}}{{{spec}}}", head, *body, r"\end{tabular}"))
+    capped = [min(max(n, 1.6 * _length(h) + 2), 60) for n, h in zip(lengths, table.header, strict=True)]
+    share = [f"{min(1.0, WIDTH / sum(capped)) * n / WIDTH:.3f}" for n in capped]
+    spec = "".join(rf">{{\raggedright\arraybackslash}}p{{\dimexpr{x}\linewidth-2\tabcolsep}}" for x in share)
+    return "\n".join((rf"\begin{{longtable}}[l]{{{spec}}}", head + r" \endhead", *body, r"\end{longtable}"))
 
 
 def _length(cell: Inline) -> int:
-    return sum(columns(x if isinstance(x, str) else unicode(x)) for x in cell)
+    return sum(columns(x) if isinstance(x, str) else sum(set_columns(t) for t in tokens(x)) for x in cell)

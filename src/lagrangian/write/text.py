@@ -29,6 +29,8 @@ from lagrangian.write.quantities import Notation
 NARROWEST = 40
 GAP = 3
 """Columns between the columns of a table."""
+MOST_LINES = 5
+"""Lines that a cell of a table may take, about."""
 LONG_WORD = 16
 """Columns of a word that may be cut in a table."""
 SHORT = 6
@@ -274,7 +276,7 @@ def _table(table: Table, width: int) -> Iterator[str]:
         return
     rows = (table.header, *table.rows)
     widths = [max(columns(_words(row[j])) for row in rows) for j in range(count)]
-    least = [max(_least(row[j]) for row in rows) for j in range(count)]
+    least = [max(widths[j] // MOST_LINES, *(_least(row[j]) for row in rows)) for j in range(count)]
     room = width - GAP * (count - 1)
     if sum(least) > room:
         yield from _listed(table, width)
