@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 from dataclasses import dataclass
+from fractions import Fraction
 
 import pytest
 import sympy as sp
@@ -12,7 +13,9 @@ from hypothesis import strategies as st
 from sympy.core.function import AppliedUndef
 from sympy.physics.mechanics import dynamicsymbols
 
+import lagrangian as lg
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach, equations
+from lagrangian.derive.algebra.monomials import multiples, turn, whole
 from lagrangian.errors import ModelError
 from size import sized
 
@@ -226,3 +229,33 @@ def test_equations_are_those_of_sympy() -> None:
         expected = sp.diff(sp.diff(lagrangian, sp.diff(q, t)), t) - sp.diff(lagrangian, q)
         assert isinstance(form, Form)
         assert same(form.expr(), expected)
+
+
+MULTIPLES = st.fractions(min_value=-64, max_value=64, max_denominator=64).filter(bool)
+
+
+@given(st.dictionaries(st.integers(0, 6), MULTIPLES, max_size=5))
+def test_multiples_of_angles_come_out_of_a_harmonic_as_they_went_in(multiples_of: dict[int, Fraction]) -> None:
+    packed = whole(sum((k * turn(j) for j, k in multiples_of.items()), Fraction(0)))
+    assert dict(multiples(packed)) == multiples_of
+
+
+def test_halves_and_other_fractions_of_several_angles_stay_what_they_are() -> None:
+    """V = cos((a + b)/2) + sin(6/5 + 3a/10): by hand −½ sin((a + b)/2) + (3/10) cos(6/5 + 3a/10) for a."""
+    system = lg.System("halves")
+    a, b = system.coordinates("a b")
+    system.kinetic(a.diff() ** 2 / 2 + b.diff() ** 2 / 2)
+    system.potential(sp.cos((a + b) / 2) + sp.sin(sp.Rational(6, 5) + sp.Rational(3, 10) * a))
+    found = system.derive()
+    half = sp.sin((a + b) / 2) / 2
+    third = sp.Rational(3, 10) * sp.cos(sp.Rational(6, 5) + sp.Rational(3, 10) * a)
+    by_hand = [a.diff(system.t, 2) - half + third, b.diff(system.t, 2) - half]
+    for equation, expected in zip(found.equations, by_hand, strict=True):
+        assert sp.expand_trig(equation.lhs - equation.rhs - expected).subs({a: 0.3, b: 0.8}).evalf() == pytest.approx(0)
+    assert all(check.holds for check in found.verified)
+
+
+def test_a_multiple_that_is_too_long_a_fraction_is_refused_not_mistaken() -> None:
+    long = Fraction(2**40 + 1, 3**30)
+    with pytest.raises(OutOfReach, match="too long a fraction"):
+        multiples(whole(long + turn(1)))

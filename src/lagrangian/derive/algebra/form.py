@@ -19,6 +19,7 @@ import sympy as sp
 
 from lagrangian.derive.algebra.monomials import (
     LARGEST_EXPONENT,
+    OutOfReach,
     Packed,
     Poly,
     content,
@@ -27,7 +28,6 @@ from lagrangian.derive.algebra.monomials import (
     product,
     unit,
 )
-from lagrangian.errors import ModelError
 
 if TYPE_CHECKING:
     from lagrangian.derive.algebra.algebra import Algebra
@@ -44,10 +44,6 @@ Key = tuple[Harmonic, int]
 
 Rate = Callable[[int], "int | Form | None"]
 """A derivative's table: index → its derivative as a monomial, as a form, or None where it is zero."""
-
-
-class OutOfReach(ModelError):
-    """An expression has no normal form of reasonable size."""
 
 
 class Form:

@@ -1,9 +1,11 @@
 """Monomials and harmonics as single integers, and sparse polynomials over them.
 
 A monomial ∏ g_i^e_i is the integer Σ e_i·2^(16 i) with signed exponents, so that a product of monomials is a sum of
-integers and a Laurent exponent needs nothing special. A harmonic Σ k_j·a_j of angles is packed the same way, in a base
-that is a prime: where a k_j is a fraction, so is the packed number, its denominator is that of the k_j (a power of two
-as base would swallow halves), and adding still adds them one by one.
+integers and a Laurent exponent needs nothing special. A harmonic Σ k_j·a_j of angles is packed as the rational number
+Σ k_j·P^j with a prime P, so that adding adds the multiples one by one. Its lowest multiple is known modulo P, and a
+fraction of small numbers is known by its residue: k_0 = a/b where a ≡ b·h (mod P) and |a|, b < √(P/2) (Wang, Guy and
+Davenport, "P-adic reconstruction of rational numbers", SIGSAM Bulletin 16, 1982). The numerator of the packed number
+tells nothing: ½ + ½P is whole.
 """
 
 from __future__ import annotations
@@ -12,6 +14,8 @@ from collections.abc import Iterable
 from fractions import Fraction
 from functools import lru_cache
 from math import gcd
+
+from lagrangian.errors import ModelError
 
 BITS = 16
 """Bits a field has; exponents and multiples stay far inside ±2^15, see `LARGEST_EXPONENT`."""
@@ -25,6 +29,15 @@ Poly = dict[int, int]
 
 PRIME = (1 << 61) - 1
 """The base in which harmonics are packed, a Mersenne prime."""
+
+SMALL = 1 << 29
+"""Numerators and denominators of multiples are below this, itself below √(P/2)."""
+TOO_LONG = "an angle stands in a sine or cosine with a multiple that is too long a fraction"
+
+
+class OutOfReach(ModelError):
+    """An expression has no normal form of reasonable size."""
+
 
 _MASK = (1 << BITS) - 1
 _HALF = 1 << (BITS - 1)
@@ -50,16 +63,31 @@ def digits(packed: int) -> tuple[tuple[int, int], ...]:
 def multiples(harmonic: Packed) -> tuple[tuple[int, Packed], ...]:
     """Return the fields of a harmonic as pairs (angle, multiple); the multiples are fractions where they must be."""
     found: list[tuple[int, Packed]] = []
-    rest, d = harmonic.numerator, harmonic.denominator
-    j = 0
+    rest, j = Fraction(harmonic), 0
+    last = max(abs(rest.numerator), rest.denominator).bit_length() // 60 + 1
     while rest:
-        rest, k = divmod(rest, PRIME)
-        if k > PRIME // 2:
-            rest, k = rest + 1, k - PRIME
+        if j > last:
+            raise OutOfReach(TOO_LONG)
+        k = _fraction(rest.numerator * pow(rest.denominator, -1, PRIME) % PRIME)
         if k:
-            found.append((j, whole(Fraction(k, d))))
-        j += 1
+            found.append((j, whole(k)))
+        rest, j = (rest - k) / PRIME, j + 1
     return tuple(found)
+
+
+def _fraction(residue: int) -> Fraction:
+    """Return the fraction a/b of numbers below √(P/2) that is ``residue`` modulo P, by Euclid's algorithm."""
+    if residue <= SMALL:
+        return Fraction(residue)
+    if PRIME - residue <= SMALL:
+        return Fraction(residue - PRIME)
+    a, b = (PRIME, residue), (0, 1)
+    while a[1] > SMALL:
+        quotient = a[0] // a[1]
+        a, b = (a[1], a[0] - quotient * a[1]), (b[1], b[0] - quotient * b[1])
+    if abs(b[1]) > SMALL:
+        raise OutOfReach(TOO_LONG)
+    return Fraction(a[1], b[1])
 
 
 def turn(angle: int) -> int:
