@@ -140,27 +140,31 @@ def test_a_file_is_replaced_only_when_asked(run: lg.Trajectory, tmp_path: Path) 
 def test_a_full_disk_is_told_and_leaves_what_was_there(tmp_path: Path) -> None:
     """A limit on the size of files stands for the disk, in a process of its own."""
     pytest.importorskip("resource")
-    for ending in ("csv", "nc", "parquet", "npz"):
-        (tmp_path / f"x.{ending}").write_text("precious")
+    files = ["x.csv", "x.nc", "x.parquet", "x.npz", "y.csv", "y.nc", "y.parquet"]
+    for name in files:
+        (tmp_path / name).write_text("precious")
     code = """
 import resource, signal
 import lagrangian as lg
 from lagrangian import examples
-run = lg.loads(examples.text("pendulum")).simulate(10, samples=2001)
+system = lg.loads(examples.text("pendulum"))
+run = system.simulate(10, samples=2001)
 run.to_csv()
+runs = system.ensemble(0.01, theta=[0.001 * k for k in range(3000)], times=2)
 signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
 resource.setrlimit(resource.RLIMIT_FSIZE, (20_000, 20_000))
-for ending in ("csv", "nc", "parquet", "npz"):
+for name in FILES:
     try:
-        run.save(f"x.{ending}", overwrite=True)
+        (run if name.startswith("x") else runs).save(name, overwrite=True)
     except lg.Error as error:
         print(error)
 """
-    done = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True)
-    assert done.stderr == "" and done.stdout.count("file too large") == 4
-    for ending in ("csv", "nc", "parquet", "npz"):
-        assert (tmp_path / f"x.{ending}").read_text() == "precious"
-    assert len(list(tmp_path.iterdir())) == 4
+    given = [sys.executable, "-c", f"FILES = {files}" + code]
+    done = subprocess.run(given, cwd=tmp_path, capture_output=True, text=True)
+    assert done.stderr == "" and done.stdout.count("file too large") == len(files)
+    for name in files:
+        assert (tmp_path / name).read_text() == "precious"
+    assert len(list(tmp_path.iterdir())) == len(files)
 
 
 @pytest.mark.parametrize(

@@ -256,7 +256,7 @@ def test_files(oscillator: lg.System, tmp_path) -> None:
         assert [float(row[name]) for row in rows] == column.tolist()
     pandas.testing.assert_frame_equal(pandas.read_parquet(tmp_path / "a.parquet"), runs.to_pandas())
     data = xarray.load_dataset(tmp_path / "a.nc", engine="h5netcdf")
-    np.testing.assert_array_equal(data["max x'"].values, runs["max x'"])
+    xarray.testing.assert_identical(data, runs.to_xarray())
     assert data["k"].attrs["units"] == "N/m"
     with pytest.raises(lg.ModelError, match="names no kind of file"):
         runs.save(tmp_path / "a.xls")

@@ -47,6 +47,7 @@ def figures(runs: Ensemble) -> dict[str, Any]:
         "method": str(runs.settings["method"]),
         "endings": {words: int(n) for words, n in runs.counts.items()},
         "failed": int((runs.status < 0).sum()),
+        "notices": list(runs.notices),
         "results": [asdict(r) for r in _results(runs)],
     }
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import io
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
@@ -266,8 +267,19 @@ def _spread(values: Any, dims: tuple[str, ...], sizes: Mapping[str, int]) -> NDA
 
 
 def _netcdf(runs: Ensemble, path: Path) -> None:
-    needed("h5netcdf")
-    runs.to_xarray().to_netcdf(path, engine="h5netcdf")
+    """NetCDF 4 made in memory: HDF5 crashes on a full disk. ``coordinates`` are named as the CF conventions ask."""
+    netcdf, data, memory = needed("h5netcdf"), runs.to_xarray(), io.BytesIO()
+    beside = [name for name, values in data.coords.items() if (name,) != values.dims and " " not in name]
+    with netcdf.File(memory, "w") as file:
+        file.dimensions = dict(data.sizes)
+        for name, variable in data.variables.items():
+            made = file.create_variable(name, variable.dims, data=variable.values)
+            made.attrs.update(variable.attrs)
+            along = [c for c in beside if name in data.data_vars and set(data[c].dims) <= set(variable.dims)]
+            if along:
+                made.attrs["coordinates"] = " ".join(along)
+        file.attrs.update(data.attrs)
+    path.write_bytes(memory.getbuffer())
 
 
 def _parquet(runs: Ensemble, path: Path) -> None:

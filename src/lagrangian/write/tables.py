@@ -50,10 +50,13 @@ class Table:
     @property
     def plain_attributes(self) -> dict[str, str | float | int]:
         """The attributes as files hold them: numbers and text, anything else as JSON."""
-        return {
-            key: value if isinstance(value, (str, float, int)) and not isinstance(value, bool) else _json(value)
-            for key, value in self.attributes.items()
-        }
+        return {key: _plain(value) for key, value in self.attributes.items()}
+
+
+def _plain(value: Any) -> str | float | int:
+    if isinstance(value, str):
+        return str(value)  # of a kind of text too: HDF5 takes plain text alone
+    return value if isinstance(value, (float, int)) and not isinstance(value, bool) else _json(value)
 
 
 def _json(value: Any) -> str:
