@@ -521,3 +521,18 @@ def test_heads_of_a_latex_table_stand_over_their_columns_at_once(derivations) ->
     rendered = to_latex(derivations["example 2"])
     assert r"\begin{tabular}{ll" in rendered
     assert not re.search(r"begin\{longtable\}\[l\]\{l", rendered)
+
+
+def test_long_roots_and_fractions_fit_a_narrow_page() -> None:
+    """A damper and a spring between two free points: every fraction holds a root of squares of differences."""
+    s = lg.System("net")
+    x1, y1, x2, y2 = s.coordinates("x1 y1 x2 y2")
+    m1, m2, k, b, L0 = s.parameters("m1 m2 k b L_0")
+    one, two = s.origin + (x1, y1), s.origin + (x2, y2)
+    s.particle(m1, at=one)
+    s.particle(m2, at=two)
+    s.spring(k, between=(one, two), rest=L0)
+    s.damper(b, between=(one, two))
+    derivation = derive(s.model)
+    for width in range(40, 61, 3):
+        assert max(map(columns, to_text(derivation, width=width).splitlines())) <= width

@@ -80,7 +80,8 @@ class _Breaker:
             return
         segments = self._segments(pieces)
         if len(segments) == 1 or (segments[1][0].level or 0) >= LOOSE:
-            opened = self._opened(pieces) if any(self._size(s) > self.width for s in segments) else None
+            tight = len(segments) == 1 or any(self._size(s) > self.width - STEP * (s[0].depth + 1) for s in segments)
+            opened = self._opened(pieces) if tight else None
             if opened is not None:
                 self.put(opened)
                 return
