@@ -7,14 +7,14 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-import sympy as sp
 from numpy.typing import ArrayLike, NDArray
 
 from lagrangian import compile as machine
 from lagrangian import dynamics
 from lagrangian.errors import ModelError, RunError
 from lagrangian.graph import reached
-from lagrangian.model import plain
+from lagrangian.looking import Looking
+from lagrangian.looking import by_name as _named
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program
@@ -33,7 +33,7 @@ NOT_FINITE = "E503"
 """The code of results that are not finite."""
 
 
-class Compiled:
+class Compiled(Looking):
     """The dynamics M(q) q̈ + C(q, q̇) q̇ + G(q) = Ξ of a system, as kernels of machine code.
 
     Every method takes arrays of shape ``(..., n)``, any number of leading dimensions that broadcast together, in the
@@ -49,6 +49,7 @@ class Compiled:
     def __init__(self, model: Model, *, lanes: int | None = None, threads: int | None = None) -> None:
         self._model, self._lanes, self._threads = model, lanes, threads
         self._kernels: dict[str, machine.Kernel] = {}
+        self._seen: dict[Any, machine.Kernel] = {}
         self.coordinates = tuple(c.name for c in model.coordinates)
         self.velocities = tuple(v.name for v in model.velocities)
         self._floats = [f.floating for f in model.floating if f.floating is not None]
@@ -150,22 +151,6 @@ class Compiled:
         both = self._run("energy", q, p, t, q, v, _named(u))
         return both["T"], both["V"]
 
-    def point(
-        self, name: str, q: ArrayLike, v: ArrayLike | None = None, p: Values = None, t: ArrayLike = 0.0
-    ) -> dict[str, NDArray[np.float64]]:
-        """Return position ``r`` and velocity ``v`` of a named point, ``(..., d)``, and ``J`` = ∂v/∂q̇, ``(..., d, n)``.
-
-        In the fixed axes, d = 2 in the plane and 3 in space; the rates are 0 unless given. Raises `ModelError` where
-        there is no such point.
-        """
-        key = f"point {name}"
-        if key not in self._kernels:
-            program = dynamics.point_jacobian(self._model, name)
-            optional = {"u": 0.0, "t": 0.0, "v": 0.0}
-            made = machine.compile(program, optional=optional, lanes=self._lanes, threads=self._threads)
-            self._kernels[key] = made
-        return self._run(key, q, p, t, q, v, None)
-
     def rates(self, q: ArrayLike, v: ArrayLike) -> NDArray[np.float64]:
         """Return q̇ = N(q) v, shape ``(..., n_q)``: v itself, but for frames that float."""
         return self._run("rates", q, None, 0.0, q, v, None)
@@ -181,9 +166,13 @@ class Compiled:
             raise self._explained(trouble, np.asarray(x)[..., :n], p, t) from None
 
     def _run(self, name: str, q: ArrayLike, p: Values, t: ArrayLike, *given: Any) -> Any:
+        """Call the kernel of a method."""
+        return self._called(self._kernel(name), q, p, t, *given)
+
+    def _called(self, kernel: machine.Kernel, q: ArrayLike, p: Values, t: ArrayLike, *given: Any) -> Any:
         """Call a kernel; where its answer is not finite, say why."""
         try:
-            return self._kernel(name)(*given, _named(p), t)
+            return kernel(*given, _named(p), t)
         except RunError as trouble:
             raise self._explained(trouble, q, p, t) from None
 
@@ -244,20 +233,6 @@ class Compiled:
             if len(involved) == 1
             else "moving " + ", ".join(f"'{n}'" for n in involved) + " together"
         )
-
-
-_TEXT = frozenset((str,))
-
-
-def _named(given: Values) -> Any:
-    """A mapping with names for keys, whether it was given with names or symbols; anything else as it is."""
-    if given is None or type(given) is np.ndarray:
-        return given
-    if type(given) is dict and _TEXT.issuperset(map(type, given)):
-        return given
-    if isinstance(given, Mapping):
-        return {plain(k) if isinstance(k, sp.Basic) else k: value for k, value in given.items()}
-    return given
 
 
 _PROGRAMS: dict[str, Callable[[Model], Program]] = {

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from copy import deepcopy
 from typing import Any, Self
@@ -35,6 +37,10 @@ from lagrangian.model import (
 
 STANDARD_GRAVITY = 9.81
 """[m/s²] The value of the parameter g unless one is given."""
+
+
+MOST_NAMES = 10_000
+"""Names that a range may stand for."""
 
 
 class Described:
@@ -90,13 +96,21 @@ class Described:
         """Return the symbol, or else the point or frame, that carries ``name``."""
         return self._builder.lookup(name)
 
-    def coordinate(self, name: str, description: str = "", *, unit: str | None = None) -> AppliedUndef:
-        """Declare one generalized coordinate; return SymPy's dynamicsymbol, whose ``.diff()`` is the rate."""
-        return self._builder.coordinate(name, description=description, unit=_unit(unit)).symbol
+    def coordinate(
+        self, name: str, description: str = "", *, unit: str | None = None, positive: bool = False
+    ) -> AppliedUndef:
+        """Declare one generalized coordinate; return SymPy's dynamicsymbol, whose ``.diff()`` is the rate.
 
-    def coordinates(self, names: str | Iterable[str]) -> Any:
-        """Declare coordinates: ``theta1, theta2 = system.coordinates("theta1 theta2")``; one name gives one symbol."""
-        return _many(names, self.coordinate)
+        One that is ``positive`` is a distance known to be above 0: √(r²) is r.
+        """
+        return self._builder.coordinate(name, description=description, unit=_unit(unit), positive=positive).symbol
+
+    def coordinates(self, names: str | Iterable[str], *, positive: bool = False) -> Any:
+        """Declare coordinates: ``theta1, theta2 = system.coordinates("theta1 theta2")``; one name gives one symbol.
+
+        ``"q1:4"`` is short for ``"q1 q2 q3"``, as in SymPy. ``positive`` ones are distances known to be above 0.
+        """
+        return _many(names, lambda name: self.coordinate(name, positive=positive))
 
     def parameter(
         self, name: str, value: float | str | None = None, *, unit: str | None = None, description: str = ""
@@ -106,21 +120,21 @@ class Described:
         return self._builder.parameter(name, number, unit=stored, description=description).symbol
 
     def parameters(self, names: str | Iterable[str], **values: float | str) -> Any:
-        """Declare constants: ``m, L = system.parameters("m L", m="1 kg", L=0.5)``."""
+        """Declare constants: ``m, L = system.parameters("m L", m="1 kg", L=0.5)``; ``"m1:4"`` is ``"m1 m2 m3"``."""
         listed = _split(names)
         unknown = [key for key in values if key not in listed]
         if unknown:
             raise ModelError(
                 f"a value was given for '{unknown[0]}', which is not among the names", fix=f"names: {' '.join(listed)}"
             )
-        return _many(listed, lambda name: self.parameter(name, values.get(name)), single=isinstance(names, str))
+        return _many(listed, lambda name: self.parameter(name, values.get(name)), single=_alone(names))
 
     def input(self, name: str, description: str = "", *, unit: str | None = None) -> AppliedUndef:
         """Declare a force, torque or other signal from outside."""
         return self._builder.input(name, description=description, unit=_unit(unit)).symbol
 
     def inputs(self, names: str | Iterable[str]) -> Any:
-        """Declare several inputs."""
+        """Declare several inputs; ``"tau1:4"`` is ``"tau1 tau2 tau3"``."""
         return _many(names, self.input)
 
     def define(self, name: str, expression: object) -> Any:
@@ -298,7 +312,33 @@ class Described:
 
 
 def _split(names: str | Iterable[str]) -> list[str]:
-    return names.replace(",", " ").split() if isinstance(names, str) else _listed(names, "names")
+    """The names in a text, ranges written out, or in a list."""
+    if not isinstance(names, str):
+        return _listed(names, "names")
+    return [name for part in names.replace(",", " ").split() for name in _ranged(part)]
+
+
+def _ranged(text: str) -> list[str]:
+    """The names that a range such as ``q1:4`` or ``x_a:c`` stands for, as SymPy reads it; any other name by itself."""
+    if ":" not in text:
+        return [text]
+    numbers = [(int(a or 0), int(b)) for a, b in re.findall(r"(\d*):(\d+)", text)]
+    if any(len(part) > 9 for part in re.findall(r"\d+", text)) or math.prod(b - a for a, b in numbers) > MOST_NAMES:
+        raise ModelError(f"the range '{text[:40]}' has more than {MOST_NAMES} names", code="E601")
+    try:
+        made = sp.symbols(text, seq=True)
+    except ValueError:
+        made = ()
+    if not made:
+        raise ModelError(
+            f"'{text[:40]}' is not a range of names", fix='"q1:4" is q1 q2 q3: the end is not in it', code="E702"
+        )
+    return [symbol.name for symbol in made]
+
+
+def _alone(names: object) -> bool:
+    """Whether text names one thing by itself, not in a range: it gives the symbol and no tuple."""
+    return isinstance(names, str) and ":" not in names
 
 
 def _listed(things: object, what: str) -> list[Any]:
@@ -314,7 +354,7 @@ def _many(names: str | Iterable[str], make: Any, *, single: bool | None = None) 
     if not listed:
         raise ModelError("no name was given", fix='such as "theta1 theta2"', code="E401")
     made = tuple(make(name) for name in listed)
-    alone = isinstance(names, str) if single is None else single
+    alone = _alone(names) if single is None else single
     return made[0] if len(made) == 1 and alone else made
 
 

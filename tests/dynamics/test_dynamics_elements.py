@@ -5,6 +5,7 @@ import pytest
 import sympy as sp
 from dynamics_models import PROGRAMS, all_programs, euler_lagrange, run, state
 
+from lagrangian import dynamics
 from lagrangian.dynamics import programs
 from lagrangian.errors import ModelError
 from lagrangian.model import (
@@ -16,6 +17,7 @@ from lagrangian.model import (
     Gravity,
     Kinetic,
     Particle,
+    Point,
     Potential,
     RigidBody,
     Spring,
@@ -221,14 +223,14 @@ def test_rhs_is_the_rates_and_the_accelerations_in_declared_order():
 def test_jacobian_of_a_named_point():
     model = springs_and_dampers()
     at = state(model, 8)
-    found = run(programs.point_jacobian(model, "Q"), at)
+    found = run(dynamics.point_program(model, dynamics.named_place(model, "Q", Point)), at)
     x, y, th = at["q"]
     L = dict(zip([p.name for p in model.parameters], at["p"], strict=True))["L"]
     assert found["r"] == pytest.approx([x + 0.5 + L * np.cos(th), y + 2 + L * np.sin(th)])
     assert found["J"] == pytest.approx(np.array([[1, 0, -L * np.sin(th)], [0, 1, L * np.cos(th)]]))
     assert found["v"] == pytest.approx(found["J"] @ at["v"])
     with pytest.raises(ModelError, match="no point 'q'"):
-        programs.point_jacobian(model, "q")
+        dynamics.named_place(model, "q", Point)
 
 
 def test_a_coordinate_without_mass_is_named():

@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 import lagrangian as lg
 from lagrangian import ModelError
-from lagrangian.cli import app
+from lagrangian.commands.app import app
 
 FILE = """
 name = "plate"

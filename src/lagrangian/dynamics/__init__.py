@@ -13,6 +13,7 @@ from lagrangian.dynamics.mechanics import Mechanics
 from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.notices import configurations, notices
 from lagrangian.dynamics.observe import observe
+from lagrangian.dynamics.places import frame_program, named_place, point_program
 from lagrangian.dynamics.power import power
 from lagrangian.dynamics.programs import (
     bias,
@@ -24,7 +25,6 @@ from lagrangian.dynamics.programs import (
     inverse_from_lagrangian,
     loss,
     mass_matrix,
-    point_jacobian,
     rates,
     rhs,
 )
@@ -46,6 +46,7 @@ __all__ = [
     "describe",
     "energy",
     "forward",
+    "frame_program",
     "gravity",
     "impacts",
     "inverse",
@@ -53,10 +54,11 @@ __all__ = [
     "loss",
     "mass_matrix",
     "momenta",
+    "named_place",
     "notices",
     "observe",
     "observe_closed",
-    "point_jacobian",
+    "point_program",
     "power",
     "power_closed",
     "rates",

@@ -76,8 +76,8 @@ def describe(model: Model, graph: Graph, inputs: Inputs) -> Mechanics:
     return described(model, graph, inputs)[0]
 
 
-def described(model: Model, graph: Graph, inputs: Inputs) -> tuple[Mechanics, dict[Point, Place]]:
-    """The mechanics of a model, and where its points went."""
+def described(model: Model, graph: Graph, inputs: Inputs) -> tuple[Mechanics, Description]:
+    """The mechanics of a model, and where its points and frames went."""
     rates, floats = velocities(model, graph, inputs)
     motion = Motion(graph, model.dimension, inputs.q, inputs.v, rates, inputs.t)
     d = Description(model, graph, inputs, motion, _symbols(model, inputs, rates))
@@ -96,7 +96,7 @@ def described(model: Model, graph: Graph, inputs: Inputs) -> tuple[Mechanics, di
                 error.element = element.title
             error.at(element.place)
             raise
-    return m, d.places
+    return m, d
 
 
 def velocities(model: Model, graph: Graph, inputs: Inputs) -> tuple[list[int], dict[Frame, Float]]:

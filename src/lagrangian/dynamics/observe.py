@@ -21,14 +21,15 @@ from lagrangian.model import Model, Point, as_expr, plain, time
 
 
 class Observed:
-    """A model described over x = [q; v] in one graph, and the nodes of expressions in it."""
+    """A model described over x = [q; v] in one graph (or over q and v), and the nodes of expressions in it."""
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: Model, *, state: bool = True) -> None:
         if not model.coordinates:
             raise ModelError(f"system '{model.name}' has no coordinate: nothing can move", code="E201")
         self.model, self.graph = model, Graph()
-        self.inputs = Inputs.of(self.graph, model, state=True)
-        self.mechanics, self.places = described(model, self.graph, self.inputs)
+        self.inputs = Inputs.of(self.graph, model, state=state)
+        self.mechanics, places = described(model, self.graph, self.inputs)
+        self.places = places.places
         self._still = self._table()
         self._memo: dict[Any, int] = {}
 
@@ -115,14 +116,15 @@ def holds_acceleration(expr: sp.Expr, model: Model) -> bool:
     return any(d.derivative_count >= 2 or d.expr in quasi for d in expr.atoms(sp.Derivative))
 
 
-def observe(model: Model, outputs: Mapping[str, sp.Expr | Point]) -> Program:
+def observe(model: Model, outputs: Mapping[str, sp.Expr | Point], *, state: bool = True) -> Program:
     """x, u, p, t → each of ``outputs`` by name: one number an expression, shape (d,) a point's position.
 
-    Expressions are made of coordinates, rates, accelerations, inputs, parameters, definitions and t. Raises
-    `ModelError` for a symbol the model does not have.
+    Where not ``state`` q and v stand in place of x. Expressions are made of coordinates, rates, accelerations, inputs,
+    parameters, definitions and t. Raises `ModelError` for a symbol the model does not have.
     """
-    seen = Observed(model)
-    return _program(model, "observe", seen.graph, observed(seen, outputs), groups=("x",))
+    seen = Observed(model, state=state)
+    groups = ("x",) if state else ("q", "v")
+    return _program(model, "observe", seen.graph, observed(seen, outputs), groups=groups)
 
 
 def observed(seen: Observed, outputs: Mapping[str, sp.Expr | Point]) -> dict[str, Output]:

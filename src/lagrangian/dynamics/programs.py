@@ -19,11 +19,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from lagrangian.dynamics.describe import Inputs, describe, described
+from lagrangian.dynamics.describe import Inputs, describe
 from lagrangian.dynamics.mechanics import Mechanics
-from lagrangian.errors import ModelError, did_you_mean
-from lagrangian.graph import Graph, Output, Program, jvp
-from lagrangian.model import Model, Point
+from lagrangian.errors import ModelError
+from lagrangian.graph import Graph, Output, Program
+from lagrangian.model import Model
 
 
 def _start(model: Model, *, state: bool = False) -> tuple[Graph, Inputs, Mechanics]:
@@ -132,22 +132,3 @@ def loss(model: Model) -> Program:
     """q, v, u, p, t → the power that dampers take [W], one number."""
     graph, _, m = _start(model)
     return _program(model, "loss", graph, {"P": Output((m.loss(),), ())})
-
-
-def point_jacobian(model: Model, name: str) -> Program:
-    """q, v, u, p, t → position r and velocity ṙ of a named point, shape (d,), and J with ṙ = J v + ∂r/∂t, (d, n).
-
-    All in the fixed axes. Raises `ModelError` where there is no such point.
-    """
-    points: dict[str, Point] = {p.name: p for p in model.points if p.name}
-    if name not in points:
-        raise ModelError(f"there is no point '{name}'", fix=did_you_mean(name, points), code="E412")
-    graph = Graph()
-    inputs = Inputs.of(graph, model)
-    m, places = described(model, graph, inputs)
-    place = places[points[name]]
-    position, velocity = m.motion.position(place), m.motion.turned(place.velocity, place.axes, m.motion.root)
-    columns = [jvp(graph, velocity, {v: graph.one}) for v in inputs.v]
-    rows = [[column[i] for column in columns] for i in range(model.dimension)]
-    outputs = {"r": _vector(position), "v": _vector(velocity), "J": _matrix(rows)}
-    return _program(model, "point", graph, outputs)

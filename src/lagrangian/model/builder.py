@@ -79,11 +79,23 @@ class Builder:
         return name
 
     def coordinate(
-        self, name: str, *, description: str = "", unit: str | None = None, place: Place | None = None
+        self,
+        name: str,
+        *,
+        description: str = "",
+        unit: str | None = None,
+        positive: bool = False,
+        place: Place | None = None,
     ) -> Coordinate:
-        """Add a generalized coordinate."""
+        """Add a generalized coordinate; ``positive`` where it is a distance that is known to be above 0."""
         name = self._claim(name, "coordinate", place)
-        made = Coordinate(name, moving_symbol(name), description, unit, place)
+        if not isinstance(positive, bool):
+            raise ModelError(
+                f"positive must be True or False for coordinate '{name}' (got {positive!r:.40})",
+                place=place,
+                code="E406",
+            )
+        made = Coordinate(name, moving_symbol(name, positive=positive), description, unit, place, positive=positive)
         self._coordinates[name] = made
         self._symbols.add(made.symbol)
         return made

@@ -164,8 +164,11 @@ class Frame:
         """2 in the plane, 3 in space."""
         return 2 if self.axis is None and self.floating is None else 3
 
-    def point(self, *offset: Any, at: Point | None = None) -> Point:
-        """Return the point whose components are ``offset`` in this frame's axes, from its origin or from ``at``."""
+    def point(self, *offset: Any, at: Point | None = None, name: str | None = None) -> Point:
+        """Return the point whose components are ``offset`` in this frame's axes, from its origin or from ``at``.
+
+        With a ``name`` it is one of the system's named points, which files, runs and results know.
+        """
         values = offset[0] if len(offset) == 1 and isinstance(offset[0], (tuple, list)) else offset
         components = as_vector(values, "the offset of a point")
         if len(components) != self.dimension:
@@ -174,6 +177,8 @@ class Frame:
                 fix=f"give {self.dimension} components",
                 code="E414",
             )
+        if name is not None:
+            return cast("Any", self.owner).point(name, components, parent=at, frame=self)
         return Point(None, at if at is not None else self.origin, components, self, self.owner)
 
     @cached_property

@@ -15,9 +15,10 @@ time = sp.Symbol("t")
 """The symbol of time, the one that SymPy's ``dynamicsymbols`` depend on."""
 
 
-def moving_symbol(name: str) -> AppliedUndef:
-    """Return the function of time ``name(t)``, equal to SymPy's ``dynamicsymbols(name)``."""
-    return cast("AppliedUndef", sp.Function(name)(time))
+def moving_symbol(name: str, *, positive: bool = False) -> AppliedUndef:
+    """Return the function of time ``name(t)``, equal to SymPy's ``dynamicsymbols(name)``; ``positive`` ones are > 0."""
+    assumed = {"positive": True} if positive else {}
+    return cast("AppliedUndef", sp.Function(name, **assumed)(time))
 
 
 FUNCTIONS = frozenset(

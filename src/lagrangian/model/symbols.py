@@ -17,6 +17,7 @@ class Coordinate:
     """A generalized coordinate ξ: ``symbol`` is SymPy's ``dynamicsymbols(name)``.
 
     ``start`` is its value in the configuration from which runs start unless told: 1 for the last entry of a quaternion.
+    One that is ``positive`` is a distance that never vanishes: √(ξ²) is ξ.
     """
 
     name: str
@@ -25,6 +26,7 @@ class Coordinate:
     unit: str | None = None
     place: Place | None = field(default=None, compare=False)
     start: float = 0.0
+    positive: bool = False
 
     @cached_property
     def rate(self) -> sp.Derivative:

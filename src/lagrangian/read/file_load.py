@@ -101,11 +101,15 @@ class Loader:
         floating.declare(None)
         for name, value in self.file.coordinates.items():
             path, place = ("coordinates", name), self.index.of_key(("coordinates", name))
-            table = schema.CoordinateTable(description=value, unit=None) if isinstance(value, str) else value
+            table = (
+                schema.CoordinateTable(description=value, unit=None, positive=False)
+                if isinstance(value, str)
+                else value
+            )
             unit = self._unit(table.unit, (*path, "unit"))
             made = self.placed(
                 lambda n=name, t=table, u=unit, p=place: self.builder.coordinate(
-                    n, description=t.description, unit=u, place=p
+                    n, description=t.description, unit=u, positive=t.positive, place=p
                 ),
                 place,
             )

@@ -16,7 +16,7 @@ from typing import Any
 import sympy as sp
 
 from lagrangian.errors import ModelError, ParseError
-from lagrangian.model import Element, Floating, Frame, Model, Parameter, Point, plain
+from lagrangian.model import Coordinate, Element, Floating, Frame, Model, Parameter, Point, plain
 from lagrangian.model.elements.damper import RATE
 from lagrangian.model.elements.spring import DELTA
 from lagrangian.read.expression import parse_expression
@@ -175,7 +175,7 @@ class _Writer:
         self.lines = [f"name = {_text(model.name)}"]
         floating = {c.name for f in model.floating if f.floating for c in f.floating.coordinates}
         declared = [c for c in model.coordinates if c.name not in floating]
-        self._section("coordinates", ((c.name, _described(c.description, c.unit)) for c in declared))
+        self._section("coordinates", ((c.name, _coordinate(c)) for c in declared))
         self._section("parameters", ((p.name, _parameter(p)) for p in model.parameters))
         self._section("inputs", ((i.name, _input(i.description, i.unit)) for i in model.inputs))
         self._section(
@@ -277,6 +277,13 @@ def _described(description: str, unit: str | None) -> str:
     if unit is None:
         return _text(description)
     return "{ " + f"description = {_text(description)}, unit = {_text(unit)}" + " }"
+
+
+def _coordinate(c: Coordinate) -> str:
+    if not c.positive:
+        return _described(c.description, c.unit)
+    unit = [] if c.unit is None else [f"unit = {_text(c.unit)}"]
+    return "{ " + ", ".join([f"description = {_text(c.description)}", *unit, "positive = true"]) + " }"
 
 
 def _input(description: str, unit: str | None) -> str:

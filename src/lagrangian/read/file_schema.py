@@ -55,6 +55,7 @@ class CoordinateTable(_Table):
 
     description: str = Field("", description="What it measures, and from where.")
     unit: str | None = Field(None, description="Its unit, such as 'm' or 'rad'.")
+    positive: bool = Field(False, description="It is a distance known to be above 0: sqrt(r^2) is r.")
 
 
 class ParameterTable(_Table):

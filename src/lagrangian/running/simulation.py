@@ -205,6 +205,13 @@ def _initial(
             raise RunError(f"'{name}' is given twice, by itself and in initial", code="E404")
     values.update(listed)
     values.update(given.states.values(by_name))
+    for c in model.coordinates:
+        if c.positive and not values[c.name] > 0:
+            raise RunError(
+                f"'{c.name}' is declared positive, and starts at {values[c.name]:g}",
+                fix=f"give a start above 0: {c.name}=…",
+                code="E501",
+            )
     extra = len(program.inputs["x"]) - len(values)
     return np.array([*values.values(), *[0.0] * extra])
 

@@ -50,7 +50,7 @@ class _Carrier:
             if c.name in floating:
                 self._floating(floating[c.name])
             else:
-                b.coordinate(c.name, description=c.description, unit=c.unit, place=c.place)
+                b.coordinate(c.name, description=c.description, unit=c.unit, positive=c.positive, place=c.place)
         for p in model.parameters:
             b.parameter(p.name, p.value, unit=p.unit, description=p.description, place=p.place)
         for u in model.inputs:

@@ -25,13 +25,16 @@ SIDE = 10.0
 
 @dataclass(frozen=True, eq=False)
 class Box:
-    """Low and high ends by coordinate; ``turns``: the same after a whole turn; ``given``: the side was given."""
+    """Low and high ends by coordinate; ``turns``: the same after a whole turn; ``given``: the side was given;
+    ``positive``: a distance, above 0.
+    """
 
     names: tuple[str, ...]
     low: Array
     high: Array
     turns: NDArray[np.bool_]
     given: NDArray[np.bool_]
+    positive: NDArray[np.bool_]
 
     @property
     def sides(self) -> dict[str, tuple[float, float]]:
@@ -40,7 +43,7 @@ class Box:
 
     def centre(self) -> Array:
         """0 where the box holds it, else the middle."""
-        inside = (self.low <= 0) & (self.high >= 0)
+        inside = (self.low <= 0) & (self.high >= 0) & ~self.positive
         return np.where(inside, 0.0, (self.low + self.high) / 2)
 
     def placed(self, q: Array) -> tuple[Array, bool]:
@@ -49,7 +52,7 @@ class Box:
         turned = self.low - slack + (q - self.low + slack) % TURN
         q = np.where(self.turns & self.given, turned, q)
         inside = (q >= self.low - slack) & (q <= self.high + slack)
-        return q, bool((inside | ~self.given).all())
+        return q, bool((inside | ~self.given).all() and (q > 0)[self.positive].all())
 
 
 def make_box(given: Given, names: tuple[str, ...], asked: Mapping[Any, Any] | None, turns: NDArray[np.bool_]) -> Box:
@@ -57,14 +60,16 @@ def make_box(given: Given, names: tuple[str, ...], asked: Mapping[Any, Any] | No
     low, high, told = np.empty(len(names)), np.empty(len(names)), np.zeros(len(names), bool)
     sides = _sides(given, names, asked)
     reach = _reach(given)
+    positive = {c.name for c in given.model.coordinates if c.positive}
+    distances = np.array([name in positive for name in names], bool)
     for k, name in enumerate(names):
         if name in sides:
             low[k], high[k] = sides[name]
             told[k] = True
             continue
         half = np.pi if turns[k] or given.states.dims[k] == NONE else reach
-        low[k], high[k] = -half, half
-    return Box(names, low, high, turns, told)
+        low[k], high[k] = 0.0 if distances[k] else -half, half
+    return Box(names, low, high, turns, told, distances)
 
 
 def _sides(given: Given, names: tuple[str, ...], asked: Mapping[Any, Any] | None) -> dict[str, tuple[float, float]]:

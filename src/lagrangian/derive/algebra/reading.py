@@ -10,7 +10,8 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian.derive.algebra.form import Form, OutOfReach
-from lagrangian.derive.algebra.monomials import LARGEST_EXPONENT, Packed, common, content, turn, unit, whole
+from lagrangian.derive.algebra.generators import Symbolic
+from lagrangian.derive.algebra.monomials import LARGEST_EXPONENT, Packed, common, content, digits, turn, unit, whole
 
 if TYPE_CHECKING:
     from lagrangian.derive.algebra.algebra import Algebra
@@ -74,7 +75,7 @@ class Reader:
         """form^(p/q) with p/q negative or broken: a number and a monomial come out, the rest is a generator.
 
         1/(2 m₁ + 2 m₂) = ½ (m₁ + m₂)⁻¹, √(4x² + 4y²) = 2 √(x² + y²). Out of a root only what is certain to be
-        positive comes: a number that is a perfect power.
+        positive comes: a number that is a perfect power, and coordinates declared positive, √(r² m²) = r √(m²).
         """
         algebra = self.algebra
         if not form.parts:
@@ -84,10 +85,12 @@ class Reader:
         if q == 1:
             if form.parts[min(form.parts)][min(form.parts[min(form.parts)])] < 0:
                 number = -number
-            outside = _power_of(number, p)
+            outside, lifted = _power_of(number, p), monomial
         else:
             root = _exact_root(number, q)
-            number, outside, monomial = (number, _power_of(root, p), 0) if root else (Fraction(1), Fraction(1), 0)
+            number, outside = (number, _power_of(root, p)) if root else (Fraction(1), Fraction(1))
+            lifted = self._distances(monomial, q)
+            monomial = lifted * q
         rest = Form(
             algebra,
             {h: {m - monomial: c * number.denominator for m, c in poly.items()} for h, poly in form.parts.items()},
@@ -95,13 +98,22 @@ class Reader:
         )
         if rest.den < 0:
             rest = Form(algebra, {h: {m: -c for m, c in poly.items()} for h, poly in rest.parts.items()}, -rest.den)
-        left = algebra.monomial(monomial * p).scaled(whole(outside))
+        left = algebra.monomial(lifted * p).scaled(whole(outside))
         if q == 1 and rest.size == 1 and list(rest.parts) == [(0, 0)]:
             return left
         if rest.size == 1 and list(rest.parts) == [(0, 0)] and rest.parts[(0, 0)] == {0: 1} and rest.den == 1:
             return left
         generator = algebra.generators.root(rest, q)
         return algebra.reduced(left * algebra.monomial(unit(generator) * p))
+
+    def _distances(self, monomial: int, q: int) -> int:
+        """The q-th root of what a monomial holds of coordinates that are positive, in whole powers."""
+        table, found = self.algebra.generators.table, 0
+        for i, e in digits(monomial):
+            entry = table[i]
+            if e % q == 0 and isinstance(entry, Symbolic) and entry.role == "coordinate" and entry.expr.is_positive:
+                found += unit(i) * (e // q)
+        return found
 
     # -- sines and cosines ------------------------------------------------------------------------------------------
 

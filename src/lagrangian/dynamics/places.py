@@ -1,0 +1,87 @@
+"""Where a point is and how a frame is turned, with their velocities and how these follow from v."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from typing import Any
+
+from lagrangian.dynamics.describe import Description, Inputs, described
+from lagrangian.dynamics.programs import _matrix, _program, _vector
+from lagrangian.errors import ModelError, did_you_mean
+from lagrangian.graph import Graph, Output, Program, jvp
+from lagrangian.model import Frame, Model, Point
+
+
+def point_program(model: Model, point: Point) -> Program:
+    """q, v, u, p, t → position r and velocity ṙ of a point, shape (d,), and J with ṙ = J v + ∂r/∂t, shape (d, n).
+
+    All in the fixed axes. Raises `ModelError` for a point of another system.
+    """
+    _own(model, point, "point")
+    graph, inputs, d = _described(replace(model, points=(*model.points, point), _memo={}))
+    motion, place = d.motion, d.places[point]
+    velocity = motion.turned(place.velocity, place.axes, motion.root)
+    outputs = {"r": _vector(motion.position(place)), "v": _vector(velocity)}
+    return _program(model, "point", graph, {**outputs, "J": _matrix(_slopes(graph, velocity, inputs))})
+
+
+def frame_program(model: Model, frame: Frame) -> Program:
+    """q, v, u, p, t → rotation R of a frame, (d, d), its angular velocity ω, and J with ω = J v + ω_t.
+
+    R turns components in the frame into components in the fixed axes. ω and J stand in the fixed axes, shapes (3,) and
+    (3, n) in space, () and (n,) in the plane. Raises `ModelError` for a frame of another system.
+    """
+    _own(model, frame.origin, "frame")
+    graph, inputs, d = _described(replace(model, frames=(*model.frames, frame), _memo={}))
+    motion, axes = d.motion, d.axes[frame]
+    omega = motion.turned(axes.omega, axes, motion.root)
+    rows = _slopes(graph, omega, inputs)
+    outputs = {"R": _matrix(motion.rotation(axes))}
+    if model.dimension == 2:
+        return _program(model, "frame", graph, {**outputs, "omega": Output((omega[0],), ()), "J": _vector(rows[0])})
+    return _program(model, "frame", graph, {**outputs, "omega": _vector(omega), "J": _matrix(rows)})
+
+
+def _described(model: Model) -> tuple[Graph, Inputs, Description]:
+    graph = Graph()
+    inputs = Inputs.of(graph, model)
+    return graph, inputs, described(model, graph, inputs)[1]
+
+
+def _slopes(graph: Graph, rates: list[int], inputs: Inputs) -> list[list[int]]:
+    """∂rate/∂v, a row a rate."""
+    columns = [jvp(graph, rates, {v: graph.one}) for v in inputs.v]
+    return [[column[i] for column in columns] for i in range(len(rates))]
+
+
+def _own(model: Model, point: Point, kind: str) -> None:
+    """Refuse what hangs on the origin of another system."""
+    at = point
+    while at.parent is not None:
+        at = at.parent
+    if at is not model.origin:
+        raise ModelError(
+            f"the {kind} belongs to another system than '{model.name}'",
+            fix=f'take one of the system that was compiled: system["name"], or what system.{kind}(…) returned',
+            code="E412",
+        )
+
+
+def named_place(model: Model, asked: Any, kind: type[Point] | type[Frame]) -> Any:
+    """The point or frame that is asked for by name or by itself; raises `ModelError` where there is none."""
+    if isinstance(asked, kind):
+        return asked
+    what = kind.__name__.lower()
+    known: Iterable[Any] = (model.origin, *model.points) if kind is Point else model.frames
+    table = {x.name: x for x in known if x.name}
+    if isinstance(asked, str) and asked in table:
+        return table[asked]
+    if not isinstance(asked, str):
+        raise ModelError(
+            f"a {what} is asked for by its name or by itself (got {type(asked).__name__})",
+            fix=f'{what}("name", q), or the {what} that the description returned',
+            code="E406",
+        )
+    fix = did_you_mean(asked, table) or f"{what}s: {', '.join(table) or 'none has a name'}"
+    raise ModelError(f"there is no {what} '{asked[:64]}'", fix=fix, code="E412")

@@ -1,0 +1,127 @@
+"""What a compiled system can be asked for at any state: points, frames, and expressions of its symbols."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import sympy as sp
+from numpy.typing import ArrayLike, NDArray
+
+from lagrangian import compile as machine
+from lagrangian import dynamics, read
+from lagrangian.errors import ModelError
+from lagrangian.model import Frame, Point, as_expr, plain
+
+if TYPE_CHECKING:
+    from lagrangian.graph import Program
+    from lagrangian.model import Model
+
+REMEMBERED = 64
+"""Points, frames and expressions whose code is kept, the latest."""
+
+
+class Looking:
+    """The half of a compiled system that looks at its motion; `lagrangian.compiled.Compiled` has the equations."""
+
+    _model: Model
+    _lanes: int | None
+    _threads: int | None
+    _seen: dict[Any, machine.Kernel]
+
+    def _called(self, kernel: machine.Kernel, q: ArrayLike, p: Any, t: ArrayLike, *given: Any) -> Any:
+        """Call a kernel; where its answer is not finite, say why."""
+        raise TypeError(f"{type(self).__name__} calls no kernel")
+
+    def _made(self, key: Any, make: Callable[[], Program]) -> machine.Kernel:
+        """What was compiled under a key, made at the first asking."""
+        found = self._seen.pop(key, None)
+        if found is None:
+            optional = {"u": 0.0, "t": 0.0, "v": 0.0}
+            found = machine.compile(make(), optional=optional, lanes=self._lanes, threads=self._threads)
+        self._seen[key] = found  # the latest last
+        for oldest in list(self._seen)[:-REMEMBERED]:
+            self._seen.pop(oldest, None)
+        return found
+
+    def point(
+        self, point: str | Point, q: ArrayLike, v: ArrayLike | None = None, p: Any = None, t: ArrayLike = 0.0
+    ) -> dict[str, NDArray[np.float64]]:
+        """Return position ``r`` and velocity ``v`` of a point, ``(..., d)``, and ``J`` = ∂v/∂q̇, ``(..., d, n)``.
+
+        ``point`` is a name, or any point of the system, named or not. In the fixed axes, d = 2 in the plane and 3 in
+        space; the rates are 0 unless given. Raises `ModelError` where there is no such point.
+        """
+        found = dynamics.named_place(self._model, point, Point)
+        kernel = self._made(("point", found), lambda: dynamics.point_program(self._model, found))
+        return self._called(kernel, q, p, t, q, v, None)
+
+    def frame(
+        self, frame: str | Frame, q: ArrayLike, v: ArrayLike | None = None, p: Any = None, t: ArrayLike = 0.0
+    ) -> dict[str, NDArray[np.float64]]:
+        """Return rotation ``R``, angular velocity ``omega`` [rad/s] of a frame, and ``J`` = ∂omega/∂q̇.
+
+        ``frame`` is a name, or any frame of the system. A vector x in the frame is R x in the fixed axes, where omega
+        and J stand too. R is ``(..., d, d)``; omega ``(..., 3)`` and J ``(..., 3, n)`` in space, ``(...)`` and
+        ``(..., n)`` in the plane, counter-clockwise positive. Raises `ModelError` where there is no such frame.
+        """
+        found = dynamics.named_place(self._model, frame, Frame)
+        kernel = self._made(("frame", found), lambda: dynamics.frame_program(self._model, found))
+        return self._called(kernel, q, p, t, q, v, None)
+
+    def evaluate(
+        self,
+        expression: Any,
+        q: ArrayLike,
+        v: ArrayLike | None = None,
+        u: Any = None,
+        p: Any = None,
+        t: ArrayLike = 0.0,
+    ) -> NDArray[np.float64]:
+        """Return the value of an expression, shape ``(...)``, in SI units.
+
+        ``expression`` is SymPy or text, made of coordinates, rates, accelerations (by the equations of motion), inputs,
+        parameters, definitions and t. A SymPy matrix, or a list, gives ``(..., *shape)``. Code is made at the first
+        call for each expression. Raises `ModelError` for a symbol that the system does not have.
+        """
+        flat, shape = self._flat(expression)
+        kernel = self._made(("expressions", tuple(flat)), lambda: _observing(self._model, flat))
+        answer = self._called(kernel, q, p, t, q, v, by_name(u))
+        if shape == ():
+            return answer if not isinstance(answer, Mapping) else answer["expression"]
+        columns = list(answer.values()) if isinstance(answer, Mapping) else [answer]
+        stacked = np.stack(columns, axis=-1)
+        return stacked.reshape(*stacked.shape[:-1], *shape)
+
+    def _flat(self, expression: Any) -> tuple[list[sp.Expr], tuple[int, ...]]:
+        """The expressions in what is asked for, row after row, and their shape."""
+        if isinstance(expression, sp.MatrixBase):
+            return [as_expr(x, "what is evaluated") for x in expression.flat()], tuple(expression.shape)
+        if isinstance(expression, (list, tuple)):
+            parts = [self._flat(x) for x in expression]
+            if not parts or len({shape for _, shape in parts}) != 1:
+                raise ModelError("a list to evaluate holds entries of one shape, at least one", code="E501")
+            return [x for flat, _ in parts for x in flat], (len(parts), *parts[0][1])
+        if isinstance(expression, str):
+            expression = read.parse_expression(expression, read.Scope(self._model.symbols), what="what is evaluated")
+        return [as_expr(expression, "what is evaluated")], ()
+
+
+_TEXT = frozenset((str,))
+
+
+def by_name(given: Any) -> Any:
+    """A mapping by names, whether names or symbols are its keys; anything else as it is."""
+    if given is None or type(given) is np.ndarray:
+        return given
+    if type(given) is dict and _TEXT.issuperset(map(type, given)):
+        return given
+    if isinstance(given, Mapping):
+        return {plain(k) if isinstance(k, sp.Basic) else k: value for k, value in given.items()}
+    return given
+
+
+def _observing(model: Model, exprs: list[sp.Expr]) -> Program:
+    names = ["expression"] if len(exprs) == 1 else [f"expression {k}" for k in range(1, len(exprs) + 1)]
+    return dynamics.observe(model, dict(zip(names, exprs, strict=True)), state=False)
