@@ -20,6 +20,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrangian.advice import Advice, Argument
 from lagrangian.errors import Error, RunError
 from lagrangian.simulate.portions import Portions
 
@@ -30,7 +31,9 @@ ROOT = "zarr.json"
 CHECKSUM = 4
 """Bytes at the end of a chunk's file that hold its checksum."""
 
-AGAIN = "restore it from a copy, or start anew with overwrite"
+RESUME, OVERWRITE = Argument("resume", "True"), Argument("overwrite", "True")
+"""What is done about a store that is there."""
+AGAIN = Advice("restore it from a copy, or start anew with ", OVERWRITE)
 
 Marks = NDArray[np.uint64]
 
@@ -117,7 +120,7 @@ def finished(marks: Marks) -> NDArray[np.bool_]:
 def open_document(path: Path) -> Document:
     """Read and check the root document of a store; raises `Error` where there is none, and `RunError` for damage."""
     if not path.exists():
-        raise Error(f"there is no '{path}'", fix="start without resume", code="E801")
+        raise Error(f"there is no '{path}'", fix=Advice("start without ", RESUME), code="E801")
     root = parsed(path)
     kept = _at(root, "attributes", KEY)
     if root is None or not kept:
@@ -125,7 +128,7 @@ def open_document(path: Path) -> Document:
     if kept.get("format") != FORMAT:
         raise Error(
             f"'{path}' has format {kept.get('format')!r:.20}, known is {FORMAT}",
-            fix="use the version of lagrangian that made it, or start anew with overwrite",
+            fix=Advice("use the version of lagrangian that made it, or start anew with ", OVERWRITE),
             code="E803",
         )
     sealed, now = _at(kept, "seal"), seal(root)
@@ -136,7 +139,7 @@ def open_document(path: Path) -> Document:
         more = f" (and {len(wrong) - 1} more)" if len(wrong) > 1 else ""
         raise RunError(
             f"'{path}' is damaged: in its {ROOT}, '{wrong[0]:.60}'{more} is not what was written",
-            fix=f"undo the change, {AGAIN}",
+            fix=Advice("undo the change, ", AGAIN),
             code="E804",
         )
     return Document(path, kept, {name: _at(root, "consolidated_metadata", "metadata", name) for name in _members(kept)})

@@ -24,7 +24,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.advice import Advice, Argument
+from lagrangian.advice import Advice
 from lagrangian.errors import Error, RunError
 from lagrangian.simulate.portions import Portions
 from lagrangian.simulate.seal import (
@@ -32,6 +32,8 @@ from lagrangian.simulate.seal import (
     DONE,
     FORMAT,
     KEY,
+    OVERWRITE,
+    RESUME,
     ROOT,
     Document,
     finished,
@@ -42,9 +44,6 @@ from lagrangian.simulate.seal import (
 )
 from lagrangian.simulate.stored import explained, fill, library, lost_chunks, opened, whole
 from lagrangian.simulate.study import Values
-
-RESUME, OVERWRITE = Argument("resume", "True"), Argument("overwrite", "True")
-"""What is done about a store that is there."""
 
 
 @dataclass(frozen=True)

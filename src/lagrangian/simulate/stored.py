@@ -17,8 +17,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrangian.advice import Advice
 from lagrangian.errors import Error, MissingExtra, RunError
-from lagrangian.simulate.seal import AGAIN, DONE, Document, finished, open_document
+from lagrangian.simulate.seal import AGAIN, DONE, RESUME, Document, finished, open_document
 
 NOT_RUN = -128
 """Status of a run that nobody has done yet."""
@@ -152,8 +153,12 @@ class Stored:
         """The error that names what is damaged."""
         return RunError(
             lost_chunks(self.document, lost),
-            fix="repeat the sweep with resume: it computes just these again; or read the others with "
-            f"Ensemble.of_store('{self.document.path}', lost=True)",
+            fix=Advice(
+                "repeat the sweep with ",
+                RESUME,
+                ": it computes just these again; or read the others in Python with "
+                f"Ensemble.of_store('{self.document.path}', lost=True)",
+            ),
             code="E804",
         )
 
@@ -164,7 +169,7 @@ class Stored:
             raise RunError(
                 f"'{self.document.path}' is damaged: its list of finished chunks, "
                 f"'{DONE}/c/0', is {'missing' if data is None else 'cut off'}",
-                fix="repeat the sweep with resume: it computes again what is not listed",
+                fix=Advice("repeat the sweep with ", RESUME, ": it computes again what is not listed"),
                 code="E804",
             )
         return data
@@ -174,7 +179,7 @@ class Stored:
         if values is None:
             raise RunError(
                 f"'{self.document.path}' is damaged: the values of '{name}' are not what was written",
-                fix=f"repeat the sweep with resume: it writes them again; or {AGAIN}",
+                fix=Advice("repeat the sweep with ", RESUME, ": it writes them again; or ", AGAIN),
                 code="E804",
             )
         return values
