@@ -10,7 +10,7 @@ is no error, and then the equations' terms are not compared.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any, cast
 
@@ -207,6 +207,13 @@ def _number_explains(expr: sp.Expr) -> bool:
 
 def check_dimensions(model: Model) -> Dimensions | None:
     """Raise `ModelError` where a unit does not fit; return the solved dimensions, or None when no unit was given."""
+    if "dimensions" not in model._memo:
+        model._memo["dimensions"] = _checked(model)
+    found: Dimensions | None = model._memo["dimensions"]
+    return None if found is None else replace(found, solved=dict(found.solved), seen=dict(found.seen))
+
+
+def _checked(model: Model) -> Dimensions | None:
     own = {
         x for f in model.floating if f.floating is not None for x in (*f.floating.coordinates, *f.floating.velocities)
     }

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from math import prod
+from typing import Any, TypeVar
 
 from lagrangian.graph.graph import LEAVES, Graph, operands
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True)
@@ -34,6 +37,16 @@ class Program:
     inputs: Mapping[str, tuple[str, ...]]
     outputs: Mapping[str, Output]
     defaults: Mapping[str, float | None] = field(default_factory=dict)
+    _memo: dict[Any, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
+
+    def remembered(self, key: Any, make: Callable[[], T]) -> T:
+        """Return what was made of this program under a key, made at the first asking; kept as long as the program."""
+        if key not in self._memo:
+            self._memo[key] = make()
+        return self._memo[key]
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_memo": {}}
 
     @property
     def ids(self) -> tuple[int, ...]:

@@ -19,7 +19,7 @@ from lagrangian.errors import ModelError, RunError, did_you_mean
 from lagrangian.model import Model, plain
 from lagrangian.running.driving import Driving
 from lagrangian.running.events import Event, listed_events
-from lagrangian.running.integrating import SYMPLECTIC
+from lagrangian.running.integrating import SYMPLECTIC, remembered
 from lagrangian.running.simulation import FINEST, NO_DURATION, SHARE
 from lagrangian.running.varying import TAKEN
 from lagrangian.simulate import METHODS, Events, Signals
@@ -95,17 +95,24 @@ def study_of(model: Model, wanted: Wanted, drive: Driving, times: Array) -> tupl
     expressions, kept = _kept(model, wanted.outputs, wanted.reduce)
     events, events_kept = _events(model, wanted, drive)
     signals = None if drive.constant else Signals(*drive.pieces(float(times[0]), float(times[-1])))
-    canonical = wanted.method in SYMPLECTIC
+    canonical, feedback = wanted.method in SYMPLECTIC, frozenset(drive.feedback.items())
+    make = dynamics.canonical if canonical else dynamics.closed
     study = Study(
-        program=(dynamics.canonical if canonical else dynamics.closed)(model, drive.feedback),
+        program=remembered(model, ("runs", canonical, feedback), lambda: make(model, drive.feedback)),
         method=wanted.method,
         times=times,
-        outputs=dynamics.observe_closed(model, expressions, drive.feedback),
+        outputs=remembered(
+            model,
+            ("observed", tuple(expressions.items()), feedback),
+            lambda: dynamics.observe_closed(model, expressions, drive.feedback),
+        ),
         kept=kept,
         events=events,
         events_kept=events_kept,
         signals=signals,
-        canonical=(dynamics.momenta(model), dynamics.velocities(model)) if canonical else None,
+        canonical=remembered(model, "canonical", lambda: (dynamics.momenta(model), dynamics.velocities(model)))
+        if canonical
+        else None,
         options=_accuracy(wanted),
     )
     return study, expressions

@@ -14,6 +14,7 @@ from lagrangian import read
 from lagrangian.analyze.dimensions import NONE, RATE, Dimensions, Mismatch, check_dimensions
 from lagrangian.errors import ModelError
 from lagrangian.model import Frame, Model, plain
+from lagrangian.running.integrating import remembered
 from lagrangian.view import Marks, Panel, Picture, Series, draw, joined
 from lagrangian.write.labels import Labels
 from lagrangian.write.tables import Column, Table
@@ -51,7 +52,7 @@ class Units:
     def __init__(self, model: Model) -> None:
         self.model = model
         self._dims: Dimensions | None = check_dimensions(model)
-        self._angles = _angles(model)
+        self._angles: set[Any] = remembered(model, "angles", lambda: _angles(model))
 
     def of(self, expr: sp.Expr) -> str:
         """The unit of an expression, or nothing where it is not known."""

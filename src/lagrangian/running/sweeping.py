@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import importlib.metadata
 import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
@@ -15,6 +14,7 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
+from lagrangian import __version__
 from lagrangian.advice import Advice, Argument
 from lagrangian.analyze.dimensions import SECOND
 from lagrangian.analyze.given import key_name, number
@@ -23,6 +23,7 @@ from lagrangian.graph import Program
 from lagrangian.model import Model, plain
 from lagrangian.running.driving import Driving, check_covers, driving
 from lagrangian.running.ensemble import Ensemble
+from lagrangian.running.integrating import remembered
 from lagrangian.running.masses import check_masses, fitness
 from lagrangian.running.per_run import Wanted, instants, study_of
 from lagrangian.running.showing import Units
@@ -134,7 +135,8 @@ def _done(model: Model, varying: Varying, wanted: Wanted, inputs: dict[Any, Any]
     varied = [name for group, name in varying.columns if group == "p"]
     check_masses(model, design.base["p"], varied)
     study, expressions = study_of(model, wanted, drive, times)
-    study = replace(study, fitness=fitness(model, varied))
+    (fit,) = remembered(model, ("fitness", *varied), lambda: (fitness(model, varied),))
+    study = replace(study, fitness=fit)
     task = _task(model, varying, wanted, drive, study)
     executor, cutting = _executor(way)
     memory = _bytes(way.memory)
@@ -274,7 +276,7 @@ def _task(model: Model, varying: Varying, wanted: Wanted, drive: Driving, study:
     """What is done, as plain data: two tasks with equal data give the same bits."""
     times = study.times
     return {
-        "version": importlib.metadata.version("lagrangian"),
+        "version": __version__,
         "system": model.name,
         "equations": digest(study.program),
         **varying.task(),
@@ -306,6 +308,10 @@ def _source(source: Any) -> Any:
 
 def digest(program: Program) -> str:
     """A short text that differs where two programs compute something different."""
+    return program.remembered("digest", lambda: _digest(program))
+
+
+def _digest(program: Program) -> str:
     said: list[Any] = [sorted(program.inputs.items()), [(n, o.ids, o.shape) for n, o in program.outputs.items()]]
     return _hash(repr([*said, program.graph.nodes]).encode())
 

@@ -82,7 +82,10 @@ def solver_of(study: Study, threads: int | None) -> Any:
     """The solver of a study."""
     from lagrangian.simulate import Solver
 
-    return Solver(study.program, study.method, events=study.events, threads=threads)
+    def made() -> Any:
+        return Solver(study.program, study.method, events=study.events, threads=threads)
+
+    return made() if study.events is not None else study.program.remembered(("solver", study.method, threads), made)
 
 
 def carry_out(

@@ -71,6 +71,11 @@ class EventsKept:
     times: int
 
 
+def _kernel(program: Program, **optional: float) -> Kernel:
+    """The code of a program, made once."""
+    return program.remembered("kernel", lambda: compile(program, optional=optional, threads=1))
+
+
 @dataclass(frozen=True)
 class Study:
     """What is done with every run of an ensemble; small, and can be sent to another process.
@@ -126,14 +131,13 @@ class Study:
         """The code of the outputs; None where each is an entry of the state and nothing needs computing."""
         if all(entry is not None for entry in self._entries.values()):
             return None
-        return compile(self.outputs, threads=1)
+        return _kernel(self.outputs)
 
     @cached_property
     def _transforms(self) -> tuple[Kernel, Kernel]:
         """The code that turns velocities into momenta, and momenta into velocities."""
         assert self.canonical is not None
-        made = [compile(program, optional={"u": 0.0}, threads=1) for program in self.canonical]
-        return made[0], made[1]
+        return _kernel(self.canonical[0], u=0.0), _kernel(self.canonical[1], u=0.0)
 
     @cached_property
     def _entries(self) -> dict[str, int | None]:
