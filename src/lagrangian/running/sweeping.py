@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import hashlib
+import importlib.metadata
 import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -14,7 +16,6 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from lagrangian import __version__
 from lagrangian.advice import Advice, Argument
 from lagrangian.analyze.dimensions import SECOND
 from lagrangian.analyze.given import key_name, number
@@ -276,7 +277,7 @@ def _task(model: Model, varying: Varying, wanted: Wanted, drive: Driving, study:
     """What is done, as plain data: two tasks with equal data give the same bits."""
     times = study.times
     return {
-        "version": __version__,
+        "version": _version(),
         "system": model.name,
         "equations": digest(study.program),
         **varying.task(),
@@ -291,6 +292,11 @@ def _task(model: Model, varying: Varying, wanted: Wanted, drive: Driving, study:
         "outputs": digest(study.outputs),
         "events": "none" if study.events is None else _events(study),
     }
+
+
+@cache
+def _version() -> str:
+    return importlib.metadata.version("lagrangian")
 
 
 def _events(study: Study) -> str:
