@@ -279,3 +279,26 @@ def test_any_description_survives(first: str, second: str) -> None:
     b.add(Particle(mass=1, at=b.origin + (x, 0)))
     again = loads(dumps(b.model())).model()
     assert (again.coordinates[0].description, again.inputs[0].description) == (first, second)
+
+
+@pytest.mark.parametrize(
+    "law", ["max(k*delta, 0)", "min(delta, k, 2*delta)", "k*max(delta, 0, k - delta, 3, k*delta)^2"]
+)
+def test_maxima_and_minima_come_back(law: str) -> None:
+    text = f'''
+name = "stop"
+[coordinates]
+q = ""
+[parameters]
+k = 2
+[[particle]]
+mass = 1
+at = ["q", 0]
+[[force]]
+value = "{law.replace("delta", "q")}"
+deflection = "q"
+'''
+    first = loads(text).model()
+    again = loads(dumps(first)).model()
+    assert dumps(again) == dumps(first)
+    assert [e.value for e in again.elements[1:]] == [e.value for e in first.elements[1:]]  # type: ignore[attr-defined]

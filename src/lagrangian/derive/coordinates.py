@@ -8,6 +8,7 @@ from typing import cast
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.derive.context import Context, xi
 from lagrangian.derive.derivation import Check, Step
 from lagrangian.derive.formula import Formula, Item, Left, Table, Text, formula, text
@@ -211,7 +212,7 @@ def _lengths(model: Model, symbols: list[sp.Expr]) -> set[sp.Expr]:
 def _turns(model: Model, symbols: list[sp.Expr]) -> set[sp.Expr]:
     """The coordinates that a frame turns by, one for one: angles, even where something rolls along by R φ."""
     angles = [model.expand(f.total_angle if f.axis is None else f.angle) for f in _frames(model)]
-    return {s for s in symbols if any(sp.diff(a, s) in (1, -1) for a in angles)}
+    return {s for s in symbols if any(bounded.diff(a, s) in (1, -1) for a in angles)}
 
 
 def _carried_by(model: Model, s: sp.Expr, symbols: list[sp.Expr], reach: dict[sp.Expr, int]) -> sp.Expr | None:
@@ -223,7 +224,7 @@ def _carried_by(model: Model, s: sp.Expr, symbols: list[sp.Expr], reach: dict[sp
     for other in symbols:
         if other is s or not all(any(depends(model, x, other) for x in p) for p in mine):
             continue
-        mixed = any(sp.diff(x, s, other) != 0 for p in mine for x in p)
+        mixed = any(bounded.diff(x, s, other) != 0 for p in mine for x in p)
         if not mixed and any(any(depends(model, x, other) for x in p) for p in others):
             candidates.append(other)
     return min(candidates, key=lambda x: (reach[x], -symbols.index(x)), default=None)

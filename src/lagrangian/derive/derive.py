@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import get_args
 
 import sympy as sp
 
 from lagrangian.derive.algebra import Algebra
-from lagrangian.derive.context import Context
+from lagrangian.derive.context import Context, fit
 from lagrangian.derive.coordinates import coordinates
 from lagrangian.derive.derivation import Derivation
 from lagrangian.derive.energies import kinetic, lagrangian, potential, shares
 from lagrangian.derive.forces import contributions, forces
+from lagrangian.derive.formula import Text, text
 from lagrangian.derive.holonomy import holonomic
 from lagrangian.derive.lagrange import Detail, left_hand_sides, left_sides
 from lagrangian.derive.result import Shares, closing, equations, ledger, ledger_items, matrices
@@ -65,7 +67,23 @@ def derive(model: Model, *, detail: Detail = "usual") -> Derivation:
         result=closing(context, result, mats) + ledger_items(book),
         ledger=book,
         shares=Shares(context, sides, found),
+        notes=tuple(left_as_written(context)),
     )
+
+
+SHOWN = 3
+"""Expressions listed in a note."""
+
+
+def left_as_written(context: Context) -> Iterator[Text]:
+    """What stands in the formulas as it was written, because it is too long as a sum."""
+    left = list(context.algebra.reader.left)
+    if left:
+        listed = [part for expr in left[:SHOWN] for part in (fit(expr), ", ")][:-1]
+        more = f" and {len(left) - SHOWN} more" if len(left) > SHOWN else ""
+        yield text("Not multiplied out, because the sum would be too long to read: ", *listed, f"{more}.")
+    if context.algebra.generators.writing < 0:
+        yield text("Some formulas could be shorter: the search for the shortest way of writing was ended early.")
 
 
 def _everything(model: Model) -> list[sp.Expr]:

@@ -8,6 +8,7 @@ from typing import cast
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.model import DEFLECTION, Action, Element, Model, Words, time
 
 GROUND: Words = ("the ground",)
@@ -33,10 +34,10 @@ def find_ends(model: Model, element: Element) -> tuple[Action, ...]:
         for group_a, on_a, a in ground + quantities:
             if group_a == group_b and on_a != on_b and _constant(whole.displacement - b + a):
                 if on_a == GROUND:
-                    return (Action(whole.effort, sp.diff(b, time), on_b, b),)
+                    return (Action(whole.effort, bounded.diff(b, time), on_b, b),)
                 return (
-                    Action(whole.effort, sp.diff(b, time), on_b, b),
-                    Action(-whole.effort, sp.diff(a, time), on_a, a),
+                    Action(whole.effort, bounded.diff(b, time), on_b, b),
+                    Action(-whole.effort, bounded.diff(a, time), on_a, a),
                 )
     return ends
 

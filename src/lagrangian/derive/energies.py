@@ -8,6 +8,7 @@ from typing import Any
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import Context, fit, fit_terms
 from lagrangian.derive.derivation import Step
@@ -171,7 +172,7 @@ def _motion(context: Context, body: Any, index: dict[Element, str]) -> list[Item
             lines.append(formula(*shown))
         speed = Name(axis, index[body], 1)
         if there is not None:
-            rate = sp.diff(model.expand(step), time)
+            rate = bounded.diff(model.expand(step), time)
             lines.append(formula(speed, Terms((Name(axis, index[there], 1), *_terms(context.readable(rate))))))
         else:
             lines.append(formula(speed, fit(context.readable(v))))

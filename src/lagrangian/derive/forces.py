@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import Context, big_xi, fit
 from lagrangian.derive.coordinates import chain_of
@@ -69,7 +70,7 @@ def contributions(context: Context) -> tuple[Contribution, ...]:
 
 def _along(actions: tuple[Action, ...], rate: sp.Expr) -> sp.Expr:
     """Σ effort · ∂rate/∂ξ̇_i."""
-    return sp.Add(*[a.effort * sp.diff(a.rate, rate) for a in actions])
+    return sp.Add(*[a.effort * bounded.diff(a.rate, rate) for a in actions])
 
 
 def _story(context: Context, element: Element, ends: tuple[Action, ...], index: int, virtual: Form) -> Text:
@@ -78,7 +79,7 @@ def _story(context: Context, element: Element, ends: tuple[Action, ...], index: 
     inside: list[Words] = []
     outside: list[Words] = []
     for end in ends:
-        words = inside if sp.diff(end.rate, c.rate) != 0 else outside
+        words = inside if bounded.diff(end.rate, c.rate) != 0 else outside
         if end.on not in words:
             words.append(end.on)
     outside = [w for w in outside if w not in inside]
@@ -273,5 +274,5 @@ def _dampers(context: Context, dampers: list[Element], found: tuple[Contribution
 def _fake_spring(context: Context, damper: Damper, symbol: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
     """∂(½ b δ²)/∂ξ_i = b δ ∂δ/∂ξ_i, and the same with δ replaced by δ̇."""
     delta = damper.displacement(context.model)
-    slope = sp.diff(delta, symbol)
-    return damper.b * delta * slope, damper.b * sp.diff(delta, time) * slope
+    slope = bounded.diff(delta, symbol)
+    return damper.b * delta * slope, damper.b * bounded.diff(delta, time) * slope

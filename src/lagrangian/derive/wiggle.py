@@ -13,6 +13,7 @@ from fractions import Fraction
 import numpy as np
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.derive.sample import Sampler
 from lagrangian.errors import ModelError
 from lagrangian.model import Element, Frame, Model, RigidBody
@@ -54,7 +55,7 @@ def study(model: Model) -> Wiggle:
     for block in blocks:
         for r in block.rates:
             there = r.atoms(sp.Derivative)
-            entries += [sp.diff(r, v) if v in there else sp.S.Zero for v in rates]
+            entries += [bounded.diff(r, v) if v in there else sp.S.Zero for v in rates]
         entries += block.weight.flat()
     sampler = Sampler(model, entries)
     n, best = len(rates), -1
@@ -84,7 +85,7 @@ def _blocks(model: Model) -> list[_Rows]:
     for element in model.elements:
         if element.ledger == "T*" and element not in model.bodies:
             energy = element.kinetic(model)
-            momenta = tuple(sp.diff(energy, c.rate) for c in model.coordinates)
+            momenta = tuple(bounded.diff(energy, c.rate) for c in model.coordinates)
             blocks.append(_Rows(element, False, momenta, sp.eye(len(momenta))))
     return blocks
 
@@ -189,4 +190,4 @@ def _figure(x: float) -> str:
 
 def depends(model: Model, expr: sp.Expr, symbol: sp.Expr) -> bool:
     """Whether ``expr`` changes with a coordinate (decided by its derivative, not by how it is written)."""
-    return expr.has(symbol) and sp.diff(expr, symbol) != 0
+    return expr.has(symbol) and bounded.diff(expr, symbol) != 0

@@ -12,6 +12,7 @@ from typing import Any
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.dynamics.bodies import Bodies
 from lagrangian.dynamics.floating import Float, floating_body, floating_rates
 from lagrangian.dynamics.mechanics import Mechanics, Pairs
@@ -247,7 +248,7 @@ def _spring(d: Description, m: Mechanics, e: Any) -> None:
         energy, pull = g.mul(g.const(0.5), g.mul(k, g.mul(extension, extension))), g.mul(k, extension)
     else:
         energy = d.node(e.energy, {DELTA: extension})
-        pull = d.node(e.law if e.law is not None else sp.diff(e.energy, DELTA), {DELTA: extension})
+        pull = d.node(e.law if e.law is not None else bounded.diff(e.energy, DELTA), {DELTA: extension})
     m.potentials.append(energy)
     rest_moves = not d.motion.constant([d.node(e.rest)])
     _pull(d, m.stores, pull, delta)

@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.errors import ModelError, Place, did_you_mean
 from lagrangian.model.checks import check_acted_on, check_kind, check_position, check_use, checked_number
 from lagrangian.model.effect import check_effect
@@ -272,10 +273,10 @@ class Builder:
                 fix="an axis is fixed in its parent; turn the parent instead",
                 code="E409",
             )
-        norm2 = sp.expand(sum(v**2 for v in vector))
+        norm2 = bounded.expand(sp.Add(*(v**2 for v in vector)))
         if norm2 == 0:
             raise ModelError(f"the axis of {what} is (0, 0, 0)", place=place, fix="axis=(0, 0, 1)", code="E409")
-        norm = sp.S.One if sp.trigsimp(norm2) == 1 else sp.sqrt(norm2)
+        norm = sp.S.One if bounded.is_one(norm2) else sp.sqrt(norm2)
         return tuple(v / norm for v in vector)
 
     def _claim_place(self, name: str, what: str, table: Mapping[str, Any], place: Place | None) -> str:

@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING, Any, cast
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.errors import ModelError, Place
 from lagrangian.graph import unknown_part
 from lagrangian.model.floating import Floating
@@ -221,9 +222,9 @@ class Frame:
         """
         if self.floating is not None:
             return self.floating.angular_velocity
-        rate = sp.diff(self.angle, time)
+        rate = bounded.diff(self.angle, time)
         if self.axis is None:
-            return (sp.diff(self.total_angle, time),)
+            return (bounded.diff(self.total_angle, time),)
         own = sp.Matrix([n * rate for n in self.axis])
         if self.parent is None:
             return tuple(own.flat())

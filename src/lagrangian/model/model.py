@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any, cast
+from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.model.elements import Element, Particle, RigidBody, Words
 from lagrangian.model.geometry import Frame, Point
 from lagrangian.model.names import time
@@ -17,10 +18,11 @@ from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, V
 
 
 def written_out(expr: sp.Expr, table: Mapping[Any, Any]) -> sp.Expr:
-    """Return ``expr`` with symbols replaced by their expressions, and the derivatives of those worked out."""
-    while table and any(expr.has(s) for s in table):
-        expr = cast("sp.Expr", expr.subs(list(table.items())).doit(deep=True, integrals=False, sums=False))
-    return expr
+    """Return ``expr`` with symbols replaced by their expressions, and the derivatives of those worked out.
+
+    Raises `TooLarge` before anything is written that would be too long.
+    """
+    return bounded.written_out(expr, table) if table else expr
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,7 +97,7 @@ class Model:
         """The components of a point's velocity in the fixed axes, written out in coordinates and rates."""
         key = ("velocity", id(point))
         if key not in self._memo:
-            self._memo[key] = tuple(sp.diff(self.expand(x), time) for x in self.position(point))
+            self._memo[key] = tuple(bounded.diff(self.expand(x), time) for x in self.position(point))
         return self._memo[key]
 
     def point_words(self, point: Point) -> Words:

@@ -23,6 +23,12 @@ class _Plain(StrPrinter):
             return name
         return f"{self._names.get(name, name)}({self.stringify(expr.args, ', ')})"
 
+    def _print_Max(self, expr: Any) -> str:
+        ordered = sorted(expr.args, key=sp.default_sort_key)  # SymPy's order changes from run to run
+        return f"{self._names[expr.func.__name__]}({self.stringify(ordered, ', ')})"
+
+    _print_Min = _print_Max
+
     def _print_Abs(self, expr: Any) -> str:
         return self._print_Function(expr)
 

@@ -14,6 +14,7 @@ from lark import Token, Tree
 from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean
 
+from lagrangian import bounded
 from lagrangian.errors import Place, did_you_mean
 from lagrangian.model.names import FUNCTIONS as FUNCTION_NAMES
 from lagrangian.model.names import time
@@ -246,7 +247,9 @@ class Reader:
                 token,
                 fix="primes belong to coordinates, inputs and definitions that move",
             )
-        return sp.diff(value, (time, order))
+        for _ in range(order):
+            value = bounded.diff(value, time)
+        return value
 
     def _meaning(self, token: Any) -> tuple[str, sp.Expr, int]:
         """The name that is meant, its object, and the number of dots over it."""

@@ -15,6 +15,7 @@ from typing import Any
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.errors import ModelError, ParseError
 from lagrangian.model import Coordinate, Element, Floating, Frame, Model, Parameter, Point, plain
 from lagrangian.model.elements.damper import RATE
@@ -135,7 +136,7 @@ class _Writer:
             raise ModelError(
                 f"{what} cannot be written to a model file: {error.what}", fix=error.fix, code="E701"
             ) from None
-        if same != expr and sp.expand(same - expr) != 0:
+        if same != expr and bounded.expand(same - expr) != 0:
             raise ModelError(
                 f"{what} cannot be written to a model file: {text} reads back as {plain(same)}",
                 fix="write it in the functions of the model file's grammar",

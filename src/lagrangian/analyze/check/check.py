@@ -27,6 +27,7 @@ def check(derivation: Derivation, lines: Sequence[Line], *, hint: int = 3) -> Ve
     Lines are checked in order; equality is decided in normal form, or with 50 digits where there is none.
     """
     truth = truth_of(derivation)
+    truth.algebra.renew()
     written = filled(truth, lines)
     verdict = _read(truth, spelled(truth, written), hint)
     values = _values(truth, written)

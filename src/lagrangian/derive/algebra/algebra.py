@@ -8,11 +8,27 @@ from typing import Protocol
 
 import sympy as sp
 
+from lagrangian.bounded import Budget
 from lagrangian.derive.algebra.form import LARGEST_FORM, Form, Harmonic, OutOfReach
-from lagrangian.derive.algebra.generators import Generators, Symbolic
+from lagrangian.derive.algebra.generators import WRITING, Generators, Symbolic
 from lagrangian.derive.algebra.monomials import Packed, Poly, digits, unit
 from lagrangian.derive.algebra.readable import Writer
 from lagrangian.derive.algebra.reading import Reader
+
+WORK = 5_000_000
+"""Terms that may be multiplied, added and differentiated for one system; what a book holds takes a hundredth."""
+
+
+LETTERS = 128
+"""Letters that a term holds at the price of one operation."""
+
+
+def _spent(limit: int) -> OutOfReach:
+    return OutOfReach(
+        f"writing the equations out takes more than {limit} products of terms",
+        fix="compile() and what builds on it (simulate, linearize, export) do without",
+        code="E601",
+    )
 
 
 class Described(Protocol):
@@ -41,11 +57,20 @@ class Algebra:
     """
 
     def __init__(self, model: Described, expressions: Iterable[sp.Expr] = ()) -> None:
+        self.work = Budget(WORK, _spent)
         self.generators = Generators(self, [c.symbol for c in model.coordinates])
         self.reader = Reader(self)
         self.writer = Writer(self.generators)
         for expr in expressions:
             self.writer.learn(self.form(expr))
+
+    def spend(self, operations: int) -> None:
+        """Count operations on terms; a term is as long as there are letters. Raises `OutOfReach` past `WORK`."""
+        self.work.spend(operations * (1 + len(self.generators.table) // LETTERS))
+
+    def renew(self) -> None:
+        """Begin to count anew: another answer is looked at, another page is written."""
+        self.work.left, self.generators.writing = self.work.limit, WRITING
 
     def form(self, expr: sp.Expr) -> Form:
         """Return the normal form; raise `OutOfReach` where it would be too long or is not a real expression."""
@@ -66,6 +91,7 @@ class Algebra:
             return Form(self, {})
         if len(forms) == 1:
             return forms[0]
+        self.spend(sum(f.size for f in forms))
         den = lcm(*(f.den for f in forms))
         out: dict[Harmonic, Poly] = {}
         for f in forms:

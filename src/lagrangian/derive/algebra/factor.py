@@ -44,8 +44,8 @@ class Tree:
 class Shortener:
     """Finds short trees; ``cost_of`` is the number of operations inside a letter (0 for a symbol, 1 for sin θ)."""
 
-    def __init__(self, cost_of: Callable[[int], int]) -> None:
-        self.cost_of = cost_of
+    def __init__(self, cost_of: Callable[[int], int], affords: Callable[[int], bool] = lambda _: True) -> None:
+        self.cost_of, self.affords = cost_of, affords
         self.budget = SEARCH
         self._memo: dict[frozenset[tuple[int, Fraction]], Tree] = {}
         self._factors: dict[object, list[tuple[Flat, int]] | None] = {}
@@ -114,7 +114,7 @@ class Shortener:
             return known
         best = self.summed(self.product(c, m) for m, c in ordered(poly))
         self.budget -= 1 + len(poly)
-        if self.budget < 0:
+        if self.budget < 0 or not self.affords(1 + len(poly)):
             return best
         if len(poly) > 2 or any(abs(e) > 1 for m in poly for _, e in digits(m)):
             for candidate in self._candidates(poly):

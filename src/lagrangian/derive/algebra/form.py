@@ -95,6 +95,7 @@ class Form:
             return self.scaled(other)
         if self.size * other.size > 4 * LARGEST_FORM:
             raise OutOfReach(f"a product of sums with {self.size} and {other.size} terms is too long to write out")
+        self.algebra.spend(2 * self.size * other.size + 4 * len(self.parts) * len(other.parts))
         whole: list[tuple[Packed, int, Poly, int]] = []
         half: list[tuple[Packed, int, Poly, int]] = []
         for (a, s), p in self.parts.items():
@@ -144,6 +145,7 @@ class Form:
     def _derived(self, of_generator: Rate, of_angle: Rate) -> Form:
         """Σ ∂f/∂g · g' over the generators, and d cos(h·a) = −(Σ k_j a_j') sin(h·a), d sin(h·a) = (Σ k_j a_j') cos."""
         algebra = self.algebra
+        algebra.spend(4 * self.size)
         out: dict[Harmonic, Poly] = {}
         slow: list[Form] = []
         for (h, s), p in self.parts.items():

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, ClassVar, cast
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.derive.algebra.form import Form, Harmonic
 from lagrangian.derive.algebra.monomials import Packed, digits, multiples, packed, unit
 
@@ -70,6 +71,9 @@ class Sum:
     moving: ClassVar[bool] = False
 
 
+WRITING = 15_000
+"""Terms that may be looked at while shorter ways of writing are sought for one system."""
+
 Generator = Symbolic | Root | Opaque | Trig | Sum
 Slope = "int | Form | None"
 """A derivative: a monomial, a form, or None for zero."""
@@ -89,6 +93,7 @@ class Generators:
         self._moving: dict[int, int] = {}
         self._trig: dict[Harmonic, sp.Expr] = {}
         self._costs: dict[int, int] = {}
+        self.writing = WRITING
         self._coordinates = frozenset(coordinates)
         self.placeholders: dict[sp.Expr, sp.Expr] = {}
         for q in coordinates:
@@ -233,8 +238,8 @@ class Generators:
             return None
         real = {a: sp.Dummy(f"u{k}", real=True) for k, a in enumerate(entry.inside)}
         back = {v: k for k, v in real.items()}
-        slope = sp.diff(entry.expr.xreplace(real), real[symbol])
-        return _or_none(self.algebra.form(cast("sp.Expr", slope.xreplace(back))))
+        slope = bounded.diff(cast("sp.Expr", bounded.replaced(entry.expr, real)), real[symbol])
+        return _or_none(self.algebra.form(cast("sp.Expr", bounded.replaced(slope, back))))
 
     def angle_partial(self, j: int, g: int) -> int | Form | None:
         """∂(angle j)/∂(generator g)."""
@@ -293,12 +298,19 @@ class Generators:
         found = {i for m in monomials for i, _ in digits(m) if not isinstance(self.table[i], Symbolic)}
         return tuple(self.table[i].expr for i in sorted(found))
 
+    def affords(self, operations: int) -> bool:
+        """Count operations of a search for a shorter way of writing; False where none are left, for good."""
+        self.writing -= operations
+        if self.writing < 0:
+            self.writing = -1
+        return self.writing >= 0
+
     # -- back to SymPy ----------------------------------------------------------------------------------------------
 
     def cost(self, i: int) -> int:
         """Return the operations inside a generator, every symbol, rate and acceleration counted as one name."""
         if i not in self._costs:
-            self._costs[i] = int(sp.count_ops(self.table[i].expr.xreplace(self.placeholders)))
+            self._costs[i] = int(sp.count_ops(bounded.replaced(self.table[i].expr, self.placeholders)))
         return self._costs[i]
 
     def power(self, i: int, exponent: int) -> sp.Expr:

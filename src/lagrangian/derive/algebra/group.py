@@ -11,7 +11,7 @@ from collections.abc import Callable, Hashable, Iterable
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
-from lagrangian.derive.algebra.factor import Flat, Shortener, Tree, lead, order, primitive
+from lagrangian.derive.algebra.factor import Flat, Shortener, Tree, lead, order, ordered, primitive
 from lagrangian.derive.algebra.generators import Sum, Symbolic, Trig
 from lagrangian.derive.algebra.monomials import digits, packed
 
@@ -66,6 +66,8 @@ class Grouper:
         """Return the terms of one class in the best of the groupings that fit it; of equals, the first."""
         if len(poly) == 1:
             return [self.shortener.short(poly)]
+        if not self.generators.affords(len(poly) // 10):  # three groupings, each with its parts made short
+            return [self.shortener.product(c, m) for m, c in ordered(poly)]
         if kind == "inertia":
             return self._leading(self._best(self._carried(poly, "acceleration", long), kind))
         ways = {

@@ -15,7 +15,7 @@ from fractions import Fraction
 from functools import lru_cache
 from math import gcd
 
-from lagrangian.errors import ModelError
+from lagrangian.bounded import TooLarge
 
 BITS = 16
 """Bits a field has; exponents and multiples stay far inside ±2^15, see `LARGEST_EXPONENT`."""
@@ -27,15 +27,16 @@ Packed = int | Fraction
 Poly = dict[int, int]
 """A polynomial with integer coefficients: packed monomial → coefficient, none of them zero."""
 
-PRIME = (1 << 61) - 1
-"""The base in which harmonics are packed, a Mersenne prime."""
+PRIME = (1 << 64) - 59
+"""The base in which harmonics are packed: a prime, and not 2^61 − 1, by which Python hashes whole numbers: there all
+harmonics without the first angle would have one hash, and tables of them would be searched from end to end."""
 
 SMALL = 1 << 29
 """Numerators and denominators of multiples are below this, itself below √(P/2)."""
 TOO_LONG = "an angle stands in a sine or cosine with a multiple that is too long a fraction"
 
 
-class OutOfReach(ModelError):
+class OutOfReach(TooLarge):
     """An expression has no normal form of reasonable size."""
 
 

@@ -22,6 +22,9 @@ from lagrangian.derive.algebra.trig import displayed
 if TYPE_CHECKING:
     from lagrangian.derive.algebra.form import Form
 
+WRITTEN = 50
+"""What a term costs that is written in SymPy, in products of terms in normal form."""
+
 KINDS = ("inertia", "velocity", "damping", "stiffness", "gravity", "other", "input")
 """The kinds of terms, in the order in which they are written."""
 
@@ -66,7 +69,7 @@ class Writer:
 
     def __init__(self, generators: Generators) -> None:
         self.generators = generators
-        self.shortener = Shortener(generators.cost)
+        self.shortener = Shortener(generators.cost, generators.affords)
         self.grouper = Grouper(generators, self.shortener)
         self.sums: list[Flat] = []
 
@@ -195,6 +198,7 @@ class Writer:
 
     def sympy(self, tree: Tree) -> sp.Expr:
         """Return a tree as an expression that keeps its shape."""
+        self.generators.algebra.spend(WRITTEN)
         tree = self._balanced(tree)
         factors: list[sp.Expr] = [self.generators.power(i, e) for i, e in digits(tree.monomial)]
         for terms, power in tree.sums:

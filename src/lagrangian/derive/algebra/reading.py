@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, cast
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.derive.algebra.form import Form, OutOfReach
 from lagrangian.derive.algebra.generators import Symbolic
 from lagrangian.derive.algebra.monomials import LARGEST_EXPONENT, Packed, common, content, digits, turn, unit, whole
@@ -23,6 +24,9 @@ EXACT_TURNS = 12
 LARGEST_POWER = 20_000
 """A power of a sum that would have more terms is left as it is."""
 
+LARGEST_PRODUCT = 10_000
+"""A product of sums that would take more products of their terms is left as it is."""
+
 
 class Reader:
     """Reads expressions into an algebra; what has been read is remembered."""
@@ -30,6 +34,7 @@ class Reader:
     def __init__(self, algebra: Algebra) -> None:
         self.algebra = algebra
         self._memo: dict[sp.Basic, Form] = {}
+        self.left: dict[sp.Expr, None] = {}
 
     def form(self, expr: sp.Expr) -> Form:
         """Return the normal form of an expression."""
@@ -48,6 +53,10 @@ class Reader:
         if isinstance(expr, sp.Mul):
             result = algebra.number(1)
             for factor in sorted((self.form(cast("sp.Expr", a)) for a in expr.args), key=lambda f: f.size):
+                doubled = 1 + (any(h for h, _ in result.parts) and any(h for h, _ in factor.parts))
+                predicted = doubled * result.size * factor.size
+                if predicted > LARGEST_PRODUCT and predicted > max(result.size, factor.size):
+                    return self._as_it_is(expr)
                 result = result * factor
             return result
         if isinstance(expr, sp.Pow):
@@ -67,7 +76,7 @@ class Reader:
         inner = self.form(cast("sp.Expr", base))
         if exponent.q == 1 and exponent.p >= 0:
             if comb(inner.size + int(exponent.p) - 1, int(exponent.p)) > LARGEST_POWER:
-                return self._opaque(expr)
+                return self._as_it_is(expr)
             return inner ** int(exponent.p)
         return self._inverse(inner, int(exponent.p), int(exponent.q))
 
@@ -144,6 +153,11 @@ class Reader:
             return Form(self.algebra, {} if s else {(0, 0): {0: 1}})
         return Form(self.algebra, {(abs(h), s): {0: -1 if s and h < 0 else 1}})
 
+    def _as_it_is(self, expr: sp.Expr) -> Form:
+        """A product or power that would be too long as a sum is a generator, and remembered for a note."""
+        self.left[expr] = None
+        return self._opaque(expr)
+
     # -- the rest ---------------------------------------------------------------------------------------------------
 
     def _opaque(self, expr: sp.Expr) -> Form:
@@ -153,7 +167,7 @@ class Reader:
         generators = self.algebra.generators
         if expr.args and not expr.is_number and isinstance(expr, (sp.Function, sp.Pow)):
             arguments: list[Any] = [self.form(a).expr() if isinstance(a, sp.Expr) else a for a in expr.args]
-            rebuilt = cast("sp.Expr", expr.func(*arguments))
+            rebuilt = cast("sp.Expr", bounded.rebuilt(expr, arguments))
             if rebuilt.func is not expr.func:
                 return self.form(rebuilt)
             expr = rebuilt

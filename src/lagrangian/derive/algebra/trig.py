@@ -30,6 +30,8 @@ def displayed(form: Form, generators: Generators) -> Flat:
         return best
     best_cost = plain_cost(best, generators)
     for j in _candidates(form):
+        if not (generators.affords(form.size) and generators.affords(_splitting(form, j))):
+            break
         trial = _flat(form, generators, split | {j})
         cost = plain_cost(trial, generators)
         if cost <= best_cost:
@@ -74,6 +76,14 @@ def _candidates(form: Form) -> list[int]:
     return sorted(found, key=lambda h: (-len(multiples(h)), h))
 
 
+def _splitting(form: Form, angle: int) -> int:
+    """About the products that splitting by an angle takes: cos kx has k/2 powers, found one after the other."""
+    pivot = multiples(angle)[-1][0]
+    return sum(
+        (1 + abs(int(k)) ** 2 // 2) * len(p) for (h, _), p in form.parts.items() for j, k in multiples(h) if j == pivot
+    )
+
+
 def _pivot(harmonic: int) -> tuple[int, int] | None:
     """The last angle that stands once in a harmonic, with its sign: splitting by the harmonic takes its place."""
     return next(((j, int(k)) for j, k in reversed(multiples(harmonic)) if abs(k) == 1), None)
@@ -81,6 +91,7 @@ def _pivot(harmonic: int) -> tuple[int, int] | None:
 
 def _flat(form: Form, generators: Generators, split: frozenset[int]) -> Flat:
     """Σ coefficient · monomial · trig letters."""
+    generators.algebra.spend(4 * form.size)
     out: Flat = {}
     for h, p in form.parts.items():
         for trig, k in _expanded(h, generators, split).items():

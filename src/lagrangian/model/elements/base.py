@@ -10,6 +10,7 @@ from typing import Any, ClassVar, Literal, Protocol, Self, TypeAlias
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.errors import ModelError, Place
 from lagrangian.model.geometry import Frame, Point
 from lagrangian.model.names import time
@@ -218,7 +219,7 @@ def pair_ends(model: Surroundings, start: Point, end: Point, effort: sp.Expr) ->
     length = sp.sqrt(sum(d**2 for d in delta))
 
     def along(point: Point) -> sp.Expr:
-        velocity = [sp.diff(model.expand(x), time) for x in model.position(point)]
+        velocity = [bounded.diff(model.expand(x), time) for x in model.position(point)]
         return sum((d * v for d, v in zip(delta, velocity, strict=True)), sp.S.Zero) / length
 
     return (

@@ -8,6 +8,7 @@ from typing import Any, ClassVar, Literal
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.model.elements.base import (
     DEFLECTION,
     Action,
@@ -87,7 +88,7 @@ class Damper(Element):
 
     def rate(self, model: Surroundings) -> sp.Expr:
         """δ̇ [m/s or rad/s]."""
-        return sp.diff(self.displacement(model), time)
+        return bounded.diff(self.displacement(model), time)
 
     def pull(self, model: Surroundings) -> sp.Expr:
         """The force or torque that resists the motion: b δ̇, or the law at δ̇."""
@@ -104,7 +105,7 @@ class Damper(Element):
             return self.works(model)
         delta = difference(model, *self.between)
         length = sp.sqrt(sum(d**2 for d in delta))
-        rate = sum((d * sp.diff(d, time) for d in delta), sp.S.Zero) / length
+        rate = sum((d * bounded.diff(d, time) for d in delta), sp.S.Zero) / length
         pull = self.b * rate if self.b is not None else self.law.subs(RATE, rate)
         return pair_ends(model, self.between[0], self.between[1], -pull)
 

@@ -8,6 +8,7 @@ from typing import Any, ClassVar, Literal
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.model.elements.base import (
     DEFLECTION,
     Action,
@@ -142,10 +143,10 @@ class Force(Element):
         if self.between:
             delta = difference(model, *self.between)
             displacement = deflection_between(model, *self.between)
-            rate = sum((d * sp.diff(d, time) for d in delta), sp.S.Zero) / displacement
+            rate = sum((d * bounded.diff(d, time) for d in delta), sp.S.Zero) / displacement
         else:
             displacement = model.expand(self.deflection)
-            rate = sp.diff(displacement, time)
+            rate = bounded.diff(displacement, time)
         return (Action(effort, rate, DEFLECTION, displacement),)
 
     def ends(self, model: Surroundings) -> tuple[Action, ...]:
@@ -161,5 +162,5 @@ class Force(Element):
             for f, x in zip(self.components(model), model.position(point), strict=True):
                 if f != 0:
                     x = model.expand(x)
-                    actions.append(Action(sign * f, sp.diff(x, time), model.point_words(point), x, point))
+                    actions.append(Action(sign * f, bounded.diff(x, time), model.point_words(point), x, point))
         return tuple(actions)

@@ -8,6 +8,7 @@ from typing import Any, ClassVar, Literal
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.model.elements.base import Element, Level, Surroundings, Use
 from lagrangian.model.geometry import Point, as_expr, as_vector
 
@@ -32,7 +33,7 @@ class Gravity(Element):
         norm = sp.sqrt(sum(d**2 for d in direction))
         if norm == 0:
             raise self._error("its direction is zero", fix="give a direction such as (0, -1)", code="E409")
-        if norm != 1 and sp.trigsimp(norm**2) != 1:
+        if norm != 1 and not bounded.is_one(norm**2):
             direction = tuple(d / norm for d in direction)
         self._set(direction=direction, g=as_expr(self.g, f"the strength of {self.title}", place=self.place))
         if self.datum is not None and not isinstance(self.datum, Point):

@@ -8,6 +8,7 @@ from typing import Any, ClassVar, Literal
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.model.elements.base import Action, Element, Level, Surroundings, Use
 from lagrangian.model.geometry import as_expr
 from lagrangian.model.names import time
@@ -77,7 +78,7 @@ class Dissipation(Element):
         return tuple(
             Action(-effort, c.rate, (c.symbol,), c.symbol)
             for c in model.coordinates
-            if (effort := sp.diff(d, c.rate)) != 0
+            if (effort := bounded.diff(d, c.rate)) != 0
         )
 
     def dissipation(self, model: Surroundings) -> sp.Expr | None:
@@ -107,5 +108,5 @@ class GeneralizedForce(Element):
 
     def works(self, model: Surroundings) -> tuple[Action, ...]:
         """The force on its coordinate."""
-        rate = sp.diff(self.coordinate, time)
+        rate = bounded.diff(self.coordinate, time)
         return (Action(model.expand(self.value), rate, (self.coordinate,), self.coordinate),)

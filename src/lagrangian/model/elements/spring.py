@@ -8,6 +8,7 @@ from typing import Any, ClassVar, Literal
 
 import sympy as sp
 
+from lagrangian.model.antiderivatives import antiderivative
 from lagrangian.model.elements.base import (
     Element,
     Level,
@@ -18,24 +19,22 @@ from lagrangian.model.elements.base import (
     deflection_between,
 )
 from lagrangian.model.geometry import Point, as_expr
+from lagrangian.model.plain import plain
 
 DELTA = sp.Symbol("delta")
 """In a law: the extension δ − δ₀ [m or rad]."""
 
 
-def antiderivative(element: Element, law: sp.Expr, variable: sp.Symbol, what: str) -> sp.Expr:
-    """∫₀^variable law, in closed form, or `ModelError` when none is found by the elementary rules."""
-    from sympy.integrals.manualintegrate import manualintegrate  # slow to load, and few springs come here
-
-    primitive = manualintegrate(law, variable)
-    at_zero = primitive.subs(variable, 0)
-    if primitive.has(sp.Integral) or at_zero.has(sp.nan, sp.zoo, sp.oo):
+def stored(element: Element, law: sp.Expr) -> sp.Expr:
+    """∫₀^δ law, in closed form, or `ModelError` where none was found."""
+    energy = antiderivative(law, DELTA)
+    if energy is None:
         raise element._error(
-            f"no closed form was found for the integral of its law {law} from 0",
-            fix=f"give {what} instead",
+            f"no closed form was found for the integral of its law {plain(law)[:200]} from 0",
+            fix="give energy, an expression in delta, instead",
             code="E415",
         )
-    return primitive - at_zero
+    return energy
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -71,7 +70,7 @@ class Spring(Element):
             value = called(self, key, value, DELTA) if callable(value) and key in ("law", "energy") else value
             self._set(**{key: as_expr(value, f"the {key} of {self.title}", place=self.place)})
         if self.law is not None:
-            self._set(energy=antiderivative(self, self.law, DELTA, "energy, an expression in delta"))
+            self._set(energy=stored(self, self.law))
 
     def suggested_name(self) -> str:
         """The symbol of its stiffness."""

@@ -8,6 +8,7 @@ from typing import Any, ClassVar, Literal
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.model.elements.base import Action, Element, Level, Surroundings, Use
 from lagrangian.model.geometry import Frame, as_expr, as_vector
 from lagrangian.model.names import time
@@ -104,12 +105,12 @@ class Torque(Element):
     def _actions(self, model: Surroundings, sign: int, target: sp.Expr | Frame) -> Iterator[Action]:
         if not isinstance(target, Frame):
             angle = model.expand(target)
-            yield Action(sign * model.expand(self.value), sp.diff(angle, time), model.angle_words(angle), angle)
+            yield Action(sign * model.expand(self.value), bounded.diff(angle, time), model.angle_words(angle), angle)
             return
         on = model.frame_words(target)
         if target.dimension == 2:
             angle = model.expand(target.total_angle)
-            yield Action(sign * model.expand(self.value), sp.diff(angle, time), on, angle, target)
+            yield Action(sign * model.expand(self.value), bounded.diff(angle, time), on, angle, target)
             return
         if isinstance(self.value, tuple):
             # components of ω in the fixed axes: R ω_body

@@ -1,0 +1,306 @@
+"""SymPy's general routines within bounds: sizes are predicted before anything is written out, searches are counted.
+
+What is written out as a sum may be exponentially longer than what a person wrote: (a + b + c)^50, sixty definitions
+that use each other twice, a chain of frames in space. So the size of a result is predicted from the structure of an
+expression, and past `LARGEST` it is left as it is (`expand`) or refused (`diff`, `written_out`). A search for a closed
+form or a common factor has no size that could be predicted: `searched` counts the calls it makes and gives up past
+`CALLS`. Both are counts of operations: the answer does not depend on how fast or how busy a machine is.
+"""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from math import comb
+from typing import Any, TypeVar, cast
+
+import sympy as sp
+from sympy.core.cache import clear_cache
+from sympy.core.function import AppliedUndef
+
+from lagrangian.errors import ModelError
+
+T = TypeVar("T")
+
+LARGEST = 20_000
+"""Operations that an expression may have once it is written out."""
+
+SLOPES = 1_000_000
+"""Operations that the product rule may make of an expression, most of which are zero."""
+
+TERMS = 3_000
+"""Terms that an expansion may have."""
+
+CALLS = 300_000
+"""Calls inside a search of SymPy after which it is given up; what a book holds takes less than a tenth."""
+
+BEYOND = 10**30
+"""Where predictions stop to count: far beyond every limit."""
+
+
+class TooLarge(ModelError):
+    """Something is too long to be written out."""
+
+
+class Budget:
+    """Operations that may still be made; a count, so that what is given up does not depend on the machine."""
+
+    def __init__(self, limit: int, error: Callable[[int], BaseException]) -> None:
+        self.limit = self.left = limit
+        self._error = error
+
+    def spend(self, operations: int) -> None:
+        """Count operations; raise where none are left."""
+        self.left -= operations
+        if self.left < 0:
+            raise self._error(self.limit)
+
+
+# -- sizes --------------------------------------------------------------------------------------------------------
+
+
+def _each(expr: sp.Basic) -> Iterator[sp.Basic]:
+    """Every part of an expression once, its own parts before it; what is shared is met once."""
+    done: set[int] = set()
+    stack: list[tuple[sp.Basic, bool]] = [(expr, False)]
+    while stack:
+        node, ready = stack.pop()
+        if id(node) in done:
+            continue
+        if ready or not node.args or isinstance(node, (AppliedUndef, sp.Derivative)):
+            done.add(id(node))
+            yield node
+        else:
+            stack.append((node, True))
+            stack += [(a, False) for a in node.args]
+
+
+def size(expr: sp.Basic, names: Mapping[Any, int] | None = None) -> int:
+    """Return how many operands and operations an expression has when written out.
+
+    What is shared counts as often as it stands. ``names`` says how long what stands for a symbol is.
+    """
+    found: dict[int, int] = {}
+    for node in _each(expr):
+        if names and node in names:
+            found[id(node)] = names[node]
+        elif isinstance(node, sp.Derivative):
+            own = names.get(node.expr, 1) if names else 1
+            found[id(node)] = own if own == 1 else min(own * (own + 1), BEYOND)  # the product rule: a term a factor
+        elif not node.args or isinstance(node, AppliedUndef):
+            found[id(node)] = 1
+        else:
+            found[id(node)] = min(1 + sum(found[id(a)] for a in node.args), BEYOND)
+    return found[id(expr)]
+
+
+def terms(expr: sp.Basic) -> int:
+    """Return a bound on the terms of the longest sum that expanding an expression makes."""
+    found: dict[int, int] = {}
+    longest = 1
+    for node in _each(expr):
+        inner = [found[id(a)] for a in node.args] if not isinstance(node, (AppliedUndef, sp.Derivative)) else []
+        count = 1
+        if isinstance(node, sp.Add):
+            count = sum(inner)
+        elif isinstance(node, sp.Mul):
+            for n in inner:
+                count = min(count * n, BEYOND)
+        elif isinstance(node, sp.Pow) and isinstance(node.exp, sp.Integer):
+            power = abs(int(node.exp))
+            raised = inner[0] if inner[0] == 1 else min(comb(min(inner[0], 10**6) + power - 1, power), BEYOND)
+            count, longest = (raised, longest) if node.exp > 0 else (1, max(longest, raised))  # a denominator expands
+        found[id(node)] = count
+        longest = max(longest, count)
+    return longest
+
+
+def _slopes(expr: sp.Basic) -> int:
+    """Return a bound on the size of an expression's derivative."""
+    sizes: dict[int, int] = {}
+    found: dict[int, int] = {}
+    for node in _each(expr):
+        if not node.args or isinstance(node, (AppliedUndef, sp.Derivative)):
+            sizes[id(node)] = found[id(node)] = 1
+            continue
+        own = sizes[id(node)] = min(1 + sum(sizes[id(a)] for a in node.args), BEYOND)
+        below = sum(found[id(a)] for a in node.args)
+        found[id(node)] = min(below if isinstance(node, sp.Add) else below + own * len(node.args), BEYOND)
+    return found[id(expr)]
+
+
+# -- writing out --------------------------------------------------------------------------------------------------
+
+
+def expand(expr: sp.Expr) -> sp.Expr:
+    """Return the sum of products that an expression is, or the expression as it is where that would be too long."""
+    return expr if terms(expr) > TERMS or size(expr) > LARGEST else cast("sp.Expr", sp.expand(expr))
+
+
+def check_size(count: int, what: str) -> None:
+    """Refuse what is longer than `LARGEST`; ``what`` is the subject of the sentence."""
+    if count > LARGEST:
+        many = f"{float(count):.0e}" if count < BEYOND else "more than 1e30"
+        raise TooLarge(
+            f"{what} has {many} operations once it is written out",
+            fix=f"at most {LARGEST}: use each definition fewer times, or describe the system by points and frames",
+            code="E601",
+        )
+
+
+def written_out(expr: sp.Expr, table: Mapping[Any, Any]) -> sp.Expr:
+    """Return ``expr`` with symbols replaced by their expressions, derivatives by time of those worked out.
+
+    Raises `TooLarge` where it would have more than `LARGEST` operations.
+    """
+    while used := [node for node in _each(expr) if (node.expr if isinstance(node, sp.Derivative) else node) in table]:
+        lengths: dict[Any, int] = {}
+        for symbol, value in table.items():  # what a definition uses stands before it
+            lengths[symbol] = size(value, lengths)
+        symbols = [node.expr if isinstance(node, sp.Derivative) else node for node in used]
+        longest = str(max(symbols, key=lambda symbol: lengths[symbol])).removesuffix("(t)")
+        check_size(size(expr, lengths), f"an expression that uses '{longest}'")
+        values = {node: _rates(node, table) if isinstance(node, sp.Derivative) else table[node] for node in used}
+        expr = cast("sp.Expr", replaced(expr, values))
+    return expr
+
+
+def _rates(node: sp.Derivative, table: Mapping[Any, Any]) -> sp.Expr:
+    value = table[node.expr]
+    for _ in range(int(node.derivative_count)):
+        value = diff(value, node.variables[0])
+    return value
+
+
+def diff(expr: sp.Expr, *symbols: Any) -> sp.Expr:
+    """Return the derivative by symbols, coordinates, rates or time in turn; raise `TooLarge` where it gets too long.
+
+    A maximum has the derivative of the argument that it is, a piecewise expression that of its case; nothing is proved
+    about their conditions.
+    """
+    for symbol in symbols:
+        if (count := _slopes(expr)) > SLOPES:
+            raise TooLarge(
+                f"a derivative of an expression with {size(expr)} operations has up to {float(count):.0e}",
+                fix="describe the system by points and frames instead of long products",
+                code="E601",
+            )
+        expr = _diff(expr, symbol)
+    return expr
+
+
+def _diff(expr: sp.Expr, symbol: Any) -> sp.Expr:
+    bent = _bent(expr)
+    if not bent:
+        return cast("sp.Expr", sp.diff(expr, symbol))
+    letters = {node: sp.Dummy(f"bent{k}", real=True) for k, node in enumerate(bent)}
+    outer = cast("sp.Expr", replaced(expr, letters))
+    total = sp.diff(outer, symbol)
+    for node, letter in letters.items():
+        inner = _case(node, symbol)
+        if inner != 0:
+            total += sp.diff(outer, letter) * inner
+    return cast("sp.Expr", replaced(total, {letter: node for node, letter in letters.items()}))
+
+
+def _bent(expr: sp.Basic) -> list[sp.Expr]:
+    """The outermost maxima and minima of three and more, and the outermost cases."""
+    found: dict[sp.Expr, None] = {}
+    stack, seen = [expr], {id(expr)}
+    while stack:
+        node = stack.pop()
+        if isinstance(node, sp.Piecewise) or (isinstance(node, (sp.Max, sp.Min)) and len(node.args) > 2):
+            found[node] = None
+            continue
+        fresh = [a for a in node.args if id(a) not in seen]
+        seen.update(map(id, fresh))
+        stack += fresh
+    return list(found)
+
+
+def _case(node: sp.Expr, symbol: Any) -> sp.Expr:
+    """The derivative of a maximum, a minimum or cases: that of what holds."""
+    if isinstance(node, sp.Piecewise):
+        cases = [(_diff(pair.args[0], symbol), pair.args[1]) for pair in cast("tuple[Any, ...]", node.args)]
+    else:
+        is_it = sp.GreaterThan if isinstance(node, sp.Max) else sp.LessThan
+        arguments = cast("tuple[sp.Expr, ...]", node.args)
+        cases = [(_diff(a, symbol), is_it(a, node, evaluate=False)) for a in arguments]
+        cases[-1] = (cases[-1][0], sp.true)
+    if all(value == cases[0][0] for value, _ in cases):
+        return cases[0][0]
+    return sp.Piecewise(*cases, evaluate=False)
+
+
+def replaced(expr: sp.Basic, table: Mapping[Any, Any]) -> sp.Basic:
+    """Return an expression with other parts; what holds none of them stays, and no condition is proved anew."""
+    made: dict[int, sp.Basic] = {}
+    for node in _each(expr):
+        if node in table:
+            made[id(node)] = table[node]
+        elif not node.args or isinstance(node, (AppliedUndef, sp.Derivative)):
+            made[id(node)] = node
+        else:
+            made[id(node)] = rebuilt(node, [made[id(a)] for a in node.args])
+    return made[id(expr)]
+
+
+def rebuilt(node: sp.Basic, arguments: list[Any]) -> sp.Basic:
+    """Return an expression of the same kind with other arguments; cases, comparisons and long maxima stay unproved."""
+    if all(a is b for a, b in zip(arguments, node.args, strict=True)):
+        return node
+    unproved = (sp.Piecewise, sp.core.relational.Relational)
+    if isinstance(node, unproved) or (isinstance(node, (sp.Max, sp.Min)) and len(arguments) > 2):
+        return node.func(*arguments, evaluate=False)
+    return node.func(*arguments)
+
+
+# -- searches -----------------------------------------------------------------------------------------------------
+
+
+class _SpentError(BaseException):
+    """The calls are spent; not an `Exception`, so that no routine on the way takes it for an answer of its own."""
+
+
+def searched(routine: Callable[..., T], *arguments: Any, calls: int = CALLS) -> T | None:
+    """Return what one of SymPy's routines answers, or None where it makes more than ``calls`` calls."""
+    left = calls
+
+    def count(frame: Any, event: str, argument: Any) -> None:
+        nonlocal left
+        if event == "call":
+            left -= 1
+            if left < 0:
+                raise _SpentError
+
+    before = sys.getprofile()
+    sys.setprofile(count)
+    try:
+        return routine(*arguments)
+    except _SpentError:
+        clear_cache()  # answers that were only begun must not be taken for answers
+        return None
+    except RecursionError:
+        return None
+    finally:
+        if before is None or callable(before):
+            sys.setprofile(before)
+        else:  # the standard library's profiler is no function and starts itself again
+            sys.setprofile(None)
+            before.enable()
+
+
+def is_one(expr: sp.Expr) -> bool:
+    """Whether an expression is 1 by arithmetic and sin² + cos² = 1, as the square of a unit vector is."""
+    expr = expand(expr)
+    for angle in sorted({c.args[0] for c in expr.atoms(sp.cos)}, key=sp.default_sort_key):
+        if expr == 1:
+            return True
+        cosine, square = sp.cos(angle), 1 - sp.sin(angle) ** 2
+
+        def even(power: Any, base: Any = cosine, square: Any = square) -> sp.Expr:
+            return square ** (power.exp // 2) * base ** (power.exp % 2)
+
+        powers = [p for p in expr.atoms(sp.Pow) if p.base == cosine and isinstance(p.exp, sp.Integer) and p.exp > 1]
+        expr = expand(cast("sp.Expr", expr.xreplace({p: even(p) for p in powers})))
+    return expr == 1

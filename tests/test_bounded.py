@@ -1,0 +1,79 @@
+"""Sizes are predicted before anything is written out; the predictions are bounds."""
+
+import pytest
+import sympy as sp
+from sympy.physics.mechanics import dynamicsymbols
+
+import lagrangian as lg
+from lagrangian import bounded
+
+a, b, c, d, e = sp.symbols("a b c d e")
+q, w = dynamicsymbols("q w")
+t = sp.Symbol("t")
+
+EXPRESSIONS = [
+    (a + b) ** 5 * (c - d) ** 3,
+    (a + b * (c + d * (e + a))) ** 4,
+    sp.sin(a + b) ** 3 * (1 + sp.cos(c)) ** 2,
+    1 / (a + b) ** 3 + (a + b) ** 2 / (c + d),
+    sp.sqrt((a + b) ** 4 + (c + d) ** 2) * (a + 1) ** 3,
+]
+
+
+@pytest.mark.parametrize("expr", EXPRESSIONS)
+def test_an_expansion_has_no_more_terms_than_predicted(expr: sp.Expr) -> None:
+    longest = max(len(s.args) for s in [*sp.expand(expr).atoms(sp.Add), sp.Add(a, b)])
+    assert longest <= bounded.terms(expr)
+    assert bounded.expand(expr) == sp.expand(expr)
+
+
+def test_what_would_be_too_long_stays_as_it_is() -> None:
+    power = (a + b + c + d + e) ** 50
+    assert bounded.terms(power) == 316_251  # C(54, 4)
+    assert bounded.expand(power) is power
+
+
+def test_definitions_that_double_are_counted_and_not_written() -> None:
+    """d_n = d_{n−1} + sin d_{n−1} holds x 2ⁿ times: refused from this number, at the element that uses it."""
+    system = lg.System("doubling")
+    x = system.coordinate("x")
+    system.particle(1, at=system.origin + (x, 0))
+    name = x
+    for n in range(60):
+        name = system.define(f"d{n}", name + sp.sin(name))
+    with pytest.raises(bounded.TooLarge, match="uses 'd59' has 3e\\+18 operations once it is written out"):
+        system.potential(name)
+
+
+def test_written_out_is_what_sympy_substitutes() -> None:
+    D, E = dynamicsymbols("D E")
+    table = {D: q**2 + a * w, E: sp.sin(D) * D.diff(t)}
+    found = bounded.written_out(E.diff(t) + a * E, table)
+    expected = (E.diff(t) + a * E).subs(E, table[E]).doit().subs(D, table[D]).doit()
+    assert sp.expand(found - expected) == 0
+
+
+@pytest.mark.parametrize("kind", [sp.Max, sp.Min])
+def test_the_slope_of_a_maximum_of_many_is_that_of_what_it_is(kind: type) -> None:
+    parts = [n * q + (n - 2) ** 2 * w for n in range(6)]
+    slope = bounded.diff(kind(*parts, evaluate=False) ** 2, q)
+    for at in ({q: 0.3, w: 0.2}, {q: -0.7, w: 0.05}, {q: 0.1, w: -0.4}):
+        values = [float(p.subs(at)) for p in parts]
+        which = values.index((max if kind is sp.Max else min)(values))
+        assert float(slope.subs(at)) == pytest.approx(2 * values[which] * which)
+
+
+@pytest.mark.parametrize(
+    ("vector", "unit"),
+    [
+        ((sp.sin(a) * sp.cos(b), sp.sin(a) * sp.sin(b), sp.cos(a)), True),
+        ((sp.cos(a + b), sp.sin(a + b)), True),
+        ((sp.Rational(3, 5), sp.Rational(4, 5)), True),
+        ((sp.sqrt(2) / 2, sp.sqrt(2) / 2), True),
+        ((sp.sin(a), sp.cos(b)), False),
+        ((sp.cos(a), sp.sin(2 * a)), False),
+        (((a + b + c + d + e) ** 50, sp.S.One), False),
+    ],
+)
+def test_unit_vectors_are_seen(vector: tuple[sp.Expr, ...], unit: bool) -> None:
+    assert bounded.is_one(sp.Add(*(v**2 for v in vector))) is unit

@@ -1,0 +1,76 @@
+"""Small files that write out to something huge: an answer or a word about it, after a bounded number of calls."""
+
+import pytest
+
+import lagrangian as lg
+from lagrangian import ModelError, bounded
+from lagrangian.derive.algebra import algebra
+
+HEAD = """
+name = "hostile"
+[coordinates]
+q = ""
+w = ""
+[parameters]
+m = 1
+a = 1
+b = 1.5
+c = 0.3
+d = 0.4
+e = 0.7
+k = 2
+g = 9.81
+"""
+BODY = '[[particle]]\nmass = "m"\nat = ["q", "w"]\n'
+TURNED = '[points]\np = { frame = "f", offset = ["1", "w", "0"] }\n[[particle]]\nmass = "m"\nat = "p"\n'
+FILES = {
+    "axis": HEAD + '[[frame]]\nname = "f"\nangle = "q"\naxis = ["(a+b+c+d+e)^50", "0", "1"]\n' + TURNED,
+    "gravity": HEAD + BODY + '[[gravity]]\ndirection = ["sin(a)^40*cos(b)^30+sin(c)^21", "cos(a)^50*sin(b+c)^20"]\n',
+    "law": HEAD + BODY + '[[spring]]\ndeflection = "q"\nlaw = "1/(1+delta^97)"\n',
+    "max": HEAD + BODY + f'[[potential]]\nvalue = "max({", ".join(f"{i + 2}*q+{i}*w^{i + 1}" for i in range(32))})"\n',
+    "define": HEAD
+    + '[define]\nd0 = "q+w"\n'
+    + "".join(f'd{i} = "d{i - 1}+d{i - 1}^2"\n' for i in range(1, 60))
+    + BODY
+    + '[[potential]]\nvalue = "d59"\n',
+    "fractions": HEAD
+    + '[[particle]]\nmass = "m"\nat = ["1/(1+1/(1+1/(1+1/(1+1/(q^2+w)))))", "(w+q)/(a+b/(q+c/(w+1/q)))"]\n',
+    "nested": HEAD + f'[[particle]]\nmass = "m"\nat = ["{"sin(" * 40}q{")" * 40}", "w"]\n',
+}
+READING = 3_000_000
+"""Calls of Python functions that reading such a file may take; it takes a tenth."""
+
+
+def _or_a_word(make) -> object:  # type: ignore[no-untyped-def]
+    try:
+        return make()
+    except ModelError as error:
+        assert error.code and str(error)
+        return error
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_a_file_is_read_or_refused_in_a_bounded_number_of_calls(name: str) -> None:
+    assert bounded.searched(_or_a_word, lambda: lg.loads(FILES[name]).model, calls=READING) is not None
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["axis", "gravity", "max", "fractions", "nested"])
+def test_a_derivation_is_written_or_refused_in_a_bounded_number_of_calls(name: str) -> None:
+    found = bounded.searched(_or_a_word, lambda: lg.loads(FILES[name]).derive(), calls=60_000_000)
+    assert found is not None
+
+
+def test_what_is_not_multiplied_out_is_said_on_the_page() -> None:
+    derivation = lg.loads(HEAD + BODY + '[[potential]]\nvalue = "(a+b+c+d+e)^50*q"\n').derive()
+    assert any("Not multiplied out" in str(note) for note in derivation.notes)
+    page = derivation.to_text()
+    assert "Not multiplied out, because the sum would be too long to read" in " ".join(page.split())
+    assert "(a + b + c + d + e)⁵⁰" in page
+
+
+def test_a_derivation_ends_when_its_products_are_spent(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(algebra, "WORK", 100)
+    with pytest.raises(ModelError, match="takes more than 100 products of terms") as caught:
+        lg.loads(HEAD + BODY + '[[potential]]\nvalue = "(q + w)^9*sin(q)"\n').derive()
+    assert caught.value.fix is not None and "compile()" in caught.value.fix
