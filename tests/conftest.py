@@ -10,6 +10,7 @@ import size
 
 
 def pytest_configure(config: pytest.Config) -> None:
+    os.environ.setdefault("MPLBACKEND", "Agg")  # plots are pyplot's, and no window is to open
     size.FULL = "not slow" not in config.getoption("markexpr")
 
 

@@ -3,16 +3,27 @@
 from __future__ import annotations
 
 import sys
+import threading
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+import matplotlib
+import matplotlib.pyplot as plt
 import numpy as np
 import pytest
-from matplotlib import _pylab_helpers
 
 import lagrangian as lg
 from lagrangian import examples
 from lagrangian.view import Marks, Panel, Picture, Series, draw
+
+matplotlib.use("Agg")
+
+
+@pytest.fixture(autouse=True)
+def _closed() -> Iterator[None]:
+    yield
+    plt.close("all")
 
 
 @pytest.fixture(scope="module")
@@ -58,7 +69,7 @@ def test_asked_quantities_of_one_unit_share_a_panel(run: lg.Trajectory) -> None:
 def test_the_audit_and_events_are_drawn(run: lg.Trajectory) -> None:
     s = lg.loads(examples.text("pendulum"))
     swing = s.simulate(5.0, theta=0.5, events=lg.event(s["theta"], name="low"))
-    figure = swing.plot(audit=True, energy=False)
+    figure: Any = swing.plot(audit=True, energy=False)
     assert labels(figure) == [r"$\theta$ [deg]", r"$\Delta E$ [J]"]
     verticals = [line for line in figure.axes[0].lines if len(line.get_xdata()) == 2]
     assert [line.get_xdata()[0] for line in verticals] == pytest.approx(swing.events["low"].t)
@@ -70,13 +81,62 @@ def test_angles_that_go_round_are_drawn_in_turns() -> None:
     assert labels(figure) == [r"$\theta$ [turns]"]
 
 
-def test_pictures_are_written_and_nothing_global_is_touched(run: lg.Trajectory, tmp_path: Path) -> None:
-    loaded = "matplotlib.pyplot" in sys.modules  # python-control loads it, and may have been here before
-    run.plot().savefig(tmp_path / "run.png")
+def test_pictures_are_written_and_figures_touch_nothing_global(run: lg.Trajectory, tmp_path: Path) -> None:
+    before = plt.get_fignums()
+    run.figure().savefig(tmp_path / "run.png")
     assert (tmp_path / "run.png").read_bytes().startswith(b"\x89PNG")
-    assert run.plot()._repr_png_().startswith(b"\x89PNG")
-    assert ("matplotlib.pyplot" in sys.modules) == loaded
-    assert not _pylab_helpers.Gcf.figs  # the figures that pyplot keeps
+    figure: Any = run.figure()
+    assert figure._repr_png_().startswith(b"\x89PNG")
+    assert plt.get_fignums() == before
+
+
+def test_plots_are_pyplots_own(run: lg.Trajectory) -> None:
+    figure = run.plot()
+    assert figure.number in plt.get_fignums()  # plt.show() opens it
+
+
+def test_a_notebook_shows_a_plot_once(run: lg.Trajectory, monkeypatch: pytest.MonkeyPatch) -> None:
+    figure: Any = run.plot()
+    monkeypatch.setattr(matplotlib, "get_backend", lambda: "inline")
+    with pytest.raises(NotImplementedError):  # IPython then shows it in the usual way
+        figure._ipython_display_()
+    assert figure.number not in plt.get_fignums()  # and the end of the cell not again
+
+
+def test_plots_in_another_thread_are_not_pyplots(run: lg.Trajectory) -> None:
+    before = plt.get_fignums()
+    made: list[Any] = []
+    thread = threading.Thread(target=lambda: made.append(run.plot()))
+    thread.start()
+    thread.join()
+    assert made
+    assert plt.get_fignums() == before
+
+
+def test_a_run_that_failed_is_marked(run: lg.Trajectory) -> None:
+    failed = lg.loads(examples.text("pendulum")).simulate(20.0, theta=0.5, max_steps=60)
+    figure: Any = failed.plot()
+    assert "FAILED: stopped at" in " ".join(figure.get_suptitle().split())
+    cross = figure.axes[0].lines[-1]
+    assert (cross.get_marker(), cross.get_xdata()[0]) == ("x", failed.t[-1])
+    assert "FAILED" not in run.plot().get_suptitle()
+
+
+def test_runs_of_a_sweep_that_failed_are_marked() -> None:
+    runs = lg.loads(examples.text("pendulum")).sweep(0.1, {"m": [-1.0, 1.0, 2.0]}, theta=0.3)
+    figure: Any = runs.plot("final theta")
+    assert "1 of 3 runs FAILED" in figure.get_suptitle()
+    assert list(figure.axes[0].lines[-1].get_xdata()) == [-1.0]
+    assert figure.number in plt.get_fignums()
+    before = plt.get_fignums()
+    runs.figure("final theta")
+    assert plt.get_fignums() == before
+
+
+def test_the_name_of_a_file_is_not_a_quantity(run: lg.Trajectory) -> None:
+    for name in ("run.png", Path("run.pdf")):
+        with pytest.raises(lg.ModelError, match=r"run\.plot\(\)\.savefig"):
+            run.plot(name)
 
 
 def test_names_cannot_become_markup() -> None:

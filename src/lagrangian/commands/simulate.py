@@ -126,7 +126,7 @@ def simulate(
         max_events=max_events,
     )
     if plot is not None:
-        figure = run.plot()
+        figure = run.figure()
         kind = plot.suffix.lower().removeprefix(".")
         write_with(plot, lambda beside: figure.savefig(beside, format=kind, dpi=150))
         say(f"wrote {plot}")

@@ -141,7 +141,7 @@ def sweep(
     interrupts.advice = ""
     _put(runs, output, stored, force, json)
     if plot is not None:
-        figure, kind = runs.plot(), plot.suffix.lower().removeprefix(".")
+        figure, kind = runs.figure(), plot.suffix.lower().removeprefix(".")
         write_with(plot, lambda beside: figure.savefig(beside, format=kind, dpi=150))
         say(f"wrote {plot}")
     if runs.status.size and (runs.status < 0).all():

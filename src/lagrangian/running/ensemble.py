@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.errors import RunError, did_you_mean
+from lagrangian.running.showing import check_no_file
 from lagrangian.running.varying import SAMPLE, TIME
 from lagrangian.simulate import STATUS
 from lagrangian.simulate.stored import LOST, NOT_RUN, Stored
@@ -209,10 +210,20 @@ class Ensemble(Mapping[str, NDArray[Any]]):
         return needed("pandas").DataFrame(self.columns())
 
     def plot(self, *names: str) -> Figure:
-        """Return a matplotlib figure of results (all that are numbers a run, unless named) over what varies.
+        """Return a pyplot figure of results (all that are numbers a run, unless named) over what varies.
 
-        Curves over one axis, maps over two, histograms of samples; samples over an axis as median and band.
+        Curves over one axis, maps over two, histograms of samples; samples over an axis as median and band. Runs that
+        failed have red crosses. Notebooks show it, ``plt.show()`` opens it, ``runs.plot().savefig(…)`` writes it.
         """
+        return self._drawn(names, shown=True)
+
+    def figure(self, *names: str) -> Figure:
+        """Return what `plot` does as a figure apart from pyplot, for programs, threads and servers."""
+        return self._drawn(names, shown=False)
+
+    def _drawn(self, names: tuple[str, ...], *, shown: bool) -> Figure:
+        for name in names:
+            check_no_file(name, "runs.plot")
         drawn = names or tuple(
             n
             for n in self
@@ -225,7 +236,16 @@ class Ensemble(Mapping[str, NDArray[Any]]):
             f"{self.name}: {self.count} runs",
             tuple(Along(*self._shown(d, self._along(d))) for d in axes),
             tuple(Result(*self._shown(n, self._over(n))) for n in drawn),
+            failed=self._failed(),
+            shown=shown,
         )
+
+    def _failed(self) -> str:
+        """How many runs failed and how, in words; nothing where none did."""
+        status = self.status
+        lost = status[(status < 0) & (status != NOT_RUN)]
+        ways = ", ".join(_reason(int(s)) for s in np.unique(lost)[:3])
+        return f"{lost.size} of {self.count} runs FAILED: {ways}" if lost.size else ""
 
     def _along(self, axis: str) -> NDArray[Any]:
         """The values along an axis: its own, or those of the one thing that varies along it alone, or numbers."""

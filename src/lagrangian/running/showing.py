@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Sequence
 from importlib.metadata import version
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -28,6 +30,9 @@ Array = NDArray[np.float64]
 
 TURNS = 4 * np.pi
 """[rad] Angles that go farther than this are drawn in turns, others in degrees."""
+
+PICTURES = frozenset((".png", ".pdf", ".svg", ".jpg", ".jpeg", ".eps"))
+"""Endings of the names of pictures."""
 
 KINDS = {
     "rad": "angle",
@@ -162,7 +167,7 @@ def _state_symbols(model: Model) -> list[Any]:
 # -- pictures ---------------------------------------------------------------------------------------------------
 
 
-def plot(run: Trajectory, asked: Sequence[Any], *, energy: bool | None, audit: bool) -> Figure:
+def plot(run: Trajectory, asked: Sequence[Any], *, energy: bool | None, audit: bool, shown: bool = False) -> Figure:
     """The figure of what is asked for; of coordinates, inputs that act and energies where nothing is."""
     units, labels = Units(run.model), Labels(run.model)
     panels = [_panel(run, units, labels, _expression(run.model, x)) for x in asked]
@@ -170,20 +175,36 @@ def plot(run: Trajectory, asked: Sequence[Any], *, energy: bool | None, audit: b
         panels = [_panel(run, units, labels, c.symbol) for c in run.model.coordinates]
         driven = [_panel(run, units, labels, u.symbol) for u in run.model.inputs]
         panels += [p for p in driven if any(s.values.any() for s in p.series)]
-    shown = list(joined(panels))
+    panels = list(joined(panels))
     if energy if energy is not None else not asked:
-        shown.append(_energies(run))
+        panels.append(_energies(run))
     if audit:
-        shown.append(Panel("imbalance", "J", (Series(r"\Delta E", "ΔE", run.imbalance),)))
+        panels.append(Panel("imbalance", "J", (Series(r"\Delta E", "ΔE", run.imbalance),)))
     marks = tuple(Marks(name, found.t) for name, found in run.events.items() if len(found))
-    return draw(Picture(run.model.name, run.t, tuple(shown), marks, f"{run.method}, {run.audit}"))
+    footer, failure = f"{run.method}, {run.audit}", "" if run.success else run.message
+    return draw(Picture(run.model.name, run.t, tuple(panels), marks, footer, failure), shown=shown)
+
+
+def check_no_file(asked: Any, verb: str) -> None:
+    """Refuse the name of a picture's file where a quantity is asked for."""
+    if isinstance(asked, (str, os.PathLike)) and Path(asked).suffix.lower() in PICTURES:
+        raise ModelError(
+            f"plot takes names and expressions, and '{str(asked)[:60]}' names a file",
+            fix=f'{verb}().savefig("{str(asked)[:60]}")',
+            code="E406",
+        )
 
 
 def _expression(model: Model, asked: Any) -> sp.Expr:
+    check_no_file(asked, "run.plot")
     if isinstance(asked, str):
         return read.parse_expression(asked, read.Scope(model.symbols), what="what is plotted")
     if not isinstance(asked, sp.Expr):
-        raise ModelError(f"a plot shows expressions and names (got {type(asked).__name__})", code="E406")
+        raise ModelError(
+            f"a plot shows expressions and names (got {type(asked).__name__})",
+            fix='run.plot("theta", "theta\'"), or SymPy expressions',
+            code="E406",
+        )
     return asked
 
 

@@ -238,11 +238,17 @@ class Trajectory:
         return tables.save(showing.table(self), path, overwrite=overwrite)
 
     def plot(self, *quantities: Any, energy: bool | None = None, audit: bool = False) -> Figure:
-        """Return a matplotlib figure of ``quantities`` (names, text or SymPy expressions) over time.
+        """Return a pyplot figure of ``quantities`` (names, text or SymPy expressions) over time.
 
-        Of the coordinates, the inputs that act and the energies where none is named. ``energy`` adds or leaves out the
-        energies; ``audit`` adds what the energy balance is off by. Angles are drawn in degrees, or in turns if many.
+        Notebooks show it, ``plt.show()`` opens it, ``run.plot().savefig("run.png")`` writes it. Of the coordinates, the
+        inputs that act and the energies where none is named. ``energy`` adds or leaves out the energies; ``audit`` adds
+        what the energy balance is off by. Angles are drawn in degrees, or in turns if many. A run that failed has
+        crosses where it ended, and the reason.
         """
+        return showing.plot(self, quantities, energy=energy, audit=audit, shown=True)
+
+    def figure(self, *quantities: Any, energy: bool | None = None, audit: bool = False) -> Figure:
+        """Return what `plot` does as a figure apart from pyplot, for programs, threads and servers."""
         return showing.plot(self, quantities, energy=energy, audit=audit)
 
     # -- showing ------------------------------------------------------------------------------------------------

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.view.plots import _figure_class, _raised, _safe
+from lagrangian.view.plots import _raised, _safe, new_figure
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -45,19 +45,26 @@ class Result:
     values: Array
 
 
-def draw_many(title: str, axes: tuple[Along, ...], results: tuple[Result, ...]) -> Figure:
-    """The figure; at most `MOST_PANELS` results are drawn."""
-    shown = results[:MOST_PANELS]
-    height = max(LEAST, HEIGHT * len(shown) + 0.7) if len(axes) < 2 else (HEIGHT + 1.2) * len(shown) + 0.7
-    figure = _figure_class()(figsize=(WIDTH, height), layout="constrained")
-    rows: Any = figure.subplots(len(shown), 1, squeeze=False)[:, 0]
-    for place, result in zip(rows, shown, strict=True):
+def draw_many(
+    title: str, axes: tuple[Along, ...], results: tuple[Result, ...], *, failed: str = "", shown: bool = False
+) -> Figure:
+    """The figure; at most `MOST_PANELS` results are drawn. ``failed`` says in words how many runs failed, if any.
+
+    Runs that failed are marked: red crosses at the foot of curves and in maps.
+    """
+    kept = results[:MOST_PANELS]
+    height = max(LEAST, HEIGHT * len(kept) + 0.7) if len(axes) < 2 else (HEIGHT + 1.2) * len(kept) + 0.7
+    figure = new_figure((WIDTH, height), shown=shown)
+    rows: Any = figure.subplots(len(kept), 1, squeeze=False)[:, 0]
+    for place, result in zip(rows, kept, strict=True):
         _panel(figure, place, axes, result)
     dropped = [a.label for a in axes[2:]]
     notes = [title, *([f"median over {', '.join(dropped)}"] if dropped else [])]
-    if len(results) > len(shown):
-        notes.append(f"{len(shown)} of {len(results)} results")
+    if len(results) > len(kept):
+        notes.append(f"{len(kept)} of {len(results)} results")
     figure.suptitle(_safe("; ".join(notes)), fontsize="medium")
+    if failed:
+        figure.suptitle(_safe("; ".join(notes) + f"\n{failed}"), fontsize="medium", color="C3")
     return figure
 
 
@@ -102,6 +109,11 @@ def _curve(place: Any, along: Along, result: Result) -> None:
         place.fill_between(x, low, high, color="C0", alpha=0.25, linewidth=0, label="nine of ten")
         place.plot(x, middle, style, color="C0", linewidth=1.3, label="median")
         place.legend(frameon=False, fontsize="small")
+    lost = ~np.isfinite(y).reshape(len(x), -1).all(axis=1)
+    if lost.any():
+        foot = place.get_xaxis_transform()
+        place.plot(x[lost], np.zeros(int(lost.sum())), "x", color="C3", transform=foot, clip_on=False, label="failed")
+        place.legend(frameon=False, fontsize="small")
     if _geometric(x):
         place.set_xscale("log")
     place.set_xlabel(_named(along))
@@ -118,6 +130,9 @@ def _map(figure: Any, place: Any, across: Along, up: Along, result: Result) -> N
         across.values[i], up.values[k], values[np.ix_(i, k)].T, shading="nearest", cmap="viridis", rasterized=True
     )
     figure.colorbar(mesh, ax=place, label=_named(result))
+    at = np.argwhere(~np.isfinite(values))
+    if len(at):
+        place.plot(across.values[at[:, 0]], up.values[at[:, 1]], "x", color="C3", label="failed")
     for set_scale, along in ((place.set_xscale, across), (place.set_yscale, up)):
         if _geometric(np.sort(along.values)):
             set_scale("log")

@@ -1,6 +1,7 @@
 """Quantities over time as a figure of stacked panels with one time axis.
 
-Nothing of matplotlib's global state is touched: a `Figure` is made, returned, and shown by whoever wants to see it.
+A `Figure` is made and returned. One that is ``shown`` is pyplot's: ``plt.show()`` opens it, and notebooks show it once;
+any other touches nothing of matplotlib's global state.
 """
 
 from __future__ import annotations
@@ -8,6 +9,9 @@ from __future__ import annotations
 import importlib
 import io
 import re
+import sys
+import textwrap
+import threading
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
@@ -26,6 +30,9 @@ WIDTH, HEIGHT, LEAST = 7.2, 1.9, 3.2
 """Inches: the figure's width, a panel's height, and the least height of a figure."""
 
 _SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+
+WRAP = 80
+"""Columns of a line of the title."""
 
 IN_LEGEND = 8
 """Curves that a legend lists in one column."""
@@ -67,23 +74,34 @@ class Picture:
     panels: tuple[Panel, ...]
     marks: tuple[Marks, ...] = field(default_factory=tuple)
     footer: str = ""
+    failure: str = ""
 
 
-def draw(picture: Picture) -> Figure:
-    """The figure: panels below each other, labels with units, legends where a panel has several curves."""
-    figure_class = _figure_class()
+def draw(picture: Picture, *, shown: bool = False) -> Figure:
+    """The figure: panels below each other, labels with units, legends where a panel has several curves.
+
+    What failed is marked: a cross at the end of every curve, and the reason in red.
+    """
     height = max(LEAST, HEIGHT * len(picture.panels) + 0.7)
-    figure = figure_class(figsize=(WIDTH, height), layout="constrained")
+    figure = new_figure((WIDTH, height), shown=shown)
     rows: Any = figure.subplots(len(picture.panels), 1, sharex=True, squeeze=False)[:, 0]
     for axes, panel in zip(rows, picture.panels, strict=True):
         _panel(axes, picture.t, panel)
         for number, marks in enumerate(picture.marks):
             for time in marks.times:
                 axes.axvline(time, color="0.55", linewidth=0.7, linestyle=("--", ":", "-.")[number % 3], zorder=0)
+        if picture.failure:
+            for s in panel.series:
+                axes.plot(
+                    picture.t[-1:], s.values[-1:], "x", color="C3", markersize=8, markeredgewidth=2, clip_on=False
+                )
     if len(picture.t) > 1:
         rows[-1].set_xlim(picture.t[0], picture.t[-1])
     rows[-1].set_xlabel(r"$t$ [s]")
     figure.suptitle(_safe(picture.title), fontsize="medium")
+    if picture.failure:
+        words = textwrap.fill(f"FAILED: {picture.failure}", WRAP)
+        figure.suptitle(f"{_safe(picture.title)}\n{_safe(words)}", fontsize="medium", color="C3")
     if picture.footer:
         figure.supxlabel(_safe(picture.footer), fontsize="x-small", color="0.4", x=0.99, ha="right")
     return figure
@@ -133,15 +151,33 @@ def _safe(text: str) -> str:
     return text.replace("$", r"\$")
 
 
+def new_figure(size: tuple[float, float], *, shown: bool) -> Figure:
+    """An empty figure; where it is to be ``shown``, and in the main thread, one of pyplot's."""
+    figure_class = _figure_class()
+    if not shown or threading.current_thread() is not threading.main_thread():
+        return figure_class(figsize=size, layout="constrained")
+    plt = importlib.import_module("matplotlib.pyplot")
+    with plt.rc_context({"figure.max_open_warning": 0}):
+        return plt.figure(figsize=size, layout="constrained", FigureClass=figure_class)
+
+
 def _figure_class() -> type[Figure]:
-    """A `Figure` that notebooks show by themselves."""
+    """A `Figure` that notebooks show by themselves, once."""
     try:
         base = importlib.import_module("matplotlib.figure").Figure
     except ImportError:
         raise MissingExtra(
             "plots need the package 'matplotlib'", fix="pip install 'lagrangian[plot]'", code="E801"
         ) from None
-    return type("Figure", (base,), {"_repr_png_": _png})
+    return type("Figure", (base,), {"_repr_png_": _png, "_ipython_display_": _shown_once})
+
+
+def _shown_once(figure: Any) -> None:
+    """Take the figure from those that a notebook shows at the end of its cell: it is being shown now."""
+    matplotlib, plt = sys.modules["matplotlib"], sys.modules.get("matplotlib.pyplot")
+    if plt is not None and "inline" in matplotlib.get_backend().lower():
+        plt.close(figure)
+    raise NotImplementedError  # IPython's word for: show it in the usual way
 
 
 def _png(figure: Any) -> bytes:
