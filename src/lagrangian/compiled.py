@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from lagrangian.graph import Program
     from lagrangian.model import Model
 
+_log = logging.getLogger(__name__)
 Values = ArrayLike | Mapping[Any, Any] | None
 """Inputs or parameters: an array in declared order, a mapping by name or symbol, or None for what is declared."""
 
@@ -284,6 +286,7 @@ def sources(model: Model, language: str, stem: str) -> dict[str, str]:
         raise ModelError(
             f"'{stem}' cannot begin the name of a function", fix="use letters, digits and underscores", code="E702"
         )
+    _log.info("writing %s", language)
     programs = {f"{stem}_{name}": _PROGRAMS[name](model) for name in exported(model)}
     if language == "python":
         functions = [_renamed(machine.to_numpy(program), name) for name, program in programs.items()]

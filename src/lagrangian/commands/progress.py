@@ -30,13 +30,14 @@ class Status(logging.Handler):
     def __init__(self) -> None:
         super().__init__(logging.INFO)
         self.words = ""
-        self._shown = False
+        self._shown = self._counting = False
         self._over = threading.Event()
         self._screen = threading.RLock()
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Take what is being done from the log."""
-        self.words = record.getMessage()
+        """Take what is being done from the log; a count says more than the parts it is made of."""
+        if not self._counting:
+            self.words = record.getMessage()
 
     def line(self, elapsed: float, columns: int) -> str:
         """The line after so many seconds, no longer than the terminal is wide."""
@@ -51,7 +52,7 @@ class Status(logging.Handler):
         if sys.stderr is None or not sys.stderr.isatty():
             yield
             return
-        self.words = words
+        self.words, self._counting = words, False
         self._over = threading.Event()
         log = logging.getLogger("lagrangian")
         level = log.level
@@ -70,6 +71,7 @@ class Status(logging.Handler):
         """A listener that shows how many of all things are done."""
 
         def listen(done: int, count: int) -> None:
+            self._counting = True
             self.words = f"{things}: {done} of {count}"
 
         return listen

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+import logging
 import threading
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
@@ -31,6 +32,7 @@ from .tape import Lowered, lower
 if TYPE_CHECKING:
     from lagrangian.graph import Program
 
+_log = logging.getLogger(__name__)
 SHORT = 125  # operations per lane up to which a body is printed into the batch's loop …
 SIDE_BY_SIDE = 2  # … for so many blocks of states at once: while one waits for a result, another computes
 LEVEL = 2  # LLVM's code generation effort; straight-line code gains nothing measurable above it
@@ -109,6 +111,7 @@ class Build:
             module = Module(self.target)
             printer(module, self)
             text = module.text()
+        _log.info("making machine code of %d operations", len(self.program.graph))
         code = native.object_code(text, self.target, self.options.level)
         if keep:
             disk.write(key, json.dumps(asdict(self.sizes)).encode() + b"\n" + code)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Iterator
 from typing import get_args
 
@@ -21,6 +22,8 @@ from lagrangian.derive.wiggle import study
 from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.model import Model
 
+_log = logging.getLogger(__name__)
+
 
 def derive(model: Model, *, detail: Detail = "usual") -> Derivation:
     """Return the equations of motion of a model and the steps that lead to them.
@@ -34,21 +37,30 @@ def derive(model: Model, *, detail: Detail = "usual") -> Derivation:
         raise ModelError(
             f"there is no detail '{detail}'", fix=did_you_mean(str(detail), known) or f"one of {', '.join(known)}"
         )
+    _log.info("deriving: which coordinates move what")
     wiggle = study(model)
     context = Context(model, Algebra(model, _everything(model)), wiggle)
+    _log.info("deriving: the share of every element")
     pieces = shares(model, context.algebra)
 
+    _log.info("deriving: steps 0 and 1, the generalized coordinates")
     step0 = holonomic(context)
     step1 = coordinates(context)
+    _log.info("deriving: step 2, the kinetic energy")
     step2 = kinetic(context, pieces)
+    _log.info("deriving: step 3, the potential energy")
     step3 = potential(context, pieces)
     T, V = step2.expressions["T"], step3.expressions["V"]
+    _log.info("deriving: step 4, the Lagrangian")
     step4 = lagrangian(context, pieces)
+    _log.info("deriving: step 5, the left-hand sides")
     sides = left_sides(context, pieces)
     step5 = left_hand_sides(context, sides, detail)
+    _log.info("deriving: step 6, the generalized forces")
     found = contributions(context)
     step6 = forces(context, found, step1.expressions["relative"])
 
+    _log.info("deriving: the equations and M, C, G")
     Xi = step6.expressions["Xi"]
     result, mats, book = equations(context, sides, found), matrices(context, sides, Xi), ledger(model, context)
     return Derivation(

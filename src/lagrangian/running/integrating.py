@@ -6,6 +6,7 @@ Either way the state that is integrated is [q; v] with the energy supplied besid
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
@@ -24,6 +25,7 @@ from lagrangian.simulate import STATUS, Events, Signals, Solver
 from lagrangian.simulate.crossings import Crossings, Hit
 from lagrangian.simulate.scipy_methods import IMPLICIT, SCIPY, Bounds, Outcome, integrate_scipy
 
+_log = logging.getLogger(__name__)
 Array = NDArray[np.float64]
 
 SYMPLECTIC = frozenset({"gauss4"})
@@ -77,6 +79,7 @@ def run(task: Task) -> Outcome:
     if len(task.times) == 1:
         return Outcome(task.times, task.x0[np.newaxis], 0, float(task.times[0]), task.x0)
     if task.method in SCIPY:
+        _log.info("integrating by %s of SciPy", task.method)
         return _by_scipy(task)
     outcome = _by_machine(task)
     return _from_momenta(task, outcome) if task.method in SYMPLECTIC else outcome

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import logging
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any, NoReturn
@@ -31,6 +32,7 @@ from lagrangian.simulate import METHODS
 from lagrangian.simulate.crossings import Hit
 from lagrangian.simulate.scipy_methods import SCIPY, Bounds, Outcome
 
+_log = logging.getLogger(__name__)
 Array = NDArray[np.float64]
 
 SAMPLES = 1001
@@ -94,6 +96,7 @@ def simulate(
     share = 1.0 if method in SCIPY else SHARE
     p = given.parameter_values(params)
     notices = check_masses(model, p)
+    _log.info("simulating from t = %g s to %g s", instants[0], instants[-1])
     task = Task(
         model,
         with_stops(model, drive, p, instants),

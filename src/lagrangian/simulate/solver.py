@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 import threading
 import time
@@ -29,6 +30,7 @@ from .study import signals_at
 if TYPE_CHECKING:
     from lagrangian.graph import Program
 
+_log = logging.getLogger(__name__)
 Array = NDArray[np.float64]
 
 BUDGET = 50_000_000
@@ -240,6 +242,7 @@ class _Task:
         self._events: list[Array] = []
         cost = len(self.solver.program.graph.nodes) * self.solver.method.cost
         self._budget = max(1, BUDGET // max(1, cost) // (OFTEN if self.solver.sticking else 1))
+        _log.info("integrating %d run%s", self.count, "" if self.count == 1 else "s")
         try:
             if self.count:
                 workers.over(self.count, self.machine.variant.lanes, 100 * cost, self.solver.threads, self._range)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
@@ -20,12 +21,15 @@ from lagrangian.analyze.check.verdict import Finding, Line, Status, Verdict
 from lagrangian.derive import Derivation
 from lagrangian.derive.formula import Terms, Text, text
 
+_log = logging.getLogger(__name__)
+
 
 def check(derivation: Derivation, lines: Sequence[Line], *, hint: int = 3) -> Verdict:
     """Return what is right and what is wrong with an answer, line by line and as a whole.
 
     Lines are checked in order; equality is decided in normal form, or with 50 digits where there is none.
     """
+    _log.info("checking the answer")
     truth = truth_of(derivation)
     truth.algebra.renew()
     written = filled(truth, lines)

@@ -7,6 +7,7 @@ examples 3A and 3B has it.
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Mapping
 from typing import Any, cast
 
@@ -26,6 +27,8 @@ from lagrangian.derive.formula import Name, Partial, text
 from lagrangian.errors import ModelError
 from lagrangian.model import Model
 
+_log = logging.getLogger(__name__)
+
 
 def compare(a: Derivation, b: Derivation, change: Mapping[Any, Any] | None = None) -> Comparison:
     """Return whether two derivations are the same motion, row by row, and where they differ if not.
@@ -37,9 +40,11 @@ def compare(a: Derivation, b: Derivation, change: Mapping[Any, Any] | None = Non
     sides = Side("A", a, tag_a), Side("B", b, tag_b)
     if len(a.coordinates) != len(b.coordinates):
         return _of_other_size(sides)
+    _log.info("comparing: how the coordinates follow from each other")
     found, turned, assumed = _correspondence(a.model, b.model, change)
     source, into = reversed(sides) if turned else sides
     shared = Shared(source.derivation, into.derivation, found)
+    _log.info("comparing: equation by equation")
     return _compared(sides, (source, into), shared, assumed)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, cast
@@ -19,6 +20,7 @@ from lagrangian.analyze.kept.symmetries import Symmetry, symmetries
 from lagrangian.derive.formula import Name, Text, text
 from lagrangian.model import Model, plain
 
+_log = logging.getLogger(__name__)
 Array = NDArray[np.float64]
 
 SWINGS = 20.0
@@ -81,6 +83,7 @@ def conserved(model: Model, *, params: Named | None = None, seed: int = 1) -> Co
     watched along a run from a random start (``seed``), by the integrator in machine code.
     """
     system = LagrangianForm.of(model)
+    _log.info("conserved: searching for symmetries")
     listed = [_described(system, s, ()) for s in symmetries(system, {})]
     known = {plain(c.expression) for c in listed}
     if model.inputs:
@@ -90,6 +93,7 @@ def conserved(model: Model, *, params: Named | None = None, seed: int = 1) -> Co
             found = _described(system, symmetry, need)
             if need and plain(found.expression) not in known:
                 listed.append(found)
+    _log.info("conserved: watching %d along a run", len(listed))
     watched, run = _watched(model, listed, params, seed)
     return ConservedQuantities(model, tuple(watched), _missed(system, watched), run)
 

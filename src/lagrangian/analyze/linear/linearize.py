@@ -7,6 +7,7 @@ h = C q̇ + G − Ξ.
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -28,6 +29,7 @@ from lagrangian.graph import Program
 from lagrangian.model import Model
 
 Array = NDArray[np.float64]
+_log = logging.getLogger(__name__)
 
 PERTURBED = 1e-12
 """Relative change of parameters and point by which rounding errors are estimated."""
@@ -153,7 +155,9 @@ def linearize(
     linearizer = Linearizer(model)
     given = Given.of(model, linearizer.rates)
     t = given.time_value(time)
+    _log.info("linearizing: the point")
     here = rest(model, linearizer.rates, given, at, inputs, params, t, operating_point)
+    _log.info("linearizing: A, B, C, D")
     return linearizer.about(here, t, outputs)
 
 

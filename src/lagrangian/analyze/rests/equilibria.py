@@ -6,6 +6,7 @@ finds nothing new. Directions that h does not depend on are held; roots that are
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import product
@@ -28,6 +29,7 @@ from lagrangian.errors import RunError
 from lagrangian.graph import Graph, Output, Program
 from lagrangian.model import Model
 
+_log = logging.getLogger(__name__)
 Array = NDArray[np.float64]
 
 ROUND = 256
@@ -131,11 +133,13 @@ def equilibria(
     if samples is not None and (type(samples) is not int or not 1 <= samples <= 1_000_000):
         raise RunError(f"samples must be a whole number from 1 (got {samples!r})", code="E501")
     task = _prepared(model, inputs, params, box)
+    _log.info("equilibria: searching the box")
     found, hits, count, sure = _sought(task, samples)
     isolated, families = split(task.search, found, task.box.low, task.box.high)
     if len(isolated) > MANY:
         task = replace(task, linearizer=Linearizer(model, Quick()))
     proper = [q for q in isolated if not task.is_singular(q)]
+    _log.info("equilibria: the stability of %d", len(proper) + len(families))
     listed = [task.equilibrium(q, hits) for q in proper]
     listed += [task.equilibrium(f.root, hits, f) for f in families if not task.is_singular(f.root)]
     left_out = [q for q in isolated if task.is_singular(q)]

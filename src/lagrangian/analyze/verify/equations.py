@@ -13,6 +13,7 @@ The derived equations came from energies, by Lagrange's equations, in a normal f
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias, cast
@@ -32,6 +33,7 @@ from lagrangian.derive.sample import Sampler
 from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy, hessian, jacobian, jvp, vjp
 from lagrangian.model import Model, time
 
+_log = logging.getLogger(__name__)
 Array: TypeAlias = NDArray[np.float64]
 
 TOLERANCE = 1e-9
@@ -41,6 +43,7 @@ TOLERANCE = 1e-9
 def verify(derivation: Derivation, *, states: int = 50, seed: int = 1) -> tuple[Check, ...]:
     """Return what was checked at ``states`` random states, each with its figure."""
     check_sampling(states, seed)
+    _log.info("verifying: the equations at %d random states", states)
     figures = _figures(derivation, states, seed)
     n = f"{states} random state{'s' if states != 1 else ''}"
     work, energy = figures.work, figures.energy

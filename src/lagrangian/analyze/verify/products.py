@@ -12,6 +12,7 @@ in one batch, and then with routes that share nothing with it:
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, Protocol, TypeAlias
@@ -30,6 +31,7 @@ from lagrangian.errors import Error
 from lagrangian.graph import Graph, Output, Program, hessian
 from lagrangian.model import Model
 
+_log = logging.getLogger(__name__)
 TOLERANCE = 1e-9
 """Difference, relative to the largest term, up to which two numbers count as equal: rounding, no more."""
 
@@ -93,10 +95,12 @@ def verify_products(
     why. Raises `ModelError` where no random state has finite accelerations.
     """
     found = list(random_states(model, dynamics.forward(model), states, seed))
+    _log.info("verifying: the compiled functions")
     try:
         compiled = _compiled(model, functions, found)
     except Error as error:  # a compiled function that refuses a state at which its formulas are finite
         return (Check(text("every compiled function can be evaluated"), False, str(error)),)
+    _log.info("verifying: the exported sources and the linearization")
     written = exported(functions.program, functions.exported, sources, found)
     return (*compiled, *written, slopes(model, functions.rhs, found))
 
