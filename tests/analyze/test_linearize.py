@@ -77,7 +77,7 @@ def test_the_cart_pole_of_the_michigan_tutorial() -> None:
 
 
 def test_a_point_that_is_no_equilibrium_is_refused() -> None:
-    with pytest.raises(RunError, match=r"no equilibrium.*theta'' = "):
+    with pytest.raises(RunError, match=r"not an equilibrium.*theta'' = "):
         built_in("pendulum").linearize({"theta": 1.0})
 
 
@@ -187,7 +187,7 @@ def test_a_command_writes_text_and_data(capsys: pytest.CaptureFixture[str]) -> N
     [
         (["--at", "theta"], "name=value"),
         (["--at", "theta=1", "--at", "theta=2"], "twice"),
-        (["--at", "theta=1"], "no equilibrium"),
+        (["--at", "theta=1"], "not an equilibrium"),
         (["--at", "thta=1"], "Did you mean 'theta'"),
         (["--outputs", "x +"], "output"),
         (["--outputs", "__import__('os')"], "output"),
