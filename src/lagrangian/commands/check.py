@@ -22,19 +22,30 @@ SUMMARIES = [".csv", ".txt", ".json"]
 
 def check(
     file: Annotated[
-        str, typer.Argument(metavar="FILE", help="A model file; with --example, the answer.", show_default=False)
+        str,
+        typer.Argument(
+            metavar="FILE",
+            help="A model file. With --example, leave it out and give the answer here.",
+            show_default=False,
+        ),
     ],
     answer: Annotated[
         str | None,
         typer.Argument(
             metavar="ANSWER",
-            help="A file with an answer, a folder of them, or - for standard input.",
+            help="A file with your answer, a folder of such files, or - for standard input.",
             show_default=False,
         ),
     ] = None,
     example: Example = None,
     hint: Annotated[
-        int, typer.Option(help="0 right or not, 1 the line, 2 element and step, 3 the term.", min=0, max=3)
+        int,
+        typer.Option(
+            help="How much to reveal: 0 only whether it is right, 1 also the wrong line, 2 also the element and "
+            "the step, 3 also the term.",
+            min=0,
+            max=3,
+        ),
     ] = 3,
     format: FormatOption = None,
     json: Json = False,
@@ -43,12 +54,14 @@ def check(
     answers: Annotated[
         Path | None,
         typer.Option(
-            metavar="PATH", help="For a folder: write a table with a line for each answer here.", show_default=False
+            metavar="PATH",
+            help="If ANSWER is a folder: write a CSV table with one row per answer to this file.",
+            show_default=False,
         ),
     ] = None,
     force: Force = False,
 ) -> None:
-    """Check an answer: equations, energies or a whole derivation; exit 1 if it is wrong or something is missing.
+    """Check your own answer: equations, energies or a whole derivation; exit 1 if it is wrong or incomplete.
 
     \b
     Examples:

@@ -24,7 +24,7 @@ def compare(
             "--example",
             "-e",
             metavar="NAME",
-            help="A built-in example in place of a file.",
+            help="Use a built-in example instead of a file; may be repeated.",
             show_default=False,
             autocompletion=example_names,
         ),
@@ -32,7 +32,10 @@ def compare(
     change: Annotated[
         list[str] | None,
         typer.Option(
-            "--change", "-c", metavar="EQUATION", help='A coordinate of one in those of the other: "x2 = x1 + x2r".'
+            "--change",
+            "-c",
+            metavar="EQUATION",
+            help='Express a coordinate of one system in those of the other: "x2 = x1 + x2r". May be repeated.',
         ),
     ] = None,
     format: FormatOption = None,
@@ -42,7 +45,7 @@ def compare(
     output: Output = None,
     force: Force = False,
 ) -> None:
-    """Compare two systems, row by row; exit 0 if they are the same motion, 1 if they differ.
+    """Compare the equations of two systems; exit 0 if both describe the same motion, 1 if they differ.
 
     Files come before examples.
 

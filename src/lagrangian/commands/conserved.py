@@ -15,7 +15,12 @@ def conserved(
     file: OptionalFile = None,
     example: Example = None,
     values: Annotated[
-        list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help='A parameter\'s value: k=80, "m1=2 kg".')
+        list[str] | None,
+        typer.Option(
+            "--set",
+            metavar="NAME=VALUE",
+            help='The value of a parameter in the simulated run: k=80, "m1=2 kg". May be repeated.',
+        ),
     ] = None,
     format: FormatOption = None,
     json: Json = False,
@@ -23,7 +28,7 @@ def conserved(
     output: Output = None,
     force: Force = False,
 ) -> None:
-    """List conserved quantities: momenta, total momenta, energy, each proved and watched along a run.
+    """Find conserved quantities: momenta, total momenta and energy, each proved and checked along a simulated run.
 
     \b
     Examples:

@@ -26,15 +26,15 @@ def derive(
     example: Example = None,
     format: FormatOption = None,
     notation: NotationOption = Notation.LECTURE,
-    brief: Annotated[bool, typer.Option("--brief", help="The one-page checklist.")] = False,
-    full: Annotated[bool, typer.Option("--full", help="Write out what is too long to read.")] = False,
-    detail: Annotated[Detail, typer.Option(help="“full” takes d/dt of every term by itself.")] = Detail.USUAL,
+    brief: Annotated[bool, typer.Option("--brief", help="Write only the one-page checklist.")] = False,
+    full: Annotated[bool, typer.Option("--full", help="Write out even expressions that are too long to read.")] = False,
+    detail: Annotated[Detail, typer.Option(help="“full” differentiates term by term in step 5.")] = Detail.USUAL,
     json: Json = False,
     width: Width = None,
     output: Output = None,
     force: Force = False,
 ) -> None:
-    """Derive the equations of motion, step by step; exit 1 if a check does not hold.
+    """Derive the equations of motion, step by step; exit 1 if a check fails.
 
     \b
     Examples:

@@ -17,16 +17,23 @@ def equilibria(
     example: Example = None,
     box: Annotated[
         list[str] | None,
-        typer.Option("--box", metavar="NAME=LOW:HIGH", help='Where to look: theta1=-pi:pi, "x=0 m : 30 cm".'),
+        typer.Option(
+            "--box",
+            metavar="NAME=LOW:HIGH",
+            help='Range of a coordinate to search: theta1=-pi:pi, "x=0 m : 30 cm". May be repeated.',
+        ),
     ] = None,
     values: Annotated[
-        list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help='A parameter\'s value: k=80, "m1=2 kg".')
+        list[str] | None,
+        typer.Option("--set", metavar="NAME=VALUE", help='The value of a parameter: k=80, "m1=2 kg". May be repeated.'),
     ] = None,
     inputs: Annotated[
-        list[str] | None, typer.Option("--input", metavar="NAME=VALUE", help="An input's constant value: F=2.")
+        list[str] | None,
+        typer.Option("--input", metavar="NAME=VALUE", help="The constant value of an input: F=2. May be repeated."),
     ] = None,
     samples: Annotated[
-        int | None, typer.Option(metavar="N", help="How many starts; as many as it takes unless given.")
+        int | None,
+        typer.Option(metavar="N", help="Number of starting points of the search. By default, as many as are needed."),
     ] = None,
     format: FormatOption = None,
     json: Json = False,
@@ -34,7 +41,7 @@ def equilibria(
     output: Output = None,
     force: Force = False,
 ) -> None:
-    """Find the equilibria in a box of coordinates, each with its residual and its stability.
+    """Find the equilibria within given ranges of the coordinates, and whether each is stable.
 
     \b
     Examples:

@@ -24,17 +24,19 @@ class Language(StrEnum):
 
 
 def export(
-    to: Annotated[Language, typer.Option("--to", help="The language.")],
+    to: Annotated[Language, typer.Option("--to", help="The programming language.")],
     file: OptionalFile = None,
     example: Example = None,
     output: Annotated[
-        Path, typer.Option("--output", "-o", metavar="FOLDER", help="The folder to write into.")
+        Path, typer.Option("--output", "-o", metavar="FOLDER", help="Folder to write the files into.")
     ] = Path(),
-    name: Annotated[str, typer.Option(metavar="NAME", help="What the files and functions are called.")] = "dynamics",
+    name: Annotated[
+        str, typer.Option(metavar="NAME", help="Name of the files and prefix of the functions.")
+    ] = "dynamics",
     json: Json = False,
     force: Force = False,
 ) -> None:
-    """Write the dynamics as source code that needs nothing of this package.
+    """Write the dynamics as source code that runs without this package.
 
     \b
     Examples:

@@ -49,10 +49,18 @@ ENDINGS = {
 FormatOption = Annotated[
     Format | None,
     typer.Option(
-        "--format", "-f", help="What to write; else what the ending of -o says, else text.", show_default=False
+        "--format",
+        "-f",
+        help="Output format. By default, the one that the file name in -o implies, otherwise text.",
+        show_default=False,
     ),
 ]
-NotationOption = Annotated[Notation, typer.Option("--notation", help="Whose letters.")]
+NotationOption = Annotated[
+    Notation,
+    typer.Option(
+        "--notation", help="Which symbols to use: ξ, T*, Ξ (lecture), q, T, Q (physics) or M, C, g, τ (robotics)."
+    ),
+]
 
 
 def chosen(format: Format | None, as_data: bool, output: Path | None, force: bool) -> Format:

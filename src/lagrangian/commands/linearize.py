@@ -16,22 +16,32 @@ def linearize(
     example: Example = None,
     at: Annotated[
         list[str] | None,
-        typer.Option("--at", metavar="NAME=VALUE", help='A coordinate or rate there: x2=0, "theta=12 deg".'),
+        typer.Option(
+            "--at",
+            metavar="NAME=VALUE",
+            help='Value of a coordinate or rate at the equilibrium: x2=0, "theta=12 deg". May be repeated.',
+        ),
     ] = None,
     values: Annotated[
-        list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help='A parameter\'s value: k=80, "m1=2 kg".')
+        list[str] | None,
+        typer.Option("--set", metavar="NAME=VALUE", help='The value of a parameter: k=80, "m1=2 kg". May be repeated.'),
     ] = None,
     inputs: Annotated[
-        list[str] | None, typer.Option("--input", metavar="NAME=VALUE", help="An input's constant value: F=2.")
+        list[str] | None,
+        typer.Option("--input", metavar="NAME=VALUE", help="The constant value of an input: F=2. May be repeated."),
     ] = None,
     outputs: Annotated[
         list[str] | None,
-        typer.Option("--outputs", metavar="EXPRESSION", help="What is measured: an expression, or name=expression."),
+        typer.Option(
+            "--outputs", metavar="EXPRESSION", help="An output y: an expression, or name=expression. May be repeated."
+        ),
     ] = None,
     operating_point: Annotated[
-        bool, typer.Option("--operating-point", help="Take a point that is no equilibrium as it is.")
+        bool, typer.Option("--operating-point", help="Linearize even if the point is not an equilibrium.")
     ] = False,
-    symbols: Annotated[bool, typer.Option("--symbols", help="Add the matrices with parameters as letters.")] = False,
+    symbols: Annotated[
+        bool, typer.Option("--symbols", help="Add the matrices with the parameters as symbols.")
+    ] = False,
     format: FormatOption = None,
     json: Json = False,
     width: Width = None,

@@ -36,7 +36,7 @@ def simulate(
             "--duration",
             "-d",
             metavar="TIME",
-            help="How long, in seconds or with a unit; else what the file says.",
+            help="How long to simulate, in seconds or with a unit. By default, the duration in the model file.",
             show_default=False,
         ),
     ] = None,
@@ -46,14 +46,17 @@ def simulate(
             "--set",
             "-s",
             metavar="NAME=VALUE",
-            help="A parameter: k=80 or 'm1=2 kg'. Any number of times.",
+            help="The value of a parameter: k=80, 'm1=2 kg'. May be repeated.",
             show_default=False,
         ),
     ] = None,
     init: Annotated[
         list[str] | None,
         typer.Option(
-            "--init", metavar="NAME=VALUE", help="An initial value: 'theta1=30 deg', \"x'=0.1\".", show_default=False
+            "--init",
+            metavar="NAME=VALUE",
+            help="The initial value of a coordinate or rate: 'theta1=30 deg', \"x'=0.1\". May be repeated.",
+            show_default=False,
         ),
     ] = None,
     input_: Annotated[
@@ -62,43 +65,57 @@ def simulate(
             "--input",
             "-i",
             metavar="NAME=VALUE",
-            help="An input: tau=2, 'tau=3*sin(t)', \"F=-k*x\", F=@force.csv (a table), 'F=@force.csv hold'.",
+            help="An input: tau=2, 'tau=3*sin(t)', \"F=-k*x\", or a table of times and values: F=@force.csv "
+            "(straight lines between them), 'F=@force.csv hold' (steps). May be repeated.",
             show_default=False,
         ),
     ] = None,
     method: Annotated[
         str | None,
-        typer.Option(metavar="NAME", help=f"{', '.join(METHODS)} in machine code; {', '.join(SCIPY)} of SciPy."),
+        typer.Option(
+            metavar="NAME",
+            help=f"Integration method: {', '.join(METHODS)} (machine code) or {', '.join(SCIPY)} (SciPy).",
+        ),
     ] = None,
     step: Annotated[
-        str | None, typer.Option(metavar="TIME", help="Seconds a step, for methods with steps of one length.")
+        str | None, typer.Option(metavar="TIME", help="Step size of rk4 and gauss4, which need one: 0.01, '10 ms'.")
     ] = None,
     rtol: Annotated[float, typer.Option(help="Relative tolerance.")] = 1e-9,
     atol: Annotated[float, typer.Option(help="Absolute tolerance.")] = 1e-12,
     max_step: Annotated[
         str | None,
-        typer.Option("--max-step", metavar="TIME", help="The longest step: 0.01, '10 ms'.", show_default=False),
+        typer.Option("--max-step", metavar="TIME", help="Largest step size: 0.01, '10 ms'.", show_default=False),
     ] = None,
     samples: Annotated[
-        int | None, typer.Option(metavar="N", help="Times kept, evenly spaced; 1001 unless given.")
+        int | None, typer.Option(metavar="N", help="Number of evenly spaced times in the results. By default, 1001.")
     ] = None,
-    max_steps: Annotated[int, typer.Option(metavar="N", help="Steps after which the run is given up.")] = 10_000_000,
-    max_events: Annotated[int, typer.Option(metavar="N", help="Events after which it is given up.")] = 1000,
-    timeout: Annotated[float | None, typer.Option(metavar="SECONDS", help="Seconds of computing allowed.")] = None,
+    max_steps: Annotated[int, typer.Option(metavar="N", help="Stop the run after this many steps.")] = 10_000_000,
+    max_events: Annotated[int, typer.Option(metavar="N", help="Stop the run after this many events.")] = 1000,
+    timeout: Annotated[
+        float | None, typer.Option(metavar="SECONDS", help="Stop the run after this much computing time.")
+    ] = None,
     plot: Annotated[
         Path | None,
-        typer.Option("--plot", metavar="PATH", help="Draw a picture: .png, .pdf or .svg.", show_default=False),
+        typer.Option(
+            "--plot",
+            metavar="PATH",
+            help="Draw a picture into this file (.png, .pdf, .svg or .jpg).",
+            show_default=False,
+        ),
     ] = None,
     output: Annotated[
         Path | None,
         typer.Option(
-            "--output", "-o", metavar="PATH", help="Write .csv, .nc, .parquet or .npz; - is CSV on standard output."
+            "--output",
+            "-o",
+            metavar="PATH",
+            help="Write the results to this file (.csv, .nc, .parquet or .npz); - writes CSV to standard output.",
         ),
     ] = None,
-    json: Annotated[bool, typer.Option("--json", help="Write the summary as data (JSON).")] = False,
+    json: Annotated[bool, typer.Option("--json", help="Write the summary as JSON.")] = False,
     force: Force = False,
 ) -> None:
-    """Run the system; print a summary. Exit 1 if the run could not be finished (what was reached is kept).
+    """Simulate the system and print a summary; exit 1 if the run stopped early (its results up to then are kept).
 
     \b
     Examples:
@@ -164,9 +181,9 @@ def _columns(path: str) -> tuple[list[float], list[float]]:
             continue
         if len(cells) != 2 or not all(map(_is_number, cells)):
             raise ModelError(
-                f"'{line[:60]}' is no time and value",
+                f"'{line[:60]}' is not a time and a value",
                 place=Place(path, number),
-                fix="write two numbers: 0.5,12.3",
+                fix="write two numbers on each line: 0.5,12.3",
                 code="E406",
             )
         times.append(float(cells[0]))
@@ -174,7 +191,9 @@ def _columns(path: str) -> tuple[list[float], list[float]]:
         if len(times) > MAX_KNOTS:
             raise ModelError(f"more than {MAX_KNOTS} lines", place=Place(path, number), code="E703")
     if not times:
-        raise ModelError("the table holds no numbers", place=Place(path), fix="a time and a value a line", code="E406")
+        raise ModelError(
+            "the table holds no numbers", place=Place(path), fix="write a time and a value on each line", code="E406"
+        )
     return times, values
 
 

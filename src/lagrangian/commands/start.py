@@ -56,7 +56,7 @@ def list_examples(json: Json = False) -> None:
 
 
 def schema(
-    json: Annotated[bool, typer.Option("--json", help="A schema is JSON in any case.")] = False,
+    json: Annotated[bool, typer.Option("--json", help="No effect: a schema is always JSON.")] = False,
     output: Output = None,
     force: Force = False,
 ) -> None:

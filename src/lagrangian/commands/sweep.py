@@ -22,7 +22,7 @@ from lagrangian.write.tables import check_target
 
 STORE = ".zarr"
 LISTED = 10
-"""Failures that are told."""
+"""Failures that are listed."""
 
 
 def sweep(
@@ -30,7 +30,7 @@ def sweep(
         list[str],
         typer.Argument(
             metavar="FILE VALUES",
-            help="A model file (- is standard input; none with --example), then what varies: k=10:80:50, "
+            help="A model file (- is standard input; leave it out with --example), then what varies: k=10:80:50, "
             "k=1:80:20:log, m2=1kg,2kg, 'b~normal(1, 0.1)'.",
             show_default=False,
         ),
@@ -38,61 +38,87 @@ def sweep(
     example: Example = None,
     duration: Annotated[
         str | None,
-        typer.Option("--duration", "-d", metavar="TIME", help='How long to run: 10, "500 ms".', show_default=False),
+        typer.Option(
+            "--duration", "-d", metavar="TIME", help='How long to simulate each run: 10, "500 ms".', show_default=False
+        ),
     ] = None,
-    samples: Annotated[int | None, typer.Option(help="How often to draw what is drawn.", show_default=False)] = None,
-    seed: Annotated[int, typer.Option(help="Which draws.")] = 0,
+    samples: Annotated[
+        int | None,
+        typer.Option(help="Number of random draws, if anything is drawn ('b~normal(1, 0.1)').", show_default=False),
+    ] = None,
+    seed: Annotated[int, typer.Option(help="Seed of the random draws.")] = 0,
     outputs: Annotated[
         list[str] | None,
         typer.Option(
             "--output-of",
             metavar="WHAT",
-            help='What is kept of a run: "max theta1", "rms x-y", "reach=max L1*sin(theta1)"; final without a word.',
+            help="What to keep from each run: the final, max, min, mean, rms or range of an expression (final if no "
+            'word is given): "max theta1", "rms x-y", "reach=max L1*sin(theta1)". May be repeated.',
             show_default=False,
         ),
     ] = None,
     values: Annotated[
-        list[str] | None, typer.Option("--set", metavar="NAME=VALUE", help="A parameter of all runs: k=80.")
+        list[str] | None,
+        typer.Option(
+            "--set", metavar="NAME=VALUE", help="The value of a parameter in all runs: k=80. May be repeated."
+        ),
     ] = None,
     initial: Annotated[
-        list[str] | None, typer.Option("--init", metavar="NAME=VALUE", help='An initial value of all: "theta1=30 deg".')
+        list[str] | None,
+        typer.Option(
+            "--init", metavar="NAME=VALUE", help='An initial value in all runs: "theta1=30 deg". May be repeated.'
+        ),
     ] = None,
     inputs: Annotated[
-        list[str] | None, typer.Option("--input", metavar="NAME=VALUE", help='An input of all: "tau=3*sin(t)".')
+        list[str] | None,
+        typer.Option("--input", metavar="NAME=VALUE", help='An input of all runs: "tau=3*sin(t)". May be repeated.'),
     ] = None,
-    times: Annotated[int, typer.Option(help="Times at which a run is looked at.", min=2)] = 1001,
-    method: Annotated[str, typer.Option(metavar="NAME", help="How runs are integrated.")] = "dop853",
+    times: Annotated[
+        int, typer.Option(help="Number of evenly spaced times from which max, mean, … are taken.", min=2)
+    ] = 1001,
+    method: Annotated[str, typer.Option(metavar="NAME", help="Integration method.")] = "dop853",
     step: Annotated[
-        str | None, typer.Option(metavar="TIME", help="Step of a method with fixed steps.", show_default=False)
+        str | None,
+        typer.Option(
+            metavar="TIME", help="Step size of rk4 and gauss4, which need one: 0.01, '10 ms'.", show_default=False
+        ),
     ] = None,
     max_step: Annotated[
         str | None,
-        typer.Option("--max-step", metavar="TIME", help="The longest step: 0.01, '10 ms'.", show_default=False),
+        typer.Option("--max-step", metavar="TIME", help="Largest step size: 0.01, '10 ms'.", show_default=False),
     ] = None,
-    max_steps: Annotated[int, typer.Option(metavar="N", help="Steps after which a run is given up.")] = 10_000_000,
+    max_steps: Annotated[int, typer.Option(metavar="N", help="Stop a run after this many steps.")] = 10_000_000,
     rtol: Annotated[float, typer.Option(help="Relative tolerance.")] = 1e-9,
     atol: Annotated[float, typer.Option(help="Absolute tolerance.")] = 1e-12,
     output: Annotated[
         Path | None,
         typer.Option(
-            "--output", "-o", metavar="PATH", help="A .zarr store, .nc, .csv or .parquet; - is CSV to standard output."
+            "--output",
+            "-o",
+            metavar="PATH",
+            help="Write the results to this file (.nc, .csv, .parquet) or .zarr store; - writes CSV to standard output.",
         ),
     ] = None,
     plot: Annotated[
         Path | None,
-        typer.Option("--plot", metavar="PATH", help="Draw a picture: .png, .pdf or .svg.", show_default=False),
+        typer.Option(
+            "--plot",
+            metavar="PATH",
+            help="Draw a picture into this file (.png, .pdf, .svg or .jpg).",
+            show_default=False,
+        ),
     ] = None,
-    resume: Annotated[bool, typer.Option("--resume", help="Go on with a .zarr store where it stopped.")] = False,
-    json: Annotated[bool, typer.Option("--json", help="Write the summary as data (JSON).")] = False,
+    resume: Annotated[bool, typer.Option("--resume", help="Continue an interrupted sweep in its .zarr store.")] = False,
+    json: Annotated[bool, typer.Option("--json", help="Write the summary as JSON.")] = False,
     force: Force = False,
     scheduler: Annotated[
         str | None,
         typer.Option(metavar="ADDRESS", help="Address of a Dask scheduler: tcp://host:8786.", show_default=False),
     ] = None,
-    threads: Annotated[int | None, typer.Option(help="Cores to use; all unless given.", min=1)] = None,
-    memory: Annotated[int, typer.Option(help="MiB of trajectories held at a time.", min=1)] = 256,
+    threads: Annotated[int | None, typer.Option(help="Number of cores to use. By default, all.", min=1)] = None,
+    memory: Annotated[int, typer.Option(help="Memory for trajectories, in MiB.", min=1)] = 256,
 ) -> None:
-    """Run every combination of values, each for every draw; keep a few numbers of each run. Exit 1 if all runs fail.
+    """Simulate every combination of values and keep a few numbers of each run; exit 1 if all runs fail.
 
     \b
     Examples:

@@ -41,18 +41,20 @@ Width = Annotated[
     int | None,
     typer.Option(
         metavar="COLUMNS",
-        help=f"Columns of the text; the terminal's, or {USUAL}, unless given.",
+        help=f"Width of the text in columns. By default, that of the terminal, or {USUAL}.",
         min=NARROWEST,
         max=WIDEST,
         show_default=False,
     ),
 ]
-Json = Annotated[bool, typer.Option("--json", help="Write data (JSON).")]
+Json = Annotated[bool, typer.Option("--json", help="Write the result as JSON.")]
 Output = Annotated[
     Path | None,
-    typer.Option("--output", "-o", metavar="PATH", help="Write here instead of standard output.", show_default=False),
+    typer.Option(
+        "--output", "-o", metavar="PATH", help="Write to this file instead of standard output.", show_default=False
+    ),
 ]
-Force = Annotated[bool, typer.Option("--force", help="Replace a file that is there.")]
+Force = Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")]
 
 
 def open_system(file: str | None, example: str | None = None) -> System:

@@ -11,7 +11,7 @@ import typer
 import typer.core
 
 VERBS = {
-    "derive": ("derive", "derive", "Derive the equations of motion, step by step; exit 1 if a check does not hold."),
+    "derive": ("derive", "derive", "Derive the equations of motion, step by step; exit 1 if a check fails."),
     "verify": (
         "verify",
         "verify",
@@ -20,35 +20,34 @@ VERBS = {
     "check": (
         "check",
         "check",
-        "Check an answer: equations, energies or a whole derivation; exit 1 if it is wrong or something is missing.",
+        "Check your own answer: equations, energies or a whole derivation; exit 1 if it is wrong or incomplete.",
     ),
-    "export": ("export", "export", "Write the dynamics as source code that needs nothing of this package."),
+    "export": ("export", "export", "Write the dynamics as source code that runs without this package."),
     "compare": (
         "compare",
         "compare",
-        "Compare two systems, row by row; exit 0 if they are the same motion, 1 if they differ.",
+        "Compare the equations of two systems; exit 0 if both describe the same motion, 1 if they differ.",
     ),
     "linearize": ("linearize", "linearize", "Linearize about an equilibrium: A, B, C, D, poles, modes, stability."),
     "equilibria": (
         "equilibria",
         "equilibria",
-        "Find the equilibria in a box of coordinates, each with its residual and its stability.",
+        "Find the equilibria within given ranges of the coordinates, and whether each is stable.",
     ),
     "conserved": (
         "conserved",
         "conserved",
-        "List conserved quantities: momenta, total momenta, energy, each proved and watched along a run.",
+        "Find conserved quantities: momenta, total momenta and energy, each proved and checked along a simulated run.",
     ),
     "simulate": (
         "simulate",
         "simulate",
-        "Run the system; print a summary. Exit 1 if the run could not be finished (what was reached is kept).",
+        "Simulate the system and print a summary; exit 1 if the run stopped early (its results up to then are kept).",
     ),
     "sweep": (
         "sweep",
         "sweep",
-        "Run every combination of values, each for every draw; keep a few numbers of each run. "
-        "Exit 1 if all runs fail.",
+        "Simulate every combination of values and keep a few numbers of each run; exit 1 if all runs fail.",
     ),
     "new": ("start", "new", "Print a model file to start from."),
     "examples": ("start", "list_examples", "List the built-in examples."),

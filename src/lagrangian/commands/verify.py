@@ -14,8 +14,8 @@ from lagrangian.commands.terminal import Example, Force, Json, OptionalFile, Out
 def verify(
     file: OptionalFile = None,
     example: Example = None,
-    states: Annotated[int, typer.Option(help="Random states to compare at.", min=1, max=100_000)] = 100,
-    seed: Annotated[int, typer.Option(help="Which random states.")] = 1,
+    states: Annotated[int, typer.Option(help="Number of random states at which to compare.", min=1, max=100_000)] = 100,
+    seed: Annotated[int, typer.Option(help="Seed of the random states.")] = 1,
     format: FormatOption = None,
     json: Json = False,
     width: Width = None,
