@@ -182,5 +182,6 @@ def read_text(path: Path) -> str:
         with path.open("rb") as file:
             data = file.read(MAX_BYTES + 1)
     except OSError as error:
-        raise Error(f"cannot read '{path}': {(error.strerror or str(error)).lower()}", code="E702") from error
+        what = f"cannot read '{path}': {(error.strerror or str(error)).lower()}"
+        raise Error(what, fix="check the path; - is standard input", code="E702") from error
     return decode(data, str(path))

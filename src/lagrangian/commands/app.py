@@ -74,7 +74,7 @@ def _said(wrong: Exception) -> Error:
     what, context = str(getattr(wrong, "message", wrong)), getattr(wrong, "ctx", None)
     if isinstance(wrong, typer.BadParameter):
         what = wrong.format_message()
-    what = " ".join(what.split())
+    what = " ".join(what.replace("Value error, ", "").split())
     near = getattr(wrong, "possibilities", None)
     verb = context.command_path if context is not None else NAME
     fix = f"Did you mean {' or '.join(near)}?" if near else f"`{verb} --help` shows what it takes, with examples"

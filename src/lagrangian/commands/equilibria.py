@@ -62,5 +62,5 @@ def equilibria(
 def _ends(name: str, side: str) -> tuple[str, str]:
     low, colon, high = (part.strip() for part in side.partition(":"))
     if not (low and colon and high):
-        raise Error(f"the box of '{name}' is not low:high", fix=f"--box {name}=-1:1")
+        raise Error(f"the box of '{name}' is not low:high", fix=f"--box {name}=-1:1", code="E406")
     return low, high

@@ -213,7 +213,8 @@ def _table_text(path: str) -> str:
         text = data.decode("utf-8-sig")
     except (OSError, UnicodeDecodeError) as trouble:
         reason = getattr(trouble, "strerror", None) or "it is not text"
-        raise ModelError(f"cannot read the table: {reason.lower()}", place=Place(path), code="E702") from None
+        what, fix = f"cannot read the table: {reason.lower()}", "name a text file with a time and a value a line"
+        raise ModelError(what, place=Place(path), fix=fix, code="E702") from None
     if len(data) > MAX_BYTES:
         raise ModelError(f"the table has more than {MAX_BYTES} bytes", place=Place(path), code="E703")
     return text
