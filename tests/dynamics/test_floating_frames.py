@@ -22,7 +22,7 @@ def close(found, expected, tolerance):
     assert (np.abs(found - expected) <= tolerance * size).all(), (np.abs(found - expected) / size).max()
 
 
-@pytest.mark.parametrize("name", rest_slow(TREES, {"body", "quadruped"}))
+@pytest.mark.parametrize("name", rest_slow(TREES, {"body"}))
 def test_against_pinocchio(name):
     pin = pytest.importorskip("pinocchio")
     parents = TREES[name]

@@ -10,6 +10,7 @@ from kane_systems import oracle
 from random_states import states, worst
 
 from lagrangian import examples
+from size import rest_slow
 
 
 def sampled(name: str, count: int = 20):
@@ -22,12 +23,15 @@ def sampled(name: str, count: int = 20):
     )
 
 
-@pytest.mark.parametrize("name", examples.names())
+LONG = {"robot-arm", "scara", "spring-net", "acrobot", "ball-and-beam"}
+
+
+@pytest.mark.parametrize("name", rest_slow(examples.names(), set(examples.names()) - LONG))
 def test_equations_are_kanes(name: str) -> None:
     assert worst(ours(name), oracle(name), sampled(name)) < 1e-10
 
 
-@pytest.mark.parametrize("name", examples.names())
+@pytest.mark.parametrize("name", rest_slow(examples.names(), set(examples.names()) - LONG))
 def test_matrix_form_is_kanes(name: str) -> None:
     d = derivation(name)
     rates = sp.Matrix([c.rate for c in d.model.coordinates])
