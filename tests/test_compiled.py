@@ -130,6 +130,13 @@ def test_what_does_not_fit_is_named(arguments: tuple, fragments: list[str]) -> N
     assert all(f in str(caught.value) for f in fragments), str(caught.value)
 
 
+def test_no_states_with_a_parameter_set_for_each_are_no_accelerations() -> None:
+    c = system("crane").compile()
+    none = np.empty((0, len(c.coordinates)))
+    for _ in range(2):  # the second call comes without a closer look
+        assert c.forward(none, none, p=np.empty((0, len(c.parameters)))).shape == none.shape
+
+
 def test_a_singular_configuration_is_named_with_its_coordinates() -> None:
     """At the pole of spherical angles, turning about the vertical moves nothing."""
     s = lg.System("spherical")

@@ -122,6 +122,7 @@ def test_what_is_not_there_is_said(arm: dict) -> None:
         (lambda: dyn.evaluate("x + y", Q), "y"),
         (lambda: dyn.evaluate(sp.Symbol("zz"), Q), "unknown symbol 'zz'"),
         (lambda: dyn.evaluate([], Q), "at least one"),
+        (lambda: dyn.evaluate(sp.Matrix(2, 0, []), Q), "a matrix to evaluate has no entries"),
     ):
         with pytest.raises(ModelError, match=said):
             call()

@@ -97,6 +97,8 @@ class Looking:
     def _flat(self, expression: Any) -> tuple[list[sp.Expr], tuple[int, ...]]:
         """The expressions in what is asked for, row after row, and their shape."""
         if isinstance(expression, sp.MatrixBase):
+            if not expression.shape[0] * expression.shape[1]:
+                raise ModelError("a matrix to evaluate has no entries", fix="give it at least one", code="E501")
             return [as_expr(x, "what is evaluated") for x in expression.flat()], tuple(expression.shape)
         if isinstance(expression, (list, tuple)):
             parts = [self._flat(x) for x in expression]

@@ -420,6 +420,39 @@ def test_usual_calls_need_no_closer_look(kernel, monkeypatch, form, count):
     assert first.shape == q.shape and first.flags.writeable and not np.may_share_memory(first, second)
 
 
+@pytest.mark.parametrize("parameters", [None, "one set", "a set for every state"])
+def test_few_states_are_broadcast_against_as_many_as_lanes(kernel, parameters):
+    """After calls that went well too, where few states are filled up to the lanes of the machine code."""
+    lanes = kernel.lanes
+    q, v = states(lanes)
+    p = None if parameters is None else ROW if parameters == "one set" else ROW * np.linspace(0.5, 2, lanes)[:, None]
+    want = kernel(np.repeat(q[:1], lanes, axis=0), v, None, p)
+    kernel(q, v, None, p)
+    np.testing.assert_array_equal(kernel(q[:1], v, None, p), want)
+    np.testing.assert_array_equal(kernel(v, v, None, p, np.zeros(lanes)), kernel(v, v, None, p))
+    assert kernel(q[:1], v[:1], None, None, np.zeros(lanes)).shape == (lanes, 2)
+    if lanes > 2:
+        with pytest.raises(RunError, match="leading shapes do not fit together"):
+            kernel(q[:2], v, None, p)
+
+
+@pytest.mark.parametrize("p", [np.array(9.81), np.ones((3, 4)), np.ones((0, 5)), np.ones((2, 5))])
+def test_wrong_parameters_are_named_before_anything_looks_at_them(p):
+    looked = compile(PENDULUM, optional=OPTIONAL, keep=False)
+    seen = []
+    looked.admit = lambda p: seen.append(p.shape)
+    q, v = states(21)
+    looked(q, v)
+    looked(q, v, None, np.tile(ROW, (21, 1)))
+    with pytest.raises(RunError, match="E501"):
+        looked(q, v, None, p)
+    assert all(shape in {(5,), (21, 5), p.shape} and shape[-1:] == (5,) for shape in seen)
+
+
+def test_a_prepared_call_for_no_states(kernel):
+    assert kernel.prepared(np.empty((0, 2)), np.empty((0, 2)))().shape == (0, 2)
+
+
 def test_parameters_for_every_state_need_no_closer_look_either(kernel, monkeypatch):
     q, v = states(21)
     p = ROW * np.linspace(0.5, 2, 21)[:, None]

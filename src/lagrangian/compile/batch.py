@@ -75,10 +75,9 @@ class Batch:
         self._count = math.prod(lead)
         self._finals = dict.fromkeys(engine.outputs) if out is None else targets(engine.outputs, out, lead)
         self._results = [self._home(name, given) for name in engine.outputs]
-        self.inputs: list[Array] = []
+        self.inputs, self._direct = [rows(a, lead) for a in given], self._results
         if self._count == 0:
             return
-        self.inputs, self._direct = [rows(a, lead) for a in given], self._results
         if self._count < engine.lanes:  # machine code wants full lanes: the last state fills them
             fill = np.minimum(np.arange(engine.lanes), self._count - 1)
             self.inputs = [a[fill] for a in self.inputs]

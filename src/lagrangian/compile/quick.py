@@ -150,6 +150,8 @@ class Quick:
                 shared = self.blocks.get(row.tobytes())
                 if shared is None:
                     shared = self._block(row)
+            elif row.shape != lead + slot.shape:
+                return None
             else:
                 if self.admit is not None:
                     self.admit(row)
@@ -185,6 +187,8 @@ class Quick:
                 filled[slot.place] = made = np.empty((lanes, *size))
                 rows = array.reshape(count, *size)
                 made[:count], made[count:] = rows, rows[-1]
+            elif type(array) is ndarray and array.shape != slot.shape:  # it might fit what is filled up
+                return None
         answer = self._many(tuple(filled), (lanes,))
         if answer is None:
             return None

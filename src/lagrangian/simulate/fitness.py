@@ -46,7 +46,7 @@ class Fitness:
         values = _few(self.bodies, p) if len(p) <= FEW else _computed(self._bodies, {"p": p}, len(p))
         bad, doubtful = np.zeros(len(p), bool), np.zeros(len(p), bool)
         for name, value in values.items():
-            finite = np.asarray(np.isfinite(value).reshape(len(p), -1).all(axis=1))
+            finite = np.asarray(np.isfinite(value).all(axis=tuple(range(1, value.ndim))))
             bad |= ~finite
             if name.startswith("inertia"):
                 doubtful |= finite & _negative(np.where(finite[:, None, None], value, 0.0))
