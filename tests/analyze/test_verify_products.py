@@ -51,6 +51,33 @@ def failing(checks: tuple[Check, ...]) -> set[str]:
     return {what for what, holds in said(checks).items() if holds is False}
 
 
+def wheel() -> lg.System:
+    """Balanced, so that the terms of its weight cancel to rounding."""
+    s = lg.System("wheel")
+    a = s.coordinates("a")
+    m, R, M, r = (s.parameter(n, v) for n, v in (("m", 1.3), ("R", 0.7), ("M", 2.6), ("r", 0.35)))
+    s.particle(m, at=s.origin + (R * cos(a), R * sin(a)))
+    s.particle(M, at=s.origin + (-r * cos(a), -r * sin(a)))
+    s.gravity()
+    return s
+
+
+def ring() -> lg.System:
+    """A bead that nothing accelerates: all terms of its equation cancel."""
+    s = lg.System("ring")
+    a = s.coordinates("a")
+    R, e = s.parameter("R", 0.7), s.parameter("e", 0.3)
+    s.particle(s.parameter("m", 1.3), at=s.origin + (R * cos(a) + e * sin(a), R * sin(a) - e * cos(a)))
+    return s
+
+
+@pytest.mark.parametrize("made", [wheel, ring])
+def test_rounding_where_all_terms_cancel_is_no_failure(made: Callable[[], lg.System]) -> None:
+    checks = made().verify(states=5)
+    assert not failing(checks)
+    assert said(checks)[FORMULAS] and said(checks)[FORWARD] and said(checks)[PYTHON]
+
+
 @pytest.fixture(scope="module")
 def sound() -> tuple[Check, ...]:
     return crane().verify(states=5)

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from lagrangian import dynamics
 from lagrangian.analyze.verify.exports import Sources, exported
 from lagrangian.analyze.verify.slopes import slopes
-from lagrangian.analyze.verify.states import State, evaluated, random_states
+from lagrangian.analyze.verify.states import State, cancelling, evaluated, random_states
 from lagrangian.derive import Check
 from lagrangian.derive.formula import Name, Text, text
 from lagrangian.errors import Error
@@ -83,7 +83,8 @@ class Worst:
         """Take in a difference, relative to the largest of ``terms``."""
         off = float(np.max(np.abs(difference), initial=0.0))
         size = max((float(np.max(np.abs(x), initial=0.0)) for x in terms), default=0.0)
-        self.figures[name] = float(np.maximum(self.figures.get(name, 0.0), off / size if off else 0.0))
+        relative = off and (off / size if size else np.inf)
+        self.figures[name] = float(np.maximum(self.figures.get(name, 0.0), relative))
 
 
 def verify_products(
@@ -114,7 +115,8 @@ def _compiled(model: Model, functions: Functions, states: Sequence[State]) -> li
         _against_formulas(functions, state, answers, worst)
         if k < ONE_BY_ONE:
             for name, answer in _calls(functions, {group: np.array(x) for group, x in state.items()}).items():
-                worst.note("formulas", answer - answers[name], answers[name])
+                terms = cancelling(name, state, answers["mass_matrix"])
+                worst.note("formulas", answer - answers[name], answers[name], terms)
         routes.hold(state, answers, worst)
     n = f"{len(states)} random state{'s' if len(states) != 1 else ''}"
     figures = worst.figures
@@ -166,11 +168,10 @@ def _against_formulas(functions: Functions, state: State, answers: Mapping[str, 
     for name, answer in answers.items():
         if name in ("T", "V"):
             slow: Any = evaluated(functions.program("energy"), state)[name]
-            worst.note("formulas", answer - slow, np.array(slow))
-            continue
-        (slow,) = evaluated(functions.program(name), {**state, "x": x}).values()
+        else:
+            (slow,) = evaluated(functions.program(name), {**state, "x": x}).values()
         expected = np.array(slow, float)
-        worst.note("formulas", answer - expected, expected)
+        worst.note("formulas", answer - expected, expected, cancelling(name, state, answers["mass_matrix"]))
 
 
 class _Routes:
@@ -185,10 +186,11 @@ class _Routes:
         """Compare the answers at a state with every route."""
         a, forward = np.array(state["a"]), answers["forward"]
         M, bias = answers["mass_matrix"], answers["bias"]
-        worst.note("forward", self._residual({**state, "a": forward.tolist()}), M * forward, bias)
-        worst.note("solved", M @ forward + bias, M * forward, bias)
+        terms = cancelling("inverse", state, M), bias
+        worst.note("forward", self._residual({**state, "a": forward.tolist()}), M * forward, *terms)
+        worst.note("solved", M @ forward + bias, M * forward, *terms)
         for expected in (self._residual(state), M @ a + bias):
-            worst.note("inverse", answers["inverse"] - expected, M * a, bias)
+            worst.note("inverse", answers["inverse"] - expected, *terms)
         worst.note("hessian", M - np.array(evaluated(self._hessian, state)["H"], float), M)
         if self._energies is not None:
             found = evaluated(self._energies, {**state, "x": [*state["q"], *state["v"]]})

@@ -24,6 +24,21 @@ def evaluated(program: Program, state: Mapping[str, list[float]]) -> dict[str, A
     return evaluate(program, {group: state[group] for group in program.inputs})
 
 
+def cancelling(name: str, state: State, M: Any) -> Any:
+    """How large the terms of an answer are at the rates and accelerations of a state, where they may cancel to nothing.
+
+    A balanced wheel has no weight: what is left of two equal terms is rounding, and large only beside itself.
+    """
+    a, v = np.array(state["a"]), np.array(state["v"])
+    if name in ("forward", "rhs"):
+        return a
+    if name in ("inverse", "bias", "gravity"):
+        return M * a
+    if name in ("energy", "T", "V"):
+        return v @ M @ v
+    return M if name == "coriolis" else np.zeros(0)
+
+
 def random_states(model: Model, forward: Program, count: int, seed: int) -> Iterator[dict[str, list[float]]]:
     """``count`` random states at which the accelerations are finite; parameters keep the values they have.
 
