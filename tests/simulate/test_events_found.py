@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from simulate_problems import events, problem
+from simulate_problems import accuracy, chain, events, problem
 
-from lagrangian.simulate import METHODS, Solver
+from lagrangian.simulate import METHODS, Signals, Solver
 
 FAST = np.sqrt(2.0)
 END = 12.0
@@ -95,3 +95,34 @@ def test_every_crossing_of_random_conditions_is_found(name: str, seed: int) -> N
             assert 0 <= len(mine) - len(when) <= touches.sum(), (run, k)
             count += len(when)
     assert count > 100
+
+
+@pytest.mark.parametrize("name", ["dop853", "gauss4"])
+def test_states_too_long_for_registers_lose_none_either(name: str) -> None:
+    program, matrix = chain(10)
+    watched = events(
+        lambda s: [s["q3"] * s["q5"] - 0.02, (20 * s["t"]).apply("cos") * s["v2"]],
+        x=program.inputs["x"], u=("f",), direction=(0, 0),
+    )  # fmt: skip
+    x0 = np.random.default_rng(1).normal(size=(9, 20))
+    solver = Solver(program, name, events=watched)
+    found = solver.solve(x0, [0.0, 5.0], u=[0.0], **accuracy(solver, step=0.01))
+    rates, modes = np.linalg.eig(matrix)
+    t = np.linspace(0, 5, 100_001)
+    growth = np.exp(np.outer(rates, t))
+    for run, start in enumerate(x0):
+        x = ((modes * np.linalg.solve(modes, start)) @ growth).real
+        for k, y in enumerate((x[3] * x[5] - 0.02, np.cos(20 * t) * x[12])):
+            assert (found.event_index[run] == k).sum() == (np.diff(np.sign(y)) != 0).sum()
+
+
+@pytest.mark.parametrize("name", METHODS)
+def test_a_condition_on_a_table_is_followed_along_its_slopes(name: str) -> None:
+    """sin 40u: u rises to 2 in 1 s (25 zeros after the start), falls to −1 in 2 s (38) and stays there."""
+    swing = problem(lambda s: [s["v"], -s["q"] + 0 * s["f"]], x="qv", u=("f",))
+    wave = events(lambda s: [(40 * s["f"]).apply("sin") + 0 * s["q"]], x="qv", u=("f",), direction=(0,))
+    table = Signals(np.array([0.0, 1, 3]), np.array([[0.0], [2], [-1]]), np.array([[2.0], [-1.5], [0]]))
+    solver = Solver(swing, name, events=wave)
+    for x0 in ([1.0, 0.0], [[1.0, 0.0]] * 9):
+        found = solver.solve(x0, [0.0, 4.0], u=table, **accuracy(solver, step=0.3, tolerance=1e-8))
+        assert np.all(found.event_count == 63)

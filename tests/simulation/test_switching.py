@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 import sympy as sp
+from run_systems import oscillator
 from scipy.integrate import quad
 from sympy.physics.vector import dynamicsymbols
 from typer.testing import CliRunner
@@ -14,6 +15,8 @@ from typer.testing import CliRunner
 import lagrangian as lg
 from lagrangian.commands.app import app
 from lagrangian.errors import RunError
+from lagrangian.running.driving import driving
+from lagrangian.running.switching import with_stops
 
 T: Any = dynamicsymbols._t  # type: ignore[attr-defined]
 
@@ -112,3 +115,30 @@ def test_the_command_knows_a_longest_step() -> None:
     assert answer.exit_code == 0, answer.output
     steps = int(answer.stdout.split(" steps")[0].split()[-1])
     assert steps >= 100
+
+
+NARROW = "sin(3*t) + 100*exp(-((t - 50)/0.001)^2)"
+GAIN = 0.1 * np.sqrt(np.pi) + (1 - np.cos(300.0)) / 3
+"""What a force of `NARROW` N adds to the speed of 1 kg in 100 s."""
+
+
+@pytest.mark.parametrize("method", ["dop853", "tsit5", "taylor", "Radau"])
+def test_a_smooth_pulse_of_a_millisecond_in_a_hundred_seconds_is_not_jumped_over(method: str) -> None:
+    s = oscillator(m=1.0, k=0.0, b=0.0)
+    alone = s.simulate(100.0, inputs={"F": "100*exp(-((t - 50)/0.001)^2)"}, method=method)
+    assert alone["q'"][-1] == pytest.approx(0.1 * np.sqrt(np.pi), rel=1e-8)
+    if method != "Radau":
+        assert s.simulate(100.0, inputs={"F": NARROW}, method=method)["q'"][-1] == pytest.approx(GAIN, abs=1e-5)
+
+
+def test_a_smooth_pulse_reaches_every_run_of_an_ensemble() -> None:
+    s = oscillator(m=1.0, k=0.0, b=0.0)
+    runs = s.ensemble(100.0, initial={"q": np.arange(9.0)}, inputs={"F": NARROW})
+    assert runs["final q'"] == pytest.approx(np.full(9, GAIN), abs=1e-8)
+
+
+def test_a_force_that_is_nowhere_narrow_has_no_stops() -> None:
+    model = oscillator(m=1.0, k=0.0, b=0.0).model
+    drive = driving(model, {"F": "3*sin(30*t) + sqrt(2 + cos(t))"}, {})
+    made = with_stops(model, drive, np.array([1.0, 0.0, 0.0]), np.array([0.0, 10.0]))
+    assert not len(made.stops) and made.constant

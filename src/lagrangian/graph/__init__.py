@@ -1,7 +1,7 @@
 """The expression graph: building, differentiating, evaluating, and `Program`, the waist of the house."""
 
 from lagrangian.graph.autodiff import Tangents, gradient, hessian, hessian_product, jacobian, jvp, vjp
-from lagrangian.graph.bounds import bounds, states_read
+from lagrangian.graph.bounds import bends, bounds, states_read
 from lagrangian.graph.evaluate import evaluate
 from lagrangian.graph.from_sympy import from_sympy, unknown_part
 from lagrangian.graph.graph import Graph, operands
@@ -17,6 +17,7 @@ __all__ = [
     "Program",
     "Scalar",
     "Tangents",
+    "bends",
     "bounds",
     "count_operations",
     "count_program",

@@ -78,7 +78,7 @@ def _tan(g: Graph, a: Along) -> Slopes:
 
 def _exp(g: Graph, a: Along) -> Slopes:
     v = g.exp(a.v)
-    most = g.mul(v, g.exp(a.R))
+    most = g.exp(g.add(a.v, a.R))  # v e^R would be 0 where v is too small to be told from it
     return Slopes(v, v, most, most)
 
 

@@ -48,23 +48,43 @@ def bounds(program: Program, output: str = "g") -> Program:
     only if the entry crosses 0 nowhere on the stretch, and ``steady``, 1 where |d| > K r, only if it rises or falls
     throughout.
     """
-    g = Graph()
+    walk, found, inputs = _walked(program, output)
+    g = walk.g
+    clear = tuple(g.select(g.or_(g.lt(a.R, g.abs(a.v)), g.eq(a.R, g.zero)), g.one, g.zero) for a in found)
+    steady = tuple(g.select(g.lt(g.mul(a.K, walk.r), g.abs(a.d)), g.one, g.zero) for a in found)
+    shape = (len(found),)
+    outputs = {"clear": Output(clear, shape), "steady": Output(steady, shape)}
+    return Program(f"{program.name} bounds", g, inputs, outputs, dict(program.defaults))
+
+
+def bends(program: Program, output: str = "g") -> Program:
+    """Return a program that gives each entry's ``value`` at the centre of a stretch, and ``bend`` = K.
+
+    Inputs are those of `bounds`. What has no finite bound has `ENDLESS`; what has no finite value has 0.
+    """
+    walk, found, inputs = _walked(program, output)
+    g, shape = walk.g, (len(found),)
+
+    def finite(x: int, otherwise: int) -> int:
+        return g.select(g.lt(g.abs(x), walk.endless), x, otherwise)
+
+    value = Output(tuple(finite(a.v, g.zero) for a in found), shape)
+    bend = Output(tuple(finite(a.K, walk.endless) for a in found), shape)
+    return Program(f"{program.name} bends", g, inputs, {"value": value, "bend": bend}, dict(program.defaults))
+
+
+def _walked(program: Program, output: str) -> tuple[_Walk, list[Along], dict[str, tuple[str, ...]]]:
+    """What is known along a stretch of each entry of an output, and the inputs that it is made of."""
     read = states_read(program)
-    names = program.inputs.get("x", ())
-    u = tuple(program.inputs.get("u", ()))
+    names, u = program.inputs.get("x", ()), tuple(program.inputs.get("u", ()))
     kept = tuple(names[k] for k in read)
     inputs = {
         "x": kept, "rate": kept, "bend": kept, "u": u, "drift": u,
         "p": tuple(program.inputs.get("p", ())), "t": ("t",), "stretch": ("pace", "r"),
     }  # fmt: skip
-    walk = _Walk(g, program.graph, {k: i for i, k in enumerate(read)})
-    ids = program.outputs[output].ids
-    found = [walk.number(i) for i in walk.over(ids)]
-    clear = tuple(g.select(g.or_(g.lt(a.R, g.abs(a.v)), g.eq(a.R, g.zero)), g.one, g.zero) for a in found)
-    steady = tuple(g.select(g.lt(g.mul(a.K, walk.r), g.abs(a.d)), g.one, g.zero) for a in found)
-    shape = (len(ids),)
-    outputs = {"clear": Output(clear, shape), "steady": Output(steady, shape)}
-    return Program(f"{program.name} bounds", g, {n: e for n, e in inputs.items() if e}, outputs, dict(program.defaults))
+    walk = _Walk(Graph(), program.graph, {k: i for i, k in enumerate(read)})
+    found = [walk.number(i) for i in walk.over(program.outputs[output].ids)]
+    return walk, found, {n: e for n, e in inputs.items() if e}
 
 
 class _Walk:

@@ -21,6 +21,7 @@ from lagrangian.graph import Graph, Output, Program, operands, reached
 from lagrangian.model import Model
 from lagrangian.running.driving import MAX_KNOTS, Driving
 from lagrangian.running.integrating import remembered, right_hand_side
+from lagrangian.running.pulses import Pulses
 from lagrangian.simulate.design import Design
 from lagrangian.simulate.integrators.layout import MARGIN
 
@@ -34,6 +35,9 @@ ROUNDS = 1100
 
 MOST_RUNS, MOST_DIFFERENT = 100_000, 1000
 """Runs that are looked through for different times of switches, and runs with different ones, at most."""
+
+MOST_PULSES = 32
+"""Different sets of pulses, in an ensemble, at which steps end, at most."""
 
 NOT_FINITE = "E503"
 
@@ -159,27 +163,56 @@ def with_stops(model: Model, drive: Driving, p: Array, times: Array) -> Driving:
     """The same driving with the times at which conditions in time switch in a run over ``times``."""
     if len(times) < 2:
         return drive
-    switches = Switches(model, drive)
-    if not switches:
-        return drive
-    u = drive.at(times[:1], np.zeros((1, drive.size)))[0] if drive.constant else np.zeros(len(drive.free))
-    return replace(drive, stops=switches.times(p, u, float(times[0]), float(times[-1])))
+    switches, pulses = Switches(model, drive), Pulses(model, drive)
+    u = _constants(drive, times)
+    start, end = float(times[0]), float(times[-1])
+    found = [kind.times(p, u, start, end) for kind in (switches, pulses) if kind]
+    return replace(drive, stops=merged(np.concatenate(found), start, end)) if found else drive
 
 
 def with_stops_of_all(model: Model, drive: Driving, design: Design, times: Array, max_step: float) -> Driving:
-    """The same driving with the times at which conditions in time switch in any run of an ensemble.
+    """The same driving with the times at which conditions in time switch in any run of an ensemble, and of pulses.
 
-    Where these differ from run to run, every run's steps end at all of them. Raises `RunError` where there are too many
-    different ones, unless steps are bounded by ``max_step``.
+    Where these differ from run to run, every run's steps end at all of them. Raises `RunError` where conditions switch
+    at too many different times, unless steps are bounded by ``max_step``. Pulses that differ in more than
+    `MOST_PULSES` ways are left to that bound.
     """
+    found = [*_switches_of_all(model, drive, design, times, max_step), *_pulses_of_all(model, drive, design, times)]
+    return replace(drive, stops=merged(np.concatenate(found), float(times[0]), float(times[-1]))) if found else drive
+
+
+def _constants(drive: Driving, times: Array) -> Array:
+    """The inputs where all are constant, else zeros."""
+    return drive.at(times[:1], np.zeros((1, drive.size)))[0] if drive.constant else np.zeros(len(drive.free))
+
+
+def _pulses_of_all(model: Model, drive: Driving, design: Design, times: Array) -> list[Array]:
+    """The times of narrow functions of time in the runs of an ensemble, where they are the same in most of them."""
+    pulses = Pulses(model, drive)
+    deciding = pulses.parameters
+    listed = [c for c in design.columns if c.group == "p" and c.index in deciding]
+    if not pulses or any(c.group == "u" for c in design.columns) or (listed and design.count > MOST_RUNS):
+        return []
+    p = np.array(design.base["p"])[np.newaxis]
+    if listed:
+        p = design.rows(0, design.count).p
+        p = p[np.unique(p[:, sorted(deciding)], axis=0, return_index=True)[1]]
+    if len(p) > MOST_PULSES:
+        return []
+    u = _constants(drive, times)
+    return [pulses.times(np.ascontiguousarray(row), u, float(times[0]), float(times[-1])) for row in p]
+
+
+def _switches_of_all(model: Model, drive: Driving, design: Design, times: Array, max_step: float) -> list[Array]:
+    """The times at which conditions in time switch in the runs of an ensemble."""
     switches = Switches(model, drive)
     if not switches:
-        return drive
+        return []
     varied_inputs = any(c.group == "u" for c in design.columns)
     deciding = switches.parameters
     listed = [c for c in design.columns if c.group == "p" and c.index in deciding]
     if (varied_inputs or (listed and design.count > MOST_RUNS)) and math.isfinite(max_step):
-        return drive
+        return []
     if varied_inputs:
         raise RunError(
             "an input varies from run to run while conditions in time switch",
@@ -195,12 +228,10 @@ def with_stops_of_all(model: Model, drive: Driving, design: Design, times: Array
         p = p[first]
         if len(p) > MOST_DIFFERENT:
             if math.isfinite(max_step):
-                return drive
+                return []
             _too_many(len(p), [c.name for c in listed])
-    u = drive.at(times[:1], np.zeros((1, drive.size)))[0] if drive.constant else np.zeros(len(drive.free))
-    start, end = float(times[0]), float(times[-1])
-    found = np.concatenate([switches.times(row, u, start, end) for row in p])
-    return replace(drive, stops=merged(found, start, end))
+    u = _constants(drive, times)
+    return [switches.times(row, u, float(times[0]), float(times[-1])) for row in p]
 
 
 def _too_many(count: int, names: list[str]) -> NoReturn:
