@@ -70,6 +70,8 @@ def test_the_slope_of_a_maximum_of_many_is_that_of_what_it_is(kind: type) -> Non
         ((sp.cos(a + b), sp.sin(a + b)), True),
         ((sp.Rational(3, 5), sp.Rational(4, 5)), True),
         ((sp.sqrt(2) / 2, sp.sqrt(2) / 2), True),
+        ((a / sp.sqrt(a**2 + b**2), b / sp.sqrt(a**2 + b**2)), True),
+        (tuple(v / sp.sqrt((a + b + c + d + e) ** 100 + 1) for v in ((a + b + c + d + e) ** 50, sp.S.One)), True),
         ((sp.sin(a), sp.cos(b)), False),
         ((sp.cos(a), sp.sin(2 * a)), False),
         (((a + b + c + d + e) ** 50, sp.S.One), False),

@@ -34,6 +34,9 @@ TERMS = 3_000
 CALLS = 300_000
 """Calls inside a search of SymPy after which it is given up; what a book holds takes less than a tenth."""
 
+HIGH = 8
+"""A higher power of a sum is not multiplied out where only a common factor is looked for."""
+
 BEYOND = 10**30
 """Where predictions stop to count: far beyond every limit."""
 
@@ -290,9 +293,38 @@ def searched(routine: Callable[..., T], *arguments: Any, calls: int = CALLS) -> 
             before.enable()
 
 
+def cancel(expr: sp.Expr) -> sp.Expr:
+    """Return a quotient without common factors, or the expression as it is where looking for them takes too long."""
+    return _found(sp.cancel, expr)
+
+
+def together(expr: sp.Expr) -> sp.Expr:
+    """Return an expression over one denominator, or as it is where that takes too long."""
+    return _found(sp.together, expr)
+
+
+def simplify(expr: sp.Expr) -> sp.Expr:
+    """Return what SymPy finds simpler, or the expression as it is where it looks too long."""
+    return _found(sp.simplify, expr)
+
+
+def trigsimp(expr: sp.Expr) -> sp.Expr:
+    """Return an expression with fewer sines and cosines, or as it is where SymPy looks too long for them."""
+    return _found(sp.trigsimp, expr)
+
+
+def _found(routine: Callable[[Any], Any], expr: sp.Expr) -> sp.Expr:
+    if not expr.args:
+        return expr
+    if terms(expr) > TERMS or size(expr) > LARGEST:
+        return expr
+    answer = searched(routine, expr)
+    return expr if answer is None else cast("sp.Expr", answer)
+
+
 def is_one(expr: sp.Expr) -> bool:
     """Whether an expression is 1 by arithmetic and sin² + cos² = 1, as the square of a unit vector is."""
-    expr = expand(expr)
+    whole = expr = expand(expr)
     for angle in sorted({c.args[0] for c in expr.atoms(sp.cos)}, key=sp.default_sort_key):
         if expr == 1:
             return True
@@ -303,4 +335,8 @@ def is_one(expr: sp.Expr) -> bool:
 
         powers = [p for p in expr.atoms(sp.Pow) if p.base == cosine and isinstance(p.exp, sp.Integer) and p.exp > 1]
         expr = expand(cast("sp.Expr", expr.xreplace({p: even(p) for p in powers})))
-    return expr == 1
+    if expr == 1:
+        return True
+    high = [p.base for p in whole.atoms(sp.Pow) if isinstance(p.exp, sp.Integer) and p.exp > HIGH and p.base.is_Add]
+    letters = {base: sp.Dummy(f"sum{k}") for k, base in enumerate(dict.fromkeys(high))}  # 1 for any sum is 1 for this
+    return cancel(together(cast("sp.Expr", replaced(whole, letters)))) == 1

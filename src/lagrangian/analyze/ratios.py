@@ -8,6 +8,7 @@ from typing import cast
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach
 
 LARGEST = 4
@@ -33,7 +34,7 @@ def written(expr: sp.Expr, algebra: Algebra) -> sp.Expr:
     """A quotient with common factors cancelled, numerator and denominator each made readable."""
     if expr == 0:
         return sp.S.Zero
-    over, under = sp.fraction(sp.cancel(sp.together(expr)))
+    over, under = sp.fraction(bounded.cancel(bounded.together(expr)))
     lower = algebra.form(under).expr()
     upper = algebra.form(over).expr()
     number, lower = lower.as_coeff_Mul()

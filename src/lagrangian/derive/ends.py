@@ -43,7 +43,7 @@ def find_ends(model: Model, element: Element) -> tuple[Action, ...]:
 
 
 def _constant(expr: sp.Expr) -> bool:
-    return not sp.expand(expr).has(AppliedUndef, time)
+    return not bounded.expand(expr).has(AppliedUndef, time)
 
 
 def _quantities(model: Model) -> Iterator[tuple[str, Words, sp.Expr]]:

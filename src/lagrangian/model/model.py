@@ -132,7 +132,7 @@ class Model:
         for body in self.bodies:
             frame = getattr(body, "frame", None)
             if frame is not None and frame.dimension == 2:
-                free = sp.expand(self.expand(frame.total_angle) - angle)
+                free = bounded.expand(self.expand(frame.total_angle) - angle)
                 if not free.has(AppliedUndef, time):
                     return (body.title,)
         return ("what turns with ", angle)

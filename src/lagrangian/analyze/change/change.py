@@ -19,6 +19,7 @@ import sympy as sp
 from numpy.typing import NDArray
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.derive.sample import Sampler
 from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.model import Coordinate, Model, as_expr, plain, time
@@ -154,11 +155,11 @@ def _solved(model: Model, pairs: Mapping[str, sp.Expr]) -> Change:
     for out in islice(combinations(reversed(used), len(new)), MOST_SETS):
         symbols = [c.symbol for c in out]
         slopes = sp.Matrix([[sp.diff(e, s) for s in symbols] for e in pairs.values()])
-        if slopes.has(*symbols) or sp.simplify(_determinant(slopes)) == 0:
+        if slopes.has(*symbols) or bounded.simplify(_determinant(slopes)) == 0:
             continue
         rest = sp.Matrix([e.xreplace(dict.fromkeys(symbols, sp.S.Zero)) for e in pairs.values()])
         values = slopes.LUsolve(sp.Matrix(new) - rest)
-        return _placed(model, {c: sp.expand(v) for c, v in zip(out, values, strict=True)})
+        return _placed(model, {c: bounded.expand(v) for c, v in zip(out, values, strict=True)})
     raise ModelError(
         f"{', '.join(pairs)} cannot be solved for coordinates of the system",
         fix="give it the other way round, an old coordinate by the new ones: {x: r*cos(phi), y: r*sin(phi)}",

@@ -15,6 +15,7 @@ import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.analyze.change import changed
 from lagrangian.analyze.check.numbers import Array, Compiled
 from lagrangian.analyze.check.rows import CLOSE
@@ -127,7 +128,7 @@ def _solutions(expr: sp.Expr, unknown: sp.Expr) -> list[sp.Expr]:
     if slope == 0 or slope.has(unknown):
         return []
     rest = cast("sp.Expr", expr.xreplace({unknown: sp.S.Zero}))
-    return [sp.expand(-rest / slope)]
+    return [bounded.expand(-rest / slope)]
 
 
 def _meant(table: Mapping[sp.Expr, sp.Expr]) -> Text:
@@ -232,7 +233,7 @@ def _static(truth: Truth) -> list[tuple[sp.Expr, sp.Expr]]:
     if slopes.has(*q) or slopes.has(time) or truth.n > 4 or slopes.det() == 0:
         return []
     place = slopes.LUsolve(-sp.Matrix([r.xreplace(dict.fromkeys(q, sp.S.Zero)) for r in rows]))
-    found = [(x, sp.cancel(c)) for x, c in zip(q, place, strict=True)]
+    found = [(x, bounded.cancel(c)) for x, c in zip(q, place, strict=True)]
     return [(x, c) for x, c in found if c != 0]
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.analyze.check.rows import ratio
 from lagrangian.analyze.check.truth import Truth
 from lagrangian.analyze.check.verdict import Difference, Origin
@@ -90,7 +91,7 @@ def differences(truth: Truth, form: Form, right: Form, factor: sp.Expr, index: i
 
 def _scaled(term: Form, factor: sp.Expr) -> sp.Expr:
     """A term of the right line in the scale of the answer; one that merely stands on the other side as it is."""
-    return term.expr() if abs(factor) == 1 else sp.expand(factor * term.expr())
+    return term.expr() if abs(factor) == 1 else bounded.expand(factor * term.expr())
 
 
 def _alone(ours: Form, theirs: Form, difference: Form) -> tuple[Form, Form]:

@@ -15,6 +15,7 @@ from typing import Any, cast
 import numpy as np
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.analyze.check.numbers import SETS, Array, Compiled
 from lagrangian.analyze.check.rows import CLOSE
 from lagrangian.analyze.check.truth import Truth, terms
@@ -31,7 +32,7 @@ def wrong_term(truth: Truth, expr: sp.Expr, coordinate: str | None) -> Mistake |
     """The one term of an equation, left minus right, that makes it wrong; None where no single one does."""
     if terms(expr) > MOST_TERMS or not np.isfinite(truth.W).all():
         return None
-    parts = (*sp.Add.make_args(expr), *sp.Add.make_args(sp.expand(expr)))
+    parts = (*sp.Add.make_args(expr), *sp.Add.make_args(bounded.expand(expr)))
     written = [t for t in dict.fromkeys(parts) if t not in (0, expr)]
     siblings = list(dict.fromkeys(s for t in written for s in _siblings(t)))[: 4 * MOST_TERMS]
     values = Compiled([expr, *written, *siblings]).at(truth.states)

@@ -17,6 +17,7 @@ import mpmath
 import numpy as np
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.analyze.check.numbers import DIGITS, PLACES, SETS, Array, Compiled, States
 from lagrangian.analyze.check.truth import Truth
 from lagrangian.derive.algebra import Form
@@ -296,7 +297,7 @@ def _quotient(truth: Truth, expr: sp.Expr, i: int) -> tuple[sp.Expr, ...] | None
     for c in truth.model.coordinates:
         above, below = expr.diff(c.acceleration), truth.rows[i].diff(c.acceleration)
         if below != 0 and above != 0:
-            factor = sp.cancel(sp.together(above / below))
+            factor = bounded.cancel(bounded.together(above / below))
             if terms_of(factor) <= 30:
                 return _only(truth, i, factor)
     return None
@@ -313,5 +314,5 @@ def _solved(truth: Truth, expr: sp.Expr, A: Array) -> tuple[sp.Expr, ...] | None
         return None
     if M.det() == 0:
         return None
-    solved: Any = (slope * M.inv()).applyfunc(sp.cancel)
+    solved: Any = (slope * M.inv()).applyfunc(bounded.cancel)
     return tuple(solved)

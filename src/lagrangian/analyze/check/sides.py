@@ -14,6 +14,7 @@ from typing import Any, cast
 import numpy as np
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.analyze.check.numbers import Array, Compiled, States
 
 LONGEST = 80
@@ -75,7 +76,7 @@ def _slope(p: sp.Expr, q: sp.Expr) -> sp.Expr:
 
 def _positive(p: sp.Expr, sides: Sequence[Side]) -> sp.Expr | None:
     for side in sides:
-        if sp.expand(p - side.p) == 0 or sp.expand(p + side.p) == 0:
+        if bounded.expand(p - side.p) == 0 or bounded.expand(p + side.p) == 0:
             return side.p
     return None
 

@@ -17,6 +17,7 @@ from typing import Any, cast
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.analyze.change import Change
 from lagrangian.derive.sample import Sampler
 from lagrangian.model import Frame, Model, Point, RigidBody, time
@@ -159,8 +160,8 @@ def _differences(pairs: Places) -> Iterator[tuple[Vector, Vector]]:
     for (p, q), (r, s) in pairwise(pairs.pairs):
         if len(p) == len(r):
             yield (
-                tuple(sp.expand(y - x) for x, y in zip(p, r, strict=True)),
-                tuple(sp.expand(y - x) for x, y in zip(q, s, strict=True)),
+                tuple(bounded.expand(y - x) for x, y in zip(p, r, strict=True)),
+                tuple(bounded.expand(y - x) for x, y in zip(q, s, strict=True)),
             )
 
 
@@ -178,7 +179,7 @@ def _linear(p: Vector, q: Vector, unknown: set[Any]) -> list[sp.Expr]:
             found.append(x - y)
         elif len(mine) == 1:
             (u,) = mine
-            value = sp.cancel((y - x.xreplace({u: sp.S.Zero})) / slopes[0])
+            value = bounded.cancel((y - x.xreplace({u: sp.S.Zero})) / slopes[0])
             if not sp.denom(value).has(AppliedUndef, time):
                 found.append(u - value)
     return found
@@ -201,7 +202,7 @@ def _turned(p: Vector, q: Vector, unknown: set[Any], moving: set[Any]) -> list[s
         for beta in sorted(others, key=sp.default_sort_key):
             for sign in (1, -1):
                 meant = sign * beta + quarters * sp.pi / 2
-                if all(sp.expand(x.xreplace({hidden: meant}) - y) == 0 for x, y in zip(ours, q, strict=True)):
+                if all(bounded.expand(x.xreplace({hidden: meant}) - y) == 0 for x, y in zip(ours, q, strict=True)):
                     return [alpha - meant]
     return []
 
@@ -215,16 +216,16 @@ def _upright(argument: Any) -> sp.Expr:
 def _resolved(equations: Sequence[sp.Expr], unknown: set[Any]) -> Table:
     """What linear equations tell of the unknown, by elimination; one that contradicts those before it is left out."""
     rows: dict[Any, tuple[Table, sp.Expr]] = {}  # letter = rest − Σ factor · other letter
-    for equation in dict.fromkeys(sp.expand(e) for e in equations):
+    for equation in dict.fromkeys(bounded.expand(e) for e in equations):
         factors: Table = {u: f for u in equation.free_symbols & unknown if (f := sp.diff(equation, u)) != 0}
-        rest = sp.expand(-equation.xreplace(dict.fromkeys(unknown, sp.S.Zero)))
+        rest = bounded.expand(-cast("sp.Expr", equation.xreplace(dict.fromkeys(unknown, sp.S.Zero))))
         for letter in list(factors.keys() & rows.keys()):
             factors, rest = _without(letter, factors, rest, rows[letter])
         if not factors:
             continue
         pivot = min(factors, key=lambda u: (not factors[u].is_number, u.sort_key()))
         scale = factors.pop(pivot)
-        row = {u: sp.cancel(f / scale) for u, f in factors.items()}, sp.expand(rest / scale)
+        row = {u: bounded.cancel(f / scale) for u, f in factors.items()}, bounded.expand(rest / scale)
         for letter, (others, value) in list(rows.items()):
             if pivot in others:
                 rows[letter] = _without(pivot, others, value, row)
@@ -238,6 +239,6 @@ def _without(letter: Any, factors: Table, rest: sp.Expr, row: tuple[Table, sp.Ex
     others, value = row
     out = {u: f for u, f in factors.items() if u is not letter}
     for u, f in others.items():
-        total = sp.cancel(out.get(u, sp.S.Zero) - factor * f)
+        total = bounded.cancel(out.get(u, sp.S.Zero) - factor * f)
         out[u] = total
-    return {u: f for u, f in out.items() if f != 0}, sp.expand(rest - factor * value)
+    return {u: f for u, f in out.items() if f != 0}, bounded.expand(rest - factor * value)

@@ -7,6 +7,7 @@ from typing import cast
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.analyze.change import Change
 from lagrangian.derive import Derivation
 from lagrangian.model import Element, Model
@@ -104,4 +105,4 @@ def inverse(J: sp.ImmutableMatrix) -> sp.ImmutableMatrix | None:
     if n > LARGEST_INVERSE or (n - len(alone) > LARGEST_BLOCK and not constant):
         return None
     inverted = J.inv(method="LU") if constant else J.inv(method="ADJ")
-    return sp.ImmutableMatrix(inverted.applyfunc(lambda x: x if x.is_number else sp.trigsimp(sp.cancel(x))))
+    return sp.ImmutableMatrix(inverted.applyfunc(lambda x: x if x.is_number else bounded.trigsimp(bounded.cancel(x))))

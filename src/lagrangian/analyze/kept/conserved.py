@@ -11,8 +11,8 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
+from lagrangian import bounded, dynamics, simulate
 from lagrangian import compile as machine
-from lagrangian import dynamics, simulate
 from lagrangian.analyze.given import Given, Named
 from lagrangian.analyze.jacobians import rates, values
 from lagrangian.analyze.kept.lagrangian_form import LagrangianForm
@@ -211,7 +211,7 @@ def _run(model: Model, program: Any, u: Array, p: Array, source: np.random.Gener
 
 def _drift(model: Model, quantity: Conserved, times: Array, states: Array, u: Array, p: Array) -> float:
     """The largest change of a quantity along a run over the largest sum of its terms' sizes."""
-    terms = sp.Add.make_args(sp.expand(quantity.expression))
+    terms = sp.Add.make_args(bounded.expand(quantity.expression))
     asked = {"Q": quantity.expression} | {f"term {k}": cast("sp.Expr", term) for k, term in enumerate(terms)}
     kernel = machine.compile(dynamics.observe(model, asked))
     got = kernel(np.ascontiguousarray(states), u, p, times)

@@ -16,6 +16,7 @@ from typing import Any, cast
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.analyze.ratios import LARGEST, TERMS, blocks, determinant
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach
 from lagrangian.errors import RunError
@@ -86,7 +87,7 @@ def half_square(matrix: Sequence[Sequence[Form]], w: Sequence[Form], algebra: Al
 
 def _is_fraction(form: Form) -> bool:
     """Whether a sum stands below the line."""
-    return bool(sp.fraction(sp.together(form.expr()))[1].has(sp.Add))
+    return bool(sp.fraction(bounded.together(form.expr()))[1].has(sp.Add))
 
 
 def _cleared(part: dict[int, dict[int, Form]], left: dict[int, Form], k: int, i: int) -> Piece:

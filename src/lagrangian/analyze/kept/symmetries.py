@@ -20,6 +20,7 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
+from lagrangian import bounded
 from lagrangian.analyze.echelon import null_space, reduced
 from lagrangian.analyze.kept.lagrangian_form import LagrangianForm
 from lagrangian.derive.algebra import Form
@@ -216,7 +217,7 @@ def _cleared(shares: list[sp.Expr]) -> list[sp.Expr]:
     under = sp.S.One
     for share in shares:
         under = sp.lcm(under, sp.fraction(share)[1])
-    return [cast("sp.Expr", sp.expand(share * under)) for share in shares]
+    return [cast("sp.Expr", bounded.expand(share * under)) for share in shares]
 
 
 def _rational(row: Any) -> list[sp.Expr] | None:

@@ -14,6 +14,7 @@ from typing import Any, Protocol, cast
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.derive import Derivation
 from lagrangian.derive.formula import Text
 from lagrangian.model import (
@@ -281,7 +282,7 @@ def _pieces(s: Ingredients) -> Iterator[Piece]:
 
 def _addends(s: Ingredients, term: sp.Expr) -> Iterator[sp.Expr]:
     """The terms of a term: multiplied out, with sums of angles written out, and split by sin² + cos² = 1."""
-    expanded = sp.expand(term)
+    expanded = bounded.expand(term)
     yield from sp.Add.make_args(expanded)
     if expanded.has(sp.sin, sp.cos):
         for part in sp.Add.make_args(sp.expand(sp.expand_trig(expanded))):

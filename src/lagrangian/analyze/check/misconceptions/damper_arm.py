@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.analyze.check.misconceptions.base import Ingredients, Variant, letters
 from lagrangian.derive.formula import text
 from lagrangian.model import Damper
@@ -26,8 +27,10 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         own = s.expand(element.b if element.b is not None else element.law).free_symbols
         for p in [p for p in letters(sp.Add(*[abs(x) for x in shares.values()])) if p not in own]:
             for power in (1, 2):
-                changed = {i: y for i, x in shares.items() if x.has(p) and not (y := sp.expand(x / p**power)).has(p)}
-                changed |= {i: sp.expand(x / p) for i, x in shares.items() if power == 1 and x.has(p)}
+                changed = {
+                    i: y for i, x in shares.items() if x.has(p) and not (y := bounded.expand(x / p**power)).has(p)
+                }
+                changed |= {i: bounded.expand(x / p) for i, x in shares.items() if power == 1 and x.has(p)}
                 if changed:
                     what = text(f"{element.title[:1].upper() + element.title[1:]} comes without its arm ", p, ".")
                     yield Variant(what=what, Xi={i: c - shares[i] for i, c in changed.items()}, element=element)

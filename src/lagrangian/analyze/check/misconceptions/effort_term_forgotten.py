@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.analyze.check.misconceptions.base import Ingredients, Variant
 from lagrangian.derive.formula import text
 
@@ -20,7 +21,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     """Every share without one of its terms, where it is no question of direction."""
     for element in s.acting:
         for i, x in s.shares(element).items():
-            pieces = sp.Add.make_args(sp.expand(x))
+            pieces = sp.Add.make_args(bounded.expand(x))
             for piece in pieces if len(pieces) > 1 and not x.has(sp.sin, sp.cos) else ():
                 what = text("The term ", piece, f" of what {element.title} adds is forgotten.")
                 yield Variant(what=what, Xi={i: -piece}, element=element, coordinate=i)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.analyze.check.misconceptions.base import Ingredients, Variant, letters
 from lagrangian.derive.formula import text
 from lagrangian.model import Damper, Dissipation
@@ -23,16 +24,16 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         efforts = list(dict.fromkeys(s.expand(a.effort) for a in s.actions(element)))
         for i, x in shares.items():
             others = [sign * e for e in efforts for sign in (1, -1)]
-            others += [y for p in letters(x) if not (y := sp.expand(x / p)).has(p)]
+            others += [y for p in letters(x) if not (y := bounded.expand(x / p)).has(p)]
             for other in dict.fromkeys(others):
                 if other != x:
                     what = text(f"What {element.title} adds to the equation of ", s.q[i], " comes without its arm.")
                     yield Variant(what=what, Xi={i: other - x}, element=element, coordinate=i)
-        changed = {i: sp.expand(x / p) for p in _lengths(shares) for i, x in shares.items() if x.has(p)}
+        changed = {i: bounded.expand(x / p) for p in _lengths(shares) for i, x in shares.items() if x.has(p)}
         if len(changed) > 1:
             what = text(f"What {element.title} adds to the equations comes without its arm.")
             yield Variant(what=what, Xi={i: c - shares[i] for i, c in changed.items()}, element=element)
 
 
 def _lengths(shares: dict[int, sp.Expr]) -> list[sp.Symbol]:
-    return [p for x in shares.values() for p in letters(x) if not sp.expand(x / p).has(p)][:1]
+    return [p for x in shares.values() for p in letters(x) if not bounded.expand(x / p).has(p)][:1]

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.analyze.check.misconceptions.base import Ingredients, Variant, put
 from lagrangian.derive.formula import text
 
@@ -22,7 +23,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             if not trig:
                 continue
             yield Variant(what=what, Xi={i: put(x, trig) - x}, element=element, coordinate=i)
-            pieces = sp.Add.make_args(sp.expand(x))
+            pieces = sp.Add.make_args(bounded.expand(x))
             for piece in pieces if len(pieces) > 1 else ():
                 what = text("The part ", piece, f" of what {element.title} adds is missing.")
                 yield Variant(what=what, Xi={i: -piece}, element=element, coordinate=i)

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.analyze.check.misconceptions.base import Ingredients, Variant
 from lagrangian.derive.formula import text
 
@@ -20,11 +21,11 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         carried = sp.Add(*[-a * p for a, p in zip(n, s.parent(body), strict=True)])
         mg = s.expand(body.mass) * s.expand(gravity.g)
         what = text(f"The height of {body.title} is measured from its parent, which moves itself.")
-        if s.moves(carried) and sp.expand(V - mg * carried) != 0:
+        if s.moves(carried) and bounded.expand(V - mg * carried) != 0:
             yield Variant(what=what, V=-mg * carried, element=gravity)
-        pieces = [x for x in sp.Add.make_args(sp.expand(V)) if s.moves(x)]
+        pieces = [x for x in sp.Add.make_args(bounded.expand(V)) if s.moves(x)]
         if len(pieces) > 1:
             for piece in pieces:
-                if sp.expand(piece - mg * carried) != 0:
+                if bounded.expand(piece - mg * carried) != 0:
                     what = text(f"Of the height of {body.title} the part with ", piece / mg, " is missing.")
                     yield Variant(what=what, V=-piece, element=gravity)

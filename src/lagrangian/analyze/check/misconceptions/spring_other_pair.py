@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.analyze.check.misconceptions.base import Ingredients, Variant, put
 from lagrangian.derive.formula import text
 
@@ -22,7 +23,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         if spring.k is None or any(extension.diff(q).has(*s.q) for q in s.q):
             continue
         for changed in dict.fromkeys(_deflections(s, extension)):
-            if sp.expand(changed**2 - extension**2) != 0:
+            if bounded.expand(changed**2 - extension**2) != 0:
                 what = text(f"The deflection of {spring.title} is taken as ", changed, " in place of ", extension, ".")
                 yield Variant(what=what, V=s.expand(spring.k) * changed**2 / 2 - V, element=spring)
 
