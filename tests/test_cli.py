@@ -117,6 +117,14 @@ def test_a_mistake_is_one_message_and_exit_2(
     assert all(f in err for f in fragments), err
 
 
+def test_a_file_that_the_system_refuses_is_named(capsys: pytest.CaptureFixture[str], tmp_path: pathlib.Path) -> None:
+    """Not standard output, which nothing was written to."""
+    long = str(tmp_path / f"{'x' * 300}.txt")
+    code, _, err = call(capsys, "derive", "--example", "pendulum", "-o", long)
+    assert code == 2
+    assert long in err and "too long" in err and "standard output" not in err
+
+
 def test_a_mistake_in_the_file_shows_line_and_caret(capsys: pytest.CaptureFixture[str], tmp_path: pathlib.Path) -> None:
     path = tmp_path / "cart.toml"
     path.write_text(CART.replace('mass = "m"', 'mass = "mm"'), encoding="utf-8")

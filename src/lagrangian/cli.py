@@ -50,7 +50,8 @@ def main(arguments: list[str] | None = None) -> int:
         return CLOSED_PIPE
     except OSError as trouble:
         door.drop()
-        door.fail(f"[E801] cannot write to standard output: {(trouble.strerror or str(trouble)).lower()}")
+        where = "write to standard output" if trouble.filename is None else f"use '{trouble.filename}'"
+        door.fail(f"[E801] cannot {where}: {(trouble.strerror or str(trouble)).lower()}")
         return 2
     except Error as error:
         error.fix = error.fix and in_options(error.fix)

@@ -4,6 +4,7 @@ import json
 import pathlib
 import random
 import shutil
+import tracemalloc
 from collections.abc import Callable, Iterator
 
 import numpy as np
@@ -292,3 +293,43 @@ def test_only_our_own_stores_are_removed(tmp_path: pathlib.Path, what: str, word
     assert words in str(caught.value)
     assert caught.value.fix
     assert sorted(tmp_path.rglob("*")) == before
+
+
+@pytest.mark.parametrize("file", ["zarr.json", "x/c/0/0/0", "done/c/0"])
+def test_a_folder_in_the_place_of_a_file_is_named(
+    stores: dict[str, pathlib.Path], tmp_path: pathlib.Path, file: str
+) -> None:
+    path = shutil.copytree(stores["whole"], tmp_path / "a.zarr")
+    (path / file).unlink()
+    (path / file).mkdir()
+    for use in (contents, lambda path: store.resume(path, plan())):
+        with pytest.raises(Error, match="a.zarr"):
+            use(path)
+
+
+def test_opening_a_store_takes_no_more_memory_than_its_list_of_chunks(stores: dict[str, pathlib.Path]) -> None:
+    tracemalloc.start()
+    try:
+        store.resume(stores["whole"], plan()).close()
+        assert tracemalloc.get_traced_memory()[1] < 2**26
+    finally:
+        tracemalloc.stop()
+
+
+def test_a_store_that_cannot_be_replaced_stays(
+    stores: dict[str, pathlib.Path], tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = shutil.copytree(stores["whole"], tmp_path / "a.zarr")
+    rename = pathlib.Path.rename
+
+    def refused(self: pathlib.Path, target: pathlib.Path) -> pathlib.Path:
+        if self.name == "new":
+            raise PermissionError(13, "Permission denied")
+        return rename(self, target)
+
+    monkeypatch.setattr(pathlib.Path, "rename", refused)
+    with pytest.raises(Error, match="cannot make .*: permission denied"):
+        store.create(path, plan(k=3.0), overwrite=True)
+    assert [p.name for p in tmp_path.iterdir()] == ["a.zarr"]
+    for name, expected in contents(stores["whole"]).items():
+        np.testing.assert_array_equal(contents(path)[name], expected)

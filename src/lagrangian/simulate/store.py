@@ -83,7 +83,7 @@ class Store:
         self.notices: list[str] = []
         self._file = _alone(document.marks_file)
         os.lseek(self._file, 0, os.SEEK_SET)
-        data = os.read(self._file, 1 << 30)
+        data = os.read(self._file, os.fstat(self._file).st_size)
         self.marks = document.marks(data)
         if len(data) != self.marks.nbytes:
             self.notices.append(f"the list of finished chunks in '{self.path}' had a wrong length")
@@ -183,7 +183,12 @@ def create(path: Path, plan: Plan, *, overwrite: bool = False) -> Store:
             _fill(beside / "new", plan)
             if os.path.lexists(path):
                 _move_away(path, beside / "old")
-            (beside / "new").rename(path)
+            try:
+                (beside / "new").rename(path)
+            except OSError:
+                if (beside / "old").exists():
+                    (beside / "old").rename(path)
+                raise
         finally:
             shutil.rmtree(beside, ignore_errors=True)
     return Store(open_document(path))
@@ -253,7 +258,8 @@ def resume(path: Path, plan: Plan) -> Store:
     where it holds another task, or is damaged where nothing can be made good.
     """
     library()
-    document = open_document(path)
+    with explained(path, "open"):
+        document = open_document(path)
     differing = differences(document.kept["task"], json.loads(json.dumps(plan.task)))
     if differing:
         raise RunError(

@@ -97,7 +97,11 @@ class Result:
         return tuple(self.array.shape)
 
     def __getitem__(self, _: EllipsisType) -> NDArray[Any]:
-        """Read all values; raises `RunError` where one is not what was written."""
+        """Read all values; raises `RunError` where one is not what was written, `Error` where it cannot be read."""
+        with explained(self.stored.document.path, "read"):
+            return self._values()
+
+    def _values(self) -> NDArray[Any]:
         document, done = self.stored.document, self.stored.done
         marks = self.stored.marks * done[:, None]
         if lost := document.unfit(marks, [self.name]):
@@ -129,8 +133,8 @@ class Stored:
 
     def __init__(self, path: Path, *, lost: bool = False) -> None:
         library()
-        self.document = open_document(path)
         with explained(path, "read"):
+            self.document = open_document(path)
             self.marks = self.document.marks(self._marks_file())
             self.arrays = opened(self.document, "r")
             self.coordinates = {name: self._coordinate(name) for name in self.document.kept["coordinates"]}
