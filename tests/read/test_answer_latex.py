@@ -182,3 +182,20 @@ def held(line) -> bool:
     """Whether a Ξ or an energy stands in a line without its value."""
     names = {a.func.__name__ for a in line.residual.atoms(AppliedUndef)}
     return any(n.startswith("⟨") for n in names) or bool(names & {str(e.func) for e in ENERGIES.values()})
+
+
+def test_the_lower_half_of_a_symmetric_matrix_may_be_left_out():
+    d = derivation("lecture-3b")
+    columns = r"\begin{bmatrix} \ddot x_1 \\ \ddot x_{2r} \end{bmatrix}"
+    right = r"\begin{bmatrix} 0 \\ F - k x_{2r} \end{bmatrix}"
+
+    def residuals(M: str) -> list[sp.Expr]:
+        return [line.residual for line in parse_answer(f"${M} {columns} = {right}$", d.model).lines]
+
+    upper = r"\begin{bmatrix} m_1 + m_2 & m_2 \\ LOWER & m_2 \end{bmatrix}"
+    whole = residuals(upper.replace("LOWER", "m_2"))
+    assert len(whole) == 2
+    for lower in (r"\text{sym.}", r"\mbox{symmetric}", r"\text{ Symm. }"):
+        assert residuals(upper.replace("LOWER", lower)) == whole
+    with pytest.raises(ParseError, match="has no counterpart above the diagonal"):
+        residuals(r"\begin{bmatrix} m_1 + m_2 & \text{sym.} \\ m_2 & m_2 \end{bmatrix}")

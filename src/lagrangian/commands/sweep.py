@@ -96,7 +96,7 @@ def sweep(
             "--output",
             "-o",
             metavar="PATH",
-            help="Write the results to this file (.nc, .csv, .parquet) or .zarr store; - writes CSV to standard output.",
+            help="Write the results to this file (.nc, .csv, .parquet) or .zarr store; - is CSV on standard output.",
         ),
     ] = None,
     plot: Annotated[

@@ -88,7 +88,7 @@ TABLE: tuple[tuple[str, str, Fraction | int | str, str, str], ...] = (
     ("mph", "", _MILE / 3600, "m/s", ""),
     ("", "knot knots", Fraction(1852, 3600), "m/s", ""),
     # force
-    ("N", "newton newtons", 1, "N", _MANY),
+    ("N", "newton newtons", 1, "N", "T G M k d c m µ u n p"),
     ("lbf", "", _LBF, "N", ""),
     ("kip", "kips", 1000 * _LBF, "N", ""),
     ("kgf", "", _GRAVITY, "N", ""),

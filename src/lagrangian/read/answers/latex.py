@@ -7,6 +7,7 @@ sin(2θ) θ̇; a constant followed by t is one factor there: ``\cos\omega t``.
 from __future__ import annotations
 
 from collections.abc import Callable
+from copy import deepcopy
 
 from lark import Tree
 
@@ -315,14 +316,44 @@ class LatexParser(LatexFractions):
 
     def _matrix(self, token: Token) -> Tree:
         self.deeper(token.start)
-        rows: list[list[Tree]] = [[self.sum()]]
+        symmetric = self._says_symmetric()
+        rows: list[list[Tree | None]] = [[self._entry(symmetric)]]
         while not self.accept("end_"):
             if self.accept("&"):
-                rows[-1].append(self.sum())
+                rows[-1].append(self._entry(symmetric))
             elif self.accept("rowsep"):
                 if self.next.kind != "end_":
-                    rows.append([self.sum()])
+                    rows.append([self._entry(symmetric)])
             else:
                 raise self.stopped(False)
         self.opened.pop()
-        return matrix(token.start, rows)
+        return matrix(
+            token.start, [[self._mirrored(rows, i, j, token) for j in range(len(row))] for i, row in enumerate(rows)]
+        )
+
+    def _says_symmetric(self) -> bool:
+        """Whether the matrix that was begun says "sym." in place of its lower half."""
+        depth = 0
+        for token in self.tokens[self.i :]:
+            depth += (token.kind == "begin") - (token.kind == "end_")
+            if token.kind == "sym" and depth == 0:
+                return True
+            if depth < 0:
+                return False
+        return False
+
+    def _entry(self, symmetric: bool) -> Tree | None:
+        """An entry of a matrix; None for one that is left empty because the matrix is symmetric."""
+        if symmetric and (self.accept("sym") or self.next.kind in ("&", "rowsep", "end_")):
+            return None
+        return self.sum()
+
+    def _mirrored(self, rows: list[list[Tree | None]], i: int, j: int, token: Token) -> Tree:
+        """The entry in row i and column j, or for an empty one that on the other side of the diagonal."""
+        entry = rows[i][j]
+        if entry is None and j < i and i < len(rows[j]):
+            entry = rows[j][i]
+        if entry is None:
+            what = "an entry of this matrix is empty and has no counterpart above the diagonal"
+            raise self.source.error(what, token.start, fix="write the diagonal and all that is above it")
+        return deepcopy(entry)

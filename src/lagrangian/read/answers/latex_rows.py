@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from itertools import pairwise
 
-from lagrangian.read.answers.latex_tokens import MATRICES
+from lagrangian.read.answers.latex_tokens import MATRICES, SYMMETRIC
 from lagrangian.read.answers.rows import MAX_STATEMENTS, Row, blank, incomplete, plain_words
 
 _COMMENT = re.compile(r"(?<!\\)%.*")
@@ -39,6 +39,7 @@ _SHORT = re.compile(r"\w{1,20}\Z")
 _LINKS = frozenset(
     ["and", "where", "with", "so", "then", "for", "or", "hence", "thus", "therefore", "gives", "if", "when", "let"]
 )
+_SYMMETRIC = frozenset(["sym", "symm", "symmetric"])
 _MARK = re.compile(r"\\begin\{(\w+\*?)\}|\\end\{(\w+\*?)\}|\\\\(?:\s*\[[^\]\n]{0,20}\])?|\\[{}]|[{}]|\n")
 _SPACE = r"(?:\s|&|~|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})*"
 _NUMBER_BEFORE = re.compile(rf"{_SPACE}\(\s*\d{{1,3}}[a-z]?\s*\)(?={_SPACE}[^\s=+\-*/^])(?=.*=)", re.DOTALL)
@@ -105,9 +106,10 @@ def _without_words(text: str) -> str:
     while (match := _WORDS.search(text, at)) is not None:
         end = _closing(text, match.end())
         words = text[match.end() : end - 1].strip()
-        if not _SHORT.match(words) or words.lower() in _LINKS:
+        symmetric = words.lower().rstrip(".") in _SYMMETRIC
+        if symmetric or not _SHORT.match(words) or words.lower() in _LINKS:
             text = blank(text, match.start(), end)
-            text = text[: match.start()] + "\x00" + text[match.start() + 1 :]
+            text = text[: match.start()] + (SYMMETRIC if symmetric else "\x00") + text[match.start() + 1 :]
         at = end
     return text
 

@@ -13,9 +13,13 @@ from lagrangian.read.source import Source, shown
 MATRICES = frozenset(f"{kind}matrix{star}" for kind in ("", "p", "b", "B", "small") for star in ("", "*")) | {"array"}
 """Environments that are matrices."""
 
+SYMMETRIC = "\x01"
+"""The mark that stands for the word "sym." in a matrix."""
+
 _TOKEN = re.compile(
     r"""
       (?P<space>\s+|~|\\[,;:!>\s]|_?\{\s*\})
+    | (?P<sym>\x01)
     | (?P<rowsep>\\\\(?:\s*\[[^\]\n]{0,20}\])?)
     | (?P<begin>\\begin\s*\{(?P<opens>\w+\*?)\}(?:\s*\{[lcr|@{}\s]{0,40}\})?)
     | (?P<end_>\\end\s*\{\w+\*?\})
