@@ -197,5 +197,5 @@ def test_the_lower_half_of_a_symmetric_matrix_may_be_left_out():
     assert len(whole) == 2
     for lower in (r"\text{sym.}", r"\mbox{symmetric}", r"\text{ Symm. }"):
         assert residuals(upper.replace("LOWER", lower)) == whole
-    with pytest.raises(ParseError, match="has no counterpart above the diagonal"):
+    with pytest.raises(lg.ParseError, match="has no counterpart above the diagonal"):
         residuals(r"\begin{bmatrix} m_1 + m_2 & \text{sym.} \\ m_2 & m_2 \end{bmatrix}")
