@@ -7,6 +7,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from lagrangian import analyze, derive, write
+from lagrangian.calls import DERIVATION, Guided
 from lagrangian.model import Model
 
 if TYPE_CHECKING:
@@ -16,8 +17,10 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Derivation(derive.Derivation):
+class Derivation(Guided, derive.Derivation):
     """The seven steps, their results as SymPy, and every way to write them out."""
+
+    _guide = DERIVATION
 
     def to_text(
         self, *, notation: Notation = "lecture", brief: bool = False, full: bool = False, width: int = 80

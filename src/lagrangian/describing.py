@@ -12,6 +12,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import read
+from lagrangian.calls import SYSTEM, Guided, worded
 from lagrangian.errors import ModelError, Notice
 from lagrangian.model import (
     Builder,
@@ -43,8 +44,11 @@ MOST_NAMES = 10_000
 """Names that a range may stand for."""
 
 
-class Described:
+@worded
+class Described(Guided):
     """What is described: symbols, geometry, elements. `lagrangian.System` adds the verbs."""
+
+    _guide = SYSTEM
 
     def __init__(self, name: str, *, _builder: Builder | None = None) -> None:
         self._builder = _builder if _builder is not None else Builder(name)
@@ -187,6 +191,12 @@ class Described:
         self, direction: object = (0, -1), g: object = None, *, datum: Point | None = None, name: str = ""
     ) -> Gravity:
         """Add gravity along ``direction`` (down). ``g`` is the parameter g, 9.81 m/s², unless given."""
+        if isinstance(direction, (int, float)):
+            raise ModelError(
+                f"the direction of gravity must be a pair or a triple (got {direction!r})",
+                fix=f"gravity(direction=(0, -1), g={direction!r})",
+                code="E414",
+            )
         strength = self._builder.standard_gravity(STANDARD_GRAVITY) if g is None else g
         return self._builder.add(Gravity(direction=direction, g=strength, datum=datum, name=name))
 

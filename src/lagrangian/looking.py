@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from lagrangian import compile as machine
 from lagrangian import dynamics, read
+from lagrangian.calls import COMPILED, Guided
 from lagrangian.errors import ModelError
 from lagrangian.model import Frame, Point, as_expr, plain
 
@@ -22,9 +23,10 @@ REMEMBERED = 64
 """Points, frames and expressions whose code is kept, the latest."""
 
 
-class Looking:
+class Looking(Guided):
     """The half of a compiled system that looks at its motion; `lagrangian.compiled.Compiled` has the equations."""
 
+    _guide = COMPILED
     _model: Model
     _lanes: int | None
     _threads: int | None

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lagrangian import read
+from lagrangian.calls import worded
 from lagrangian.describing import Described
 from lagrangian.errors import ModelError, Place
 from lagrangian.write import write_file
@@ -33,6 +34,7 @@ if TYPE_CHECKING:  # every verb imports what it needs: describing a system waits
     from lagrangian.running.trajectory import Trajectory
 
 
+@worded
 class System(Described):
     """A mechanical system: coordinates, parameters, points and elements, in the order they are described.
 
@@ -340,6 +342,12 @@ def loads(text: str, *, name: str | None = None) -> System:
     if not isinstance(text, str):
         raise ModelError(
             f"a model file is text (got {type(text).__name__})", fix="load(path) reads a file", code="E406"
+        )
+    if text.strip().endswith(".toml") and "\n" not in text.strip():
+        raise ModelError(
+            f"loads reads the text of a model, and {text.strip()[:60]!r} names a file",
+            fix=f"load({text.strip()[:60]!r})",
+            code="E406",
         )
     builder = read.loads(text, name)
     return System(builder.name, _builder=builder)

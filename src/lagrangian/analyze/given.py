@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from lagrangian import read
 from lagrangian.advice import Advice, Argument
-from lagrangian.analyze.dimensions import RATE, SECOND, Dim, Dimensions, check_dimensions
+from lagrangian.analyze.dimensions import NONE, RATE, SECOND, Dim, Dimensions, check_dimensions
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.graph import Program
 from lagrangian.model import Model, plain
@@ -27,6 +27,11 @@ def key_name(key: object) -> str:
     return plain(key) if isinstance(key, sp.Basic) else str(key)
 
 
+def _unit(dim: Dim) -> str:
+    """A dimension as its SI unit; what has none is an angle, or a number."""
+    return "rad (or no unit)" if dim.known == NONE.known else str(dim)
+
+
 def number(value: object, what: str, dim: Dim | None = None) -> float:
     """A finite number in SI units, from a number or from text with a unit; ``dim`` is the dimension it must have.
 
@@ -36,7 +41,11 @@ def number(value: object, what: str, dim: Dim | None = None) -> float:
         quantity = read.parse_quantity(value, what=what)
         found = Dim(quantity.dimension.mechanical)
         if dim is not None and not dim.unknown and not quantity.is_bare and found.known != dim.known:
-            raise RunError(f"{what} = {value!r} has the unit {found}, but {dim} is needed", code="E408")
+            raise RunError(
+                f"{what} = {value!r} has the unit {_unit(found)}, but {_unit(dim)} is needed",
+                fix="check whether it is the quantity that is meant, or give a number alone, in SI units",
+                code="E408",
+            )
         return quantity.value
     if isinstance(value, (bool, bytes)) or not hasattr(value, "__float__") or isinstance(value, complex):
         raise RunError(

@@ -1,4 +1,4 @@
-"""What is to be known of a system that need not stop the work: inertias that no body has, decided by the mass matrix.
+"""What is to be known of a system: inertias that no body has, decided by the mass matrix, and gravity left out.
 
 T* = ½ Σ m v² + ½ Σ ωᵀ I ω is positive wherever every I is positive semidefinite, whether a body can have it or not.
 Where an I is not, M is looked at in random states: where it stays positive definite the equations can be solved and
@@ -13,11 +13,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from lagrangian.dynamics.programs import mass_matrix
 from lagrangian.errors import ModelError, Notice
 from lagrangian.graph import Program, evaluate
-from lagrangian.model import Model, Parameter, RigidBody
+from lagrangian.model import Gravity, Model, Parameter, RigidBody
 from lagrangian.model.masses import Doubt, Numbers, doubt
 
 STATES = 20
@@ -41,8 +42,26 @@ def notices(model: Model) -> tuple[Notice, ...]:
         negative = [d for d in found if d.negative]
         if negative:
             _decide(model, negative)
-        model._memo["notices"] = tuple(Notice(d.code, _where(d.body), _said(d)) for d in found)
+        model._memo["notices"] = (*(Notice(d.code, _where(d.body), _said(d)) for d in found), *_weightless(model))
     return model._memo["notices"]
+
+
+def _weightless(model: Model) -> Iterator[Notice]:
+    """A system with a g that nothing uses, or whose bodies rise and fall in the plane while nothing at all acts."""
+    if any(isinstance(e, Gravity) for e in model.elements):
+        return
+    where = f"system '{model.name}'"
+    used = {s for e in model.elements for use in e.uses() for s in model.expand(use.expr, constants=True).free_symbols}
+    if any(p.name == "g" and p.symbol not in used for p in model.parameters):
+        yield Notice(
+            "E107", where, "the parameter g is declared, and no gravity uses it: add gravity if bodies have weight"
+        )
+        return
+    if model.dimension != 2 or any(e.ledger != "T*" for e in model.elements):
+        return
+    heights = [model.expand(model.position(body.at)[1]) for body in model.bodies]
+    if any(h.has(sp.sin, sp.cos) and h.has(AppliedUndef) for h in heights):
+        yield Notice("E107", where, "bodies swing in the plane and nothing acts on them: add gravity if y is upwards")
 
 
 def _where(body: RigidBody) -> str:

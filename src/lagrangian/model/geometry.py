@@ -76,7 +76,14 @@ def as_vector(values: object, what: str, *, place: Place | None = None) -> tuple
     if isinstance(values, sp.MatrixBase):
         values = tuple(values.flat())
     if isinstance(values, str) or not isinstance(values, Sequence):
-        raise ModelError(f"{what} must be a pair or a triple (got {type(values).__name__})", place=place, code="E414")
+        fix = "such as (x, y) with SymPy expressions"
+        if isinstance(values, Point):
+            fix = (
+                'point("A", (x, y), relative_to=P) counts from P; frame.point(x, y, name="A") names a point of a frame'
+            )
+        raise ModelError(
+            f"{what} must be a pair or a triple (got {type(values).__name__})", place=place, fix=fix, code="E414"
+        )
     if len(values) not in (2, 3):
         raise ModelError(
             f"{what} has {len(values)} component{'s' if len(values) != 1 else ''}",

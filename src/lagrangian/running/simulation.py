@@ -79,6 +79,9 @@ def simulate(
 
     Values for states by name may stand beside the options: ``theta1=0.2``.
     """
+    states = [*(c.name for c in model.coordinates), *(v.name for v in model.velocities)]
+    for unknown in (name for name in by_name if name not in states):
+        _not_a_state(model, unknown, states)
     settings = dict(model.settings)
     given = Given.of(model, _named(model))
     dims = dict(zip(given.inputs.names, given.inputs.dims, strict=True))
@@ -149,6 +152,12 @@ def _times(
         duration = settings.get("duration")
     if duration is None:
         raise RunError("how long to run is not said", fix=NO_DURATION, code="E401")
+    if isinstance(duration, (tuple, list)) and len(duration) == 2:
+        raise RunError(
+            f"the duration is one number, not a span (got {duration!r:.40})",
+            fix="simulate(10.0) runs for 10 s; start=2.0 says where time begins",
+            code="E501",
+        )
     length = number(duration, "duration", SECOND)
     if length < 0:
         raise RunError(f"the duration is negative ({length:g} s)", fix="give 0 or more", code="E501")
@@ -202,8 +211,6 @@ def _initial(
     values.update(given.states.values(dict(fallback)))
     listed = given.states.values(initial)
     for name in by_name:
-        if name not in given.states.names:
-            _not_a_state(model, name, given.states.names)
         if name in listed and initial is not None:
             raise RunError(f"'{name}' is given twice, by itself and in initial", code="E404")
     values.update(listed)
@@ -227,8 +234,25 @@ def _not_a_state(model: Model, name: str, states: Sequence[str]) -> NoReturn:
         fix = Advice("it is an input: ", Argument("inputs", "…", name))
     else:
         options = [p for p in inspect.signature(simulate).parameters if p not in ("model", "by_name")]
-        fix = did_you_mean(name, [*states, *options]) or f"states: {', '.join(states[:12])}"
+        fix = _meant(name, states) or did_you_mean(name, [*states, *options]) or f"states: {', '.join(states[:12])}"
     raise RunError(f"there is no option and no state '{name[:64]}'", fix=fix, code="E402")
+
+
+def _meant(name: str, states: Sequence[str]) -> str | None:
+    """What a keyword is called here that other packages have, or that means a rate."""
+    if name in ("y0", "x0", "q0", "ic", "ics", "initial_conditions", "initial_state"):
+        return f"initial={{'{states[0]}': 0.2}}, or {states[0]}=0.2"
+    if name in ("t_span", "tspan", "t_end", "tend", "tf", "t", "T", "time", "t_max"):
+        return "the duration stands first: simulate(10.0)"
+    if name in ("dt", "h", "step_size", "timestep"):
+        return 'step=0.01 with method="rk4"; samples=1001 says how often the run is kept'
+    if name in ("t_eval", "saveat", "teval"):
+        return "times=[0, 0.1, …]"
+    for state in (s for s in states if s.endswith("'")):
+        base = state[:-1]
+        if name in (f"{base}_dot", f"{base}dot", f"d{base}", f"{base}_d", f"{base}p", f"v_{base}", f"{base}_rate"):
+            return f'the rate of {base} is {state}: initial={{"{state}": …}}'
+    return None
 
 
 def _method(method: str | None, drive: Driving, step: Any) -> str:

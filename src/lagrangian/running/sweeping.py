@@ -103,9 +103,11 @@ def _options(model: Model, options: Mapping[str, Any], duration: Any) -> tuple[W
     states = {s.name for s in (*model.coordinates, *model.velocities)}
     for name in options:
         if name not in known | states:
+            owners = (("params", model.parameters), ("inputs", model.inputs))
+            own = [f"{word}={{'{name}': …}}" for word, xs in owners if any(x.name == name for x in xs)]
             raise RunError(
                 f"there is no option and no coordinate '{name[:64]}'",
-                fix=did_you_mean(name, known | states) or f"options: {', '.join(sorted(known))}",
+                fix=(own[0] if own else did_you_mean(name, known | states)) or f"options: {', '.join(sorted(known))}",
                 code="E402",
             )
     wanted = Wanted(duration=duration, **{k: v for k, v in options.items() if k in names["wanted"]})

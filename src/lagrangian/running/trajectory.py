@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from lagrangian import compile as machine
 from lagrangian import dynamics, read
 from lagrangian.advice import Advice, Argument
+from lagrangian.calls import TRAJECTORY, Guided
 from lagrangian.errors import ModelError, Notice, RunError, did_you_mean
 from lagrangian.model import Element, Model, Point, as_expr
 from lagrangian.running import showing
@@ -85,7 +86,7 @@ class Occurrences:
 
 
 @dataclass(eq=False)
-class Trajectory:
+class Trajectory(Guided):
     """A run of a system, as SciPy's solvers return one, and everything that can be asked of it by name.
 
     ``t`` (S,) are the times [s], ``y`` (n_states, S) the states x = [q; v] in declared order, ``states`` their names.
@@ -94,6 +95,8 @@ class Trajectory:
     failed keeps what it reached. ``notices`` say what is to be known of the system with these
     parameters. ``nfev`` counts evaluations of the right-hand side, ``method`` is what integrated.
     """
+
+    _guide = TRAJECTORY
 
     model: Model = field(repr=False)
     t: Array
@@ -147,6 +150,11 @@ class Trajectory:
         """Where the symbols of the states stand in ``y``."""
         symbols = [*(c.symbol for c in self.model.coordinates), *(v.symbol for v in self.model.velocities)]
         return {symbol: i for i, symbol in enumerate(symbols)}
+
+    def _own_name(self, name: str) -> str | None:
+        """A quantity is an entry, not an attribute."""
+        model = self.__dict__.get("model")
+        return f'run["{name}"]' if model is not None and name in model.symbols else None
 
     def observe(self, outputs: Mapping[str, Any]) -> dict[str, Array]:
         """Return several expressions or points at once, by name."""
