@@ -77,7 +77,7 @@ def cut_off(file: pathlib.Path, _: pathlib.Path) -> Iterator[None]:
 
 def flipped(file: pathlib.Path, _: pathlib.Path) -> Iterator[None]:
     data, source = file.read_bytes(), random.Random(file.as_posix()[-20:])
-    for _ in range(10 if file.parent.name == "t.zarr" else 1):
+    for _turn in range(10 if file.parent.name == "t.zarr" else 1):
         place = source.randrange(len(data))
         changed = bytes([data[place] ^ (1 << source.randrange(8))])
         file.write_bytes(data[:place] + changed + data[place + 1 :])
