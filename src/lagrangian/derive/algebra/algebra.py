@@ -15,7 +15,7 @@ from lagrangian.derive.algebra.monomials import Packed, Poly, digits, unit
 from lagrangian.derive.algebra.readable import Writer
 from lagrangian.derive.algebra.reading import Reader
 
-WORK = 5_000_000
+WORK = 4_000_000
 """Terms that may be multiplied, added and differentiated for one system; what a book holds takes a hundredth."""
 
 
