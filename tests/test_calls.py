@@ -52,7 +52,7 @@ FIRST: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
     "no name": (lambda k: lg.System(), "System needs 'name'"),  # type: ignore[call-arg]
     "gravity of a number": (lambda k: k["s"].gravity(9.81), "gravity(direction=(0, -1), g=9.81)"),
     "a span": (lambda k: k["s"].simulate((0, 10)), "one number, not a span"),
-    "t_span": (lambda k: k["s"].simulate(t_span=(0, 10)), "the duration stands first"),
+    "t_span": (lambda k: k["s"].simulate(t_span=(0, 10)), "give the duration as the first argument"),
     "y0": (lambda k: k["s"].simulate(1, y0=[0, 0, 0, 0]), "initial={'x': 0.2}"),
     "dt": (lambda k: k["s"].simulate(1, dt=0.1), 'step=0.01 with method="rk4"'),
     "theta_dot": (lambda k: k["s"].simulate(1, theta_dot=1), "the rate of theta is theta'"),

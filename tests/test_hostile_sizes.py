@@ -74,10 +74,3 @@ def test_a_derivation_ends_when_its_products_are_spent(monkeypatch: pytest.Monke
     with pytest.raises(ModelError, match="takes more than 100 products of terms") as caught:
         lg.loads(HEAD + BODY + '[[potential]]\nvalue = "(q + w)^9*sin(q)"\n').derive()
     assert caught.value.fix is not None and "compile()" in caught.value.fix
-
-
-def test_a_fraction_of_long_numbers_is_written_as_a_decimal() -> None:
-    """123456789012345678901234567891/98765432198765432100001 = 1 249 999.987484375…"""
-    law = "delta*(123456789012345678901234567891/98765432198765432100001)/(a+k^2)"
-    page = lg.loads(HEAD + BODY + f'[[spring]]\ndeflection = "q"\nlaw = "{law}"\n').derive().to_text()
-    assert "1249999.98748438 q/(k² + a)" in page

@@ -114,7 +114,7 @@ def test_what_is_not_there_is_said(arm: dict) -> None:
     other = lg.System("other")
     for call, said in (
         (lambda: dyn.point("tipp", Q), "Did you mean 'tip'"),
-        (lambda: dyn.point(None, Q), "by its name or by itself"),
+        (lambda: dyn.point(None, Q), "must be given by name, or be the object itself"),
         (lambda: dyn.point(other.origin + (1, 2), Q), "another system"),
         (lambda: dyn.point(arm["link"], Q), "Frame"),
         (lambda: dyn.frame("lnk", Q), "Did you mean 'link'"),

@@ -146,7 +146,7 @@ def check_size(count: int, what: str) -> None:
         many = f"{float(count):.0e}" if count < BEYOND else "more than 1e30"
         raise TooLarge(
             f"{what} has {many} operations once it is written out",
-            fix=f"at most {LARGEST}: use each definition fewer times, or describe the system by points and frames",
+            fix=f"at most {LARGEST}: refer to each definition fewer times, or describe the system by points and frames",
             code="E601",
         )
 

@@ -51,7 +51,7 @@ def _derived(thing: object, which: str) -> Derivation:
         return thing
     if not hasattr(thing, "derive"):
         raise ModelError(
-            f"the {which} of the two is no system (got {type(thing).__name__})",
+            f"the {which} of the two is not a system (got {type(thing).__name__})",
             fix="compare(System, System), or their derivations",
             code="E406",
         )

@@ -68,7 +68,7 @@ class Compiled(Looking):
     def program(self, name: str) -> Program:
         """Return the `Program` behind a method: "forward", "inverse", "mass_matrix", "bias", "gravity", …"""
         if not isinstance(name, str) or name not in _PROGRAMS:
-            raise RunError(f"there is no program {name!r}", fix=f"one of {', '.join(_PROGRAMS)}", code="E402")
+            raise RunError(f"there is no program {name!r}", fix=f"use one of {', '.join(_PROGRAMS)}", code="E402")
         return _PROGRAMS[name](self._model)
 
     def _kernel(self, name: str) -> machine.Kernel:
@@ -130,7 +130,7 @@ class Compiled(Looking):
         if not self.quadratic:
             raise RunError(
                 "there are no Christoffel symbols: the kinetic co-energy is not quadratic in the rates",
-                fix="bias(q, v) is all that the velocities and the positions do",
+                fix="use bias(q, v), which contains all velocity and position terms",
                 code="E501",
             )
         return self._run("coriolis", q, p, t, q, v, None)
@@ -203,8 +203,8 @@ class Compiled(Looking):
             if lengths.min() < NO_LENGTH:
                 listed = ", ".join(c.name for c in floating.coordinates[3:])
                 return RunError(
-                    f"the quaternion {listed} has the length {lengths.min():.3g}: it tells no orientation",
-                    fix="(0, 0, 0, 1) is no turn at all; any length but 0 will do",
+                    f"the quaternion {listed} has the length {lengths.min():.3g}, so it does not define an orientation",
+                    fix="use a quaternion of any length other than 0; (0, 0, 0, 1) means not rotated",
                     code="E503",
                 )
         try:
@@ -218,7 +218,7 @@ class Compiled(Looking):
             if singular[-1] * SINGULAR <= singular[0]:
                 return RunError(
                     f"M is singular at {self._listed(state)}: {self._moved(right[-1])} moves no mass there",
-                    fix="choose other coordinates near this configuration, or give what they move a mass or an inertia",
+                    fix="choose other coordinates near this configuration, or give what they move mass or inertia",
                     code="E203",
                 )
         return trouble
@@ -275,7 +275,7 @@ def sources(model: Model, language: str, stem: str) -> dict[str, str]:
     a frame floats the rates of its coordinates; nothing else of this package is needed to run them.
     """
     if language not in LANGUAGES:
-        raise ModelError(f"there is no export to '{language}'", fix=f"one of {', '.join(LANGUAGES)}", code="E402")
+        raise ModelError(f"there is no export to '{language}'", fix=f"use one of {', '.join(LANGUAGES)}", code="E402")
     if len(stem) > LONGEST_STEM:
         raise ModelError(
             f"the name {stem[:20]}… has {len(stem)} characters, and functions are called after it",

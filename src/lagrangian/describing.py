@@ -362,7 +362,7 @@ def _many(names: str | Iterable[str], make: Any, *, single: bool | None = None) 
     """Make one symbol a name; text with exactly one name gives the symbol itself, as SymPy's ``symbols`` does."""
     listed = _split(names)
     if not listed:
-        raise ModelError("no name was given", fix='such as "theta1 theta2"', code="E401")
+        raise ModelError("no name is given", fix='give names, such as "theta1 theta2"', code="E401")
     made = tuple(make(name) for name in listed)
     alone = _alone(names) if single is None else single
     return made[0] if len(made) == 1 and alone else made

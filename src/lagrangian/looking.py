@@ -105,7 +105,10 @@ class Looking(Guided):
         if isinstance(expression, (list, tuple)):
             parts = [self._flat(x) for x in expression]
             if not parts or len({shape for _, shape in parts}) != 1:
-                raise ModelError("a list to evaluate holds entries of one shape, at least one", code="E501")
+                raise ModelError(
+                    "a list to evaluate must have at least one entry, and all entries must have the same shape",
+                    code="E501",
+                )
             return [x for flat, _ in parts for x in flat], (len(parts), *parts[0][1])
         if isinstance(expression, str):
             expression = read.parse_expression(expression, read.Scope(self._model.symbols), what="what is evaluated")

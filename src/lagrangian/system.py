@@ -306,7 +306,9 @@ class System(Described):
         languages = {suffix: language for language, suffix in LANGUAGES.items()}
         if target.suffix not in languages:
             raise ModelError(
-                f"'{target.name}' names no language by its ending", fix=f"one of {', '.join(languages)}", code="E402"
+                f"the ending of '{target.name}' is not supported",
+                fix=f"use one of {', '.join(languages)}",
+                code="E402",
             )
         files = sources(self.model, languages[target.suffix], target.stem)
         return tuple(write_file(target.parent / name, text) for name, text in files.items())

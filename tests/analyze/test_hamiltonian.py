@@ -130,7 +130,7 @@ def test_momenta_of_coupled_ignorable_coordinates() -> None:
         ("spherical-pendulum", ["theta"], "L holds it"),
         ("cart-pole", ["x"], "a force acts on it"),
         ("spherical-pendulum", ["fi"], "there is no coordinate 'fi'"),
-        ("spherical-pendulum", [], "no coordinate was named"),
+        ("spherical-pendulum", [], "no coordinate is given"),
     ],
 )
 def test_what_is_not_ignorable_is_refused(name: str, ignorable: Any, message: str) -> None:

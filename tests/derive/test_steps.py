@@ -237,7 +237,7 @@ def test_detail_takes_the_time_derivative_term_by_term() -> None:
         whole += result
     momenta = sum(sp.diff(sp.diff(full.L, q.diff(s.t)), s.t) for q in full.coordinates)
     assert sp.simplify(sp.expand(sp.expand_trig(momenta - whole))) == 0
-    with pytest.raises(lg.ModelError, match="there is no detail 'ful'"):
+    with pytest.raises(lg.ModelError, match="there is no level of detail 'ful'"):
         s.derive(detail="ful")  # type: ignore[arg-type]
 
 

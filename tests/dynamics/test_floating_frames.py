@@ -290,7 +290,7 @@ def test_what_does_not_fit_is_refused():
     s = lg.System("wrong")
     base = s.floating_frame("base")
     tau = s.input("tau")
-    with pytest.raises(lg.ModelError, match="it has no axis"):
+    with pytest.raises(lg.ModelError, match="does not say about which axis"):
         s.torque(tau, on=base)
     with pytest.raises(lg.ModelError, match="entry of a quaternion"):
         s.generalized_force(s["base_qx"], tau)

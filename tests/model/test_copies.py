@@ -41,5 +41,5 @@ def test_a_copy_checks_its_own_points_and_frames(copied) -> None:
 
 @pytest.mark.parametrize("wanted", [slice(1, 2), ["theta"], 3, None])
 def test_what_is_looked_up_is_a_name(wanted) -> None:
-    with pytest.raises(ModelError, match="must be a name"):
+    with pytest.raises(ModelError, match="takes a name"):
         lg.loads(examples.text("pendulum"))[wanted]

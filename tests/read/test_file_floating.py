@@ -175,7 +175,7 @@ def test_the_schema_wants_an_angle_or_floating() -> None:
         ("offset = [0.1, 0, 0.2]", 'offset = [0.1, "hull_wz", 0.2]', "holds a rate, hull_wz", "tip"),
         ('coordinate = "third_wz"', 'coordinate = "third_qz"', "an entry of a quaternion", "[[generalized_force]]"),
         ("floating = true", 'floating = "yes"', "'floating' must be true or false", "floating"),
-        ('value = ["T", 0, 0]\non', 'value = "T"\non', r"it has no axis", "[[torque]]"),
+        ('value = ["T", 0, 0]\non', 'value = "T"\non', r"does not say about which axis", "[[torque]]"),
     ],
 )
 def test_what_is_wrong_is_told_with_its_line(before: str, after: str, message: str, line: str) -> None:

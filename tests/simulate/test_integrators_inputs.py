@@ -99,7 +99,7 @@ def test_signals_that_do_not_fit_are_refused(signals, message):
         ({"rtol": -1e-9}, "rtol"),
         ({"atol": 0.0}, "atol"),
         ({"atol": [1e-9] * 3}, "atol has shape"),
-        ({"step": 0.1}, "chooses its steps"),
+        ({"step": 0.1}, "chooses its step size itself"),
         ({"max_steps": 0}, "max_steps"),
         ({"max_step": 0.0}, "max_step"),
         ({"max_events": 1.5}, "max_events"),
@@ -136,7 +136,7 @@ def test_solvers_that_cannot_be_are_refused():
         Solver(problem(lambda s: [s["x"].apply("abs")], x="x"), "taylor")
     with pytest.raises(RunError, match="too long"):
         Solver(chain(12)[0], "taylor")
-    with pytest.raises(RunError, match="no right-hand side"):
+    with pytest.raises(RunError, match="not a right-hand side"):
         Solver(problem(lambda s: [s["x"]], x=("x", "y")))
 
 

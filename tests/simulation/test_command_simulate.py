@@ -66,8 +66,8 @@ MISTAKES = [
     (["-e", "cart-pole", "-d", "-3"], "duration is negative"),
     (["-e", "cart-pole", "--rtol", "0"], "rtol must be above 0"),
     (["-e", "cart-pole", "--method", "rk45"], "write 'RK45'"),
-    (["-e", "cart-pole", "-o", "run.xls"], "names no kind of file"),
-    (["-e", "cart-pole", "--plot", "run.xyz"], "names no kind of file"),
+    (["-e", "cart-pole", "-o", "run.xls"], "is not supported"),
+    (["-e", "cart-pole", "--plot", "run.xyz"], "is not supported"),
     (["-e", "cart-pole", "-o", "/nowhere/run.csv"], "there is no folder"),
     (["-e", "cart-polo"], "cart-pole"),
     ([], "name a model file"),
@@ -119,7 +119,7 @@ def test_a_table_in_a_file_drives_the_run(capsys: pytest.CaptureFixture[str], tm
         assert np.genfromtxt(out, delimiter=",", names=True)["F"] == pytest.approx(wanted)
     table.write_text("0,1\n0.5;2\n")
     code, _, err = said(capsys, "-e", "cart-pole", "-d", "1", "-i", f"F=@{table}")
-    assert code == 2 and f"{table}:2" in err and "is no time and value" in err
+    assert code == 2 and f"{table}:2" in err and "is not a time and a value" in err
     code, _, err = said(capsys, "-e", "cart-pole", "-i", f"F=@{tmp_path / 'none.csv'}")
     assert code == 2 and "cannot read the table: no such file" in err
     code, _, err = said(capsys, "-e", "cart-pole", "-i", f"F=@{table} cubic")
@@ -132,9 +132,9 @@ def test_a_table_in_a_file_drives_the_run(capsys: pytest.CaptureFixture[str], tm
         (b"\xef\xbb\xbf0,1\n2,1\n", ""),  # as spreadsheets write it
         (b"time,force\n0,1\n2,1\n", ""),
         (b'# of a run\n"0","1"\n2,1\n\n', ""),
-        (b"0,1,5\n0,1\n2,1\n", "'0,1,5' is no time and value"),
-        (b"0;1\n0;1\n", "'0;1' is no time and value"),
-        (b"0,1\n2," + b"1" * 200_000 + b"x\n", "is no time and value"),
+        (b"0,1,5\n0,1\n2,1\n", "'0,1,5' is not a time and a value"),
+        (b"0;1\n0;1\n", "'0;1' is not a time and a value"),
+        (b"0,1\n2," + b"1" * 200_000 + b"x\n", "is not a time and a value"),
         (b"\0" * 1000, "the table holds no numbers"),
         (b"\xff\xfe0", "it is not text"),
     ],

@@ -103,7 +103,7 @@ def test_events_that_make_no_sense_are_refused() -> None:
         (lambda: lg.event(y, reset=[1]), "reset must be a mapping"),
         (lambda: s.simulate(1, y=1, events=[y]), "made with lagrangian.event"),
         (lambda: s.simulate(1, y=1, events=[lg.event(y), lg.event(y)]), "two events are called 'y'"),
-        (lambda: s.simulate(1, y=1, events=lg.event(y, reset={s["m"]: 2})), "sets 'm', which is no state"),
+        (lambda: s.simulate(1, y=1, events=lg.event(y, reset={s["m"]: 2})), "sets 'm', which is not a state"),
         (lambda: s.simulate(1, y=1, events=lg.event(lg.System("other").coordinate("z"))), "unknown symbol 'z'"),
     ):
         with pytest.raises((lg.ModelError, lg.RunError), match=words):

@@ -124,7 +124,7 @@ def test_accelerations_cannot_be_fed_back() -> None:
 
 
 def test_a_python_function_does_not_go_with_machine_code() -> None:
-    with pytest.raises(lg.RunError, match="cannot ask a Python function for input 'F'"):
+    with pytest.raises(lg.RunError, match="cannot call the Python function of input 'F'"):
         oscillator().simulate(1.0, inputs={"F": lambda t, x: 0.0}, method="rk4", step=0.1)
 
 

@@ -131,7 +131,7 @@ def test_a_file_is_replaced_only_when_asked(run: lg.Trajectory, tmp_path: Path) 
     assert path.read_bytes() == b"precious"
     run.save(path, overwrite=True)
     assert path.stat().st_size > 1000
-    with pytest.raises(lg.ModelError, match="names no kind of file"):
+    with pytest.raises(lg.ModelError, match="is not supported"):
         run.save(tmp_path / "run.xlsx")
     with pytest.raises(lg.Error, match="there is no folder"):
         run.save(tmp_path / "none" / "run.npz")

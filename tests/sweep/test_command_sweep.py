@@ -90,7 +90,7 @@ def test_a_damaged_store_is_made_good_with_resume(folder: pathlib.Path, capsys: 
     [
         (["arm.toml", "kk=1:2:3", *FAST], "kk"),
         (["arm.toml", "m2=1:2", *FAST], "three parts"),
-        (["arm.toml", *FAST], "nothing is varied"),
+        (["arm.toml", *FAST], "no varied quantity is given"),
         (["m2=1:2:3", *FAST], "is not a model file"),
         (["arm.toml", "m2=1:2:3", *FAST, "-o", "a.xls"], "a.xls"),
         (["arm.toml", "m2=1:2:3", *FAST, "-o", "a.csv", "--resume"], "only a .zarr store"),

@@ -262,7 +262,7 @@ def test_a_chunk_written_in_part_is_not_done(
         ("folder", "it is a folder without zarr.json (thesis.tex)"),
         ("file", "it is a file"),
         ("link", "it is a link"),
-        ("guest", "'thesis.tex' in it was not put there by a sweep"),
+        ("guest", "'thesis.tex' in it was not written by a sweep"),
         ("broken", "its zarr.json cannot be read"),
     ],
 )

@@ -90,11 +90,11 @@ def test_nobody_answers(system: lg.System, monkeypatch: pytest.MonkeyPatch) -> N
 @pytest.mark.parametrize(
     ("trouble", "message"),
     [
-        (lambda: distributed.KilledWorker("task", "worker", 3), "one chunk ended every worker"),
+        (lambda: distributed.KilledWorker("task", "worker", 3), "every worker that computed one of the chunks died"),
         (lambda: ModuleNotFoundError("No module named 'lagrangian'"), "a worker lacks a package"),
         (lambda: distributed.client.FutureCancelledError("key", "scheduler-connection-lost"), "the scheduler was lost"),
         (lambda: ConnectionResetError("gone"), "the scheduler was lost"),
-        (lambda: lg.RunError("a worker has lagrangian 0.0"), "a worker has lagrangian 0.0"),
+        (lambda: lg.RunError("a worker runs lagrangian 0.0"), "a worker runs lagrangian 0.0"),
     ],
 )
 def test_what_goes_wrong_over_there_is_told_here(trouble, message: str) -> None:
@@ -113,5 +113,5 @@ def test_what_goes_wrong_over_there_is_told_here(trouble, message: str) -> None:
 def test_a_worker_of_another_version_is_refused(system: lg.System) -> None:
     from lagrangian.simulate import remote
 
-    with pytest.raises(lg.RunError, match=r"a worker has lagrangian .*, this is 9\.9"):
+    with pytest.raises(lg.RunError, match=r"a worker runs lagrangian .*, this is 9\.9"):
         remote.work("key", b"", "9.9", None)  # type: ignore[arg-type]

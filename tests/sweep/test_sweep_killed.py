@@ -71,7 +71,7 @@ def test_killed_and_resumed_is_the_same_as_never_killed(
     assert counted[0][0] == pytest.approx(done.mean() * 10_000, abs=300)
     assert counted[-1] == (10_000, 10_000)
     assert all(p.stat().st_mtime_ns == t for p, t in before.items())
-    with pytest.raises(lg.RunError, match=r"holds another task: varied m1 was .* seed 5, is .* seed 6"):
+    with pytest.raises(lg.RunError, match=r"belongs to a different sweep: varied m1 was .* seed 5, is .* seed 6"):
         system.sweep(20.0, GRID, **{**HOW, "seed": 6}, store=store, resume=True)
     with pytest.raises(lg.Error, match="exists"):
         system.sweep(20.0, GRID, **HOW, store=store)

@@ -68,7 +68,7 @@ def test_the_command_draws(tmp_path: pathlib.Path, capsys: pytest.CaptureFixture
 
 def test_samples_kept_are_not_one_number(system: lg.System) -> None:
     runs = system.ensemble(1.0, theta1=[0.1, 0.2], reduce=None, method="rk4", step=0.02, times=5)
-    with pytest.raises(lg.RunError, match="one number a run"):
+    with pytest.raises(lg.RunError, match="a single number per run"):
         runs.plot()
-    with pytest.raises(lg.RunError, match="nothing called 'reech'"):
+    with pytest.raises(lg.RunError, match="there is no result 'reech'"):
         runs.plot("reech")

@@ -246,7 +246,10 @@ def _settle(dims: Dimensions, symbol: Any, expr: sp.Expr, where: str, place: Pla
             dims.equal(dims.of(symbol) or NONE, found)
     except Mismatch as wrong:
         raise ModelError(
-            f"{where} adds {wrong.found} to {wrong.wanted}", place=place, fix="check the units in it", code="E408"
+            f"{where} adds a quantity in {wrong.found} to one in {wrong.wanted}",
+            place=place,
+            fix="check the units in it",
+            code="E408",
         ) from None
 
 

@@ -114,7 +114,7 @@ class Group:
         if isinstance(given, (str, bytes)) or len(values) != len(self.names):
             raise RunError(
                 f"{len(values)} values for {len(self.names)} of {self.noun}s: {', '.join(self.names)}",
-                fix="give a mapping by name, or one number for each in this order",
+                fix="give a mapping by name, or one number for each, in this order",
                 code="E501",
             )
         return {name: number(v, f"{self.noun} '{name}'") for name, v in zip(self.names, values, strict=True)}

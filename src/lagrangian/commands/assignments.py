@@ -19,6 +19,6 @@ def assignments(given: Sequence[str] | None, option: str) -> dict[str, str]:
                 code="E406",
             )
         if name in found:
-            raise Error(f"'{name[:64]}' is given twice with {option}", fix="leave one of the two out", code="E404")
+            raise Error(f"'{name[:64]}' is given twice with {option}", fix="give only one of the two", code="E404")
         found[name] = value
     return found

@@ -98,7 +98,9 @@ def _check_folder(
     """Check every answer of a folder; write the counts and, where asked for, a line for each answer."""
     json = json or format is Format.JSON
     if format not in (None, Format.TEXT, Format.JSON):
-        raise Error("a folder's results are text, CSV or JSON", fix="-o summary.csv, or --json", code="E402")
+        raise Error(
+            "the results of a folder can be written as text, CSV or JSON", fix="-o summary.csv, or --json", code="E402"
+        )
     for target, endings in ((output, SUMMARIES), (answers, [".csv"])):
         if target is not None:
             check_target(target, endings, overwrite=force)
@@ -119,11 +121,13 @@ def _named(file: str, answer: str | None, example: str | None) -> tuple[str | No
     """The model file, None where an example stands for it, and the answer's file or folder."""
     if example is not None:
         if answer is not None:
-            raise Error("with --example, the answer stands alone", fix="leave the model file out", code="E404")
+            raise Error("with --example, give only the answer", fix="leave the model file out", code="E404")
         return None, file
     if answer is None:
         fix = "name a model file and the answer: lagrangian check pendulum.toml answer.txt"
         raise Error("there is no answer to check", fix=fix, code="E401")
     if file == "-" and answer == "-":
-        raise Error("only one of the two can be standard input", fix="name a file for the other", code="E404")
+        raise Error(
+            "only one of the two arguments can be standard input (-)", fix="name a file for the other", code="E404"
+        )
     return file, answer

@@ -66,12 +66,14 @@ def compare(
 def _two(files: list[str], examples: list[str]) -> tuple[System, System]:
     if len(files) + len(examples) != 2:
         raise Error(
-            f"two systems are compared (got {len(files) + len(examples)})",
+            f"exactly two systems can be compared (got {len(files) + len(examples)})",
             fix="name two model files, or examples with -e: lagrangian compare mine.toml -e lecture-3b",
             code="E401",
         )
     if files.count("-") > 1:
-        raise Error("only one of the two can be standard input", fix="name a file for the other", code="E404")
+        raise Error(
+            "only one of the two arguments can be standard input (-)", fix="name a file for the other", code="E404"
+        )
     first, second = [open_system(f) for f in files] + [open_system(None, e) for e in examples]
     return first, second
 
@@ -86,6 +88,6 @@ def _changes(given: list[str] | None) -> dict[str, str] | None:
             raise Error(f"'{item[:60]}' is not a change of coordinates", fix='--change "x2 = x1 + x2r"', code="E406")
         if left.strip() in found:
             name = left.strip()[:60]
-            raise Error(f"'{name}' is given twice with --change", fix="leave one of the two out", code="E404")
+            raise Error(f"'{name}' is given twice with --change", fix="give only one of the two", code="E404")
         found[left.strip()] = right
     return found

@@ -70,7 +70,7 @@ def chosen(format: Format | None, as_data: bool, output: Path | None, force: boo
     does, and where two of them say different things.
     """
     if as_data and format not in (None, Format.JSON):
-        raise Error(f"--json and --format {format} say different things", fix="leave one of the two out", code="E404")
+        raise Error(f"--json and --format {format} contradict each other", fix="give only one of the two", code="E404")
     said = Format.JSON if as_data else format
     if output is None:
         return said or Format.TEXT
@@ -80,7 +80,7 @@ def chosen(format: Format | None, as_data: bool, output: Path | None, force: boo
     named = ENDINGS.get(output.suffix.lower())
     if said is None and named is None:
         fix = f"end it in {', '.join(ENDINGS)}, or say what to write with --format"
-        raise Error(f"the ending of '{output}' does not say what to write", fix=fix, code="E402")
+        raise Error(f"the ending of '{output}' does not name a known format", fix=fix, code="E402")
     if said is not None and named not in (None, said):
         fix = f"end it in {next(e for e, kind in ENDINGS.items() if kind is said)}, or leave the option out"
         raise Error(f"'{output}' ends like {named}, but {said} is to be written", fix=fix, code="E402")

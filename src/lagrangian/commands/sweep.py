@@ -96,7 +96,7 @@ def sweep(
             "--output",
             "-o",
             metavar="PATH",
-            help="Write the results to this file (.nc, .csv, .parquet) or .zarr store; - is CSV on standard output.",
+            help="Write results to this file (.nc, .csv, .parquet) or .zarr store; - writes CSV to standard output.",
         ),
     ] = None,
     plot: Annotated[
@@ -138,7 +138,7 @@ def sweep(
     if plot is not None:
         check_target(plot, PICTURES, overwrite=force)
     if output is None and resume:
-        raise Error("--resume goes on with a store, and none is named", fix="-o sweep.zarr --resume", code="E401")
+        raise Error("--resume continues a .zarr store, but -o names none", fix="-o sweep.zarr --resume", code="E401")
     system = open_system(file, example)
     options: dict[str, Any] = {"method": method, "rtol": rtol, "atol": atol, "times": times, "threads": threads}
     options["max_steps"] = max_steps
@@ -183,7 +183,7 @@ def _outputs(given: list[str] | None) -> dict[str, str] | None:
         name, equals, asked = item.partition("=")
         key = name.strip() if equals and name.strip().isidentifier() else item.strip()
         if key in found:
-            raise Error(f"'{key}' is asked for twice with --output-of", fix="leave one of the two out", code="E404")
+            raise Error(f"'{key}' is given twice with --output-of", fix="give only one of the two", code="E404")
         found[key] = asked.strip() if key != item.strip() else item.strip()
     return found
 

@@ -135,7 +135,11 @@ class Batch:
             found = trouble(self._engine.groups, inputs, self._engine.outputs, outputs, where(self._lead, state))
             if found:
                 return found
-        return RunError("a result was not finite for a moment", code="E503", fix="do not change arrays in use")
+        return RunError(
+            "a result was not finite for a moment",
+            code="E503",
+            fix="do not change the arrays while a call is using them",
+        )
 
 
 def targets(outputs: Shapes, out: Any, lead: tuple[int, ...]) -> dict[str, Array]:

@@ -17,7 +17,7 @@ try:
     import llvmlite.binding as llvm
 except ImportError:
     raise MissingExtra(
-        "machine code is made by the package 'llvmlite', which is not installed here",
+        "machine code is made by the package 'llvmlite', which is not installed",
         fix="pip install llvmlite; derivations and exported source code need no machine code",
         code="E801",
     ) from None

@@ -6,7 +6,7 @@ A tape is a list of operations on earlier entries, like the graph, with these di
   a shared slot;
 * a division by a constant, by something shared, or repeated by one divisor, is a product with the reciprocal;
 * a product used once, in a sum, is one fused operation; small powers are products; tan is sin/cos;
-* what no output needs is gone, and sin and cos of one angle stand side by side.
+* what no output needs is gone, and sin and cos of one angle stand next to each other.
 """
 
 from __future__ import annotations

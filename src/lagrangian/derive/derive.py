@@ -35,7 +35,8 @@ def derive(model: Model, *, detail: Detail = "usual") -> Derivation:
     if detail not in get_args(Detail):
         known = get_args(Detail)
         raise ModelError(
-            f"there is no detail '{detail}'", fix=did_you_mean(str(detail), known) or f"one of {', '.join(known)}"
+            f"there is no level of detail '{detail}'",
+            fix=did_you_mean(str(detail), known) or f"use one of {', '.join(known)}",
         )
     _log.info("deriving: which coordinates move what")
     wiggle = study(model)

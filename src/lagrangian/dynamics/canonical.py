@@ -30,8 +30,8 @@ class Canonical:
     def __init__(self, model: Model) -> None:
         if model.floating:
             raise ModelError(
-                f"frame '{model.floating[0].name}' floats by quasi-velocities, which have no canonical momenta",
-                fix="integrate it by another method, such as dop853",
+                f"frame '{model.floating[0].name}' is a floating frame, whose velocities have no canonical momenta",
+                fix="use another method, such as dop853",
                 code="E201",
             )
         self.seen = Observed(model)
@@ -56,7 +56,7 @@ class Canonical:
             if set(m.v) & set(reached(g, held)):
                 raise ModelError(
                     "a kinetic energy is not quadratic in the rates: its momenta cannot be solved for them",
-                    fix="integrate by another method, such as dop853",
+                    fix="use another method, such as dop853",
                     code="E201",
                 )
             linear = {v: g.neg(p) for v, p in zip(m.v, minus(g, m.v, drift), strict=True)}

@@ -57,4 +57,4 @@ def _no_state(event: str, state: Any, states: Sequence[Any]) -> ModelError:
     shown = plain(state) if isinstance(state, sp.Basic) else str(state)
     known = [plain(s) for s in states]
     fix = did_you_mean(shown, known) or f"states: {', '.join(known[:12])}"
-    return ModelError(f"event '{event}' sets '{shown}', which is no state", fix=fix, code="E402")
+    return ModelError(f"event '{event}' sets '{shown}', which is not a state", fix=fix, code="E402")

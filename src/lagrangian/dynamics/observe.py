@@ -25,7 +25,7 @@ class Observed:
 
     def __init__(self, model: Model, *, state: bool = True) -> None:
         if not model.coordinates:
-            raise ModelError(f"system '{model.name}' has no coordinate: nothing can move", code="E201")
+            raise ModelError(f"system '{model.name}' has no coordinates, so nothing can move", code="E201")
         self.model, self.graph = model, Graph()
         self.inputs = Inputs.of(self.graph, model, state=state)
         self.mechanics, places = described(model, self.graph, self.inputs)
@@ -89,8 +89,8 @@ class Observed:
             name = plain(atom)
             if isinstance(atom, sp.Derivative) and atom.expr in {u.symbol for u in self.model.inputs}:
                 raise ModelError(
-                    f"{what} holds {name}, the rate of an input, which is not known",
-                    fix="ask for it where the input is an expression: its rate is one too",
+                    f"{what} contains {name}, the rate of an input, which is not known",
+                    fix="give the input as an expression, so that its rate is known",
                     code="E417",
                 )
             fix = did_you_mean(name, self.model.symbols) or f"known: {', '.join(list(self.model.symbols)[:12])}"

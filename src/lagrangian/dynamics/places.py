@@ -79,7 +79,7 @@ def named_place(model: Model, asked: Any, kind: type[Point] | type[Frame]) -> An
         return table[asked]
     if not isinstance(asked, str):
         raise ModelError(
-            f"a {what} is asked for by its name or by itself (got {type(asked).__name__})",
+            f"a {what} must be given by name, or be the object itself (got {type(asked).__name__})",
             fix=f'{what}("name", q), or the {what} that the description returned',
             code="E406",
         )

@@ -28,7 +28,7 @@ from lagrangian.model import Model
 
 def _start(model: Model, *, state: bool = False) -> tuple[Graph, Inputs, Mechanics]:
     if not model.coordinates:
-        raise ModelError(f"system '{model.name}' has no coordinate: nothing can move", code="E201")
+        raise ModelError(f"system '{model.name}' has no coordinates, so nothing can move", code="E201")
     graph = Graph()
     inputs = Inputs.of(graph, model, state=state)
     return graph, inputs, describe(model, graph, inputs)

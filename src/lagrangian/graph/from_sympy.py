@@ -148,7 +148,9 @@ def _leaf(graph: Graph, e: sp.Basic, symbols: Mapping[Any, int]) -> int:
         try:
             return graph.const(int(e.p) / int(e.q))
         except OverflowError:
-            raise ModelError("a number in an expression is beyond the greatest double, 1.8e308", code="E101") from None
+            raise ModelError(
+                "a number in an expression is larger than the largest floating-point number, 1.8e308", code="E101"
+            ) from None
     if isinstance(e, (sp.Float, sp.NumberSymbol)):
         return graph.const(float(e))
     if isinstance(e, (BooleanTrue, BooleanFalse)):
@@ -277,7 +279,7 @@ def _condition(graph: Graph, e: Any, a: list[int]) -> int:
     known = [c.__name__ for c in (*UNARY, *RECIPROCAL)]
     name = e.func.__name__
     raise ModelError(
-        f"function '{name}' is not known to the engine",
+        f"function '{name}' is not supported",
         fix=did_you_mean(name, known) or "write it with sin, cos, exp, log, sqrt, Abs, Piecewise and the like",
         code="E402",
     )

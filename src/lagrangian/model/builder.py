@@ -151,7 +151,7 @@ class Builder:
                 raise ModelError(
                     f"'{name}' in {where} is not the symbol that was declared under that name",
                     place=place,
-                    fix=f'use the one that the declaration returned, or system["{name}"]',
+                    fix=f'use the symbol that the declaration returned, or system["{name}"]',
                     code="E402",
                 )
             hint = did_you_mean(name, names)
@@ -174,7 +174,7 @@ class Builder:
             raise ModelError(
                 f"{what} has {dimension} components, but {first[1]} has {first[0]}",
                 place=place,
-                fix=f"a system is either plane or in space: give {first[0]} components everywhere",
+                fix=f"a system is either planar or spatial: give {first[0]} components everywhere",
                 code="E414",
             )
 
@@ -183,7 +183,7 @@ class Builder:
             raise ModelError(
                 f"{what} belongs to another system",
                 place=place,
-                fix="build it from this system's own origin and frames",
+                fix="make it from this system's own origin and frames",
                 code="E412",
             )
 
@@ -406,16 +406,16 @@ class Builder:
             return self._definitions["g"].symbol
         if "g" in self._coordinates or "g" in self._inputs:
             raise ModelError(
-                "the name 'g' is taken, so gravity has no strength", fix="gravity(..., g=another symbol)", code="E404"
+                "the name 'g' is already in use, so gravity needs a symbol for its strength",
+                fix="gravity(..., g=another symbol)",
+                code="E404",
             )
         return self.parameter("g", value, unit="m/s^2").symbol
 
     def lookup(self, name: str) -> Any:
         """Return the symbol of that name, or else the point, frame or element."""
         if not isinstance(name, str):
-            raise ModelError(
-                f"what is looked up must be a name (got {type(name).__name__})", fix='system["theta"]', code="E402"
-            )
+            raise ModelError(f"system[…] takes a name (got {type(name).__name__})", fix='system["theta"]', code="E402")
         for table in (self._coordinates, self._velocities, self._parameters, self._inputs, self._definitions):
             if name in table:
                 return table[name].symbol

@@ -103,9 +103,9 @@ def check_position(
     for kink in sorted(full.atoms(sp.Abs, sp.sign, sp.Min, sp.Max, sp.Heaviside), key=str):
         if kink.has(AppliedUndef, time):
             raise ModelError(
-                f"{where} holds {plain(kink)}: where it bends, the velocity would jump",
+                f"{where} holds {plain(kink)}: the velocity would jump at its kink",
                 place=place,
-                fix="a position has two derivatives; let a force or an energy hold what bends",
+                fix="a position needs two derivatives; use functions with kinks only in forces and energies",
                 code="E308",
             )
     for atom in sorted(full.atoms(AppliedUndef) & inputs.keys(), key=str):
@@ -128,7 +128,7 @@ def check_acted_on(
                 f"'{name}' is an entry of a quaternion: no force acts along it alone",
                 element=element.title,
                 place=element.place,
-                fix=f"act on {' or '.join(v.name for v in floating.velocities[3:])}, by a moment about its own axis",
+                fix=f"act on {' or '.join(v.name for v in floating.velocities[3:])}, moments about its own axes",
                 code="E402",
             )
     if element.coordinate not in [x.symbol for x in known]:

@@ -56,10 +56,12 @@ def as_expr(value: object, what: str, *, place: Place | None = None) -> sp.Expr:
     if expr.has(sp.I, sp.nan, sp.oo, sp.zoo, -sp.oo):
         raise ModelError(f"{what} must be real and finite (got {expr})", place=place, code="E101")
     if any(max(abs(r.p), r.q).bit_length() > MAX_BITS for r in expr.atoms(sp.Rational)):
-        raise ModelError(f"{what} holds a number beyond those of a double, 1.8e308", place=place, code="E101")
+        raise ModelError(
+            f"{what} contains a number larger than the largest floating-point number, 1.8e308", place=place, code="E101"
+        )
     if (part := unknown_part(expr)) is not None:
         raise ModelError(
-            f"{what} holds {str(part)[:60]}, which the engine does not know ({type(part).__name__})",
+            f"{what} holds {str(part)[:60]}, which is not supported ({type(part).__name__})",
             place=place,
             fix="write it with sin, cos, exp, log, sqrt, Abs, Piecewise and the like",
             code="E402",

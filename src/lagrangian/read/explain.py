@@ -63,7 +63,7 @@ def explain(source: Source, offset: int, wants_operand: bool) -> ParseError:
         return source.error(
             f"found the comparison '{match.group()}' outside a condition",
             offset,
-            fix="a comparison may stand only in piecewise(condition, value, otherwise)",
+            fix="comparisons are allowed only in piecewise(condition, value, otherwise)",
         )
     if c == ")":
         return _closing(source, offset, before, wants_operand)
@@ -71,7 +71,11 @@ def explain(source: Source, offset: int, wants_operand: bool) -> ParseError:
         message, fix = _CHARACTERS[c]
         return source.error(message, offset, fix=fix)
     if match := re.match(r"[&|~∧∨¬]+", rest):
-        return source.error(f"found '{match.group()}' outside a condition", offset, fix="conditions stand in piecewise")
+        return source.error(
+            f"found '{match.group()}' outside a condition",
+            offset,
+            fix="conditions are allowed only in piecewise(condition, value, otherwise)",
+        )
     if wants_operand:
         return _no_operand(source, offset, before, rest)
     return _no_operator(source, offset, before, rest)
@@ -140,7 +144,7 @@ def _comma(source: Source, offset: int, before: str, rest: str) -> ParseError:
 
 def _closing(source: Source, offset: int, before: str, wants_operand: bool) -> ParseError:
     if before.count("(") <= before.count(")"):
-        return source.error("this ')' closes nothing", offset, fix="remove it, or add the missing '('")
+        return source.error("this ')' has no matching '('", offset, fix="remove it, or add the missing '('")
     if before.endswith("("):
         return source.error("the parentheses are empty", offset, fix="write an expression between them")
     if wants_operand:
@@ -194,7 +198,11 @@ def _no_operator(source: Source, offset: int, before: str, rest: str) -> ParseEr
         return source.error(f"found the Python word '{found}'; {ALLOWED}", where, fix="write one plain expression")
     if word and (word.group() in ("and", "or", "not") or left == "not"):
         found, where = ("not", start) if left == "not" else (word.group(), offset)
-        return source.error(f"found '{found}' outside a condition", where, fix="conditions stand in piecewise(...)")
+        return source.error(
+            f"found '{found}' outside a condition",
+            where,
+            fix="conditions are allowed only in piecewise(condition, value, otherwise)",
+        )
     if word and _is_quantity(before, left, rest):
         return source.error(
             f"found a value with a unit, {shown(source.text.strip())}",
@@ -206,13 +214,13 @@ def _no_operator(source: Source, offset: int, before: str, rest: str) -> ParseEr
         shown_right = right.group()[:30] if right else "(…)" if rest[0] == "(" else rest[0]
         if left in FUNCTIONS:
             return source.error(
-                f"the argument of {left} must stand in parentheses", offset, fix=f"write {left}({shown_right})"
+                f"the argument of {left} must be in parentheses", offset, fix=f"write {left}({shown_right})"
             )
         touching = len(before) == offset
         if number and not word and re.fullmatch(_NUMBER, left):
             fix = f"write one number, or a product: {left}*{shown_right}"
             return source.error(
-                f"two numbers stand side by side, {shown(left)} and {shown(shown_right)}", offset, fix=fix
+                f"two numbers stand next to each other, {shown(left)} and {shown(shown_right)}", offset, fix=fix
             )
         left = "(…)" if left == ")" else left
         pair = f"{left}{'' if touching else ' '}{shown_right}"

@@ -105,7 +105,11 @@ class Reader:
         while len(inner := [c for c in node.children if c is not None]) == 1 and isinstance(inner[0], Tree):
             node = inner[0]  # a node with nothing of its own: a sum of one product of one power ...
         if node.data in ("condition", "conjunction", "negation", "comparison"):
-            self.fail("found a condition where a value is wanted", node, fix="conditions stand first in piecewise")
+            self.fail(
+                "found a condition where a value is expected",
+                node,
+                fix="conditions are allowed only in piecewise(condition, value, otherwise)",
+            )
         return getattr(self, f"_{node.data}")(node)
 
     # -- arithmetic ---------------------------------------------------------------------------------------------
@@ -194,7 +198,7 @@ class Reader:
 
     def _bounded(self, value: sp.Expr, node: Node) -> sp.Expr:
         if value in (sp.nan, sp.zoo, sp.oo, -sp.oo):
-            self.fail("the value is not finite", node, fix="it has a pole there, or divides by zero", code="E705")
+            self.fail("the value is not finite", node, fix="check it for a pole or a division by zero", code="E705")
         factors: Any = sp.Mul.make_args(value)
         for factor in factors:
             if factor.is_Rational and _bits(factor) > MAX_BITS:
@@ -208,7 +212,7 @@ class Reader:
             self.fail(
                 "the value is not a real number",
                 node,
-                fix="mechanics is real: no root or logarithm of a negative number, no asin(2)",
+                fix="use real values only: no root or logarithm of a negative number, no asin(2)",
                 code="E705",
             )
         return value
@@ -344,7 +348,7 @@ class Reader:
             parts = [self.condition(c) for c in node.children[::2]]
             return sp.And(*parts) if node.data == "conjunction" else sp.Or(*parts)
         self.fail(
-            "found a value where a condition is wanted", node, fix="compare it with something: piecewise(x > 0, a, b)"
+            "found a value where a condition is expected", node, fix="compare it with something: piecewise(x > 0, a, b)"
         )
 
 

@@ -53,7 +53,7 @@ class Floating:
             tables = self.loader.file.frame
             known = [*self.loader.file.coordinates, *(t.name for t in tables if t.floating)]
             raise ParseError(
-                f"there is no coordinate or floating frame {shown(str(after))} that it could come after",
+                f"there is no coordinate or floating frame {shown(str(after))} that its coordinates could follow",
                 element=f"frame {shown(tables[number].name)}",
                 place=self.loader.index.of_value(("frame", number, "after")),
                 fix=did_you_mean(str(after)[:64], known) or "leave 'after' out: then its coordinates come first",

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from lagrangian.read.file_load import Loader
 
 MAX_CHAIN = 200
-"""Most points and frames that hang on each other in an order other than the file's."""
+"""Most points and frames that are defined in one chain, each from the one before in an order other than the file's."""
 
 _WORD = re.compile(r"[^\W\d]\w*")
 
@@ -58,17 +58,17 @@ class Geometry:
         if what in self.making:
             circle = [*self.making[self.making.index(what) :], what]
             raise ParseError(
-                f"they go in a circle: {' → '.join(circle)}",
+                f"their definitions form a circle: {' → '.join(circle)}",
                 element=owner(path, self.data) or None,
                 place=self.index.of_value(path),
-                fix="measure one of them from the origin or the fixed axes",
+                fix="define one of them from the origin or the fixed axes",
                 code="E413",
             )
         if len(self.making) > MAX_CHAIN:
             raise ParseError(
-                f"more than {MAX_CHAIN} points and frames hang on each other",
+                f"more than {MAX_CHAIN} points and frames are defined in one chain, each from the one before",
                 place=self.index.of_value(path),
-                fix="measure some from the origin",
+                fix="define some of them from the origin",
                 code="E703",
             )
         self.making.append(what)

@@ -194,7 +194,7 @@ class Loader:
                         raise ParseError(
                             f"'{name}' and '{before[1]}' (line {line}) look alike",
                             place=self.index.of_key((section, name)),
-                            fix="write one of them in other letters",
+                            fix="rename one of them",
                             code="E404",
                         )
 
@@ -218,10 +218,10 @@ class Loader:
         place = self.index.of_value(("define", name))
         if trail:
             raise ParseError(
-                f"definitions go in a circle: {' → '.join(trail)}",
+                f"the definitions form a circle: {' → '.join(trail)}",
                 element=f"definition '{name}'",
                 place=place,
-                fix="write one of them out without the others",
+                fix="write one of them without the others",
                 code="E413",
             )
         raise ParseError(

@@ -206,7 +206,9 @@ class _Reader:
         if pis not in (0, 1):
             self.fail("pi can stand once, as a factor", 0, "write a decimal number")
         if self._is_number() and not (self.peek().text == "1" and self.peek(1).text in ("/", "÷")):
-            self.fail("two numbers stand side by side", self.offset, "write one number and a unit, such as 40 N/m")
+            self.fail(
+                "two numbers stand next to each other", self.offset, "write one number and a unit, such as 40 N/m"
+            )
         return value, bool(pis)
 
     def _is_number(self, ahead: int = 0) -> bool:

@@ -70,7 +70,7 @@ def parse_spread(text: str) -> Spread:
     source.check_text(MAX_CHARACTERS, EXAMPLE)
     found = re.match(r"\s*([^=~\s][^=~]*?)\s*([=~])", text)
     if found is None:
-        raise source.error("this is no name with values", 0, fix=f"write {EXAMPLE}", code="E406")
+        raise source.error("this is not a name with values", 0, fix=f"write {EXAMPLE}", code="E406")
     return _spread(found.group(1), found.group(2) == "~", text, found.end())
 
 
@@ -134,22 +134,30 @@ def _range(name: str, source: Source, part: Part, start: int) -> Spread:
         log = spacing == "log"
     if log and not (low.value * high.value > 0):
         raise source.error(
-            "a logarithmic range needs two numbers of one sign, none of them 0", 0, fix="1:100:20:log", code="E406"
+            "a logarithmic range needs two numbers of the same sign, neither of them 0",
+            0,
+            fix="1:100:20:log",
+            code="E406",
         )
     return Spread(name, "range", (low, high), int(count), log, source.text.strip(), source)
 
 
 def _refuse_count(source: Source, count: str, offset: int) -> NoReturn:
     if re.fullmatch(r"[0-9]{1,12}", count) and int(count) > MAX_COUNT:
-        raise source.error(f"{count} values are too many", offset, fix=f"at most {MAX_COUNT}", code="E703")
+        raise source.error(
+            f"{count} values are too many for one range", offset, fix=f"at most {MAX_COUNT}", code="E703"
+        )
     if count in ("0", "1"):
         raise source.error(
-            f"a range of {count} values has no two ends", offset, fix="2 or more; one value alone: k=10", code="E406"
+            f"a range needs at least 2 values (got {count})",
+            offset,
+            fix="give 2 or more; for a single value write k=10",
+            code="E406",
         )
     raise source.error(
-        f"the third part of a range is how many values there are (got {shown(count)})",
+        f"the third part of a range is the number of values (got {shown(count)})",
         offset,
-        fix="a whole number: 10:100:50 is 50 values from 10 to 100",
+        fix="give a whole number: 10:100:50 is 50 values from 10 to 100",
         code="E406",
     )
 
@@ -157,7 +165,7 @@ def _refuse_count(source: Source, count: str, offset: int) -> NoReturn:
 def _law(name: str, source: Source, part: Part, start: int, law: re.Match[str] | None) -> Spread:
     known = "normal(mean, deviation), uniform(lowest, highest), lognormal(mu, sigma)"
     if law is None:
-        raise source.error("this is no distribution", 0, fix=known, code="E406")
+        raise source.error("this is not a distribution", 0, fix=known, code="E406")
     kind = law.group(1)
     if kind not in LAWS:
         hint = did_you_mean(kind, LAWS) or f"known: {known}"
@@ -188,9 +196,11 @@ def _fits(source: Source, kind: str, numbers: tuple[Quantity, ...], pieces: list
     else:
         _same_units(source, numbers)
     if kind == "uniform" and not a < b:
-        raise source.error("the lowest value is not below the highest", pieces[0][0], fix="uniform(1, 2)", code="E406")
+        raise source.error(
+            "the lowest value is not below the highest", pieces[0][0], fix="write uniform(1, 2)", code="E406"
+        )
     if kind != "uniform" and not b >= 0:
-        raise source.error("a deviation is not negative", pieces[1][0], fix=f"{kind}(1, 0.1)", code="E406")
+        raise source.error("the standard deviation is negative", pieces[1][0], fix=f"{kind}(1, 0.1)", code="E406")
 
 
 def _same_units(source: Source, numbers: tuple[Quantity, ...]) -> None:
@@ -198,7 +208,12 @@ def _same_units(source: Source, numbers: tuple[Quantity, ...]) -> None:
     for n in numbers[1:]:
         if n.is_bare != numbers[0].is_bare and 0 not in (n.value, numbers[0].value):
             raise source.error(
-                "some of the numbers have a unit and some have none", 0, fix="10 mm:50 mm:5", code="E408"
+                "some of the numbers have a unit and others do not",
+                0,
+                fix="give all of them a unit: 10 mm:50 mm:5",
+                code="E408",
             )
         if not n.is_bare and not numbers[0].is_bare and n.dimension != numbers[0].dimension:
-            raise source.error(f"'{numbers[0].unit}' and '{n.unit}' do not go together", 0, fix="one unit", code="E408")
+            raise source.error(
+                f"'{numbers[0].unit}' and '{n.unit}' are units of different quantities", 0, fix="one unit", code="E408"
+            )

@@ -52,7 +52,7 @@ def decode(data: bytes, name: str) -> str:
         line, start = before.count(b"\n") + 1, before.rfind(b"\n") + 1
         column = len(before[start:].decode("utf-8", "replace")) + 1
         raise ParseError(
-            f"the file is not UTF-8: the byte 0x{data[error.start]:02x} is no character",
+            f"the file is not UTF-8: the byte 0x{data[error.start]:02x} is not a character",
             place=Place(name, line, column),
             fix="save it as UTF-8",
             code="E702",
@@ -92,14 +92,14 @@ def _check_nesting(text: str, name: str) -> None:
             raise ParseError(
                 f"brackets are nested more than {MAX_NESTING} deep",
                 place=_place(text, name, match.start()),
-                fix="a model file needs three levels",
+                fix="use at most three levels: a model file needs no more",
                 code="E703",
             )
     if match := _DOTTED.search(bare):
         raise ParseError(
             f"a key with more than {MAX_NESTING} parts",
             place=_place(text, name, match.start()),
-            fix="a model file needs three levels",
+            fix="use at most three levels: a model file needs no more",
             code="E703",
         )
 

@@ -251,7 +251,9 @@ def _table(what: str, given: Sequence[Any]) -> Table:
     times, values = (np.array(numbers(a, f"{what}: {of}")) for a, of in zip(given, ("times", "values"), strict=False))
     if times.ndim != 1 or times.shape != values.shape or not 1 <= len(times) <= MAX_KNOTS:
         raise RunError(
-            f"{what}: times have shape {times.shape}, values {values.shape}", fix="one value a time", code="E501"
+            f"{what}: times have shape {times.shape}, values {values.shape}",
+            fix="give one value for each time",
+            code="E501",
         )
     for label, array in (("time", times), ("value", values)):
         if not np.all(np.isfinite(array)):

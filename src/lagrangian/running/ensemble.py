@@ -101,8 +101,8 @@ class Ensemble(Mapping[str, NDArray[Any]]):
         if name in self.coordinates:
             return self.coordinates[name][1]
         known = [*self._arrays, *self.coordinates]
-        fix = f"one of {', '.join(short)}" if short else did_you_mean(name, known) or f"known: {', '.join(known)}"
-        raise RunError(f"nothing called '{name}' was kept", fix=fix, code="E402")
+        fix = f"use one of {', '.join(short)}" if short else did_you_mean(name, known) or f"known: {', '.join(known)}"
+        raise RunError(f"there is no result '{name}'", fix=fix, code="E402")
 
     def __contains__(self, name: object) -> bool:
         return name in self._arrays
@@ -230,7 +230,7 @@ class Ensemble(Mapping[str, NDArray[Any]]):
             if self._dims[n] == self.dims and n not in ("status", "reached") and "count" not in n.split()
         )
         if not drawn:
-            raise RunError("no result is one number a run", fix='reduce=("final", "max")', code="E501")
+            raise RunError("none of the results is a single number per run", fix='reduce=("final", "max")', code="E501")
         axes = [d for d in self.dims if d != SAMPLE]
         return draw_many(
             f"{self.name}: {self.count} runs",
@@ -257,7 +257,11 @@ class Ensemble(Mapping[str, NDArray[Any]]):
     def _over(self, name: str) -> NDArray[Any]:
         values = self[name]
         if values.shape != self.shape:
-            raise RunError(f"'{name}' is more than one number a run", fix="ask for a reduction of it", code="E501")
+            raise RunError(
+                f"'{name}' is not a single number per run",
+                fix="reduce it, for example with 'max' or 'final'",
+                code="E501",
+            )
         return values
 
     def _shown(self, name: str, values: NDArray[Any]) -> tuple[str, str, NDArray[Any]]:

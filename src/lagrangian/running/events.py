@@ -48,14 +48,16 @@ def event(
     if direction not in (-1, 0, 1) or isinstance(direction, bool):
         raise ModelError(
             f"the direction of an event is -1, 0 or 1 (got {direction!r:.20})",
-            fix="+1 where the expression rises, -1 where it falls, 0 both",
+            fix="use 1 for a rising expression, -1 for a falling one, 0 for both",
             code="E406",
         )
     if name:
         check_name(name, "event")
     made = as_expr(expression, "the expression of an event")
     if made.is_number:
-        raise ModelError(f"the event's expression {made} never changes", fix="an expression of the state", code="E416")
+        raise ModelError(
+            f"the event's expression {made} never changes", fix="give an expression of the state", code="E416"
+        )
     if reset is not None and not isinstance(reset, Mapping):
         raise ModelError(
             "reset must be a mapping from states to values", fix="reset={y.diff(): -0.9*y.diff()}", code="E406"

@@ -64,11 +64,11 @@ def instants(model: Model, wanted: Wanted) -> Array:
     if np.ndim(given) == 0:
         if isinstance(given, bool) or not isinstance(given, (int, np.integer)) or not 2 <= given <= 10**8:
             raise RunError(
-                f"times must be how many there are, at least 2, or the times themselves (got {given!r:.30})",
+                f"times must be a number of times, at least 2, or the times themselves (got {given!r:.30})",
                 code="E501",
             )
         if duration is None:
-            raise RunError("how long to run is not said", fix=NO_DURATION, code="E401")
+            raise RunError("no duration is given", fix=NO_DURATION, code="E401")
         length = number(duration, "duration", SECOND)
         if not (length > 0 and begin + length > begin):
             raise RunError(
@@ -76,11 +76,11 @@ def instants(model: Model, wanted: Wanted) -> Array:
             )
         return np.linspace(begin, begin + length, int(given))
     if wanted.duration is not None:
-        raise RunError("times say how long to run: give no duration beside them", code="E501")
+        raise RunError("both times and a duration are given", code="E501")
     array = np.array([number(t, "a time", SECOND) for t in given])
     array = array if array.size and array[0] == begin else np.concatenate([[begin], array])
     if array.size < 2 or np.any(np.diff(array) <= 0):
-        raise RunError("times must increase from the start on", fix="sort them, each once", code="E501")
+        raise RunError("times must increase from the start on", fix="sort them and give each only once", code="E501")
     return array
 
 
@@ -90,7 +90,7 @@ def study_of(model: Model, wanted: Wanted, drive: Driving, times: Array) -> tupl
     Raises `RunError` or `ModelError` for what is not known or does not fit.
     """
     if wanted.method not in METHODS:
-        fix = did_you_mean(str(wanted.method), METHODS) or f"one of {', '.join(METHODS)}"
+        fix = did_you_mean(str(wanted.method), METHODS) or f"use one of {', '.join(METHODS)}"
         raise RunError(f"there is no method {wanted.method!r:.40} for ensembles", fix=fix, code="E402")
     expressions, kept = _kept(model, wanted.outputs, wanted.reduce)
     events, events_kept = _events(model, wanted, drive)
@@ -142,7 +142,7 @@ def _kept(
     for r in reductions:
         _reduction(r)
     if not reductions:
-        raise RunError("reduce names nothing to keep", fix='reduce=("final",), or reduce=None for samples', code="E501")
+        raise RunError("reduce is empty", fix='reduce=("final",), or reduce=None for samples', code="E501")
     expressions: dict[str, sp.Expr] = {}
     kept: dict[str, Kept] = {}
     for name, asked in _named(model, outputs):
@@ -154,7 +154,7 @@ def _kept(
             _check_result(result)
             kept[result] = Kept(result, title, r)
     if not kept:
-        raise RunError("nothing is observed", fix="outputs=['theta1']", code="E401")
+        raise RunError("no output is given", fix="outputs=['theta1']", code="E401")
     return expressions, tuple(kept.values())
 
 
@@ -175,7 +175,7 @@ def _check_result(name: str) -> None:
 
 def _reduction(name: Any) -> None:
     if name is not None and name not in REDUCTIONS:
-        fix = did_you_mean(str(name), REDUCTIONS) or f"one of {', '.join(REDUCTIONS)}"
+        fix = did_you_mean(str(name), REDUCTIONS) or f"use one of {', '.join(REDUCTIONS)}"
         raise RunError(f"there is no reduction {name!r:.40}", fix=fix, code="E402")
 
 
@@ -205,7 +205,7 @@ def _asked(model: Model, name: str | None, asked: Any) -> tuple[str | None, sp.E
         if space and own is None and rest[:1].isidentifier() and first.isidentifier() and first not in model.symbols:
             raise RunError(
                 f"there is no reduction '{first[:40]}'",
-                fix=did_you_mean(first, REDUCTIONS) or f"one of {', '.join(REDUCTIONS)}",
+                fix=did_you_mean(first, REDUCTIONS) or f"use one of {', '.join(REDUCTIONS)}",
                 code="E402",
             ) from None
         raise trouble
@@ -221,7 +221,7 @@ def _events(model: Model, wanted: Wanted, drive: Driving) -> tuple[Events | None
         _check_result(f"count {title}")
     times = wanted.event_times
     if isinstance(times, bool) or not isinstance(times, int) or not 1 <= times <= 10_000:
-        raise RunError(f"event_times is how many times are kept, at least 1 (got {times!r:.30})", code="E501")
+        raise RunError(f"event_times, the number of times to keep, must be at least 1 (got {times!r:.30})", code="E501")
     make = dynamics.canonical_impacts if wanted.method in SYMPLECTIC else dynamics.impacts
     program = make(model, [(e.title, e.expression, e.reset) for e in listed], drive.feedback)
     directions, terminal = tuple(e.direction for e in listed), tuple(e.terminal for e in listed)

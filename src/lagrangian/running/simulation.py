@@ -151,11 +151,11 @@ def _times(
     if duration is None:
         duration = settings.get("duration")
     if duration is None:
-        raise RunError("how long to run is not said", fix=NO_DURATION, code="E401")
+        raise RunError("no duration is given", fix=NO_DURATION, code="E401")
     if isinstance(duration, (tuple, list)) and len(duration) == 2:
         raise RunError(
             f"the duration is one number, not a span (got {duration!r:.40})",
-            fix="simulate(10.0) runs for 10 s; start=2.0 says where time begins",
+            fix="write simulate(10.0) to run for 10 s; start=2.0 sets the initial time",
             code="E501",
         )
     length = number(duration, "duration", SECOND)
@@ -164,19 +164,19 @@ def _times(
     count = SAMPLES if samples is None else _count(samples, "samples", least=2)
     if count * states > MAX_STORED:
         raise RunError(
-            f"{count} samples of {states} states are more than a run may store",
+            f"{count} samples of {states} states are more than a run can store",
             fix=f"at most {MAX_STORED // states} samples",
             code="E505",
         )
     if length == 0:
         return np.array([begin])
     if begin + length == begin:
-        raise RunError(f"a duration of {length:g} s cannot be told from none at t = {begin:g}", code="E501")
+        raise RunError(f"a duration of {length:g} s is too short to change the time t = {begin:g}", code="E501")
     grid = np.linspace(begin, begin + length, count)
     if np.any(np.diff(grid) <= 0):
         raise RunError(
-            f"{count} samples in {length:g} s cannot be told apart at t = {begin:g}",
-            fix="fewer samples, or a start nearer to 0",
+            f"{count} samples in {length:g} s are too close to each other at t = {begin:g}",
+            fix="use fewer samples, or a start nearer to 0",
             code="E501",
         )
     return grid
@@ -184,7 +184,7 @@ def _times(
 
 def _listed_times(times: Any, begin: float, duration: Any, samples: int | None) -> Array:
     if duration is not None or samples is not None:
-        raise RunError("times say it all: give no duration and no samples beside them", code="E501")
+        raise RunError("times are given together with a duration or samples", code="E501")
     array = np.array(numbers(times, "times"))
     if array.ndim != 1 or not array.size:
         raise RunError(f"times must be one row of numbers (got shape {array.shape})", code="E501")
@@ -194,7 +194,7 @@ def _listed_times(times: Any, begin: float, duration: Any, samples: int | None) 
         place = int(np.flatnonzero(np.diff(array) <= 0)[0])
         raise RunError(
             f"the times are out of order: {array[place]:g} is followed by {array[place + 1]:g}",
-            fix="sort them, each once",
+            fix="sort them and give each only once",
             code="E501",
         )
     if array[0] < begin:
@@ -235,19 +235,19 @@ def _not_a_state(model: Model, name: str, states: Sequence[str]) -> NoReturn:
     else:
         options = [p for p in inspect.signature(simulate).parameters if p not in ("model", "by_name")]
         fix = _meant(name, states) or did_you_mean(name, [*states, *options]) or f"states: {', '.join(states[:12])}"
-    raise RunError(f"there is no option and no state '{name[:64]}'", fix=fix, code="E402")
+    raise RunError(f"there is no option or state '{name[:64]}'", fix=fix, code="E402")
 
 
 def _meant(name: str, states: Sequence[str]) -> str | None:
     """What a keyword is called here that other packages have, or that means a rate."""
     if name in ("y0", "x0", "q0", "ic", "ics", "initial_conditions", "initial_state"):
-        return f"initial={{'{states[0]}': 0.2}}, or {states[0]}=0.2"
+        return f"write initial={{'{states[0]}': 0.2}}, or {states[0]}=0.2"
     if name in ("t_span", "tspan", "t_end", "tend", "tf", "t", "T", "time", "t_max"):
-        return "the duration stands first: simulate(10.0)"
+        return "give the duration as the first argument: simulate(10.0)"
     if name in ("dt", "h", "step_size", "timestep"):
-        return 'step=0.01 with method="rk4"; samples=1001 says how often the run is kept'
+        return 'write step=0.01 with method="rk4"; samples=1001 sets the number of times in the results'
     if name in ("t_eval", "saveat", "teval"):
-        return "times=[0, 0.1, …]"
+        return "write times=[0, 0.1, …]"
     for state in (s for s in states if s.endswith("'")):
         base = state[:-1]
         if name in (f"{base}_dot", f"{base}dot", f"d{base}", f"{base}_d", f"{base}p", f"v_{base}", f"{base}_rate"):
@@ -262,23 +262,25 @@ def _method(method: str | None, drive: Driving, step: Any) -> str:
     known = [*METHODS, *SCIPY]
     if not isinstance(method, str) or method not in known:
         same = [name for name in known if name.lower() == str(method).lower()]
-        fix = f"write '{same[0]}'" if same else did_you_mean(str(method), known) or f"one of {', '.join(known)}"
+        fix = f"write '{same[0]}'" if same else did_you_mean(str(method), known) or f"use one of {', '.join(known)}"
         raise RunError(f"there is no method {method!r:.40}", fix=fix, code="E402")
     if method in METHODS and drive.calls_python:
         called = [u.name for u, s in zip(drive.free, drive.sources, strict=True) if callable(s)]
         raise RunError(
-            f"method '{method}' runs in machine code and cannot ask a Python function for input '{called[0]}'",
+            f"method '{method}' runs in machine code and cannot call the Python function of input '{called[0]}'",
             fix="give the input as an expression or a table, or take one of SciPy's methods: " + ", ".join(SCIPY),
             code="E501",
         )
     fixed = method in METHODS and not METHODS[method].adaptive
     if fixed and step is None:
         raise RunError(
-            f"method '{method}' has steps of one length", fix=Advice("give ", Argument("step", "0.01")), code="E401"
+            f"method '{method}' uses a constant step size, and none is given",
+            fix=Advice("give ", Argument("step", "0.01")),
+            code="E401",
         )
     if not fixed and step is not None:
         fix = Advice("give ", Argument("rtol"), " and ", Argument("atol"), ", or ", Argument("max_step"))
-        raise RunError(f"method '{method}' chooses its steps", fix=fix, code="E501")
+        raise RunError(f"method '{method}' chooses its step size itself", fix=fix, code="E501")
     return method
 
 
@@ -294,7 +296,7 @@ def _positive(value: Any, what: str, *, infinite: bool = False) -> float:
         return value
     real = number(value, what, SECOND)
     if real <= 0:
-        raise RunError(f"{what} must be above 0 (got {real:g})", fix="a time in seconds", code="E501")
+        raise RunError(f"{what} must be above 0 (got {real:g})", fix="give a time in seconds", code="E501")
     return real
 
 

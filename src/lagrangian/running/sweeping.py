@@ -106,7 +106,7 @@ def _options(model: Model, options: Mapping[str, Any], duration: Any) -> tuple[W
             owners = (("params", model.parameters), ("inputs", model.inputs))
             own = [f"{word}={{'{name}': …}}" for word, xs in owners if any(x.name == name for x in xs)]
             raise RunError(
-                f"there is no option and no coordinate '{name[:64]}'",
+                f"there is no option or coordinate '{name[:64]}'",
                 fix=(own[0] if own else did_you_mean(name, known | states)) or f"options: {', '.join(sorted(known))}",
                 code="E402",
             )
@@ -149,7 +149,7 @@ def _done(model: Model, varying: Varying, wanted: Wanted, inputs: dict[Any, Any]
     plan = _plan(model, varying, study, expressions, portions, task)
     if way.store is None:
         if way.resume or way.overwrite:
-            raise RunError("resume and overwrite are about a store", fix=Advice(STORE), code="E501")
+            raise RunError("resume and overwrite apply only to a store", fix=Advice(STORE), code="E501")
         return _in_memory(study, design, plan, executor, way.progress)
     path = Path(way.store)
     if path.suffix != ".zarr":
@@ -209,7 +209,11 @@ def _drive(model: Model, varying: Varying, inputs: dict[Any, Any]) -> Driving:
     varied = {name for group, name in varying.columns if group == "u"}
     for key in inputs:
         if key_name(key) in varied:
-            raise RunError(f"input '{key_name(key)}' varies and is given too", fix="one of the two", code="E404")
+            raise RunError(
+                f"input '{key_name(key)}' varies and also has a fixed value",
+                fix="give only one of the two",
+                code="E404",
+            )
     settings = {k: v for k, v in model.settings.get("inputs", {}).items() if k not in varied}
     names = varying.entries.given.inputs
     drive = driving(model, inputs, settings, dict(zip(names.names, names.dims, strict=True)))

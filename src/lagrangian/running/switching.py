@@ -115,7 +115,7 @@ class Switches:
         where, which = np.nonzero(changed)
         if len(where) > MAX_KNOTS:
             raise RunError(
-                f"conditions in time switch {len(where)} times in this run", fix="a shorter run", code="E505"
+                f"conditions in time switch {len(where)} times in this run", fix="simulate a shorter time", code="E505"
             )
         low, high = grid[where], grid[where + 1]
         after = order[where + 1, which]  # equality may lie between: it is passed as well
@@ -215,8 +215,8 @@ def _switches_of_all(model: Model, drive: Driving, design: Design, times: Array,
         return []
     if varied_inputs:
         raise RunError(
-            "an input varies from run to run while conditions in time switch",
-            fix=Advice("make what varies a parameter, or bound the steps: ", Argument("max_step", "0.01")),
+            "an input varies from run to run, and conditions on time switch",
+            fix=Advice("make the varied quantity a parameter, or limit the steps: ", Argument("max_step", "0.01")),
             code="E501",
         )
     p = np.array(design.base["p"])[np.newaxis]
@@ -236,7 +236,7 @@ def _switches_of_all(model: Model, drive: Driving, design: Design, times: Array,
 
 def _too_many(count: int, names: list[str]) -> NoReturn:
     raise RunError(
-        f"conditions in time switch at other times in each of {count} runs, with {', '.join(names)}",
-        fix=Advice("bound the steps by less than the shortest pulse: ", Argument("max_step", "0.01")),
+        f"each of {count} runs switches at different times, depending on {', '.join(names)}",
+        fix=Advice("limit the steps to less than the shortest pulse: ", Argument("max_step", "0.01")),
         code="E505",
     )

@@ -137,7 +137,7 @@ class Trajectory(Guided):
             asked = read.parse_expression(asked, read.Scope(self.model.symbols), what="what is asked of the run")
         elif isinstance(asked, (int, slice)):
             raise ModelError(
-                f"a run is asked by name or expression (got {asked!r:.40})",
+                f"run[…] takes a name or an expression (got {asked!r:.40})",
                 fix=f"run['{self.states[0]}']; the rows of run.y are the states",
                 code="E406",
             )

@@ -195,7 +195,7 @@ def from_arrays(model: Model, given: Mapping[str, Mapping[Any, Any] | None], dim
         if name in names and along not in ([], [name]):
             raise RunError(
                 f"an axis is called '{name}', and '{name}' varies along {' and '.join(along)}",
-                fix="name the axes after what varies along them alone",
+                fix="give each axis the name of the only quantity that varies along it",
                 code="E404",
             )
     return Varying(entries, dict(zip(names, shape, strict=True)), columns)
@@ -256,7 +256,7 @@ def _dims(dims: Sequence[str] | None, shape: tuple[int, ...]) -> tuple[str, ...]
     if len(listed) != len(shape) or len(set(listed)) != len(listed):
         raise RunError(f"{len(shape)} axes need as many different names (got {listed})", code="E501")
     if taken := [d for d in listed if d in TAKEN - {RUN, SAMPLE}]:
-        raise RunError(f"an axis cannot be called '{taken[0]}'", fix="another name, such as case", code="E403")
+        raise RunError(f"an axis cannot be called '{taken[0]}'", fix="use another name, such as case", code="E403")
     return listed
 
 
@@ -282,7 +282,7 @@ def from_grid(
     if spare:
         name = next(iter(spare))[1]
         raise RunError(
-            f"'{name}' is an array: what varies stands in the grid",
+            f"'{name}' is an array, but values that vary belong in the grid",
             fix=Advice(Argument("grid", "…", name)),
             code="E501",
         )
@@ -292,7 +292,7 @@ def from_grid(
     for written, values in _grid_items(grid):
         group, name = entries.found(written)
         if name in groups:
-            raise RunError(f"'{name}' is varied twice", fix="one range, list or distribution each", code="E404")
+            raise RunError(f"'{name}' is varied twice", fix="give it one range, list or distribution", code="E404")
         groups[name] = group
         dim = entries.group(group).dims[list(entries.base[group]).index(name)]
         if isinstance(values, Spread) and values.drawn:
@@ -301,12 +301,16 @@ def from_grid(
         else:
             axes[name] = _listed(values, dim) if isinstance(values, Spread) else _axis(values, name)
     if not groups:
-        raise RunError("nothing is varied", fix="name what varies and its values: k=10:100:50", code="E401")
+        raise RunError("no varied quantity is given", fix="give at least one with its values: k=10:100:50", code="E401")
     sizes = {name: len(values) for name, values in axes.items()}
     if drawn:
         sizes[SAMPLE] = _samples(samples)
     elif samples is not None:
-        raise RunError("samples are asked for and nothing is drawn", fix="b~normal(1, 0.1)", code="E501")
+        raise RunError(
+            "samples is given, but no quantity is drawn at random",
+            fix="draw a quantity, such as b~normal(1, 0.1), or leave samples out",
+            code="E501",
+        )
     columns: dict[tuple[str, str], Array | Drawn] = {}
     for k, (name, values) in enumerate(axes.items()):
         columns[groups[name], name] = values.reshape([-1 if i == k else 1 for i in range(len(sizes))])
@@ -348,7 +352,7 @@ def _checked(spread: Spread, quantity: read.Quantity, dim: Dim | None) -> float:
         raise spread.source.error(
             f"'{spread.name}' is given in {quantity.unit}",
             0,
-            fix=f"a unit of {dim}" if str(dim) not in ("", "1") else "no unit, or rad or deg for an angle",
+            fix=f"a unit of {dim}" if str(dim) not in ("", "1") else "give no unit, or rad or deg for an angle",
             code="E408",
         )
     return quantity.value
@@ -360,7 +364,9 @@ def _axis(values: Any, name: str) -> Array:
         array = array.reshape(1)
     if array.ndim != 1:
         raise RunError(
-            f"the values of '{name}' have shape {array.shape}", fix="one row: np.linspace(10, 100, 50)", code="E501"
+            f"the values of '{name}' have shape {array.shape}",
+            fix="give one row: np.linspace(10, 100, 50)",
+            code="E501",
         )
     if array.size > MAX_LISTED:
         raise RunError(f"'{name}' has {array.size} values", fix=f"at most {MAX_LISTED}", code="E501")
@@ -369,7 +375,7 @@ def _axis(values: Any, name: str) -> Array:
 
 def _samples(samples: int | None) -> int:
     if samples is None:
-        raise RunError("how many samples are drawn is not said", fix=Advice(Argument("samples", "1000")), code="E401")
+        raise RunError("the number of samples is not given", fix=Advice(Argument("samples", "1000")), code="E401")
     if isinstance(samples, bool) or not isinstance(samples, (int, np.integer)) or samples < 1:
         raise RunError(f"samples must be a whole number, at least 1 (got {samples!r:.30})", code="E501")
     return int(samples)

@@ -56,7 +56,7 @@ def instants(given: Any) -> Array:
         raise RunError(
             f"times must increase: {times[k]:g} is followed by {times[k + 1]:g}",
             code="E501",
-            fix="sort them, each once",
+            fix="sort them and give each only once",
         )
     return times
 

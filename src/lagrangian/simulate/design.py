@@ -119,7 +119,7 @@ class Design:
         object.__setattr__(self, "count", math.prod(self.shape))
         if self.count == 0:
             empty = [d for d, n in zip(self.dims, self.shape, strict=True) if n == 0]
-            raise RunError(f"there is no run: '{empty[0]}' is empty", code="E501", fix="give at least one value")
+            raise RunError(f"there are no runs: '{empty[0]}' is empty", code="E501", fix="give at least one value")
         if self.count > MOST_RUNS:
             sizes = " × ".join(f"{d}: {n}" for d, n in zip(self.dims, self.shape, strict=True))
             raise RunError(

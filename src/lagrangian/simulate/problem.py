@@ -30,7 +30,9 @@ class Signals:
         """The same with float64 arrays in C order, or a `RunError` that says what does not fit."""
         knots, start, slope = (np.ascontiguousarray(a, float) for a in (self.knots, self.start, self.slope))
         if knots.ndim != 1 or not len(knots) or np.any(~np.isfinite(knots)) or np.any(np.diff(knots) <= 0):
-            raise RunError("the knots of the inputs must increase strictly", code="E501", fix="sort them, each once")
+            raise RunError(
+                "the knots of the inputs must increase strictly", code="E501", fix="sort them and give each only once"
+            )
         wanted = (len(knots), count)
         for name, array in (("start", start), ("slope", slope)):
             if array.shape != wanted:

@@ -41,7 +41,11 @@ _lock = threading.Lock()
 def work(key: str, packed: bytes, version: str, rows: Rows) -> Values:
     """One chunk, in a worker; the study in ``packed`` is compiled when its ``key`` is met first."""
     if version != (own := _version()):
-        raise RunError(f"a worker has lagrangian {own}, this is {version}", code="E506", fix="install the same version")
+        raise RunError(
+            f"a worker runs lagrangian {own}, but this process runs {version}",
+            code="E506",
+            fix="install the same version",
+        )
     with _lock:
         if key not in _known:
             study: Study = pickle.loads(packed)
@@ -132,7 +136,7 @@ class Dask:
             raise
         except self._lib.KilledWorker as trouble:
             raise RunError(
-                "one chunk ended every worker that tried it",
+                "every worker that computed one of the chunks died",
                 code="E506",
                 fix=Advice(
                     "look at the workers' memory: a smaller ",

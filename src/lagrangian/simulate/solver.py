@@ -85,7 +85,7 @@ class Solver:
         shapes = [output.shape for output in program.outputs.values()]
         if size == 0 or shapes != [(size,)]:
             raise RunError(
-                f"program '{program.name}' is no right-hand side: {size} states, outputs {shapes}",
+                f"program '{program.name}' is not a right-hand side: {size} states, outputs {shapes}",
                 code="E501",
                 fix="a group 'x' and one output of its length",
             )
@@ -216,7 +216,9 @@ class _Task:
         method, size = self.solver.method, self.final.shape[1]
         relative, absolute = check.tolerances(rtol, atol, size)
         if method.adaptive and step is not None:
-            raise RunError(f"method '{method.name}' chooses its steps", code="E501", fix="give rtol and atol, no step")
+            raise RunError(
+                f"method '{method.name}' chooses its step size itself", code="E501", fix="give rtol and atol, no step"
+            )
         if not method.adaptive and step is None:
             raise RunError(f"method '{method.name}' needs a step", code="E501", fix="give step, in the unit of time")
         self.table |= {

@@ -148,7 +148,7 @@ class Store:
         _fill_array(array, values)
         if whole(array, right) is None:
             raise RunError(
-                f"'{self.path}' is damaged: the values of '{name}' are neither what was written nor those of this task",
+                f"'{self.path}' is damaged: the values of '{name}' match neither what was written nor this sweep",
                 fix=AGAIN,
                 code="E804",
             )
@@ -169,9 +169,7 @@ def create(path: Path, plan: Plan, *, overwrite: bool = False) -> Store:
     if os.path.lexists(path) and not overwrite:
         raise Error(
             f"'{path}' exists",
-            fix=Advice(
-                "go on where it stopped with ", RESUME, ", replace it with ", OVERWRITE, ", or take another name"
-            ),
+            fix=Advice("continue it with ", RESUME, ", replace it with ", OVERWRITE, ", or use another name"),
             code="E802",
         )
     with explained(path, "make"):
@@ -263,9 +261,9 @@ def resume(path: Path, plan: Plan) -> Store:
     differing = differences(document.kept["task"], json.loads(json.dumps(plan.task)))
     if differing:
         raise RunError(
-            f"'{path}' holds another task: " + "; ".join(differing),
+            f"'{path}' belongs to a different sweep: " + "; ".join(differing),
             code="E803",
-            fix="repeat the task it was made for, or take another name for this one",
+            fix="repeat the sweep that it was made for, or use another name for this one",
         )
     store = Store(document)
     try:
@@ -322,7 +320,7 @@ def _alone(marks: Path) -> int:
             reason = (trouble.strerror or str(trouble)).lower()
             raise Error(f"'{path}' cannot be locked: {reason}", fix="use a local disk", code="E801") from trouble
         raise Error(
-            f"another process is writing to '{path}'", fix="wait for it, or take another name", code="E801"
+            f"another process is writing to '{path}'", fix="wait for it, or use another name", code="E801"
         ) from None
     return file
 
@@ -336,14 +334,14 @@ def _move_away(path: Path, where: Path) -> None:
         what = "it is a link" if path.is_symlink() else found(path)
         raise Error(
             f"'{path}' is not a store of a sweep and is not replaced: {what}",
-            fix="remove it yourself, or take another name",
+            fix="remove it yourself, or use another name",
             code="E801",
         )
     ours = {ROOT, DONE, *(name.partition("/")[0] for name in [*kept["results"], *kept["coordinates"]])}
     if others := sorted(entry.name for entry in path.iterdir() if entry.name not in ours):
         raise Error(
-            f"'{path}' is not replaced: '{others[0]}' in it was not put there by a sweep",
-            fix="move that to another place, or take another name",
+            f"'{path}' is not replaced: '{others[0]}' in it was not written by a sweep",
+            fix="move that to another place, or use another name",
             code="E801",
         )
     if (path / DONE / "c" / "0").is_file():

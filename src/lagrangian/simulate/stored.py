@@ -35,7 +35,8 @@ def library() -> Any:
         import zarr
     except ImportError:
         raise MissingExtra(
-            "zarr is not installed, and results are kept on disk with it", fix="pip install 'lagrangian[sweep]'"
+            "storing results on disk needs the package zarr, which is not installed",
+            fix="pip install 'lagrangian[sweep]'",
         ) from None
     return zarr
 
@@ -160,7 +161,7 @@ class Stored:
             fix=Advice(
                 "repeat the sweep with ",
                 RESUME,
-                ": it computes just these again; or read the others in Python with "
+                ", which computes only these again; or read the others in Python with "
                 f"Ensemble.of_store('{self.document.path}', lost=True)",
             ),
             code="E804",
@@ -173,7 +174,7 @@ class Stored:
             raise RunError(
                 f"'{self.document.path}' is damaged: its list of finished chunks, "
                 f"'{DONE}/c/0', is {'missing' if data is None else 'cut off'}",
-                fix=Advice("repeat the sweep with ", RESUME, ": it computes again what is not listed"),
+                fix=Advice("repeat the sweep with ", RESUME, ", which computes again what is not listed"),
                 code="E804",
             )
         return data
@@ -183,7 +184,7 @@ class Stored:
         if values is None:
             raise RunError(
                 f"'{self.document.path}' is damaged: the values of '{name}' are not what was written",
-                fix=Advice("repeat the sweep with ", RESUME, ": it writes them again; or ", AGAIN),
+                fix=Advice("repeat the sweep with ", RESUME, ", which writes them again; or ", AGAIN),
                 code="E804",
             )
         return values

@@ -37,7 +37,7 @@ def write_with(path: str | os.PathLike[str], fill: Callable[[Path], object]) -> 
     target = _target(path)
     folder = target.parent
     if target.exists() and not target.is_file():
-        raise Error(f"'{path}' is a device: only text is written into one", fix="name a file", code="E801")
+        raise Error(f"'{path}' is a device; only text can be written to it", fix="name a file", code="E801")
     beside: Path | None = None
     try:
         mode = target.stat().st_mode & 0o777 if target.exists() else 0o666 & ~_umask()

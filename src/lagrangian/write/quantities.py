@@ -105,7 +105,7 @@ class Quantities:
         if notation not in get_args(Notation):
             known = ", ".join(get_args(Notation))
             hint = did_you_mean(str(notation), get_args(Notation))
-            raise ModelError(f"unknown notation '{notation}'", fix=hint or f"one of {known}", code="E405")
+            raise ModelError(f"unknown notation '{notation}'", fix=hint or f"use one of {known}", code="E405")
         self.notation, self.full = notation, full
         self.expressions = Expressions(model)
         self._taken = {(x.base, x.sub) for x in self.expressions.letters.values() if not x.literal}

@@ -56,7 +56,7 @@ def write_report(
     if format not in get_args(ReportFormat):
         known = get_args(ReportFormat)
         raise ModelError(
-            f"there is no format '{format}'", fix=did_you_mean(str(format), known) or f"one of {', '.join(known)}"
+            f"there is no format '{format}'", fix=did_you_mean(str(format), known) or f"use one of {', '.join(known)}"
         )
     if format == "json":
         return json.dumps(report.data, ensure_ascii=False, indent=1, allow_nan=False) + "\n"

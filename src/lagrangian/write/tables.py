@@ -157,8 +157,8 @@ ENDINGS: Mapping[str, Callable[[Path, Table], None]] = {
 def check_target(path: Path, endings: Sequence[str], *, overwrite: bool) -> None:
     """Refuse an ending that nothing is written to, and a file that is there already unless it may be replaced."""
     if path.suffix.lower() not in endings:
-        fix = did_you_mean(path.suffix.lower(), endings) or f"one of {', '.join(endings)}"
-        raise ModelError(f"'{path.name}' names no kind of file by its ending", fix=fix, code="E402")
+        fix = did_you_mean(path.suffix.lower(), endings) or f"use one of {', '.join(endings)}"
+        raise ModelError(f"the ending of '{path.name}' is not supported", fix=fix, code="E402")
     check_free(path, overwrite=overwrite)
 
 

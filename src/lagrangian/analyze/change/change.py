@@ -229,7 +229,7 @@ def _check_letters(model: Model, expr: sp.Expr, key: str, moving: set[Any]) -> N
         rate = min(map(plain, rates))
         raise ModelError(
             f"{where} holds a rate, {rate}",
-            fix="coordinates change by coordinates, parameters and t; rates follow",
+            fix="use only coordinates, parameters and t; the rates are derived from them",
             code="E308",
         )
     inputs = {u.symbol for u in model.inputs}
@@ -238,7 +238,7 @@ def _check_letters(model: Model, expr: sp.Expr, key: str, moving: set[Any]) -> N
         what = "an input" if s in inputs else "a velocity" if s in quasi else "a definition that moves"
         raise ModelError(
             f"{where} holds '{plain(s)}', {what}",
-            fix="write it with coordinates, kept or new, parameters and t",
+            fix="use only kept or new coordinates, parameters and t",
             code="E417",
         )
     constants = {p.symbol for p in model.parameters} | {d.symbol for d in model.definitions}
@@ -258,7 +258,7 @@ def _checked(model: Model, change: Change) -> Change:
         if c.name in floating:
             raise ModelError(
                 f"'{c.name}' belongs to frame '{floating[c.name].name}', which floats",
-                fix="its seven coordinates go together and cannot be replaced",
+                fix="keep its seven coordinates: they belong together and cannot be replaced",
                 code="E210",
             )
     if change.replaced:
@@ -273,7 +273,7 @@ def check_regular(model: Model, change: Change) -> None:
         names = [c.name for c, w in zip(change.new, weakest, strict=True) if abs(w) > 1e-6]
         raise ModelError(
             f"the change is singular: {' and '.join(names)} can wiggle without moving an old coordinate",
-            fix="the determinant of ∂(old)/∂(new) must not be 0 everywhere; use every new coordinate in its own way",
+            fix="make every new coordinate move the system in its own way: det ∂(old)/∂(new) must not be 0 everywhere",
             code="E210",
         )
 

@@ -68,8 +68,8 @@ def _solved(model: Model, change: Change, given: dict[str, float]) -> dict[str, 
             names = [*(c.name for c in change.new), *(f"{c.name}'" for c in change.new)]
             return {k: _short(float(v)) for k, v in zip(names, [*root.x, *rates], strict=True)}
     raise ModelError(
-        "the initial state of its runs has no counterpart in the new coordinates, or several",
-        fix="take [simulate] initial out before the change, and give the initial state afterwards",
+        "the initial state under [simulate] corresponds to no state in the new coordinates, or to several",
+        fix="remove 'initial' from [simulate] before the change, and give the initial state afterwards",
         code="E210",
     )
 
@@ -93,8 +93,8 @@ def _program(model: Model, change: Change) -> Program:
     for e in phi:
         for s in sorted(e.free_symbols - table.keys(), key=str):
             raise ModelError(
-                f"parameter '{s}' has no value, so the initial state of its runs cannot be carried over",
-                fix=f"give {s} a value, or take [simulate] initial out",
+                f"parameter '{s}' has no value, so the initial state under [simulate] cannot be converted",
+                fix=f"give {s} a value, or remove 'initial' from [simulate]",
                 code="E401",
             )
     outputs = {

@@ -92,7 +92,7 @@ def _correspondence(a: Model, b: Model, given: Mapping[Any, Any] | None) -> tupl
     if not proposals:
         ours, theirs = (", ".join(c.name for c in m.coordinates) for m in (a, b))
         raise ModelError(
-            f"how {ours} of '{a.name}' follow from {theirs} of '{b.name}' cannot be told from what they place",
+            f"how {ours} of '{a.name}' follow from {theirs} of '{b.name}' cannot be found by comparing positions",
             fix=Advice(
                 "say it: ", Argument("change", "'x1 + x2r'", "x2"), ", coordinates of one by those of the other"
             ),

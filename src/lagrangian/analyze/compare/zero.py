@@ -93,8 +93,8 @@ class Zero:
                 break
         if not seen:
             raise ModelError(
-                "what is to be compared has no finite value at any random state",
-                fix="look for a root or a logarithm of something negative",
+                "the expressions to compare have no finite value at any random state",
+                fix="look for a root or a logarithm of a negative number",
                 code="E503",
             )
         figure = f"{float(worst):.0e} at {seen} random states with {DIGITS} digits"

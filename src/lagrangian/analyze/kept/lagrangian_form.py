@@ -28,8 +28,8 @@ class LagrangianForm:
         """The energies and forces of a model, definitions written out. Raises `ModelError` for a floating frame."""
         if len(model.velocities) != len(model.coordinates):
             raise ModelError(
-                f"system '{model.name}' has a floating frame, whose quaternion is no set of independent coordinates",
-                fix="describe the turn by angles (frames about axes)",
+                f"system '{model.name}' has a floating frame: the entries of a quaternion are not independent",
+                fix="describe its orientation by three angles instead (frames about axes)",
                 code="E202",
             )
         T, V = sp.S.Zero, sp.S.Zero

@@ -102,8 +102,8 @@ def _chosen(system: LagrangianForm, asked: Sequence[Any] | None) -> list[int]:
     if asked is None:
         if not proper:
             raise RunError(
-                "no coordinate is ignorable: L holds all of them, or forces act on them",
-                fix="other coordinates may be: polar ones where forces are central",
+                "no coordinate is ignorable: every coordinate appears in L, or a force acts on it",
+                fix="try other coordinates: polar ones, if the forces are central",
                 code="E524",
             )
         return proper
@@ -120,7 +120,11 @@ def _chosen(system: LagrangianForm, asked: Sequence[Any] | None) -> list[int]:
             raise RunError(f"'{name}' is not ignorable: {why}", code="E524")
         found.append(k)
     if not found:
-        raise RunError("no coordinate was named", fix="routhian() removes all that are ignorable", code="E524")
+        raise RunError(
+            "no coordinate is given",
+            fix="name at least one; routhian() without arguments removes all ignorable coordinates",
+            code="E524",
+        )
     return sorted(set(found))
 
 

@@ -279,7 +279,7 @@ class Linearizer:
             if not _largest(near - start - slope @ step) <= 1e-3 * size * STEP:
                 raise RunError(
                     f"{what} has a kink or a jump at {here.shown}: it has no linearization there",
-                    fix="choose a point beside it, or a smooth law in place of abs, sign, min, max, piecewise",
+                    fix="choose a point next to it, or replace abs, sign, min, max and piecewise by a smooth law",
                     code="E525",
                 )
 
@@ -336,7 +336,7 @@ def _finite(found: Arrays, here: Rest) -> Arrays:
         if not np.isfinite(array).all():
             raise RunError(
                 f"{name} is not finite at {here.shown}",
-                fix="look whether the mass matrix is singular there, or a square root or a division ends there",
+                fix="check for a singular mass matrix, a square root of 0 or a division by 0 there",
                 code="E503",
             )
     return found

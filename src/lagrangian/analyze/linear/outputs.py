@@ -59,7 +59,11 @@ def _named(model: Model, outputs: Any) -> dict[str, sp.Expr]:
         listed = outputs if isinstance(outputs, Sequence) and not isinstance(outputs, str) else [outputs]
         given = [(plain(expr), expr) for expr in (_expression(model, value) for value in listed)]
     if not given:
-        raise RunError("no output was named", fix="outputs=[expression, …]; the coordinates unless given", code="E401")
+        raise RunError(
+            "no output is given",
+            fix="write outputs=[expression, …], or leave outputs out: then the coordinates are the outputs",
+            code="E401",
+        )
     names = [name for name, _ in given]
     if (twice := next((n for n in names if names.count(n) > 1), None)) is not None:
         raise RunError(

@@ -62,7 +62,9 @@ def controllable(A: Array, B: Array, states: tuple[str, ...]) -> Reach:
     """What the inputs reach. Raises `RunError` where there are none."""
     if not B.shape[1]:
         raise RunError(
-            "the system has no input to control it with", fix="declare one: system.input, or [inputs]", code="E401"
+            "the system has no input",
+            fix="declare one: system.input(…), or under [inputs] in a model file",
+            code="E401",
         )
     return _reach(A, B, states)
 
@@ -70,7 +72,7 @@ def controllable(A: Array, B: Array, states: tuple[str, ...]) -> Reach:
 def observable(A: Array, C: Array, states: tuple[str, ...]) -> Reach:
     """What the outputs tell. Raises `RunError` where there are none."""
     if not C.shape[0]:
-        raise RunError("there is no output to observe", fix="outputs=[expression, …]", code="E401")
+        raise RunError("no output is given", fix="write outputs=[expression, …]", code="E401")
     return _reach(A.T, C.T, states)
 
 

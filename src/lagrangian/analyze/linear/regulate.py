@@ -27,7 +27,7 @@ def python_control() -> ModuleType:
         import control
     except ImportError as missing:
         raise MissingExtra(
-            "this needs python-control", fix="pip install 'lagrangian[control]'", code="E801"
+            "this needs the package python-control", fix="pip install 'lagrangian[control]'", code="E801"
         ) from missing
     return control
 
@@ -90,15 +90,15 @@ def lqr(linear: Linearization, Q: Any, R: Any) -> Regulator:
     q = _weights(Q, "Q", "state", linear.states)
     r = _weights(R, "R", "input", linear.inputs)
     if np.linalg.eigvalsh(q).min() < -1e-12 * max(1.0, float(np.abs(q).max())):
-        raise RunError("Q must be positive semidefinite", fix="weights that are not negative", code="E501")
+        raise RunError("Q must be positive semidefinite", fix="give weights that are not negative", code="E501")
     if np.linalg.eigvalsh(r).min() <= 0:
-        raise RunError("R must be positive definite", fix="a positive weight for every input", code="E501")
+        raise RunError("R must be positive definite", fix="give every input a positive weight", code="E501")
     try:
         K, S, poles = python_control().lqr(linear.A, linear.B, q, r)
     except (np.linalg.LinAlgError, ValueError) as trouble:
         raise RunError(
             f"Riccati's equation has no solution: {trouble}",
-            fix="weigh the states whose modes do not decay by themselves",
+            fix="give a weight to the states whose modes do not decay by themselves",
             code="E522",
         ) from trouble
     poles = np.asarray(poles, complex)
@@ -119,7 +119,7 @@ def _weights(given: Any, what: str, noun: str, names: tuple[str, ...]) -> Array:
     if matrix.shape != (n, n) or not np.isfinite(matrix).all():
         raise RunError(
             f"{what} has shape {matrix.shape}, {(n, n)} is needed: {', '.join(names)}",
-            fix="a finite matrix, one number, or weights by name",
+            fix="give a finite matrix, one number, or weights by name",
             code="E501",
         )
     if not np.allclose(matrix, matrix.T, rtol=1e-12, atol=0):

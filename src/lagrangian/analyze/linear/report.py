@@ -141,7 +141,7 @@ def _reach(linear: Linearization) -> Part:
     if linear.inputs:
         items.append(text(_sentence("Controllability", linear.controllability, "not controllable", "stabilizable")))
     else:
-        items.append(text("There is no input to control it with."))
+        items.append(text("The system has no input."))
     items.append(text(_sentence("Observability", linear.observability, "not observable", "detectable")))
     return Part(text("Control"), tuple(items))
 

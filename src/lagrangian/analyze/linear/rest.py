@@ -91,7 +91,7 @@ def rest(
         return replace(settled, kind="operating point")
     raise RunError(
         f"{settled.shown} is at rest at t = {t:g} s only: forces change with time, and at {later:g} s it moves",
-        fix=Advice(ANY_POINT, " linearizes about any point and keeps the drift of that moment"),
+        fix=Advice(ANY_POINT, " linearizes about any point and keeps the constant term (drift) of that moment"),
         code="E521",
     )
 
@@ -101,13 +101,13 @@ def _values(program: Program, here: Rest, t: float) -> Arrays:
     if np.isfinite(found["xdot"]).all() and not all(np.isfinite(a).all() for a in found.values()):
         raise RunError(
             f"the accelerations have no finite slope at {here.shown}",
-            fix="a root or a division ends there: choose a neighbouring point",
+            fix="choose a neighbouring point: there is a square root of 0 or a division by 0 here",
             code="E525",
         )
     if not np.isfinite(found["xdot"]).all():
         raise RunError(
             f"the accelerations are not finite at {here.shown}",
-            fix="the mass matrix is singular there, or a root or a division ends: choose a neighbouring point",
+            fix="choose a neighbouring point: there is a singular mass matrix, a square root of 0 or a division by 0",
             code="E203",
         )
     return found
@@ -199,6 +199,6 @@ def _refused(model: Model, here: Rest, program: Program, n: int, t: float) -> Ru
     search = ["give the inputs that hold it still"] if model.floating else [Verb("equilibria"), " finds them"]
     return RunError(
         f"{here.shown} is not an equilibrium: {why}",
-        fix=Advice(*search, "; ", ANY_POINT, " linearizes about any point and keeps the drift"),
+        fix=Advice(*search, "; ", ANY_POINT, " linearizes about any point and keeps the constant term (drift)"),
         code="E521",
     )

@@ -50,8 +50,8 @@ def symbolic(linear: Linearization) -> SymbolicLinearization:
     model, n = linear.model, len(linear.model.coordinates)
     if linear.kind != "rest" or linear.mass is None:
         raise RunError(
-            "symbols are written about a rest of a system whose velocities are the rates of its coordinates",
-            fix="the numbers are in A and B",
+            "symbolic matrices are available only at an equilibrium, and only for systems without floating frames",
+            fix="use A and B, which hold the numbers",
             code="E523",
         )
     if n > MOST:
@@ -77,7 +77,9 @@ def symbolic(linear: Linearization) -> SymbolicLinearization:
 
 
 def _too_long(why: str) -> RunError:
-    return RunError(f"too long to write in symbols: {why}", fix="the numbers are in A and B", code="E523")
+    return RunError(
+        f"the symbolic matrices are too long to write: {why}", fix="use A and B, which hold the numbers", code="E523"
+    )
 
 
 def _made(model: Model, raw: dict[str, sp.Matrix], point: dict[Any, Any], n: int) -> SymbolicLinearization:

@@ -76,7 +76,9 @@ def _sides(given: Given, names: tuple[str, ...], asked: Mapping[Any, Any] | None
     if asked is None:
         return {}
     if not isinstance(asked, Mapping):
-        raise RunError("box must be a mapping", fix="{coordinate: (low, high)}", code="E501")
+        raise RunError(
+            "box must be a mapping from coordinates to (low, high)", fix="{coordinate: (low, high)}", code="E501"
+        )
     group = Group("coordinate", names, given.states.dims[: len(names)])
     found: dict[str, tuple[float, float]] = {}
     for key, side in asked.items():
@@ -87,7 +89,9 @@ def _sides(given: Given, names: tuple[str, ...], asked: Mapping[Any, Any] | None
         ends = (number(side[0], f"low end of '{name}'", dim), number(side[1], f"high end of '{name}'", dim))
         if not ends[0] < ends[1]:
             raise RunError(
-                f"the box of '{name}' is empty: {ends[0]:.6g} to {ends[1]:.6g}", fix="low before high", code="E501"
+                f"the box of '{name}' is empty: {ends[0]:.6g} to {ends[1]:.6g}",
+                fix="give the lower end first",
+                code="E501",
             )
         found[name] = ends
     return found

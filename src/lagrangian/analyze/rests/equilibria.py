@@ -221,8 +221,8 @@ def _prepared(model: Model, inputs: Named | None, params: Named | None, asked: M
     program = linearizer.forces
     if len(program.inputs["q"]) != len(program.inputs["v"]):
         raise RunError(
-            f"system '{model.name}' has a floating frame, whose quaternion is no set of independent coordinates",
-            fix="describe the turn by angles (frames about axes) to search for rests",
+            f"system '{model.name}' has a floating frame: the entries of a quaternion are not independent",
+            fix="describe its orientation by three angles instead (frames about axes)",
             code="E202",
         )
     forces = _kernel(program, u, p)

@@ -15,7 +15,7 @@ from lagrangian.derive.algebra.monomials import Packed, Poly, digits, unit
 from lagrangian.derive.algebra.readable import Writer
 from lagrangian.derive.algebra.reading import Reader
 
-WORK = 4_000_000
+WORK = 5_000_000
 """Terms that may be multiplied, added and differentiated for one system; what a book holds takes a hundredth."""
 
 
@@ -26,7 +26,7 @@ LETTERS = 128
 def _spent(limit: int) -> OutOfReach:
     return OutOfReach(
         f"writing the equations out takes more than {limit} products of terms",
-        fix="compile() and what builds on it (simulate, linearize, export) do without",
+        fix="use compile(), simulate(), linearize() or export(), which do not need the written equations",
         code="E601",
     )
 

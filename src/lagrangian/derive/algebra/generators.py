@@ -74,9 +74,6 @@ class Sum:
 WRITING = 15_000
 """Terms that may be looked at while shorter ways of writing are sought for one system."""
 
-COUNTED = 1_000
-"""Operands and operations up to which a letter's operations are counted as SymPy counts them."""
-
 Generator = Symbolic | Root | Opaque | Trig | Sum
 Slope = "int | Form | None"
 """A derivative: a monomial, a form, or None for zero."""
@@ -313,11 +310,7 @@ class Generators:
     def cost(self, i: int) -> int:
         """Return the operations inside a generator, every symbol, rate and acceleration counted as one name."""
         if i not in self._costs:
-            expr = self.table[i].expr
-            length = bounded.size(expr)
-            self.algebra.spend(length)
-            short = length <= COUNTED
-            self._costs[i] = int(sp.count_ops(bounded.replaced(expr, self.placeholders))) if short else length
+            self._costs[i] = int(sp.count_ops(bounded.replaced(self.table[i].expr, self.placeholders)))
         return self._costs[i]
 
     def power(self, i: int, exponent: int) -> sp.Expr:

@@ -246,17 +246,19 @@ def check_ends(element: Element, between: object, deflection: object) -> tuple[P
         found = "both" if between is not None else "neither"
         raise element._error(
             f"give either two points or a deflection (got {found})",
-            fix="between=(P, Q) for the distance of two points, or deflection=expression in the coordinates",
+            fix="write between=(P, Q) for the distance of two points, or deflection=expression in the coordinates",
             code="E412",
         )
     if between is None:
         return None
     if not isinstance(between, (tuple, list)) or len(between) != 2 or not all(isinstance(p, Point) for p in between):
-        raise element._error("between must be two points", fix="between=(P, Q) with points of this system", code="E412")
+        raise element._error(
+            "between must be two points", fix="write between=(P, Q) with points of this system", code="E412"
+        )
     start, end = between
     if start is end:
         raise element._error(
-            "both ends are the same point: it has no length and no direction",
+            "both ends are the same point, so it has no length and no direction",
             fix="name two different points in between",
             code="E410",
         )

@@ -49,7 +49,7 @@ class Damper(Element):
         if len(given) != 1:
             raise self._error(
                 f"give exactly one of b and law (got {', '.join(given) or 'none'})",
-                fix="b for a linear damper, law='b*rate*abs(rate)' for another",
+                fix="write b for a linear damper, law='b*rate*abs(rate)' for another",
                 code="E416",
             )
         self._set(between=check_ends(self, self.between, self.deflection))

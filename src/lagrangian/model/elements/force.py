@@ -52,13 +52,13 @@ class Force(Element):
         if self.between is not None or self.deflection is not None:
             raise self._error(
                 "a force acts either at a point or along a deflection (got both)",
-                fix="a vector with at=P, or a scalar with between=(P, Q) or deflection=expression",
+                fix="give a vector with at=P, or a scalar with between=(P, Q) or deflection=expression",
                 code="E412",
             )
         if not isinstance(self.value, (tuple, list, sp.MatrixBase)):
             raise self._error(
                 "a force at a point is a vector (got one value)",
-                fix="force((Fx, Fy), at=P); a scalar needs between=(P, Q) or deflection=expression",
+                fix="write force((Fx, Fy), at=P); a scalar needs between=(P, Q) or deflection=expression",
                 code="E412",
             )
         for key in ("at", "reaction"):
@@ -67,7 +67,7 @@ class Force(Element):
                 raise self._error(f"its {key} must be a point", fix=f"{key}=P", code="E412")
         if self.reaction is self.at:
             raise self._error(
-                "it acts and reacts on the same point: it does nothing",
+                "it acts and reacts on the same point, so it does nothing",
                 fix="leave reaction out, or name another point",
                 code="E410",
             )
@@ -77,7 +77,9 @@ class Force(Element):
 
     def _scalar(self, what: str) -> None:
         if isinstance(self.value, (tuple, list, sp.MatrixBase)):
-            raise self._error("a vector force needs the point it acts at", fix="force((Fx, Fy), at=P)", code="E412")
+            raise self._error(
+                "a vector force needs the point it acts at", fix="write force((Fx, Fy), at=P)", code="E412"
+            )
         if self.between is None and self.deflection is None:
             raise self._error(
                 "it acts on nothing",

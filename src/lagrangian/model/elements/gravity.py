@@ -37,7 +37,7 @@ class Gravity(Element):
             direction = tuple(d / norm for d in direction)
         self._set(direction=direction, g=as_expr(self.g, f"the strength of {self.title}", place=self.place))
         if self.datum is not None and not isinstance(self.datum, Point):
-            raise self._error("its datum must be a point", fix="datum=system.origin + (0, h0)", code="E412")
+            raise self._error("its datum must be a point", fix="write datum=system.origin + (0, h0)", code="E412")
 
     def suggested_name(self) -> str:
         """The symbol of its strength."""

@@ -24,7 +24,9 @@ class Particle(Element):
 
     def __post_init__(self) -> None:
         if not isinstance(self.at, Point):
-            raise self._error("a particle must be at a point", fix="at=P with P = system.origin + (x, y)", code="E412")
+            raise self._error(
+                "a particle must be at a point", fix="write at=P with P = system.origin + (x, y)", code="E412"
+            )
         self._set(mass=as_expr(self.mass, f"the mass of {self.title}", place=self.place))
 
     def suggested_name(self) -> str:

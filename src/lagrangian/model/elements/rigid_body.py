@@ -35,7 +35,7 @@ class RigidBody(Element):
         if not isinstance(self.frame, Frame):
             raise self._error(
                 "a rigid body needs the frame that turns with it",
-                fix="frame=system.frame(angle=…)",
+                fix="write frame=system.frame(angle=…)",
                 code="E412",
             )
         self._set(mass=as_expr(self.mass, f"the mass of {self.title}", place=self.place))
@@ -59,13 +59,13 @@ class RigidBody(Element):
         if rows is None or len(rows) != 3:
             raise self._error(
                 "in space the inertia is three principal moments or a 3×3 matrix",
-                fix="inertia=(A, B, C) or inertia=[[Ixx, Ixy, Ixz], [Ixy, Iyy, Iyz], [Ixz, Iyz, Izz]]",
+                fix="write inertia=(A, B, C) or inertia=[[Ixx, Ixy, Ixz], [Ixy, Iyy, Iyz], [Ixz, Iyz, Izz]]",
                 code="E106",
             )
         if not isinstance(rows[0], (tuple, list)):
             return sp.ImmutableMatrix(sp.diag(*[as_expr(v, what, place=self.place) for v in rows]))
         if any(not isinstance(row, (tuple, list)) or len(row) != 3 for row in rows):
-            raise self._error("the inertia matrix is not 3×3", fix="give three rows of three", code="E106")
+            raise self._error("the inertia matrix is not 3×3", fix="give three rows of three entries", code="E106")
         tensor = sp.ImmutableMatrix([[as_expr(v, what, place=self.place) for v in row] for row in rows])
         for i, j in ((0, 1), (0, 2), (1, 2)):
             if tensor[i, j] != tensor[j, i]:

@@ -61,7 +61,7 @@ class Spring(Element):
         if len(given) != 1:
             raise self._error(
                 f"give exactly one of k, law and energy (got {', '.join(given) or 'none'})",
-                fix="k for a linear spring, law='k*delta + k3*delta^3' for another",
+                fix="write k for a linear spring, law='k*delta + k3*delta^3' for another",
                 code="E416",
             )
         self._set(between=check_ends(self, self.between, self.deflection))

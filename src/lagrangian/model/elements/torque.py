@@ -34,7 +34,9 @@ class Torque(Element):
     def __post_init__(self) -> None:
         if self.on is None:
             raise self._error(
-                "it acts on nothing", fix="on=angle (an expression such as theta1 + theta2) or on=frame", code="E412"
+                "it acts on nothing",
+                fix="write on=angle (an expression such as theta1 + theta2) or on=frame",
+                code="E412",
             )
         for key in ("on", "reaction"):
             target = getattr(self, key)
@@ -42,7 +44,7 @@ class Torque(Element):
                 self._set(**{key: as_expr(target, f"the angle in {key} of {self.title}", place=self.place)})
         if self.on is self.reaction or (not isinstance(self.on, Frame) and self.on == self.reaction):
             raise self._error(
-                "it acts and reacts on the same angle: it does nothing",
+                "it acts and reacts on the same angle, so it does nothing",
                 fix="leave reaction out, or name another angle",
                 code="E410",
             )
@@ -50,8 +52,8 @@ class Torque(Element):
             self._vector()
         elif isinstance(self.on, Frame) and self.on.floating is not None:
             raise self._error(
-                f"frame '{self.on.name}' floats: it has no axis that one value could turn it about",
-                fix="give three components, torque((tx, ty, tz), on=frame, axes=frame)",
+                f"frame '{self.on.name}' floats, so a single value does not say about which axis the torque acts",
+                fix="give three components: torque((tx, ty, tz), on=frame, axes=frame)",
                 code="E414",
             )
         elif self.axes is not None:
@@ -65,11 +67,11 @@ class Torque(Element):
         if len(value) != 3 or any(not isinstance(t, Frame) or t.dimension == 2 for t in targets):
             raise self._error(
                 "a vector torque has three components and acts on frames in space",
-                fix="torque((tx, ty, tz), on=frame), or one value on an angle",
+                fix="write torque((tx, ty, tz), on=frame), or give one value on an angle",
                 code="E414",
             )
         if self.axes is not None and not isinstance(self.axes, Frame):
-            raise self._error("axes must be a frame", fix="axes=frame, or leave it out", code="E412")
+            raise self._error("axes must be a frame", fix="write axes=frame, or leave it out", code="E412")
         self._set(value=value)
 
     def suggested_name(self) -> str:

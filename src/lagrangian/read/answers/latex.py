@@ -38,7 +38,7 @@ class LatexParser(LatexFractions):
         if self.next.kind == "number" and self.i and self.tokens[self.i - 1].kind == "number":
             two = f"{self.tokens[self.i - 1].text} {self.next.text}"
             raise self.source.error(
-                f"two numbers stand side by side, {shown(two)}", self.next.start, fix="write \\cdot"
+                f"two numbers stand next to each other, {shown(two)}", self.next.start, fix="write \\cdot"
             )
         return self.next.kind in _BEGINS or (self.next.kind == "|" and not self._bars)
 
@@ -51,7 +51,7 @@ class LatexParser(LatexFractions):
         if token.kind == "end":
             what, fix = f"the formula ends{after}", "a number, a symbol or a bracket must follow, or a brace be closed"
         elif token.kind == "=":
-            what, fix = "nothing stands on one side of '='", "write 0 for a side that is zero"
+            what, fix = "one side of '=' is empty", "write 0 for a side that is zero"
         elif token.kind in (")", "]", "}", ")abs", "end_"):
             what = f"found {shown(token.text)}{after}"
             fix = "something must stand before it" if wants_operand else "it closes nothing here: check the brackets"

@@ -118,7 +118,7 @@ def _command(name: str, source: Source, start: int) -> tuple[str, str]:
     if function in FUNCTIONS:
         return "function", function
     fix = "known: \\frac \\sqrt \\dot \\ddot \\sin \\cos \\left( \\right) \\cdot, Greek letters, bmatrix"
-    raise source.error(f"the command {shown(chr(92) + name)} is not read in an answer", start, fix=fix)
+    raise source.error(f"the command {shown(chr(92) + name)} is not supported in an answer", start, fix=fix)
 
 
 def _word(text: str, source: Source, start: int) -> tuple[str, str]:
@@ -130,5 +130,7 @@ def _word(text: str, source: Source, start: int) -> tuple[str, str]:
     if not plain:
         return "skipped", plain
     if not re.fullmatch(r"\w+", plain):
-        raise source.error(f"the words {shown(text)} stand in a formula", start, fix="put words outside of the formula")
+        raise source.error(
+            f"the words {shown(text)} stand in a formula", start, fix="put the words outside the formula"
+        )
     return "upright", plain

@@ -220,7 +220,7 @@ class Lines:
         """A named matrix: the column of all Ξ states each of them; any other is kept for the lines that use it."""
         token = subject.token
         if token is None or subject.order or subject.kind in ENERGIES:
-            reader.fail("one quantity cannot equal a matrix", side, fix="write the entries out, one a line")
+            reader.fail("a single quantity cannot equal a matrix", side, fix="write one equation per line")
         names = [c.name for c in self.model.coordinates]
         if key(token) in ("Xi", "Q", "bold Xi", "bold Q") and value.shape == (len(names), 1):
             own = Subject("Xi")
@@ -299,5 +299,5 @@ def _rows(left: Value, right: Value, node: Tree, reader: Meaning) -> list[tuple[
         both.append(value)
     if both[0].shape != both[1].shape:
         a, b = (f"{s[0]} × {s[1]}" for s in (both[0].shape, both[1].shape))
-        reader.fail(f"the left side is {a}, the right side {b}", node, fix="both must have as many rows")
+        reader.fail(f"the left side is {a}, the right side {b}", node, fix="give both sides the same number of rows")
     return list(zip(both[0], both[1], strict=True))

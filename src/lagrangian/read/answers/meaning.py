@@ -69,7 +69,12 @@ class Meaning(Reader):
 
     def _spend(self, value: Value, node: Node) -> None:
         if not self.budget.spend(value):
-            self.fail("too much is written out here", node, fix="give the answer in shorter pieces", code="E703")
+            self.fail(
+                "this becomes too long when it is written out",
+                node,
+                fix="give the answer in shorter pieces",
+                code="E703",
+            )
 
     # -- derivatives -------------------------------------------------------------------------------------------------
 
@@ -90,7 +95,12 @@ class Meaning(Reader):
         """The derivative; what it takes is known before it is worked out."""
         if (value, by) not in self.names.derivatives:
             if not self.budget.affords_derivative(value):
-                self.fail("too much is differentiated here", node, fix="give the answer in shorter pieces", code="E703")
+                self.fail(
+                    "this becomes too long when it is differentiated",
+                    node,
+                    fix="give the answer in shorter pieces",
+                    code="E703",
+                )
             self.names.derivatives[value, by] = value.diff(by)
         return self.names.derivatives[value, by]
 
@@ -102,10 +112,14 @@ class Meaning(Reader):
         if energy is None and kind not in ENERGIES:
             energy = self._meaning(what)[1]
             if not energy.args or isinstance(energy, AppliedUndef):
-                self.fail(f"'{what}' is no energy that was given", what, fix="write ∂L/∂x1', or what it is before")
+                self.fail(
+                    f"'{what}' is not an energy that your answer gives",
+                    what,
+                    fix="write ∂L/∂x1', or state the energy on an earlier line",
+                )
         variable = self.value(by)
         if not isinstance(variable, (AppliedUndef, sp.Derivative, sp.Symbol)):
-            self.fail("energies are differentiated by a coordinate or its rate", by, fix="write ∂L/∂x1'")
+            self.fail("energies can be differentiated only by a coordinate or its rate", by, fix="write ∂L/∂x1'")
         moving = isinstance(variable, (AppliedUndef, sp.Derivative))
         if energy is None or not moving or self.names.is_unknown(variable):
             return cast("sp.Expr", sp.Derivative(ENERGIES.get(kind, ENERGIES["L"]), variable))
@@ -121,12 +135,14 @@ class Meaning(Reader):
         rows = [row.children for row in node.children[1:]]
         if len({len(row) for row in rows}) != 1:
             counts = " and ".join(str(n) for n in sorted({len(row) for row in rows}))
-            self.fail(f"the rows of this matrix have {counts} entries", node, fix="give every row as many entries")
+            self.fail(
+                f"the rows of this matrix have {counts} entries", node, fix="give every row the same number of entries"
+            )
         if sum(map(len, rows)) > MAX_ENTRIES:
             self.fail(f"a matrix with more than {MAX_ENTRIES} entries", node, code="E703")
         values = [[self.value(x) for x in row] for row in rows]
         if any(isinstance(x, MatrixBase) for row in values for x in row):
-            self.fail("a matrix stands inside a matrix", node, fix="write one matrix [a, b; c, d]")
+            self.fail("a matrix contains a matrix", node, fix="write one matrix [a, b; c, d]")
         return sp.ImmutableMatrix(values)
 
     def _transpose(self, node: Node) -> Value:
@@ -150,7 +166,7 @@ class Meaning(Reader):
             shapes = [getattr(x, "shape", "a number") for x in (total, value)]
             if total is not None and shapes[0] != shapes[1]:
                 a, b = (_shape(x) for x in shapes)
-                self.fail(f"{a} and {b} cannot be added", term, fix="both must have as many rows and columns")
+                self.fail(f"{a} and {b} cannot be added", term, fix="give both the same number of rows and columns")
             total = value if total is None else total + value
         return total
 
@@ -171,7 +187,9 @@ class Meaning(Reader):
             both = isinstance(total, MatrixBase) and isinstance(value, MatrixBase)
             if both and total.shape[1] != value.shape[0]:
                 a, b = _shape(total.shape), _shape(value.shape)
-                self.fail(f"{a} times {b} is no product", child, fix="a matrix of n columns times a column of n rows")
+                self.fail(
+                    f"{a} times {b} is not a product", child, fix="multiply a matrix of n columns by a column of n rows"
+                )
             if both and total.shape[0] * value.shape[1] * value.shape[0] > 20 * MAX_ENTRIES:
                 self.fail("the matrices are too large to multiply", child, code="E703")
             total = total * value
@@ -180,13 +198,13 @@ class Meaning(Reader):
 
     def _raise(self, node: Node, base: Any, exponent: Any) -> sp.Expr:
         if isinstance(base, MatrixBase) or isinstance(exponent, MatrixBase):
-            self.fail("a power of a matrix", node, fix="write the equations out row by row")
+            self.fail("a matrix is raised to a power", node, fix="write the equations out row by row")
         return super()._raise(node, base, exponent)
 
     def _call(self, node: Node) -> sp.Expr:
         for argument in node.children[1:]:
             if argument.data != "condition" and isinstance(self.value(argument), MatrixBase):
-                self.fail("a function of a matrix", argument, fix="write the entries out")
+                self.fail("a function is applied to a matrix", argument, fix="write the entries out")
         return super()._call(node)
 
 

@@ -85,7 +85,7 @@ class Parser(ABC):
             return None
         at = self.opened[-1]
         return self.source.error(
-            f"this '{self.source.text[at]}' is never closed", at, fix="close it on the same side of ="
+            f"this '{self.source.text[at]}' is never closed", at, fix="close it on the same side of '='"
         )
 
     # -- grammar ---------------------------------------------------------------------------------------------------

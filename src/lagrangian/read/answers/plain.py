@@ -77,7 +77,7 @@ class PlainParser(Parser):
         super().__init__(source, tokenize(source.text))
 
     def side_by_side(self) -> bool:
-        """Only matrices may stand side by side."""
+        """Only matrices may stand next to each other."""
         before = self.tokens[self.i - 1].kind if self.i else "end"
         return self.next.kind == "[" and before == "]"
 
@@ -87,9 +87,7 @@ class PlainParser(Parser):
         if (error := self.unclosed()) is not None:
             return error
         if token.kind == "=":
-            return self.source.error(
-                "nothing stands on one side of '='", token.start, fix="write 0 for a side that is zero"
-            )
+            return self.source.error("one side of '=' is empty", token.start, fix="write 0 for a side that is zero")
         if token.kind in ("[", "]"):
             return self.source.error(
                 f"found '{token.text}' here", token.start, fix="a matrix is [a, b; c, d], a column [a; b]"
@@ -347,7 +345,9 @@ class PlainParser(Parser):
                 made = node("partial", token.start, self._energy(made, token), by)
             else:
                 raise self.source.error(
-                    "a derivative is by t or by one name", by.meta.start_pos, fix="write diff(x1, t, 2) or x1''"
+                    "a derivative must be with respect to t or to one name",
+                    by.meta.start_pos,
+                    fix="write diff(x1, t, 2) or x1''",
                 )
             if tuple_open and not self.accept(")"):
                 raise self.stopped(False)
@@ -356,7 +356,7 @@ class PlainParser(Parser):
         self.opened.pop()
         if not order and made.data != "partial":
             raise self.source.error(
-                f"{token.text} needs what to differentiate by", token.start, fix=f"write {token.text}(x1, t)"
+                f"{token.text} needs a variable to differentiate by", token.start, fix=f"write {token.text}(x1, t)"
             )
         return node("rate", token.start, made, order) if order else made
 
@@ -372,7 +372,7 @@ class PlainParser(Parser):
         which = only_name(made)
         if which is None or which[1] or which[0] not in ("T", "V", "L", "D", "ℒ"):
             raise self.source.error(
-                "only T, V, L and D are differentiated by a coordinate or its rate",
+                "only T, V, L and D can be differentiated by a coordinate or its rate",
                 token.start,
                 fix="write ∂L/∂x1' or diff(L, x1')",
             )

@@ -35,7 +35,9 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
     latex = bool(_LATEX.search(text))
     rows = latex_rows(text) if latex else plain_rows(text)
     if not rows:
-        raise source.error("no equation and no energy stands here", 0, fix="write an equation, such as m*x'' + k*x = 0")
+        raise source.error(
+            "this contains no equation and no energy", 0, fix="write an equation, such as m*x'' + k*x = 0"
+        )
     if len(rows) > MAX_STATEMENTS:
         what = f"more than {MAX_STATEMENTS} statements"
         raise source.error(what, rows[MAX_STATEMENTS].start, fix="give the answer in several parts", code="E703")
