@@ -5,6 +5,7 @@ import importlib.util
 import pathlib
 import shutil
 import subprocess
+from typing import Any
 
 import numpy as np
 import pytest
@@ -147,6 +148,15 @@ def test_a_singular_configuration_is_named_with_its_coordinates() -> None:
     with pytest.raises(lg.RunError, match=r"singular at theta = 0, phi = 0.3: 'phi' moves no mass"):
         dyn.forward([0.0, 0.3], [0.1, 0.2])
     assert np.isfinite(dyn.forward([0.1, 0.3], [0.1, 0.2])).all()
+
+
+@pytest.mark.parametrize("given", [[0.4], {"theta": 0.4}, 0.4])
+def test_a_singular_configuration_is_named_however_it_was_given(given: Any) -> None:
+    dyn, p = pendulum().compile(), {"L": 0.0}
+    state = {**given, "theta'": 0.0} if isinstance(given, dict) else [0.4, 0.0]
+    for call in (lambda: dyn.forward(given, [0.0], None, p), lambda: dyn.rhs(0.0, state, None, p)):
+        with pytest.raises(lg.RunError, match=r"M is singular at theta = 0\.4"):
+            call()
 
 
 def test_a_points_jacobian_carries_rates_to_its_velocity() -> None:

@@ -162,10 +162,7 @@ class Compiled(Looking):
         try:
             return self._kernel("rhs")(x, _named(u), _named(p), t)
         except RunError as trouble:
-            if trouble.code != NOT_FINITE:  # x may then be anything
-                raise
-            n = len(self.coordinates)
-            raise self._explained(trouble, np.asarray(x)[..., :n], p, t) from None
+            raise self._explained(trouble, x, p, t) from None
 
     def _run(self, name: str, q: ArrayLike, p: Values, t: ArrayLike, *given: Any) -> Any:
         """Call the kernel of a method."""
@@ -194,12 +191,16 @@ class Compiled(Looking):
         return self._kernel("forward").operations
 
     def _explained(self, trouble: RunError, q: ArrayLike, p: Values, t: ArrayLike) -> RunError:
-        """Where an answer is not finite, look for a quaternion without length, and whether M is singular there."""
+        """Where an answer is not finite, look for a quaternion without length, and whether M is singular there.
+
+        ``q`` are coordinates, or states x, as a method was given them.
+        """
         if trouble.code != NOT_FINITE or not trouble.what.startswith("output"):
             return trouble
+        q, n = self._placed(q), len(self.coordinates)
         for floating in self._floats:
             first = self.coordinates.index(floating.coordinates[3].name)
-            lengths = np.linalg.norm(np.asarray(q, float)[..., first : first + 4], axis=-1)
+            lengths = np.linalg.norm(q[..., first : first + 4], axis=-1)
             if lengths.min() < NO_LENGTH:
                 listed = ", ".join(c.name for c in floating.coordinates[3:])
                 return RunError(
@@ -211,8 +212,8 @@ class Compiled(Looking):
             matrices = np.asarray(self._kernel("mass_matrix")(q, None, None, _named(p), t))
         except RunError:
             return trouble
-        flat, n = matrices.reshape(-1, *matrices.shape[-2:]), len(self.coordinates)
-        states = np.broadcast_to(np.asarray(q, float), (*matrices.shape[:-2], n)).reshape(len(flat), -1)
+        flat = matrices.reshape(-1, *matrices.shape[-2:])
+        states = np.broadcast_to(q, (*matrices.shape[:-2], n)).reshape(len(flat), -1)
         for state, M in zip(states, flat, strict=True):
             _, singular, right = np.linalg.svd(M)
             if singular[-1] * SINGULAR <= singular[0]:
@@ -222,6 +223,13 @@ class Compiled(Looking):
                     code="E203",
                 )
         return trouble
+
+    def _placed(self, given: Any) -> NDArray[np.float64]:
+        """The coordinates, (..., n), in coordinates or states that a kernel has taken."""
+        if isinstance(given, Mapping):
+            named = {str(name): np.asarray(value, float) for name, value in given.items()}
+            return np.stack(np.broadcast_arrays(*(named[name] for name in self.coordinates)), axis=-1)
+        return np.atleast_1d(np.asarray(given, float))[..., : len(self.coordinates)]
 
     def _listed(self, state: NDArray[np.float64]) -> str:
         shown = [f"{name} = {x:.6g}" for name, x in zip(self.coordinates, state, strict=True)]
