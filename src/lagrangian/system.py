@@ -176,7 +176,7 @@ class System(Described):
         events: Sequence[Event] | Event = (),
         max_step: float | str = math.inf,
         max_steps: int = 10_000_000,
-        max_events: int = 1000,
+        max_events: int = 100_000,
         timeout: float | None = None,
         **initial_by_name: Any,
     ) -> Trajectory:

@@ -168,3 +168,23 @@ def test_a_condition_that_stays_zero_is_no_event(method: str) -> None:
     still = [lg.event(s["F"], name="force"), lg.event(s["q"] * s["q"].diff(), name="rest")]
     run = s.simulate(3.0, events=still, method=method)
     assert run.success and not len(run.events["force"].t) and not len(run.events["rest"].t)
+
+
+def test_ten_thousand_crossings_are_found_in_one_run() -> None:
+    s = oscillator(m=1.0, k=1.0, b=0.0)
+    crossing = lg.event(sp.cos(3300 * s.t) - s["q"] / 2, name="crossing")
+    run = s.simulate(10.0, q=1.0, events=crossing)
+    assert run.success, run.message
+    t = np.linspace(0, 10, 2_000_001)  # 190 places between two crossings
+    value = np.cos(3300 * t) - np.cos(t) / 2
+    assert len(run.events["crossing"].t) == np.count_nonzero(value[1:] * value[:-1] < 0) > 10_000
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_many_events_are_not_called_accumulating(method: str) -> None:
+    s = oscillator(m=1.0, k=1.0, b=0.0)
+    events = lg.event(sp.sin(7 * s.t), name="beat")
+    run = s.simulate(10.0, q=1.0, events=events, method=method, rtol=1e-6, max_events=5)
+    assert run.status == -9 and not run.success
+    assert "gave up after 5 events, the last of them 'beat'" in run.message and "max_events" in run.message
+    assert run.events["beat"].t == pytest.approx(np.arange(1, 6) * np.pi / 7)

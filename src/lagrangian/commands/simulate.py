@@ -90,7 +90,7 @@ def simulate(
         int | None, typer.Option(metavar="N", help="Number of evenly spaced times in the results. By default, 1001.")
     ] = None,
     max_steps: Annotated[int, typer.Option(metavar="N", help="Stop the run after this many steps.")] = 10_000_000,
-    max_events: Annotated[int, typer.Option(metavar="N", help="Stop the run after this many events.")] = 1000,
+    max_events: Annotated[int, typer.Option(metavar="N", help="Stop the run after this many events.")] = 100_000,
     timeout: Annotated[
         float | None, typer.Option(metavar="SECONDS", help="Stop the run after this much computing time.")
     ] = None,

@@ -29,7 +29,7 @@ JUMP = "a force that jumps with the state is better smooth (tanh for sign) or an
 RADAU = Argument("method", "'Radau'")
 """What helps where a system is stiff."""
 
-UNDERFLOW, NOT_FINITE, TOO_MANY, ZENO, NO_CONVERGENCE, LATE, CHATTERS = -1, -2, -3, -4, -5, -6, -8
+UNDERFLOW, NOT_FINITE, TOO_MANY, ZENO, NO_CONVERGENCE, LATE, CHATTERS, CROWDED = -1, -2, -3, -4, -5, -6, -8, -9
 
 
 def message(task: Task, outcome: Outcome) -> Advice:
@@ -67,11 +67,15 @@ def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
                 Advice("a shorter run, a larger ", Argument("max_steps"), ", or ", RADAU),
             )
         case s if s == ZENO:
-            name = task.events[outcome.hits[-1].index].title if outcome.hits else task.events[0].title
             return (
-                f"[E505] event '{name}' repeats itself without end: {len(outcome.hits)} events, "
-                "each sooner after the last",
+                f"[E505] event '{_last_event(task, outcome)}' repeats itself without end: {len(outcome.hits)} events, "
+                "each changes the state",
                 Advice("let what touches come to rest with a terminal event, or raise ", Argument("max_events")),
+            )
+        case s if s == CROWDED:
+            return (
+                f"[E505] gave up after {len(outcome.hits)} events, the last of them '{_last_event(task, outcome)}'",
+                Advice("a shorter run, or a larger ", Argument("max_events")),
             )
         case s if s == CHATTERS:
             return sticking.stuck(task, outcome)
@@ -80,6 +84,10 @@ def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
             return over, Advice("a larger ", Argument("timeout"))
         case _:
             return f"[E504] {said}", "a shorter step"
+
+
+def _last_event(task: Task, outcome: Outcome) -> str:
+    return task.events[outcome.hits[-1].index].title if outcome.hits else task.events[0].title
 
 
 def _state(task: Task, x: Array) -> str:

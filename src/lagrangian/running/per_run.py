@@ -51,7 +51,7 @@ class Wanted:
     step: Any = None
     max_step: Any = math.inf
     max_steps: int = 10_000_000
-    max_events: int = 1000
+    max_events: int = 10_000
     events: Sequence[Event] | Event = ()
     event_times: int = 1
 

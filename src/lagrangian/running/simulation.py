@@ -71,7 +71,7 @@ def simulate(
     events: Sequence[Event] | Event = (),
     max_step: Any = math.inf,
     max_steps: int = 10_000_000,
-    max_events: int = 1000,
+    max_events: int = 100_000,
     timeout: float | None = None,
     **by_name: Any,
 ) -> Trajectory:

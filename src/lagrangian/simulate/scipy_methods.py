@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from lagrangian.errors import RunError
 from lagrangian.simulate.chattering import LEAST, NEAR, Pace, Sticking
 from lagrangian.simulate.crossings import Crossings, Hit
-from lagrangian.simulate.integrators.layout import CHATTERS, MARGIN, TOO_MANY, UNDERFLOW
+from lagrangian.simulate.integrators.layout import CHATTERS, CROWDED, MARGIN, TOO_MANY, UNDERFLOW, ZENO
 
 Array = NDArray[np.float64]
 Control = Callable[[float, Array], Array]
@@ -69,7 +69,7 @@ class Bounds:
     """What ends a run that does not end by itself: steps, events, and seconds of computing."""
 
     max_steps: int = 10_000_000
-    max_events: int = 1000
+    max_events: int = 100_000
     max_step: float = math.inf
     seconds: float | None = None
 
@@ -239,7 +239,8 @@ class _March:
         hits = [] if self.crossings is None else self.crossings.between(self.t, end, dense, leg.u, leg.asked)
         for hit in hits:
             self.hits.append(hit)
-            if hit.terminal or hit.after is not None:
+            crowded = len(self.hits) >= self.bounds.max_events and not hit.terminal
+            if hit.terminal or hit.after is not None or crowded:
                 self._store(dense, hit.time)
                 stuck = hit.after is not None and hit.time <= self.t and self.steps > 1  # the first may be at the start
                 self.t, self.x = hit.time, hit.before if hit.after is None else hit.after
@@ -247,13 +248,13 @@ class _March:
                     self.status = 1
                 elif not np.all(np.isfinite(self.x)):
                     self.status, self.reason, self.x = -2, "the state after an event is not finite", hit.before
-                elif len(self.hits) > self.bounds.max_events or stuck:
-                    self.status = -4
+                elif stuck:
+                    self.status = ZENO
+                elif crowded:
+                    self.status = CROWDED if hit.after is None else ZENO
                 return True
-        if len(self.hits) > self.bounds.max_events or (
-            self.crossings is not None and self.crossings.settled is not None
-        ):
-            self.status = -4
+        if self.crossings is not None and self.crossings.settled is not None:
+            self.status = ZENO
             return True
         self._store(dense, end)
         self.t, self.x = end, solver.y

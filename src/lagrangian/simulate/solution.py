@@ -21,10 +21,11 @@ STATUS: Mapping[int, str] = MappingProxyType(
         layout.UNDERFLOW: "the step size fell below the resolution of time",
         layout.NOT_FINITE: "the derivative or the state is not finite",
         layout.TOO_MANY: "the limit on the number of steps was reached",
-        layout.ZENO: "events accumulate: the limit on their number was reached, or no time passes between them",
+        layout.ZENO: "events accumulate: too many change the state, or no time passes between them",
         layout.NO_CONVERGENCE: "the implicit stages do not converge",
         layout.LATE: "the time allowed for computing was over",
         layout.CHATTERS: "the motion sticks where a force jumps, and steps get ever shorter",
+        layout.CROWDED: "the limit on the number of events was reached",
         layout.UNFIT: "a mass is not above 0, or a moment of inertia is below",
     }
 )

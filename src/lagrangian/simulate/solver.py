@@ -122,7 +122,7 @@ class Solver:
         step: float | None = None,
         max_steps: int = 10_000_000,
         max_step: float = math.inf,
-        max_events: int = 1000,
+        max_events: int = 10_000,
         deadline: float | None = None,
         store: bool = True,
     ) -> Solution:

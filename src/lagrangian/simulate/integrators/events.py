@@ -46,8 +46,9 @@ START, ZERO, TURNED, FIRST = -1.0, 1.0, 2.0, 3.0
 """Moods of an event: its run begins; g is 0 where a run goes on; its reset was done just now; g is 0 where its run
 begins."""
 
-RESET, ENDS, HEAPS = 1, 2, 3
-"""Why a lane leaves a step: to go on from another state, because a terminal event happened, because too many did."""
+RESET, ENDS, HEAPS, CROWDS = 1, 2, 3, 4
+"""Why a lane leaves a step: to go on from another state, because a terminal event happened, because changes of the
+state accumulate, because there are more events than a run may have."""
 
 
 def parts(events: Events) -> tuple[Program, Program | None]:
@@ -76,7 +77,7 @@ class Watch:
         self.pieces = Pieces(p, lanes, method, service, guard, own=own)
         self.armed, self.mood, self.fresh, self.fired = (p.reserve(self.count) for _ in range(4))
         self.low, self.high, self.busy, self.settled, self.cut, self.rounds = (p.reserve(1) for _ in range(6))
-        self.latest, self.same, self.when = (p.reserve(1) for _ in range(3))
+        self.latest, self.same, self.when, self.past = (p.reserve(1) for _ in range(4))
         self.there, self.beyond, self.kept, self.states = (
             p.block(),
             p.block(),
@@ -274,6 +275,7 @@ class Watch:
             self._note(fired, self.fired + k)
             crossed = f.logic("and", f.logic("and", busy, f.opposite(fired)), f.compare("une", g, 0.0))
             p.store(f.select(crossed, g, armed), self.armed, k)  # it may have crossed the way that does not count
+        p.store(t, self.past)
         x, t = place(p.load(self.low), self.there)
         p.store(t, self.when)
         if self.after is not None:
@@ -350,12 +352,13 @@ class Watch:
         free = service.compare("eq", p.get(self.cut, lane, "i64"), "0")
         with p.when(f.put(f"and i1 {many}, {free}")):
             self._keep(self.beyond.slot, self.kept.slot, lane)
+            p.set(p.get(self.past, lane), self.when, lane)  # before it, what reads time would happen once more
             p.set(str(RESET), self.cut, lane, "i64")
         ended = service.compare("eq", p.get(self.cut, lane, "i64"), str(ENDS))
         over = service.compare("sge", p.get(self.lanes.events, lane, "i64"), self.most)
         with p.when(f.put(f"and i1 {over}, {f.put(f'xor i1 {ended}, true')}")):
             with p.when(service.compare("eq", p.get(self.cut, lane, "i64"), "0")):
                 self._keep(self.there.slot, self.kept.slot, lane)
-            p.set(str(HEAPS), self.cut, lane, "i64")
+            p.set(f.put(f"select i1 {free}, i64 {CROWDS}, i64 {HEAPS}"), self.cut, lane, "i64")
         with p.when(service.compare("ne", p.get(self.cut, lane, "i64"), "0")):
-            p.set(t, self.lanes.end, lane)
+            p.set(p.get(self.when, lane), self.lanes.end, lane)

@@ -31,6 +31,9 @@ UNFIT = -7
 CHATTERS = -8
 """A run that sticks where its right-hand side jumps."""
 
+CROWDED = -9
+"""A run with more events than it may have, which change nothing: its motion is not over."""
+
 DONE, PAUSED, FULL = 0, 1, 2
 """Why the machine code came back: all runs of the range are over, the budget is spent, the log of events is full."""
 

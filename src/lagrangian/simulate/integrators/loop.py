@@ -363,6 +363,7 @@ class Loop:
                 (events.RESET, at.CUT, ""),
                 (events.ENDS, at.ENDED, self._constant(at.TERMINAL)),
                 (events.HEAPS, at.ENDED, self._constant(at.ZENO)),
+                (events.CROWDS, at.ENDED, self._constant(at.CROWDED)),
             ):
                 changes.append((p.whole_is(held, why), becomes, how))
         for flag, becomes, how in changes:
