@@ -74,3 +74,15 @@ def test_a_derivation_ends_when_its_products_are_spent(monkeypatch: pytest.Monke
     with pytest.raises(ModelError, match="takes more than 100 products of terms") as caught:
         lg.loads(HEAD + BODY + '[[potential]]\nvalue = "(q + w)^9*sin(q)"\n').derive()
     assert caught.value.fix is not None and "compile()" in caught.value.fix
+
+
+def test_a_system_without_finite_forces_is_told_so() -> None:
+    steep = HEAD + '[[particle]]\nmass = "m"\nat = ["(q+1/3)^100*(w+124999998860937500)^100", "w"]\n'
+    with pytest.raises(ModelError, match="no finite value"):
+        lg.loads(steep).conserved()
+
+
+@pytest.mark.slow
+def test_a_coordinate_that_moves_a_body_by_next_to_nothing_is_derived() -> None:
+    flat = HEAD + '[[particle]]\nmass = "m"\nat = ["(q^3+a)/(1+q^2+w^3)^20", "(w+q)^9/(a+b*q+c*w)^30"]\n'
+    assert _or_a_word(lg.loads(flat).derive) is not None

@@ -91,7 +91,7 @@ def _kind_words(kind: Measured) -> list[str | Left]:
 def _wiggle_words(context: Context, index: int) -> list[str | Left]:
     moved = context.wiggle.moved[index]
     still = [b for b in context.model.bodies if b not in moved]
-    if not context.model.bodies:
+    if not moved:
         return ["its momentum changes: it moves mass"]
     parts = [f"{_listed(moved)} move{'s' if len(moved) == 1 else ''}"]
     if still:

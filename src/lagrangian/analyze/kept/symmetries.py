@@ -25,6 +25,7 @@ from lagrangian.analyze.echelon import null_space, reduced
 from lagrangian.analyze.kept.lagrangian_form import LagrangianForm
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.sample import Sampler
+from lagrangian.errors import ModelError
 from lagrangian.model import time
 
 TURNS = 12
@@ -111,6 +112,12 @@ class _Columns:
     def null_rows(self, fixed: Mapping[Any, float]) -> tuple[NDArray[np.float64], list[int]]:
         """The null space in reduced form, and its leading columns, with the symbols of ``fixed`` at their values."""
         rows = np.array([self._row(got) for got in self._states(fixed)])
+        if not len(rows):
+            raise ModelError(
+                f"the forces of system '{self.system.model.name}' have no finite value at any random state",
+                fix="check square roots, logarithms and divisions for arguments that are never allowed",
+                code="E503",
+            )
         size = np.linalg.norm(rows, axis=0)
         scale = np.where(size > 0, size, 1.0)  # one tolerance serves all; a column of zeros is a symmetry by itself
         return reduced(null_space(rows / scale) / scale)
