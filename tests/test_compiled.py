@@ -152,9 +152,9 @@ def test_a_singular_configuration_is_named_with_its_coordinates() -> None:
 
 @pytest.mark.parametrize("given", [[0.4], {"theta": 0.4}, 0.4])
 def test_a_singular_configuration_is_named_however_it_was_given(given: Any) -> None:
-    dyn, p = pendulum().compile(), {"L": 0.0}
-    state = {**given, "theta'": 0.0} if isinstance(given, dict) else [0.4, 0.0]
-    for call in (lambda: dyn.forward(given, [0.0], None, p), lambda: dyn.rhs(0.0, state, None, p)):
+    dyn, p, q = pendulum().compile(), {"L": 0.0}, given
+    state: Any = {**given, "theta'": 0.0} if isinstance(given, dict) else [0.4, 0.0]
+    for call in (lambda: dyn.forward(q, [0.0], None, p), lambda: dyn.rhs(0.0, state, None, p)):
         with pytest.raises(lg.RunError, match=r"M is singular at theta = 0\.4"):
             call()
 
