@@ -11,11 +11,13 @@ from lagrangian import analyze, write
 from lagrangian.analyze import LinearizationAlong, SymbolicLinearization, linearize_along
 from lagrangian.analyze.kept.canonical_report import hamiltonian_report, routhian_report
 from lagrangian.analyze.kept.conserved_report import conserved_report
+from lagrangian.analyze.linear.modes import Mode, modes
 from lagrangian.analyze.linear.regulator_report import regulator_report
-from lagrangian.analyze.linear.report import linear_report
+from lagrangian.analyze.linear.report import POLES_AND_MODES, linear_report
 from lagrangian.analyze.report import Report
 from lagrangian.analyze.rests.report import equilibria_report
 from lagrangian.model import Model
+from lagrangian.viewed import Viewed
 from lagrangian.write import Notation
 
 
@@ -78,6 +80,16 @@ class Linearization(Written, analyze.Linearization):
     def report(self, *, symbols: bool = False) -> Report:
         """Return the report; with ``symbols`` also its matrices in symbols."""
         return linear_report(self, self.symbolic if symbols else None)
+
+    @cached_property
+    def modes(self) -> tuple[Mode, ...]:
+        """The modes, slowest first; a notebook shows them as a table."""
+        return Viewed(modes(self.spectrum, self.states[: len(self.coordinates)]), self._modes_view)
+
+    def _modes_view(self) -> str:
+        found = self.report()
+        parts = tuple(part for part in found.parts if str(part.title) == POLES_AND_MODES)
+        return write.report_fragment(Report(found.title, found.model, parts))
 
     @cached_property
     def symbolic(self) -> SymbolicLinearization:

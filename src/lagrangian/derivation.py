@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from lagrangian import analyze, derive, write
 from lagrangian.calls import DERIVATION, Guided
 from lagrangian.model import Model
+from lagrangian.viewed import Viewed
 
 if TYPE_CHECKING:
     from lagrangian.checking import CheckedAnswer
@@ -93,4 +94,19 @@ def derive_and_verify(model: Model, *, detail: derive.Detail = "usual") -> Deriv
     analyze.check_dimensions(model)
     data = derive.derive(model, detail=detail)
     made = Derivation(**{f.name: getattr(data, f.name) for f in fields(data)})
-    return replace(made, verified=analyze.verify(made, states=10, seed=1))
+    made = replace(made, verified=analyze.verify(made, states=10, seed=1))
+    steps = tuple(replace(step, view=partial(_section, made, f"step-{step.number}")) for step in made.steps)
+    return replace(made, steps=steps, ledger=Viewed(made.ledger, partial(_ledger, made)))
+
+
+def _section(derivation: Derivation, anchor: str) -> str:
+    from lagrangian.write.views import section_view
+
+    return section_view(derivation, anchor)
+
+
+def _ledger(derivation: Derivation) -> str:
+    from lagrangian.write.views import table_view
+
+    rows = [(row.element, row.column, str(row.reason)) for row in derivation.ledger]
+    return table_view(derivation.model.name, ["Every element once"], ("element", "booked in", "because"), rows)

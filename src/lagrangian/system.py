@@ -325,6 +325,15 @@ class System(Described):
         """Say what the system has so far."""
         return f"<System {self.name!r}: {self._builder.summary()}{self._told()}>"
 
+    def _repr_html_(self) -> str:
+        from lagrangian.write.views import system_view, words_view
+
+        words = f"{self._builder.summary()}{self._told()}"
+        try:
+            return system_view(self.model, words)
+        except ModelError:  # not complete yet
+            return words_view(self.name, [words])
+
     def _told(self) -> str:
         """The notices of a system that is complete, for its short description."""
         try:

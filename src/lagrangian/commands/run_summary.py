@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from lagrangian.commands.wording import in_options
 from lagrangian.running import showing
@@ -26,7 +25,7 @@ def summary(run: Trajectory) -> list[str]:
     ]
     rows: list[tuple[str, ...]] = [("", "start", "end", "least", "greatest", "")]
     for column in _columns(run):
-        numbers = np.array(list(_four(column.values)))
+        numbers = np.array(list(showing.extremes(column.values)))
         if column.unit == "rad":  # people think in degrees; the SI values stand below
             rows.append((column.name, *(f"{x:.6g}" for x in np.degrees(numbers)), "deg"))
             rows.append(("", *(f"({x:.4g})" for x in numbers), "(rad)"))
@@ -57,7 +56,7 @@ def figures(run: Trajectory) -> dict[str, Any]:
             {
                 "name": c.name,
                 "unit": c.unit,
-                **dict(zip(("start", "end", "least", "greatest"), _four(c.values), strict=True)),
+                **dict(zip(("start", "end", "least", "greatest"), showing.extremes(c.values), strict=True)),
             }
             for c in _columns(run)
         ],
@@ -66,7 +65,3 @@ def figures(run: Trajectory) -> dict[str, Any]:
 
 def _columns(run: Trajectory) -> Iterator[Column]:
     yield from (column for column in showing.table(run).columns if "." not in column.name)
-
-
-def _four(values: NDArray[np.float64]) -> tuple[float, float, float, float]:
-    return float(values[0]), float(values[-1]), float(values.min()), float(values.max())

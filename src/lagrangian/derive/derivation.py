@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
@@ -45,6 +45,11 @@ class Step:
     expressions: Mapping[str, Any] = field(default_factory=dict)
     reasons: tuple[Text, ...] = ()
     checked: tuple[Check, ...] = ()
+    view: Callable[[], str] | None = field(default=None, repr=False, compare=False)
+
+    def _repr_html_(self) -> str | None:
+        """The step as a notebook shows it, where it belongs to a derivation that can be written."""
+        return None if self.view is None else self.view()
 
 
 @dataclass(frozen=True)

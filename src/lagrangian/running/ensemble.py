@@ -176,6 +176,15 @@ class Ensemble(Mapping[str, NDArray[Any]]):
         said = "".join(f"; notice: {notice}" for notice in self.notices)
         return f"<Ensemble {self.name!r}: {self.count} runs{sizes}, {self.settings['method']}; {ends}; {kept}{said}>"
 
+    def _repr_html_(self) -> str:
+        from lagrangian.write.views import table_view
+
+        axes = " × ".join(f"{d} {n}" for d, n in zip(self.dims, self.shape, strict=True))
+        kept = ", ".join(n for n in self if n not in ("status", "reached"))
+        words = [f"{self.count} runs{f' ({axes})' if axes else ''}, {self.settings['method']}", f"results: {kept}"]
+        rows = [(reason, str(n)) for reason, n in self.counts.items()]
+        return table_view(self.name, [*words, *map(str, self.notices)], ("how the runs ended", "runs"), rows)
+
     # -- taking it elsewhere ------------------------------------------------------------------------------------
 
     def to_xarray(self) -> Any:

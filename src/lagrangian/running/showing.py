@@ -143,6 +143,11 @@ def table(run: Trajectory) -> Table:
     return Table(Column("t", run.t, "s", "time"), tuple(columns), attributes(run))
 
 
+def extremes(values: NDArray[np.float64]) -> tuple[float, float, float, float]:
+    """Where a quantity began, ended, and stayed between."""
+    return float(values[0]), float(values[-1]), float(values.min()), float(values.max())
+
+
 def attributes(run: Trajectory) -> dict[str, Any]:
     """What is to be known of a run: how it was made, how it ended, how well energy is balanced."""
     return {

@@ -259,6 +259,18 @@ class Trajectory(Guided):
         """Return what `plot` does as a figure apart from pyplot, for programs, threads and servers."""
         return showing.plot(self, quantities, energy=energy, audit=audit)
 
+    def _repr_html_(self) -> str:
+        from lagrangian.write.views import table_view
+
+        words = [f"{self.method}, {self.steps} steps, {len(self.t)} samples", self.message, *map(str, self.notices)]
+        if len(self.t):
+            words[0] = f"t = {self.t[0]:g} … {self.t[-1]:g} s; {words[0]}; {self.audit}"
+        header = ("quantity", "start", "end", "least", "greatest", "unit")
+        rows = [
+            (c.name, *(f"{x:.6g}" for x in showing.extremes(c.values)), c.unit) for c in showing.table(self).columns
+        ]
+        return table_view(self.model.name, words, header, rows if len(self.t) else [])
+
     # -- showing ------------------------------------------------------------------------------------------------
 
     def __repr__(self) -> str:

@@ -56,18 +56,7 @@ class _Layout(Items):
 
     def system(self) -> Section:
         """What was described: the symbols with their meaning, and the definitions."""
-        model = self.derivation.model
-        blocks: list[Block] = []
-        if not self.brief:
-            rows = [tuple((cell,) if cell else () for cell in row) for row in _symbols(model, self.write)]
-            header: tuple[Inline, ...] = (("symbol",), ("what it is",), ("value",))
-            kept = 3 if any(row[2] for row in rows) else 2
-            blocks.append(Table(header[:kept], tuple(row[:kept] for row in rows)))
-        for i, d in enumerate(model.definitions, 1):
-            sides = (self.write.expressions(d.symbol), self.write.expressions(d.expression))
-            note: Inline = ("definition",) if i == 1 else ()
-            blocks.append(Display(sides, f"def-{i}", note=note))
-        return Section("system", ("The system",), tuple(blocks))
+        return described(self, self.derivation.model)
 
     def step(self, step: Step) -> Iterator[Block]:
         if not self.brief:
@@ -87,6 +76,26 @@ class _Layout(Items):
             how = "It opens where it stands." if self.details else "The option “full” writes it out."
             blocks.append(Paragraph((words + how,), "note"))
         return tuple(blocks)
+
+
+def system_section(model: Model, notation: Notation = "lecture") -> Section:
+    """What was described, for a system that has no derivation yet."""
+    return described(Items(model, notation, brief=False, full=False, details=False), model)
+
+
+def described(items: Items, model: Model) -> Section:
+    """The symbols of a model with their meaning and values, and its definitions."""
+    blocks: list[Block] = []
+    if not items.brief:
+        rows = [tuple((cell,) if cell else () for cell in row) for row in _symbols(model, items.write)]
+        header: tuple[Inline, ...] = (("symbol",), ("what it is",), ("value",))
+        kept = 3 if any(row[2] for row in rows) else 2
+        blocks.append(Table(header[:kept], tuple(row[:kept] for row in rows)))
+    for i, d in enumerate(model.definitions, 1):
+        sides = (items.write.expressions(d.symbol), items.write.expressions(d.expression))
+        note: Inline = ("definition",) if i == 1 else ()
+        blocks.append(Display(sides, f"def-{i}", note=note))
+    return Section("system", ("The system",), tuple(blocks))
 
 
 def noticed(model: Model) -> Iterator[Paragraph]:

@@ -24,6 +24,10 @@ LARGEST = 16
 """Columns up to which a matrix is written out."""
 
 
+POLES_AND_MODES = "Poles and modes"
+"""The title of that part."""
+
+
 def symbol(model: Model, name: str) -> Any:
     """What a name of a state or an output means to a reader: the coordinate, its rate, or the name itself."""
     for c in model.coordinates:
@@ -132,7 +136,7 @@ def _modes(linear: Linearization) -> Part:
         Table(header, tuple(rows)),
         text(f"Verdict: {verdict.verdict}. {verdict.reason[0].upper()}{verdict.reason[1:]}."),
     )
-    return Part(text("Poles and modes"), items)
+    return Part(text(POLES_AND_MODES), items)
 
 
 def _reach(linear: Linearization) -> Part:

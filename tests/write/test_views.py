@@ -1,0 +1,59 @@
+"""What notebooks show: every result is a piece of HTML of its own, and names from outside stay text."""
+
+from __future__ import annotations
+
+import copy
+import pickle
+import xml.dom.minidom
+from typing import Any
+
+import pytest
+
+import lagrangian as lg
+from lagrangian import examples
+
+
+@pytest.fixture(scope="module")
+def results() -> dict[str, Any]:
+    system = lg.loads(examples.text("pendulum").replace('name = "', 'name = "<b>&', 1))
+    derivation = system.derive()
+    return {
+        "system": system,
+        "step": derivation.steps[6],
+        "ledger": derivation.ledger,
+        "modes": system.linearize().modes,
+        "run": system.simulate(1.0, theta=0.3, samples=5),
+        "ensemble": system.sweep(1.0, {"theta": [0.1, 0.2]}),
+    }
+
+
+@pytest.mark.parametrize(
+    ("name", "words"),
+    [
+        ("system", ["Elements", "θ"]),
+        ("step", ["Ξ", "Why:"]),
+        ("ledger", ["booked in", "T*"]),
+        ("modes", ["Poles and modes"]),
+        ("run", ["theta", "greatest", "dop853"]),
+        ("ensemble", ["2 runs", "how the runs ended"]),
+    ],
+)
+def test_a_notebook_shows_a_piece_of_html(results: dict[str, Any], name: str, words: list[str]) -> None:
+    shown = results[name]._repr_html_()
+    assert shown.startswith('<div class="lagrangian"') and shown.rstrip().endswith("</div>")
+    assert "<b>" not in shown and "<script" not in shown
+    for word in words:
+        assert word in shown
+    body = shown[shown.index("</style>") + len("</style>") : shown.rindex("</div>")]
+    xml.dom.minidom.parseString(body.replace(" open>", ">"))  # every tag is closed
+
+
+def test_a_system_that_is_not_complete_is_shown_too() -> None:
+    assert "0 coordinates" in lg.System("empty")._repr_html_()
+
+
+def test_what_a_notebook_shows_can_be_copied(results: dict[str, Any]) -> None:
+    ledger = results["ledger"]
+    assert copy.copy(ledger) == ledger and copy.copy(ledger)._repr_html_() == ledger._repr_html_()
+    modes = results["modes"]
+    assert pickle.loads(pickle.dumps(tuple(modes))) == tuple(modes)
