@@ -147,6 +147,18 @@ def test_wrong_energies_are_noticed_by_derive(monkeypatch: pytest.MonkeyPatch) -
     assert DERIVED_ENERGIES in failing(crane().derive().verified)
 
 
+def test_a_wrong_number_is_noticed_however_small_the_masses_are(monkeypatch: pytest.MonkeyPatch) -> None:
+    s = lg.System("dust")
+    x = s.coordinates("x")
+    k = s.parameter("k", 2.0)
+    s.kinetic(x.diff() ** 2 / 10**12)
+    s.potential(k * x**2 / 10**12)
+    assert not failing(s.derive().verified)
+    plain = Mechanics.potential
+    monkeypatch.setattr(Mechanics, "potential", lambda self: self.graph.mul(self.graph.const(1.01), plain(self)))
+    assert DERIVED_ENERGIES in failing(s.derive().verified)
+
+
 @pytest.mark.parametrize(
     "name", ["forward", "inverse", "mass_matrix", "bias", "gravity", "coriolis_matrix", "rates", "rhs"]
 )

@@ -155,20 +155,21 @@ def _figures(derivation: Derivation, states: int, seed: int) -> _Figures:
         got = {k: np.array(v, float) for k, v in evaluate(program, {"x": [state[s] for s in sampler.symbols]}).items()}
         M, C, Mdot = (got[k].reshape(n, n) for k in ("M", "C", "Mdot"))
         v, a = got["v"], got["a"]
-        scale = max(1.0, float(max(np.abs(M * a).max(), np.abs(C * v).max(), np.abs(got["G"]).max())))
+        # rates and accelerations are about 1, so that M is the size of what moves, however small the masses are
+        size = float(np.abs(M).max())
+        scale = max(size, float(max(np.abs(M * a).max(), np.abs(C * v).max(), np.abs(got["G"]).max())))
         by_work, by_energy = (np.array(evaluate(r, _groups(model, state))["r"], float) for r in routes)
         found.work = _worse(found.work, float(np.abs(got["equations"] - by_work).max()) / scale)
         found.energy = _worse(found.energy, float(np.abs(got["equations"] - by_energy).max()) / scale)
         _hold_machine(found, got, machine, _groups(model, state))
-        size = float(np.abs(M).max())
         found.asymmetry = _worse(found.asymmetry, float(np.abs(M - M.T).max()) / size)
         found.smallest = float(np.minimum(found.smallest, np.linalg.eigvalsh((M + M.T) / 2).min()))
         skew = Mdot - 2 * C
-        found.skew = _worse(found.skew, float(np.abs(skew + skew.T).max()) / max(1.0, float(np.abs(C).max())))
+        found.skew = _worse(found.skew, float(np.abs(skew + skew.T).max()) / max(size, float(np.abs(C).max())))
         # along a motion: ξ̈ from the derived matrices, then d/dt(ξ̇·∂L/∂ξ̇ − L) = Ξ·ξ̇ − ∂L/∂t
         a = np.linalg.solve(M, got["Xi"] - C @ v - got["G"])
         balance = got["hdot0"][0] + got["p_a"] @ a - got["Xi"] @ v + got["L_t"][0]
-        size = max(1.0, float(np.abs(got["G"]).max() + np.abs(got["Xi"]).max()))
+        size = max(size, float(np.abs(got["G"]).max() + np.abs(got["Xi"]).max()))
         found.power = _worse(found.power, abs(float(balance)) / size)
     return found
 
@@ -180,14 +181,14 @@ def _hold_machine(
     n = len(got["v"])
     forward, mass, energy = (evaluated(program, groups) for program in machine)
     M, a, bias = got["M"].reshape(n, n), np.array(forward["a"], float), got["C"].reshape(n, n) @ got["v"] + got["G"]
-    terms = np.concatenate([(M * a).ravel(), bias, got["Xi"]])
+    terms = np.concatenate([M.ravel(), (M * a).ravel(), bias, got["Xi"]])
     residual = M @ a + bias - got["Xi"]
-    found.forward = _worse(found.forward, float(np.abs(residual).max()) / max(1.0, float(np.abs(terms).max())))
+    found.forward = _worse(found.forward, float(np.abs(residual).max() / np.abs(terms).max()))
     compiled = np.array(mass["M"], float)
     for other in (M, got["H"].reshape(n, n)):
         found.mass = _worse(found.mass, float(np.abs(compiled - other).max() / np.abs(other).max()))
     energies, derived = np.array([energy["T"], energy["V"]], float), np.array([got["T"][0], got["V"][0]])
-    off = float(np.abs(energies - derived).max()) / max(1.0, float(np.abs(derived).max()))
+    off = float(np.abs(energies - derived).max()) / float(np.abs(derived).max())
     found.energies = _worse(found.energies, off)
 
 
