@@ -11,10 +11,11 @@ from sympy import Abs, cos, sin
 import lagrangian as lg
 from lagrangian import compiled
 from lagrangian.analyze import jacobians
-from lagrangian.analyze.verify import exports, slopes
+from lagrangian.analyze.verify import exports, products, slopes
 from lagrangian.cli import main
 from lagrangian.compiled import Compiled
 from lagrangian.derive import Check
+from lagrangian.derive.formula import text
 from lagrangian.dynamics import programs
 from lagrangian.dynamics.mechanics import Mechanics
 from lagrangian.graph import Program
@@ -91,6 +92,14 @@ def test_all_products_of_a_sound_system_hold(sound: tuple[Check, ...]) -> None:
 
 
 @pytest.fixture
+def functions_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Neither exports nor linearization: the compiled functions are what a test is about."""
+    passed = Check(text("left out"), None, "by this test")
+    monkeypatch.setattr(products, "exported", lambda *given: (passed,))
+    monkeypatch.setattr(products, "slopes", lambda *given: passed)
+
+
+@pytest.fixture
 def doubled_coupling(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     """The fault of raw energies: inertia between two velocities counted twice on the way to M and to q̈."""
     plain = Mechanics.inertia
@@ -159,6 +168,7 @@ def test_a_wrong_number_is_noticed_however_small_the_masses_are(monkeypatch: pyt
     assert DERIVED_ENERGIES in failing(s.derive().verified)
 
 
+@pytest.mark.usefixtures("functions_alone")
 @pytest.mark.parametrize(
     "name", ["forward", "inverse", "mass_matrix", "bias", "gravity", "coriolis_matrix", "rates", "rhs"]
 )
@@ -176,6 +186,7 @@ def test_a_compiled_function_with_a_wrong_number_is_noticed(
     assert FORMULAS in failing(crane().verify(states=2))
 
 
+@pytest.mark.usefixtures("functions_alone")
 def test_a_function_that_is_wrong_in_batches_alone_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     plain = Compiled.forward
 
@@ -240,6 +251,7 @@ def test_slopes_at_kinks_are_passed_over_and_said_where_none_is_left() -> None:
     assert check.holds is None and check.figure.startswith("not checked at any of 1 random states")
 
 
+@pytest.mark.usefixtures("functions_alone")
 def test_a_program_of_another_system_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
     """A kernel from the cache that belongs to other formulas gives other numbers."""
     other = programs.forward(crane().model)

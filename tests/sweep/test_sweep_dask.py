@@ -113,5 +113,5 @@ def test_what_goes_wrong_over_there_is_told_here(trouble, message: str) -> None:
 def test_a_worker_of_another_version_is_refused(system: lg.System) -> None:
     from lagrangian.simulate import remote
 
-    with pytest.raises(lg.RunError, match=r"a worker runs lagrangian .*, this is 9\.9"):
+    with pytest.raises(lg.RunError, match=r"a worker runs lagrangian .*, but this process runs 9\.9"):
         remote.work("key", b"", "9.9", None)  # type: ignore[arg-type]
