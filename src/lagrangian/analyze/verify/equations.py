@@ -158,10 +158,11 @@ def _figures(derivation: Derivation, states: int, seed: int) -> _Figures:
         # rates and accelerations are about 1, so that M is the size of what moves, however small the masses are
         size = float(np.abs(M).max())
         scale = max(size, float(max(np.abs(M * a).max(), np.abs(C * v).max(), np.abs(got["G"]).max())))
-        by_work, by_energy = (np.array(evaluate(r, _groups(model, state))["r"], float) for r in routes)
+        groups = _groups(model, state)
+        by_work, by_energy = (np.array(evaluate(r, groups)["r"], float) for r in routes)
         found.work = _worse(found.work, float(np.abs(got["equations"] - by_work).max()) / scale)
         found.energy = _worse(found.energy, float(np.abs(got["equations"] - by_energy).max()) / scale)
-        _hold_machine(found, got, machine, _groups(model, state))
+        _hold_machine(found, got, machine, groups)
         found.asymmetry = _worse(found.asymmetry, float(np.abs(M - M.T).max()) / size)
         found.smallest = float(np.minimum(found.smallest, np.linalg.eigvalsh((M + M.T) / 2).min()))
         skew = Mdot - 2 * C

@@ -1,4 +1,4 @@
-"""Exported sources, run and compared with the compiled functions."""
+"""Exported sources, run and compared with the slow evaluation of the programs they are written of."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.analyze.verify.states import State, cancelling, evaluated
+from lagrangian.analyze.verify.states import State, cancelling, evaluated, relative
 from lagrangian.derive import Check
 from lagrangian.derive.formula import text
 from lagrangian.graph import Program
@@ -129,12 +129,6 @@ def _compared(
             terms = np.ravel(cancelling(name, state, M))
             for expected, answer in zip(evaluated(program, state).values(), calls[name](state), strict=True):
                 found = np.ravel(np.array(expected, float))
-                worst = float(np.maximum(worst, _difference(np.ravel(answer), found, terms)))
+                worst = float(np.maximum(worst, relative(np.ravel(answer) - found, found, terms)))
     n = f"{len(states)} random state{'s' if len(states) != 1 else ''}"
     return worst < TOLERANCE, f"largest relative difference {worst:.1e} at {n}"
-
-
-def _difference(answer: Array, expected: Array, terms: Array) -> float:
-    off = float(np.max(np.abs(answer - expected), initial=0.0))
-    size = float(np.max(np.abs(np.concatenate([expected, terms])), initial=0.0))
-    return off and (off / size if size else np.inf)

@@ -15,6 +15,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any, Protocol, TypeAlias
 
 import numpy as np
@@ -24,7 +25,7 @@ from numpy.typing import NDArray
 from lagrangian import dynamics
 from lagrangian.analyze.verify.exports import Sources, exported
 from lagrangian.analyze.verify.slopes import slopes
-from lagrangian.analyze.verify.states import State, cancelling, evaluated, random_states
+from lagrangian.analyze.verify.states import State, cancelling, evaluated, random_states, relative
 from lagrangian.derive import Check
 from lagrangian.derive.formula import Name, Text, text
 from lagrangian.errors import Error
@@ -42,6 +43,9 @@ Array: TypeAlias = NDArray[np.float64]
 
 
 Function: TypeAlias = Callable[..., Array]
+
+
+Programs: TypeAlias = Callable[[str], Program]
 
 
 class Functions(Protocol):
@@ -81,10 +85,7 @@ class Worst:
 
     def note(self, name: str, difference: Array, *terms: Array) -> None:
         """Take in a difference, relative to the largest of ``terms``."""
-        off = float(np.max(np.abs(difference), initial=0.0))
-        size = max((float(np.max(np.abs(x), initial=0.0)) for x in terms), default=0.0)
-        relative = off and (off / size if size else np.inf)
-        self.figures[name] = float(np.maximum(self.figures.get(name, 0.0), relative))
+        self.figures[name] = float(np.maximum(self.figures.get(name, 0.0), relative(difference, *terms)))
 
 
 def verify_products(
@@ -96,23 +97,24 @@ def verify_products(
     why. Raises `ModelError` where no random state has finite accelerations.
     """
     found = list(random_states(model, dynamics.forward(model), states, seed))
+    program = cache(functions.program)  # every state is compared with the same programs
     _log.info("verifying: the compiled functions")
     try:
-        compiled = _compiled(model, functions, found)
+        compiled = _compiled(model, functions, program, found)
     except Error as error:  # a compiled function that refuses a state at which its formulas are finite
         return (Check(text("every compiled function can be evaluated"), False, str(error)),)
     _log.info("verifying: the exported sources and the linearization")
-    written = exported(functions.program, functions.exported, sources, found)
+    written = exported(program, functions.exported, sources, found)
     return (*compiled, *written, slopes(model, functions.rhs, found))
 
 
-def _compiled(model: Model, functions: Functions, states: Sequence[State]) -> list[Check]:
+def _compiled(model: Model, functions: Functions, program: Programs, states: Sequence[State]) -> list[Check]:
     """The compiled functions against the slow evaluator and against each other."""
     worst, routes = Worst(), _Routes(model)
     batch = _calls(functions, _stacked(states))
     for k, state in enumerate(states):
         answers = {name: answer[k] for name, answer in batch.items()}
-        _against_formulas(functions, state, answers, worst)
+        _against_formulas(program, state, answers, worst)
         if k < ONE_BY_ONE:
             for name, answer in _calls(functions, {group: np.array(x) for group, x in state.items()}).items():
                 terms = cancelling(name, state, answers["mass_matrix"])
@@ -162,14 +164,14 @@ def _calls(functions: Functions, at: Mapping[str, Array]) -> dict[str, Array]:
     return found
 
 
-def _against_formulas(functions: Functions, state: State, answers: Mapping[str, Array], worst: Worst) -> None:
+def _against_formulas(program: Programs, state: State, answers: Mapping[str, Array], worst: Worst) -> None:
     """Every answer against the slow evaluation of its own program."""
     x = [*state["q"], *state["v"]]
     for name, answer in answers.items():
         if name in ("T", "V"):
-            slow: Any = evaluated(functions.program("energy"), state)[name]
+            slow: Any = evaluated(program("energy"), state)[name]
         else:
-            (slow,) = evaluated(functions.program(name), {**state, "x": x}).values()
+            (slow,) = evaluated(program(name), {**state, "x": x}).values()
         expected = np.array(slow, float)
         worst.note("formulas", answer - expected, expected, cancelling(name, state, answers["mass_matrix"]))
 

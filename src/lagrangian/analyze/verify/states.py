@@ -39,6 +39,13 @@ def cancelling(name: str, state: State, M: Any) -> Any:
     return M if name == "coriolis" else np.zeros(0)
 
 
+def relative(difference: Any, *terms: Any) -> float:
+    """The largest entry of a difference, relative to the largest of ``terms``; infinite where these are all 0."""
+    off = float(np.max(np.abs(difference), initial=0.0))
+    size = max((float(np.max(np.abs(x), initial=0.0)) for x in terms), default=0.0)
+    return off and (off / size if size else np.inf)
+
+
 def random_states(model: Model, forward: Program, count: int, seed: int) -> Iterator[dict[str, list[float]]]:
     """``count`` random states at which the accelerations are finite; parameters keep the values they have.
 
