@@ -8,7 +8,17 @@ import typer
 
 from lagrangian.commands.assignments import assignments
 from lagrangian.commands.formats import FormatOption, chosen, put_report
-from lagrangian.commands.terminal import Example, Force, Json, OptionalFile, Output, Width, open_system
+from lagrangian.commands.terminal import (
+    ConstantInputs,
+    Example,
+    Force,
+    Json,
+    OptionalFile,
+    Output,
+    Parameters,
+    Width,
+    open_system,
+)
 from lagrangian.errors import Error
 
 
@@ -23,14 +33,8 @@ def equilibria(
             help='Range of a coordinate to search: theta1=-pi:pi, "x=0 m : 30 cm". May be repeated.',
         ),
     ] = None,
-    values: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="NAME=VALUE", help='The value of a parameter: k=80, "m1=2 kg". May be repeated.'),
-    ] = None,
-    inputs: Annotated[
-        list[str] | None,
-        typer.Option("--input", metavar="NAME=VALUE", help="The constant value of an input: F=2. May be repeated."),
-    ] = None,
+    values: Parameters = None,
+    inputs: ConstantInputs = None,
     samples: Annotated[
         int | None,
         typer.Option(metavar="N", help="Number of starting points of the search. By default, as many as are needed."),

@@ -8,7 +8,17 @@ import typer
 
 from lagrangian.commands.assignments import assignments
 from lagrangian.commands.formats import FormatOption, chosen, put_report
-from lagrangian.commands.terminal import Example, Force, Json, OptionalFile, Output, Width, open_system
+from lagrangian.commands.terminal import (
+    ConstantInputs,
+    Example,
+    Force,
+    Json,
+    OptionalFile,
+    Output,
+    Parameters,
+    Width,
+    open_system,
+)
 
 
 def linearize(
@@ -22,14 +32,8 @@ def linearize(
             help='Value of a coordinate or rate at the equilibrium: x2=0, "theta=12 deg". May be repeated.',
         ),
     ] = None,
-    values: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="NAME=VALUE", help='The value of a parameter: k=80, "m1=2 kg". May be repeated.'),
-    ] = None,
-    inputs: Annotated[
-        list[str] | None,
-        typer.Option("--input", metavar="NAME=VALUE", help="The constant value of an input: F=2. May be repeated."),
-    ] = None,
+    values: Parameters = None,
+    inputs: ConstantInputs = None,
     outputs: Annotated[
         list[str] | None,
         typer.Option(

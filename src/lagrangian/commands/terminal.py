@@ -55,6 +55,14 @@ Output = Annotated[
     ),
 ]
 Force = Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")]
+Parameters = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="NAME=VALUE", help='The value of a parameter: k=80, "m1=2 kg". May be repeated.'),
+]
+ConstantInputs = Annotated[
+    list[str] | None,
+    typer.Option("--input", metavar="NAME=VALUE", help="The constant value of an input: F=2. May be repeated."),
+]
 
 
 def open_system(file: str | None, example: str | None = None) -> System:
