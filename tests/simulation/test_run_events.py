@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 import sympy as sp
@@ -128,7 +130,7 @@ def test_no_crossing_between_the_places_a_step_is_judged_at_is_lost(method: str)
     """sin(30 t) has 28 zeros in (0, 3]; the amplitude less 1e-5 is passed twice within 9 ms of a step of some 0.5 s."""
     s = oscillator(m=1.0, k=1.0, b=0.0)
     q, t = s["q"], s.t
-    options = {"step": 0.05} if method in ("gauss4", "rk4") else {"rtol": 1e-7}
+    options: dict[str, Any] = {"step": 0.05} if method in ("gauss4", "rk4") else {"rtol": 1e-7}
     beat = lg.event(sp.sin(30 * t), name="beat")
     peak = lg.event(q - (1 - 1e-5), name="peak")
     run = s.simulate(3.0, initial={"q'": 1.0}, events=[beat, peak], method=method, **options)
@@ -188,3 +190,51 @@ def test_many_events_are_not_called_accumulating(method: str) -> None:
     assert run.status == -9 and not run.success
     assert "gave up after 5 events, the last of them 'beat'" in run.message and "max_events" in run.message
     assert run.events["beat"].t == pytest.approx(np.arange(1, 6) * np.pi / 7)
+
+
+ALL = [*METHODS, "LSODA", "BDF", "RK23", "RK45", "gauss4", "rk4"]
+
+
+@pytest.mark.parametrize("method", ALL)
+def test_a_condition_that_becomes_no_number_ends_the_run_by_name(method: str) -> None:
+    """sqrt(q) − 1/2 along q = cos t: it falls at arccos(1/4), and has no value from π/2 on."""
+    s = oscillator(m=1.0, k=1.0, b=0.0)
+    root = lg.event(sp.sqrt(s["q"]) - sp.Rational(1, 2), name="root")
+    options: dict[str, Any] = {"step": 0.02} if method in ("gauss4", "rk4") else {}
+    run = s.simulate(10.0, q=1.0, events=root, method=method, **options)
+    assert not run.success and run.status == -10
+    assert run.events["root"].t == pytest.approx([np.arccos(0.25)], abs=1e-4)
+    assert run.t[-1] == pytest.approx(np.pi / 2, abs=1e-4) and abs(run["q"][-1]) < 1e-12
+    assert "[E503] the condition of event 'root', sqrt(q) - 1/2, is not a number a moment later" in run.message
+    assert "derivative" not in run.message
+    below = s.simulate(10.0, q=-1.0, events=root, method=method, **options)
+    assert below.status == -10 and below.t[-1] == 0.0
+    assert "'root', sqrt(q) - 1/2, is not a number there" in below.message
+
+
+@pytest.mark.parametrize("method", ALL)
+def test_a_gap_between_two_numbers_inside_a_step_is_no_crossing(method: str) -> None:
+    """q sqrt(q² − 1e-4) is above 0 before q = 0.01, below after −0.01, and no number between."""
+    s = oscillator(m=1.0, k=1.0, b=0.0)
+    q = s["q"]
+    gap = lg.event(q * sp.sqrt(q**2 - sp.Rational(1, 10000)) - sp.Rational(1, 10**9), name="gap", direction=-1)
+    options: dict[str, Any] = {"step": 0.1} if method in ("gauss4", "rk4") else {"rtol": 1e-6}
+    run = s.simulate(2.0, q=1.0, events=gap, method=method, **options)
+    assert run.status == -10 and run["q"][-1] == pytest.approx(0.01, abs=1e-4)
+
+
+@pytest.mark.parametrize("method", ALL)
+def test_an_event_at_the_edge_comes_before_what_has_no_value_beyond_it(method: str) -> None:
+    s = oscillator(m=1.0, k=1.0, b=0.0)
+    events = [lg.event(sp.sqrt(s["q"]) - 2, name="root"), lg.event(s["q"], terminal=True, name="edge")]
+    options: dict[str, Any] = {"step": 0.02} if method in ("gauss4", "rk4") else {}
+    run = s.simulate(10.0, q=1.0, events=events, method=method, **options)
+    assert run.status == 1 and run.t[-1] == pytest.approx(np.pi / 2, abs=1e-4)
+
+
+def test_each_run_of_an_ensemble_says_that_a_condition_is_no_number() -> None:
+    s = oscillator(m=1.0, k=1.0, b=0.0)
+    root = lg.event(sp.sqrt(s["q"] + 1.5) - 1, name="root")
+    runs = s.ensemble(3.0, initial={"q": np.linspace(0.5, 3.0, 11)}, events=root)
+    assert runs.status.tolist() == [0] * 4 + [0 if q <= 1.5 else -10 for q in np.linspace(0.5, 3.0, 11)[4:]]
+    assert "the condition of an event is not a number" in str(runs.failures()[0])

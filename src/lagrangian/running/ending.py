@@ -10,9 +10,11 @@ from lagrangian import dynamics
 from lagrangian.advice import Advice, Argument
 from lagrangian.errors import RunError
 from lagrangian.graph import evaluate
+from lagrangian.model import plain
 from lagrangian.running import sticking
 from lagrangian.running.integrating import Task, remembered, right_hand_side
 from lagrangian.simulate import STATUS
+from lagrangian.simulate.integrators import layout as at
 from lagrangian.simulate.scipy_methods import IMPLICIT, SCIPY, Outcome
 
 Array = NDArray[np.float64]
@@ -28,8 +30,6 @@ JUMP = "a force that jumps with the state is better smooth (tanh for sign) or an
 
 RADAU = Argument("method", "'Radau'")
 """What helps where a system is stiff."""
-
-UNDERFLOW, NOT_FINITE, TOO_MANY, ZENO, NO_CONVERGENCE, LATE, CHATTERS, CROWDED = -1, -2, -3, -4, -5, -6, -8, -9
 
 
 def message(task: Task, outcome: Outcome) -> Advice:
@@ -51,7 +51,7 @@ def message(task: Task, outcome: Outcome) -> Advice:
 def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
     said = outcome.reason or STATUS.get(outcome.status, "")
     match outcome.status:
-        case s if s in (UNDERFLOW, NOT_FINITE):
+        case at.UNDERFLOW | at.NOT_FINITE:
             singular = _singular(task, outcome)
             if singular:
                 return singular, "choose other coordinates near this configuration, or give what they move a mass"
@@ -61,25 +61,30 @@ def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
             if said.startswith("["):  # the solver kept what an evaluation said
                 return said, "a finite value everywhere the run may get to"
             return f"[E504] {said}", _gentler(task, outcome)
-        case s if s == TOO_MANY:
+        case at.TOO_MANY:
             return (
                 f"[E505] gave up after {task.bounds.max_steps} steps",
                 Advice("a shorter run, a larger ", Argument("max_steps"), ", or ", RADAU),
             )
-        case s if s == ZENO:
+        case at.ZENO:
             return (
                 f"[E505] event '{_last_event(task, outcome)}' repeats itself without end: {len(outcome.hits)} events, "
                 "each changes the state",
                 Advice("let what touches come to rest with a terminal event, or raise ", Argument("max_events")),
             )
-        case s if s == CROWDED:
+        case at.CROWDED:
             return (
                 f"[E505] gave up after {len(outcome.hits)} events, the last of them '{_last_event(task, outcome)}'",
                 Advice("a shorter run, or a larger ", Argument("max_events")),
             )
-        case s if s == CHATTERS:
+        case at.CHATTERS:
             return sticking.stuck(task, outcome)
-        case s if s == LATE:
+        case at.BLIND:
+            return _blind(task, outcome), (
+                "a condition with a value wherever the run gets to, such as sqrt(max(x, 0)) for sqrt(x), or a terminal "
+                "event where it has none any more"
+            )
+        case at.LATE:
             over = f"[E505] the time allowed for computing was over after {outcome.steps} steps"
             return over, Advice("a larger ", Argument("timeout"))
         case _:
@@ -133,6 +138,23 @@ def _not_finite(task: Task, outcome: Outcome) -> str:
         return f"[{trouble.code}] {trouble.what}"
     broken = [f"the rate of '{n}' is {r}" for n, r in zip(names, rates, strict=True) if not np.isfinite(r)]
     return f"[E503] {', '.join(broken[:3])}" if broken else ""
+
+
+def _blind(task: Task, outcome: Outcome) -> str:
+    """Which events have a condition that is not a number at the last state, or a moment later along ẋ."""
+    program = dynamics.impacts(task.model, task.impacts, task.drive.feedback)
+    x, t = outcome.final[: task.size], outcome.reached
+    _, rates = _rates(task, outcome)
+    ahead = (task.times[-1] - task.times[0]) * 2.0 ** -np.arange(60, 0, -4)
+    for h in [0.0, *ahead.tolist()] if np.isfinite(rates).all() else [0.0]:
+        u = task.drive.at(np.array([t + h]), x[np.newaxis])[0]
+        found = evaluate(program, {"x": list(x + h * rates), "u": list(u), "p": list(task.p), "t": [t + h]})
+        dark = [e for e, g in zip(task.events, found["g"], strict=True) if np.isnan(g)]
+        if dark:
+            e, where = dark[0], "a moment later" if h else "there"
+            condition = "" if e.title == plain(e.expression) else f", {plain(e.expression)},"
+            return f"[E503] the condition of event '{e.title}'{condition} is not a number {where}"
+    return f"[E503] {STATUS[at.BLIND]}"
 
 
 def _gentler(task: Task, outcome: Outcome) -> str:

@@ -51,7 +51,8 @@ class Crossings:
 
     ``side`` is the sign each g had last, 0 right after its own event: it then has to leave zero before it can cross.
     ``settled`` is the number of an event whose state change sends its function back, but so weakly that it would cross
-    again within one step, unseen: what touches has come to rest there.
+    again within one step, unseen: what touches has come to rest there. ``blind`` is the last time with a number for
+    every g, once there is one.
     """
 
     def __init__(
@@ -71,6 +72,7 @@ class Crossings:
         self.bound: Array = np.zeros(count)  # the side it is bound for after it
         self.last = np.full(count, -np.inf)  # its time
         self.settled: int | None = None
+        self.blind: float | None = None
         self.begun = False  # a run that begins at zero and moves in an event's direction has its event there
         self.field: Control = lambda t, x: x
         self.inputs = len(program.inputs.get("u", ()))
@@ -83,7 +85,11 @@ class Crossings:
     def start(self, t: float, x: Array, u: Control, field: Control) -> None:
         """Look at the functions where a stretch of ẋ = field(t, x) begins; one that just had its event may leave 0."""
         self.field = field
-        self.side = np.where(self.last == t, 0.0, np.sign(self._g(t, x, u)))
+        g = self._g(t, x, u)
+        if np.isnan(g).any():
+            self.blind = t
+            return
+        self.side = np.where(self.last == t, 0.0, np.sign(g))
         self.bound = self._heading(t, x, u)
         if not self.begun:
             self.begun = True
@@ -114,6 +120,10 @@ class Crossings:
         before, found = start, []
         for place in places[places > start]:
             now = np.sign(self._g(place, dense(place), u))
+            if np.isnan(now).any():
+                clear, place = self._edge(before, place, dense, u)
+                now = np.sign(self._g(place, dense(place), u))
+                now, self.blind = np.where(np.isnan(now), self.side, now), clear
             astray = sent & (self.side == 0) & (now == -self.came_from)  # rounding, or sent back too weakly
             if place == places[-1] and astray.any():
                 self.settled = int(np.flatnonzero(astray)[0])
@@ -128,6 +138,8 @@ class Crossings:
             moved = np.where(self.last == place, 0.0, self.side)
             self.side = np.where((now != 0) & ~astray, now, moved)
             before = place
+            if self.blind is not None:
+                break
         return found
 
     def _pieces(self, start: float, end: float, dense: Any, u: Control, asked: Sequence[int]) -> Array:
@@ -184,6 +196,12 @@ class Crossings:
             if self.terminal[k] or after is not None:
                 break
         return hits
+
+    def _edge(self, a: float, b: float, dense: Any, u: Control) -> tuple[float, float]:
+        """The last time from a on at which every g is a number, and the next at which one is none, as at b."""
+        while a < (half := a + (b - a) / 2) < b:
+            a, b = (a, half) if np.isnan(self._g(half, dense(half), u)).any() else (half, b)
+        return a, b
 
     def _located(self, k: int, a: float, b: float, dense: Any, u: Control) -> float:
         """The time in (a, b] at which function k is 0, to the last bits."""

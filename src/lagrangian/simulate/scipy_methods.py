@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from lagrangian.errors import RunError
 from lagrangian.simulate.chattering import LEAST, NEAR, Pace, Sticking
 from lagrangian.simulate.crossings import Crossings, Hit
-from lagrangian.simulate.integrators.layout import CHATTERS, CROWDED, MARGIN, TOO_MANY, UNDERFLOW, ZENO
+from lagrangian.simulate.integrators.layout import BLIND, CHATTERS, CROWDED, MARGIN, TOO_MANY, UNDERFLOW, ZENO
 
 Array = NDArray[np.float64]
 Control = Callable[[float, Array], Array]
@@ -188,6 +188,9 @@ class _March:
         while self.t < leg.end:
             if self.crossings is not None:
                 self.crossings.start(self.t, self.x, leg.u, self.f)
+                if self.crossings.blind is not None:
+                    self.status = BLIND
+                    return False
             solver = self.make(self.f, self.t, self.x, leg.end, **self.options)
             jumped = False
             while solver.status == "running" and not jumped:
@@ -255,6 +258,11 @@ class _March:
                 return True
         if self.crossings is not None and self.crossings.settled is not None:
             self.status = ZENO
+            return True
+        if self.crossings is not None and self.crossings.blind is not None:
+            self.status, end = BLIND, self.crossings.blind
+            self._store(dense, end)
+            self.t, self.x = end, np.array(dense(end)) if end > self.t else self.x
             return True
         self._store(dense, end)
         self.t, self.x = end, solver.y

@@ -26,6 +26,7 @@ STATUS: Mapping[int, str] = MappingProxyType(
         layout.LATE: "the time allowed for computing was over",
         layout.CHATTERS: "the motion sticks where a force jumps, and steps get ever shorter",
         layout.CROWDED: "the limit on the number of events was reached",
+        layout.BLIND: "the condition of an event is not a number",
         layout.UNFIT: "a mass is not above 0, or a moment of inertia is below",
     }
 )

@@ -48,15 +48,16 @@ class Begin:
             self.loop.spend(fresh, 1)
             for block in self.loop.own_blocks:
                 p.map(lambda a, b: f.select(fresh, a, b), k, block, into=(block,))
+        broken, code = f.compare("une", trouble, 0.0), f.integer(at.NOT_FINITE)
         if self.loop.watch is not None:
-            trouble = trouble + self.loop.watch.arm(self.loop.inputs_at, self.loop.rate, new)
-        broken = f.logic("and", fresh, f.compare("une", trouble, 0.0))
+            code = p.whole_select(broken, code, f.integer(at.BLIND))
+            broken = f.logic("or", broken, self.loop.watch.arm(self.loop.inputs_at, self.loop.rate, new))
+        broken = f.logic("and", fresh, broken)
         p.store_whole(p.whole_select(fresh, f.integer(at.RUNNING), state), lanes.state)
         f.do(f"br i1 {p.any(broken)}, label %lost, label %head")
         f.label("lost")
         state = p.load_whole(lanes.state)
         p.store_whole(p.whole_select(broken, f.integer(at.ENDED), state), lanes.state)
-        code = f.integer(at.NOT_FINITE)
         p.store_whole(p.whole_select(broken, code, p.load_whole(lanes.code)), lanes.code)
         f.do("br label %service")
 

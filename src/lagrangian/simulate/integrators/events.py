@@ -8,6 +8,8 @@ The state of an event is the last one before it: a reset that turns the motion b
 and of two events at one time the other is still to come. After its own reset an event whose g is zero but for rounding
 is armed by the change of g along ẋ. One that happens again before g was ever seen on the armed side accumulates.
 
+Where some g is not a number the run ends at the last place where all are: the place is bisected like a crossing.
+
 A step is looked through piece by piece (``pieces.py``), each so short that no function crosses zero twice in it.
 """
 
@@ -46,9 +48,9 @@ START, ZERO, TURNED, FIRST = -1.0, 1.0, 2.0, 3.0
 """Moods of an event: its run begins; g is 0 where a run goes on; its reset was done just now; g is 0 where its run
 begins."""
 
-RESET, ENDS, HEAPS, CROWDS = 1, 2, 3, 4
+RESET, ENDS, HEAPS, CROWDS, BLIND = 1, 2, 3, 4, 5
 """Why a lane leaves a step: to go on from another state, because a terminal event happened, because changes of the
-state accumulate, because there are more events than a run may have."""
+state accumulate, because there are more events than a run may have, because some g is not a number."""
 
 
 def parts(events: Events) -> tuple[Program, Program | None]:
@@ -77,7 +79,7 @@ class Watch:
         self.pieces = Pieces(p, lanes, method, service, guard, own=own)
         self.armed, self.mood, self.fresh, self.fired = (p.reserve(self.count) for _ in range(4))
         self.low, self.high, self.busy, self.settled, self.cut, self.rounds = (p.reserve(1) for _ in range(6))
-        self.latest, self.same, self.when, self.past = (p.reserve(1) for _ in range(4))
+        self.latest, self.same, self.when, self.past, self.blind = (p.reserve(1) for _ in range(5))
         self.there, self.beyond, self.kept, self.states = (
             p.block(),
             p.block(),
@@ -111,14 +113,13 @@ class Watch:
         assert found is not None
         return found
 
-    def arm(self, inputs: Callable[[Value], Vec], rate: Callable[..., Vec], new: str) -> Value:
-        """Arm the events of lanes that begin; return a number that is 0 unless some g is not finite."""
+    def arm(self, inputs: Callable[[Value], Vec], rate: Callable[..., Vec], new: str) -> str:
+        """Arm the events of lanes that begin; return where some g is not a number."""
         p, f, lanes = self.p, self.f, self.lanes
         t = p.load(lanes.t)
-        total, doubt = Value(f, f.constant(0.0)), ""
+        doubt = ""
         now = self.value(inputs, t, lanes.x)
         for k, g in enumerate(now):
-            total = f.fma(g, 0.0, total)
             mood, old = p.load(self.mood, k), p.load(self.armed, k)
             usual = f.logic("and", new, f.compare("ole", mood, 0.0))
             p.store(f.select(usual, g, old), self.armed, k)
@@ -141,7 +142,7 @@ class Watch:
             turned = f.compare("oeq", p.load(self.mood, k), TURNED)
             p.store(f.select(f.logic("and", new, turned), 1.0, 0.0), self.fresh, k)
             p.store(f.select(new, 0.0, p.load(self.mood, k)), self.mood, k)
-        return total
+        return self.dark(now)
 
     def _side(self, k: int, here: Value, then: Value, later: Value) -> Value:
         """What arms an event in doubt: g here and a little further; ``later`` along the ẋ of there, for what rests.
@@ -182,11 +183,17 @@ class Watch:
         return fell if direction < 0 else rose if direction > 0 else f.logic("or", fell, rose)
 
     def some(self, gs: Sequence[Value]) -> str:
-        """Where some armed event has happened."""
-        found = [self.happened(k, g) for k, g in enumerate(gs)]
-        flag = found[0]
-        for other in found[1:]:
-            flag = self.f.logic("or", flag, other)
+        """Where some armed event has happened, or some g is not a number."""
+        flag = self.dark(gs)
+        for k, g in enumerate(gs):
+            flag = self.f.logic("or", flag, self.happened(k, g))
+        return flag
+
+    def dark(self, gs: Sequence[Value]) -> str:
+        """Where some g is not a number."""
+        flag = self.f.compare("uno", gs[0], gs[0])
+        for g in gs[1:]:
+            flag = self.f.logic("or", flag, self.f.compare("uno", g, g))
         return flag
 
     # A step ------------------------------------------------------------------------------------------------------
@@ -270,7 +277,9 @@ class Watch:
         p, f = self.p, self.f
         x, t = place(p.load(self.high), self.beyond)
         busy = self._noted(self.busy)
-        for k, g in enumerate(self.value(inputs, t, x)):
+        gs = self.value(inputs, t, x)
+        self._note(self.dark(gs), self.blind)
+        for k, g in enumerate(gs):
             fired, armed = self.happened(k, g), p.load(self.armed, k)
             self._note(fired, self.fired + k)
             crossed = f.logic("and", f.logic("and", busy, f.opposite(fired)), f.compare("une", g, 0.0))
@@ -360,5 +369,10 @@ class Watch:
             with p.when(service.compare("eq", p.get(self.cut, lane, "i64"), "0")):
                 self._keep(self.there.slot, self.kept.slot, lane)
             p.set(f.put(f"select i1 {free}, i64 {CROWDS}, i64 {HEAPS}"), self.cut, lane, "i64")
+        free = service.compare("eq", p.get(self.cut, lane, "i64"), "0")
+        blind = service.compare("ne", p.get(self.blind, lane, "i64"), "0")
+        with p.when(f.put(f"and i1 {blind}, {free}")):
+            self._keep(self.there.slot, self.kept.slot, lane)
+            p.set(str(BLIND), self.cut, lane, "i64")
         with p.when(service.compare("ne", p.get(self.cut, lane, "i64"), "0")):
             p.set(p.get(self.when, lane), self.lanes.end, lane)

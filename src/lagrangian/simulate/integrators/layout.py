@@ -34,6 +34,9 @@ CHATTERS = -8
 CROWDED = -9
 """A run with more events than it may have, which change nothing: its motion is not over."""
 
+BLIND = -10
+"""A run that came to where the condition of an event is not a number: whether it crosses zero there has no answer."""
+
 DONE, PAUSED, FULL = 0, 1, 2
 """Why the machine code came back: all runs of the range are over, the budget is spent, the log of events is full."""
 

@@ -171,13 +171,12 @@ class Loop:
         s = self._step(t, h, running)
         unsettled = self.method.trial(s)
         (trouble,) = p.fold(lambda total, x: (f.fma(x, 0.0, total),), [0.0], s.new_x)
-        gs, trouble = self._watched(s, new_t, trouble)
         finite = fine = f.compare("oeq", trouble, 0.0)
         if unsettled is not None:
             fine = f.logic("and", fine, f.compare("oeq", unsettled, 0.0))
         good = f.logic("and", running, fine)
         self._inspect(s, good, new_t)
-        self._commit(s, good, new_t, gs)
+        self._commit(s, good, new_t)
         p.store(f.select(good, left, p.load(lanes.left)), lanes.left)
         arrived = f.logic("and", good, f.compare("ole", left, 0.0))
         broken = f.logic("and", running, f.opposite(fine))
@@ -197,14 +196,13 @@ class Loop:
         s = self._step(t, h, running)
         error = method.trial(s)
         assert error is not None
-        gs, error = self._watched(s, new_t, error)
         good = f.logic("and", running, f.compare("ole", error, 1.0))
         self._inspect(s, good, new_t)
         next_h, finite = self._next_step(h, wanted, error, good)
         bad = f.logic("and", running, f.opposite(good))
         stuck = f.logic("and", bad, f.compare("ole", t + next_h * 0.125, t))
         p.store(f.select(running, next_h, wanted), lanes.h)
-        self._commit(s, good, new_t, gs)
+        self._commit(s, good, new_t)
         rejected = p.load_whole(lanes.rejected)
         one = f.put(f"zext {f.flag} {bad} to {f.whole}")
         p.store_whole(f.put(f"add {f.whole} {rejected}, {one}"), lanes.rejected)
@@ -227,13 +225,12 @@ class Loop:
         s.h, s.unit = new_t - t, unit
         self.method.trial(s)
         (trouble,) = p.fold(lambda total, x: (f.fma(x, 0.0, total),), [0.0], s.new_x)
-        gs, trouble = self._watched(s, new_t, trouble)
         fine = f.compare("oeq", trouble, 0.0)
         good = f.logic("and", running, fine)
         stuck = f.logic("and", running, f.compare("ole", t + wanted * 0.125, t))
         self._inspect(s, good, new_t)
         p.store(f.select(f.logic("and", good, f.compare("ogt", wanted, 0.0)), wanted, unit), lanes.h)
-        self._commit(s, good, new_t, gs)
+        self._commit(s, good, new_t)
         broken = f.logic("or", stuck, f.logic("and", running, f.opposite(fine)))
         code = p.whole_select(fine, self._constant(at.UNDERFLOW), self._constant(at.NOT_FINITE))
         arrived = f.logic("and", f.logic("and", good, last), f.opposite(broken))
@@ -282,15 +279,6 @@ class Loop:
             p.store(f.select(good, held, p.load(lanes.error)), lanes.error)
         return next_h, finite
 
-    def _watched(self, s: Step, new_t: Value, trouble: Value) -> tuple[tuple[Value, ...], Value]:
-        """g at the step's end, and the error, which is not finite where some g is not."""
-        if self.watch is None:
-            return (), trouble
-        gs = self.watch.value(self.inputs_at, new_t, s.new_x)
-        for g in gs:
-            trouble = self.f.fma(g, 0.0, trouble)
-        return gs, trouble
-
     def _constant(self, x: int) -> str:
         return self.f.integer(x)
 
@@ -315,7 +303,7 @@ class Loop:
                     p.store(f.select(free, -float("inf"), p.load(lanes.end)), lanes.end)
             self._samples(s, good, coefficients)
 
-    def _commit(self, s: Step, good: str, new_t: Value, gs: tuple[Value, ...]) -> None:
+    def _commit(self, s: Step, good: str, new_t: Value) -> None:
         """The new state where the step is good."""
         p, f, lanes, watch = self.p, self.f, self.lanes, self.watch
         if watch is not None:
@@ -323,10 +311,8 @@ class Loop:
             new_t = f.select(stays, new_t, p.load(lanes.end))
             (s.new_x,) = p.map(lambda new, kept: f.select(stays, new, kept), s.new_x, watch.kept, into=(self.new_x,))
             (s.new_lost,) = p.map(lambda lost: f.select(stays, lost, 0.0), s.new_lost, into=(self.new_lost,))
-            for k, g in enumerate(gs):
-                armed = p.load(watch.armed, k)
-                on = f.logic("and", good, stays)
-                p.store(f.select(f.logic("and", on, f.compare("une", g, 0.0)), g, armed), watch.armed, k)
+            on = f.logic("and", good, stays)
+            for k in range(watch.count):
                 p.store(f.select(on, 0.0, p.load(watch.fresh, k)), watch.fresh, k)
 
         def keep(new: Value, old: Value) -> Value:
@@ -364,6 +350,7 @@ class Loop:
                 (events.ENDS, at.ENDED, self._constant(at.TERMINAL)),
                 (events.HEAPS, at.ENDED, self._constant(at.ZENO)),
                 (events.CROWDS, at.ENDED, self._constant(at.CROWDED)),
+                (events.BLIND, at.ENDED, self._constant(at.BLIND)),
             ):
                 changes.append((p.whole_is(held, why), becomes, how))
         for flag, becomes, how in changes:
