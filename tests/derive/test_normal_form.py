@@ -212,6 +212,15 @@ def test_a_long_power_stays_and_a_long_product_is_refused() -> None:
         _ = factors[0] * factors[1]
 
 
+def test_a_power_of_sines_stays_where_its_exponentials_are_too_many() -> None:
+    """(m + L cos φ + sin x)^60 has three letters but five exponentials: up to C(64, 4) = 635 376 terms."""
+    ring, expr = algebra(), x * (m + L * sp.cos(phi) + sp.sin(x)) ** 60
+    form = ring.form(expr)
+    assert form.size == 1 and len(ring.reader.left) == 1
+    assert same(form.diff(x).expr(), sp.diff(expr, x))
+    assert ring.form((sp.cos(x) + sp.sin(x)) ** 40).size > 1  # two exponentials
+
+
 def test_decimals_are_read_exactly() -> None:
     ring = algebra()
     assert ring.form(sp.Float(9.81) * x) == ring.form(sp.Rational("9.81") * x)

@@ -22,7 +22,10 @@ EXACT_TURNS = 12
 
 
 LARGEST_POWER = 20_000
-"""A power of a sum that would have more terms is left as it is."""
+"""A power of a sum that may have more terms is left as it is."""
+
+LARGEST_SQUARE = 500_000
+"""A power whose last square would take more products of terms is left as it is."""
 
 LARGEST_PRODUCT = 10_000
 """A product of sums that would take more products of their terms is left as it is."""
@@ -75,7 +78,8 @@ class Reader:
             return self._opaque(expr)
         inner = self.form(cast("sp.Expr", base))
         if exponent.q == 1 and exponent.p >= 0:
-            if comb(inner.size + int(exponent.p) - 1, int(exponent.p)) > LARGEST_POWER:
+            half = _terms_of_power(inner, int(exponent.p) // 2)
+            if _terms_of_power(inner, int(exponent.p)) > LARGEST_POWER or half**2 > LARGEST_SQUARE:
                 return self._as_it_is(expr)
             return inner ** int(exponent.p)
         return self._inverse(inner, int(exponent.p), int(exponent.q))
@@ -172,6 +176,12 @@ class Reader:
                 return self.form(rebuilt)
             expr = rebuilt
         return self.algebra.monomial(unit(generators.opaque(expr)))
+
+
+def _terms_of_power(form: Form, exponent: int) -> int:
+    """A bound on the terms of a power: a sine or cosine is two exponentials, and shares them with its fellow."""
+    exponentials = {(sign * h, m) for (h, _), poly in form.parts.items() for m in poly for sign in (1, -1)}
+    return comb(len(exponentials) + exponent - 1, exponent)
 
 
 def _of_time(expr: sp.Expr) -> bool:
