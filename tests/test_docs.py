@@ -29,7 +29,9 @@ def test_the_readmes_python_runs(tmp_path: pathlib.Path) -> None:
     assert (tmp_path / "arm.html").read_text(encoding="utf-8").startswith("<!DOCTYPE html>")
 
 
-@pytest.mark.parametrize("path", ["README.md", *[f"docs/{p.name}" for p in (ROOT / "docs").glob("*.md")]])
+@pytest.mark.parametrize(
+    "path", [p.relative_to(ROOT).as_posix() for p in (*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"))]
+)
 def test_links_between_the_papers_lead_somewhere(path: str) -> None:
     here = ROOT / path
     for target in re.findall(r"\]\(([^)#]+)\)", here.read_text(encoding="utf-8")):
