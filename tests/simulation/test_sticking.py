@@ -74,6 +74,26 @@ def test_a_run_that_sticks_ends_where_it_sticks_and_names_the_torque(pendulum: l
     assert "value = -c*tanh(theta'/eps1)" in run.message
 
 
+@pytest.mark.parametrize("method", ["rk4", "gauss4"])
+def test_steps_of_one_length_end_at_the_first_sample_that_sticks(pendulum: lg.System, method: str) -> None:
+    beat = lg.event(sp.sin(pendulum.t), name="beat")
+    run = pendulum.simulate(20.0, theta=0.5, method=method, step=0.01, events=beat)
+    when, where = last_stop(0.5)
+    assert not run.success and run.status == -8
+    assert run.t[-1] == pytest.approx(when, abs=0.03) and run["theta"][-1] == pytest.approx(where, abs=1e-4)
+    assert run.events["beat"].t == pytest.approx([np.pi])
+    assert "torque 'pivot'" in run.message and "it sticks, and steps jump to and fro" in run.message
+
+
+def test_what_rests_exactly_where_a_force_jumps_does_not_stick(pendulum: lg.System) -> None:
+    assert pendulum.simulate(1.0, method="rk4", step=0.01).success
+    assert pendulum.simulate(1.0, theta=1.0, params={"c": 0.0}, method="rk4", step=0.01).success
+    pulled = oscillator(m=1.0, k=0.0, b=0.0)
+    assert pulled.simulate(3.0, q=1.0, inputs={"F": -sp.sign(pulled["q"])}, method="rk4", step=0.01).success
+    runs = pendulum.ensemble(6.0, params={"c": [0.0, 0.5, 20.0]}, theta=0.5, method="rk4", step=0.01, outputs="theta")
+    assert runs.status.tolist() == [0, -8, -8]
+
+
 def test_the_law_that_is_advised_runs(pendulum: lg.System) -> None:
     smooth = lg.loads(FILE.replace("sign(theta')", "tanh(theta'/eps)"))
     run = smooth.simulate(8.0, theta=0.5, method="Radau", rtol=1e-6)

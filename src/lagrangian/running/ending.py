@@ -88,7 +88,7 @@ def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
             over = f"[E505] the time allowed for computing was over after {outcome.steps} steps"
             return over, Advice("a larger ", Argument("timeout"))
         case _:
-            return f"[E504] {said}", "a shorter step"
+            return f"[E504] {said}", f"a shorter step; {JUMP}"
 
 
 def _last_event(task: Task, outcome: Outcome) -> str:

@@ -28,7 +28,7 @@ WIDTH = "0.001"
 
 def stuck(task: Task, outcome: Outcome) -> tuple[str, str]:
     """What keeps a run from leaving its last state, and what helps."""
-    values = _values(task, outcome)
+    values, steps = _values(task, outcome), "get ever shorter" if task.step is None else "jump to and fro"
     rates = {v.symbol for v in task.model.velocities}  # a force that jumps holds only what it moves at once
     found: list[tuple[bool, float, _Law]] = []
     for law in _laws(task):
@@ -37,7 +37,7 @@ def stuck(task: Task, outcome: Outcome) -> tuple[str, str]:
             found.append((not rates & law.surface.atoms(AppliedUndef, sp.Derivative), abs(float(here)), law))
     if not found:
         return (
-            "[E505] a force jumps here and drives the motion back from both sides: it sticks, and steps get shorter",
+            f"[E505] a force jumps here and drives the motion back from both sides: it sticks, and steps {steps}",
             f"a law that passes smoothly through the jump: tanh(x/{WIDTH}) for sign(x)",
         )
     law = min(found, key=lambda each: each[:2])[2]
@@ -50,7 +50,7 @@ def stuck(task: Task, outcome: Outcome) -> tuple[str, str]:
         written = f"{plain(soft)} for the sign of {zero}"
     return (
         f"[E505] {law.who} jumps where {zero} = 0 and drives the motion back there from both sides: "
-        "it sticks, and steps get ever shorter",
+        f"it sticks, and steps {steps}",
         Advice(
             f"a law that passes smoothly through zero, {written}, with a small parameter {eps}, such as {WIDTH} in the "
             f"unit of {zero}; ",

@@ -11,7 +11,6 @@ Righthand Sides, 1988, section 4). A method jumps to and fro across it in steps 
 
 from __future__ import annotations
 
-import math
 import threading
 from dataclasses import dataclass
 
@@ -32,6 +31,9 @@ NEAR = 1e-6
 
 ASIDE = 1e-9
 """Part of the state by which one looks aside of a surface, at least."""
+
+RESTS = 1e-3
+"""Part of the speed towards a surface below which a state moves so little along its normal that it rests."""
 
 TROUBLE = ("E502", "E503")
 
@@ -82,35 +84,35 @@ class Sticking:
         gained, pace.time, pace.tried = time - pace.time, time, tried
         return gained * (most - tried) < (end - time) * steps
 
-    def at(self, x: Array, u: Array, p: Array, t: float, reach: float) -> int | None:
-        """Return the number of the surface that a state sticks to, or None.
+    def at(self, x: Array, u: Array, p: Array, t: float, reach: float, step: float = 0.0) -> bool:
+        """Whether a state (nx,) sticks to a surface; see `among`."""
+        return bool(self.among(x[np.newaxis], u, p, np.array([t]), reach, step)[0])
 
-        ``reach`` [s]: within that time ẋ must carry the state to the surface.
+    def among(self, x: Array, u: Array, p: Array, t: Array, reach: float, step: float = 0.0) -> NDArray[np.bool_]:
+        """Which of the states x (n, nx) at times t (n,) stick to a surface; u and p are rows (n, …), or one for all.
+
+        ``reach`` [s]: within that time ẋ must carry a state to the surface, or a step of length ``step`` carry it there
+        that began on the other side. What rests exactly on the surface does not stick, nor does a state beside which
+        nothing is finite.
         """
-        try:
-            return self._at(np.ascontiguousarray(x), u, p, t, reach)
-        except RunError as trouble:
-            if trouble.code not in TROUBLE:
-                raise
-            return None  # beside the surface nothing is finite: another reason to end
-
-    def _at(self, x: Array, u: Array, p: Array, t: float, reach: float) -> int | None:
         field, surfaces = self._kernels()
-        known = self._called(surfaces, x, u, p, t)
-        for k, (s, normal) in enumerate(zip(known["s"], known["normal"], strict=True)):
-            length = float(normal @ normal)
-            if length == 0 or not math.isfinite(length):
-                continue
-            aside = 2 * abs(s) + ASIDE * float(np.abs(normal) @ (np.abs(x) + ASIDE))
+        x = np.ascontiguousarray(x)
+        known, here = self._called(surfaces, x, u, p, t), self._called(field, x, u, p, t)["xdot"]
+        stuck = np.zeros(len(x), bool)
+        for k in range(len(self.pairs)):
+            s, normal = known["s"][:, k], known["normal"][:, k]
+            length = (normal * normal).sum(axis=1)
+            aside = 2 * np.abs(s) + ASIDE * (np.abs(normal) * (np.abs(x) + ASIDE)).sum(axis=1)
             speeds = []
             for side in (1.0, -1.0):
-                beside = x + (side * aside - s) / length * normal
-                rate = self._called(field, beside, u, p, t)["xdot"]
-                drift = self._called(surfaces, beside, u, p, t)
-                speeds.append(-side * float(drift["normal"][k] @ rate + drift["drift"][k]))
-            if min(speeds) > 0 and aside <= reach * min(speeds):  # not so where ẋ is continuous and 0 on the surface
-                return k
-        return None
+                beside = x + ((side * aside - s) / np.where(length > 0, length, 1.0))[:, np.newaxis] * normal
+                rate, drift = self._called(field, beside, u, p, t)["xdot"], self._called(surfaces, beside, u, p, t)
+                speeds.append(-side * ((drift["normal"][:, k] * rate).sum(axis=1) + drift["drift"][:, k]))
+            slow, fast = np.minimum(*speeds), np.maximum(*speeds)
+            near = (aside <= reach * slow) | (aside <= 2 * step * fast)
+            moves = np.abs((normal * here).sum(axis=1) + known["drift"][:, k]) > RESTS * slow
+            stuck |= (slow > 0) & near & moves & np.isfinite(length) & (length > 0)  # no: ẋ is continuous and 0 there
+        return stuck
 
     def _kernels(self) -> tuple[Kernel, Kernel]:
         with self._lock:
@@ -118,10 +120,19 @@ class Sticking:
                 self._field, self._surfaces = compile(self.rates, threads=1), compile(self._program(), threads=1)
             return self._field, self._surfaces
 
-    def _called(self, kernel: Kernel, x: Array, u: Array, p: Array, t: float) -> dict[str, Array]:
+    def _called(self, kernel: Kernel, x: Array, u: Array, p: Array, t: Array) -> dict[str, Array]:
+        """The outputs at every state, finite or not."""
         given = {"x": x, "u": u, "p": p, "t": t}
-        answer = kernel(**{name: value for name, value in given.items() if name in kernel.program.inputs})
-        return answer if isinstance(answer, dict) else {"xdot": answer}
+        made = {name: np.empty((len(x), *output.shape)) for name, output in kernel.program.outputs.items()}
+        try:
+            kernel(
+                **{name: value for name, value in given.items() if name in kernel.program.inputs},
+                out=made if len(made) > 1 else made["xdot"],
+            )
+        except RunError as trouble:
+            if trouble.code not in TROUBLE:
+                raise
+        return made
 
     def _program(self) -> Program:
         """``s`` (m,), ``normal`` = ∂s/∂x (m, nx) and ``drift`` = ∂s/∂t (m,)."""

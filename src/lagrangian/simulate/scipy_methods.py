@@ -227,7 +227,7 @@ class _March:
         ):
             return False
         u = leg.u(self.t, self.x)
-        if self.sticking.at(self.x, u, self.f.p, self.t, NEAR * (end - start)) is not None:
+        if self.sticking.at(self.x, u, self.f.p, self.t, NEAR * (end - start)):
             self.status, self.reason = CHATTERS, ""
         return self.status == CHATTERS
 

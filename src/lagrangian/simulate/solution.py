@@ -24,7 +24,7 @@ STATUS: Mapping[int, str] = MappingProxyType(
         layout.ZENO: "events accumulate: too many change the state, or no time passes between them",
         layout.NO_CONVERGENCE: "the implicit stages do not converge",
         layout.LATE: "the time allowed for computing was over",
-        layout.CHATTERS: "the motion sticks where a force jumps, and steps get ever shorter",
+        layout.CHATTERS: "the motion sticks where a force jumps: steps get ever shorter, or jump to and fro",
         layout.CROWDED: "the limit on the number of events was reached",
         layout.BLIND: "the condition of an event is not a number",
         layout.UNFIT: "a mass is not above 0, or a moment of inertia is below",

@@ -39,6 +39,9 @@ BUDGET = 50_000_000
 OFTEN = 16
 """How much sooner the next look at the clock comes where the right-hand side jumps and a run may stick."""
 
+ROWS = 4096
+"""Samples of a run with fixed steps that are looked at together."""
+
 SHORT = 300
 """Nodes of the longest program of which two vectors of runs are computed together."""
 
@@ -253,6 +256,8 @@ class _Task:
             raise
         if self.solver.sticking:
             self._stuck_at_last()
+            if not self.solver.method.adaptive:
+                self._stuck_on_the_way()
         return self._solution()
 
     def _range(self, start: int, stop: int) -> int:
@@ -293,17 +298,37 @@ class _Task:
 
     def _sticks(self, run: int, x: Array, t: float) -> bool:
         """Whether a run sticks in a state; `lagrangian.simulate.chattering`."""
+        return bool(self._stuck(run, x[np.newaxis], np.array([t]))[0])
+
+    def _stuck(self, run: int, x: Array, t: Array) -> NDArray[np.bool_]:
+        """In which of the states (n, nx) at times (n,) a run sticks."""
         u = self.inputs if self.inputs.ndim == 1 else self.inputs[run]
-        u = u if self.signals is None else signals_at(self.signals, np.array([t]))[0]
+        u = u if self.signals is None else signals_at(self.signals, t)
         p = self.parameters if self.parameters.ndim == 1 else self.parameters[run]
-        reach = max(NEAR * float(self.times[-1] - self.times[0]), OFTEN * float(self.table["step"]))
-        return self.solver.sticking.at(x, u, p, t, reach) is not None
+        near = NEAR * float(self.times[-1] - self.times[0])
+        return self.solver.sticking.among(x, u, p, t, near, float(self.table["step"]))
 
     def _stuck_at_last(self) -> None:
         """Of the runs that gave up, those that stick where they stopped have that status."""
         for run in np.flatnonzero(np.isin(self.status, (layout.TOO_MANY, layout.UNDERFLOW, layout.NO_CONVERGENCE))):
             if self._sticks(int(run), self.final[run], float(self.reached[run])):
                 self.status[run] = layout.CHATTERS
+
+    def _stuck_on_the_way(self) -> None:
+        """Steps of one length get through where others stick: such runs end at the first sample that sticks."""
+        for run in np.flatnonzero(self.status != layout.CHATTERS).tolist():
+            x, t = self.final[run : run + 1], self.reached[run : run + 1]
+            if self.states.shape[1]:
+                went = int((self.times <= t[0]).sum())
+                x, t = np.concatenate([self.states[run, :went], x]), np.append(self.times[:went], t)
+            for start in range(0, len(t), ROWS):
+                part = slice(start, start + ROWS)
+                found = np.flatnonzero(self._stuck(run, x[part], t[part]))
+                if len(found):
+                    k = start + int(found[0])
+                    self.status[run], self.reached[run], self.final[run] = layout.CHATTERS, t[k], x[k]
+                    self.states[run, k + 1 :] = math.nan
+                    break
 
     def _log(self, words: NDArray[np.int64]) -> Array:
         """Room for events, told to the machine code."""
@@ -321,10 +346,11 @@ class _Task:
 
     def _solution(self) -> Solution:
         size, count = self.final.shape[1], self.count
-        each = self.counts["event_count"]
         log = np.concatenate(self._events) if self._events else np.empty((0, 3 + size))
         log = log[np.argsort(log[:, 0], kind="stable")]  # a run's events stay in order
+        log = log[log[:, 2] <= self.reached[log[:, 0].astype(np.int64)]]  # of those that stick, none from afterwards
         runs = log[:, 0].astype(np.int64)
+        each = np.bincount(runs, minlength=count)
         most = int(each.max(initial=0))
         place = np.arange(len(runs)) - np.searchsorted(runs, runs)
         index = np.full((count, most), -1)
