@@ -126,6 +126,7 @@ def forms() -> str:
     p = np.array([x.value for x in system.model.parameters], float)
     x, Q, V = np.concatenate([q, v]), np.tile(q, (STATES, 1)), np.tile(v, (STATES, 1))
     names, inputs = dict(zip(c.parameters, p.tolist(), strict=True)), {"F": 0.5}
+    each_p = np.tile(p, (STATES, 1))
     new = itertools.cycle([p * (1 + 1e-3 * k) for k in range(500)])
     each = {
         "forward(q, v)": lambda: c.forward(q, v),
@@ -138,7 +139,10 @@ def forms() -> str:
         "mass_matrix(q, p=another array every time)": lambda: c.mass_matrix(q, next(new)),
         "energy(q, v)": lambda: c.energy(q, v),
         "rhs(t, x, u, p)": lambda: c.rhs(t, x, u, p),
+        "energy of 512 states": lambda: c.energy(Q, V),
         "forward of 512 states, p=array": lambda: c.forward(Q, V, p=p),
+        "forward of 512 states, p=another array every time": lambda: c.forward(Q, V, p=next(new)),
+        "forward of 512 states, an array with a p for each": lambda: c.forward(Q, V, p=each_p),
     }
     found = least(each, 300)
     return "\n".join(["| cart and pole | µs |", "| --- | ---: |", *(f"| `{n}` | {x:.2f} |" for n, x in found.items())])

@@ -5,6 +5,7 @@ import importlib.util
 import pathlib
 import shutil
 import subprocess
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ import sympy as sp
 from sympy import cos, sin
 
 import lagrangian as lg
+from effort import at_most
 from lagrangian import examples
 from size import rest_slow
 
@@ -129,6 +131,37 @@ def test_what_does_not_fit_is_named(arguments: tuple, fragments: list[str]) -> N
     with pytest.raises(lg.RunError) as caught:
         pendulum().compile().forward(*arguments)
     assert all(f in str(caught.value) for f in fragments), str(caught.value)
+
+
+Q, V, U = np.array([0.1, 0.2]), np.array([0.3, 0.1]), np.array([0.5])
+P, X = np.array([1.0, 0.2, 0.3, 0.006, 0.1, 9.81]), np.concatenate([Q, V])
+COLUMN = np.ones((512, 1))
+MANY = COLUMN * Q, COLUMN * V
+CALLS = {
+    "forward": (3, lambda c, p: c.forward(Q, V)),
+    "forward, all arrays": (4, lambda c, p: c.forward(Q, V, U, P, 0.25)),
+    "forward, new parameters": (4, lambda c, p: c.forward(Q, V, p=p)),
+    "forward, mappings": (7, lambda c, p: c.forward(Q, V, {"F": 0.5}, dict(zip(c.parameters, P, strict=True)))),
+    "forward, a new mapping": (5, lambda c, p: c.forward(Q, V, None, dict(zip(c.parameters, p, strict=True)))),
+    "forward, lists": (5, lambda c, p: c.forward([0.1, 0.2], [0.3, 0.1])),
+    "inverse": (5, lambda c, p: c.inverse(Q, V, V, U, P)),
+    "mass_matrix, new parameters": (6, lambda c, p: c.mass_matrix(Q, p)),
+    "energy": (5, lambda c, p: c.energy(Q, V)),
+    "rhs": (5, lambda c, p: c.rhs(0.25, X, U, P)),
+    "many, new parameters": (20, lambda c, p: c.forward(*MANY, p=p)),
+    "many, a set for each": (23, lambda c, p: c.forward(*MANY, p=COLUMN * p)),
+    "a few, new parameters": (22, lambda c, p: c.forward(MANY[0][:3], MANY[1][:3], p=p)),
+}
+
+
+@pytest.mark.parametrize(("most", "call"), CALLS.values(), ids=CALLS)
+def test_a_call_is_little_work_for_python(most: int, call: Callable[..., Any]) -> None:
+    """Counted in calls of Python's functions, once machine code is there."""
+    c = system("cart-pole").compile(threads=1)
+    for k in range(8):
+        call(c, P * (1 + 1e-3 * k))
+    with at_most(most + 3):  # and three that the test makes
+        call(c, P * 1.5)
 
 
 def test_no_states_with_a_parameter_set_for_each_are_no_accelerations() -> None:

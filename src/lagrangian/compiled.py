@@ -79,9 +79,12 @@ class Compiled(Looking):
                 optional["v"] = 0.0
             found = machine.compile(self.program(name), optional=optional, lanes=self._lanes, threads=self._threads)
             if name in _SOLVING and self.parameters:
-                from lagrangian.running.masses import Admission  # here, as exporting source makes no machine code
+                # here, as exporting source makes no machine code
+                from lagrangian.running.masses import Admission, fitness
 
-                found.admit = Admission(self._model)
+                fit = fitness(self._model, self.parameters)
+                if fit is not None:
+                    found.admit = Admission(self._model, fit)
             self._kernels[name] = found
         return found
 
@@ -89,16 +92,13 @@ class Compiled(Looking):
         self, q: ArrayLike, v: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
     ) -> NDArray[np.float64]:
         """Return the accelerations q̈, shape ``(..., n)``, in the time of O(n) for chains and trees."""
-        try:
-            return self._kernels["forward"](q, v, _named(u), _named(p), t)
-        except RunError as trouble:
-            raise self._explained(trouble, q, p, t) from None
+        return self._called(self._kernels["forward"], (q, v, u, p, t))
 
     def inverse(
         self, q: ArrayLike, v: ArrayLike, a: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
     ) -> NDArray[np.float64]:
         """Return the generalized forces that the motion needs beyond those described: M a + C v + G − Ξ(u)."""
-        return self._run("inverse", q, p, t, q, v, a, _named(u))
+        return self._called(self._kernel("inverse"), (q, v, a, u, p, t))
 
     def mass_matrix(
         self, q: ArrayLike, p: Values = None, t: ArrayLike = 0.0, *, v: ArrayLike | None = None
@@ -113,13 +113,13 @@ class Compiled(Looking):
                 fix="give the rates as well, mass_matrix(q, v=…)",
                 code="E501",
             )
-        return self._run("mass_matrix", q, p, t, q, v, None)
+        return self._called(self._kernel("mass_matrix"), (q, v, None, p, t))
 
     def bias(
         self, q: ArrayLike, v: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
     ) -> NDArray[np.float64]:
         """Return C v + G − Ξ(u): what `inverse` gives at a = 0."""
-        return self._run("bias", q, p, t, q, v, _named(u))
+        return self._called(self._kernel("bias"), (q, v, u, p, t))
 
     def coriolis_matrix(self, q: ArrayLike, v: ArrayLike, p: Values = None, t: ArrayLike = 0.0) -> NDArray[np.float64]:
         """Return C(q, v) by Christoffel's symbols, shape ``(..., n, n)``: Ṁ − 2C is skew-symmetric, C v is the bias.
@@ -133,47 +133,44 @@ class Compiled(Looking):
                 fix="use bias(q, v), which contains all velocity and position terms",
                 code="E501",
             )
-        return self._run("coriolis", q, p, t, q, v, None)
+        return self._called(self._kernel("coriolis"), (q, v, None, p, t))
 
     def gravity(self, q: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0) -> NDArray[np.float64]:
         """Return ∂V/∂q, shape ``(..., n)``: weights, springs and potentials (Nᵀ ∂V/∂q where q̇ = N v)."""
-        return self._run("gravity", q, p, t, q, None, _named(u))
+        return self._called(self._kernel("gravity"), (q, None, u, p, t))
 
     def energy(
         self, q: ArrayLike, v: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
     ) -> NDArray[np.float64]:
         """Return T* + V [J], shape ``(...)``."""
-        both = self._run("energy", q, p, t, q, v, _named(u))
+        both = self._called(self._kernel("energy"), (q, v, u, p, t))
         return both["T"] + both["V"]
 
     def energies(
         self, q: ArrayLike, v: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return T* and V [J], each of shape ``(...)``."""
-        both = self._run("energy", q, p, t, q, v, _named(u))
+        both = self._called(self._kernel("energy"), (q, v, u, p, t))
         return both["T"], both["V"]
 
     def rates(self, q: ArrayLike, v: ArrayLike) -> NDArray[np.float64]:
         """Return q̇ = N(q) v, shape ``(..., n_q)``: v itself, but for frames that float."""
-        return self._run("rates", q, None, 0.0, q, v, None)
+        return self._called(self._kernel("rates"), (q, v, None, None, 0.0))
 
     def rhs(self, t: ArrayLike, x: ArrayLike, u: Values = None, p: Values = None) -> NDArray[np.float64]:
         """Return ẋ of x = [q; v] in declared order, shape ``(..., n_q + n_v)``: the right-hand side solvers want."""
-        try:
-            return self._kernel("rhs")(x, _named(u), _named(p), t)
-        except RunError as trouble:
-            raise self._explained(trouble, x, p, t) from None
+        return self._called(self._kernel("rhs"), (x, u, p, t))
 
-    def _run(self, name: str, q: ArrayLike, p: Values, t: ArrayLike, *given: Any) -> Any:
-        """Call the kernel of a method."""
-        return self._called(self._kernel(name), q, p, t, *given)
-
-    def _called(self, kernel: machine.Kernel, q: ArrayLike, p: Values, t: ArrayLike, *given: Any) -> Any:
-        """Call a kernel; where its answer is not finite, say why."""
+    def _called(self, kernel: machine.Kernel, given: tuple[Any, ...]) -> Any:
+        """Call a kernel with coordinates or states, …, inputs, parameters and t; where it cannot answer, say why."""
+        answer = kernel.quick(given)
+        if answer is not None:
+            return answer
+        *states, u, p, t = given
         try:
-            return kernel(*given, _named(p), t)
+            return kernel(*states, _named(u), _named(p), t)
         except RunError as trouble:
-            raise self._explained(trouble, q, p, t) from None
+            raise self._explained(trouble, states[0], p, t) from None
 
     @property
     def quadratic(self) -> bool:

@@ -32,8 +32,8 @@ class Looking(Guided):
     _threads: int | None
     _seen: dict[Any, machine.Kernel]
 
-    def _called(self, kernel: machine.Kernel, q: ArrayLike, p: Any, t: ArrayLike, *given: Any) -> Any:
-        """Call a kernel; where its answer is not finite, say why."""
+    def _called(self, kernel: machine.Kernel, given: tuple[Any, ...]) -> Any:
+        """Call a kernel with coordinates, …, inputs, parameters and t; where it cannot answer, say why."""
         raise TypeError(f"{type(self).__name__} calls no kernel")
 
     def _made(self, key: Any, make: Callable[[], Program]) -> machine.Kernel:
@@ -57,7 +57,7 @@ class Looking(Guided):
         """
         found = dynamics.named_place(self._model, point, Point)
         kernel = self._made(("point", found), lambda: dynamics.point_program(self._model, found))
-        return self._called(kernel, q, p, t, q, v, None)
+        return self._called(kernel, (q, v, None, p, t))
 
     def frame(
         self, frame: str | Frame, q: ArrayLike, v: ArrayLike | None = None, p: Any = None, t: ArrayLike = 0.0
@@ -70,7 +70,7 @@ class Looking(Guided):
         """
         found = dynamics.named_place(self._model, frame, Frame)
         kernel = self._made(("frame", found), lambda: dynamics.frame_program(self._model, found))
-        return self._called(kernel, q, p, t, q, v, None)
+        return self._called(kernel, (q, v, None, p, t))
 
     def evaluate(
         self,
@@ -89,7 +89,7 @@ class Looking(Guided):
         """
         flat, shape = self._flat(expression)
         kernel = self._made(("expressions", tuple(flat)), lambda: _observing(self._model, flat))
-        answer = self._called(kernel, q, p, t, q, v, by_name(u))
+        answer = self._called(kernel, (q, v, u, p, t))
         if shape == ():
             return answer if not isinstance(answer, Mapping) else answer["expression"]
         columns = list(answer.values()) if isinstance(answer, Mapping) else [answer]

@@ -77,7 +77,7 @@ def test_calls_leave_nothing_behind(kernel):
         kernel(q, v)
         with pytest.raises(RunError):
             kernel(q * np.nan, v)
-    assert len(kernel._stages) <= 2
+    assert len(kernel._quick.stages) <= 2
 
 
 def test_omitted_groups_take_their_value_again_after_being_given(kernel):
@@ -487,8 +487,67 @@ def test_the_quick_ways_take_no_liberties(kernel, wrong):
     else:
         with pytest.raises(RunError):
             kernel(wrong, v)
-    with pytest.raises(RunError, match="unknown parameter 'h'"):
-        kernel(q, v, None, {"h": 1.0})
+    for unknown in ({"h": 1.0}, dict.fromkeys("hm12l", 1.0)):
+        with pytest.raises(RunError, match="unknown parameter 'h'"):
+            kernel(q, v, None, unknown)
+    huge = 10**400
+    for given in ((q, v, None, None, huge), (q, v, [huge]), (q, v, None, [huge] * 5), (q, v, None, P | {"g": huge})):
+        with pytest.raises(RunError, match="must be real numbers"):
+            kernel(*given)
+
+
+def test_names_may_stand_in_any_order(kernel):
+    q, v = states()
+    wanted = kernel(q, v, None, ROW)
+    for _ in range(2):
+        np.testing.assert_array_equal(kernel(q, v, {"tau": 0}, dict(reversed(P.items()))), wanted)
+        np.testing.assert_array_equal(kernel(q, v, {}, {"g": P["g"]}), wanted)
+
+
+SIGNS = [
+    ([1.0, 2.0], 0),
+    ([1.0, 0.0], 0),
+    ([1.0, -0.0], 0),
+    ([5e-324, 1.0], 0),
+    ([0.0, 1.0], 2),
+    ([-1.0, 1.0], 2),
+    ([1.0, -5e-324], 2),
+    ([np.nan, 1.0], 2),
+    ([1.0, np.nan], 2),
+    ([np.inf, 1.0], 2),
+    ([1.0, np.inf], 2),
+]
+
+
+def test_signs_are_looked_at_in_every_row():
+    """The first number must be above 0, the second not below, both finite; 2 is a doubt."""
+    look = compile(program(lambda g, x: {"n": [x["a"], x["b"]]}, p=("a", "b")), hoist=(), keep=False).signs(1)
+    for row, doubt in SIGNS:
+        assert look(np.array([row])) == doubt, row
+        for k in range(3):
+            rows = np.ones((3, 2))
+            rows[k] = row
+            assert look(rows) == doubt
+
+
+def test_machine_code_looks_at_parameters_in_the_place_of_python():
+    """What it finds beyond doubt is not shown again, one state or many; what is in doubt is. No set is kept."""
+    look = compile(program(lambda g, x: {"n": [x["g"]]}, p=tuple(P)), hoist=(), keep=False).signs(1)
+    looked = compile(PENDULUM, optional=OPTIONAL, keep=False)
+    shown: list[float] = []
+    looked.admit = lambda p: shown.append(p[-1]) or look
+    free = compile(PENDULUM, optional=OPTIONAL, keep=False)
+    q, v = states(21)
+    looked(q[0], v[0])
+    looked(q, v)
+    looked(q[0], v[0], None, ROW * 2)
+    kept, shown[:] = len(looked._blocks), []
+    for g in (9.0, 8.0, -7.0, 6.0, 0.0, 5.0):
+        row = np.array([*ROW[:-1], g])
+        for at in (0, slice(None), slice(3)):
+            np.testing.assert_array_equal(looked(q[at], v[at], None, row), free(q[at], v[at], None, row))
+    assert shown == [-7.0, 0.0]
+    assert len(looked._blocks) == kept
 
 
 # Threads, processes, lifetimes

@@ -165,5 +165,7 @@ def test_many_calls_with_new_values_are_held_to_it_too(inertia, value: float) ->
             used.forward([0.3, 0.2], [0.0, 1.0], **given)
     else:
         np.testing.assert_array_equal(used.forward([0.3, 0.2], [0.0, 1.0], **given), wanted)
-    with pytest.raises(ModelError, match="negative"):
-        used.forward([0.3, 0.2], [0.0, 1.0], p=[-1.0, 1.0])
+    for q in ([0.3, 0.2], np.tile([0.3, 0.2], (9, 1))):
+        for p in ([-1.0, 1.0], np.array([-1.0, 1.0]), np.array([[1.0, 1.0]] * 8 + [[-1.0, 1.0]])):
+            with pytest.raises(ModelError, match="negative"):
+                used.forward(q, [0.0, 1.0], p=p)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from .c99 import to_c
     from .kernel import Kernel
     from .numpy_source import to_numpy
-    from .stage import RawFunction, aligned
+    from .stage import Look, RawFunction, aligned
 else:
     __getattr__ = lazily(
         __name__,
@@ -24,11 +24,11 @@ else:
             "c99": "to_c",
             "kernel": "Kernel",
             "numpy_source": "to_numpy",
-            "stage": "RawFunction aligned",
+            "stage": "Look RawFunction aligned",
         },
     )
 
-__all__ = ["Build", "Kernel", "Options", "RawFunction", "aligned", "compile", "to_c", "to_numpy"]
+__all__ = ["Build", "Kernel", "Look", "Options", "RawFunction", "aligned", "compile", "to_c", "to_numpy"]
 
 
 def compile(

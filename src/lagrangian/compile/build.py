@@ -136,6 +136,8 @@ class Build:
         self.emit_tapes(module, lanes, own_shared=own)
         if lanes > 1 and not own:
             emit(module, "prologue_1", self.lowered.prologue, 1, chunk=self.options.chunk)
+        if not own:
+            driver.emit_parameters(module, self.sizes)
         body, prologue = f"body_{lanes}", f"prologue_{lanes}"
         driver.emit_batch(
             module, self.sizes, lanes, own_shared=own, body=body, prologue=prologue, short=None if own else self.short

@@ -1,8 +1,10 @@
 """What stands around a tape's functions: one state from Python, and ranges of states in strided arrays.
 
 ``i64 single(ptr table)``: the table holds the addresses of the in, shared, out and scratch blocks. Returns 0, or 1 if
-an input or an output is not finite. ``i64 parameters(ptr table)``: two more addresses, of the hoisted inputs and of the
-shared block that is made of them. Returns 0, or 1 if a hoisted input is not finite.
+an input or an output is not finite. ``i64 parameters(ptr table)``: three more addresses, of the hoisted inputs, of the
+shared block that is made of them, and of a function ``i64 look(ptr rows, i64 count)``, or 0 for none. Returns 0, 1 if a
+hoisted input is not finite, 2 if the function returns that because it is in doubt about them, 3 for both.
+``i64 both(ptr table)``: parameters, then single; every bit that one of them returns.
 
 ``i64 batch(ptr table, i64 start, i64 stop, ptr work)``: states start … stop − 1, ``lanes`` at a time. The table
 holds, for each input group, each hoisted group (if every state has its own) and each output, an address and two
@@ -24,6 +26,7 @@ from .packed import Short, emit_packed
 Array = tuple[str, str, str]  # operands: address, stride from state to state, stride from entry to entry
 MAGNITUDE = 0x7FFFFFFFFFFFFFFF
 INFINITE = 0x7FF0000000000000
+NOT_FINITE, DOUBTFUL = 1, 2
 
 
 @dataclass(frozen=True)
@@ -48,7 +51,7 @@ class Sizes:
 
 
 def emit_single(module: Module, sizes: Sizes, body: str = "body_1", prologue: str = "prologue_1") -> None:
-    """Print ``single`` around the scalar body, and ``parameters`` around the scalar prologue."""
+    """Print ``single`` around the scalar body, `emit_parameters`, and ``both``."""
     lines = _entries({0: "in", 1: "shared", 2: "out", 3: "scratch"})
     lines.append(f"  call void @{body}(ptr %in, ptr %shared, ptr %out, ptr %scratch)")
     for name, count in (("in", sum(sizes.groups)), ("out", sum(sizes.outputs))):
@@ -59,18 +62,75 @@ def emit_single(module: Module, sizes: Sizes, body: str = "body_1", prologue: st
         "  %answer = zext i1 %bad to i64",
         "  ret i64 %answer",
     ]
+    module.define("single", "\n".join(["define i64 @single(ptr %table) nounwind {", "entry:", *lines, "}"]))
+    emit_parameters(module, sizes, prologue)
+    module.define("both", _BOTH)
+
+
+def emit_parameters(module: Module, sizes: Sizes, prologue: str = "prologue_1") -> None:
+    """Print ``parameters`` around the scalar prologue."""
     module.declare("llvm.umax.i64", "i64", ["i64", "i64"])
     module.define("greatest", _GREATEST)
-    module.define("single", "\n".join(["define i64 @single(ptr %table) nounwind {", "entry:", *lines, "}"]))
     lines = [
-        *_entries({3: "scratch", 4: "hoisted", 5: "own"}),
+        *_entries({3: "scratch", 4: "hoisted", 5: "own", 6: "look"}),
         f"  call void @{prologue}(ptr %hoisted, ptr null, ptr %own, ptr %scratch)",
         f"  %top = call i64 @greatest(ptr %hoisted, i64 {sum(sizes.hoisted)})",
         f"  %bad = icmp uge i64 %top, {INFINITE}",
-        "  %answer = zext i1 %bad to i64",
+        "  %wrong = zext i1 %bad to i64",
+        "  %some = icmp ne ptr %look, null",
+        "  br i1 %some, label %looking, label %end",
+        "looking:",
+        "  %doubt = call i64 %look(ptr %hoisted, i64 1)",
+        "  br label %end",
+        "end:",
+        "  %found = phi i64 [0, %entry], [%doubt, %looking]",
+        "  %answer = or i64 %wrong, %found",
         "  ret i64 %answer",
     ]
     module.define("parameters", "\n".join(["define i64 @parameters(ptr %table) nounwind {", "entry:", *lines, "}"]))
+
+
+def emit_signs(module: Module, sizes: Sizes, above: int, body: str = "body_1") -> None:
+    """Print ``i64 signs(ptr rows, i64 count)`` around the scalar body.
+
+    It returns 0 if for every row (there is at least one) the first ``above`` outputs are above 0, the others not below,
+    and all finite; else `DOUBTFUL`.
+    """
+    count = sum(sizes.outputs)
+    lines = [
+        "define i64 @signs(ptr %rows, i64 %count) nounwind {",
+        "entry:",
+        f"  %out = alloca double, i64 {count}, align 64",
+        f"  %scratch = alloca double, i64 {max(1, sizes.scratch)}, align 64",
+        "  br label %loop",
+        "loop:",
+        "  %row = phi i64 [0, %entry], [%next, %loop]",
+        f"  %start = mul i64 %row, {sum(sizes.groups)}",
+        "  %in = getelementptr double, ptr %rows, i64 %start",
+        f"  call void @{body}(ptr %in, ptr null, ptr %out, ptr %scratch)",
+    ]
+    known = "true"
+    for k in range(count):
+        lines += [
+            f"  %a{k} = getelementptr double, ptr %out, i64 {k}",
+            f"  %x{k} = load double, ptr %a{k}",
+            f"  %low{k} = fcmp {'ogt' if k < above else 'oge'} double %x{k}, 0.0",
+            f"  %high{k} = fcmp olt double %x{k}, 0x{INFINITE:X}",
+            f"  %both{k} = and i1 %low{k}, %high{k}",
+            f"  %fine{k} = and i1 %both{k}, {known}",
+        ]
+        known = f"%fine{k}"
+    lines += [
+        "  %next = add i64 %row, 1",
+        "  %more = icmp slt i64 %next, %count",
+        f"  %on = and i1 %more, {known}",
+        "  br i1 %on, label %loop, label %end",
+        "end:",
+        f"  %answer = select i1 {known}, i64 0, i64 {DOUBTFUL}",
+        "  ret i64 %answer",
+        "}",
+    ]
+    module.define("signs", "\n".join(lines))
 
 
 def _entries(names: Mapping[int, str]) -> list[str]:
@@ -80,6 +140,14 @@ def _entries(names: Mapping[int, str]) -> list[str]:
         lines += [f"  %a{k} = getelementptr ptr, ptr %table, i64 {k}", f"  %{name} = load ptr, ptr %a{k}"]
     return lines
 
+
+_BOTH = """define i64 @both(ptr %table) nounwind {
+entry:
+  %early = call i64 @parameters(ptr %table)
+  %late = call i64 @single(ptr %table)
+  %answer = or i64 %early, %late
+  ret i64 %answer
+}"""
 
 # The greatest magnitude among n numbers, compared as bits: NaN and infinity are above everything finite.
 _GREATEST = f"""define internal i64 @greatest(ptr %x, i64 %n) noinline nounwind {{

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import math
 import threading
+from collections import OrderedDict
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
@@ -17,13 +18,15 @@ from . import native
 from .arguments import Group, not_finite_input
 from .batch import Array, Batch, Engine, trouble
 from .build import Build, Options
-from .quick import Quick
-from .stage import RawFunction, address, aligned
+from .driver import emit_signs
+from .quick import Entry, Quick, absent
+from .stage import Look, RawFunction, Stage, aligned
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program
 
-_TAPE = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)
+    from .ir import Module
+
 _BATCH = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p)
 # A short state takes less time than handing the interpreter's lock over and back: there `single` keeps it.
 _SINGLE_SHORT = ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)
@@ -63,11 +66,12 @@ class Kernel:
         hoist = build.options.hoist
         self._late = [k for k, g in enumerate(self._groups) if g.name not in hoist]
         self._early = [k for k, g in enumerate(self._groups) if g.name in hoist]
-        self._quick = Quick(self._groups, self._late, self._early, self._outputs, self._block_of, threads)
-        self._stages, self._blocks, self._engines = self._quick.stages, self._quick.blocks, self._quick.engines
-        self._areas: list[tuple[Array, Array]] = []  # where prologues read and work, not in use
-        self._prologue: Any = None
+        self._quick = Quick(self._groups, self._late, self._early, self._outputs, threads, build)
+        self._blocks: OrderedDict[bytes, Array] = OrderedDict()  # shared blocks by the bytes of their parameters
+        self._engines = self._quick.engines
         self._lock = threading.Lock()
+        self.quick: Callable[[Sequence[Any]], Any] = self._quick.__call__ if len(self._early) < 2 else _never
+        """One thing a group, or None → the answer, or None where a closer look is due: calling the kernel takes it."""
 
     def __reduce__(self) -> Any:
         return _rebuilt, (self.program, self.build.options, self._optional, self.threads)
@@ -78,12 +82,15 @@ class Kernel:
         return f"<Kernel {self.name!r}: {inputs} -> {outputs}>"
 
     @property
-    def admit(self) -> Callable[[Array], None] | None:
-        """What looks at hoisted values, (..., n), before they are used, and may raise."""
+    def admit(self) -> Callable[[Array], Look | None] | None:
+        """What looks at hoisted values, (..., n), before they are used, and may raise.
+
+        It may return machine code that looks at single rows from then on; what that is sure of is not shown again.
+        """
         return self._quick.admit
 
     @admit.setter
-    def admit(self, look: Callable[[Array], None]) -> None:
+    def admit(self, look: Callable[[Array], Look | None]) -> None:
         self._quick.admit = look
 
     @property
@@ -100,8 +107,9 @@ class Kernel:
         """Evaluate; see the class."""
         if named:
             given = tuple(self._assigned(given, named))
-        if out is None:
-            answer = self._quick(given)
+        missing = len(self._groups) - len(given)
+        if out is None and missing >= 0:
+            answer = self.quick(given + (None,) * missing if missing else given)
             if answer is not None:
                 return answer
         return self._general(self._assigned(given, {}), out)
@@ -157,10 +165,6 @@ class Kernel:
                 fix="make all but the last axis equal, or 1",
             ) from cause
 
-    def _block_of(self, row: Array) -> Array:
-        """The shared block of one parameter set, where one group is hoisted."""
-        return self._shared_block([row])
-
     def _shared_block(self, early: list[Array]) -> Array:
         """The prologue's results for one parameter set; the latest few sets are remembered."""
         key = b"".join(a.tobytes() for a in early)
@@ -172,32 +176,38 @@ class Kernel:
                 raise trouble
         if self.admit is not None:
             self.admit(early[0])
-        if self._prologue is None:
-            code = self.build.loaded("batch" if "batch" in self.build.ready else "single")
-            self._prologue = _TAPE(code.address("prologue_1"))
-        sizes = self.build.sizes
-        try:
-            block, scratch = self._areas.pop()
-        except IndexError:
-            block, scratch = aligned(sum(sizes.hoisted)), aligned(max(1, sizes.scratch))
-        block[...] = early[0] if len(early) == 1 else np.concatenate([*early, np.empty(0)])
-        shared = aligned(sizes.shared)
-        self._prologue(address(block), None, address(shared), address(scratch))
-        self._areas.append((block, scratch))
+        stage = self._stage()
+        stage.key = None
+        stage.hoisted[...] = early[0] if len(early) == 1 else np.concatenate([*early, np.empty(0)])
+        self._quick.parameters(stage.where)
+        shared = aligned(len(stage.own))
+        shared[...] = stage.own
+        self._quick.stages.append(stage)
         with self._lock:
             while len(self._blocks) >= REMEMBERED:
                 self._blocks.popitem(last=False)
             self._blocks[key] = shared
         return shared
 
+    def _stage(self) -> Stage:
+        """A stage; there is machine code for its parameters then."""
+        quick = self._quick
+        if quick.parameters is absent:
+            quick.parameters = self._entry("batch" if "batch" in self.build.ready else "single", "parameters")
+            quick.sizes = self.build.sizes
+        return quick.stage()
+
+    def _entry(self, kind: str, name: str) -> Entry:
+        """A function of a module of that kind, to be called with the table of a stage."""
+        long = len(self.program.graph.nodes) > LONG
+        return (_SINGLE_LONG if long else _SINGLE_SHORT)(self.build.loaded(kind).address(name))
+
     def _one(self, late: list[Array], shared: Array) -> Any:
         """One state."""
         quick = self._quick
-        if not quick.stages:
-            kind = _SINGLE_LONG if len(self.program.graph.nodes) > LONG else _SINGLE_SHORT
-            code = self.build.loaded("single")
-            quick.single, quick.parameters = kind(code.address("single")), kind(code.address("parameters"))
-        stage = quick.stage(self.build.sizes)
+        if quick.single is absent:
+            quick.both, quick.single = self._entry("single", "both"), self._entry("single", "single")
+        stage = self._stage()
         for array, (_, part, *_) in zip(late, stage.parts, strict=True):
             part[...] = array
         stage.share(shared)
@@ -234,6 +244,7 @@ class Kernel:
                 work=self.build.sizes.work(self.lanes, kind == "sweep"),
                 cost=len(self.program.graph.nodes),
             )
+            self._quick.sizes = self.build.sizes
         return found
 
     def prepared(self, *given: Any, out: Any = None, **named: Any) -> Batch:
@@ -267,6 +278,18 @@ class Kernel:
         name = f"body_{lanes}"
         return RawFunction(code.address(name), lanes, sum(s.groups), s.shared, sum(s.outputs), s.scratch, code)
 
+    def signs(self, above: int) -> Look:
+        """A look at the one group of a program, none hoisted: are its first ``above`` outputs above 0, the others not
+        below?
+        """
+
+        def printer(module: Module, build: Build) -> None:
+            build.emit_tapes(module, 1)
+            emit_signs(module, build.sizes, above)
+
+        code = self.build.extended(f"signs {above}", printer)
+        return Look(code.address("signs"), code)
+
     def shared(self, *early: Any) -> Array:
         """The shared block of a parameter set (of values for the hoisted groups), for :meth:`raw` functions."""
         given = [*early, *[None] * (len(self._early) - len(early))]
@@ -274,3 +297,7 @@ class Kernel:
         block = self._shared_block(rows).view()
         block.flags.writeable = False
         return block
+
+
+def _never(_: Sequence[Any]) -> None:
+    """The quick way where there is none."""

@@ -10,17 +10,21 @@ from __future__ import annotations
 
 import math
 import struct
-from collections import OrderedDict
 from collections.abc import Callable, Sequence
-from typing import Any
+from functools import cache
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy import ndarray
+from numpy.typing import NDArray
 
 from .arguments import FLOAT, PLAIN, Group
 from .batch import Array, Engine, Shapes
-from .driver import Sizes
-from .stage import Slot, Stage, address
+from .driver import NOT_FINITE, Sizes
+from .stage import NOTHING, Look, Slot, Stage, address
+
+Entry: TypeAlias = Callable[[Any], int]
+"""A function of machine code that is handed the table of a stage; 0 where all is well."""
 
 _WORD = 8  # bytes of a number
 _PACKED = {n: struct.Struct(f"{n}q").pack for n in range(1, 64, 3)}
@@ -28,9 +32,9 @@ _PACKED = {n: struct.Struct(f"{n}q").pack for n in range(1, 64, 3)}
 
 
 class Quick:
-    """The quick ways into one kernel, and what they find ready: stages, parameter sets, machine code.
+    """The quick ways into one kernel, and what they find ready: stages, shared blocks, machine code.
 
-    ``block`` returns the shared block of one parameter set, where one group is hoisted.
+    ``owner`` keeps the machine code in memory. At most one group is hoisted.
     """
 
     def __init__(
@@ -39,129 +43,153 @@ class Quick:
         late: Sequence[int],
         early: Sequence[int],
         outputs: Shapes,
-        block: Callable[[Array], Array],
         threads: int | None,
+        owner: object,
     ) -> None:
-        self.stages: list[Stage] = []  # not in use; there is one as soon as there is code for one state
-        self.single: Callable[[Any], int] = _absent
-        self.parameters: Callable[[Any], int] = _absent
+        self.stages: list[Stage] = []  # not in use
+        self.sizes: Sizes | None = None  # there is machine code as soon as they are known
+        self.single: Entry = absent
+        self.both: Entry = absent
+        self.parameters: Entry = absent
         self.engines: dict[str, Engine] = {}
-        self.blocks: OrderedDict[bytes, Array] = OrderedDict()  # shared blocks by the bytes of their parameters
         self.standard: Array | None = None  # the shared block of the default parameters, once used
-        self.admit: Callable[[Array], None] | None = None  # looks at hoisted values before they are used; may raise
-        self._block, self._threads = block, threads
-        # What fills up a call with fewer groups, one more place for where there is no hoisted group, and nothing at all
-        # where several groups are hoisted.
-        count = len(groups) if len(early) < 2 else -1
-        self._missing = {n: (None,) * (count + 1 - n) for n in range(count + 1)}
-        self._early_at = early[0] if early else count
+        self.admit: Callable[[Array], Look | None] | None = None  # looks at hoisted values before their use; may raise
+        self._threads, self._owner = threads, owner
         self._early = Slot(early[0], groups[early[0]]) if early else None
         self._late = [Slot(k, groups[k]) for k in late]
-        self._lead_at = next((slot.place for slot in self._late if not slot.scalar), count)
+        self._lead_at = next((slot.place for slot in self._late if not slot.scalar), None)
         self._outputs = outputs
-        self._alone = len(outputs) == 1 and () not in outputs.values()  # one array
+        self._alone = len(outputs) == 1
         self._sizes = [(shape, _WORD * math.prod(shape)) for shape in outputs.values()]
 
-    def __call__(self, given: tuple[Any, ...]) -> Any:
-        """The answer, or None if anything needs a closer look."""
-        missing = self._missing.get(len(given))
-        if missing is None:
-            return None
-        given += missing
-        first = given[self._lead_at]
-        if type(first) is ndarray and first.ndim > 1:
-            return self._many(given, first.shape[:-1])
+    def __call__(self, given: Sequence[Any]) -> Any:
+        """The answer to a call with something, or None, for each group; None if anything needs a closer look."""
         try:
             stage = self.stages.pop()
-        except IndexError:  # none yet, or other threads have them all
-            return None
-        early, answer = given[self._early_at], None
-        shared = self.standard if early is None else self._own(stage, early)
-        if shared is not None:
-            for place, part, shape, scalar, default, row in stage.parts:
+        except IndexError:  # no machine code yet, or other threads have them all
+            if self.sizes is None:
+                return None
+            stage = self.stage()
+        bad = 1
+        try:
+            for place, part, shape, default, plain in stage.parts:
                 array = given[place]
                 if type(array) is ndarray:
-                    if array.shape != shape or scalar or (array.dtype is not FLOAT and array.dtype != FLOAT):
+                    if array.shape != shape or (array.dtype is not FLOAT and array.dtype != FLOAT):
                         break
                     part[...] = array  # a third of the time of part[:]
                 elif array is None:
                     if default is None:
                         break
-                    if default.size:
+                    if default is not NOTHING:
                         part[...] = default
-                elif scalar:
+                elif shape is None:
                     if type(array) not in PLAIN:
                         break
                     part[0] = array
                 else:
-                    array = row(array)
+                    array = plain(array)
                     if array is None:
                         break
                     part[...] = array
             else:
-                if stage.shared is not shared:
-                    stage.share(shared)
-                if self.single(stage.where) == 0:
-                    answer = stage.results[0].copy() if self._alone else self.answer(stage)
+                early = None if self._early is None else given[self._early.place]
+                if early is not None:
+                    bad = self._own(stage, early, self.single, self.both)
+                elif self.standard is not None:
+                    if stage.shared is not self.standard:
+                        stage.share(self.standard)
+                    bad = self.single(stage.where)
+        except OverflowError:  # an integer beyond all floats
+            bad = 1
+        answer = None if bad else stage.reads[0]() if self._alone else self.answer(stage)
         self.stages.append(stage)
+        if bad and self._lead_at is not None:
+            first = given[self._lead_at]
+            if type(first) is ndarray and first.ndim > 1:
+                return self._many(given, first.shape[:-1])
         return answer
 
-    def _own(self, stage: Stage, early: Any) -> Array | None:
-        """The stage's own shared block, made of these parameters; None if they need a closer look."""
-        slot = self._early
-        if slot is None:
-            return None
-        row = early if type(early) is ndarray else slot.row(early)
-        if row is None or row.shape != slot.shape or (row.dtype is not FLOAT and row.dtype != FLOAT):
-            return None
-        key = row.tobytes()
-        if key != stage.key:
-            stage.key = None
-            stage.hoisted[...] = row
-            if self.parameters(stage.where) != 0:
-                return None
-            if self.admit is not None:
-                self.admit(row)
-            stage.key = key
-        return stage.own
+    def _own(self, stage: Stage, early: Any, known: Entry, new: Entry) -> int:
+        """Call machine code with a stage's own shared block made of these parameters; not 0 if they need a closer look.
 
-    def stage(self, sizes: Sizes) -> Stage:
+        ``known`` is called if that is what the block is made of, ``new``, which makes it, if not.
+        """
+        slot = self._early
+        assert slot is not None
+        if type(early) is ndarray:
+            if early.shape != slot.shape or (early.dtype is not FLOAT and early.dtype != FLOAT):
+                return NOT_FINITE
+            key = early.tobytes()
+        else:
+            early = slot.plain(early)
+            if early is None:
+                return NOT_FINITE
+            try:
+                key = slot.pack(*early)
+            except struct.error:  # an integer beyond all floats
+                return NOT_FINITE
+        if stage.shared is not stage.own:
+            stage.share(stage.own)
+        if key == stage.key:
+            return known(stage.where)
+        stage.key = None
+        stage.hoisted[...] = early
+        bad = new(stage.where)
+        if bad & NOT_FINITE:
+            return bad
+        if self.admit is not None and (bad or stage.look is None):
+            look = self.admit(stage.hoisted)
+            if look is not None:
+                stage.ask(look)
+        stage.key = key
+        return 0
+
+    def stage(self) -> Stage:
         """A stage for one state: one that is not in use, or a new one."""
         try:
             return self.stages.pop()
         except IndexError:
-            return Stage(sizes, self._late, tuple(self._outputs.values()))
+            assert self.sizes is not None
+            return Stage(self.sizes, self._late, tuple(self._outputs.values()))
 
     def answer(self, stage: Stage) -> Any:
         """The outputs of a stage, copied."""
-        answers = [result.copy() if result.ndim else result[()] for result in stage.results]
-        return answers[0] if len(answers) == 1 else dict(zip(self._outputs, answers, strict=True))
+        if self._alone:
+            return stage.reads[0]()
+        answers = {}
+        for name, read in zip(self._outputs, stage.reads, strict=True):
+            answers[name] = read()
+        return answers
 
-    def _many(self, given: tuple[Any, ...], lead: tuple[int, ...]) -> Any:
+    def _many(self, given: Sequence[Any], lead: tuple[int, ...]) -> Any:
         """Many states in arrays of one leading shape, or with one row for all of them."""
-        early, slot = given[self._early_at], self._early
-        shared, slots = self.standard, self._late
-        engine = self.engines.get("batch")
-        if early is not None and slot is not None:
-            row = early if type(early) is ndarray else slot.row(early)
-            if row is None or (row.dtype is not FLOAT and row.dtype != FLOAT):
+        slot, count = self._early, lead[0] if len(lead) == 1 else math.prod(lead)
+        early = None if slot is None else given[slot.place]
+        if slot is None or early is None:
+            shared = self.standard
+            return None if shared is None else self._computed(given, lead, count, self._late, shared)
+        if type(early) is ndarray and early.ndim > 1:
+            if early.shape != lead + slot.shape or (early.dtype is not FLOAT and early.dtype != FLOAT):
                 return None
-            if row.shape == slot.shape:
-                shared = self.blocks.get(row.tobytes())
-                if shared is None:
-                    shared = self._block(row)
-            elif row.shape != lead + slot.shape:
-                return None
-            else:
-                if self.admit is not None:
-                    self.admit(row)
-                shared, slots = None, [*slots, slot]
-                engine = self.engines.get("sweep")
-        count = lead[0] if len(lead) == 1 else math.prod(lead)
-        if engine is None or (shared is None and slots is self._late) or not count:
+            if self.admit is not None:
+                self.admit(early)
+            return self._computed(given, lead, count, [*self._late, slot], None)
+        stage, answer = self.stage(), None
+        if self._own(stage, early, _made, self.parameters) == 0:
+            answer = self._computed(given, lead, count, self._late, stage.own)
+        self.stages.append(stage)
+        return answer
+
+    def _computed(
+        self, given: Sequence[Any], lead: tuple[int, ...], count: int, slots: Sequence[Slot], shared: Array | None
+    ) -> Any:
+        """Many states with one shared block, or each with its own."""
+        engine = self.engines.get("sweep" if shared is None else "batch")
+        if engine is None or not count:
             return None
         if count < engine.lanes:
-            return self._few(given, lead, count, engine.lanes)
+            return self._few(given, lead, count, engine.lanes, slots, shared)
         entries: list[int] = []
         held: list[Array] = []  # what was made here, kept while the machine code reads it
         for slot in slots:
@@ -178,18 +206,24 @@ class Quick:
             return None  # something is not finite: where, is for the other way to find
         return results[0] if len(results) == 1 else dict(zip(self._outputs, results, strict=True))
 
-    def _few(self, given: tuple[Any, ...], lead: tuple[int, ...], count: int, lanes: int) -> Any:
+    def _few(
+        self,
+        given: Sequence[Any],
+        lead: tuple[int, ...],
+        count: int,
+        lanes: int,
+        slots: Sequence[Slot],
+        shared: Array | None,
+    ) -> Any:
         """Fewer states than the machine code computes side by side: the last one fills up."""
         filled: list[Any] = list(given)
-        for slot in self._late if self._early is None else [*self._late, self._early]:
+        for slot in slots:
             array, size = given[slot.place], () if slot.scalar else slot.shape
             if type(array) is ndarray and array.shape == lead + size and array.dtype == FLOAT:
-                filled[slot.place] = made = np.empty((lanes, *size))
-                rows = array.reshape(count, *size)
-                made[:count], made[count:] = rows, rows[-1]
+                filled[slot.place] = array.reshape(count, *size).take(_filling(count, lanes), 0)
             elif type(array) is ndarray and array.shape != slot.shape:  # it might fit what is filled up
                 return None
-        answer = self._many(tuple(filled), (lanes,))
+        answer = self._computed(filled, (lanes,), lanes, slots, shared)
         if answer is None:
             return None
         if type(answer) is ndarray:
@@ -205,8 +239,8 @@ def _reads(entries: list[int], held: list[Array], slot: Slot, given: Any, lead: 
                 return False
             entries += (slot.address, 0, _WORD)
             return True
-        row = np.array((given,), FLOAT) if slot.scalar and type(given) in PLAIN else slot.row(given)
-        if row is None or row.shape != slot.shape:
+        row = slot.row(given)
+        if row is None:
             return False
         held.append(row)
         entries += (address(row), 0, _WORD)
@@ -228,5 +262,17 @@ def _reads(entries: list[int], held: list[Array], slot: Slot, given: Any, lead: 
     return True
 
 
-def _absent(_: Any) -> int:
-    return 1
+@cache
+def _filling(count: int, lanes: int) -> NDArray[np.intp]:
+    """Which of ``count`` states stands in which lane."""
+    return np.minimum(np.arange(lanes), count - 1)
+
+
+def absent(_: Any) -> int:
+    """Machine code that is not there yet."""
+    return NOT_FINITE
+
+
+def _made(_: Any) -> int:
+    """Nothing more to do."""
+    return 0

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Sequence
+import struct
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from .arguments import FLOAT, Group
+from .arguments import FLOAT, PLAIN, Group
 from .driver import Sizes
 
 
@@ -33,50 +35,82 @@ class RawFunction:
     owner: object
 
 
+class Look:
+    """A function ``i64 look(ptr rows, i64 count)`` of machine code: 0, or `DOUBTFUL` where values need a closer look.
+
+    ``owner`` keeps the code in memory.
+    """
+
+    def __init__(self, address: int, owner: object) -> None:
+        self.address, self._owner, self._call = address, owner, _LOOK(address)
+
+    def __call__(self, rows: NDArray[np.float64]) -> int:
+        """Call it with rows (k, n), k > 0, in C order."""
+        return self._call(address(rows), len(rows))
+
+
 class Slot:
     """Where a group of inputs stands in a call, and what may stand there."""
 
-    __slots__ = ("address", "default", "place", "row", "scalar", "shape", "size")
+    __slots__ = ("address", "default", "pack", "place", "plain", "scalar", "shape", "size")
 
     def __init__(self, place: int, group: Group) -> None:
-        self.place, self.size, self.scalar, self.row = place, len(group.entries), group.scalar, group.row
+        self.place, self.size, self.scalar, self.plain = place, len(group.entries), group.scalar, group.plain
         self.shape = (self.size,)
+        self.pack = struct.Struct(f"{self.size}d").pack
         self.default: NDArray[np.float64] | None = None if None in group.defaults else np.array(group.defaults, float)
         self.address = None if self.default is None else address(self.default)
+
+    def row(self, given: Any) -> NDArray[np.float64] | None:
+        """Plain numbers as one row; None for whatever needs a closer look."""
+        numbers = (given,) if self.scalar and type(given) in PLAIN else self.plain(given)
+        try:
+            return None if numbers is None else np.array(numbers, FLOAT)
+        except OverflowError:  # an integer beyond all floats
+            return None
 
 
 class Stage:
     """The blocks of one call for one state, and the table of their addresses that the machine code is handed.
 
-    ``own`` is a shared block for parameters that are handed over with a state: those of the bytes ``key``.
+    ``own`` is a shared block for parameters that are handed over with a state: those of the bytes ``key``. ``parts``
+    are what is written before a call: place, array, shape (None for a single number), default (None: must be given;
+    `NOTHING`: no numbers at all), `Group.plain`. ``reads`` return new copies of the outputs.
     """
 
-    __slots__ = ("hoisted", "key", "out", "own", "parts", "results", "scratch", "shared", "table", "where")
+    __slots__ = ("hoisted", "key", "look", "out", "own", "parts", "reads", "scratch", "shared", "table", "where")
 
     def __init__(self, sizes: Sizes, slots: Sequence[Slot], shapes: Sequence[tuple[int, ...]]) -> None:
         block, self.hoisted, self.own = aligned(sum(sizes.groups)), aligned(sum(sizes.hoisted)), aligned(sizes.shared)
         self.out, self.scratch = aligned(sum(sizes.outputs)), aligned(sizes.scratch)
-        places = (block, None, self.out, self.scratch, self.hoisted, self.own)
-        self.table = (ctypes.c_void_p * 6)(*(None if array is None else address(array) for array in places))
+        places = (block, None, self.out, self.scratch, self.hoisted, self.own, None)
+        self.table = (ctypes.c_void_p * 7)(*(None if array is None else address(array) for array in places))
         self.where = ctypes.c_void_p(ctypes.addressof(self.table))
         self.shared: NDArray[np.float64] | None = None
         self.key: bytes | None = None
-        self.parts: list[tuple[int, NDArray[np.float64], tuple[int], bool, NDArray[np.float64] | None, Any]] = []
+        self.look: Look | None = None
+        self.parts: list[tuple[int, NDArray[np.float64], tuple[int] | None, NDArray[np.float64] | None, Any]] = []
         start = 0
         for slot in slots:
             part = block[start : start + slot.size]
-            self.parts.append((slot.place, part, slot.shape, slot.scalar, slot.default, slot.row))
+            shape = None if slot.scalar else slot.shape
+            self.parts.append((slot.place, part, shape, slot.default if slot.size else NOTHING, slot.plain))
             start += slot.size
-        self.results: list[NDArray[np.float64]] = []
+        self.reads: list[Callable[[], Any]] = []
         start = 0
         for size, shape in zip(sizes.outputs, shapes, strict=True):
-            self.results.append(self.out[start : start + size].reshape(shape))
+            result = self.out[start : start + size].reshape(shape)
+            self.reads.append(result.copy if shape else partial(result.__getitem__, ()))
             start += size
 
     def share(self, shared: NDArray[np.float64]) -> None:
         """Point the table at a shared block."""
         self.shared = shared
         self.table[1] = address(shared)
+
+    def ask(self, look: Look) -> None:
+        """Have hoisted values looked at by machine code from now on."""
+        self.look, self.table[6] = look, look.address
 
 
 def aligned(count: int) -> NDArray[np.float64]:
@@ -95,3 +129,5 @@ def address(array: NDArray[Any]) -> int:
 
 
 _CHARACTER: Any = ctypes.c_char.from_buffer
+_LOOK = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64)
+NOTHING = np.empty(0)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian import dynamics
+from lagrangian.compile import Look
 from lagrangian.errors import Notice
 from lagrangian.model import Model
 from lagrangian.model.masses import Numbers, check_body
@@ -45,18 +46,20 @@ def fitness(model: Model, varied: Iterable[str]) -> Fitness | None:
 class Admission:
     """Refuses parameter sets that no system can have, before anything is computed with them."""
 
-    def __init__(self, model: Model) -> None:
-        self._model, self._seen = model, 0
-        self._fitness = fitness(model, [p.name for p in model.parameters])
+    def __init__(self, model: Model, fitness: Fitness) -> None:
+        self._model, self._fitness, self._seen = model, fitness, 0
 
-    def __call__(self, p: NDArray[np.float64]) -> None:
-        """Look at parameter sets (..., n_p); raises `ModelError`, which names the body of the first bad one."""
-        if self._fitness is None:
-            return
-        if p.size == p.shape[-1]:
-            self._seen += 1
-            if self._seen > FEW and self._fitness.surely(p.reshape(-1)):
-                return
-        rows = np.ascontiguousarray(p.reshape(-1, p.shape[-1]))
+    def __call__(self, p: NDArray[np.float64]) -> Look | None:
+        """Look at parameter sets (..., n_p); raises `ModelError`, which names the body of the first bad one.
+
+        Returns what looks at single sets in its place, once some have been seen.
+        """
+        rows, look = np.ascontiguousarray(p.reshape(-1, p.shape[-1])), None
+        self._seen += len(rows)
+        if self._seen > FEW and len(rows):
+            look = self._fitness.look
+            if look is not None and look(rows) == 0:
+                return look
         for k in np.flatnonzero(self._fitness.unfit(rows))[:1]:
             check_masses(self._model, rows[k])
+        return look

@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.compile import Kernel, compile
+from lagrangian.compile import Kernel, Look, compile
 from lagrangian.errors import RunError
 from lagrangian.graph import Output, Program, evaluate
 
@@ -57,14 +57,13 @@ class Fitness:
             bad[doubtful] = self._indefinite(p[doubtful])
         return bad
 
-    def surely(self, p: Array) -> bool:
-        """Whether one parameter set (n_p) is beyond doubt: no slower than a state. False where a closer look is due."""
-        kernel, strict = self._doubtless
-        try:
-            values = kernel(p).tolist() if kernel is not None else [0.0]
-        except RunError:
-            return False
-        return min(values) > 0 or (min(values[:strict], default=1.0) > 0 and min(values) >= 0)
+    @property
+    def look(self) -> Look | None:
+        """What finds parameter sets (k, n_p) to be fit beyond doubt, no slower than states; None if that takes more.
+
+        It asks more than `unfit`: what it leaves in doubt may be fit.
+        """
+        return self._look
 
     def _indefinite(self, p: Array) -> NDArray[np.bool_]:
         """Which parameter sets (k, n_p) give M a negative eigenvalue in one of the states."""
@@ -81,11 +80,8 @@ class Fitness:
         return compile(self.bodies, threads=1)
 
     @cached_property
-    def _doubtless(self) -> tuple[Kernel | None, int]:
-        """p → numbers of which so many must be above 0, the rest not below, for `bodies` to be fit; None if too many.
-
-        Masses; of an inertia its leading minors, or its diagonal where nothing else is in it.
-        """
+    def _look(self) -> Look | None:
+        """At masses; of an inertia at its leading minors, or at its diagonal where nothing else is in it."""
         above, rest = [], []
         g = self.bodies.graph
         for name, output in self.bodies.outputs.items():
@@ -97,16 +93,16 @@ class Fitness:
             else:
                 a, b, c, d, e, f = (ids[k] for k in (0, 1, 2, 4, 5, 8))
                 if (ids[3], ids[6], ids[7]) != (b, c, e):
-                    return None, 1
+                    return None
                 minor = g.sub(g.mul(a, d), g.mul(b, b))
                 last = g.sub(g.mul(b, e), g.mul(c, d))
                 whole = g.add(g.mul(f, minor), g.sub(g.mul(c, last), g.mul(e, g.sub(g.mul(a, e), g.mul(b, c)))))
                 above += [a, minor, whole]
         if len(above) + len(rest) > MOST:
-            return None, 1
+            return None
         outputs = {"numbers": Output((*above, *rest), (len(above) + len(rest),))}
         program = Program("fit", g, self.bodies.inputs, outputs, self.bodies.defaults)
-        return compile(program, hoist=(), threads=1), len(above)
+        return compile(program, hoist=(), threads=1).signs(len(above))
 
     @cached_property
     def _metric(self) -> Kernel:
