@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 
 import pytest
@@ -10,8 +11,14 @@ import size
 
 
 def pytest_configure(config: pytest.Config) -> None:
+    gc.set_threshold(100_000, 20, 20)  # most of what is made lives long: it is seldom looked at
     os.environ.setdefault("MPLBACKEND", "Agg")  # plots are pyplot's, and no window is to open
     size.FULL = "not slow" not in config.getoption("markexpr")
+
+
+def pytest_collection_finish() -> None:
+    gc.collect()
+    gc.freeze()  # what was imported is not looked at again
 
 
 @pytest.fixture(autouse=True, scope="session")
