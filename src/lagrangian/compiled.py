@@ -214,8 +214,9 @@ class Compiled(Looking):
         for state, M in zip(states, flat, strict=True):
             _, singular, right = np.linalg.svd(M)
             if singular[-1] * SINGULAR <= singular[0]:
+                moved = dynamics.moving_no_mass(self.velocities, right[-1:])
                 return RunError(
-                    f"M is singular at {self._listed(state)}: {self._moved(right[-1])} moves no mass there",
+                    f"M is singular at {self._listed(state)}: {moved} there",
                     fix="choose other coordinates near this configuration, or give what they move mass or inertia",
                     code="E203",
                 )
@@ -231,15 +232,6 @@ class Compiled(Looking):
     def _listed(self, state: NDArray[np.float64]) -> str:
         shown = [f"{name} = {x:.6g}" for name, x in zip(self.coordinates, state, strict=True)]
         return ", ".join(shown[:8]) + (", …" if len(shown) > 8 else "")
-
-    def _moved(self, direction: NDArray[np.float64]) -> str:
-        moved = [name.removesuffix("'") for name in self.velocities]
-        involved = [n for n, x in zip(moved, direction, strict=True) if abs(x) > 1e-6]
-        return (
-            f"'{involved[0]}'"
-            if len(involved) == 1
-            else "moving " + ", ".join(f"'{n}'" for n in involved) + " together"
-        )
 
 
 _PROGRAMS: dict[str, Callable[[Model], Program]] = {

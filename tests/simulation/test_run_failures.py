@@ -77,6 +77,34 @@ def test_a_mass_matrix_that_becomes_singular_is_named(method: str) -> None:
     assert f"t = {run.t[-1]:.9g}" in run.message
 
 
+def light_arm() -> lg.System:
+    """A Furuta pendulum whose arm weighs nothing: upright and hanging, two rates together move no mass."""
+    s = lg.System("light arm")
+    a, b = s.coordinates("alpha theta")
+    m, L, l = s.parameters("m L l", m=0.1, L=0.25, l=0.15)
+    bob = (L * sp.cos(a) - l * sp.sin(b) * sp.sin(a), L * sp.sin(a) + l * sp.sin(b) * sp.cos(a), l * sp.cos(b))
+    s.particle(m, at=s.origin + bob)
+    s.gravity(direction=(0, 0, -1))
+    return s
+
+
+def test_rates_that_together_move_no_mass_are_named_with_their_ratio() -> None:
+    """L α̇ + l θ̇ = 0 leaves the bob where it is."""
+    s = light_arm()
+    upright = "moving 'alpha' and 'theta' together, 1 : -1.667, moves no mass"
+    with pytest.raises(lg.RunError, match=r"mass matrix is singular at alpha = 0, theta = 0: " + upright) as refused:
+        s.linearize()
+    assert refused.value.code == "E203" and "division" not in str(refused.value)
+    text = " ".join(str(s.equilibria()).split())
+    assert "moving α and θ together, 1 : -1.667, moves no mass" in text and "no other rest in the box" in text
+    still = s.simulate(0.1)
+    assert upright in str(still.notices[0]) and not s.simulate(0.1, theta=1.0).notices
+    run = s.simulate(1.0, theta=1.0)
+    hanging = "the mass matrix is all but singular there: moving 'alpha' and 'theta' together, 1 : 1.667, moves no mass"
+    assert not run.success and hanging in run.message
+    assert np.isfinite(s.linearize(at={"theta": 1.0}, operating_point=True).A).all()
+
+
 @pytest.mark.parametrize("method", ["dop853", "taylor", "tsit5", "Radau"])
 def test_a_state_that_blows_up_keeps_what_was_reached(method: str) -> None:
     """q̈ = 2 q³ with q = 1, q̇ = 1: q = 1/(1 − t) is infinite at t = 1."""

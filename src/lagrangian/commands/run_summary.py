@@ -44,6 +44,7 @@ def figures(run: Trajectory) -> dict[str, Any]:
         "name": run.model.name,
         "success": bool(run.success),
         "message": in_options(run.message),
+        "notices": [str(notice) for notice in run.notices],
         "method": run.method,
         "start": float(run.t[0]),
         "end": float(run.t[-1]),

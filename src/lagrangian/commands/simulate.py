@@ -153,6 +153,8 @@ def simulate(
         put(run.to_csv())
     else:
         put(as_json(figures(run)) if json else summary(run))
+    for notice in run.notices:
+        say(f"note: {notice}")
     if run.audit.missed and run.success:
         say(f"note: {in_options(run.audit.missed)}")
     if not run.success:

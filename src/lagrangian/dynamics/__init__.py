@@ -9,6 +9,7 @@ from lagrangian.dynamics.canonical import canonical, canonical_impacts, momenta,
 from lagrangian.dynamics.closed import SUPPLY, balance_terms_closed, closed, observe_closed, power_closed
 from lagrangian.dynamics.describe import Inputs, describe
 from lagrangian.dynamics.impacts import impacts
+from lagrangian.dynamics.loose import loose, moving_no_mass
 from lagrangian.dynamics.mechanics import Mechanics
 from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.notices import configurations, notices
@@ -51,9 +52,11 @@ __all__ = [
     "impacts",
     "inverse",
     "inverse_from_lagrangian",
+    "loose",
     "loss",
     "mass_matrix",
     "momenta",
+    "moving_no_mass",
     "named_place",
     "notices",
     "observe",

@@ -5,22 +5,21 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian import compile as machine
 from lagrangian import dynamics
 from lagrangian.advice import Advice, Argument
 from lagrangian.errors import RunError
 from lagrangian.graph import evaluate
 from lagrangian.model import plain
 from lagrangian.running import sticking
-from lagrangian.running.integrating import Task, remembered, right_hand_side
+from lagrangian.running.integrating import Task, right_hand_side
 from lagrangian.simulate import STATUS
 from lagrangian.simulate.integrators import layout as at
 from lagrangian.simulate.scipy_methods import IMPLICIT, SCIPY, Outcome
 
 Array = NDArray[np.float64]
 
-SINGULAR = 1e-10
-"""Least over greatest singular value of M below which a configuration is called singular."""
+SINGULAR, NEARLY = 1e-10, 1e-6
+"""Least eigenvalue of M, in parts of its greatest elsewhere, below which a run has ended because of it."""
 
 SHOWN = 8
 """States written out in a message."""
@@ -54,7 +53,10 @@ def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
         case at.UNDERFLOW | at.NOT_FINITE:
             singular = _singular(task, outcome)
             if singular:
-                return singular, "choose other coordinates near this configuration, or give what they move a mass"
+                return (
+                    singular,
+                    "give what they move a mass or an inertia, or choose other coordinates near this configuration",
+                )
             broken = _not_finite(task, outcome)
             if broken:
                 return broken, "look for a division by zero or a root of a negative number there"
@@ -102,22 +104,13 @@ def _state(task: Task, x: Array) -> str:
 
 
 def _singular(task: Task, outcome: Outcome) -> str:
-    """Whether M is singular where the run stopped, against where it began, and which coordinates move nothing there."""
-    model, n = task.model, len(task.model.coordinates)
-    kernel = remembered(model, "mass_matrix", lambda: machine.compile(dynamics.mass_matrix(model), optional={"v": 0.0}))
-    states = np.array([outcome.final[:n], task.x0[:n]])
-    times = np.array([outcome.reached, task.times[0]])
-    try:
-        M = kernel(states, None, np.zeros(len(model.inputs)), task.p, times)
-    except RunError:
-        return ""
-    _, values, right = np.linalg.svd(M)
-    if values[0, -1] > SINGULAR * values.max():
-        return ""
-    names = [v.name.removesuffix("'") for v in model.velocities]
-    moved = [f"'{name}'" for name, x in zip(names, right[0, -1], strict=True) if abs(x) > 1e-6]
-    what = f"{moved[0]} moves" if len(moved) == 1 else "moving " + ", ".join(moved) + " together moves"
-    return f"[E203] the mass matrix is singular there: {what} no mass"
+    """Whether M is singular where the run stopped, and which coordinates move nothing there."""
+    q, t = outcome.final[: len(task.model.coordinates)].tolist(), outcome.reached
+    u = [0.0] * len(task.model.inputs)  # a kinetic energy reads no input
+    for near, how in ((SINGULAR, ""), (NEARLY, "all but ")):
+        if moved := dynamics.loose(task.model, q, u, task.p.tolist(), t, near):
+            return f"[E203] the mass matrix is {how}singular there: {moved}"
+    return ""
 
 
 def _rates(task: Task, outcome: Outcome) -> tuple[tuple[str, ...], Array]:

@@ -17,7 +17,7 @@ from lagrangian.advice import Advice, Argument
 from lagrangian.analyze.dimensions import SECOND
 from lagrangian.analyze.given import Given, number
 from lagrangian.compile.arguments import numbers
-from lagrangian.errors import RunError, did_you_mean
+from lagrangian.errors import Notice, RunError, did_you_mean
 from lagrangian.graph import Graph, Program
 from lagrangian.model import Model
 from lagrangian.running.disagreement import disagreement
@@ -49,6 +49,9 @@ NO_DURATION = Advice(Argument("duration", "10"), ", or duration = '10 s' under [
 
 SHARE = 1e-3
 """Share of the run's tolerances for one step of a method of ours or one chosen by itself: errors add up."""
+
+FEW = 12
+"""Coordinates up to which M is looked at before a run."""
 
 FINEST = 100 * float(np.finfo(float).eps)
 """The least relative tolerance of a step that doubles can hold."""
@@ -114,8 +117,21 @@ def simulate(
         bounds,
     )
     made = _trajectory(task, run(task), {"rtol": rtol, "atol": atol})
-    made.notices = notices
+    made.notices = (*notices, *_undecided(task))
     return _judged(made)
+
+
+def _undecided(task: Task) -> tuple[Notice, ...]:
+    """A notice where M is singular at the start of a run of a few coordinates."""
+    model, n = task.model, len(task.model.coordinates)
+    if n > FEW or not (
+        moved := dynamics.loose(
+            model, task.x0[:n].tolist(), [0.0] * len(model.inputs), task.p.tolist(), float(task.times[0])
+        )
+    ):
+        return ()
+    said = f"the mass matrix is singular there: {moved}, so that nothing decides the accelerations"
+    return (Notice("E203", "start of the run", said),)
 
 
 def _judged(made: Trajectory) -> Trajectory:

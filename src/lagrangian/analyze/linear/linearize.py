@@ -336,7 +336,7 @@ def _finite(found: Arrays, here: Rest) -> Arrays:
         if not np.isfinite(array).all():
             raise RunError(
                 f"{name} is not finite at {here.shown}",
-                fix="check for a singular mass matrix, a square root of 0 or a division by 0 there",
+                fix="check for a square root of 0 or a division by 0 there",
                 code="E503",
             )
     return found

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrangian import dynamics
 from lagrangian.advice import Advice, Argument, Verb
 from lagrangian.analyze.given import Given, Named
 from lagrangian.analyze.jacobians import Arrays, reads, values
@@ -80,6 +81,14 @@ def rest(
     x = np.array(list((start | given.states.values(at)).values()))
     u, p = given.input_values(inputs), given.parameter_values(params)
     here = Rest(states, x, u, p, "operating point", 0.0)
+    q = x[: len(model.coordinates)]
+    if moved := dynamics.loose(model, q.tolist(), u.tolist(), p.tolist(), t):
+        raise RunError(
+            f"the mass matrix is singular at {point_words(states[: len(q)], q)}: {moved}, so that nothing decides the "
+            "accelerations",
+            fix="give what they move a mass or an inertia, or choose a neighbouring point or other coordinates",
+            code="E203",
+        )
     found = _values(program, here, t)
     n = len(model.coordinates)
     here = replace(here, residual=_largest(found["xdot"][n:]), free=free_coordinates(program, here, n, t))
@@ -107,7 +116,7 @@ def _values(program: Program, here: Rest, t: float) -> Arrays:
     if not np.isfinite(found["xdot"]).all():
         raise RunError(
             f"the accelerations are not finite at {here.shown}",
-            fix="choose a neighbouring point: there is a singular mass matrix, a square root of 0 or a division by 0",
+            fix="choose a neighbouring point: there is a square root of a negative number or a division by 0",
             code="E203",
         )
     return found

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian import compile as machine
+from lagrangian import dynamics
 from lagrangian.analyze.echelon import null_space, reduced
 from lagrangian.analyze.given import Given, Named
 from lagrangian.analyze.jacobians import Quick, values
@@ -203,6 +204,11 @@ class _Task:
         sized = np.linalg.eigvalsh(M * np.outer(self.search.width, self.search.width))
         return bool(sized.min() < SINGULAR * np.abs(sized).max())
 
+    def moves_no_mass(self, q: Array) -> str:
+        """What moves no mass at q, for the middle of a sentence."""
+        moved = dynamics.loose(self.model, q.tolist(), self.u.tolist(), self.p.tolist(), 0.0)
+        return f" ({moved})" if moved else ""
+
     def _rests_always(self, q: Array) -> bool:
         program = self.linearizer.forces
         if not self.linearizer.rests_change:
@@ -304,7 +310,10 @@ def _notes(
     listed = []
     if left_out:
         where = point_words(task.box.names, left_out[0]) + (" and elsewhere" if len(left_out) > 1 else "")
-        listed.append(f"the mass matrix is singular at {where}: these coordinates fail there, and it is left out")
+        moved = task.moves_no_mass(left_out[0])
+        listed.append(
+            f"the mass matrix is singular at {where}{moved}: these coordinates fail there, and it is left out"
+        )
     for direction in task.free:
         names = list(direction)
         what = names[0] if len(names) == 1 else f"a shift of {', '.join(names)} together"
@@ -316,7 +325,7 @@ def _notes(
         h, _ = task.search.forces(starts(256, task.box.low, task.box.high))
         one_sided = [n for n, row in zip(task.box.names, h.T, strict=True) if (row > 0).all() or (row < 0).all()]
         why = f": the force on {one_sided[0]} has one sign everywhere, nothing balances it" if one_sided else ""
-        listed.append(f"there is no rest in the box{why}")
+        listed.append(f"there is no {'other ' if left_out else ''}rest in the box{why}")
     elif not sure and not any(e.dimension for e in found):
         listed.append("some were met by few starts: there may be more; raise samples, or narrow the box")
     return tuple(listed)

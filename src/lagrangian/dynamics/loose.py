@@ -1,0 +1,81 @@
+"""Configurations where the mass matrix is singular: some combination of rates moves no mass.
+
+M is judged with the unit of every rate taken from the largest mass that it moves here or at a few other configurations:
+kg and kg m² can be compared then, and what is always light beside the rest is not called singular.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import islice
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.dynamics.notices import configurations
+from lagrangian.dynamics.programs import mass_matrix
+from lagrangian.graph import evaluate
+from lagrangian.model import Model
+
+Array = NDArray[np.float64]
+
+ROUNDING = 1e-13
+"""Least eigenvalue of M, in parts of its greatest among a few configurations, below which M is singular."""
+
+OTHERS = 6
+"""Configurations that M is compared with."""
+
+TAKES_PART = 1e-4
+"""Part of the greatest entry from which on a rate belongs to a combination."""
+
+
+def loose(
+    model: Model, q: Sequence[float], u: Sequence[float], p: Sequence[float], t: float, near: float = ROUNDING
+) -> str:
+    """What moves no mass at a configuration, in words; empty where M is regular.
+
+    ``near``: the least eigenvalue of M, in parts of the greatest one elsewhere, up to which it counts as singular.
+    """
+    program = model._memo.get("loose")
+    if program is None:
+        program = model._memo["loose"] = mass_matrix(model)
+
+    def at(place: Sequence[float]) -> Array:
+        zeros = [0.0] * len(program.inputs["v"])
+        given = {"q": list(place), "v": zeros, "u": list(u), "p": list(p), "t": [t]}
+        return np.array(evaluate(program, given)["M"], float).reshape(len(zeros), len(zeros))
+
+    M, key = at(q), (tuple(u), tuple(p), t)
+    if not np.isfinite(M).all():
+        return ""
+    known, others = model._memo.get("loose elsewhere", (None, []))
+    if known != key:
+        others = [N for N in map(at, islice(configurations(model), OTHERS)) if np.isfinite(N).all()]
+        model._memo["loose elsewhere"] = key, others
+    size = np.max([np.diag(N) for N in (M, *others)], axis=0)
+    values, rows = _least(M, size)
+    best = max(_least(N, size)[0][0] for N in (M, *others))
+    rows = rows[np.abs(values) <= max(near * best, 4 * len(M) * np.finfo(float).eps)]  # it may be singular everywhere
+    return moving_no_mass([v.name for v in model.velocities], rows) if len(rows) else ""
+
+
+def _least(M: Array, size: Array) -> tuple[Array, Array]:
+    """The eigenvalues of M, every rate in its own unit, the least first, and in rows the rates along each."""
+    unit = np.sqrt(np.where(size > 0, size, 1.0))
+    values, columns = np.linalg.eigh(M / np.outer(unit, unit))
+    return values, columns.T / unit
+
+
+def moving_no_mass(velocities: Sequence[str], rows: Array) -> str:
+    """``moving 'a' and 'b' together, 1 : −2, moves no mass``: what the rates in each row say."""
+    names = [name.removesuffix("'") for name in velocities]
+    taking = (np.abs(rows) > TAKES_PART * np.abs(rows).max(axis=1, keepdims=True)).any(axis=0)
+    involved = np.flatnonzero(taking).tolist()
+    listed = [f"'{names[k]}'" for k in involved]
+    if len(listed) == 1:
+        return f"{listed[0]} moves no mass"
+    together = f"{', '.join(listed[:-1])} and {listed[-1]}"
+    if len(rows) > 1:
+        return f"{len(rows)} combinations of {together} move no mass"
+    ratio = " : ".join(f"{x + 0.0:.4g}" for x in rows[0][involved] / rows[0][involved[0]])
+    return f"moving {together} together, {ratio}, moves no mass"
