@@ -96,7 +96,10 @@ class System(Described):
         return Compiled(self.model, lanes=lanes, threads=threads)
 
     def conserved(self, *, params: Mapping[Any, Any] | None = None) -> ConservedQuantities:
-        """Return what every motion keeps: momenta of ignorable coordinates, total momenta, energy, each verified."""
+        """Return what every motion keeps: momenta of ignorable coordinates, total momenta, energy, each verified.
+
+        A parameter given as 0 vanishes.
+        """
         from lagrangian.analysis import conserved
 
         return conserved(self.model, params=params)

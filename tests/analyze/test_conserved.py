@@ -41,6 +41,27 @@ def kepler(polar: bool) -> lg.System:
     return system
 
 
+def test_a_parameter_given_as_0_vanishes() -> None:
+    """A pendulum with a damper keeps its energy where c = 0, and its momentum too where g = 0."""
+    system = lg.System("damped")
+    theta = system.coordinate("theta")
+    m, L, c = system.parameters("m L c", m=1.0, L=1.0, c=0.5)
+    system.particle(m, at=system.origin + (L * sp.sin(theta), -L * sp.cos(theta)))
+    system.gravity(direction=(0, -1))
+    system.damper(c, deflection=theta)
+    assert not len(system.conserved()) and not len(system.conserved(params={"c": 0.25}))
+    (energy,) = system.conserved(params={"c": 0.0})
+    assert energy.kind == "energy" and energy.drift is not None and energy.drift < 1e-10
+    free = system.conserved(params={c: 0, "g": "0 m/s^2"})
+    assert {found.kind for found in free} == {"energy", "momentum"} and free.vanishing == ("c", "g")
+    assert "conserved quantities where c = g = 0" in free.to_text()
+    with pytest.raises(lg.ModelError, match="coordinate 'theta' moves no mass where m = 0"):
+        system.conserved(params={"m": 0.0})
+    system.spring(1 / c, deflection=theta)
+    with pytest.raises(lg.ModelError, match="have no value where c = 0"):
+        system.conserved(params={"c": 0.0})
+
+
 def test_keplers_area_law_in_polar_coordinates() -> None:
     system = kepler(polar=True)
     r, phi, m, mu = (system[x] for x in ("r", "phi", "m", "mu"))

@@ -19,7 +19,8 @@ def conserved(
         typer.Option(
             "--set",
             metavar="NAME=VALUE",
-            help='The value of a parameter in the simulated run: k=80, "m1=2 kg". May be repeated.',
+            help='The value of a parameter in the simulated run: k=80, "m1=2 kg"; one set to 0 vanishes from the '
+            "formulas too. May be repeated.",
         ),
     ] = None,
     format: FormatOption = None,

@@ -18,6 +18,7 @@ from lagrangian.analyze.jacobians import rates, values
 from lagrangian.analyze.kept.lagrangian_form import LagrangianForm
 from lagrangian.analyze.kept.symmetries import Symmetry, symmetries
 from lagrangian.derive.formula import Name, Text, text
+from lagrangian.errors import ModelError
 from lagrangian.model import Model, plain
 
 _log = logging.getLogger(__name__)
@@ -60,12 +61,16 @@ class Conserved:
 
 @dataclass(frozen=True, eq=False)
 class ConservedQuantities(Sequence[Conserved]):
-    """What a system keeps; ``missed`` says why the others are not kept; ``run`` is the time [s] they were watched."""
+    """What a system keeps; ``missed`` says why the others are not kept; ``run`` is the time [s] they were watched.
+
+    ``vanishing`` are the parameters that were given as 0.
+    """
 
     model: Model
     found: tuple[Conserved, ...]
     missed: tuple[Text, ...]
     run: float | None
+    vanishing: tuple[str, ...] = ()
 
     def __getitem__(self, index: Any) -> Any:
         """The quantity at an index."""
@@ -80,9 +85,20 @@ def conserved(model: Model, *, params: Named | None = None, seed: int = 1) -> Co
     """Return the conserved quantities of a model.
 
     Each is proved: the normal form of its rate along any motion is 0. Where all parameters have values it is also
-    watched along a run from a random start (``seed``), by the integrator in machine code.
+    watched along a run from a random start (``seed``), by the integrator in machine code. ``params`` are values in that
+    run; one given as 0 vanishes from the formulas too, as a damping that is left out.
     """
-    system = LagrangianForm.of(model)
+    program = rates(model)
+    given = Given.of(model, program)
+    chosen = given.parameters.values(params)
+    vanishing = [p for p in model.parameters if chosen.get(p.name) == 0]
+    system = LagrangianForm.of(model, [p.symbol for p in vanishing])
+    if vanishing and (light := [plain(q) for q, p in zip(system.q, system.momenta, strict=True) if p.is_zero]):
+        raise ModelError(
+            f"coordinate '{light[0]}' moves no mass where {' = '.join(p.name for p in vanishing)} = 0",
+            fix="leave a mass or an inertia to it",
+            code="E201",
+        )
     _log.info("conserved: searching for symmetries")
     listed = [_described(system, s, ()) for s in symmetries(system, {})]
     known = {plain(c.expression) for c in listed}
@@ -94,8 +110,11 @@ def conserved(model: Model, *, params: Named | None = None, seed: int = 1) -> Co
             if need and plain(found.expression) not in known:
                 listed.append(found)
     _log.info("conserved: watching %d along a run", len(listed))
-    watched, run = _watched(model, listed, params, seed)
-    return ConservedQuantities(model, tuple(watched), _missed(system, watched), run)
+    numbers = all(p.value is not None or p.name in chosen for p in model.parameters)
+    watched, run = (
+        _watched(model, program, listed, given.parameter_values(params), seed) if listed and numbers else (listed, None)
+    )
+    return ConservedQuantities(model, tuple(watched), _missed(system, watched), run, tuple(p.name for p in vanishing))
 
 
 def _described(system: LagrangianForm, symmetry: Symmetry, need: tuple[str, ...]) -> Conserved:
@@ -165,15 +184,9 @@ def _missed(system: LagrangianForm, found: Sequence[Conserved]) -> tuple[Text, .
 
 
 def _watched(
-    model: Model, listed: list[Conserved], params: Named | None, seed: int
+    model: Model, program: Any, listed: list[Conserved], p: Array, seed: int
 ) -> tuple[list[Conserved], float | None]:
     """The quantities with their drift along runs: one with constant inputs, one with none."""
-    program = rates(model)
-    given = Given.of(model, program)
-    chosen = given.parameters.values(params)
-    if not listed or any(p.value is None and p.name not in chosen for p in model.parameters):
-        return listed, None
-    p = given.parameter_values(params)
     watched, longest = list(listed), None
     for driven in (True, False):
         mine = [k for k, c in enumerate(watched) if bool(c.while_zero) != driven]

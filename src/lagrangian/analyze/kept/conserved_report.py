@@ -24,7 +24,8 @@ def conserved_report(found: ConservedQuantities) -> Report:
     items += [Text(("Not kept: ", *why.parts, ".")) for why in found.missed]
     if items:
         parts.append(Part(text("What is not kept"), tuple(items)))
-    return Report(f"{found.model.name}: conserved quantities", found.model, tuple(parts), data(found))
+    where = f" where {' = '.join((*found.vanishing, '0'))}" if found.vanishing else ""
+    return Report(f"{found.model.name}: conserved quantities{where}", found.model, tuple(parts), data(found))
 
 
 def _part(found: ConservedQuantities, c: Conserved) -> Part:
@@ -42,6 +43,7 @@ def data(found: ConservedQuantities) -> dict[str, Any]:
     """Conserved quantities as plain data."""
     return {
         "system": found.model.name,
+        "vanishing": list(found.vanishing),
         "conserved": [
             {
                 "name": c.name,

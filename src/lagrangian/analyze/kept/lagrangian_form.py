@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, cast
@@ -24,8 +24,11 @@ class LagrangianForm:
     Xi: tuple[sp.Expr, ...]
 
     @classmethod
-    def of(cls, model: Model) -> LagrangianForm:
-        """The energies and forces of a model, definitions written out. Raises `ModelError` for a floating frame."""
+    def of(cls, model: Model, vanishing: Sequence[sp.Symbol] = ()) -> LagrangianForm:
+        """The energies and forces of a model, definitions written out, ``vanishing`` parameters at 0.
+
+        Raises `ModelError` for a floating frame, and where something is divided by what vanishes.
+        """
         if len(model.velocities) != len(model.coordinates):
             raise ModelError(
                 f"system '{model.name}' has a floating frame: the entries of a quaternion are not independent",
@@ -42,7 +45,15 @@ class LagrangianForm:
                 for i, c in enumerate(model.coordinates):
                     forces[i] = forces[i] + effort * sp.diff(rate, c.rate)
         T, V = (model.expand(cast("sp.Expr", e), constants=True) for e in (T, V))
-        return cls(model, T, V, tuple(forces))
+        gone = dict.fromkeys(vanishing, sp.S.Zero)
+        made = [cast("sp.Expr", sp.sympify(e).subs(gone)) if gone else e for e in (T, V, *forces)]
+        if any(e.has(sp.zoo, sp.nan, sp.oo) for e in made):
+            raise ModelError(
+                f"the energies and forces have no value where {', '.join(map(str, gone))} = 0",
+                fix="give it a value that is not 0, or leave it out",
+                code="E406",
+            )
+        return cls(model, made[0], made[1], tuple(made[2:]))
 
     @property
     def q(self) -> tuple[Any, ...]:
