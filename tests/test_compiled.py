@@ -148,9 +148,9 @@ CALLS = {
     "mass_matrix, new parameters": (6, lambda c, p: c.mass_matrix(Q, p)),
     "energy": (5, lambda c, p: c.energy(Q, V)),
     "rhs": (5, lambda c, p: c.rhs(0.25, X, U, P)),
-    "many, new parameters": (20, lambda c, p: c.forward(*MANY, p=p)),
-    "many, a set for each": (23, lambda c, p: c.forward(*MANY, p=COLUMN * p)),
-    "a few, new parameters": (22, lambda c, p: c.forward(MANY[0][:3], MANY[1][:3], p=p)),
+    "many, new parameters": (16, lambda c, p: c.forward(*MANY, p=p)),
+    "many, a set for each": (21, lambda c, p: c.forward(*MANY, p=COLUMN * p)),
+    "a few, new parameters": (17, lambda c, p: c.forward(MANY[0][:3], MANY[1][:3], p=p)),
 }
 
 

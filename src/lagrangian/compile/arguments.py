@@ -9,10 +9,9 @@ from __future__ import annotations
 
 import math
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from operator import itemgetter
 from typing import Any
 
 import numpy as np
@@ -69,44 +68,6 @@ class Group:
                 fix=f"give an array of shape (..., {size}), entries in that order",
             )
         return array
-
-    def plain(self, given: Any) -> Sequence[float] | None:
-        """The numbers of a list, or of a mapping, one an entry; None for whatever needs a closer look."""
-        kind = type(given)
-        if kind is dict and len(given) == len(self.entries):
-            try:
-                given = self._pick(given)
-            except KeyError:  # instead of this entry there is an unknown one
-                return None
-        elif kind is dict:
-            filled: list[Any] = list(self.defaults)
-            for name, value in given.items():
-                place = self._places.get(name)
-                if place is None:
-                    return None
-                filled[place] = value
-            given = filled
-        elif kind is not list and kind is not tuple:
-            return None
-        if len(given) != len(self.entries):
-            return None
-        for number in given:
-            if type(number) not in PLAIN:
-                return None
-        return given
-
-    @cached_property
-    def _pick(self) -> Callable[[Mapping[Any, Any]], Sequence[Any]]:
-        """The values of all entries in a mapping, in the entries' order."""
-        if len(self.entries) == 1:
-            (only,) = self.entries
-            return lambda given: (given[only],)
-        return itemgetter(*self.entries) if self.entries else tuple
-
-    @cached_property
-    def _places(self) -> dict[Any, int]:
-        """Entry → its place."""
-        return {name: k for k, name in enumerate(self.entries)}
 
     @cached_property
     def _standard(self) -> NDArray[np.float64]:

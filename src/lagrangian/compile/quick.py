@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from .arguments import FLOAT, PLAIN, Group
 from .batch import Array, Engine, Shapes
 from .driver import NOT_FINITE, Sizes
-from .stage import NOTHING, Look, Slot, Stage, address
+from .stage import NOTHING, Look, Row, Slot, Stage, address
 
 Entry: TypeAlias = Callable[[Any], int]
 """A function of machine code that is handed the table of a stage; 0 where all is well."""
@@ -103,11 +103,11 @@ class Quick:
         except OverflowError:  # an integer beyond all floats
             bad = 1
         answer = None if bad else stage.reads[0]() if self._alone else self.answer(stage)
-        self.stages.append(stage)
         if bad and self._lead_at is not None:
             first = given[self._lead_at]
             if type(first) is ndarray and first.ndim > 1:
-                return self._many(given, first.shape[:-1])
+                answer = self._many(stage, given, first.shape[:-1])
+        self.stages.append(stage)
         return answer
 
     def _own(self, stage: Stage, early: Any, known: Entry, new: Entry) -> int:
@@ -162,88 +162,98 @@ class Quick:
             answers[name] = read()
         return answers
 
-    def _many(self, given: Sequence[Any], lead: tuple[int, ...]) -> Any:
-        """Many states in arrays of one leading shape, or with one row for all of them."""
-        slot, count = self._early, lead[0] if len(lead) == 1 else math.prod(lead)
+    def _many(self, stage: Stage, given: Sequence[Any], lead: tuple[int, ...]) -> Any:
+        """Many states in arrays of one leading shape, or with one row for all of them, which the stage then holds."""
+        slot, rows, engine = self._early, stage.rows, self.engines.get("batch")
         early = None if slot is None else given[slot.place]
         if slot is None or early is None:
-            shared = self.standard
-            return None if shared is None else self._computed(given, lead, count, self._late, shared)
-        if type(early) is ndarray and early.ndim > 1:
+            if self.standard is None:
+                return None
+            if stage.shared is not self.standard:
+                stage.share(self.standard)
+        elif type(early) is ndarray and early.ndim > 1:
             if early.shape != lead + slot.shape or (early.dtype is not FLOAT and early.dtype != FLOAT):
                 return None
             if self.admit is not None:
                 self.admit(early)
-            return self._computed(given, lead, count, [*self._late, slot], None)
-        stage, answer = self.stage(), None
-        if self._own(stage, early, _made, self.parameters) == 0:
-            answer = self._computed(given, lead, count, self._late, stage.own)
-        self.stages.append(stage)
-        return answer
-
-    def _computed(
-        self, given: Sequence[Any], lead: tuple[int, ...], count: int, slots: Sequence[Slot], shared: Array | None
-    ) -> Any:
-        """Many states with one shared block, or each with its own."""
-        engine = self.engines.get("sweep" if shared is None else "batch")
+            rows, engine = [*rows, (slot, stage.hoisted, 0)], self.engines.get("sweep")
+        elif self._own(stage, early, _made, self.parameters) != 0:
+            return None
+        count = lead[0] if len(lead) == 1 else math.prod(lead)
         if engine is None or not count:
             return None
-        if count < engine.lanes:
-            return self._few(given, lead, count, engine.lanes, slots, shared)
+        if count >= engine.lanes:
+            return self._computed(stage, engine, rows, given, lead, count)
+        filled = _filled(rows, given, lead, count, engine.lanes)
+        if filled is None:
+            return None
+        answer = self._computed(stage, engine, rows, filled, (engine.lanes,), engine.lanes)
+        if type(answer) is dict:
+            return {name: array[:count].reshape(lead + array.shape[1:]) for name, array in answer.items()}
+        return None if answer is None else answer[:count].reshape(lead + answer.shape[1:])
+
+    def _computed(
+        self,
+        stage: Stage,
+        engine: Engine,
+        rows: Sequence[Row],
+        given: Sequence[Any],
+        lead: tuple[int, ...],
+        count: int,
+    ) -> Any:
+        """As many states as lanes, or more."""
         entries: list[int] = []
-        held: list[Array] = []  # what was made here, kept while the machine code reads it
-        for slot in slots:
-            if not _reads(entries, held, slot, given[slot.place], lead):
-                return None
+        try:
+            for slot, part, place in rows:
+                if not _reads(entries, slot, part, place, given[slot.place], lead):
+                    return None
+        except OverflowError:  # an integer beyond all floats
+            return None
         results = []
         for shape, size in self._sizes:
             made = np.empty(lead + shape)
             results.append(made)
             entries += (address(made), size, _WORD)
-        entries.append(0 if shared is None else address(shared))
+        entries.append(stage.table[1] or 0)
         pack = _PACKED.get(len(entries))
         if pack is None or engine.run(pack(*entries), count, self._threads) >= 0:
             return None  # something is not finite: where, is for the other way to find
-        return results[0] if len(results) == 1 else dict(zip(self._outputs, results, strict=True))
+        return results[0] if self._alone else dict(zip(self._outputs, results, strict=True))
 
-    def _few(
-        self,
-        given: Sequence[Any],
-        lead: tuple[int, ...],
-        count: int,
-        lanes: int,
-        slots: Sequence[Slot],
-        shared: Array | None,
-    ) -> Any:
-        """Fewer states than the machine code computes side by side: the last one fills up."""
-        filled: list[Any] = list(given)
-        for slot in slots:
-            array, size = given[slot.place], () if slot.scalar else slot.shape
-            if type(array) is ndarray and array.shape == lead + size and array.dtype == FLOAT:
-                filled[slot.place] = array.reshape(count, *size).take(_filling(count, lanes), 0)
-            elif type(array) is ndarray and array.shape != slot.shape:  # it might fit what is filled up
-                return None
-        answer = self._computed(filled, (lanes,), lanes, slots, shared)
-        if answer is None:
+
+def _filled(
+    rows: Sequence[Row], given: Sequence[Any], lead: tuple[int, ...], count: int, lanes: int
+) -> list[Any] | None:
+    """Fewer states than the machine code computes side by side, filled up by the last; None if that cannot be."""
+    filled = list(given)
+    for slot, _, _ in rows:
+        array, size = given[slot.place], () if slot.scalar else slot.shape
+        if type(array) is ndarray and array.shape == lead + size and array.dtype == FLOAT:
+            filled[slot.place] = array.reshape(count, *size).take(_filling(count, lanes), 0)
+        elif type(array) is ndarray and array.shape != slot.shape:  # it might fit what is filled up
             return None
-        if type(answer) is ndarray:
-            return answer[:count].reshape(lead + answer.shape[1:])
-        return {name: array[:count].reshape(lead + array.shape[1:]) for name, array in answer.items()}
+    return filled
 
 
-def _reads(entries: list[int], held: list[Array], slot: Slot, given: Any, lead: tuple[int, ...]) -> bool:
-    """Add a group of inputs to a table: its address, and strides in bytes; False if it needs a closer look."""
+def _reads(entries: list[int], slot: Slot, part: Array, place: int, given: Any, lead: tuple[int, ...]) -> bool:
+    """Add a group of inputs to a table: its address, and strides in bytes; False if it needs a closer look.
+
+    Numbers that stand in no array are written to ``part``, at the address ``place``.
+    """
     if type(given) is not ndarray:
         if given is None:
             if slot.address is None:
                 return False
             entries += (slot.address, 0, _WORD)
             return True
-        row = slot.row(given)
-        if row is None:
-            return False
-        held.append(row)
-        entries += (address(row), 0, _WORD)
+        if slot.scalar and type(given) in PLAIN:
+            part[0] = given
+        else:
+            numbers = slot.plain(given)
+            if numbers is None:
+                return False
+            part[...] = numbers
+        entries += (place, 0, _WORD)
         return True
     flags, shape = given.flags, given.shape
     if (given.dtype is not FLOAT and given.dtype != FLOAT) or not flags.aligned:

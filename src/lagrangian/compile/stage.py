@@ -7,7 +7,8 @@ import struct
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Any
+from operator import itemgetter
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,22 +53,53 @@ class Look:
 class Slot:
     """Where a group of inputs stands in a call, and what may stand there."""
 
-    __slots__ = ("address", "default", "pack", "place", "plain", "scalar", "shape", "size")
+    __slots__ = ("address", "default", "pack", "pick", "place", "places", "scalar", "shape", "size", "values")
 
     def __init__(self, place: int, group: Group) -> None:
-        self.place, self.size, self.scalar, self.plain = place, len(group.entries), group.scalar, group.plain
+        self.place, self.size, self.scalar, self.values = place, len(group.entries), group.scalar, group.defaults
         self.shape = (self.size,)
+        self.places = {name: k for k, name in enumerate(group.entries)}
+        self.pick = _picking(group.entries)
         self.pack = struct.Struct(f"{self.size}d").pack
         self.default: NDArray[np.float64] | None = None if None in group.defaults else np.array(group.defaults, float)
         self.address = None if self.default is None else address(self.default)
 
-    def row(self, given: Any) -> NDArray[np.float64] | None:
-        """Plain numbers as one row; None for whatever needs a closer look."""
-        numbers = (given,) if self.scalar and type(given) in PLAIN else self.plain(given)
-        try:
-            return None if numbers is None else np.array(numbers, FLOAT)
-        except OverflowError:  # an integer beyond all floats
+    def plain(self, given: Any) -> Sequence[float] | None:
+        """The numbers of a list, or of a mapping, one an entry; None for whatever needs a closer look."""
+        kind = type(given)
+        if kind is dict and len(given) == self.size:
+            try:
+                given = self.pick(given)
+            except KeyError:  # instead of this entry there is an unknown one
+                return None
+        elif kind is dict:
+            filled: list[Any] = list(self.values)
+            for name, value in given.items():
+                place = self.places.get(name)
+                if place is None:
+                    return None
+                filled[place] = value
+            given = filled
+        elif kind is not list and kind is not tuple:
             return None
+        if len(given) != self.size:
+            return None
+        for number in given:
+            if type(number) not in PLAIN:
+                return None
+        return given
+
+
+def _picking(names: Sequence[str]) -> Callable[[Any], Sequence[Any]]:
+    """What takes the values of all names out of a mapping, in that order."""
+    if len(names) == 1:
+        (only,) = names
+        return lambda given: (given[only],)
+    return itemgetter(*names) if names else tuple
+
+
+Row: TypeAlias = tuple[Slot, NDArray[np.float64], int]
+"""A group of inputs, where a stage holds one row of it, and the address of that."""
 
 
 class Stage:
@@ -75,10 +107,8 @@ class Stage:
 
     ``own`` is a shared block for parameters that are handed over with a state: those of the bytes ``key``. ``parts``
     are what is written before a call: place, array, shape (None for a single number), default (None: must be given;
-    `NOTHING`: no numbers at all), `Group.plain`. ``reads`` return new copies of the outputs.
+    `NOTHING`: no numbers at all), `Slot.plain`. ``reads`` return new copies of the outputs.
     """
-
-    __slots__ = ("hoisted", "key", "look", "out", "own", "parts", "reads", "scratch", "shared", "table", "where")
 
     def __init__(self, sizes: Sizes, slots: Sequence[Slot], shapes: Sequence[tuple[int, ...]]) -> None:
         block, self.hoisted, self.own = aligned(sum(sizes.groups)), aligned(sum(sizes.hoisted)), aligned(sizes.shared)
@@ -89,11 +119,13 @@ class Stage:
         self.shared: NDArray[np.float64] | None = None
         self.key: bytes | None = None
         self.look: Look | None = None
+        self.rows: list[Row] = []
         self.parts: list[tuple[int, NDArray[np.float64], tuple[int] | None, NDArray[np.float64] | None, Any]] = []
         start = 0
         for slot in slots:
             part = block[start : start + slot.size]
             shape = None if slot.scalar else slot.shape
+            self.rows.append((slot, part, self.table[0] + 8 * start))
             self.parts.append((slot.place, part, shape, slot.default if slot.size else NOTHING, slot.plain))
             start += slot.size
         self.reads: list[Callable[[], Any]] = []
@@ -105,8 +137,7 @@ class Stage:
 
     def share(self, shared: NDArray[np.float64]) -> None:
         """Point the table at a shared block."""
-        self.shared = shared
-        self.table[1] = address(shared)
+        self.shared, self.table[1] = shared, address(shared)
 
     def ask(self, look: Look) -> None:
         """Have hoisted values looked at by machine code from now on."""
