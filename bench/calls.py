@@ -174,7 +174,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--append", action="store_true")
     options = parser.parse_args()
-    tables = "\n\n".join([beside_peers(), forms(), before_runs()])
+    own = [forms(), before_runs()]  # before the peers are loaded, whose presence slows some of it
+    tables = "\n\n".join([beside_peers(), *own])
     text = f"## Calls\n\n`python bench/calls.py`, the least of {ROUNDS} rounds. {machine()}.\n\n{tables}\n"
     print(text)
     if options.append:
