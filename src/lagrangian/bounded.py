@@ -207,12 +207,12 @@ def _diff(expr: sp.Expr, symbol: Any) -> sp.Expr:
 
 
 def _bent(expr: sp.Basic) -> list[sp.Expr]:
-    """The outermost maxima and minima of three and more, and the outermost cases."""
+    """The outermost maxima and minima, and the outermost cases."""
     found: dict[sp.Expr, None] = {}
     stack, seen = [expr], {id(expr)}
     while stack:
         node = stack.pop()
-        if isinstance(node, sp.Piecewise) or (isinstance(node, (sp.Max, sp.Min)) and len(node.args) > 2):
+        if isinstance(node, (sp.Piecewise, sp.Max, sp.Min)):
             found[node] = None
             continue
         fresh = [a for a in node.args if id(a) not in seen]
@@ -226,7 +226,14 @@ def _case(node: sp.Expr, symbol: Any) -> sp.Expr:
     if isinstance(node, sp.Piecewise):
         cases = [(_diff(pair.args[0], symbol), pair.args[1]) for pair in cast("tuple[Any, ...]", node.args)]
     else:
-        is_it = sp.GreaterThan if isinstance(node, sp.Max) else sp.LessThan
+        is_it, beyond = (
+            (sp.GreaterThan, sp.StrictGreaterThan) if isinstance(node, sp.Max) else (sp.LessThan, sp.StrictLessThan)
+        )
+        if len(node.args) == 2:  # where both are one the first counts, as in the graph
+            a, b = cast("list[sp.Expr]", sorted(node.args, key=sp.default_sort_key))
+            first = sp.Piecewise((1, is_it(a, b, evaluate=False)), (0, True), evaluate=False)
+            second = sp.Piecewise((1, beyond(b, a, evaluate=False)), (0, True), evaluate=False)
+            return _diff(a, symbol) * first + _diff(b, symbol) * second
         arguments = cast("tuple[sp.Expr, ...]", node.args)
         cases = [(_diff(a, symbol), is_it(a, node, evaluate=False)) for a in arguments]
         cases[-1] = (cases[-1][0], sp.true)

@@ -18,6 +18,7 @@ from hypothesis import strategies as st
 from sympy.core.function import AppliedUndef
 from sympy.physics.mechanics import dynamicsymbols
 
+import lagrangian as lg
 from effort import at_most
 from lagrangian.derive.algebra import Algebra, Form, equations
 from lagrangian.derive.algebra.factor import Flat, Shortener
@@ -325,3 +326,29 @@ def test_factored_shapes_expand_to_what_they_came_from(terms: dict[tuple[int, ..
     assert sp.expand(written_out(tree) - original) == 0
     plain = sum(Shortener(lambda _: 0).product(c, mono).cost for mono, c in flat.items()) + len(flat) - 1
     assert tree.cost <= plain
+
+
+def test_maxima_between_moving_points_are_written_with_steps_that_a_reader_knows() -> None:
+    """V = ½ k max(0, x − y)²: the force is k max(0, x − y). V = k max(x, y): it is k on the one that is ahead."""
+    for potential, word in ((k * sp.Max(0, x - y) ** 2 / 2, "m ẍ + k max(0, x − y) = 0"), (k * sp.Max(x, y), "x ≥ y")):
+        system = lg.System("contact")
+        x1, y1 = system.coordinates("x y")
+        m1, k1 = system.parameters("m k", m=1.0, k=100.0)
+        for q in (x1, y1):
+            system.particle(m1, at=system.origin + (q, 0))
+        system.potential(potential.xreplace({x: x1, y: y1, k: k1}))
+        d = system.derive()
+        assert word in d.to_text() and "Heaviside" not in d.to_text() + d.to_latex() + d.to_html()
+        for place in ([0.7, 0.5], [0.5, 0.7], [0.5, 0.5]):  # the last where both are the greatest
+            at = {m1: 1.0, k1: 100.0, x1.diff().diff(): 0.0, y1.diff().diff(): 0.0, x1: place[0], y1: place[1]}
+            forces = [float(e.lhs.subs(list(at.items()))) for e in d.equations]
+            assert system.compile().forward(place, [0.0, 0.0]) == pytest.approx([-f for f in forces])
+
+
+def test_a_step_given_by_sympy_is_written_as_cases() -> None:
+    s = lg.System("step")
+    x = s.coordinate("x")
+    s.particle(s.parameter("m", 1.0), at=s.origin + (x, 0))
+    s.force(sp.Heaviside(x), deflection=x)
+    d = s.derive()
+    assert "Heaviside" not in d.to_text() + d.to_latex() + d.to_markdown()

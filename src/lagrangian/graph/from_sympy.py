@@ -184,7 +184,8 @@ def _operation(graph: Graph, e: Any, done: Mapping[Any, int]) -> int:
     if isinstance(e, sp.atan2):
         return graph.atan2(a[0], a[1])
     if isinstance(e, (sp.Min, sp.Max)):
-        return _chain(graph.min if isinstance(e, sp.Min) else graph.max, a)
+        ordered = [done[x] for x in sorted(e.args, key=sp.default_sort_key)]  # SymPy's order changes from run to run
+        return _chain(graph.min if isinstance(e, sp.Min) else graph.max, ordered)
     if isinstance(e, sp.Heaviside):  # 0 below, 1 above, and at 0 what its second argument says
         return graph.select(
             graph.lt(a[0], graph.zero), graph.zero, graph.select(graph.lt(graph.zero, a[0]), graph.one, a[1])

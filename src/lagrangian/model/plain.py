@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import sympy as sp
 from sympy.printing.precedence import precedence
@@ -47,9 +47,19 @@ class _Plain(StrPrinter):
                 parts += [self._print(condition), self._print(value)]
         return "piecewise(" + ", ".join(parts) + ")"
 
+    def _print_Heaviside(self, expr: Any) -> str:
+        return self._print(as_cases(expr))
+
     def _print_Relational(self, expr: Any) -> str:
         left, right = (self.parenthesize(side, precedence(expr)) for side in expr.args)
         return f"{left} {expr.rel_op} {right}"
+
+
+def as_cases(step: Any) -> sp.Piecewise:
+    """Return SymPy's step Heaviside(u, h) as cases: 0 where u < 0, 1 where u > 0, else h."""
+    u, half = step.args
+    cases = (0, sp.Lt(u, 0, evaluate=False)), (1, sp.Gt(u, 0, evaluate=False)), (half, True)
+    return cast("sp.Piecewise", sp.Piecewise(*cases, evaluate=False))
 
 
 def plain(expr: sp.Basic) -> str:

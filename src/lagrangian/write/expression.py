@@ -12,6 +12,7 @@ from sympy.core.relational import Relational
 from sympy.logic.boolalg import BooleanFunction
 
 from lagrangian.model import Model, time
+from lagrangian.model.plain import as_cases
 from lagrangian.write.math import (
     FUNCTIONS,
     Apply,
@@ -80,6 +81,8 @@ class Expressions:
                 return self._number(expr)
             case sp.Piecewise():
                 return self._piecewise(expr)
+            case sp.Heaviside():
+                return self._piecewise(as_cases(expr))
             case sp.Abs():
                 return Fence(self(expr.args[0]), "|", "|")
             case sp.Function() | sp.Min() | sp.Max():

@@ -46,7 +46,7 @@ class LagrangianForm:
                     forces[i] = forces[i] + effort * sp.diff(rate, c.rate)
         T, V = (model.expand(cast("sp.Expr", e), constants=True) for e in (T, V))
         gone = dict.fromkeys(vanishing, sp.S.Zero)
-        made = [cast("sp.Expr", sp.sympify(e).subs(gone)) if gone else e for e in (T, V, *forces)]
+        made = [cast("sp.Expr", sp.sympify(e).xreplace(gone)) for e in (T, V, *forces)]
         if any(e.has(sp.zoo, sp.nan, sp.oo) for e in made):
             raise ModelError(
                 f"the energies and forces have no value where {', '.join(map(str, gone))} = 0",

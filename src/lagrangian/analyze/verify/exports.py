@@ -34,6 +34,9 @@ TOLERANCE = 1e-9
 COMPILERS = ("cc", "gcc", "clang")
 """C compilers that take these options, in the order in which they are looked for."""
 
+OPTIONS = ("-std=c99", "-O1", "-ffp-contract=off", "-shared", "-fPIC")
+"""What the exported C is compiled with: products and sums rounded one by one, as where it is evaluated slowly."""
+
 PATIENCE = 300
 """[s] after which a C compiler is given up."""
 
@@ -93,7 +96,7 @@ def _c(programs: Mapping[str, Program], texts: Mapping[str, str], states: Sequen
     for file_name, source in texts.items():
         (folder / file_name).write_text(source, encoding="utf-8")
     library = folder / f"{STEM}.shared"
-    command = [compiler, "-std=c99", "-O1", "-shared", "-fPIC", "-o", str(library), str(folder / f"{STEM}.c"), "-lm"]
+    command = [compiler, *OPTIONS, "-o", str(library), str(folder / f"{STEM}.c"), "-lm"]
     try:
         done = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, check=False)
     except (OSError, subprocess.TimeoutExpired) as error:

@@ -150,17 +150,22 @@ class Form:
         slow: list[Form] = []
         for (h, s), p in self.parts.items():
             here = out.setdefault((h, s), {})
-            by_form: dict[int, tuple[Form, Poly]] = {}
+            by_form: dict[tuple[int, bool], tuple[Form, Poly]] = {}
             for m, c in p.items():
                 for i, e in digits(m):
                     rate = of_generator(i)
                     if rate is None:
                         continue
                     lower = m - unit(i)
-                    if isinstance(rate, int):
+                    ramp = algebra.generators.ramp(i) if e > 1 else None
+                    if ramp is not None:  # max(0, u)² has the derivative 2 max(0, u) u'
+                        if (i, True) not in by_form:
+                            by_form[i, True] = ramp._derived(of_generator, of_angle), {}
+                        by_form[i, True][1][lower] = c * e
+                    elif isinstance(rate, int):
                         here[lower + rate] = here.get(lower + rate, 0) + c * e
                     else:
-                        by_form.setdefault(i, (rate, {}))[1][lower] = c * e
+                        by_form.setdefault((i, False), (rate, {}))[1][lower] = c * e
             slow += [Form(algebra, {(h, s): q}, self.den) * rate for rate, q in by_form.values()]
             for j, k in multiples(h):
                 rate = of_angle(j)

@@ -241,6 +241,14 @@ class Generators:
         slope = bounded.diff(cast("sp.Expr", bounded.replaced(entry.expr, real)), real[symbol])
         return _or_none(self.algebra.form(cast("sp.Expr", bounded.replaced(slope, back))))
 
+    def ramp(self, i: int) -> Form | None:
+        """u where generator i is max(0, u) or min(0, u)."""
+        entry = self.table[i]
+        if not (isinstance(entry, Opaque) and isinstance(entry.expr, (sp.Max, sp.Min)) and len(entry.expr.args) == 2):
+            return None
+        first, second = sorted(entry.expr.args, key=sp.default_sort_key)
+        return self.algebra.form(cast("sp.Expr", second)) if first == 0 else None
+
     def angle_partial(self, j: int, g: int) -> int | Form | None:
         """∂(angle j)/∂(generator g)."""
         key = ("angle", j, g)
