@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import islice, product
 from typing import Any, cast
 
@@ -248,7 +249,8 @@ class Glance:
         equations = [line.expr for line in lines if line.kind == "equation"]
         self._equations = bool(equations)
         energy = next((line for line in lines if line.kind in ("T", "V", "L")), None)
-        self._right = {"T": truth.T, "V": truth.V, "L": truth.L}[energy.kind] if energy is not None else None
+        right = [{"T": truth.T, "V": truth.V, "L": truth.L}[energy.kind]] if energy is not None else []
+        self._own = Compiled([] if equations else right)
         chosen = equations or ([energy.expr] if energy is not None else [])
         self._compiled = Compiled(chosen)
 
@@ -259,9 +261,9 @@ class Glance:
         return int(self._true(change).sum())
 
     def _true(self, change: Change) -> Array:
-        states, truth = self.truth.states, self.truth
-        truly = self._compiled.at(states, self._values(change, truth.accelerations))
-        off = self._compiled.at(states, self._values(change, None))
+        states = self.truth.states
+        truly = self._compiled.at(states, self._values(change, truly=True))
+        off = self._compiled.at(states, self._values(change, truly=False))
         good = np.isfinite(truly) & np.isfinite(off)
         scale = np.where(good, np.abs(off), 0).max(axis=1)
         small = np.where(good, np.abs(truly), 0).max(axis=1) <= CLOSE * scale
@@ -273,25 +275,27 @@ class Glance:
             return False
         states = self.truth.states
         if not self._equations:
-            moved = self._compiled.at(states, self._values(change, None))[0]
-            own = Compiled([cast("sp.Expr", self._right)]).at(states)[0]
+            moved = self._compiled.at(states, self._values(change, truly=False))[0]
+            own = self._own.at(states)[0]
             rest = (moved - own).reshape(2, -1)
             rest = rest - rest[:, :1]
             return bool(np.isfinite(rest).all() and np.abs(rest).max() <= 1e-6 * (1 + np.abs(own).max()))
         return bool(self._true(change).all())
 
-    def _values(self, change: Change, accelerations: Mapping[sp.Basic, Array] | None) -> dict[sp.Basic, Array]:
-        states = self.truth.states
-        exprs: list[sp.Expr] = []
-        symbols: list[sp.Basic] = []
+    def _values(self, change: Change, *, truly: bool) -> dict[sp.Basic, Array]:
+        accelerations = self.truth.accelerations if truly else {}
+        out: dict[sp.Basic, Array] = dict(accelerations)
         for eta, psi in change.table.items():
-            rate = sp.diff(psi, time)
-            symbols += [eta, sp.Derivative(eta, time), sp.Derivative(eta, (time, 2))]
-            exprs += [psi, rate, sp.diff(rate, time)]
-        values = Compiled(exprs).at(states, accelerations)
-        out: dict[sp.Basic, Array] = dict(accelerations or {})
-        out.update(zip(symbols, values, strict=True))
+            symbols = (eta, sp.Derivative(eta, time), sp.Derivative(eta, (time, 2)))
+            out.update(zip(symbols, _motion(psi).at(self.truth.states, accelerations), strict=True))
         return out
+
+
+@lru_cache(maxsize=1024)
+def _motion(psi: sp.Expr) -> Compiled:
+    """ψ, ψ̇ and ψ̈ as one graph, made once for the changes of all answers."""
+    rate = sp.diff(psi, time)
+    return Compiled([psi, rate, sp.diff(rate, time)])
 
 
 # -- the system in the answer's coordinates ---------------------------------------------------------------------------
