@@ -224,6 +224,18 @@ def test_an_exported_source_with_a_fault_is_noticed(
     assert failing(crane().verify(states=2)) == {noticed}
 
 
+def test_the_exported_c_is_compiled_without_fused_products(
+    monkeypatch: pytest.MonkeyPatch, sound: tuple[Check, ...]
+) -> None:
+    """Where the processor has them, a compiler may round a·b + c once, and sums that cancel lose other digits."""
+    if said(sound)[C] is None:
+        pytest.skip("no C compiler here")
+    commands, run = [], exports.subprocess.run
+    monkeypatch.setattr(exports.subprocess, "run", lambda command, **how: commands.append(command) or run(command, **how))
+    assert not failing(crane().verify(states=1))
+    assert commands and all("-ffp-contract=off" in command for command in commands)
+
+
 def test_without_a_compiler_the_c_source_is_said_not_to_be_checked(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(exports.shutil, "which", lambda name: None)
     (check,) = [c for c in crane().verify(states=1) if str(c.what) == C]

@@ -15,6 +15,7 @@ from typer.testing import CliRunner
 import lagrangian as lg
 from lagrangian.commands.app import app
 from lagrangian.errors import RunError
+from lagrangian.running import switching
 from lagrangian.running.driving import driving
 from lagrangian.running.switching import with_stops
 
@@ -135,6 +136,33 @@ def test_a_smooth_pulse_reaches_every_run_of_an_ensemble() -> None:
     s = oscillator(m=1.0, k=0.0, b=0.0)
     runs = s.ensemble(100.0, initial={"q": np.arange(9.0)}, inputs={"F": NARROW})
     assert runs["final q'"] == pytest.approx(np.full(9, GAIN), abs=1e-8)
+
+
+def narrow() -> lg.System:
+    """A mass that a pulse of a millisecond pushes at t = t1."""
+    s = oscillator(m=1.0, k=0.0, b=0.0)
+    s.parameter("t1", 1.0)
+    return s
+
+
+PULSE = "100*exp(-((t - t1)/0.001)^2)"
+
+
+def test_a_smooth_pulse_at_a_hundred_different_times_reaches_every_run() -> None:
+    runs = narrow().ensemble(100.0, params={"t1": np.linspace(1.0, 99.0, 100)}, inputs={"F": PULSE}, outputs="q'")
+    assert runs["q'"] == pytest.approx(np.full(100, 0.1 * np.sqrt(np.pi)), abs=1e-8) and not runs.notices
+
+
+@pytest.mark.parametrize("varied", [{"t1": np.linspace(1.0, 99.0, 1100)}, {"t1": np.linspace(1.0, 99.0, 700)}])
+def test_pulses_at_too_many_different_times_are_told(varied: dict, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(switching, "MOST_PULSES", 2000)
+    runs = narrow().ensemble(100.0, params=varied, inputs={"F": PULSE}, outputs="q'", rtol=1e-3)
+    (said,) = runs.notices
+    assert "narrow at different times in too many runs" in said and "max_step" in said
+    short = narrow().ensemble(1.0, params=varied, inputs={"F": PULSE}, outputs="q'", rtol=1e-3, max_step=0.1)
+    assert not short.notices
+    calm = narrow().ensemble(1.0, params=varied, inputs={"F": "sin(t - t1)"}, outputs="q'", rtol=1e-3)
+    assert not calm.notices
 
 
 def test_a_force_that_is_nowhere_narrow_has_no_stops() -> None:

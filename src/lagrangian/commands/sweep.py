@@ -14,6 +14,7 @@ from lagrangian.commands.progress import status
 from lagrangian.commands.simulate import PICTURES
 from lagrangian.commands.sweep_summary import figures, summary
 from lagrangian.commands.terminal import Example, Force, open_system
+from lagrangian.commands.wording import in_options
 from lagrangian.errors import Error
 from lagrangian.interrupts import interrupts
 from lagrangian.running.ensemble import ENDINGS, Ensemble, write_csv
@@ -199,7 +200,7 @@ def _put(runs: Ensemble, output: Path | None, stored: bool, force: bool, json: b
     elif output is None:
         put(summary(runs))
     for notice in runs.notices:
-        say(f"note: {notice}")
+        say(f"note: {in_options(notice)}")
     failures = runs.failures(LISTED)
     if failures:
         count = int((runs.status < 0).sum())

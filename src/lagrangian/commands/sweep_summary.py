@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from lagrangian.commands.wording import in_options
 from lagrangian.running.ensemble import Ensemble
 from lagrangian.write import Title
 
@@ -47,7 +48,7 @@ def figures(runs: Ensemble) -> dict[str, Any]:
         "method": str(runs.settings["method"]),
         "endings": {words: int(n) for words, n in runs.counts.items()},
         "failed": int((runs.status < 0).sum()),
-        "notices": list(runs.notices),
+        "notices": [in_options(notice) for notice in runs.notices],
         "results": [asdict(r) for r in _results(runs)],
     }
 

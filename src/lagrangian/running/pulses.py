@@ -72,9 +72,10 @@ class Pulses:
     def times(self, p: Array, u: Array, start: float, end: float) -> Array:
         """The times in (start, end) at which some function becomes narrower or wider."""
         key = (*self._key, p.tobytes(), u.tobytes(), start, end)
-        return remembered(self._model, key, lambda: self._times(p, u, start, end))
+        return remembered(self._model, key, lambda: self.times_anew(p, u, start, end))
 
-    def _times(self, p: Array, u: Array, start: float, end: float) -> Array:
+    def times_anew(self, p: Array, u: Array, start: float, end: float) -> Array:
+        """The same, not remembered: for many sets of parameters."""
         count = len(self.nodes)
         leaves: list[tuple[Array, Array, NDArray[np.bool_]]] = []
         low, width = np.array([0.0]), 1.0

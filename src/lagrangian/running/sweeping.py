@@ -134,7 +134,7 @@ def _done(model: Model, varying: Varying, wanted: Wanted, inputs: dict[Any, Any]
     check_covers(drive, float(times[0]), float(times[-1]))
     design = varying.design()
     longest = math.inf if wanted.max_step == math.inf else number(wanted.max_step, "max_step", SECOND)
-    drive = with_stops_of_all(model, drive, design, times, longest)
+    drive, said = with_stops_of_all(model, drive, design, times, longest)
     varied = [name for group, name in varying.columns if group == "p"]
     check_masses(model, design.base["p"], varied)
     study, expressions = study_of(model, wanted, drive, times)
@@ -150,14 +150,16 @@ def _done(model: Model, varying: Varying, wanted: Wanted, inputs: dict[Any, Any]
     if way.store is None:
         if way.resume or way.overwrite:
             raise RunError("resume and overwrite apply only to a store", fix=Advice(STORE), code="E501")
-        return _in_memory(study, design, plan, executor, way.progress)
+        made = _in_memory(study, design, plan, executor, way.progress)
+        made.notices = said
+        return made
     path = Path(way.store)
     if path.suffix != ".zarr":
         raise RunError(f"the store '{path.name}' must end in .zarr", fix=Advice(STORE), code="E801")
     with resume(path, plan) if way.resume and path.exists() else create(path, plan, overwrite=way.overwrite) as sink:
         carry_out(study, design, sink.portions, sink, executor=executor, progress=way.progress)
     made = Ensemble.of_store(path)
-    made.notices = tuple(sink.notices)
+    made.notices = (*said, *sink.notices)
     return made
 
 

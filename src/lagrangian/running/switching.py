@@ -36,8 +36,8 @@ ROUNDS = 1100
 MOST_RUNS, MOST_DIFFERENT = 100_000, 1000
 """Runs that are looked through for different times of switches, and runs with different ones, at most."""
 
-MOST_PULSES = 32
-"""Different sets of pulses, in an ensemble, at which steps end, at most."""
+MOST_PULSES, SOME = 10_000, 32
+"""Ends of steps at the pulses of all runs of an ensemble, at most; runs that are looked at where there are too many."""
 
 NOT_FINITE = "E503"
 
@@ -170,15 +170,30 @@ def with_stops(model: Model, drive: Driving, p: Array, times: Array) -> Driving:
     return replace(drive, stops=merged(np.concatenate(found), start, end)) if found else drive
 
 
-def with_stops_of_all(model: Model, drive: Driving, design: Design, times: Array, max_step: float) -> Driving:
+def with_stops_of_all(
+    model: Model, drive: Driving, design: Design, times: Array, max_step: float
+) -> tuple[Driving, tuple[Advice, ...]]:
     """The same driving with the times at which conditions in time switch in any run of an ensemble, and of pulses.
 
     Where these differ from run to run, every run's steps end at all of them. Raises `RunError` where conditions switch
-    at too many different times, unless steps are bounded by ``max_step``. Pulses that differ in more than
-    `MOST_PULSES` ways are left to that bound.
+    at too many different times, unless steps are bounded by ``max_step``. Pulses at too many times are left to that
+    bound, and a notice says so where there is none.
     """
-    found = [*_switches_of_all(model, drive, design, times, max_step), *_pulses_of_all(model, drive, design, times)]
-    return replace(drive, stops=merged(np.concatenate(found), float(times[0]), float(times[-1]))) if found else drive
+    found = _switches_of_all(model, drive, design, times, max_step)
+    narrow = _pulses_of_all(model, drive, design, times)
+    said: tuple[Advice, ...] = ()
+    if narrow is None and not math.isfinite(max_step):
+        said = (
+            Advice(
+                "an input is narrow at different times in too many runs: steps do not end there, and a run may jump "
+                "over a pulse. Limit the steps to less than the shortest one: ",
+                Argument("max_step", "0.01"),
+            ),
+        )
+    found += narrow or []
+    if found:
+        drive = replace(drive, stops=merged(np.concatenate(found), float(times[0]), float(times[-1])))
+    return drive, said
 
 
 def _constants(drive: Driving, times: Array) -> Array:
@@ -186,21 +201,28 @@ def _constants(drive: Driving, times: Array) -> Array:
     return drive.at(times[:1], np.zeros((1, drive.size)))[0] if drive.constant else np.zeros(len(drive.free))
 
 
-def _pulses_of_all(model: Model, drive: Driving, design: Design, times: Array) -> list[Array]:
-    """The times of narrow functions of time in the runs of an ensemble, where they are the same in most of them."""
+def _pulses_of_all(model: Model, drive: Driving, design: Design, times: Array) -> list[Array] | None:
+    """The times of narrow functions of time in the runs of an ensemble; None where there are too many."""
     pulses = Pulses(model, drive)
+    if not pulses:
+        return []
     deciding = pulses.parameters
-    listed = [c for c in design.columns if c.group == "p" and c.index in deciding]
-    if not pulses or any(c.group == "u" for c in design.columns) or (listed and design.count > MOST_RUNS):
-        return []
-    p = np.array(design.base["p"])[np.newaxis]
+    listed = any(c.group == "p" and c.index in deciding for c in design.columns)
+    known = not any(c.group == "u" for c in design.columns)
+    p, u = np.array(design.base["p"])[np.newaxis], _constants(drive, times)
     if listed:
-        p = design.rows(0, design.count).p
+        known = known and design.count <= MOST_RUNS
+        p = design.rows(0, design.count if known else SOME).p
         p = p[np.unique(p[:, sorted(deciding)], axis=0, return_index=True)[1]]
-    if len(p) > MOST_PULSES:
-        return []
-    u = _constants(drive, times)
-    return [pulses.times(np.ascontiguousarray(row), u, float(times[0]), float(times[-1])) for row in p]
+    times_of = pulses.times if len(p) == 1 else pulses.times_anew
+    known = known and len(p) <= MOST_DIFFERENT
+    found, total = [], 0
+    for row in p if known else p[:: max(1, len(p) // SOME)]:
+        found.append(times_of(np.ascontiguousarray(row), u, float(times[0]), float(times[-1])))
+        total += len(found[-1])
+        if total > (MOST_PULSES if known else 0):
+            return None
+    return found
 
 
 def _switches_of_all(model: Model, drive: Driving, design: Design, times: Array, max_step: float) -> list[Array]:
