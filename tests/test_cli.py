@@ -144,7 +144,7 @@ def test_standard_input_is_read(capsys: pytest.CaptureFixture[str], monkeypatch:
 
 def test_a_reader_that_goes_away_is_no_traceback() -> None:
     with subprocess.Popen(
-        [sys.executable, "-m", "lagrangian", "derive", "-e", "lecture-2"],
+        [sys.executable, "-m", "lagrangian", "derive", "-e", "lecture-1"],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
     ) as process:

@@ -3,7 +3,6 @@
 import json
 from typing import Any
 
-import control
 import mpmath
 import numpy as np
 import pytest
@@ -227,6 +226,8 @@ def test_a_mass_that_is_negative_at_the_given_values_is_refused() -> None:
 
 def test_python_control_linearizes_the_same_motion_to_its_own_accuracy() -> None:
     """control.linearize takes difference quotients of the compiled right-hand side."""
+    import control  # two seconds for the processes that need none of it
+
     for name, at in (("cart-pole", {}), ("acrobot", {}), ("lecture-2", {"theta1": -np.pi / 2})):
         system = built_in(name)
         found, dyn = system.linearize(at), system.compile()

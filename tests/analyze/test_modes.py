@@ -7,7 +7,6 @@ import subprocess
 import sys
 from typing import Any
 
-import control
 import numpy as np
 import pytest
 import scipy.linalg
@@ -82,6 +81,8 @@ def test_poles_of_an_overdamped_oscillator_are_real() -> None:
     "name", ["lecture-1", "acrobot", "cart-pole", "quarter-car", "three-masses", "furuta-pendulum"]
 )
 def test_poles_are_those_of_python_control(name: str) -> None:
+    import control  # two seconds for the processes that need none of it
+
     found = built_in(name).linearize()
     system = found.to_control()
     assert system.state_labels == list(found.states) and system.input_labels == list(found.inputs)
@@ -304,6 +305,8 @@ def test_the_report_names_momentum_once() -> None:
 
 @pytest.mark.parametrize("name", ["acrobot", "ball-and-beam", "cart-pole", "segway", "furuta-pendulum", "lecture-2"])
 def test_ranks_are_those_of_python_controls_matrices(name: str) -> None:
+    import control  # two seconds for the processes that need none of it
+
     system = built_in(name)
     found = system.linearize(system.equilibria()[0])
     assert found.controllability.rank == np.linalg.matrix_rank(control.ctrb(found.A, found.B), tol=1e-8)

@@ -22,6 +22,7 @@ import platformdirs
 MAGIC = b"lagrangian object 1\n"
 SUM = 32  # bytes of a SHA-256
 LIMIT = 256 * 2**20  # bytes kept in all; the least recently written go first
+_room: dict[Path, int] = {}  # bytes this process may write to a directory before it looks again what is there
 
 
 def directory() -> Path | None:
@@ -65,7 +66,9 @@ def write(key: str, code: bytes) -> bool:
             with contextlib.suppress(OSError):
                 Path(beside).unlink()
         return False
-    _trim(place)
+    _room[place] = _room.get(place, 0) - len(code)
+    if _room[place] < 0:
+        _room[place] = _trim(place)
     return True
 
 
@@ -80,13 +83,14 @@ def _ours(place: Path) -> bool:
     return status.st_uid == os.geteuid() and not status.st_mode & 0o022
 
 
-def _trim(place: Path) -> None:
-    """Remove the oldest files while all together exceed the limit."""
+def _trim(place: Path) -> int:
+    """Remove the oldest files while all together exceed the limit; return after how many bytes to look again."""
     with contextlib.suppress(OSError):  # another process may be trimming too
         files = [(entry.stat(), entry) for entry in place.iterdir()]
         total = sum(status.st_size for status, _ in files)
         for status, entry in sorted(files, key=lambda pair: pair[0].st_mtime):
             if total <= LIMIT:
-                return
+                return (LIMIT - total) // 8  # other processes write as well
             entry.unlink()
             total -= status.st_size
+    return 0

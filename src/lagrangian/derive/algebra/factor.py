@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from math import gcd, lcm
 
 import sympy as sp
@@ -181,7 +182,7 @@ class Shortener:
             return None
         if key not in self._factors:
             self.budget -= 200
-            self._factors[key] = _factors(shape, len(letters))
+            self._factors[key] = _factors(key, len(letters))
         found = self._factors[key]
         if found is None:
             return None
@@ -199,8 +200,10 @@ class Shortener:
         return [({0: sign}, 1), *named] if sign != 1 else named
 
 
-def _factors(shape: dict[tuple[int, ...], int], letters: int) -> list[tuple[Flat, int]] | None:
+@lru_cache(maxsize=4096)
+def _factors(terms: frozenset[tuple[tuple[int, ...], int]], letters: int) -> list[tuple[Flat, int]] | None:
     """The irreducible factors over the integers, letters numbered 0, 1, …; None where the polynomial is one."""
+    shape = dict(terms)
     if min(sum(1 for m in shape if m[k]) for k in range(letters)) == 1 and all(max(m) <= 1 for m in shape):
         lonely = next(k for k in range(letters) if sum(1 for m in shape if m[k]) == 1)
         if sum(1 for m in shape if m[lonely]) == 1 and len(shape) > 1:
