@@ -231,7 +231,12 @@ def test_the_exported_c_is_compiled_without_fused_products(
     if said(sound)[C] is None:
         pytest.skip("no C compiler here")
     commands, run = [], exports.subprocess.run
-    monkeypatch.setattr(exports.subprocess, "run", lambda command, **how: commands.append(command) or run(command, **how))
+
+    def watched(command: list[str], **how: Any) -> Any:
+        commands.append(command)
+        return run(command, **how)
+
+    monkeypatch.setattr(exports.subprocess, "run", watched)
     assert not failing(crane().verify(states=1))
     assert commands and all("-ffp-contract=off" in command for command in commands)
 

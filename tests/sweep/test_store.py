@@ -53,6 +53,28 @@ def test_chunks_are_written_marked_and_read_back(tmp_path: pathlib.Path) -> None
     assert made.done.all()
 
 
+def test_to_other_readers_a_run_that_is_not_done_says_so(tmp_path: pathlib.Path) -> None:
+    """A kill between two arrays of a chunk: its status is not there yet, whatever else is."""
+    import xarray
+
+    path, plans = tmp_path / "a.zarr", plan()
+    plans.results["count up"] = Variable("int32", ("k", "run"), (3, 10))
+    plans.results["status"] = plans.results.pop("status")  # the last, as in a sweep
+    more = {k: values(k) | {"count up": np.full(len(values(k)["max x"]), 2, np.int32)} for k in (0, 1)}
+    with store.create(path, plans) as made:
+        made.write(0, PORTIONS.box(0), more[0])
+        del more[1]["status"]
+        with pytest.raises(KeyError):
+            made.write(1, PORTIONS.box(1), more[1])
+    data = xarray.open_zarr(path, chunks=None, consolidated=False)
+    there = np.zeros((3, 10), bool)
+    there[PORTIONS.box(0)] = True
+    assert (data["status"].values == np.where(there, 0, NOT_RUN)).all()
+    there[PORTIONS.box(1)] = True
+    assert (data["count up"].values == np.where(there, 2, -1)).all()
+    assert (np.isnan(data["max x"].values) == ~there).all()
+
+
 def test_xarray_opens_it(tmp_path: pathlib.Path) -> None:
     import xarray
 

@@ -106,9 +106,10 @@ class Store:
     def write(self, index: int, box: tuple[slice, ...], values: Values) -> None:
         """Write the results of a chunk, then its marks."""
         with explained(self.path, "write", self._kept):
+            sizes = tuple(part.stop - part.start for part in box)
             for name in self.document.results:
-                sizes = tuple(part.stop - part.start for part in box)
                 self.document.chunk(name, index).unlink(missing_ok=True)  # of an end in the middle: never read
+            for name in self.document.results:  # the status last: other readers go by it
                 self._arrays[name][(*box, ...)] = values[name].reshape(*sizes, *values[name].shape[1:])
             self._mark(index, [self.document.mark(name, index) for name in self.document.results])
         self.done[index] = True

@@ -55,7 +55,7 @@ def explained(path: Path, verb: str, kept: Callable[[], str] | None = None) -> I
 
 def fill(dtype: str, name: str) -> float | int:
     """What stands where a run has no result."""
-    return np.nan if dtype.startswith("float") else NOT_RUN if name == "status" else 0
+    return np.nan if dtype.startswith("float") else NOT_RUN if name == "status" else -1
 
 
 def opened(document: Document, mode: str) -> dict[str, Any]:
