@@ -15,9 +15,8 @@ from typing import Any
 
 import pytest
 
-import lagrangian as lg
 import size
-from lagrangian import examples
+from built_in import derivation
 from lagrangian.analyze import check
 from lagrangian.checking import CheckedAnswer, check_answer
 
@@ -61,14 +60,8 @@ WRONG = {"wrong": check.Status.WRONG, "incomplete": check.Status.INCOMPLETE}
 
 
 @cache
-def derivation(system: str) -> lg.Derivation:
-    return lg.loads(examples.text(system), name=system).derive()
-
-
-@cache
 def verdicts(system: str) -> list[tuple[dict[str, Any], CheckedAnswer]]:
-    d = derivation(system)
-    return [(a, check_answer(d, a["text"])) for a in RUN if a["system"] == system]
+    return [(a, check_answer(derivation(system), a["text"])) for a in RUN if a["system"] == system]
 
 
 def named(answer: dict[str, Any], verdict: CheckedAnswer) -> bool:

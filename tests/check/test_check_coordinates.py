@@ -1,20 +1,13 @@
 """Answers in other coordinates: stated, named, or without a word; and what is not let through as such."""
 
-from functools import cache
-
 import pytest
 
-from lagrangian import System, examples, loads
+from built_in import derivation as derived
+from lagrangian import System
 from lagrangian.analyze.check import Status
-from lagrangian.derivation import Derivation
 
 RELATIVE = "(m1 + m2)*x1'' + m2*{s}'' = 0\nm2*x1'' + m2*{s}'' + k*{s} = F"
 ABSOLUTE = "m1*x1'' - k*({x} - x1) = -F\nm2*{x}'' + k*({x} - x1) = F"
-
-
-@cache
-def derived(name: str) -> Derivation:
-    return loads(examples.text(name)).derive()
 
 
 @pytest.mark.parametrize(

@@ -1,13 +1,10 @@
 """Energies, forces and whole hand derivations, line by line; and answers that are none."""
 
-from functools import cache
-
 import pytest
 
+from built_in import derivation as derived
 from effort import at_most
-from lagrangian import examples, loads
 from lagrangian.analyze.check import Status
-from lagrangian.derivation import Derivation
 
 HAND = """
 # example 3B by hand
@@ -21,11 +18,6 @@ dL/dx1' = m1*x1' + m2*(x1' + x2r')
 (1) (m1 + m2)*x1'' + m2*x2r'' = 0
 (2) m2*x1'' + m2*x2r'' + k*x2r = F
 """
-
-
-@cache
-def derived(name: str) -> Derivation:
-    return loads(examples.text(name)).derive()
 
 
 CALLS = 10_000_000

@@ -1,15 +1,14 @@
 """Mistakes made by hand are named; every misconception is a file with a name, words, and systems to be made in."""
 
 from collections import Counter
-from functools import cache
 from pathlib import Path
 
 import pytest
 
+from built_in import derivation as derived
 from lagrangian import examples, loads
 from lagrangian.analyze.check import effects, misconceptions
 from lagrangian.analyze.check.misconceptions import MISCONCEPTIONS, Ingredients
-from lagrangian.derivation import Derivation
 from size import also_in_full, cases
 
 PENDULUM_R = "m*r'' - m*r*theta'^2 + k*(r - L_0) - m*g*cos(theta) = 0"
@@ -95,11 +94,6 @@ BY_HAND = [
 
 
 NAMES = [f"{n}-{m}-{k}" for k, (n, _, m) in enumerate(BY_HAND)]
-
-
-@cache
-def derived(name: str) -> Derivation:
-    return loads(examples.text(name)).derive()
 
 
 @also_in_full

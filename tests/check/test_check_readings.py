@@ -7,7 +7,8 @@ from functools import cache
 
 import pytest
 
-from lagrangian import examples, loads
+from built_in import derivation
+from lagrangian import loads
 from lagrangian.analyze.check import Status
 from lagrangian.derivation import Derivation
 
@@ -41,7 +42,7 @@ PENDULUM = (
 
 @cache
 def derived(name: str) -> Derivation:
-    return loads(MOTOR if name == "motor" else examples.text(name)).derive()
+    return loads(MOTOR).derive() if name == "motor" else derivation(name)
 
 
 @pytest.mark.parametrize(

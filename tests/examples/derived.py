@@ -2,18 +2,11 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import sympy as sp
 from kane_route import Residual, residual, t
 
 import lagrangian as lg
-from lagrangian import examples
-
-
-@cache
-def derivation(name: str) -> lg.Derivation:
-    return lg.loads(examples.text(name), name=name).derive()
+from built_in import derivation
 
 
 def plain_symbols(d: lg.Derivation) -> dict[sp.Expr, sp.Symbol]:

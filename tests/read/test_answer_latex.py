@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
 from random import Random
 
 import pytest
@@ -10,6 +9,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 import lagrangian as lg
+from built_in import derivation
 from lagrangian import examples
 from lagrangian.read import parse_answer
 from lagrangian.read.answers import ENERGIES, generalized_force
@@ -17,11 +17,6 @@ from lagrangian.read.answers import ENERGIES, generalized_force
 t = sp.Symbol("t")
 theta = sp.Function("theta")(t)
 m, L, b, g = sp.symbols("m L b g")
-
-
-@cache
-def derivation(name: str) -> lg.Derivation:
-    return lg.loads(examples.text(name), name=name).derive()
 
 
 def read(text: str, example: str = "pendulum"):
