@@ -5,6 +5,7 @@ import sympy as sp
 from sympy.physics.mechanics import dynamicsymbols
 
 import lagrangian as lg
+from effort import at_most
 from lagrangian import bounded
 
 a, b, c, d, e = sp.symbols("a b c d e")
@@ -79,3 +80,31 @@ def test_the_slope_of_a_maximum_of_many_is_that_of_what_it_is(kind: type) -> Non
 )
 def test_unit_vectors_are_seen(vector: tuple[sp.Expr, ...], unit: bool) -> None:
     assert bounded.is_one(sp.Add(*(v**2 for v in vector))) is unit
+
+
+@pytest.mark.parametrize("expr", [sp.cos(a - 2 * b + c), sp.sin(a + b) ** 3 * sp.cos(c - d + e), sp.sin(3 * a) + c])
+def test_angles_written_out_have_no_more_terms_than_predicted(expr: sp.Expr) -> None:
+    found = bounded.expand_angles(expr)
+    assert len(sp.Add.make_args(found)) <= bounded.terms(expr, angles=True)
+    assert found == sp.expand(sp.expand_trig(expr))
+
+
+def test_the_cosine_of_a_long_sum_stays() -> None:
+    """cos(a₀ + … + a₂₃) has 2²³ terms."""
+    chain = sp.cos(sp.Add(*sp.symbols("a0:24")))
+    assert bounded.terms(chain, angles=True) == 2**24
+    assert bounded.expand_angles(chain) is chain
+
+
+def test_an_expansion_proves_nothing_about_maxima() -> None:
+    kinked = sp.Max(*[n * q + (n - 2) ** 2 * w for n in range(9)], evaluate=False)
+    with at_most(5_000):
+        found = bounded.expand((a + b) * kinked + (a - b) * kinked)
+    assert found == 2 * a * kinked
+
+
+def test_names_are_found_once_however_often_they_are_shared() -> None:
+    expr: sp.Expr = q.diff(t) + sp.sin(w)
+    for _ in range(40):
+        expr = sp.Mul(expr, sp.Add(expr, a, evaluate=False), evaluate=False)
+    assert bounded.names(expr) == {a, q, w, q.diff(t)}

@@ -97,8 +97,17 @@ def size(expr: sp.Basic, names: Mapping[Any, int] | None = None) -> int:
     return found[id(expr)]
 
 
-def terms(expr: sp.Basic) -> int:
-    """Return a bound on the terms of the longest sum that expanding an expression makes."""
+def names(expr: sp.Basic) -> set[sp.Basic]:
+    """Return the symbols, functions of time and derivatives in an expression; what is shared is met once."""
+    found = {node for node in _each(expr) if isinstance(node, (sp.Symbol, AppliedUndef, sp.Derivative))}
+    return found | {node.expr for node in found if isinstance(node, sp.Derivative)}
+
+
+def terms(expr: sp.Basic, *, angles: bool = False) -> int:
+    """Return a bound on the terms of the longest sum that expanding an expression makes.
+
+    With ``angles``, sines and cosines of sums and multiples are written out as well: cos(a − 2b) has up to 2·3 terms.
+    """
     found: dict[int, int] = {}
     longest = 1
     for node in _each(expr):
@@ -113,6 +122,9 @@ def terms(expr: sp.Basic) -> int:
             power = abs(int(node.exp))
             raised = inner[0] if inner[0] == 1 else min(comb(min(inner[0], 10**6) + power - 1, power), BEYOND)
             count, longest = (raised, longest) if node.exp > 0 else (1, max(longest, raised))  # a denominator expands
+        elif angles and isinstance(node, (sp.sin, sp.cos)):
+            for addend in sp.Add.make_args(cast("sp.Expr", node.args[0])):
+                count = min(count * (1 + abs(int(addend.as_coeff_Mul()[0]))), BEYOND)
         found[id(node)] = count
         longest = max(longest, count)
     return longest
@@ -136,8 +148,27 @@ def _slopes(expr: sp.Basic) -> int:
 
 
 def expand(expr: sp.Expr) -> sp.Expr:
-    """Return the sum of products that an expression is, or the expression as it is where that would be too long."""
-    return expr if terms(expr) > TERMS or size(expr) > LARGEST else cast("sp.Expr", sp.expand(expr))
+    """Return the sum of products that an expression is, or the expression as it is where that would be too long.
+
+    Maxima and cases stay as they are: SymPy would prove them anew.
+    """
+    return expr if terms(expr) > TERMS or size(expr) > LARGEST else _unbent(sp.expand, expr)
+
+
+def expand_angles(expr: sp.Expr) -> sp.Expr:
+    """Return the sum of products with sines and cosines of single angles, or the expression where that is too long."""
+    if terms(expr, angles=True) > TERMS or size(expr) > LARGEST:
+        return expr
+    return _unbent(lambda straight: sp.expand(sp.expand_trig(straight)), expr)
+
+
+def _unbent(routine: Callable[[sp.Expr], Any], expr: sp.Expr) -> sp.Expr:
+    """What a routine makes of an expression in which letters stand for the maxima and cases."""
+    letters = {node: sp.Dummy(f"bent{k}", real=True) for k, node in enumerate(_bent(expr))}
+    if not letters:
+        return cast("sp.Expr", routine(expr))
+    made = routine(cast("sp.Expr", replaced(expr, letters)))
+    return cast("sp.Expr", replaced(made, {letter: node for node, letter in letters.items()}))
 
 
 def check_size(count: int, what: str) -> None:

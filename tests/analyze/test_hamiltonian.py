@@ -7,7 +7,7 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
-from lagrangian import dynamics, examples
+from lagrangian import bounded, dynamics, examples
 from lagrangian.derive.formula import Elided, Formula
 from lagrangian.errors import ModelError, RunError
 from lagrangian.graph import evaluate
@@ -200,3 +200,10 @@ def test_pages_of_long_hamiltonians_keep_to_their_width(name: str) -> None:
     full = found.to_text(full=True)
     assert "operations⟩" not in full and max(columns(line) for line in full.splitlines()) <= 82
     assert ("written out" in found.to_html()) == (name in ("triple-pendulum", "furuta-pendulum"))
+
+
+def test_what_is_too_long_to_read_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(bounded, "LARGEST", 20)
+    for form in (built_in("double-pendulum").hamiltonian, built_in("spinning-top").routhian):
+        with pytest.raises(RunError, match="is too long to write out: one of its expressions has"):
+            form()

@@ -160,3 +160,12 @@ def test_every_misconception_can_be_made_in_some_example() -> None:
                 made[module.__name__.rsplit(".", 1)[1]] += 1
                 assert str(variant.what).strip()
     assert not {m.__name__.rsplit(".", 1)[1] for m in MISCONCEPTIONS} - set(made)
+
+
+def test_mistakes_are_tried_up_to_a_number_of_operations(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The likelier ones first; where the operations are spent, the answer is told so."""
+    monkeypatch.setattr(effects, "WORK", 300)
+    effects.effects_of.cache_clear()
+    checked = loads(examples.text("double-pendulum")).check("m1*theta1'' = 0\nm2*theta2'' = 0")
+    effects.effects_of.cache_clear()
+    assert "too long for all well-known mistakes to be tried" in " ".join(checked.to_text().split())

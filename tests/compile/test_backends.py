@@ -17,6 +17,7 @@ from hypothesis import strategies as st
 from lagrangian.compile import compile, native, to_c, to_numpy
 from lagrangian.compile.build import Build, Options
 from lagrangian.compile.kernel import Kernel
+from lagrangian.graph import Scalar
 from size import also_in_full, sized
 
 HOST = native.host()
@@ -373,3 +374,9 @@ def test_exported_functions_may_be_named():
         to_c(PENDULUM, name="a b")
     with pytest.raises(ValueError, match="cannot name"):
         to_numpy(PENDULUM, name="class")
+
+
+def test_what_depends_on_no_input_is_part_of_exported_source(c_function):
+    """sinh 800 is no double, so that it is left to the machine; a source has no prologue to hold it."""
+    made = program(lambda g, x: {"f": x["a"] / Scalar(g, g.sinh(g.const(800.0)))}, q=("a",))
+    assert c_function(made)(np.array([2.0]))["f"] == 0.0

@@ -106,7 +106,7 @@ class _Builder:
 def lower(program: Program, hoist: Iterable[str] = ("p",)) -> Lowered:
     """Split ``program`` and bring it near the machine.
 
-    ``hoist`` names the groups that are constant over many states.
+    ``hoist`` names the groups that are constant over many states; without any, the prologue is empty.
     """
     hoist = frozenset(hoist)
     nodes = program.graph.nodes
@@ -119,7 +119,8 @@ def lower(program: Program, hoist: Iterable[str] = ("p",)) -> Lowered:
     varies: dict[int, bool] = {}  # depends on a group that is not hoisted
     for i in order:
         node = nodes[i]
-        varies[i] = node[1] not in hoist if node[0] == "input" else any(varies[k] for k in sources(node))
+        moved = node[1] not in hoist if node[0] == "input" else any(varies[k] for k in sources(node))
+        varies[i] = moved or not hoist
     divisors: dict[int, int] = {}
     for i in order:
         if nodes[i][0] == "div":

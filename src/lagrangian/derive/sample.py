@@ -7,8 +7,8 @@ import random
 from collections.abc import Iterable, Mapping, Sequence
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy
 from lagrangian.model import Model, plain, time
@@ -29,7 +29,7 @@ class Sampler:
         full = [model.expand(sp.sympify(e), constants=True) for e in exprs]
         atoms: set[sp.Basic] = set()
         for e in full:
-            atoms |= e.free_symbols | e.atoms(AppliedUndef) | e.atoms(sp.Derivative)
+            atoms |= bounded.names(e)
         self.symbols = sorted(atoms | {time}, key=sp.default_sort_key)
         graph = Graph()
         table = {s: graph.input("x", i) for i, s in enumerate(self.symbols)}

@@ -33,17 +33,20 @@ def check(derivation: Derivation, lines: Sequence[Line], *, hint: int = 3) -> Ve
     truth = truth_of(derivation)
     truth.algebra.renew()
     written = filled(truth, lines)
-    verdict = _read(truth, spelled(truth, written), hint)
     values = _values(truth, written)
+    numbers = bool(values) and in_numbers(truth, written)
+    verdict = _read(truth, spelled(truth, written), hint, explain=not numbers)
     if verdict.right or verdict.status is Status.INCOMPLETE or not values:
         return verdict
     valued = truth.with_values(values)
-    put = _read(valued, _with_values(values, spelled(valued, filled(valued, lines), numbers=False)), hint)
-    return put if put.right or in_numbers(truth, written) else verdict
+    put = _read(
+        valued, _with_values(values, spelled(valued, filled(valued, lines), numbers=False)), hint, explain=numbers
+    )
+    return put if put.right or numbers else verdict
 
 
-def _read(truth: Truth, spelling: Spelling, hint: int) -> Verdict:
-    """The verdict on an answer whose names are read."""
+def _read(truth: Truth, spelling: Spelling, hint: int, *, explain: bool) -> Verdict:
+    """The verdict on an answer whose names are read; with ``explain``, what went wrong is looked for."""
     judged = _judged(truth, spelling.lines)
     verdict = Verdict(judged.status, judged.findings, notes=spelling.notes + judged.notes, hint=hint)
     if judged.status.right or judged.status is Status.INCOMPLETE:
@@ -51,7 +54,7 @@ def _read(truth: Truth, spelling: Spelling, hint: int) -> Verdict:
     return (
         _elsewhere(truth, spelling, verdict)
         or _own_names(truth, spelling, verdict)
-        or _explained(truth, spelling, judged, verdict)
+        or (_explained(truth, spelling, judged, verdict) if explain else verdict)
     )
 
 
@@ -273,6 +276,8 @@ def _explained(truth: Truth, spelling: Spelling, judged: Judged, verdict: Verdic
     """The verdict with the mistakes that explain it."""
     named = mistakes(truth, spelling.lines, judged.findings)
     notes = verdict.notes
-    if too_long(truth):
-        notes = (*notes, text("The system is too long for well-known mistakes to be tried; its terms are compared."))
+    if too_long(truth) or not truth.tried_all:
+        every = "" if too_long(truth) else "all "
+        said = f"The system is too long for {every}well-known mistakes to be tried; its terms are compared."
+        notes = (*notes, text(said))
     return replace(verdict, mistakes=named.told, alternatives=named.others, notes=notes)

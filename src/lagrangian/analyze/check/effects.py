@@ -14,6 +14,7 @@ from types import ModuleType
 import numpy as np
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.analyze.check.misconceptions import GENERAL, MISCONCEPTIONS, Ingredients, Variant
 from lagrangian.analyze.check.numbers import Array, Compiled
 from lagrangian.analyze.check.truth import Truth
@@ -22,8 +23,11 @@ from lagrangian.errors import ModelError
 from lagrangian.graph import jvp, vjp
 from lagrangian.model import time
 
-LONGEST_SYSTEM = 2_500
-"""Operations of T* times coordinates, above which mistakes are not tried but told by their terms alone."""
+LONGEST_SYSTEM = 2_000
+"""Operations of T*, V and Ξ times coordinates, above which mistakes are not tried but told by their terms alone."""
+
+WORK = 120_000
+"""Operations that all variants of a system may have, the likelier first; those of a robot arm have half as many."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,6 +79,7 @@ class Effects:
         self._a = [self.graph.input(x.acceleration) for x in c]
         self._moving = dict(zip((*self._q, *self._v), (*self._v, *self._a), strict=True))
         self._moving[self.graph.input(time)] = self.graph.graph.one
+        self.left = WORK
         self.wrongs = tuple(w for w in self._variants() if self._added(w))
 
     def _variants(self) -> Iterator[Wrong]:
@@ -82,6 +87,10 @@ class Effects:
             return
         for rank, module in enumerate(MISCONCEPTIONS):
             for variant in module.wrong(self.ingredients):
+                self.left -= _operations(variant)
+                if self.left < 0:
+                    self.truth.tried_all = False
+                    return
                 yield Wrong(module, variant, rank)
 
     def _added(self, wrong: Wrong) -> bool:
@@ -165,7 +174,12 @@ class Effects:
 
 def too_long(truth: Truth) -> bool:
     """Whether a system is too long for every way to go wrong in it to be tried."""
-    return int(sp.count_ops(truth.T)) * truth.n > LONGEST_SYSTEM
+    return sum(bounded.size(x) for x in (truth.T, truth.V, *truth.Xi)) * truth.n > LONGEST_SYSTEM
+
+
+def _operations(v: Variant) -> int:
+    """How many operations a variant has when it is written out."""
+    return sum(bounded.size(sp.sympify(x)) for x in (v.T, v.V, *v.Xi.values(), *v.rows.values()))
 
 
 @lru_cache(maxsize=32)

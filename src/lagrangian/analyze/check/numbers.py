@@ -17,6 +17,7 @@ import sympy as sp
 from numpy.typing import NDArray
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy, reached, vjp
 from lagrangian.model import Model, plain, time
 
@@ -99,8 +100,7 @@ class Compiled:
     def node(self, expr: sp.Expr) -> int:
         """The node of an expression; its fractions become inputs, so that they can be exact."""
         expr = self._without_fractions(sp.sympify(expr))
-        atoms = expr.free_symbols | expr.atoms(AppliedUndef) | expr.atoms(sp.Derivative)
-        for s in sorted(atoms - self.table.keys(), key=sp.default_sort_key):
+        for s in sorted(bounded.names(expr) - self.table.keys(), key=sp.default_sort_key):
             self.input(s)
         return from_sympy(self.graph, expr, self.table, self._memo)
 

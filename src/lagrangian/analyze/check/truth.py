@@ -24,13 +24,15 @@ LONGEST = 4000
 class Truth:
     """The right equations of a derivation, ready to be compared with; ``values`` are put in for parameters.
 
-    ``others`` keeps the same system in coordinates that answers had.
+    ``others`` keeps the same system in coordinates that answers had; ``tried_all`` turns false where well-known
+    mistakes have too many operations for all of them to be tried.
     """
 
     def __init__(self, derivation: Derivation, values: Mapping[sp.Symbol, sp.Expr] | None = None) -> None:
         self.derivation = derivation
         self.values = dict(values or {})
         self.others: dict[object, Truth | None] = {}
+        self.tried_all = True
         self._valued: dict[tuple[tuple[sp.Symbol, sp.Expr], ...], Truth] = {}
         self.model: Model = derivation.model
         self.n = len(derivation.coordinates)

@@ -14,10 +14,12 @@ from typing import Any, cast
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.analyze.kept.lagrangian_form import LagrangianForm
 from lagrangian.analyze.kept.squares import Piece, half_square, summed
+from lagrangian.bounded import TooLarge
 from lagrangian.derive import Check
-from lagrangian.derive.algebra import Form, OutOfReach
+from lagrangian.derive.algebra import Form
 from lagrangian.derive.formula import text
 from lagrangian.derive.sample import Sampler
 from lagrangian.errors import RunError
@@ -62,7 +64,8 @@ def hamiltonian(model: Model) -> Hamiltonian:
         H = summed(pieces) + potential.expr()
         rates = [summed([d for p in pieces for d in p.diff(s)]) for s in letters]
         slopes = [summed([d for p in pieces for d in p.diff(q)]) + potential.diff(q).expr() for q in system.q]
-    except OutOfReach as trouble:
+        bounded.check_size(max(bounded.size(x) for x in (H, *rates, *slopes)), "one of its expressions")
+    except TooLarge as trouble:
         raise RunError(f"H is too long to write out: {trouble.what}", code="E523") from trouble
     in_momenta = dict(zip(system.v, rates, strict=True))
     forces = [cast("sp.Expr", f.expr().xreplace(in_momenta)) for f in system.forces]

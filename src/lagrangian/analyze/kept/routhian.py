@@ -15,12 +15,14 @@ from typing import Any, cast
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.analyze.given import key_name
 from lagrangian.analyze.kept.hamiltonian import STATES, TOLERANCE, momentum_names, split
 from lagrangian.analyze.kept.lagrangian_form import LagrangianForm
 from lagrangian.analyze.kept.squares import Piece, half_square, summed
+from lagrangian.bounded import TooLarge
 from lagrangian.derive import Check
-from lagrangian.derive.algebra import Form, OutOfReach
+from lagrangian.derive.algebra import Form
 from lagrangian.derive.formula import text
 from lagrangian.derive.sample import Sampler
 from lagrangian.errors import RunError, did_you_mean
@@ -75,7 +77,9 @@ def routhian(model: Model, ignorable: Sequence[Any] | None = None) -> Routhian:
         still = dict.fromkeys(system.v, sp.S.Zero)
         effective = potential.expr() + cast("sp.Expr", summed(pieces).xreplace(still))
         equations = tuple(_equation(system, r, polynomial, pieces) for r in left)
-    except OutOfReach as trouble:
+        longest = max(bounded.size(x) for x in (*solved, effective, *(cast("sp.Expr", e.lhs) for e in equations)))
+        bounded.check_size(longest, "one of its expressions")
+    except TooLarge as trouble:
         raise RunError(f"R is too long to write out: {trouble.what}", code="E523") from trouble
     R = polynomial.expr() - summed(pieces)
     return Routhian(
@@ -135,7 +139,7 @@ def _equation(system: LagrangianForm, r: int, polynomial: Form, pieces: Sequence
     extra = summed([d for p in pieces for d in p.diff(system.v[r])])  # ∂/∂ξ̇_r of what is taken away
     left += summed([d for p in pieces for d in p.diff(system.q[r])])
     if extra != 0:
-        left -= cast("sp.Expr", sp.diff(extra, time))
+        left -= bounded.diff(extra, time)
     return cast("sp.Eq", sp.Eq(left, system.forces[r].expr(), evaluate=False))
 
 
@@ -154,7 +158,9 @@ def _checks(
     # accelerations of what is gone, so that its momenta stay constant: Σ_s M_ss ξ̈_s = −(ṗ at ξ̈_s = 0)
     accelerations = [c.acceleration for c in system.model.coordinates]
     rows = [system.momenta[k].total_derivative().raw() for k in gone]
-    solved = sp.solve(rows, [accelerations[k] for k in gone], dict=True)[0] if len(gone) <= 2 else None
+    unknown = [accelerations[k] for k in gone]
+    found = bounded.searched(lambda: sp.solve(rows, unknown, dict=True)) if len(gone) <= 2 else None
+    solved = found[0] if found else None
     if solved is not None:
         for r, equation in zip(left, equations, strict=True):
             lagrange = (system.momenta[r].total_derivative() - system.slopes[r] - system.forces[r]).raw()

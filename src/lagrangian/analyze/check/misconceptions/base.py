@@ -285,7 +285,7 @@ def _addends(s: Ingredients, term: sp.Expr) -> Iterator[sp.Expr]:
     expanded = bounded.expand(term)
     yield from sp.Add.make_args(expanded)
     if expanded.has(sp.sin, sp.cos):
-        for part in sp.Add.make_args(sp.expand(sp.expand_trig(expanded))):
+        for part in sp.Add.make_args(bounded.expand_angles(expanded)):
             yield part
         return
     for f in sorted({a for a in s.angles(s.T + s.V) if a in s.q}, key=str):

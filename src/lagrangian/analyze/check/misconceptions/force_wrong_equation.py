@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import permutations
 
+from lagrangian import bounded
 from lagrangian.analyze.check.misconceptions.base import Ingredients, Variant
 from lagrangian.derive.formula import Name, text
 
@@ -29,7 +30,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             there = shares.get(j, own * 0)
             yield Variant(what=what, Xi={i: -own, j: own - there}, element=element, coordinate=j)
             yield Variant(what=what, Xi={i: -own, j: -own - there}, element=element, coordinate=j)
-            if there != 0 and (own + there).expand() != 0:
+            if there != 0 and bounded.expand(own + there) != 0:
                 yield Variant(what=what, Xi={i: -own, j: own}, element=element, coordinate=j)
             if there != 0 and i < j:
                 yield Variant(what=what, Xi={i: there - own, j: own - there}, element=element, coordinate=j)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from lagrangian import bounded
 from lagrangian.analyze.check.misconceptions.base import Ingredients, Variant
 from lagrangian.analyze.check.misconceptions.ends import both_ends
 from lagrangian.derive.formula import text
@@ -21,6 +22,6 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             change = {i: s.xi((kept,), i) - shares.get(i, 0) for i in range(s.n)}
             yield Variant(what=what, Xi={i: x for i, x in change.items() if x != 0}, element=element)
         for i, x in shares.items():
-            if any(s.expand(x + y).expand() == 0 for j, y in shares.items() if j != i):
+            if any(bounded.expand(s.expand(x + y)) == 0 for j, y in shares.items() if j != i):
                 what = text(f"The reaction of {element.title} is missing in the equation of ", s.q[i], ".")
                 yield Variant(what=what, Xi={i: -x}, element=element, coordinate=i)

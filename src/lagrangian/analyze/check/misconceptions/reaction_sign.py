@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from lagrangian import bounded
 from lagrangian.analyze.check.misconceptions.base import Ingredients, Variant
 from lagrangian.analyze.check.misconceptions.ends import both_ends
 from lagrangian.derive.formula import text
@@ -21,6 +22,6 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             yield Variant(what=what, Xi={i: x for i, x in change.items() if x != 0}, element=element)
         shares = s.shares(element)
         for i, x in shares.items():
-            if any(s.expand(x + y).expand() == 0 for j, y in shares.items() if j != i):
+            if any(bounded.expand(s.expand(x + y)) == 0 for j, y in shares.items() if j != i):
                 what = text(f"The reaction of {element.title} has the wrong sign in the equation of ", s.q[i], ".")
                 yield Variant(what=what, Xi={i: -2 * x}, element=element, coordinate=i)
