@@ -182,6 +182,13 @@ def test_ten_thousand_crossings_are_found_in_one_run() -> None:
     assert len(run.events["crossing"].t) == np.count_nonzero(value[1:] * value[:-1] < 0) > 10_000
 
 
+@pytest.mark.parametrize("method", ["DOP853", "LSODA"])
+def test_a_thousand_crossings_in_a_step_of_scipys_are_found(method: str) -> None:
+    s = oscillator(m=1.0, k=1.0, b=0.0)
+    run = s.simulate(1.5, q=1.0, events=lg.event(sp.cos(3300 * s.t), name="crossing"), method=method)
+    assert run.events["crossing"].t == pytest.approx((np.arange(1576) + 0.5) * np.pi / 3300, abs=1e-12)
+
+
 @pytest.mark.parametrize("method", METHODS)
 def test_many_events_are_not_called_accumulating(method: str) -> None:
     s = oscillator(m=1.0, k=1.0, b=0.0)

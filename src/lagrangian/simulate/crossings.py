@@ -29,6 +29,9 @@ ASKED = 16
 NEAREST = 60
 """After an event its function is 0: it is looked at after h/2^60, h/2^59, … of the next step to see where it goes."""
 
+MANY = 1 << 14
+"""Pieces of a step that are looked at, at first: all of one length together, they take little time."""
+
 AHEAD = 1e-8
 """How far along ẋ, in seconds, a function is looked at to see where it is bound after its event."""
 
@@ -73,6 +76,7 @@ class Crossings:
         self.last = np.full(count, -np.inf)  # its time
         self.settled: int | None = None
         self.blind: float | None = None
+        self.most = MANY
         self.begun = False  # a run that begins at zero and moves in an event's direction has its event there
         self.field: Control = lambda t, x: x
         self.inputs = len(program.inputs.get("u", ()))
@@ -150,14 +154,16 @@ class Crossings:
         inputs = [u(t, dense(t)) if self.driven else np.zeros(self.inputs) for t in (start, end)]
         ends: list[Array] = []
         low, high, count = np.array([-1.0]), np.array([1.0]), 0
-        while len(low):
-            proved = self._proved(low, high, powers, (middle, half), inputs)
+        while len(low) and count + len(low) <= self.most:
             count += len(low)
-            settled = proved | (high - low <= 2 * (FINEST if count <= MOST else COARSE))
+            settled = self._proved(low, high, powers, (middle, half), inputs) | (high - low <= 2 * FINEST)
             ends.append(high[settled])
             low, high = low[~settled], high[~settled]
             cut = (low + high) / 2
             low, high = np.concatenate([low, cut]), np.concatenate([cut, high])
+        if len(low):
+            ends.append(np.unique(2 * COARSE * np.ceil(high / (2 * COARSE))))
+            self.most = max(MOST, self.most // 2)  # it may be so in every step
         if self.driven & set(asked):
             ends.append(np.linspace(-1, 1, ASKED + 1)[1:])
         return np.unique(np.concatenate(ends)) / 2 + 0.5
