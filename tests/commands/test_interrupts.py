@@ -31,7 +31,7 @@ class Interrupt:
             signal.raise_signal(signal.SIGINT)
 signal.signal(signal.SIGINT, signal.default_int_handler)
 sys.meta_path.insert(0, Interrupt())
-sys.argv = ["lagrangian", "simulate", "-e", "pendulum", "-d", "1"]
+sys.argv = ["lagrangian", *{line}]
 from lagrangian.cli import run
 run()
 """
@@ -42,7 +42,7 @@ run()
     ["typer", "lagrangian.commands.simulate", "numpy", "sympy", "lagrangian.derive", "lagrangian.compile.native"],
 )
 def test_an_interrupt_while_something_is_imported_is_one_line(name: str) -> None:
-    code = AS_IT_IMPORTS.format(name=name)
+    code = AS_IT_IMPORTS.format(name=name, line=["simulate", "-e", "pendulum", "-d", "1"])
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "interrupted\n")
 
@@ -80,7 +80,7 @@ def test_an_interrupt_that_a_library_swallows_ends_the_command_all_the_same(work
 
 
 def test_an_interrupt_that_is_ignored_stays_ignored() -> None:
-    code = AS_IT_IMPORTS.format(name="typer").replace("signal.default_int_handler", "signal.SIG_IGN")
+    code = AS_IT_IMPORTS.format(name="typer", line=["examples"]).replace("signal.default_int_handler", "signal.SIG_IGN")
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
     assert done.returncode == 0 and "pendulum" in done.stdout
 
