@@ -117,7 +117,7 @@ def simulate(
         bounds,
     )
     made = _trajectory(task, run(task), {"rtol": rtol, "atol": atol})
-    made.notices = (*notices, *_undecided(task))
+    made.notices = (*notices, *(_undecided(task) if made.success else ()))  # a failed one says so itself
     return _judged(made)
 
 
