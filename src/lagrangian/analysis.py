@@ -17,11 +17,11 @@ from lagrangian.analyze.linear.report import POLES_AND_MODES, linear_report
 from lagrangian.analyze.report import Report
 from lagrangian.analyze.rests.report import equilibria_report
 from lagrangian.model import Model
-from lagrangian.viewed import Viewed
+from lagrangian.viewed import Brief, Viewed, cut
 from lagrangian.write import Notation
 
 
-class Written:
+class Written(Brief):
     """What has a report can be written: as text, Markdown, LaTeX, HTML, and plain data."""
 
     def report(self) -> Report:
@@ -61,10 +61,10 @@ class Written:
 
     def __repr__(self) -> str:
         """Say what it is of; ``print`` shows it all."""
-        return f"<{self.report().title}>"
+        return cut(f"<{self.report().title}>")
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False)
 class Regulator(Written, analyze.Regulator):
     """u = u₀ − K (x − x₀), Riccati's S and the poles that are left; see `analyze.Regulator`."""
 
@@ -73,7 +73,7 @@ class Regulator(Written, analyze.Regulator):
         return regulator_report(self)
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False)
 class Linearization(Written, analyze.Linearization):
     """δẋ = A δx + B δu, δy = C δx + D δu, with names, poles, modes and the verdict; see `analyze.Linearization`."""
 
@@ -109,7 +109,7 @@ class Linearization(Written, analyze.Linearization):
         return Regulator(**{f.name: getattr(data, f.name) for f in fields(data)})
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False)
 class Equilibria(Written, analyze.Equilibria):
     """The rests of a system, a sequence of `analyze.Equilibrium`."""
 
@@ -118,7 +118,7 @@ class Equilibria(Written, analyze.Equilibria):
         return equilibria_report(self)
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False)
 class ConservedQuantities(Written, analyze.ConservedQuantities):
     """What every motion of a system keeps, a sequence of `analyze.Conserved`."""
 
@@ -127,7 +127,7 @@ class ConservedQuantities(Written, analyze.ConservedQuantities):
         return conserved_report(self)
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False)
 class Hamiltonian(Written, analyze.Hamiltonian):
     """H(q, p, t), momenta and canonical equations; see `analyze.Hamiltonian`."""
 
@@ -136,7 +136,7 @@ class Hamiltonian(Written, analyze.Hamiltonian):
         return hamiltonian_report(self)
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, eq=False)
 class Routhian(Written, analyze.Routhian):
     """The Lagrangian of what is left without ignorable coordinates; see `analyze.Routhian`."""
 

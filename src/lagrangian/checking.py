@@ -17,6 +17,7 @@ from lagrangian.derive import Derivation
 from lagrangian.errors import Error, ModelError
 from lagrangian.model import Model
 from lagrangian.read import MAX_BYTES, Answer, decode, parse_answer
+from lagrangian.viewed import Brief, cut
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -28,6 +29,10 @@ class CheckedAnswer(Written, check.Verdict):
     def report(self) -> Report:
         """Return the verdict as words and tables, as much as ``hint`` gives away."""
         return check.report(self, self.model)
+
+    def __repr__(self) -> str:
+        """Say of what it is, and whether it is right; ``print`` shows it all."""
+        return cut(f"<CheckedAnswer, {self.model.name}: {self.status.value}>")
 
 
 def check_answer(derivation: Derivation, answer: Any, *, hint: int = 3, name: str | None = None) -> CheckedAnswer:
@@ -47,7 +52,7 @@ def check_answer(derivation: Derivation, answer: Any, *, hint: int = 3, name: st
 
 
 @dataclass(frozen=True)
-class FolderRow:
+class FolderRow(Brief):
     """One answer of a folder: its file, the verdict (None where there is none), and why there is none in words.
 
     ``read`` says whether its text could be read.
@@ -94,7 +99,7 @@ class FolderRow:
 
 
 @dataclass(frozen=True)
-class CheckedFolder:
+class CheckedFolder(Brief):
     """The verdicts on a folder of answers, and how often each mistake was made, the most frequent first."""
 
     rows: tuple[FolderRow, ...]

@@ -11,6 +11,7 @@ from lagrangian.analyze import compare as found
 from lagrangian.analyze.report import Report
 from lagrangian.derivation import Derivation
 from lagrangian.errors import ModelError
+from lagrangian.viewed import cut
 
 
 class Derivable(Protocol):
@@ -28,6 +29,11 @@ class Comparison(Written, found.Comparison):
     def report(self) -> Report:
         """Return the report."""
         return found.comparison_report(self)
+
+    def __repr__(self) -> str:
+        """Say of what it is, and what was found; ``print`` shows it all."""
+        a, b = self.a.derivation.model.name, self.b.derivation.model.name
+        return cut(f"<Comparison of {a!r} and {b!r}: {'the same' if self.same else 'they differ'}>")
 
     def __bool__(self) -> bool:
         """Whether they are the same: ``assert lg.compare(a, b)``."""

@@ -100,6 +100,12 @@ class Described(Guided):
         """Return the symbol, or else the point or frame, that carries ``name``."""
         return self._builder.lookup(name)
 
+    def __contains__(self, name: object) -> bool:
+        """Whether ``name`` is that of a symbol, point, frame or element of the system, or one of these itself."""
+        if isinstance(name, str):
+            return self._builder.find(name) is not None
+        return any(name == thing for thing in self._builder.named())
+
     def coordinate(
         self, name: str, description: str = "", *, unit: str | None = None, positive: bool = False
     ) -> AppliedUndef:

@@ -4,6 +4,7 @@
     ├── ModelError (ValueError)    the description of a system is wrong
     │   └── ParseError             a text cannot be read: file, line, column, caret
     ├── RunError (ValueError)      what was handed to a compiled system is wrong
+    ├── NoSuchEntry (KeyError)     a result has nothing of that name; it is a ModelError and a RunError too
     └── MissingExtra (ImportError) an optional package is not installed
 
 A message reads: what is wrong, where it stands, what would be right. A `Notice` stops nothing; results carry it.
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where in a file something stands.
+    """Where in a file, or in a text that was typed, something stands.
 
     ``line`` and ``column`` count from 1; ``text`` is that line, for the caret. A missing number means "unknown".
     """
@@ -32,13 +33,12 @@ class Place:
     text: str | None = None
 
     def __str__(self) -> str:
-        """Read as ``file:line:column``, as far as known."""
-        parts = [self.file or "<text>"]
-        if self.line is not None:
-            parts.append(str(self.line))
-            if self.column is not None:
-                parts.append(str(self.column))
-        return ":".join(parts)
+        """Read as ``file:line:column``, as far as known; without a file as ``line 2, column 5`` (``column 5``)."""
+        if self.file is None:
+            said = [f"line {self.line}"] if self.line is not None and (self.line > 1 or self.column is None) else []
+            return ", ".join(said + ([f"column {self.column}"] if self.column is not None else []))
+        known = [self.line, self.column] if self.line is not None else []
+        return ":".join([self.file, *(str(x) for x in known if x is not None)])
 
     def excerpt(self) -> str:
         """Return the line with a caret under the column, or an empty text when the line is unknown."""
@@ -76,14 +76,17 @@ class Error(Exception):
         super().__init__(what)
 
     def __str__(self) -> str:
-        """Return the whole message: place, code, element, what, the line with a caret, the fix."""
-        head = ""
-        if self.place is not None and (self.place.file or self.place.line):
-            head += f"{self.place}: "
+        """Return the whole message: file and place, code, element, what, the line with a caret, the fix.
+
+        A text that was typed has no file; its place stands after the element, the argument that was typed.
+        """
+        place = str(self.place) if self.place is not None else ""
+        typed = self.place is not None and self.place.file is None
+        head = f"{place}: " if place and not typed else ""
         if self.code:
             head += f"[{self.code}] "
-        if self.element:
-            head += f"{self.element}: "
+        if subject := ", ".join(x for x in (self.element, place if typed else "") if x):
+            head += f"{subject}: "
         lines = [head + self.what]
         if self.place is not None and (excerpt := self.place.excerpt()):
             lines.append(excerpt)
@@ -124,6 +127,17 @@ class ParseError(ModelError):
 
 class RunError(Error, ValueError):
     """What was handed to a compiled system is wrong: a shape, a name, a value that is not finite."""
+
+
+class NoSuchEntry(ModelError, RunError, KeyError):
+    """A result was asked for a name that it does not have."""
+
+    @classmethod
+    def among(cls, what: str, name: str, known: Iterable[str]) -> NoSuchEntry:
+        """Return the error that says ``what`` of ``name``, with the nearest of the names that are known, or all."""
+        listed = list(known)
+        fix = did_you_mean(name, listed) or f"known: {', '.join(listed) or 'none'}"
+        return cls(f"{what} '{name[:64]}'", fix=fix if len(fix) < 500 else fix[:500] + " …", code="E402")
 
 
 class MissingExtra(Error, ImportError):

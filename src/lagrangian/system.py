@@ -11,7 +11,8 @@ from lagrangian import read
 from lagrangian.calls import worded
 from lagrangian.describing import Described
 from lagrangian.errors import ModelError, Place
-from lagrangian.write import write_file
+from lagrangian.viewed import cut
+from lagrangian.write import check_free, write_file
 
 if TYPE_CHECKING:  # every verb imports what it needs: describing a system waits for none of them
     from numpy.typing import ArrayLike
@@ -301,8 +302,11 @@ class System(Described):
 
         return compare(self, other, change)
 
-    def export(self, path: str | Path) -> tuple[Path, ...]:
-        """Write source code of the dynamics: to ``name.c`` (and ``name.h``) or ``name.py``; return what was written."""
+    def export(self, path: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
+        """Write source code of the dynamics: to ``name.c`` (and ``name.h``) or ``name.py``; return what was written.
+
+        Raises `Error` where a file is there already, unless ``overwrite``, or where it cannot be written.
+        """
         from lagrangian.compiled import LANGUAGES, sources
 
         target = _path(path)
@@ -314,19 +318,27 @@ class System(Described):
                 code="E402",
             )
         files = sources(self.model, languages[target.suffix], target.stem)
-        return tuple(write_file(target.parent / name, text) for name, text in files.items())
+        found = {target.parent / name: text for name, text in files.items()}
+        for file in found:
+            check_free(file, overwrite=overwrite)
+        return tuple(write_file(file, text) for file, text in found.items())
 
     def to_toml(self) -> str:
         """Return the system as the text of a model file."""
         return read.dumps(self.model)
 
-    def save(self, path: str | Path) -> None:
-        """Write the system to a model file (whole or not at all)."""
-        write_file(_path(path), self.to_toml())
+    def save(self, path: str | Path, *, overwrite: bool = False) -> Path:
+        """Write the system to a model file, whole or not at all; return the path.
+
+        Raises `Error` where the file is there already, unless ``overwrite``, or where it cannot be written.
+        """
+        target = _path(path)
+        check_free(target, overwrite=overwrite)
+        return write_file(target, self.to_toml())
 
     def __repr__(self) -> str:
         """Say what the system has so far."""
-        return f"<System {self.name!r}: {self._builder.summary()}{self._told()}>"
+        return cut(f"<System {self.name!r}: {self._builder.summary()}{self._told()}>")
 
     def _repr_html_(self) -> str:
         from lagrangian.write.views import system_view, words_view

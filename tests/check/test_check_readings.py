@@ -8,9 +8,10 @@ from functools import cache
 import pytest
 
 from built_in import derivation
-from lagrangian import loads
+from lagrangian import examples, loads
 from lagrangian.analyze.check import Status
 from lagrangian.derivation import Derivation
+from lagrangian.errors import ParseError
 
 MOTOR = """
 name = "cart with a motor"
@@ -94,3 +95,37 @@ def test_what_was_left_out_of_a_force_is_no_question_of_its_direction(name: str,
     verdict = derived(name).check(answer)
     assert verdict.mistake is not None and verdict.mistake.name == mistake, verdict.to_text()
     assert "cos of the angle" not in verdict.to_text()
+
+
+LONG_NAMES = loads(
+    examples.text("cart-pole").replace("\nl = {", "\nlength = {").replace('"l"', '"length"').replace("l*", "length*")
+).derive()
+
+
+@pytest.mark.parametrize(
+    ("answer", "said"),
+    [
+        ("(M + m)*x'' + m*length*cos(thta)*theta'' = F", "no 'thta'. Did you mean 'theta'?"),
+        ("(M + m)*x'' + m*length*cos(theta)*thta'' = F", "no 'thta'. Did you mean 'theta'?"),
+        ("(M + m)*x'' + m*length*lenght*cos(theta)*theta'' = F", "no 'lenght'. Did you mean 'length'?"),
+        (r"(M + m) \ddot x + m length lenght \cos\theta \ddot\theta = F", "no 'lenght'. Did you mean 'length'?"),
+        (r"(M + m) \ddot x + m \mathrm{lenght} \cos\theta \ddot\theta = F", "'lenght' was read as length."),
+        (r"(M + m) \ddot x + m lenght \cos\theta \ddot\theta = F", "'lenght' was read as length."),
+        ("(M + m)*x'' + q*phi'' = F", "The system has no 'phi'."),
+    ],
+)
+def test_a_misspelled_name_is_answered_with_the_one_that_is_meant(answer: str, said: str) -> None:
+    notes = " ".join(map(str, LONG_NAMES.check(answer).notes))
+    assert said in notes, notes
+
+
+def test_letters_side_by_side_are_still_a_product() -> None:
+    """Runs of letters are names that were misspelled only where they are no product of names."""
+    verdict = LONG_NAMES.check(r"\text{T} = \frac12 mlength^2")
+    assert not any("mlength" in str(note) for note in verdict.notes)
+
+
+def test_a_misspelled_command_is_answered_with_the_one_that_is_meant() -> None:
+    with pytest.raises(ParseError) as caught:
+        LONG_NAMES.check(r"M \ddot{x} + \thta = F")
+    assert caught.value.fix == r"Did you mean '\theta'?"

@@ -5,14 +5,18 @@ from __future__ import annotations
 import ast
 import io
 import json
+import re
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
+import typer
 
 import lagrangian
 from lagrangian.cli import main
 from lagrangian.commands import door
+from lagrangian.commands.app import app
 from lagrangian.commands.verbs import VERBS
 
 HOSTILE = """
@@ -130,6 +134,17 @@ MISTAKES = {
     "one system to compare": (["compare", "-e", "pendulum"], "exactly two systems can be compared (got 1)"),
     "an answer": (["check", "-e", "pendulum", "nowhere.txt"], "nowhere.txt"),
     "no answer": (["check", "x.toml"], "there is no answer to check"),
+    "a part of an example's name": (["new", "furuta"], "Did you mean 'furuta-pendulum'?"),
+    "a part of several": (["simulate", "-e", "triple"], "'triple-pendulum' or 'triple-pendulum-relative'?"),
+    "an example as a file": (["new", "Cart_Pole.toml"], "Did you mean 'cart-pole'?"),
+    "no example at all": (["new", "xyz"], "`lagrangian examples` lists them"),
+    "another ending of a model": (["new", "pendulum", "-o", "x.json"], "-o x.toml"),
+    "another ending of its data": (["new", "pendulum", "--json", "-o", "x.toml"], "-o x.json"),
+    "another ending of a schema": (["schema", "-o", "x.toml"], "-o x.json"),
+    "no ending": (["schema", "-o", "x"], "-o x.json"),
+    "a range for a parameter": (["simulate", "-e", "pendulum", "--set", "L=5:10"], "argument of `lagrangian sweep`"),
+    "a range without a count": (["sweep", "-e", "pendulum", "L=5:10"], "write 5:10:11 for 11 values"),
+    "an option's expression": (["simulate", "-e", "cart-pole", "--input", "F=2*thet"], "input 'F', column 3: unknown"),
     "a sweep of nothing": (["sweep", "k=1:2:3"], "is not a model file"),
 }
 
@@ -256,6 +271,31 @@ def test_every_help_has_an_example_that_is_read(
     assert all(line.split()[1] == verb for line in lines)
     assert "--json" in short
     assert max(map(len, short.splitlines())) <= 105
+
+
+@pytest.mark.parametrize("verb", VERBS)
+def test_the_help_lists_every_option_once_in_groups(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, verb: str
+) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    assert main([verb, "--help"]) == 0
+    shown = capsys.readouterr().out
+    groups = re.findall(r"^([A-Z]\w+):$", shown, flags=re.M)
+    assert len(set(groups)) == len(groups) and {*groups} <= {
+        *("Arguments", "Options", "Output", "Integration", "Computing"),
+    }
+    listed = re.findall(r"^  (?:-\w, )?(--[\w-]+)", shown, flags=re.M)
+    options = {o.opts[0] if o.opts[0].startswith("--") else o.opts[-1] for o in options_of(verb)}
+    assert sorted(listed) == sorted({*options, "--help"})
+    if verb in ("simulate", "sweep"):
+        assert groups == ["Arguments", "Options", "Output", "Integration", "Computing"]
+    assert len(shown.splitlines()) <= 62
+
+
+def options_of(verb: str) -> list[Any]:
+    group = typer.main.get_command(app)
+    parameters = group.commands[verb].get_params(typer.Context(group))  # type: ignore[attr-defined]
+    return [p for p in parameters if p.param_type_name == "option"]
 
 
 def test_the_version_is_an_option_too(capsys: pytest.CaptureFixture[str]) -> None:

@@ -225,6 +225,9 @@ def test_random_linear_changes_of_random_chains(rows: list[list[int]]) -> None:
         ({3: 3}, "its symbol or its name"),
         ({"x2": "x1 + k", "x1": "k"}, "by 1 new"),
         ({"x2": [1]}, "must be a number"),
+        ({"x_2": "u"}, "no coordinate 'x_2'.*\\n.*Did you mean 'x2'"),
+        ({"x3": "u + 1", "x4": "v"}, "no coordinate 'x3'"),
+        ({"x2r": "x2 - xx1"}, "unknown coordinate 'xx1'.*\\n.*Did you mean 'x1'"),
     ],
 )
 def test_what_is_no_change_is_refused_and_told_why(change: dict[Any, Any], words: str) -> None:

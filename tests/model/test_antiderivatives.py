@@ -24,6 +24,14 @@ KINKED = [
     "piecewise(delta < 0, k*delta, 2*k*delta)",
     "piecewise(delta < -1, -k, delta <= 1/3, k*delta, delta^2)",
     "(k*delta - c)*sign(3*delta - 1)",
+    "k*sqrt(abs(delta))*sign(delta)",
+    "k*abs(delta)^(3/2)*sign(delta)",
+    "k*delta*sqrt(abs(delta))",
+    "k*delta*sqrt(abs(delta))*sign(delta)",
+    "k*sqrt(abs(c*delta))*sign(c*delta)",
+    "k*max(delta, 2*delta)*sign(delta)",
+    "k*sqrt(abs(delta - 1/3))*sign(delta - 1/3)",
+    "k*delta*sqrt(abs(2*delta + 1))*sign(2*delta + 1) + c*delta",
 ]
 
 
@@ -50,6 +58,7 @@ def test_a_law_with_kinks_has_the_energy_that_its_area_is(law: str, signs: tuple
     [
         ("k*delta*abs(delta)", k * sp.Abs(x) ** 3 / 3),
         ("delta^2*sign(delta)", sp.Abs(x) ** 3 / 3),
+        ("k*sqrt(abs(delta))*sign(delta)", 2 * k * sp.Abs(x) ** sp.Rational(3, 2) / 3),
         ("max(k*delta, 0)", x * sp.Max(0, k * x) / 2),
         ("k*max(delta, 0)", k * sp.Max(0, x) ** 2 / 2),
         ("k*delta + c*delta^3", k * x**2 / 2 + c * x**4 / 4),
@@ -76,3 +85,32 @@ def test_calls_are_counted_and_not_time() -> None:
 
     assert bounded.searched(climb, 50, calls=60) == 50
     assert bounded.searched(climb, 50, calls=40) is None
+
+
+@pytest.mark.parametrize("law", ["k*sqrt(abs(delta))*sign(delta)", "k*sqrt(abs(delta - 1/3))*sign(delta - 1/3)"])
+def test_a_spring_that_softens_from_its_kink_is_derived_and_run(law: str) -> None:
+    """The pull grows like a root and jumps in slope: the equation holds the law itself, and no impulse."""
+    system = lg.System("root")
+    q, k = system.coordinate("q"), system.parameter("k", 2)
+    system.particle(1, at=system.origin + (q, 0))
+    expr = parse_expression(law, {"k": k, "delta": x})
+    system.spring(deflection=q, law=lambda d: expr.subs(x, d))
+    derivation = system.derive()
+    assert all(check.holds for check in derivation.verified)
+    left = derivation.equations[0].lhs - derivation.equations[0].rhs
+    for place in (-1.3, 0.2, 0.9):
+        values = {q.diff(sp.Symbol("t"), 2): 0, q: place, k: 2}
+        assert float(left.subs(values)) == pytest.approx(float(expr.subs({k: 2, x: place})))
+    run = system.simulate(1.0, q=0.9, samples=5)
+    assert run.success and float(run.audit) < 1e-6
+
+
+@pytest.mark.parametrize("value", ["k*q*sign(q)", "k*sign(q)"])
+def test_an_energy_that_jumps_is_refused_in_the_words_of_its_reader(value: str) -> None:
+    system = lg.System("jump")
+    q, k = system.coordinate("q"), system.parameter("k", 2)
+    system.particle(1, at=system.origin + (q, 0))
+    system.potential(parse_expression(value, {"k": k, "q": q}))
+    with pytest.raises(ModelError, match="jumps") as caught:
+        system.derive()
+    assert "DiracDelta" not in str(caught.value) and "abs(x) for x*sign(x)" in str(caught.value)

@@ -93,6 +93,7 @@ BAD = [
     ("5*", 3, "the end"),
     ("5 [m]", 3, "found '['"),
     ("1 " + "m*" * 200, None, "characters"),
+    ("5 mm:10 mm", 5, "this is a range of values"),
     ("5 lambda: 3", 9, "found ':'"),
 ]
 

@@ -221,7 +221,15 @@ SLIPS = {
     **{"Watts": "write watts", "gauss": "1e-4 T", "mho": "write S", "c": "299792458 m/s for the speed of light"},
     **{"u": "µ before a unit", "Å": "1e-10 m", "k": "1e3 for a thousand", "kgm2": "write kg*m^2", "s2": "write s^2"},
     **{"ftlb": "write ft*lbf", "Lbf": "write lbf", "Bar": "write bar", "metr": "Did you mean", "secnd": "Did you mean"},
-    **{"foots": "write foot", "inchs": "write inch", "furlong": "units are written", "slugg": "Did you mean 'slug'"},
+    **{
+        "Ws": "write W*s, or J",
+        "kWs": "write kW*s, or kJ",
+        "Pas": "write Pa*s",
+        "As": "write A*s",
+        "bars": "write bar",
+    },
+    **{"parsec": "lengths are in m, km", "ly": "lengths are in m, km", "Hzs": "write Hz", "mols": "write mol"},
+    **{"foots": "write foot", "inchs": "write inch", "furlong": "lengths are in m, km", "slugg": "Did you mean 'slug'"},
 }
 
 
@@ -283,3 +291,9 @@ def test_the_manual_lists_the_table() -> None:
     rows = re.findall(r"^\| [\w, ]+ \| (.*) \|$", page.partition("## Units")[2], flags=re.M)
     listed = re.sub(r"\([^)]*\)", "", " ".join(rows)).replace(" or ", " ").replace(",", " ").replace(";", " ").split()
     assert {*listed} - {"units"} == {name for symbols, *_ in TABLE for name in symbols.split()} | {"knot"}
+
+
+@pytest.mark.parametrize("text", ["W*s", "W s", "W·s"])
+def test_a_watt_second_is_a_joule(text: str) -> None:
+    assert parse_quantity(f"2 {text}").dimension == parse_quantity("2 J").dimension
+    assert parse_quantity(f"2 {text}").value == 2.0

@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 from lagrangian.derive import Check
 from lagrangian.derive.formula import Item, Text
+from lagrangian.viewed import Brief
 
 if TYPE_CHECKING:
     from lagrangian.model import Model
 
 
 @dataclass(frozen=True)
-class Part:
+class Part(Brief):
     """A section of a report: items in reading order, then what was checked."""
 
     title: Text
@@ -23,7 +24,7 @@ class Part:
 
 
 @dataclass(frozen=True)
-class Report:
+class Report(Brief):
     """A title, parts, and the model whose letters and names the parts use.
 
     ``data`` is what JSON gives: dictionaries, lists, text, numbers, true, false and null alone.
@@ -32,4 +33,4 @@ class Report:
     title: str
     model: Model
     parts: tuple[Part, ...]
-    data: Mapping[str, Any] = field(default_factory=dict)
+    data: Mapping[str, Any] = field(default_factory=dict, repr=False)

@@ -20,7 +20,7 @@ def conserved(
             "--set",
             metavar="NAME=VALUE",
             help='The value of a parameter in the simulated run: k=80, "m1=2 kg"; one set to 0 vanishes from the '
-            "formulas too. May be repeated.",
+            "formulas too. Repeatable.",
         ),
     ] = None,
     format: FormatOption = None,

@@ -30,7 +30,7 @@ def equilibria(
         typer.Option(
             "--box",
             metavar="NAME=LOW:HIGH",
-            help='Range of a coordinate to search: theta1=-pi:pi, "x=0 m : 30 cm". May be repeated.',
+            help='Range of a coordinate to search: theta1=-pi:pi, "x=0 m : 30 cm". Repeatable.',
         ),
     ] = None,
     values: Parameters = None,

@@ -41,7 +41,7 @@ def export(
     \b
     Examples:
       lagrangian export carts.toml --to c -o out
-      lagrangian export --example two-link-arm --to python --name arm
+      lagrangian export --example robot-arm --to python --name arm
     """
     if output.exists() and not output.is_dir():
         raise Error(f"'{output}' is a file, not a folder", fix="name a folder with -o: -o out", code="E801")

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from lagrangian.commands.door import put, width
+from lagrangian.commands.terminal import OUTPUT
 from lagrangian.errors import Error
 
 if TYPE_CHECKING:
@@ -53,12 +54,15 @@ FormatOption = Annotated[
         "-f",
         help="Output format. By default, the one that the file name in -o implies, otherwise text.",
         show_default=False,
+        rich_help_panel=OUTPUT,
     ),
 ]
 NotationOption = Annotated[
     Notation,
     typer.Option(
-        "--notation", help="Which symbols to use: ξ, T*, Ξ (lecture), q, T, Q (physics) or M, C, g, τ (robotics)."
+        "--notation",
+        help="Symbols to use: ξ, T*, Ξ (lecture), q, T, Q (physics) or M, C, g, τ (robotics).",
+        rich_help_panel=OUTPUT,
     ),
 ]
 
@@ -87,12 +91,17 @@ def chosen(format: Format | None, as_data: bool, output: Path | None, force: boo
     return said or named or Format.TEXT
 
 
-def check_output(output: Path | None, force: bool) -> None:
-    """Raise `Error` for a file that cannot be written, or that is there already unless ``force``."""
-    if output is not None:
-        from lagrangian.write.files import check_free
+def check_output(output: Path | None, force: bool, ending: str = "") -> None:
+    """Raise `Error` for a file that cannot be written, one that is there already unless ``force``, another ending."""
+    if output is None:
+        return
+    from lagrangian.write.files import check_free
 
-        check_free(output, overwrite=force)
+    check_free(output, overwrite=force)
+    device = output.exists() and not output.is_file()
+    if ending and output.suffix.lower() != ending and not device:
+        what = f"the ending of '{output.name}' does not fit: {ending[1:].upper()} is to be written"
+        raise Error(what, fix=f"-o {output.with_suffix(ending)}", code="E402")
 
 
 def as_json(data: Any) -> str:

@@ -29,7 +29,7 @@ def linearize(
         typer.Option(
             "--at",
             metavar="NAME=VALUE",
-            help='Value of a coordinate or rate at the equilibrium: x2=0, "theta=12 deg". May be repeated.',
+            help='Value of a coordinate or rate at the equilibrium: x2=0, "theta=12 deg". Repeatable.',
         ),
     ] = None,
     values: Parameters = None,
@@ -37,7 +37,7 @@ def linearize(
     outputs: Annotated[
         list[str] | None,
         typer.Option(
-            "--outputs", metavar="EXPRESSION", help="An output y: an expression, or name=expression. May be repeated."
+            "--outputs", metavar="EXPRESSION", help="An output y: an expression, or name=expression. Repeatable."
         ),
     ] = None,
     operating_point: Annotated[

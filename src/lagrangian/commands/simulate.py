@@ -12,7 +12,24 @@ from lagrangian.commands.assignments import assignments
 from lagrangian.commands.door import fail, put, say
 from lagrangian.commands.formats import as_json
 from lagrangian.commands.run_summary import figures, summary
-from lagrangian.commands.terminal import Example, Force, OptionalFile, open_system
+from lagrangian.commands.terminal import (
+    COMPUTING,
+    INTEGRATION,
+    OUTPUT,
+    Atol,
+    Duration,
+    Example,
+    Force,
+    Initial,
+    MaxStep,
+    MaxSteps,
+    OptionalFile,
+    Parameters,
+    Plot,
+    Rtol,
+    Step,
+    open_system,
+)
 from lagrangian.commands.wording import in_options
 from lagrangian.errors import Error, ModelError, Place
 from lagrangian.running.driving import MAX_KNOTS
@@ -30,77 +47,17 @@ MAX_BYTES = 64 * MAX_KNOTS
 def simulate(
     file: OptionalFile = None,
     example: Example = None,
-    duration: Annotated[
-        str | None,
-        typer.Option(
-            "--duration",
-            "-d",
-            metavar="TIME",
-            help="How long to simulate, in seconds or with a unit. By default, the duration in the model file.",
-            show_default=False,
-        ),
-    ] = None,
-    set_: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--set",
-            "-s",
-            metavar="NAME=VALUE",
-            help="The value of a parameter: k=80, 'm1=2 kg'. May be repeated.",
-            show_default=False,
-        ),
-    ] = None,
-    init: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--init",
-            metavar="NAME=VALUE",
-            help="The initial value of a coordinate or rate: 'theta1=30 deg', \"x'=0.1\". May be repeated.",
-            show_default=False,
-        ),
-    ] = None,
+    duration: Duration = None,
+    init: Initial = None,
+    set_: Parameters = None,
     input_: Annotated[
         list[str] | None,
         typer.Option(
             "--input",
             "-i",
             metavar="NAME=VALUE",
-            help="An input: tau=2, 'tau=3*sin(t)', \"F=-k*x\", or a table of times and values: F=@force.csv "
-            "(straight lines between them), 'F=@force.csv hold' (steps). May be repeated.",
-            show_default=False,
-        ),
-    ] = None,
-    method: Annotated[
-        str | None,
-        typer.Option(
-            metavar="NAME",
-            help=f"Integration method: {', '.join(METHODS)} (machine code) or {', '.join(SCIPY)} (SciPy).",
-        ),
-    ] = None,
-    step: Annotated[
-        str | None, typer.Option(metavar="TIME", help="Step size of rk4 and gauss4, which need one: 0.01, '10 ms'.")
-    ] = None,
-    rtol: Annotated[float, typer.Option(help="Relative tolerance.")] = 1e-9,
-    atol: Annotated[float, typer.Option(help="Absolute tolerance.")] = 1e-12,
-    max_step: Annotated[
-        str | None,
-        typer.Option("--max-step", metavar="TIME", help="Largest step size: 0.01, '10 ms'.", show_default=False),
-    ] = None,
-    samples: Annotated[
-        int | None, typer.Option(metavar="N", help="Number of evenly spaced times in the results. By default, 1001.")
-    ] = None,
-    max_steps: Annotated[int, typer.Option(metavar="N", help="Stop the run after this many steps.")] = 10_000_000,
-    max_events: Annotated[int, typer.Option(metavar="N", help="Stop the run after this many events.")] = 100_000,
-    timeout: Annotated[
-        float | None, typer.Option(metavar="SECONDS", help="Stop the run after this much computing time.")
-    ] = None,
-    plot: Annotated[
-        Path | None,
-        typer.Option(
-            "--plot",
-            metavar="PATH",
-            help="Draw a picture into this file (.png, .pdf, .svg or .jpg).",
-            show_default=False,
+            help='An input: tau=2, "tau=3*sin(t)", "F=-k*x", or a table of times and values: F=@force.csv (straight '
+            'lines between them), "F=@force.csv hold" (steps). Repeatable.',
         ),
     ] = None,
     output: Annotated[
@@ -109,11 +66,39 @@ def simulate(
             "--output",
             "-o",
             metavar="PATH",
-            help="Write the results to this file (.csv, .nc, .parquet or .npz); - writes CSV to standard output.",
+            help="Write the results to this file (.csv, .nc, .parquet, .npz); - writes CSV to standard output.",
+            rich_help_panel=OUTPUT,
         ),
     ] = None,
-    json: Annotated[bool, typer.Option("--json", help="Write the summary as JSON.")] = False,
+    plot: Plot = None,
+    samples: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N", help="Number of evenly spaced times in the results; 1001 by default.", rich_help_panel=OUTPUT
+        ),
+    ] = None,
+    json: Annotated[bool, typer.Option("--json", help="Write the summary as JSON.", rich_help_panel=OUTPUT)] = False,
     force: Force = False,
+    method: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME",
+            help=f"One of {', '.join(METHODS)} (machine code; dop853 by default), {', '.join(SCIPY)} (SciPy).",
+            rich_help_panel=INTEGRATION,
+        ),
+    ] = None,
+    step: Step = None,
+    rtol: Rtol = 1e-9,
+    atol: Atol = 1e-12,
+    max_step: MaxStep = None,
+    max_steps: MaxSteps = 10_000_000,
+    max_events: Annotated[
+        int, typer.Option(metavar="N", help="Stop the run after so many events.", rich_help_panel=COMPUTING)
+    ] = 100_000,
+    timeout: Annotated[
+        float | None,
+        typer.Option(metavar="SECONDS", help="Stop the run after so much computing time.", rich_help_panel=COMPUTING),
+    ] = None,
 ) -> None:
     """Simulate the system and print a summary; exit 1 if the run stopped early (its results up to then are kept).
 

@@ -32,7 +32,7 @@ def new(
     """
     from lagrangian import examples
 
-    check_output(output, force)
+    check_output(output, force, ".json" if json else ".toml")
     text = examples.text(name)
     put(as_json({"name": name, "description": examples.describe(name), "text": text}) if json else text, output)
 
@@ -68,7 +68,7 @@ def schema(
     """
     from lagrangian import read
 
-    check_output(output, force)
+    check_output(output, force, ".json")
     put(as_json(read.schema()), output)
 
 

@@ -13,11 +13,28 @@ from lagrangian.commands.formats import as_json
 from lagrangian.commands.progress import status
 from lagrangian.commands.simulate import PICTURES
 from lagrangian.commands.sweep_summary import figures, summary
-from lagrangian.commands.terminal import Example, Force, open_system
+from lagrangian.commands.terminal import (
+    COMPUTING,
+    INTEGRATION,
+    OUTPUT,
+    Atol,
+    Duration,
+    Example,
+    Force,
+    Initial,
+    MaxStep,
+    MaxSteps,
+    Parameters,
+    Plot,
+    Rtol,
+    Step,
+    open_system,
+)
 from lagrangian.commands.wording import in_options
 from lagrangian.errors import Error
 from lagrangian.interrupts import interrupts
 from lagrangian.running.ensemble import ENDINGS, Ensemble, write_csv
+from lagrangian.simulate import METHODS
 from lagrangian.write.files import write_with
 from lagrangian.write.tables import check_target
 
@@ -37,60 +54,26 @@ def sweep(
         ),
     ],
     example: Example = None,
-    duration: Annotated[
-        str | None,
-        typer.Option(
-            "--duration", "-d", metavar="TIME", help='How long to simulate each run: 10, "500 ms".', show_default=False
-        ),
-    ] = None,
-    samples: Annotated[
-        int | None,
-        typer.Option(help="Number of random draws, if anything is drawn ('b~normal(1, 0.1)').", show_default=False),
-    ] = None,
-    seed: Annotated[int, typer.Option(help="Seed of the random draws.")] = 0,
+    duration: Duration = None,
     outputs: Annotated[
         list[str] | None,
         typer.Option(
             "--output-of",
             metavar="WHAT",
-            help="What to keep from each run: the final, max, min, mean, rms or range of an expression (final if no "
-            'word is given): "max theta1", "rms x-y", "reach=max L1*sin(theta1)". May be repeated.',
-            show_default=False,
+            help="What to keep of each run: the final (if no word is given), max, min, mean, rms or range of an "
+            'expression: "max theta1", "rms x-y", "reach=max L1*sin(theta1)". Repeatable.',
         ),
     ] = None,
-    values: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--set", metavar="NAME=VALUE", help="The value of a parameter in all runs: k=80. May be repeated."
-        ),
-    ] = None,
-    initial: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--init", metavar="NAME=VALUE", help='An initial value in all runs: "theta1=30 deg". May be repeated.'
-        ),
-    ] = None,
+    initial: Initial = None,
+    values: Parameters = None,
     inputs: Annotated[
         list[str] | None,
-        typer.Option("--input", metavar="NAME=VALUE", help='An input of all runs: "tau=3*sin(t)". May be repeated.'),
+        typer.Option("--input", "-i", metavar="NAME=VALUE", help='An input: "tau=3*sin(t)". Repeatable.'),
     ] = None,
-    times: Annotated[
-        int, typer.Option(help="Number of evenly spaced times from which max, mean, … are taken.", min=2)
-    ] = 1001,
-    method: Annotated[str, typer.Option(metavar="NAME", help="Integration method.")] = "dop853",
-    step: Annotated[
-        str | None,
-        typer.Option(
-            metavar="TIME", help="Step size of rk4 and gauss4, which need one: 0.01, '10 ms'.", show_default=False
-        ),
+    samples: Annotated[
+        int | None, typer.Option(metavar="N", help="Number of random draws, if anything is drawn.", show_default=False)
     ] = None,
-    max_step: Annotated[
-        str | None,
-        typer.Option("--max-step", metavar="TIME", help="Largest step size: 0.01, '10 ms'.", show_default=False),
-    ] = None,
-    max_steps: Annotated[int, typer.Option(metavar="N", help="Stop a run after this many steps.")] = 10_000_000,
-    rtol: Annotated[float, typer.Option(help="Relative tolerance.")] = 1e-9,
-    atol: Annotated[float, typer.Option(help="Absolute tolerance.")] = 1e-12,
+    seed: Annotated[int, typer.Option(metavar="N", help="Seed of the random draws.")] = 0,
     output: Annotated[
         Path | None,
         typer.Option(
@@ -98,26 +81,48 @@ def sweep(
             "-o",
             metavar="PATH",
             help="Write results to this file (.nc, .csv, .parquet) or .zarr store; - writes CSV to standard output.",
+            rich_help_panel=OUTPUT,
         ),
     ] = None,
-    plot: Annotated[
-        Path | None,
-        typer.Option(
-            "--plot",
-            metavar="PATH",
-            help="Draw a picture into this file (.png, .pdf, .svg or .jpg).",
-            show_default=False,
-        ),
-    ] = None,
-    resume: Annotated[bool, typer.Option("--resume", help="Continue an interrupted sweep in its .zarr store.")] = False,
-    json: Annotated[bool, typer.Option("--json", help="Write the summary as JSON.")] = False,
+    plot: Plot = None,
+    resume: Annotated[
+        bool,
+        typer.Option("--resume", help="Continue an interrupted sweep in its .zarr store.", rich_help_panel=OUTPUT),
+    ] = False,
+    json: Annotated[bool, typer.Option("--json", help="Write the summary as JSON.", rich_help_panel=OUTPUT)] = False,
     force: Force = False,
+    method: Annotated[
+        str, typer.Option(metavar="NAME", help=f"One of {', '.join(METHODS)}.", rich_help_panel=INTEGRATION)
+    ] = "dop853",
+    step: Step = None,
+    rtol: Rtol = 1e-9,
+    atol: Atol = 1e-12,
+    max_step: MaxStep = None,
+    times: Annotated[
+        int,
+        typer.Option(
+            metavar="N",
+            help="Number of evenly spaced times that max, mean, … are taken over.",
+            min=2,
+            rich_help_panel=INTEGRATION,
+        ),
+    ] = 1001,
+    max_steps: MaxSteps = 10_000_000,
+    threads: Annotated[
+        int | None, typer.Option(metavar="N", help="Cores to use; all by default.", min=1, rich_help_panel=COMPUTING)
+    ] = None,
+    memory: Annotated[
+        int, typer.Option(metavar="MIB", help="Memory for trajectories.", min=1, rich_help_panel=COMPUTING)
+    ] = 256,
     scheduler: Annotated[
         str | None,
-        typer.Option(metavar="ADDRESS", help="Address of a Dask scheduler: tcp://host:8786.", show_default=False),
+        typer.Option(
+            metavar="ADDRESS",
+            help="Address of a Dask scheduler: tcp://host:8786.",
+            show_default=False,
+            rich_help_panel=COMPUTING,
+        ),
     ] = None,
-    threads: Annotated[int | None, typer.Option(help="Number of cores to use. By default, all.", min=1)] = None,
-    memory: Annotated[int, typer.Option(help="Memory for trajectories, in MiB.", min=1)] = 256,
 ) -> None:
     """Simulate every combination of values and keep a few numbers of each run; exit 1 if all runs fail.
 

@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from lagrangian.system import System
 
 
+OUTPUT, INTEGRATION, COMPUTING = "Output", "Integration", "Computing"
+"""The groups of options in a verb's help, behind its own ones."""
+
+
 def example_names(begun: str) -> list[str]:
     """The names of the examples that begin so, for a shell to complete."""
     from lagrangian import examples
@@ -45,24 +49,70 @@ Width = Annotated[
         min=NARROWEST,
         max=WIDEST,
         show_default=False,
+        rich_help_panel=OUTPUT,
     ),
 ]
-Json = Annotated[bool, typer.Option("--json", help="Write the result as JSON.")]
+Json = Annotated[bool, typer.Option("--json", help="Write the result as JSON.", rich_help_panel=OUTPUT)]
 Output = Annotated[
     Path | None,
     typer.Option(
-        "--output", "-o", metavar="PATH", help="Write to this file instead of standard output.", show_default=False
+        "--output",
+        "-o",
+        metavar="PATH",
+        help="Write to this file instead of standard output.",
+        show_default=False,
+        rich_help_panel=OUTPUT,
     ),
 ]
-Force = Annotated[bool, typer.Option("--force", help="Overwrite an existing file.")]
+Force = Annotated[bool, typer.Option("--force", help="Overwrite an existing file.", rich_help_panel=OUTPUT)]
 Parameters = Annotated[
     list[str] | None,
-    typer.Option("--set", metavar="NAME=VALUE", help='The value of a parameter: k=80, "m1=2 kg". May be repeated.'),
+    typer.Option("--set", "-s", metavar="NAME=VALUE", help='Value of a parameter: k=80, "m1=2 kg". Repeatable.'),
 ]
 ConstantInputs = Annotated[
     list[str] | None,
-    typer.Option("--input", metavar="NAME=VALUE", help="The constant value of an input: F=2. May be repeated."),
+    typer.Option("--input", "-i", metavar="NAME=VALUE", help="Constant value of an input: F=2. Repeatable."),
 ]
+
+# -- what `simulate` and `sweep` share --------------------------------------------------------------------------------
+
+Duration = Annotated[
+    str | None,
+    typer.Option(
+        "--duration",
+        "-d",
+        metavar="TIME",
+        help='How long to simulate: 10, "500 ms". By default, as the model file says.',
+        show_default=False,
+    ),
+]
+Initial = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--init",
+        metavar="NAME=VALUE",
+        help='Initial value of a coordinate or rate: "theta1=30 deg", "x\'=0.1". Repeatable.',
+    ),
+]
+Plot = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="PATH",
+        help="Draw a picture into this file (.png, .pdf, .svg, .jpg).",
+        show_default=False,
+        rich_help_panel=OUTPUT,
+    ),
+]
+Step = Annotated[
+    str | None,
+    typer.Option(metavar="TIME", help='Step of rk4 and gauss4: 0.01, "10 ms".', rich_help_panel=INTEGRATION),
+]
+Rtol = Annotated[float, typer.Option(metavar="NUMBER", help="Relative tolerance.", rich_help_panel=INTEGRATION)]
+Atol = Annotated[float, typer.Option(metavar="NUMBER", help="Absolute tolerance.", rich_help_panel=INTEGRATION)]
+MaxStep = Annotated[
+    str | None, typer.Option(metavar="TIME", help='Longest step: 0.01, "10 ms".', rich_help_panel=INTEGRATION)
+]
+MaxSteps = Annotated[int, typer.Option(metavar="N", help="Stop a run after so many steps.", rich_help_panel=COMPUTING)]
 
 
 def open_system(file: str | None, example: str | None = None) -> System:

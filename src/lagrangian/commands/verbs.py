@@ -61,6 +61,24 @@ _ENDING = re.compile(r"[;.] [Ee]xit \d")
 """Where the line of a verb goes over to exit codes, which the list of verbs leaves out."""
 
 
+class Grouped(typer.core.TyperCommand):
+    """A verb whose help lists its options by their groups, in the order in which these first appear."""
+
+    def format_options(self, ctx: Any, formatter: Any) -> None:
+        """Write the arguments, then the options of every group."""
+        groups: dict[str, list[tuple[str, str]]] = {}
+        for param in self.get_params(ctx):
+            if (record := param.get_help_record(ctx)) is None:
+                continue
+            if param.param_type_name == "argument":
+                groups.setdefault("Arguments", []).append((record[0].partition(" <")[0], record[1]))
+            else:
+                groups.setdefault(getattr(param, "rich_help_panel", None) or "Options", []).append(record)
+        for name, records in groups.items():
+            with formatter.section(name):
+                formatter.write_dl(records)
+
+
 class Deferred(typer.core.TyperCommand):
     """A verb that is known by its name and its line of help until it is used."""
 
@@ -72,7 +90,9 @@ class Deferred(typer.core.TyperCommand):
     def verb(self) -> Any:
         """The command itself, with its options."""
         alone = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
-        alone.command(self.name)(getattr(import_module(f"lagrangian.commands.{self._file}"), self._function))
+        alone.command(self.name, cls=Grouped)(
+            getattr(import_module(f"lagrangian.commands.{self._file}"), self._function)
+        )
         return typer.main.get_command(alone)
 
     def make_context(self, *arguments: Any, **options: Any) -> Any:

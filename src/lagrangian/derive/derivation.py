@@ -12,13 +12,14 @@ from sympy.core.function import AppliedUndef
 from lagrangian.derive.formula import Formula, Item, Text
 from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.model import as_expr, plain
+from lagrangian.viewed import Brief, cut
 
 if TYPE_CHECKING:
     from lagrangian.model import Element, Model
 
 
 @dataclass(frozen=True)
-class Check:
+class Check(Brief):
     """Something that was verified: in words, whether it holds, and the figure.
 
     ``holds`` is None for what could not be checked here; the figure then says why.
@@ -28,9 +29,14 @@ class Check:
     holds: bool | None
     figure: str = ""
 
+    def __repr__(self) -> str:
+        """Read as ``<Check: the equations agree with …: holds, largest relative difference 5e-16 …>``."""
+        verdict = {True: "holds", False: "DOES NOT HOLD", None: "not checked"}[self.holds]
+        return cut(f"<Check: {self.what}: {verdict}{', ' if self.figure else ''}{self.figure}>")
+
 
 @dataclass(frozen=True)
-class Step:
+class Step(Brief):
     """One step of the lecture: what was done, why, what came out, what was checked.
 
     ``items`` are the words, formulas and tables in reading order; ``expressions`` the results by name; ``reasons`` why
@@ -47,13 +53,16 @@ class Step:
     checked: tuple[Check, ...] = ()
     view: Callable[[], str] | None = field(default=None, repr=False, compare=False)
 
+    def __repr__(self) -> str:
+        return f"<Step {self.number}: {self.title}>"
+
     def _repr_html_(self) -> str | None:
         """The step as a notebook shows it, where it belongs to a derivation that can be written."""
         return None if self.view is None else self.view()
 
 
 @dataclass(frozen=True)
-class LedgerRow:
+class LedgerRow(Brief):
     """An element's one place among T*, V and Ξ, with the reason."""
 
     element: str
@@ -63,7 +72,7 @@ class LedgerRow:
 
 
 @dataclass(frozen=True)
-class Origin:
+class Origin(Brief):
     """Where a term came from: the element, the equation it stands in (a coordinate's name), its share of the term."""
 
     element: Element
@@ -79,7 +88,7 @@ class Origin:
 
 
 @dataclass(frozen=True)
-class EquationTerm:
+class EquationTerm(Brief):
     """A readable term of an equation of motion: its kind and the elements that make it.
 
     Kinds: "inertia" (with an acceleration), "velocity" (products of rates), "damping", "stiffness", "gravity", "input",
@@ -92,7 +101,7 @@ class EquationTerm:
 
 
 @dataclass(frozen=True, eq=False)
-class Derivation:
+class Derivation(Brief):
     """The equations of motion of a model, and how they were found.
 
     ``steps[0]`` to ``steps[6]`` are the lecture's. ``equations[i]`` is ``Eq(left-hand side, Ξ_i)`` of coordinate i.
@@ -124,6 +133,15 @@ class Derivation:
     def coordinates(self) -> tuple[sp.Expr, ...]:
         """The generalized coordinates, in declared order."""
         return tuple(c.symbol for c in self.model.coordinates)
+
+    def __repr__(self) -> str:
+        """Say of what it is; ``print`` shows it all."""
+        names = ", ".join(c.name for c in self.model.coordinates)
+        n, failed = len(self.model.coordinates), sum(check.holds is False for check in self.verified)
+        return cut(
+            f"<Derivation of {self.model.name!r}: {n} coordinate{'s' if n != 1 else ''} {names}; {len(self.steps)} "
+            f"steps; {len(self.verified) - failed} of {len(self.verified)} checks hold; print() shows it>"
+        )
 
     def formulas(self) -> tuple[Formula, ...]:
         """Every formula of every step and of the result, in reading order."""

@@ -12,10 +12,11 @@ from typing import TypeAlias
 import sympy as sp
 
 from lagrangian.model.plain import plain
+from lagrangian.viewed import Worded
 
 
 @dataclass(frozen=True)
-class Name:
+class Name(Worded):
     """A named quantity: ``base`` is its meaning, ``index`` its subscript, ``dots`` its time derivatives.
 
     Bases: "T*" kinetic co-energy, "V" potential energy, "L" Lagrangian, "D" Rayleigh's function, "Xi" generalized
@@ -36,7 +37,7 @@ class Name:
 
 
 @dataclass(frozen=True)
-class Partial:
+class Partial(Worded):
     """∂of/∂by."""
 
     of: Left
@@ -48,7 +49,7 @@ class Partial:
 
 
 @dataclass(frozen=True)
-class Total:
+class Total(Worded):
     """d/dt of something."""
 
     of: Left
@@ -59,7 +60,7 @@ class Total:
 
 
 @dataclass(frozen=True)
-class Variation:
+class Variation(Worded):
     """δ of something: a virtual displacement or virtual work."""
 
     of: Left
@@ -70,7 +71,7 @@ class Variation:
 
 
 @dataclass(frozen=True)
-class Terms:
+class Terms(Worded):
     """A sum whose terms keep this order; an empty one is 0."""
 
     terms: tuple[Left, ...]
@@ -82,7 +83,7 @@ class Terms:
 
 
 @dataclass(frozen=True)
-class Minus:
+class Minus(Worded):
     """−of."""
 
     of: Left
@@ -93,7 +94,7 @@ class Minus:
 
 
 @dataclass(frozen=True)
-class Product:
+class Product(Worded):
     """Factors side by side, in this order, a sum among them in parentheses."""
 
     factors: tuple[Left, ...]
@@ -104,7 +105,7 @@ class Product:
 
 
 @dataclass(frozen=True)
-class Square:
+class Square(Worded):
     """coefficient · (a² + b² + …), each square written as a square: ½ m (ẋ² + ẏ²), ½ k (x₁ − x₂)²."""
 
     coefficient: sp.Expr
@@ -117,7 +118,7 @@ class Square:
 
 
 @dataclass(frozen=True)
-class Matrix:
+class Matrix(Worded):
     """A matrix or column of expressions, row by row; of a symmetric one the writer shows the upper half."""
 
     rows: tuple[tuple[Left, ...], ...]
@@ -133,7 +134,7 @@ Left: TypeAlias = "Name | Partial | Total | Variation | Terms | Minus | Product 
 
 
 @dataclass(frozen=True)
-class Elided:
+class Elided(Worded):
     """An expression or matrix too long to read: how many operations it has, and all of it for those who want it."""
 
     expr: sp.Expr | Matrix
@@ -151,7 +152,7 @@ def show(item: Left | str) -> str:
 
 
 @dataclass(frozen=True)
-class Formula:
+class Formula(Worded):
     """A chain of equalities a = b = c. ``brief`` marks what belongs on the one-page checklist, ``boxed`` a result."""
 
     sides: tuple[Left, ...]
@@ -165,7 +166,7 @@ class Formula:
 
 
 @dataclass(frozen=True)
-class Text:
+class Text(Worded):
     """Words with symbols in them, in order."""
 
     parts: tuple[str | Left, ...]
@@ -177,7 +178,7 @@ class Text:
 
 
 @dataclass(frozen=True)
-class Heading:
+class Heading(Worded):
     """A heading inside a step."""
 
     text: Text
@@ -188,7 +189,7 @@ class Heading:
 
 
 @dataclass(frozen=True)
-class Table:
+class Table(Worded):
     """A table; a cell is a `Text`, a `Formula` or a single quantity."""
 
     header: tuple[Text, ...]

@@ -14,10 +14,11 @@ from lagrangian.derive.forces import Contribution
 from lagrangian.derive.formula import Elided, Heading, Item, Left, Matrix, Name, Product, Table, Terms, formula, text
 from lagrangian.derive.lagrange import LeftSide
 from lagrangian.model import Damper, Dissipation, Element, Gravity, Model, Particle, RigidBody, Spring
+from lagrangian.viewed import Brief
 
 
 @dataclass(frozen=True, eq=False)
-class Shares:
+class Shares(Brief):
     """Every share of every equation, so that a term can be traced to the elements that make it."""
 
     context: Context

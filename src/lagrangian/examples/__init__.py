@@ -23,12 +23,24 @@ def text(name: str) -> str:
     'name = "pendulum"'
     """
     if name not in names():
-        raise ModelError(
-            f"there is no example '{name[:64]}'",
-            fix=did_you_mean(name[:64], names()) or "`lagrangian examples` lists them",
-            code="E402",
-        )
+        fix = _near(name[:64]) or "`lagrangian examples` lists them"
+        raise ModelError(f"there is no example '{name[:64]}'", fix=fix, code="E402")
     return (files(__name__) / f"{name}{_SUFFIX}").read_text(encoding="utf-8")
+
+
+MOST_NEAR = 4
+"""Examples that are named where one is asked for by a part of its name."""
+
+
+def _near(name: str) -> str | None:
+    """The examples that have all words of ``name`` in theirs, the shortest first, else the nearest one."""
+    asked = name.lower().removesuffix(_SUFFIX).replace("_", "-").replace(" ", "-")
+    words = asked.split("-")
+    found = sorted((n for n in names() if all(w in n for w in words)), key=len)
+    if not found or not asked:
+        return did_you_mean(name, names())
+    listed = [f"'{n}'" for n in ([asked] if asked in found else found[:MOST_NEAR])]
+    return f"Did you mean {' or '.join(listed)}?"
 
 
 def describe(name: str) -> str:

@@ -279,6 +279,12 @@ def _condition(graph: Graph, e: Any, a: list[int]) -> int:
         return graph.or_(graph.and_(a[0], a[1]), graph.and_(graph.not_(a[0]), a[2]))
     known = [c.__name__ for c in (*UNARY, *RECIPROCAL)]
     name = e.func.__name__
+    if name == "DiracDelta":
+        raise ModelError(
+            f"an energy or a position holds sign({str(e.args[0])[:60]}), which jumps: its derivative is an impulse",
+            fix="write abs(x) for x*sign(x); what is differentiated must be continuous",
+            code="E525",
+        )
     raise ModelError(
         f"function '{name}' is not supported",
         fix=did_you_mean(name, known) or "write it with sin, cos, exp, log, sqrt, Abs, Piecewise and the like",

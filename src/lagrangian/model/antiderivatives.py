@@ -48,8 +48,30 @@ def _smooth(law: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
 
 
 def _bent(law: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
-    """The integral of a law with kinks, term by term."""
-    whole = bounded.expand(law)
+    """The integral of a law with kinks, term by term; of one that bends on a line a x + b alone, from there."""
+    whole = bounded.expand(_split(law, x))
+    found = _by_terms(law, whole, x)
+    lines = {a.args[0] for a in whole.atoms(sp.Abs, sp.sign) if a.has(x)} if found is None else set()
+    slopes = _polynomial(cast("sp.Expr", next(iter(lines))), x) if len(lines) == 1 else None
+    if slopes is None or len(slopes) != 2 or slopes[0] == 0:
+        return found
+    start = slopes[0] / slopes[1]
+    moved = bounded.expand(_split(bounded.expand(cast("sp.Expr", whole.xreplace({x: x - start}))), x))
+    primitive = _by_terms(moved, moved, x)
+    return None if primitive is None else primitive.subs(x, x + start) - primitive.subs(x, start)
+
+
+def _split(law: sp.Expr, x: sp.Symbol) -> sp.Expr:
+    """The law with |c x| and sign(c x) written |c| |x| and sign(c) sign(x)."""
+    table: dict[sp.Expr, sp.Expr] = {}
+    for kink in law.atoms(sp.Abs, sp.sign):
+        factor, rest = cast("sp.Expr", kink.args[0]).as_independent(x, as_Add=False)
+        if rest == x and factor != 1:
+            table[kink] = kink.func(factor) * kink.func(x)
+    return cast("sp.Expr", law.xreplace(table))
+
+
+def _by_terms(law: sp.Expr, whole: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
     pieces = sp.Add.make_args(whole if not isinstance(law, sp.Piecewise) else law)
     if len(pieces) > MOST_PIECES:
         return None
@@ -70,17 +92,20 @@ def _bent(law: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
 
 
 def _by_euler(law: sp.Expr, x: sp.Symbol, degree: sp.Expr) -> sp.Expr:
-    """δ f(δ)/(n + 1), with δ² |δ| written |δ|³, δ max(δ, 0) as max(δ, 0)²."""
+    """δ f(δ)/(n + 1), with δ² |δ| written |δ|³, δ max(δ, 0) as max(δ, 0)²; no sign δ, which jumps, stays."""
     over = law / (degree + 1)
     powers = law.as_powers_dict()
-    if powers.get(sp.sign(x)) == 1 and not (over / sp.sign(x)).has(sp.Abs, sp.sign):
-        own = powers.get(x, 0)  # δ sign δ = |δ|
-        return over / sp.sign(x) * (sp.Abs(x) if own % 2 else sp.Abs(x) ** (own + 1) / x**own)
-    for kink in (sp.Abs(x), sp.Max(0, x), sp.Min(0, x)):
-        power, own = powers.get(kink, 0), powers.get(x, 0)
-        if power and (kink != sp.Abs(x) or (power == 1 and own % 2 == 1)):
+    own, size, turn = (sp.sympify(powers.get(b, 0)) for b in (x, sp.Abs(x), sp.sign(x)))
+    factor = over / (x**own * sp.Abs(x) ** size * sp.sign(x) ** turn)
+    if not factor.has(x) and own.is_integer and turn.is_integer:
+        n = own + size + 1
+        if (own + turn) % 2:
+            return factor * sp.Abs(x) ** n
+        return factor * (x**n if n % 2 == 1 else x * sp.Abs(x) ** (n - 1))
+    for kink in (sp.Max(0, x), sp.Min(0, x)):
+        if powers.get(kink, 0):
             return over / x**own * kink ** (own + 1)
-    return over * x
+    return over / sp.sign(x) * sp.Abs(x) if turn == 1 else over * x
 
 
 def _degree(expr: sp.Expr, x: sp.Symbol) -> sp.Expr | None:

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, TypeVar
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.errors import ModelError, Place, did_you_mean
+from lagrangian.errors import ModelError, NoSuchEntry, Place, did_you_mean
 from lagrangian.model.checks import check_acted_on, check_kind, check_position, check_use, checked_number
 from lagrangian.model.effect import check_effect
 from lagrangian.model.elements import Element, GeneralizedForce, Particle, RigidBody
@@ -416,14 +416,25 @@ class Builder:
         """Return the symbol of that name, or else the point, frame or element."""
         if not isinstance(name, str):
             raise ModelError(f"system[…] takes a name (got {type(name).__name__})", fix='system["theta"]', code="E402")
-        for table in (self._coordinates, self._velocities, self._parameters, self._inputs, self._definitions):
-            if name in table:
-                return table[name].symbol
-        for things in (self._points, self._frames, self._element_names):
-            if name in things:
-                return things[name]
-        known = [*self._coordinates, *self._parameters, *self._inputs, *self._definitions, *self._points, *self._frames]
-        raise ModelError(f"nothing is named '{name}'", fix=did_you_mean(str(name), known), code="E402")
+        if (found := self.find(name)) is None:
+            known = [known for table in self._tables for known in table]
+            raise NoSuchEntry.among("nothing is named", name, known)
+        return found
+
+    def find(self, name: object) -> Any:
+        """Return the symbol of that name, or else the point, frame or element, or None."""
+        found = next((table[name] for table in self._tables if name in table), None)
+        return getattr(found, "symbol", found)
+
+    def named(self) -> Iterator[Any]:
+        """Every symbol, point, frame and element that has a name."""
+        return (getattr(thing, "symbol", thing) for table in self._tables for thing in table.values())
+
+    @property
+    def _tables(self) -> tuple[Mapping[Any, Any], ...]:
+        """Everything that has a name, by name."""
+        symbols = (self._coordinates, self._velocities, self._parameters, self._inputs, self._definitions)
+        return (*symbols, self._points, self._frames, self._element_names)
 
     def summary(self) -> str:
         """What there is, counted."""

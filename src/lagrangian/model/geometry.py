@@ -25,6 +25,7 @@ from lagrangian.errors import ModelError, Place
 from lagrangian.graph import unknown_part
 from lagrangian.model.floating import Floating
 from lagrangian.model.names import time
+from lagrangian.viewed import Brief
 
 if TYPE_CHECKING:
     from typing import TypeAlias
@@ -97,7 +98,7 @@ def as_vector(values: object, what: str, *, place: Place | None = None) -> tuple
 
 
 @dataclass(frozen=True, eq=False)
-class Point:
+class Point(Brief):
     """A point, given by an offset from its parent in the axes of a frame (the fixed axes when ``frame`` is None).
 
     ``point + (x, y)`` is a new point. The origin has no parent. ``serial`` orders points by creation.
@@ -152,7 +153,7 @@ class Point:
 
 
 @dataclass(frozen=True, eq=False)
-class Frame:
+class Frame(Brief):
     """Axes turned by ``angle`` from the parent's axes, about ``axis`` (given in the parent's axes; None in the plane).
 
     ``origin`` is the point that ``frame.point`` measures from; it is the parent's origin unless given. A frame that

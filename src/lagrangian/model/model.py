@@ -15,6 +15,7 @@ from lagrangian.model.elements import Element, Particle, RigidBody, Words
 from lagrangian.model.geometry import Frame, Point
 from lagrangian.model.names import time
 from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, Velocity
+from lagrangian.viewed import Brief, cut
 
 
 def written_out(expr: sp.Expr, table: Mapping[Any, Any]) -> sp.Expr:
@@ -26,7 +27,7 @@ def written_out(expr: sp.Expr, table: Mapping[Any, Any]) -> sp.Expr:
 
 
 @dataclass(frozen=True, eq=False)
-class Model:
+class Model(Brief):
     """What was described: constant, complete, checked. `Builder.model` makes one.
 
     ``points`` and ``frames`` are the named ones, in order; unnamed ones are reached from the elements. ``dimension`` is
@@ -43,8 +44,12 @@ class Model:
     points: tuple[Point, ...]
     frames: tuple[Frame, ...]
     elements: tuple[Element, ...]
-    settings: Mapping[str, Any] = field(default_factory=dict)
+    settings: Mapping[str, Any] = field(default_factory=dict, repr=False)
     _memo: dict[Any, Any] = field(default_factory=dict, repr=False)
+
+    def __repr__(self) -> str:
+        counts = ("coordinates", "parameters", "inputs", "elements")
+        return cut(f"<Model {self.name!r}: {', '.join(f'{len(getattr(self, x))} {x}' for x in counts)}>")
 
     @property
     def bodies(self) -> tuple[Any, ...]:

@@ -10,10 +10,11 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian.errors import Place
 from lagrangian.model.names import time
+from lagrangian.viewed import Brief
 
 
 @dataclass(frozen=True)
-class Coordinate:
+class Coordinate(Brief):
     """A generalized coordinate ξ: ``symbol`` is SymPy's ``dynamicsymbols(name)``.
 
     ``start`` is its value in the configuration from which runs start unless told: 1 for the last entry of a quaternion.
@@ -24,7 +25,7 @@ class Coordinate:
     symbol: AppliedUndef
     description: str = ""
     unit: str | None = None
-    place: Place | None = field(default=None, compare=False)
+    place: Place | None = field(default=None, compare=False, repr=False)
     start: float = 0.0
     positive: bool = False
 
@@ -40,7 +41,7 @@ class Coordinate:
 
 
 @dataclass(frozen=True)
-class Velocity:
+class Velocity(Brief):
     """A velocity: the rate of a coordinate, named ``ξ'``, or a quasi-velocity, which is the rate of none.
 
     The symbol of a quasi-velocity is a function of time; ``rate`` is the name of its own rate.
@@ -50,7 +51,7 @@ class Velocity:
     symbol: AppliedUndef | sp.Derivative
     description: str = ""
     unit: str | None = None
-    place: Place | None = field(default=None, compare=False)
+    place: Place | None = field(default=None, compare=False, repr=False)
 
     @property
     def rate(self) -> str:
@@ -59,7 +60,7 @@ class Velocity:
 
 
 @dataclass(frozen=True)
-class Parameter:
+class Parameter(Brief):
     """A constant: a plain SymPy symbol with, perhaps, a value in SI units and the unit it was given in."""
 
     name: str
@@ -67,28 +68,28 @@ class Parameter:
     value: float | None = None
     unit: str | None = None
     description: str = ""
-    place: Place | None = field(default=None, compare=False)
+    place: Place | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
-class Input:
+class Input(Brief):
     """A force, torque or other signal from outside, a function of time that is known only when the system runs."""
 
     name: str
     symbol: AppliedUndef
     description: str = ""
     unit: str | None = None
-    place: Place | None = field(default=None, compare=False)
+    place: Place | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True)
-class Definition:
+class Definition(Brief):
     """A named expression; where it holds coordinates or time it is ``moving``, and its symbol a function of t."""
 
     name: str
     symbol: sp.Expr
     expression: sp.Expr
-    place: Place | None = field(default=None, compare=False)
+    place: Place | None = field(default=None, compare=False, repr=False)
 
     @property
     def moving(self) -> bool:

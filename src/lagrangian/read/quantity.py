@@ -16,6 +16,7 @@ from fractions import Fraction
 from functools import lru_cache
 from typing import NoReturn
 
+from lagrangian.advice import Advice, Verb
 from lagrangian.errors import ParseError, Place
 from lagrangian.read.source import Source, character, shown
 from lagrangian.read.unit_hints import refusal, similar
@@ -154,6 +155,9 @@ class _Reader:
                 fix=f"use a decimal point: {number.replace(',', '.')}",
                 code="E406",
             )
+        if text[position] == ":" and all(map(lookup, re.findall(r"[^\W\d_]+", text))):
+            fix = Advice("give one value; a range such as 10:100:50 is an argument of ", Verb("sweep"))
+            self.fail("this is a range of values, but one value is needed", position, fix)
         fix = "write * for a product" if text[position] == "." else "write a number and a unit, such as 40 N/m"
         raise self.source.error(
             f"found {character(text[position])} in a number with a unit", position, fix=fix, code="E406"

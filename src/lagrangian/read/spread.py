@@ -116,9 +116,9 @@ def _pieces(text: str, mark: str) -> list[tuple[int, int]]:
 def _range(name: str, source: Source, part: Part, start: int) -> Spread:
     pieces = _pieces(source.text, ":")
     if not 3 <= len(pieces) <= 4:
-        raise source.error(
-            f"a range has three parts, from:to:count (got {len(pieces)})", 0, fix="write 10:100:50", code="E406"
-        )
+        ends = source.text.strip()
+        fix = f"write {ends}:11 for 11 values from the first to the second" if len(pieces) == 2 else "write 10:100:50"
+        raise source.error(f"a range has three parts, from:to:count (got {len(pieces)})", 0, fix=fix, code="E406")
     low, high = (read_quantity(part(start + a, start + b)) for a, b in pieces[:2])
     _same_units(source, (low, high))
     begin, end = pieces[2]

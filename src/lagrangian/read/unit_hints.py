@@ -65,6 +65,8 @@ _MEANT = {
     "735.49875 W": "PS CV",
     "1055.06 J": "BTU Btu",
     "hp": "HP Hp bhp",
+    "W*s, or J, which is the same": "Ws",
+    "kW*s, or kJ, which is the same": "kWs",
     "cm^3": "cc ccm",
     "3.785411784 L (US) or 4.54609 L (UK)": "gal gallon gallons",
     "L": "ltr Ltr lit",
@@ -84,6 +86,8 @@ _MEANT = {
 }
 """What to write for names that are met in notes, drawings and programs."""
 
+LENGTHS = "m, km, cm, mm, µm, nm, in, ft, yd, mi or nmi"
+_LONG = "parsec parsecs pc kpc Mpc lightyear lightyears ly au AU fathom furlong league chain rod thou mil mils"
 HINTS = {name: f"write {meant}" for meant, names in _MEANT.items() for name in names.split()}
 
 _OFTEN = (
@@ -102,8 +106,12 @@ def similar(name: str) -> str | None:
     if same:
         common = [x for x in same if x in _COMMON] or same
         return f"write {' or '.join(common[:3])}"
+    if name in _LONG.split():
+        return f"lengths are in {LENGTHS}"
     if name.endswith("s") and name[:-1] in known:
-        return f"write {name[:-1]}"
+        unit = name[:-1]  # a symbol has no plural: As is A*s, bars is bar
+        product = unit in _COMMON and not unit.islower() and not unit.endswith("Hz")
+        return f"write {unit}*s" if product else f"write {unit}"
     if product := _glued(name):
         return f"write {product}"
     return did_you_mean(name, [*_COMMON, *known])

@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.errors import RunError, did_you_mean
+from lagrangian.errors import NoSuchEntry, RunError, did_you_mean
 from lagrangian.running.showing import check_no_file
 from lagrangian.running.varying import SAMPLE, TIME
 from lagrangian.simulate import STATUS
 from lagrangian.simulate.stored import LOST, NOT_RUN, Stored
 from lagrangian.view.many import Along, Result, draw_many
+from lagrangian.viewed import Entries, cut
 from lagrangian.write.files import write_with
 from lagrangian.write.tables import check_target, needed
 
@@ -71,7 +72,7 @@ class Ensemble(Mapping[str, NDArray[Any]]):
     ) -> None:
         self.notices = notices
         self.name, self._arrays, self._dims, self._words = name, arrays, dims, words
-        self.coordinates, self.settings = coordinates, settings
+        self.coordinates, self.settings = Entries(dict(coordinates), "coordinates"), settings
         self.dims, self.shape = dims["status"], tuple(arrays["status"].shape)
 
     @classmethod
@@ -102,7 +103,7 @@ class Ensemble(Mapping[str, NDArray[Any]]):
             return self.coordinates[name][1]
         known = [*self._arrays, *self.coordinates]
         fix = f"use one of {', '.join(short)}" if short else did_you_mean(name, known) or f"known: {', '.join(known)}"
-        raise RunError(f"there is no result '{name}'", fix=fix, code="E402")
+        raise NoSuchEntry(f"there is no result '{name}'", fix=fix, code="E402")
 
     def __contains__(self, name: object) -> bool:
         return name in self._arrays
@@ -174,7 +175,9 @@ class Ensemble(Mapping[str, NDArray[Any]]):
         ends = ", ".join(f"{n} {words}" for words, n in self.counts.items())
         kept = ", ".join(n for n in self if n not in ("status", "reached"))
         said = "".join(f"; notice: {notice}" for notice in self.notices)
-        return f"<Ensemble {self.name!r}: {self.count} runs{sizes}, {self.settings['method']}; {ends}; {kept}{said}>"
+        return cut(
+            f"<Ensemble {self.name!r}: {self.count} runs{sizes}, {self.settings['method']}; {ends}; {kept}{said}>"
+        )
 
     def _repr_html_(self) -> str:
         from lagrangian.write.views import table_view

@@ -31,6 +31,7 @@ from lagrangian.running.trajectory import Occurrences, Trajectory
 from lagrangian.simulate import METHODS
 from lagrangian.simulate.crossings import Hit
 from lagrangian.simulate.scipy_methods import SCIPY, Bounds, Outcome
+from lagrangian.viewed import Entries
 
 _log = logging.getLogger(__name__)
 Array = NDArray[np.float64]
@@ -345,7 +346,7 @@ def _trajectory(task: Task, outcome: Outcome, settings: Mapping[str, Any]) -> Tr
         p=task.p,
         u=task.drive.at(t, x[:, :n]),
         feedback=task.drive.feedback,
-        events=_occurrences(task, outcome.hits, n),
+        events=Entries(_occurrences(task, outcome.hits, n), "events"),
         supplied=x[:, n] if x.shape[1] > n else np.zeros(len(t)),
         jumps=_jumps(task, outcome.hits, t, n, after_last=further),
         settings=dict(settings),

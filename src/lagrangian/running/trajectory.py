@@ -15,10 +15,11 @@ from lagrangian import compile as machine
 from lagrangian import dynamics, read
 from lagrangian.advice import Advice, Argument
 from lagrangian.calls import TRAJECTORY, Guided
-from lagrangian.errors import ModelError, Notice, RunError, did_you_mean
+from lagrangian.errors import ModelError, NoSuchEntry, Notice, RunError, did_you_mean
 from lagrangian.model import Element, Model, Point, as_expr
 from lagrangian.running import showing
 from lagrangian.running.integrating import remembered
+from lagrangian.viewed import Brief, Entries, cut
 from lagrangian.write import tables
 
 if TYPE_CHECKING:
@@ -41,7 +42,7 @@ ROUNDING = 1e-13
 
 
 @dataclass(frozen=True)
-class Audit:
+class Audit(Brief):
     """How well a run keeps its energy balance h(t) = h(0) + energy supplied, h = q̇·∂L/∂q̇ − L.
 
     ``figure`` is the largest difference relative to the energy that moves in the run (the largest of T*, of the change
@@ -75,7 +76,7 @@ class Audit:
 
 
 @dataclass(frozen=True)
-class Occurrences:
+class Occurrences(Brief):
     """When an event happened: ``t`` (k,) and the states just before it, ``y`` (n_states, k)."""
 
     t: Array
@@ -127,7 +128,8 @@ class Trajectory(Guided):
     @property
     def params(self) -> dict[str, float]:
         """The parameters the run was made with."""
-        return {p.name: float(value) for p, value in zip(self.model.parameters, self.p, strict=True)}
+        values = zip((p.name for p in self.model.parameters), map(float, self.p), strict=True)
+        return Entries(dict(values), "params")
 
     def __getitem__(self, asked: Any) -> Array:
         """Return a quantity at every time: a state by name, an expression (SymPy or text), or a point's path (S, d)."""
@@ -281,7 +283,7 @@ class Trajectory(Guided):
             audit = (self.success and self.audit.missed) or str(self.audit)
         except RunError as trouble:  # an energy that is not finite somewhere must not hide the run
             audit = f"no energy balance: {trouble.what}"
-        return (
+        return cut(
             f"<Trajectory {self.model.name!r}: {span}, {len(self.t)} samples, {self.method}, {self.steps} steps, "
             f"{audit}{end}{''.join(f'; notice {n}' for n in self.notices)}>"
         )
@@ -299,7 +301,7 @@ class Named(Mapping[str, Array]):
         if key not in self._quantities:
             known = ", ".join(self._quantities) or "none"
             fix = did_you_mean(str(key), self._quantities) or f"known: {known}"
-            raise ModelError(f"there is no {self._what} '{key}'", fix=fix, code="E412")
+            raise NoSuchEntry(f"there is no {self._what} '{key}'", fix=fix, code="E412")
         if key not in self._known:
             self._known[key] = self._run[self._quantities[key]()]
         return self._known[key]

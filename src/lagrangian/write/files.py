@@ -16,9 +16,9 @@ def write_file(path: str | os.PathLike[str], text: str) -> Path:
 
     Raises `Error` as `write_with` does.
     """
-    target = Path(os.path.realpath(path))
-    if target.exists() and not target.is_file() and not target.is_dir():
-        return _into(Path(path), text)
+    given = Path(path)
+    if given.exists() and not given.is_file() and not given.is_dir():
+        return _into(given, text)
 
     def fill(beside: Path) -> None:
         with beside.open("w", encoding="utf-8", newline="\n") as file:

@@ -25,6 +25,7 @@ from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.model import Coordinate, Model, as_expr, plain, time
 from lagrangian.model.names import RESERVED, check_name, moving_symbol
 from lagrangian.read import Scope, parse_expression
+from lagrangian.viewed import Brief
 
 MOST_SETS = 500
 """Sets of coordinates that are tried for what a change given the other way round replaces."""
@@ -35,7 +36,7 @@ SMALLEST = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class Change:
+class Change(Brief):
     """ξ = φ(η, t): the old coordinates in the new ones, in the order of either set.
 
     ``old`` are the coordinates of the model; ``new`` those that take their places, in the same order: a coordinate that
@@ -102,16 +103,26 @@ def read_change(model: Model, given: Mapping[Any, Any], *, into: Iterable[str] =
     known = [k in by_name for k in keys]
     if not any(known):
         pairs = {k: _expression(model, v, k, ()) for k, v in zip(keys, given.values(), strict=True)}
+        _check_new(model, pairs)
         return _checked(model, _solved(model, pairs))
     if not all(known):
-        stranger = keys[known.index(False)]
-        raise ModelError(
-            f"there is no coordinate '{stranger}' to be replaced",
-            fix=did_you_mean(stranger, by_name) or f"coordinates: {', '.join(by_name)}",
-            code="E402",
-        )
+        raise _no_coordinate(model, keys[known.index(False)])
     table = {by_name[k]: _expression(model, v, k, into) for k, v in zip(keys, given.values(), strict=True)}
     return _checked(model, _placed(model, table))
+
+
+def _no_coordinate(model: Model, name: str) -> ModelError:
+    known = [c.name for c in model.coordinates]
+    fix = did_you_mean(name, known) or f"coordinates: {', '.join(known)}"
+    return ModelError(f"there is no coordinate '{name}' to be replaced", fix=fix, code="E402")
+
+
+def _check_new(model: Model, pairs: Mapping[str, sp.Expr]) -> None:
+    """Refuse names that are no coordinates, unless what they are given by is: coordinates of the system."""
+    own = {c.symbol for c in model.coordinates}
+    for name, expr in pairs.items():
+        if not expr.atoms(AppliedUndef) & own:
+            raise _no_coordinate(model, name)
 
 
 def _key(key: object) -> str:
@@ -234,7 +245,12 @@ def _check_letters(model: Model, expr: sp.Expr, key: str, moving: set[Any]) -> N
         )
     inputs = {u.symbol for u in model.inputs}
     quasi = {v.symbol for v in model.velocities}
+    known = {*model.symbols.values()}
     for s in sorted(expr.atoms(AppliedUndef) - moving, key=str):
+        if s not in known:
+            names = [plain(m) for m in moving]
+            fix = did_you_mean(plain(s), names) or f"coordinates: {', '.join(sorted(names))}"
+            raise ModelError(f"unknown coordinate '{plain(s)}' in {where}", fix=fix, code="E402")
         what = "an input" if s in inputs else "a velocity" if s in quasi else "a definition that moves"
         raise ModelError(
             f"{where} holds '{plain(s)}', {what}",

@@ -14,7 +14,7 @@ from lagrangian.analyze.check.effects import too_long
 from lagrangian.analyze.check.lines import filled
 from lagrangian.analyze.check.mistakes import mistakes
 from lagrangian.analyze.check.rows import Comparison, Kind, Row, compare
-from lagrangian.analyze.check.spelling import Spelling, in_numbers, spelled
+from lagrangian.analyze.check.spelling import Spelling, in_numbers, not_there, spelled
 from lagrangian.analyze.check.stated import Given, equations_follow, given, judge
 from lagrangian.analyze.check.truth import Truth, truth_of
 from lagrangian.analyze.check.verdict import Finding, Line, Status, Verdict
@@ -275,7 +275,7 @@ def _own_names(truth: Truth, spelling: Spelling, verdict: Verdict) -> Verdict | 
 def _explained(truth: Truth, spelling: Spelling, judged: Judged, verdict: Verdict) -> Verdict:
     """The verdict with the mistakes that explain it."""
     named = mistakes(truth, spelling.lines, judged.findings)
-    notes = verdict.notes
+    notes = (*verdict.notes, *(not_there(truth, name) for name in new_names(truth, spelling.lines)))
     if too_long(truth) or not truth.tried_all:
         every = "" if too_long(truth) else "all "
         said = f"The system is too long for {every}well-known mistakes to be tried; its terms are compared."

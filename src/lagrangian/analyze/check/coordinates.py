@@ -26,13 +26,14 @@ from lagrangian.derive import derive
 from lagrangian.derive.formula import Text, text
 from lagrangian.errors import ModelError
 from lagrangian.model import plain, time
+from lagrangian.viewed import Brief
 
 MOST = 200
 """Changes that are tried."""
 
 
 @dataclass(frozen=True, eq=False)
-class Change:
+class Change(Brief):
     """A change of coordinates: the answer's symbols in the system's, in words, and whether it needs to be said.
 
     ``plain`` changes are those people make without a word (relative for absolute), or that the answer states itself by

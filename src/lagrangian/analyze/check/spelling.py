@@ -52,8 +52,14 @@ def spelled(truth: Truth, lines: Sequence[Line], *, numbers: bool = True) -> Spe
     put = tuple(replace(line, expr=cast("sp.Expr", line.expr.xreplace(close))) for line in lines)
     left = [s for s in unknown if s not in close]
     told = [_read(a, b) for a, b in close.items()]
-    told += [text(f"The system has no '{s}'.") for s in left]
+    told += [not_there(truth, s) for s in left]
     return Spelling(put, (*notes, *told))
+
+
+def not_there(truth: Truth, symbol: sp.Basic) -> Text:
+    """Say that the system has no such symbol, and which of its names is nearest."""
+    hint = did_you_mean(plain(symbol), truth.model.symbols)
+    return text(f"The system has no '{plain(symbol)}'.{f' {hint}' if hint else ''}")
 
 
 def in_numbers(truth: Truth, lines: Sequence[Line]) -> bool:

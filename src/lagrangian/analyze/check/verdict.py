@@ -11,6 +11,7 @@ import sympy as sp
 
 from lagrangian.derive.formula import Text
 from lagrangian.model import plain
+from lagrangian.viewed import Brief
 
 
 class Status(StrEnum):
@@ -30,7 +31,7 @@ class Status(StrEnum):
 
 
 @dataclass(frozen=True)
-class Line:
+class Line(Brief):
     """One line of an answer: what it states, and as what. ``expr`` is the energy, the force, or left minus right."""
 
     kind: str
@@ -50,7 +51,7 @@ class Line:
 
 
 @dataclass(frozen=True)
-class Origin:
+class Origin(Brief):
     """Where a term comes from: the element in words, and the step that puts it in."""
 
     element: str
@@ -62,7 +63,7 @@ class Origin:
 
 
 @dataclass(frozen=True)
-class Difference:
+class Difference(Brief):
     """A term that differs from the best matching right line: missing, extra, or with another coefficient.
 
     ``term`` is what the right line has (what the answer has, where it is extra); ``written`` what the answer has in
@@ -87,7 +88,7 @@ class Difference:
 
 
 @dataclass(frozen=True)
-class Mistake:
+class Mistake(Brief):
     """A misconception that explains the answer: its name, what was done, why it is wrong, and where."""
 
     name: str
@@ -110,7 +111,7 @@ class Mistake:
 
 
 @dataclass(frozen=True)
-class Finding:
+class Finding(Brief):
     """What was found of one line: whether it is right, as what, and how it differs.
 
     ``coordinate`` is the equation it is, or was meant to be; ``note`` says what is special about it.

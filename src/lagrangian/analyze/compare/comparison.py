@@ -10,10 +10,11 @@ import sympy as sp
 from lagrangian.analyze.change import Change
 from lagrangian.derive import Check, Derivation
 from lagrangian.derive.formula import Text
+from lagrangian.viewed import Brief
 
 
 @dataclass(frozen=True, eq=False)
-class Side:
+class Side(Brief):
     """One of the two: its tag "A" or "B", its derivation, and the letter of its rows (a absolute, r relative)."""
 
     tag: Literal["A", "B"]
@@ -26,7 +27,7 @@ class Side:
 
 
 @dataclass(frozen=True)
-class Row:
+class Row(Brief):
     """An equation of one set as a sum of rows of the other: ``label`` = Σ factors · ``of``.
 
     ``rest`` is what is left over, ``label`` − Σ factors · ``of``: 0 where the row holds.
@@ -46,7 +47,7 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Rewritten:
+class Rewritten(Brief):
     """An equation of the first set in the coordinates of the other: B-1, with its terms left and right."""
 
     label: str
@@ -56,7 +57,7 @@ class Rewritten:
 
 
 @dataclass(frozen=True)
-class Difference:
+class Difference(Brief):
     """Where two systems differ: the step and quantity ("T*", "V", "Xi"), and what each has there from which element.
 
     ``coordinate`` is the one whose Ξ it is. ``a`` and ``b`` are the contributions in the shared coordinates, ``term``
@@ -74,7 +75,7 @@ class Difference:
 
 
 @dataclass(frozen=True)
-class ParameterDifference:
+class ParameterDifference(Brief):
     """A parameter whose value differs, or that one system has not (``missing``: "A" or "B")."""
 
     name: str

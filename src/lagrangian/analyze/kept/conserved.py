@@ -20,6 +20,7 @@ from lagrangian.analyze.kept.symmetries import Symmetry, symmetries
 from lagrangian.derive.formula import Name, Text, text
 from lagrangian.errors import ModelError
 from lagrangian.model import Model, plain
+from lagrangian.viewed import Brief
 
 _log = logging.getLogger(__name__)
 Array = NDArray[np.float64]
@@ -32,7 +33,7 @@ TRIES = 5
 
 
 @dataclass(frozen=True)
-class Conserved:
+class Conserved(Brief):
     """A quantity that every motion keeps.
 
     ``kind``: "energy", "momentum" (of one ignorable coordinate), "total momentum" (a shift of several coordinates),

@@ -27,6 +27,7 @@ from lagrangian.derive.algebra import Form
 from lagrangian.derive.sample import Sampler
 from lagrangian.errors import ModelError
 from lagrangian.model import time
+from lagrangian.viewed import Brief
 
 TURNS = 12
 """Coordinates up to which directions that depend on the coordinates are looked for."""
@@ -40,7 +41,7 @@ PARAMETRIC = 6
 
 
 @dataclass(frozen=True, eq=False)
-class Symmetry:
+class Symmetry(Brief):
     """δξ_i = shift_i + Σ_j turn_ij ξ_j and δt = −time that leave the motion as it is; shares hold parameters only."""
 
     system: LagrangianForm

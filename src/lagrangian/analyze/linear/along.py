@@ -15,12 +15,13 @@ from lagrangian.analyze.jacobians import rates
 from lagrangian.analyze.linear.outputs import measured
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.model import Model
+from lagrangian.viewed import Brief, cut
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class LinearizationAlong:
+class LinearizationAlong(Brief):
     """The linearization at the times ``t`` (S,) of a trajectory ``x`` (S, n) with inputs ``u`` (S, m).
 
     ``A`` (S, n, n), ``B`` (S, n, m), ``C`` (S, k, n), ``D`` (S, k, m); ``y`` (S, k) are the outputs there. Names are in
@@ -40,6 +41,10 @@ class LinearizationAlong:
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
     parameters: Mapping[str, float]
+
+    def __repr__(self) -> str:
+        span = f", t = {self.t[0]:g} … {self.t[-1]:g} s" if len(self.t) else ""
+        return cut(f"<{self.model.name}: linearization along a run, {len(self.t)} times{span}>")
 
     def __len__(self) -> int:
         """How many times there are."""

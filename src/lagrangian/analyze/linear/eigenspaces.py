@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.analyze.echelon import reduced
+from lagrangian.viewed import Brief
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -35,7 +36,7 @@ ILL = 1e-2
 
 
 @dataclass(frozen=True, eq=False)
-class Eigenspace:
+class Eigenspace(Brief):
     """A pole that counts ``times``, its rounding error, and {w : A w = λ w}, a column of ``basis`` a dimension."""
 
     pole: complex

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.analyze.linear.eigenspaces import EPSILON, EQUAL, SLACK, eigenspaces, plain_basis
+from lagrangian.viewed import Brief
 
 Array = NDArray[np.float64]
 
@@ -30,7 +31,7 @@ DUST = 1e-9
 
 
 @dataclass(frozen=True)
-class Mode:
+class Mode(Brief):
     """One way in which the linear system moves by itself.
 
     ``pole`` λ [1/s] (of a pair, the one with positive imaginary part), ``frequency`` ω_n = |λ| [rad/s], ``damping``
@@ -56,7 +57,7 @@ class Mode:
 
 
 @dataclass(frozen=True, eq=False)
-class Spectrum:
+class Spectrum(Brief):
     """The eigenvalues of A, [1/s], with the bound of each one's rounding error, and their vectors, a column each."""
 
     poles: NDArray[np.complex128]

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from lagrangian.analyze.linear.eigenspaces import eigenspaces, plain_basis
 from lagrangian.errors import RunError
+from lagrangian.viewed import Brief
 
 Array = NDArray[np.float64]
 
@@ -25,7 +26,7 @@ SMALL = 1e-11
 
 
 @dataclass(frozen=True)
-class Missing:
+class Missing(Brief):
     """A pole that inputs do not move (or outputs do not show), with its combination of states.
 
     For controllability ``combination`` is the w of Popov, Belevitch and Hautus: Σ w_i x_i runs by itself. For
@@ -40,7 +41,7 @@ class Missing:
 
 
 @dataclass(frozen=True)
-class Reach:
+class Reach(Brief):
     """``rank`` of ``order`` dimensions are reached; ``missing`` are the modes of the others, of a pair one."""
 
     order: int

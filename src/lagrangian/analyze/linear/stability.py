@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from lagrangian.analyze.jacobians import Arrays
 from lagrangian.analyze.linear.modes import SYMMETRIC, Spectrum
 from lagrangian.graph import Program
+from lagrangian.viewed import Brief
 
 Array = NDArray[np.float64]
 
@@ -24,7 +25,7 @@ SAMPLES = 40
 
 
 @dataclass(frozen=True)
-class Stability:
+class Stability(Brief):
     """A verdict, and why.
 
     Verdicts: "asymptotically stable", "stable" (in Lyapunov's sense), "unstable", "marginal" (the linearization does

@@ -19,6 +19,7 @@ from lagrangian.analyze.ratios import Ratio, inverse, written
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach
 from lagrangian.errors import RunError
 from lagrangian.model import Model, plain, time
+from lagrangian.viewed import Brief
 
 MOST = 6
 """Coordinates up to which a linearization is written in symbols."""
@@ -27,7 +28,7 @@ CLOSE = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
-class SymbolicLinearization:
+class SymbolicLinearization(Brief):
     """The matrices as SymPy, parameters as letters.
 
     ``point`` says what was put for every coordinate and input: an exact number where its value is 0 or a simple part

@@ -29,6 +29,7 @@ from lagrangian.analyze.rests.roots import EXACT, Forces, Search, distinct, star
 from lagrangian.errors import RunError
 from lagrangian.graph import Graph, Output, Program
 from lagrangian.model import Model
+from lagrangian.viewed import Brief
 
 _log = logging.getLogger(__name__)
 Array = NDArray[np.float64]
@@ -54,7 +55,7 @@ LARGE = 1e100
 
 
 @dataclass(frozen=True)
-class Equilibrium:
+class Equilibrium(Brief):
     """A rest: values of all states by name (rates 0), with the inputs and parameters it belongs to.
 
     ``residual`` is the largest |h| in units of h's own size in the box, ``stability`` the verdict. ``moves`` names the

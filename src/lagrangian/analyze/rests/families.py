@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.analyze.rests.roots import EXACT, Search
+from lagrangian.viewed import Brief
 
 Array = NDArray[np.float64]
 
@@ -28,7 +29,7 @@ MOST = 1500
 
 
 @dataclass(frozen=True, eq=False)
-class Family:
+class Family(Brief):
     """Roots that hang together: one of them, how many dimensions they have, which coordinates change along them."""
 
     root: Array

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from copy import copy
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from enum import IntEnum
 from typing import Any, ClassVar, Literal, Protocol, Self, TypeAlias
 
@@ -15,6 +15,7 @@ from lagrangian.errors import ModelError, Place
 from lagrangian.model.geometry import Frame, Point
 from lagrangian.model.names import time
 from lagrangian.model.symbols import Coordinate
+from lagrangian.viewed import Brief
 
 Words: TypeAlias = "tuple[str | sp.Expr, ...]"
 """Words with symbols in them."""
@@ -107,11 +108,11 @@ class Action:
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Element:
+class Element(Brief):
     """A piece of the system. ``name`` is unique in its system; ``place`` is where a file describes it."""
 
     name: str = ""
-    place: Place | None = None
+    place: Place | None = field(default=None, repr=False)
 
     kind: ClassVar[str] = "element"
     ledger: ClassVar[Literal["T*", "V", "Ξ"]]

@@ -29,8 +29,8 @@ _INVERSE = {"sin": "asin", "cos": "acos", "tan": "atan", "sinh": "asinh", "cosh"
 class LatexParser(LatexFractions):
     """Reads one statement."""
 
-    def __init__(self, source: Source, known: Callable[[str], bool]) -> None:
-        super().__init__(source, known)
+    def __init__(self, source: Source, known: Callable[[str], bool], misspelled: Callable[[str], bool]) -> None:
+        super().__init__(source, known, misspelled)
         self._bars = 0
 
     def side_by_side(self) -> bool:

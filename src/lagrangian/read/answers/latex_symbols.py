@@ -1,4 +1,7 @@
-r"""Symbols in LaTeX: letters with subscripts, dots and stars; a run of letters is split into known names."""
+r"""Symbols in LaTeX: letters with subscripts, dots and stars; a run of letters is split into known names.
+
+A run that no known names make up, and that is nearly one of them, is a name that was misspelled.
+"""
 
 from __future__ import annotations
 
@@ -12,11 +15,14 @@ from lagrangian.read.source import Source
 
 
 class LatexSymbols(Parser):
-    """The part of the parser that reads names. ``known`` says whether a name means something."""
+    """The part of the parser that reads names.
 
-    def __init__(self, source: Source, known: Callable[[str], bool]) -> None:
+    ``known`` says whether a name means something, ``misspelled`` whether a run of letters is nearly a name.
+    """
+
+    def __init__(self, source: Source, known: Callable[[str], bool], misspelled: Callable[[str], bool]) -> None:
         super().__init__(source, tokenize(source))
-        self.known = known
+        self.known, self.misspelled = known, misspelled
 
     def _base(self) -> tuple[str, int, int]:
         """A letter, a Greek one, a word, dotted or decorated: its name, its dots, where it begins."""
@@ -66,6 +72,8 @@ class LatexSymbols(Parser):
             ending = self.ahead().text
         elif self.ahead().kind == "lowered":
             ending = normal(self.ahead().text)
+        if self.misspelled(run):
+            return len(run)
         for length in range(len(run), 0, -1):
             candidate = run[:length] + (ending if length == len(run) else "")
             if self.known(candidate) or (length == len(run) and length > 1 and self.known(run)):

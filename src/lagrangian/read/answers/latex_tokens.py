@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+from lagrangian.errors import did_you_mean
 from lagrangian.model.names import FUNCTIONS
 from lagrangian.read.answers.parser import Token
 from lagrangian.read.functions import ALIASES
@@ -117,7 +118,11 @@ def _command(name: str, source: Source, start: int) -> tuple[str, str]:
         return _PAIRS[name], name
     if function in FUNCTIONS:
         return "function", function
-    fix = "known: \\frac \\sqrt \\dot \\ddot \\sin \\cos \\left( \\right) \\cdot, Greek letters, bmatrix"
+    near = did_you_mean(name, [*_GREEK, *_VARIANTS, *_ACCENTS, *_DECORATIONS, *_PAIRS, *_OPERATORS, *FUNCTIONS])
+    if near is not None:
+        fix = near.replace("'", "'\\", 1)
+    else:
+        fix = "known: \\frac \\sqrt \\dot \\ddot \\sin \\cos \\left( \\right) \\cdot, Greek letters, bmatrix"
     raise source.error(f"the command {shown(chr(92) + name)} is not supported in an answer", start, fix=fix)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Callable, Iterable, Iterator
+from difflib import get_close_matches
 from typing import Any
 
 import sympy as sp
@@ -28,6 +29,9 @@ MAX_UNKNOWN = 100
 
 MAX_HINTS = 20
 """Most unknown names that near misses are looked up for."""
+
+SHORTEST_NEAR, NEAR = 4, 0.8
+"""Fewest letters of a name that can be misspelled in LaTeX, where letters side by side are a product, and how near."""
 
 Value = Any
 """An expression, or a matrix of them."""
@@ -71,6 +75,11 @@ class Names:
             or energy_of(written, self.model)
             or force_of(written, self.model)
         )
+
+    def misspelled(self, run: str) -> bool:
+        """Whether a run of letters is nearly a name of the model, and no product of known ones."""
+        near = len(run) >= SHORTEST_NEAR and not self.known(run) and not self._factors(run)
+        return near and bool(get_close_matches(run, self.scope, n=1, cutoff=NEAR))
 
     def occurs(self, written: str) -> int:
         """How often a name stands in the answer."""

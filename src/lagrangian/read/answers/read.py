@@ -42,7 +42,7 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
         what = f"more than {MAX_STATEMENTS} statements"
         raise source.error(what, rows[MAX_STATEMENTS].start, fix="give the answer in several parts", code="E703")
     lines = Lines(model)
-    parser = partial(LatexParser, known=lines.names.known) if latex else PlainParser
+    parser = partial(LatexParser, known=lines.names.known, misspelled=lines.names.misspelled) if latex else PlainParser
     statements = [_parsed(source, row, parser) for row in rows]
     return Answer(lines.read(statements), "latex" if latex else "text", tuple(lines.names.unknown.values()))
 
