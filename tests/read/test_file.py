@@ -251,9 +251,20 @@ def test_what_the_grammar_has_no_word_for_is_refused_with_its_place() -> None:
     b = Builder("x")
     x = b.coordinate("x").symbol
     b.add(Particle(mass=1, at=b.origin + (x, 0)))
-    b.add(Force(value=sp.Heaviside(x), deflection=x, name="step"))
-    with pytest.raises(ModelError, match="value of force 'step' cannot be written to a model file: unknown function"):
+    largest = sp.Max(*(k * x + k**2 for k in range(33)), evaluate=False)  # the grammar takes 32
+    b.add(Force(value=largest, deflection=x, name="largest"))
+    with pytest.raises(ModelError, match=r"value of force 'largest' cannot be written to a model file: .*max"):
         dumps(b.model())
+
+
+def test_a_step_is_written_in_cases() -> None:
+    b = Builder("x")
+    x = b.coordinate("x").symbol
+    b.add(Particle(mass=1, at=b.origin + (x, 0)))
+    b.add(Force(value=sp.Heaviside(x), deflection=x, name="step"))
+    (force,) = [e for e in loads(dumps(b.model())).model().elements if e.name == "step"]
+    for at in (-1, 0, 1):
+        assert force.value.subs(x, at) == sp.Heaviside(at, sp.Rational(1, 2))  # type: ignore[attr-defined]
 
 
 def test_a_saved_file_loads(tmp_path) -> None:  # type: ignore[no-untyped-def]

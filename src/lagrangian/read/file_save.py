@@ -136,7 +136,7 @@ class _Writer:
             raise ModelError(
                 f"{what} cannot be written to a model file: {error.what}", fix=error.fix, code="E701"
             ) from None
-        if same != expr and bounded.expand(same - expr) != 0:
+        if plain(same) != text and bounded.expand(same - expr) != 0:
             raise ModelError(
                 f"{what} cannot be written to a model file: {text} reads back as {plain(same)}",
                 fix="write it in the functions of the model file's grammar",
