@@ -1,5 +1,7 @@
 """Sizes are predicted before anything is written out; the predictions are bounds."""
 
+from collections.abc import Iterator
+
 import pytest
 import sympy as sp
 from sympy.physics.mechanics import dynamicsymbols
@@ -108,3 +110,35 @@ def test_names_are_found_once_however_often_they_are_shared() -> None:
     for _ in range(40):
         expr = sp.Mul(expr, sp.Add(expr, a, evaluate=False), evaluate=False)
     assert bounded.names(expr) == {a, q, w, q.diff(t)}
+
+
+def test_the_sign_of_a_deeply_nested_argument_is_left_open() -> None:
+    """Its real part, which SymPy looks for, would be exponentially long."""
+    inner: sp.Expr = q
+    for _ in range(7):
+        inner = sp.exp(-sp.sqrt(1 + (inner + a) ** 2)) * w
+    with at_most(50_000):
+        for kind in (sp.Abs, sp.sign):
+            assert bounded.absolute(kind, inner).func is kind
+    with at_most(2_000_000):
+        slope = bounded.diff(a * sp.Abs(inner, evaluate=False), q)
+    assert slope.has(sp.sign) and not slope.has(sp.re, sp.im)
+    assert bounded.absolute(sp.Abs, sp.Integer(-3)) == 3
+
+
+def test_a_search_ends_where_the_last_call_is_that_of_a_generator_thrown_away() -> None:
+    """Python ignores what is raised there, and no longer counts after it."""
+
+    def half_used() -> Iterator[int]:
+        yield from range(3)
+
+    def nothing() -> None: ...
+
+    def endless() -> None:
+        for _ in range(10_000):
+            next(half_used())
+        pytest.fail("the calls were not counted")
+
+    for calls in range(500, 510):
+        assert bounded.searched(endless, calls=calls) is None
+    assert bounded.searched(nothing, calls=10) is None

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Callable, Iterator, Mapping
+from inspect import CO_GENERATOR
 from math import comb
 from typing import Any, TypeVar, cast
 
@@ -33,6 +34,12 @@ TERMS = 3_000
 
 CALLS = 300_000
 """Calls inside a search of SymPy after which it is given up; what a book holds takes less than a tenth."""
+
+INSIDE = 50
+"""Operations in an absolute value or a sign above which SymPy is not asked whether they are real."""
+
+PROOFS = 10_000
+"""Calls after which the sign of an argument is left open; x² + 1 takes a hundredth."""
 
 HIGH = 8
 """A higher power of a sum is not multiplied out where only a common factor is looked for."""
@@ -238,13 +245,14 @@ def _diff(expr: sp.Expr, symbol: Any) -> sp.Expr:
 
 
 def _bent(expr: sp.Basic) -> list[sp.Expr]:
-    """The outermost maxima and minima, and the outermost cases."""
+    """The outermost maxima, minima and cases, and long absolute values and signs."""
     found: dict[sp.Expr, None] = {}
     stack, seen = [expr], {id(expr)}
     while stack:
         node = stack.pop()
-        if isinstance(node, (sp.Piecewise, sp.Max, sp.Min)):
-            found[node] = None
+        long = isinstance(node, (sp.Abs, sp.sign)) and size(node) > INSIDE
+        if long or isinstance(node, (sp.Piecewise, sp.Max, sp.Min)):
+            found[cast("sp.Expr", node)] = None
             continue
         fresh = [a for a in node.args if id(a) not in seen]
         seen.update(map(id, fresh))
@@ -253,7 +261,10 @@ def _bent(expr: sp.Basic) -> list[sp.Expr]:
 
 
 def _case(node: sp.Expr, symbol: Any) -> sp.Expr:
-    """The derivative of a maximum, a minimum or cases: that of what holds."""
+    """The derivative of a maximum, a minimum or cases: that of what holds; d|u| = sign(u) du, a sign's is 0."""
+    if isinstance(node, (sp.Abs, sp.sign)):
+        inner = _diff(cast("sp.Expr", node.args[0]), symbol) if isinstance(node, sp.Abs) else sp.S.Zero
+        return inner if inner == 0 else inner * sp.sign(node.args[0], evaluate=False)
     if isinstance(node, sp.Piecewise):
         cases = [(_diff(pair.args[0], symbol), pair.args[1]) for pair in cast("tuple[Any, ...]", node.args)]
     else:
@@ -293,7 +304,7 @@ def rebuilt(node: sp.Basic, arguments: list[Any]) -> sp.Basic:
     unproved = (sp.Piecewise, sp.core.relational.Relational)
     if isinstance(node, unproved) or (isinstance(node, (sp.Max, sp.Min)) and len(arguments) > 2):
         return node.func(*arguments, evaluate=False)
-    return node.func(*arguments)
+    return absolute(node.func, arguments[0]) if isinstance(node, (sp.Abs, sp.sign)) else node.func(*arguments)
 
 
 # -- searches -----------------------------------------------------------------------------------------------------
@@ -311,7 +322,8 @@ def searched(routine: Callable[..., T], *arguments: Any, calls: int = CALLS) -> 
         nonlocal left
         if event == "call":
             left -= 1
-            if left < 0:
+            # what is raised while a generator is thrown away is lost, and Python would stop to count
+            if left < 0 and not frame.f_code.co_flags & CO_GENERATOR:
                 raise _SpentError
 
     before = sys.getprofile()
@@ -329,6 +341,13 @@ def searched(routine: Callable[..., T], *arguments: Any, calls: int = CALLS) -> 
         else:  # the standard library's profiler is no function and starts itself again
             sys.setprofile(None)
             before.enable()
+
+
+def absolute(function: Callable[..., Any], argument: sp.Expr) -> sp.Expr:
+    """Return abs or sign of a real number, as it is where SymPy would split it into real and imaginary parts."""
+    value = searched(function, argument, calls=PROOFS)
+    split = value is None or value.has(sp.re, sp.im, sp.arg, sp.conjugate)
+    return cast("sp.Expr", function(argument, evaluate=False) if split else value)
 
 
 def cancel(expr: sp.Expr) -> sp.Expr:

@@ -101,3 +101,10 @@ def test_a_place_measured_along_an_axis_holds_where_it_is_one_to_one() -> None:
     right = "m*(x''*L^2/(L^2 - x^2) + x*x'^2*L^2/(L^2 - x^2)^2) + m*g*x/sqrt(L^2 - x^2) = 0"
     assert pendulum.check(right).right
     assert not pendulum.check(right.replace("+ m*g", "- m*g")).right
+
+
+def test_a_mass_that_is_no_polynomial_has_no_factors():
+    """asinh of a root in the mass matrix: SymPy's factor_list refuses it."""
+    held = '[[particle]]\nmass = "m"\nat = ["(2*x+asinh(17*x/(10*(x+3)))^2)*sqrt(1+x^2)", "0"]\n'
+    system = loads('name = "odd"\n[coordinates]\nx = ""\n[parameters]\nm = 1\nk = 2\n' + held)
+    assert not system.check("m*x'' + k*x = 0").right

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import sympy as sp
+
+from lagrangian import bounded
 
 
 @dataclass(frozen=True)
@@ -15,16 +18,6 @@ class Known:
     make: Callable[..., sp.Expr]
     least: int = 1
     most: int | None = 1
-
-
-def _real(function: Callable[..., sp.Expr]) -> Callable[..., sp.Expr]:
-    """Return abs or sign of a real number: where SymPy would split into real and imaginary parts it stays as it is."""
-
-    def make(argument: sp.Expr) -> sp.Expr:
-        value = function(argument)
-        return function(argument, evaluate=False) if value.has(sp.re, sp.im, sp.arg, sp.conjugate) else value
-
-    return make
 
 
 def _extremum(function: type[sp.Max] | type[sp.Min]) -> Callable[..., sp.Expr]:
@@ -57,8 +50,8 @@ FUNCTIONS: dict[str, Known] = {
     "log": Known(sp.log),
     "ln": Known(sp.log),
     "sqrt": Known(sp.sqrt),
-    "abs": Known(_real(sp.Abs)),
-    "sign": Known(_real(sp.sign)),
+    "abs": Known(partial(bounded.absolute, sp.Abs)),
+    "sign": Known(partial(bounded.absolute, sp.sign)),
     "min": Known(_extremum(sp.Min), 1, 32),
     "max": Known(_extremum(sp.Max), 1, 32),
 }

@@ -231,8 +231,10 @@ def _static(truth: Truth) -> list[tuple[sp.Expr, sp.Expr]]:
         still |= {c.rate: sp.S.Zero, c.acceleration: sp.S.Zero}
     q = list(truth.derivation.coordinates)
     rows = [cast("sp.Expr", r.xreplace(still)) for r in truth.rows]
-    slopes = sp.Matrix([[bounded.diff(r, x) for x in q] for r in rows])
-    if slopes.has(*q) or slopes.has(time) or truth.n > 4 or slopes.det() == 0:
+    if truth.n > 4:
+        return []
+    slopes = bounded.searched(lambda: sp.Matrix([[bounded.diff(r, x) for x in q] for r in rows]))
+    if slopes is None or slopes.has(*q) or slopes.has(time) or slopes.det() == 0:
         return []
     place = slopes.LUsolve(-sp.Matrix([r.xreplace(dict.fromkeys(q, sp.S.Zero)) for r in rows]))
     found = [(x, bounded.cancel(c)) for x, c in zip(q, place, strict=True)]

@@ -13,6 +13,7 @@ from typing import Any, cast
 
 import numpy as np
 import sympy as sp
+from sympy.polys.polyerrors import PolynomialError
 
 from lagrangian import bounded
 from lagrangian.analyze.check.numbers import Array, Compiled, States
@@ -89,11 +90,22 @@ def _squares(base: sp.Expr) -> tuple[sp.Expr, list[tuple[sp.Expr, int]]] | None:
     """A positive number and factors with even powers whose product is the base; None where it is no square."""
     if sp.count_ops(base) > LONGEST or not base.free_symbols or not base.is_polynomial(*_letters(base)):
         return None
-    factored: Any = sp.factor_list(base)
-    number, parts = factored
+    number, parts = _factors(base)
     if not number.is_positive or any(power % 2 for _, power in parts):
         return None
     return number, parts
+
+
+def _factors(expr: sp.Expr) -> Any:
+    """A number and factors with their powers; the expression itself where none are found, or not soon."""
+
+    def looked_for() -> Any:
+        try:
+            return sp.factor_list(expr)
+        except PolynomialError:
+            return None
+
+    return bounded.searched(looked_for) or (sp.S.One, [(expr, 1)])
 
 
 def _letters(expr: sp.Expr) -> list[sp.Basic]:
@@ -113,7 +125,7 @@ def _singular(M: sp.Matrix, states: States, q: Sequence[sp.Expr]) -> Iterator[sp
     for i in range(M.rows):
         entry: Any = M[i, i]
         if entry.has(*q) and sp.count_ops(entry) <= LONGEST:
-            tried |= {part: None for part, _ in sp.factor_list(entry)[1] if any(_slope(part, x) in (1, -1) for x in q)}
+            tried |= {part: None for part, _ in _factors(entry)[1] if any(_slope(part, x) in (1, -1) for x in q)}
     for p in tried:
         of = [x for x in q if p.has(x)]
         if len(of) != 1 or (rest := p - _slope(p, of[0]) * of[0]).has(of[0]):

@@ -251,6 +251,8 @@ def _turning(linearizer: Linearizer, u: Array, p: Array) -> NDArray[np.bool_]:
     for _ in range(3):
         q = source.uniform(-1, 1, n)
         here = _all_forces(linearizer, q, u, p)
+        if not np.isfinite(here).all():
+            return np.zeros(n, bool)
         for k in range(n):
             for shift, found in ((2 * np.pi, same), (1.0, fixed)):
                 there = _all_forces(linearizer, q + shift * (np.arange(n) == k), u, p)

@@ -1,0 +1,49 @@
+"""Random hostile model files through every verb: an answer or a word about it, after a bounded number of calls."""
+
+from pathlib import Path
+
+import pytest
+
+from effort import at_most
+from hostile_models import KINDS, LONGEST, model
+from lagrangian.cli import main
+
+CALLS = 40_000_000
+"""Calls of Python functions that a verb may take; twenty seconds are some forty million."""
+
+VERBS = {
+    "derive": ["derive", "FILE"],
+    "verify": ["verify", "FILE", "--states", "5"],
+    "check": ["check", "FILE", "ANSWER"],
+    "compare": ["compare", "FILE", "FILE"],
+    "linearize": ["linearize", "FILE", "--operating-point"],
+    "symbols": ["linearize", "FILE", "--symbols"],
+    "equilibria": ["equilibria", "FILE"],
+    "conserved": ["conserved", "FILE"],
+    "export": ["export", "FILE", "--to", "c", "-o", "OUT"],
+    "simulate": ["simulate", "FILE", "-d", "1"],
+    "sweep": ["sweep", "FILE", "m=1:2:2", "-d", "0.5", "--threads", "1"],
+}
+SEEDS = (0, 2, 9)
+
+
+def check_ends(seed: int, verb: str, folder: Path) -> None:
+    """Exit 0, 1 or 2 within the calls; an exception that no verb expects fails by itself."""
+    file, answer = folder / "hostile.toml", folder / "answer.txt"
+    file.write_text(model(seed), encoding="utf-8")
+    answer.write_text("m*q0'' + k*q0 = F\n", encoding="utf-8")
+    put = {"FILE": str(file), "ANSWER": str(answer), "OUT": str(folder)}
+    with at_most(CALLS):
+        assert main([put.get(word, word) for word in VERBS[verb]]) in (0, 1, 2)
+
+
+def test_hostile_files_are_small_and_the_same_everywhere() -> None:
+    assert all(len(model(seed).encode()) <= LONGEST for seed in range(3 * len(KINDS)))
+    assert model(7) == model(7)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("verb", VERBS)
+@pytest.mark.parametrize("seed", SEEDS)
+def test_every_verb_ends_on_a_hostile_file(seed: int, verb: str, tmp_path: Path) -> None:
+    check_ends(seed, verb, tmp_path)
