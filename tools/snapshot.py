@@ -168,7 +168,8 @@ def _runs(system: Any) -> Iterator[str]:
     """The bits of the last state of a short run by each method, and of an ensemble."""
     for method in METHODS:
         fixed = {"step": 0.01} if method in FIXED else {}
-        yield f"{method}: {_bits(lambda method=method, fixed=fixed: system.simulate(0.5, method=method, **fixed).y[:, -1])}"
+        bits = _bits(lambda method=method, fixed=fixed: system.simulate(0.5, method=method, **fixed).y[:, -1])
+        yield f"{method}: {bits}"
     first = system.compile().coordinates[0]
     yield f"ensemble: {_bits(lambda: _all(system.ensemble(0.5, initial={first: [0.1, 0.2, 0.3]}, samples=3)))}"
 

@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from lagrangian.comparison import Comparison, compare
+    from lagrangian.analyze.compare import Comparison, compare
     from lagrangian.derivation import Derivation
     from lagrangian.errors import Error, MissingExtra, ModelError, Notice, ParseError, Place, RunError
     from lagrangian.running.ensemble import Ensemble
@@ -16,7 +16,7 @@ else:
     __getattr__ = lazily(
         __name__,
         {
-            "comparison": "Comparison compare",
+            "analyze.compare": "Comparison compare",
             "derivation": "Derivation",
             "errors": "Error MissingExtra ModelError Notice ParseError Place RunError",
             "running.ensemble": "Ensemble",

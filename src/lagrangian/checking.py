@@ -10,14 +10,15 @@ from dataclasses import dataclass, fields
 from pathlib import Path
 from typing import Any
 
-from lagrangian.analysis import Written
 from lagrangian.analyze import check
 from lagrangian.analyze.report import Report
-from lagrangian.derive import Derivation
+from lagrangian.derive import Derived
 from lagrangian.errors import Error, ModelError
 from lagrangian.model import Model
-from lagrangian.read import MAX_BYTES, Answer, decode, parse_answer
+from lagrangian.read import MAX_BYTES, decode
+from lagrangian.read.answers import Answer, parse_answer
 from lagrangian.viewed import Brief, cut
+from lagrangian.write.written import Written
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -26,7 +27,7 @@ class CheckedAnswer(Written, check.Verdict):
 
     model: Model
 
-    def report(self) -> Report:
+    def report(self) -> Report[Model]:
         """Return the verdict as words and tables, as much as ``hint`` gives away."""
         return check.report(self, self.model)
 
@@ -35,7 +36,7 @@ class CheckedAnswer(Written, check.Verdict):
         return cut(f"<CheckedAnswer, {self.model.name}: {self.status.value}>")
 
 
-def check_answer(derivation: Derivation, answer: Any, *, hint: int = 3, name: str | None = None) -> CheckedAnswer:
+def check_answer(derivation: Derived, answer: Any, *, hint: int = 3, name: str | None = None) -> CheckedAnswer:
     """Check an answer: text or LaTeX, an `Answer` that was read, SymPy equations, or energies by name.
 
     ``hint`` is how much the words give away: 0 right or not, 1 the line, 2 the element and the step, 3 the term.
@@ -155,7 +156,7 @@ def _csv(head: list[str], rows: list[list[str]]) -> str:
     return out.getvalue()
 
 
-def check_folder(derivation: Derivation, folder: Path, *, hint: int = 3) -> CheckedFolder:
+def check_folder(derivation: Derived, folder: Path, *, hint: int = 3) -> CheckedFolder:
     """Check every file of a folder, by name; what cannot be read is told in its row and does not stop the rest.
 
     Raises `Error` where the folder holds no file.
@@ -166,7 +167,7 @@ def check_folder(derivation: Derivation, folder: Path, *, hint: int = 3) -> Chec
     return CheckedFolder(tuple(_row(derivation, path, hint) for path in files))
 
 
-def _row(derivation: Derivation, path: Path, hint: int) -> FolderRow:
+def _row(derivation: Derived, path: Path, hint: int) -> FolderRow:
     try:
         answer = parse_answer(read_text(path), derivation.model, name=path.name)
     except Error as error:

@@ -6,8 +6,9 @@ from dataclasses import dataclass, fields, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from lagrangian import analyze, derive, write
+from lagrangian import analyze, derive, dynamics
 from lagrangian.calls import DERIVATION, Guided
+from lagrangian.derive import pages
 from lagrangian.model import Model
 from lagrangian.viewed import Viewed
 
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Derivation(Guided, derive.Derivation):
+class Derivation(Guided, derive.Derived):
     """The seven steps, their results as SymPy, and every way to write them out."""
 
     _guide = DERIVATION
@@ -27,23 +28,23 @@ class Derivation(Guided, derive.Derivation):
         self, *, notation: Notation = "lecture", brief: bool = False, full: bool = False, width: int = 80
     ) -> str:
         """Return Unicode text for a terminal of ``width`` columns."""
-        return write.to_text(self, notation=notation, brief=brief, full=full, width=width)
+        return pages.to_text(self, notation=notation, brief=brief, full=full, width=width)
 
     def to_markdown(self, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
         """Return Markdown with LaTeX mathematics."""
-        return write.to_markdown(self, notation=notation, brief=brief, full=full)
+        return pages.to_markdown(self, notation=notation, brief=brief, full=full)
 
     def to_latex(self, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
         """Return a LaTeX article that compiles as it is."""
-        return write.to_latex(self, notation=notation, brief=brief, full=full)
+        return pages.to_latex(self, notation=notation, brief=brief, full=full)
 
     def to_html(self, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
         """Return one self-contained HTML page that works offline."""
-        return write.to_html(self, notation=notation, brief=brief, full=full)
+        return pages.to_html(self, notation=notation, brief=brief, full=full)
 
     def to_dict(self, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> dict[str, Any]:
         """Return plain data for JSON."""
-        return write.to_dict(self, notation=notation, brief=brief, full=full)
+        return pages.to_dict(self, notation=notation, brief=brief, full=full)
 
     def verify(self, *, states: int = 50, seed: int = 1) -> tuple[Check, ...]:
         """Check the equations, and all that is made of them, by independent routes at random states.
@@ -69,7 +70,7 @@ class Derivation(Guided, derive.Derivation):
         return check_answer(self, answer, hint=hint)
 
     def _repr_html_(self) -> str:
-        return write.to_html_fragment(self)
+        return pages.to_html_fragment(self)
 
     def __str__(self) -> str:
         """Read as text."""
@@ -94,15 +95,13 @@ def derive_and_verify(model: Model, *, detail: derive.Detail = "usual") -> Deriv
     analyze.check_dimensions(model)
     data = derive.derive(model, detail=detail)
     made = Derivation(**{f.name: getattr(data, f.name) for f in fields(data)})
-    made = replace(made, verified=analyze.verify(made, states=10, seed=1))
+    made = replace(made, notices=dynamics.notices(model), verified=analyze.verify(made, states=10, seed=1))
     steps = tuple(replace(step, view=partial(_section, made, f"step-{step.number}")) for step in made.steps)
     return replace(made, steps=steps, ledger=Viewed(made.ledger, partial(_ledger, made)))
 
 
 def _section(derivation: Derivation, anchor: str) -> str:
-    from lagrangian.write.views import section_view
-
-    return section_view(derivation, anchor)
+    return pages.section_to_html(derivation, anchor)
 
 
 def _ledger(derivation: Derivation) -> str:

@@ -17,7 +17,7 @@ from lagrangian.write import check_free, write_file
 if TYPE_CHECKING:  # every verb imports what it needs: describing a system waits for none of them
     from numpy.typing import ArrayLike
 
-    from lagrangian.analysis import (
+    from lagrangian.analyze import (
         ConservedQuantities,
         Equilibria,
         Hamiltonian,
@@ -25,8 +25,8 @@ if TYPE_CHECKING:  # every verb imports what it needs: describing a system waits
         LinearizationAlong,
         Routhian,
     )
+    from lagrangian.analyze.compare import Comparison
     from lagrangian.checking import CheckedAnswer
-    from lagrangian.comparison import Comparison
     from lagrangian.compiled import Compiled
     from lagrangian.derivation import Derivation
     from lagrangian.derive import Check, Detail
@@ -101,19 +101,19 @@ class System(Described):
 
         A parameter given as 0 vanishes.
         """
-        from lagrangian.analysis import conserved
+        from lagrangian.analyze import conserved
 
         return conserved(self.model, params=params)
 
     def hamiltonian(self) -> Hamiltonian:
         """Return momenta, H(q, p, t) and the canonical equations."""
-        from lagrangian.analysis import hamiltonian
+        from lagrangian.analyze import hamiltonian
 
         return hamiltonian(self.model)
 
     def routhian(self, ignorable: Sequence[Any] | None = None) -> Routhian:
         """Return the Routhian: the Lagrangian of what is left once ignorable coordinates (all, or these) are gone."""
-        from lagrangian.analysis import routhian
+        from lagrangian.analyze import routhian
 
         return routhian(self.model, ignorable)
 
@@ -126,7 +126,7 @@ class System(Described):
         samples: int | None = None,
     ) -> Equilibria:
         """Return where the system can stay at rest: all equilibria found in a ``box`` of {name: (low, high)}."""
-        from lagrangian.analysis import equilibria
+        from lagrangian.analyze import equilibria
 
         return equilibria(self.model, inputs=inputs, params=params, box=box, samples=samples)
 
@@ -145,7 +145,7 @@ class System(Described):
         ``at``: values of coordinates and rates by name or symbol (0 where not given), or an `Equilibrium`. ``outputs``:
         expressions, listed or by name. ``operating_point`` takes a point that is no equilibrium as it is.
         """
-        from lagrangian.analysis import linearize
+        from lagrangian.analyze import linearize
 
         found: dict[str, Any] = {"inputs": inputs, "params": params, "outputs": outputs}
         return linearize(self.model, at, **found, time=time, operating_point=operating_point)
@@ -159,7 +159,7 @@ class System(Described):
         outputs: Any = None,
     ) -> LinearizationAlong:
         """Return A(t), B(t), C(t), D(t) along a run, or along (times, states)."""
-        from lagrangian.analysis import linearize_along
+        from lagrangian.analyze import linearize_along
 
         return linearize_along(self.model, trajectory, inputs=inputs, params=params, outputs=outputs)
 
@@ -298,7 +298,7 @@ class System(Described):
 
         ``change`` says coordinates of one in those of the other; left out, it is found where positions tell it.
         """
-        from lagrangian.comparison import compare
+        from lagrangian.analyze.compare import compare
 
         return compare(self, other, change)
 

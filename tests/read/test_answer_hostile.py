@@ -10,7 +10,7 @@ import lagrangian as lg
 from effort import at_most
 from lagrangian import examples
 from lagrangian.errors import ParseError
-from lagrangian.read import Answer, parse_answer
+from lagrangian.read.answers import Answer, parse_answer
 from size import rest_slow, sized
 
 PENDULUM = lg.loads(examples.text("pendulum")).model

@@ -11,8 +11,7 @@ from sympy.core.function import AppliedUndef
 import lagrangian as lg
 from built_in import derivation
 from lagrangian import examples
-from lagrangian.read import parse_answer
-from lagrangian.read.answers import ENERGIES, generalized_force
+from lagrangian.read.answers import ENERGIES, generalized_force, parse_answer
 
 t = sp.Symbol("t")
 theta = sp.Function("theta")(t)

@@ -10,8 +10,7 @@ import sympy as sp
 
 import lagrangian as lg
 from lagrangian import examples
-from lagrangian.read import parse_answer
-from lagrangian.read.answers import generalized_force
+from lagrangian.read.answers import generalized_force, parse_answer
 
 t = sp.Symbol("t")
 

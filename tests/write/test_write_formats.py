@@ -13,24 +13,15 @@ import pytest
 from sympy import cos, sin
 
 import lagrangian as lg
-from lagrangian.derive import Check, Derivation, derive
+from lagrangian.derive import Check, Derived, derive
 from lagrangian.derive import formula as data
+from lagrangian.derive.data import to_dict
 from lagrangian.derive.formula import text
+from lagrangian.derive.pages import FORMATS, lay_out, to_html, to_html_fragment, to_latex, to_markdown, to_text
 from lagrangian.errors import ModelError
 from lagrangian.model import Builder, Damper, Force, Gravity, Particle, Spring, Torque
-from lagrangian.write import (
-    FORMATS,
-    NOTATIONS,
-    html,
-    to_dict,
-    to_html,
-    to_html_fragment,
-    to_latex,
-    to_markdown,
-    to_text,
-)
+from lagrangian.write import NOTATIONS, html
 from lagrangian.write.glyphs import columns
-from lagrangian.write.layout import lay_out
 from lagrangian.write.numerals import figures, unit
 
 
@@ -104,7 +95,7 @@ MODELS = {
 
 
 @pytest.fixture(scope="module")
-def derivations() -> dict[str, Derivation]:
+def derivations() -> dict[str, Derived]:
     return {name: derive(make().model()) for name, make in MODELS.items()}
 
 

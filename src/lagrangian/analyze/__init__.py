@@ -7,14 +7,19 @@ from lagrangian.lazily import lazily
 
 if TYPE_CHECKING:
     from lagrangian.analyze.dimensions import check_dimensions
-    from lagrangian.analyze.kept.conserved import Conserved, ConservedQuantities, conserved
-    from lagrangian.analyze.kept.hamiltonian import Hamiltonian, hamiltonian
-    from lagrangian.analyze.kept.routhian import Routhian, routhian
+    from lagrangian.analyze.kept.canonical_forms import Hamiltonian, Routhian
+    from lagrangian.analyze.kept.conserved import conserved
+    from lagrangian.analyze.kept.conserved_quantities import Conserved, ConservedQuantities
+    from lagrangian.analyze.kept.hamiltonian import hamiltonian
+    from lagrangian.analyze.kept.routhian import routhian
     from lagrangian.analyze.linear.along import LinearizationAlong, linearize_along
-    from lagrangian.analyze.linear.linearize import Linearization, linearize
-    from lagrangian.analyze.linear.regulate import Regulator, lqr, to_control
+    from lagrangian.analyze.linear.linearization import Linearization
+    from lagrangian.analyze.linear.linearize import linearize
+    from lagrangian.analyze.linear.regulate import lqr, to_control
+    from lagrangian.analyze.linear.regulator import Regulator
     from lagrangian.analyze.linear.symbolic import SymbolicLinearization, symbolic
-    from lagrangian.analyze.rests.equilibria import Equilibria, Equilibrium, equilibria
+    from lagrangian.analyze.rests.equilibria import equilibria
+    from lagrangian.analyze.rests.found import Equilibria, Equilibrium
     from lagrangian.analyze.verify.motion import verify_motion
     from lagrangian.analyze.verify.products import verify_products
     from lagrangian.analyze.verify.report import verification_report
@@ -23,14 +28,19 @@ else:
         __name__,
         {
             "dimensions": "check_dimensions",
-            "kept.conserved": "Conserved ConservedQuantities conserved",
-            "kept.hamiltonian": "Hamiltonian hamiltonian",
-            "kept.routhian": "Routhian routhian",
+            "kept.canonical_forms": "Hamiltonian Routhian",
+            "kept.conserved": "conserved",
+            "kept.conserved_quantities": "Conserved ConservedQuantities",
+            "kept.hamiltonian": "hamiltonian",
+            "kept.routhian": "routhian",
             "linear.along": "LinearizationAlong linearize_along",
-            "linear.linearize": "Linearization linearize",
-            "linear.regulate": "Regulator lqr to_control",
+            "linear.linearization": "Linearization",
+            "linear.linearize": "linearize",
+            "linear.regulate": "lqr to_control",
+            "linear.regulator": "Regulator",
             "linear.symbolic": "SymbolicLinearization symbolic",
-            "rests.equilibria": "Equilibria Equilibrium equilibria",
+            "rests.equilibria": "equilibria",
+            "rests.found": "Equilibria Equilibrium",
             "verify.motion": "verify_motion",
             "verify.products": "verify_products",
             "verify.report": "verification_report",

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import Any, Generic, TypeVar
 
-from lagrangian.derive import Check
-from lagrangian.derive.formula import Item, Text
+from lagrangian.derive.formula import Check, Item, Text
 from lagrangian.viewed import Brief
 
-if TYPE_CHECKING:
-    from lagrangian.model import Model
+M = TypeVar("M")
+"""The model whose letters are used."""
 
 
 @dataclass(frozen=True)
@@ -24,13 +23,13 @@ class Part(Brief):
 
 
 @dataclass(frozen=True)
-class Report(Brief):
+class Report(Brief, Generic[M]):
     """A title, parts, and the model whose letters and names the parts use.
 
     ``data`` is what JSON gives: dictionaries, lists, text, numbers, true, false and null alone.
     """
 
     title: str
-    model: Model
+    model: M
     parts: tuple[Part, ...]
     data: Mapping[str, Any] = field(default_factory=dict, repr=False)

@@ -6,9 +6,9 @@ from typing import Annotated
 
 import typer
 
+from lagrangian.analyze.compare import compare as compared
 from lagrangian.commands.formats import FormatOption, Notation, NotationOption, chosen, put_report
 from lagrangian.commands.terminal import Force, Json, Output, Width, example_names, open_system
-from lagrangian.comparison import compare as compared
 from lagrangian.errors import Error
 from lagrangian.system import System
 

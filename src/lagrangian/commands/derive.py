@@ -12,6 +12,7 @@ from lagrangian.commands.door import put, say
 from lagrangian.commands.door import width as columns
 from lagrangian.commands.formats import Format, FormatOption, Notation, NotationOption, chosen
 from lagrangian.commands.terminal import Example, Force, Json, OptionalFile, Output, Width, open_system
+from lagrangian.derive import pages
 
 
 class Detail(StrEnum):
@@ -45,10 +46,10 @@ def derive(
     wanted = chosen(format, json, output, force)
     derivation = open_system(file, example).derive(detail=detail.value)
     if wanted is Format.TEXT:
-        document = write.lay_out(derivation, notation=notation.value, brief=brief, full=full)
+        document = pages.lay_out(derivation, notation=notation.value, brief=brief, full=full)
         put(write.page_rows(document, columns(width, output)), output)
     else:
-        put(write.FORMATS[wanted.value](derivation, notation=notation.value, brief=brief, full=full), output)
+        put(pages.FORMATS[wanted.value](derivation, notation=notation.value, brief=brief, full=full), output)
     if any(check.holds is False for check in derivation.verified):
         say("a check at the end of the derivation does not hold; see its ✗")
         raise typer.Exit(1)

@@ -3,8 +3,9 @@
 `derive` is the whole: 0 holonomic?, 1 coordinates, 2 T*, 3 V, 4 L, 5 left-hand sides, 6 Ξ, then the equations.
 """
 
-from lagrangian.derive.derivation import Check, Derivation, EquationTerm, LedgerRow, Origin, Step
+from lagrangian.derive.derivation import Derived, LedgerRow, Origin, Step
 from lagrangian.derive.derive import derive
+from lagrangian.derive.formula import Check, EquationTerm
 from lagrangian.derive.lagrange import Detail
 
-__all__ = ["Check", "Derivation", "Detail", "EquationTerm", "LedgerRow", "Origin", "Step", "derive"]
+__all__ = ["Check", "Derived", "Detail", "EquationTerm", "LedgerRow", "Origin", "Step", "derive"]

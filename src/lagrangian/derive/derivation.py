@@ -1,4 +1,4 @@
-"""The Derivation: seven steps as data, their results as SymPy, and where every term came from."""
+"""The data of a derivation: seven steps as data, their results as SymPy, and where every term came from."""
 
 from __future__ import annotations
 
@@ -9,30 +9,13 @@ from typing import TYPE_CHECKING, Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from lagrangian.derive.formula import Formula, Item, Text
-from lagrangian.errors import ModelError, did_you_mean
+from lagrangian.derive.formula import Check, EquationTerm, Formula, Item, Text
+from lagrangian.errors import ModelError, Notice, did_you_mean
 from lagrangian.model import as_expr, plain
 from lagrangian.viewed import Brief, cut
 
 if TYPE_CHECKING:
     from lagrangian.model import Element, Model
-
-
-@dataclass(frozen=True)
-class Check(Brief):
-    """Something that was verified: in words, whether it holds, and the figure.
-
-    ``holds`` is None for what could not be checked here; the figure then says why.
-    """
-
-    what: Text
-    holds: bool | None
-    figure: str = ""
-
-    def __repr__(self) -> str:
-        """Read as ``<Check: the equations agree with …: holds, largest relative difference 5e-16 …>``."""
-        verdict = {True: "holds", False: "DOES NOT HOLD", None: "not checked"}[self.holds]
-        return cut(f"<Check: {self.what}: {verdict}{', ' if self.figure else ''}{self.figure}>")
 
 
 @dataclass(frozen=True)
@@ -87,28 +70,15 @@ class Origin(Brief):
         )
 
 
-@dataclass(frozen=True)
-class EquationTerm(Brief):
-    """A readable term of an equation of motion: its kind and the elements that make it.
-
-    Kinds: "inertia" (with an acceleration), "velocity" (products of rates), "damping", "stiffness", "gravity", "input",
-    "other".
-    """
-
-    expr: sp.Expr
-    kind: str
-    elements: tuple[str, ...]
-
-
 @dataclass(frozen=True, eq=False)
-class Derivation(Brief):
+class Derived(Brief):
     """The equations of motion of a model, and how they were found.
 
     ``steps[0]`` to ``steps[6]`` are the lecture's. ``equations[i]`` is ``Eq(left-hand side, Ξ_i)`` of coordinate i.
     M ξ̈ + C ξ̇ + G = Ξ holds with ``mass_matrix`` (n×n), ``coriolis_matrix`` (n×n, by Christoffel symbols, so that
     Ṁ − 2C is skew), ``gravity_vector`` (n×1: ∂V/∂ξ, and what explicit time adds) and ``generalized_forces`` (n×1).
     ``result`` is the closing section, ``ledger`` books every element once, ``verified`` holds what was checked at the
-    end. ``notes`` say where something could not be made short and why.
+    end. ``notes`` say where something could not be made short and why, ``notices`` what is to be known of the system.
     """
 
     model: Model
@@ -128,6 +98,7 @@ class Derivation(Brief):
     shares: Any = field(repr=False)
     verified: tuple[Check, ...] = ()
     notes: tuple[Text, ...] = ()
+    notices: tuple[Notice, ...] = ()
 
     @property
     def coordinates(self) -> tuple[sp.Expr, ...]:

@@ -11,7 +11,7 @@ import sympy as sp
 from lagrangian.derive.algebra import Algebra
 from lagrangian.derive.context import Context, fit
 from lagrangian.derive.coordinates import coordinates
-from lagrangian.derive.derivation import Derivation
+from lagrangian.derive.derivation import Derived
 from lagrangian.derive.energies import kinetic, lagrangian, potential, shares
 from lagrangian.derive.forces import contributions, forces
 from lagrangian.derive.formula import Text, text
@@ -25,7 +25,7 @@ from lagrangian.model import Model
 _log = logging.getLogger(__name__)
 
 
-def derive(model: Model, *, detail: Detail = "usual") -> Derivation:
+def derive(model: Model, *, detail: Detail = "usual") -> Derived:
     """Return the equations of motion of a model and the steps that lead to them.
 
     d/dt(∂L/∂ξ̇_i) − ∂L/∂ξ_i = Ξ_i with L = T* − V, for every coordinate. ``detail="full"`` writes d/dt out term by term.
@@ -64,7 +64,7 @@ def derive(model: Model, *, detail: Detail = "usual") -> Derivation:
     _log.info("deriving: the equations and M, C, G")
     Xi = step6.expressions["Xi"]
     result, mats, book = equations(context, sides, found), matrices(context, sides, Xi), ledger(model, context)
-    return Derivation(
+    return Derived(
         model=model,
         steps=(step0, step1, step2, step3, step4, step5, step6),
         T=T,

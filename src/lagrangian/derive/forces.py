@@ -11,9 +11,10 @@ from lagrangian import bounded
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import Context, big_xi, fit
 from lagrangian.derive.coordinates import chain_of
-from lagrangian.derive.derivation import Check, Step
+from lagrangian.derive.derivation import Step
 from lagrangian.derive.ends import find_ends
 from lagrangian.derive.formula import (
+    Check,
     Heading,
     Item,
     Left,

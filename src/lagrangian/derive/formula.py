@@ -205,6 +205,36 @@ class Table(Worded):
 Item: TypeAlias = "Text | Formula | Heading | Table"
 
 
+@dataclass(frozen=True)
+class Check(Brief):
+    """Something that was verified: in words, whether it holds, and the figure.
+
+    ``holds`` is None for what could not be checked here; the figure then says why.
+    """
+
+    what: Text
+    holds: bool | None
+    figure: str = ""
+
+    def __repr__(self) -> str:
+        """Read as ``<Check: the equations agree with …: holds, largest relative difference 5e-16 …>``."""
+        verdict = {True: "holds", False: "DOES NOT HOLD", None: "not checked"}[self.holds]
+        return cut(f"<Check: {self.what}: {verdict}{', ' if self.figure else ''}{self.figure}>")
+
+
+@dataclass(frozen=True)
+class EquationTerm(Brief):
+    """A readable term of an equation of motion: its kind and the elements that make it.
+
+    Kinds: "inertia" (with an acceleration), "velocity" (products of rates), "damping", "stiffness", "gravity", "input",
+    "other".
+    """
+
+    expr: sp.Expr
+    kind: str
+    elements: tuple[str, ...]
+
+
 def text(*parts: str | Left, brief: bool = False) -> Text:
     """Return words with symbols in them: ``text("wiggle only ", theta, ": …")``."""
     return Text(parts, brief)

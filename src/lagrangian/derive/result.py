@@ -9,9 +9,22 @@ import sympy as sp
 
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import READABLE, Context, fit_terms
-from lagrangian.derive.derivation import EquationTerm, LedgerRow, Origin
+from lagrangian.derive.derivation import LedgerRow, Origin
 from lagrangian.derive.forces import Contribution
-from lagrangian.derive.formula import Elided, Heading, Item, Left, Matrix, Name, Product, Table, Terms, formula, text
+from lagrangian.derive.formula import (
+    Elided,
+    EquationTerm,
+    Heading,
+    Item,
+    Left,
+    Matrix,
+    Name,
+    Product,
+    Table,
+    Terms,
+    formula,
+    text,
+)
 from lagrangian.derive.lagrange import LeftSide
 from lagrangian.model import Damper, Dissipation, Element, Gravity, Model, Particle, RigidBody, Spring
 from lagrangian.viewed import Brief

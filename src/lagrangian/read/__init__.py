@@ -1,11 +1,10 @@
-"""Reading what people wrote: expressions, quantities with units, model files, answers; and writing model files."""
+"""Reading what people wrote: expressions, quantities with units, model files; and writing model files."""
 
 from typing import TYPE_CHECKING
 
 from lagrangian.lazily import lazily
 
 if TYPE_CHECKING:
-    from lagrangian.read.answers import Answer, AnswerLine, Unknown, parse_answer
     from lagrangian.read.expression import parse_expression
     from lagrangian.read.file_load import load, loads
     from lagrangian.read.file_save import dumps
@@ -17,7 +16,6 @@ else:
     __getattr__ = lazily(
         __name__,
         {
-            "answers": "Answer AnswerLine Unknown parse_answer",
             "expression": "parse_expression",
             "file_load": "load loads",
             "file_save": "dumps",
@@ -30,16 +28,12 @@ else:
 
 __all__ = [
     "MAX_BYTES",
-    "Answer",
-    "AnswerLine",
     "Quantity",
     "Scope",
-    "Unknown",
     "decode",
     "dumps",
     "load",
     "loads",
-    "parse_answer",
     "parse_expression",
     "parse_quantity",
     "schema",

@@ -10,7 +10,6 @@ from collections.abc import Iterator
 from html import escape as _escape
 from importlib.resources import files
 
-from lagrangian.derive import Derivation
 from lagrangian.write.document import (
     Block,
     Boxed,
@@ -24,11 +23,9 @@ from lagrangian.write.document import (
     Table,
     Verdicts,
 )
-from lagrangian.write.layout import lay_out
 from lagrangian.write.lines import lines, set_columns
 from lagrangian.write.math import Grid, Math, Number, Sum, Tagged, Token, tokens
 from lagrangian.write.mathml import displayed, row, wide
-from lagrangian.write.quantities import Notation
 from lagrangian.write.text import clean
 from lagrangian.write.text import display as text_lines
 
@@ -52,11 +49,6 @@ KINDS = {
 """The kinds of terms, as the legend names them."""
 
 
-def to_html(derivation: Derivation, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
-    """Return the derivation as a self-contained HTML page. Raises `ModelError` for an unknown notation."""
-    return page(lay_out(derivation, notation=notation, brief=brief, full=full, details=True), "equations of motion")
-
-
 def page(document: Document, subject: str) -> str:
     """Return a document as a self-contained HTML page; ``subject`` stands in its title beside the document's own."""
     title = escape(document.title)
@@ -69,11 +61,6 @@ def page(document: Document, subject: str) -> str:
         f'<main class="{"brief" if document.brief else "whole"}">\n<header><h1>{title}</h1></header>\n'
         f"{_contents(document)}{body}\n</main>\n</body>\n</html>\n"
     )
-
-
-def to_html_fragment(derivation: Derivation, *, notation: Notation = "lecture", brief: bool = True) -> str:
-    """Return the derivation as a piece of HTML for a notebook: the checklist unless ``brief`` is False."""
-    return fragment(lay_out(derivation, notation=notation, brief=brief, details=True))
 
 
 def fragment(document: Document) -> str:

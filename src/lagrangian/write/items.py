@@ -6,8 +6,8 @@ from collections.abc import Iterable, Iterator, Sequence
 
 import sympy as sp
 
-from lagrangian.derive import Check, EquationTerm
 from lagrangian.derive import formula as data
+from lagrangian.derive.formula import Check, EquationTerm
 from lagrangian.model import Model
 from lagrangian.write.document import (
     Block,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from lagrangian.derive import Derivation
 from lagrangian.write.document import (
     Block,
     Boxed,
@@ -18,10 +17,8 @@ from lagrangian.write.document import (
     Verdicts,
 )
 from lagrangian.write.glyphs import columns
-from lagrangian.write.layout import lay_out
 from lagrangian.write.lines import set_columns
 from lagrangian.write.math import tokens
-from lagrangian.write.quantities import Notation
 from lagrangian.write.tex import PAGE
 from lagrangian.write.tex_lines import WIDTH, boxed, displayed, rows
 from lagrangian.write.tex_words import escape
@@ -60,11 +57,6 @@ _PREAMBLE = r"""\documentclass[11pt,a4paper,fleqn]{article}
 _SMALL = r"""\small\setlength{\parskip}{0pt}\setlength{\LTpre}{2pt}\setlength{\LTpost}{2pt}
 \setlength{\abovedisplayskip}{2pt}\setlength{\belowdisplayskip}{2pt}
 \setlength{\abovedisplayshortskip}{2pt}\setlength{\belowdisplayshortskip}{2pt}"""
-
-
-def to_latex(derivation: Derivation, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
-    """Return the derivation as a complete LaTeX article. Raises `ModelError` for an unknown notation."""
-    return page(lay_out(derivation, notation=notation, brief=brief, full=full))
 
 
 def page(document: Document) -> str:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from lagrangian.derive import Derivation
 from lagrangian.write.document import (
     Block,
     Boxed,
@@ -18,20 +17,11 @@ from lagrangian.write.document import (
     Table,
     Verdicts,
 )
-from lagrangian.write.layout import lay_out
-from lagrangian.write.quantities import Notation
 from lagrangian.write.tex import WEB
 from lagrangian.write.tex_lines import boxed, displayed
 from lagrangian.write.text import clean
 
 _SPECIAL = re.compile(r"([\\`*_{}\[\]#|$~+!])")
-
-
-def to_markdown(
-    derivation: Derivation, *, notation: Notation = "lecture", brief: bool = False, full: bool = False
-) -> str:
-    """Return the derivation as Markdown. Raises `ModelError` for an unknown notation."""
-    return page(lay_out(derivation, notation=notation, brief=brief, full=full))
 
 
 def page(document: Document) -> str:

@@ -58,6 +58,9 @@ from lagrangian.write.math import (
 )
 
 Notation: TypeAlias = Literal["lecture", "physics", "robotics"]
+
+NOTATIONS: tuple[Notation, ...] = get_args(Notation)
+"""The notations that every writer knows."""
 """Which letters: the lecture's ξ, T*, V, Ξ; the physicist's q, T, V, Q; the roboticist's q, K, P, τ."""
 
 _CHOICES: dict[str, dict[str, tuple[Letter, ...]]] = {
@@ -102,9 +105,9 @@ class Quantities:
     """Lays out whatever stands in a formula, in one notation; ``full`` writes out what would be summarised."""
 
     def __init__(self, model: Model, notation: Notation, *, full: bool = False) -> None:
-        if notation not in get_args(Notation):
-            known = ", ".join(get_args(Notation))
-            hint = did_you_mean(str(notation), get_args(Notation))
+        if notation not in NOTATIONS:
+            known = ", ".join(NOTATIONS)
+            hint = did_you_mean(str(notation), NOTATIONS)
             raise ModelError(f"unknown notation '{notation}'", fix=hint or f"use one of {known}", code="E405")
         self.notation, self.full = notation, full
         self.expressions = Expressions(model)

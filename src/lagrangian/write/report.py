@@ -4,23 +4,22 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Literal, TypeAlias, get_args
+from typing import Literal, TypeAlias, get_args
 
+from lagrangian.analyze.report import Part, Report
 from lagrangian.errors import ModelError, did_you_mean
+from lagrangian.model import Model
 from lagrangian.write import html, latex, markdown, text
 from lagrangian.write.document import Block, Document, Paragraph, Section
 from lagrangian.write.items import Items
 from lagrangian.write.quantities import Notation
-
-if TYPE_CHECKING:
-    from lagrangian.analyze.report import Part, Report
 
 ReportFormat: TypeAlias = Literal["text", "markdown", "latex", "html", "json"]
 """What a report is written as."""
 
 
 def lay_out_report(
-    report: Report, *, notation: Notation = "lecture", full: bool = False, details: bool = False
+    report: Report[Model], *, notation: Notation = "lecture", full: bool = False, details: bool = False
 ) -> Document:
     """Return the document of a report; ``full`` writes out what would be summarised for its length.
 
@@ -45,7 +44,7 @@ def _blocks(items: Items, part: Part, anchor: str) -> Iterator[Block]:
 
 
 def write_report(
-    report: Report,
+    report: Report[Model],
     format: ReportFormat = "text",
     *,
     notation: Notation = "lecture",
@@ -68,11 +67,13 @@ def write_report(
     return latex.page(document) if format == "latex" else markdown.page(document)
 
 
-def report_rows(report: Report, *, notation: Notation = "lecture", full: bool = False, width: int = 80) -> list[str]:
+def report_rows(
+    report: Report[Model], *, notation: Notation = "lecture", full: bool = False, width: int = 80
+) -> list[str]:
     """Return the lines of a report as text; the titles among them are `Title`."""
     return text.page_rows(lay_out_report(report, notation=notation, full=full), width)
 
 
-def report_fragment(report: Report, *, notation: Notation = "lecture") -> str:
+def report_fragment(report: Report[Model], *, notation: Notation = "lecture") -> str:
     """Return a report as a piece of HTML for a notebook."""
     return html.fragment(lay_out_report(report, notation=notation, details=True))

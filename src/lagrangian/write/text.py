@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from lagrangian.derive import Derivation
 from lagrangian.errors import ModelError
 from lagrangian.write.breaking import STEP, break_lines
 from lagrangian.write.document import (
@@ -21,10 +20,8 @@ from lagrangian.write.document import (
     Verdicts,
 )
 from lagrangian.write.glyphs import columns, join, unicode
-from lagrangian.write.layout import lay_out
 from lagrangian.write.lines import chains, measure
 from lagrangian.write.math import Grid, Math, Token, Word, equality, tokens
-from lagrangian.write.quantities import Notation
 
 NARROWEST = 40
 GAP = 3
@@ -43,30 +40,18 @@ class Title(str):
     __slots__ = ()
 
 
-def to_text(
-    derivation: Derivation,
-    *,
-    notation: Notation = "lecture",
-    brief: bool = False,
-    full: bool = False,
-    width: int = 80,
-) -> str:
-    """Return the derivation as Unicode text of at most ``width`` columns, where its symbols allow it.
-
-    Raises `ModelError` for an unknown notation and a width under 40.
-    """
-    if width < NARROWEST:
-        raise ModelError(f"a width of {width} columns is too narrow", fix=f"use {NARROWEST} or more", code="E406")
-    return page(lay_out(derivation, notation=notation, brief=brief, full=full), width)
-
-
 def page(document: Document, width: int) -> str:
     """Return a document as Unicode text of at most ``width`` columns."""
     return "\n".join(page_rows(document, width)) + "\n"
 
 
 def page_rows(document: Document, width: int) -> list[str]:
-    """Return the lines of a document as text; the titles among them are `Title`."""
+    """Return the lines of a document as text of at most ``width`` columns, where its symbols allow it.
+
+    The titles among them are `Title`. Raises `ModelError` for a width under 40.
+    """
+    if width < NARROWEST:
+        raise ModelError(f"a width of {width} columns is too narrow", fix=f"use {NARROWEST} or more", code="E406")
     title = " ".join(clean(document.title).split())
     lines: list[str] = [*map(Title, wrap((title,), width)), "═" * min(width, max(columns(title), 1))]
     for section in document.sections:

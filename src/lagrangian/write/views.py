@@ -6,11 +6,10 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
 from lagrangian.write import html
+from lagrangian.write.described import system_section
 from lagrangian.write.document import Document, Inline, Paragraph, Section, Table
-from lagrangian.write.layout import lay_out, system_section
 
 if TYPE_CHECKING:
-    from lagrangian.derive import Derivation
     from lagrangian.model import Model
 
 
@@ -31,12 +30,6 @@ def table_view(title: str, words: Sequence[str], header: Sequence[str], rows: It
     """Return a title, paragraphs and a table."""
     blocks = (*(Paragraph((w,)) for w in words), _table(header, rows))
     return html.fragment(Document(title, (Section("table", (), blocks),)))
-
-
-def section_view(derivation: Derivation, anchor: str) -> str:
-    """Return one section of a derivation's page, such as ``step-6``."""
-    page = lay_out(derivation, details=True)
-    return html.fragment(Document(page.title, tuple(s for s in page.sections if s.anchor == anchor)))
 
 
 def _table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> Table:

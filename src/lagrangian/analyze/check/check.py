@@ -18,13 +18,13 @@ from lagrangian.analyze.check.spelling import Spelling, in_numbers, not_there, s
 from lagrangian.analyze.check.stated import Given, equations_follow, given, judge
 from lagrangian.analyze.check.truth import Truth, truth_of
 from lagrangian.analyze.check.verdict import Finding, Line, Status, Verdict
-from lagrangian.derive import Derivation
+from lagrangian.derive import Derived
 from lagrangian.derive.formula import Terms, Text, text
 
 _log = logging.getLogger(__name__)
 
 
-def check(derivation: Derivation, lines: Sequence[Line], *, hint: int = 3) -> Verdict:
+def check(derivation: Derived, lines: Sequence[Line], *, hint: int = 3) -> Verdict:
     """Return what is right and what is wrong with an answer, line by line and as a whole.
 
     Lines are checked in order; equality is decided in normal form, or with 50 digits where there is none.

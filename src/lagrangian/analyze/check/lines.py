@@ -10,8 +10,7 @@ import sympy as sp
 from lagrangian.analyze.check.truth import Truth
 from lagrangian.analyze.check.verdict import Line
 from lagrangian.errors import ModelError
-from lagrangian.read import Answer
-from lagrangian.read.answers import generalized_force
+from lagrangian.read.answers import Answer, generalized_force
 
 STATED = ("T", "V", "L", "D", "Xi", "p", "p-rate", "slope")
 """Kinds of lines that give one quantity."""

@@ -13,7 +13,7 @@ import sympy as sp
 
 from lagrangian.analyze.check.numbers import DIGITS, Array, Compiled, States
 from lagrangian.analyze.check.sides import Side, natural, sides_of
-from lagrangian.derive import Derivation
+from lagrangian.derive import Derived
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach
 from lagrangian.model import Model
 
@@ -28,7 +28,7 @@ class Truth:
     mistakes have too many operations for all of them to be tried.
     """
 
-    def __init__(self, derivation: Derivation, values: Mapping[sp.Symbol, sp.Expr] | None = None) -> None:
+    def __init__(self, derivation: Derived, values: Mapping[sp.Symbol, sp.Expr] | None = None) -> None:
         self.derivation = derivation
         self.values = dict(values or {})
         self.others: dict[object, Truth | None] = {}
@@ -188,6 +188,6 @@ def _product(counts: Sequence[int]) -> int:
 
 
 @lru_cache(maxsize=32)
-def truth_of(derivation: Derivation) -> Truth:
+def truth_of(derivation: Derived) -> Truth:
     """What is right of a derivation, made once for the derivations that were checked with last."""
     return Truth(derivation)

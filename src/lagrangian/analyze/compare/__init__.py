@@ -1,8 +1,8 @@
 """Two derivations side by side: the same motion in other coordinates, or where they differ."""
 
 from lagrangian.analyze.compare.compare import compare
-from lagrangian.analyze.compare.comparison import Comparison, Difference, ParameterDifference, Rewritten, Row, Side
-from lagrangian.analyze.compare.report import comparison_report
+from lagrangian.analyze.compare.comparison import Comparison, comparison_report
+from lagrangian.analyze.compare.rows import Difference, ParameterDifference, Rewritten, Row, Side
 
 __all__ = [
     "Comparison",

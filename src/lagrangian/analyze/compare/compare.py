@@ -9,33 +9,43 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Mapping
-from typing import Any, cast
+from typing import Any, Protocol, cast
 
 import sympy as sp
 
 from lagrangian.advice import Advice, Argument
 from lagrangian.analyze.change import Change, check_regular, is_regular
-from lagrangian.analyze.compare.comparison import Comparison, Rewritten, Row, Side
+from lagrangian.analyze.compare.comparison import Comparison
 from lagrangian.analyze.compare.differences import differing, parameter_differences, unmatched
 from lagrangian.analyze.compare.given import given_change
 from lagrangian.analyze.compare.match import agreement, places, solved
+from lagrangian.analyze.compare.rows import Rewritten, Row, Side
 from lagrangian.analyze.compare.shared import Shared, inverse
 from lagrangian.analyze.compare.words import combination, equality
 from lagrangian.analyze.compare.zero import Verdict, Zero
-from lagrangian.derive import Check, Derivation
-from lagrangian.derive.formula import Name, Partial, text
+from lagrangian.derive import Derived
+from lagrangian.derive.formula import Check, Name, Partial, text
 from lagrangian.errors import ModelError
 from lagrangian.model import Model
 
 _log = logging.getLogger(__name__)
 
 
-def compare(a: Derivation, b: Derivation, change: Mapping[Any, Any] | None = None) -> Comparison:
-    """Return whether two derivations are the same motion, row by row, and where they differ if not.
+class Derivable(Protocol):
+    """What can be derived: a `System`."""
 
-    ``change`` says coordinates of one system in those of the other, {x2: x1 + x2r}; left out, it is found from what
+    def derive(self) -> Derived:
+        """Return the derivation."""
+        ...
+
+
+def compare(a: Derivable | Derived, b: Derivable | Derived, change: Mapping[Any, Any] | None = None) -> Comparison:
+    """Return two systems (or their derivations) side by side: are they one motion, and where do they differ?
+
+    ``change`` says coordinates of one in those of the other, ``{"x2": "x1 + x2r"}``; left out, it is found from what
     both put in the same places. Raises `ModelError` where it cannot be found, or is no change.
     """
+    a, b = _derived(a, "first"), _derived(b, "second")
     tag_a, tag_b = _letters(a, b)
     sides = Side("A", a, tag_a), Side("B", b, tag_b)
     if len(a.coordinates) != len(b.coordinates):
@@ -48,7 +58,19 @@ def compare(a: Derivation, b: Derivation, change: Mapping[Any, Any] | None = Non
     return _compared(sides, (source, into), shared, assumed)
 
 
-def _letters(a: Derivation, b: Derivation) -> tuple[str, str]:
+def _derived(thing: object, which: str) -> Derived:
+    if isinstance(thing, Derived):
+        return thing
+    if not hasattr(thing, "derive"):
+        raise ModelError(
+            f"the {which} of the two is not a system (got {type(thing).__name__})",
+            fix="compare(System, System), or their derivations",
+            code="E406",
+        )
+    return thing.derive()  # type: ignore[attr-defined]
+
+
+def _letters(a: Derived, b: Derived) -> tuple[str, str]:
     """The lecture's a for absolute and r for relative, where that tells the two apart; else a and b."""
     relative = [any(to is not None for to in d.steps[1].expressions["relative"].values()) for d in (a, b)]
     return ("r", "a") if relative == [True, False] else ("a", "r") if relative == [False, True] else ("a", "b")

@@ -7,7 +7,7 @@ from typing import Literal, cast
 
 import sympy as sp
 
-from lagrangian.analyze.compare.comparison import Difference, ParameterDifference
+from lagrangian.analyze.compare.rows import Difference, ParameterDifference
 from lagrangian.analyze.compare.shared import Shared
 from lagrangian.analyze.compare.zero import Zero
 from lagrangian.model import Element, Model

@@ -9,7 +9,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.analyze.change import Change
-from lagrangian.derive import Derivation
+from lagrangian.derive import Derived
 from lagrangian.model import Element, Model
 from lagrangian.model.model import written_out
 
@@ -22,7 +22,7 @@ LARGEST_INVERSE = 60
 class Shared:
     """The equations, energies and forces of both systems in the coordinates η of the second."""
 
-    def __init__(self, a: Derivation, b: Derivation, change: Change) -> None:
+    def __init__(self, a: Derived, b: Derived, change: Change) -> None:
         self.derivation_a, self.derivation_b, self.change = a, b, change
         self.a: Model = a.model
         self.b: Model = b.model

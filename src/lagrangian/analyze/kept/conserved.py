@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any, cast
 
 import numpy as np
@@ -15,12 +15,12 @@ from lagrangian import bounded, dynamics, simulate
 from lagrangian import compile as machine
 from lagrangian.analyze.given import Given, Named
 from lagrangian.analyze.jacobians import rates, values
+from lagrangian.analyze.kept.conserved_quantities import Conserved, ConservedQuantities, condition, listed
 from lagrangian.analyze.kept.lagrangian_form import LagrangianForm
 from lagrangian.analyze.kept.symmetries import Symmetry, symmetries
 from lagrangian.derive.formula import Name, Text, text
 from lagrangian.errors import ModelError
 from lagrangian.model import Model, plain
-from lagrangian.viewed import Brief
 
 _log = logging.getLogger(__name__)
 Array = NDArray[np.float64]
@@ -30,56 +30,6 @@ SWINGS = 20.0
 
 TRIES = 5
 """Random starts until a run comes to its end."""
-
-
-@dataclass(frozen=True)
-class Conserved(Brief):
-    """A quantity that every motion keeps.
-
-    ``kind``: "energy", "momentum" (of one ignorable coordinate), "total momentum" (a shift of several coordinates),
-    "turn" (a direction that depends on the coordinates, such as the angular momentum of x and y), "mixed" (with energy,
-    as where a potential turns at a constant rate: Jacobi's integral).
-    ``expression`` is the quantity; ``direction`` what every coordinate is moved by where nothing changes (empty for
-    the energy); ``while_zero`` the inputs that must be 0, ``while_constant`` those that must not change, as a road that
-    stands in a spring's energy. ``drift`` is its largest change along a run over its size,
-    None where no run was made.
-    """
-
-    name: str
-    kind: str
-    expression: sp.Expr
-    direction: Mapping[sp.Expr, sp.Expr]
-    while_zero: tuple[str, ...]
-    reason: Text
-    drift: float | None = None
-    while_constant: tuple[str, ...] = ()
-
-    def __str__(self) -> str:
-        """Read as a line."""
-        only = _condition(self.while_zero, self.while_constant)
-        return f"{self.name}: {plain(self.expression)}{' ' + only if only else ''}"
-
-
-@dataclass(frozen=True, eq=False)
-class ConservedQuantities(Sequence[Conserved]):
-    """What a system keeps; ``missed`` says why the others are not kept; ``run`` is the time [s] they were watched.
-
-    ``vanishing`` are the parameters that were given as 0.
-    """
-
-    model: Model
-    found: tuple[Conserved, ...]
-    missed: tuple[Text, ...]
-    run: float | None
-    vanishing: tuple[str, ...] = ()
-
-    def __getitem__(self, index: Any) -> Any:
-        """The quantity at an index."""
-        return self.found[index]
-
-    def __len__(self) -> int:
-        """How many there are."""
-        return len(self.found)
 
 
 def conserved(model: Model, *, params: Named | None = None, seed: int = 1) -> ConservedQuantities:
@@ -124,15 +74,8 @@ def _described(system: LagrangianForm, symmetry: Symmetry, need: tuple[str, ...]
     name, kind, reason = _words(system, symmetry, direction)
     steady = tuple(u.name for u in system.moved_by(symmetry.conserved) if u.name not in need)
     if need or steady:
-        reason = Text((*reason.parts, f", {_condition(need, steady)}"))
+        reason = Text((*reason.parts, f", {condition(need, steady)}"))
     return Conserved(name, kind, expression, direction, need, reason, while_constant=steady)
-
-
-def _condition(zero: Sequence[str], constant: Sequence[str]) -> str:
-    """``while F is 0 and z is constant``, or nothing."""
-    pairs = ((zero, "0"), (constant, "constant"))
-    parts = [f"{_listed(names)} {'is' if len(names) == 1 else 'are'} {what}" for names, what in pairs if names]
-    return "while " + " and ".join(parts) if parts else ""
 
 
 def _words(system: LagrangianForm, symmetry: Symmetry, direction: Mapping[Any, sp.Expr]) -> tuple[str, str, Text]:
@@ -153,18 +96,14 @@ def _words(system: LagrangianForm, symmetry: Symmetry, direction: Mapping[Any, s
         moved += [", " if moved else "", "δ", q, " = ", d]
     words = text(L, " does not change when all move by ", *moved, ", and ", Xi, " does no work on that")
     if symmetry.kind == "screw":
-        names = _listed([plain(q) for q in coordinates])
+        names = listed([plain(q) for q in coordinates])
         words = Text((*words.parts, ", while time moves by δt = ", -symmetry.time))
         return f"energy and momentum of {names}", "mixed", words
     if symmetry.kind == "shift":
-        return f"total momentum of {_listed([plain(q) for q in coordinates])}", "total momentum", words
+        return f"total momentum of {listed([plain(q) for q in coordinates])}", "total momentum", words
     skew = all(symmetry.turn.get((j, i)) == -c for (i, j), c in symmetry.turn.items())
     what = "angular momentum" if skew else "momentum of a direction"
-    return f"{what} of {_listed([plain(q) for q in coordinates])}", "turn", words
-
-
-def _listed(names: Sequence[str]) -> str:
-    return names[0] if len(names) == 1 else ", ".join(names[:-1]) + " and " + names[-1]
+    return f"{what} of {listed([plain(q) for q in coordinates])}", "turn", words
 
 
 def _missed(system: LagrangianForm, found: Sequence[Conserved]) -> tuple[Text, ...]:

@@ -8,13 +8,13 @@ Source: Goldstein, Classical Mechanics (3rd ed.), § 8.1.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from typing import Any, cast
 
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.analyze.kept.canonical_forms import Hamiltonian
 from lagrangian.analyze.kept.lagrangian_form import LagrangianForm
 from lagrangian.analyze.kept.squares import Piece, half_square, summed
 from lagrangian.bounded import TooLarge
@@ -30,27 +30,6 @@ STATES = 20
 """Random states at which the canonical equations are held against Lagrange's."""
 
 TOLERANCE = 1e-9
-
-
-@dataclass(frozen=True, eq=False)
-class Hamiltonian:
-    """H(q, p, t) and what follows from it.
-
-    ``momenta``: coordinate → symbol of its momentum, a function of time. ``definitions``: momentum → ∂L/∂ξ̇ in rates.
-    ``equations``: rate of a coordinate or momentum → its expression in q, p, t. ``is_total`` says that H is T* + V,
-    ``is_constant`` that every motion keeps it; it is kept while the inputs of ``while_constant`` do not change where
-    there are such.
-    """
-
-    model: Model
-    H: sp.Expr
-    momenta: Mapping[sp.Expr, sp.Expr]
-    definitions: Mapping[sp.Expr, sp.Expr]
-    equations: Mapping[sp.Expr, sp.Expr]
-    is_total: bool
-    is_constant: bool
-    checks: tuple[Check, ...]
-    while_constant: tuple[str, ...] = ()
 
 
 def hamiltonian(model: Model) -> Hamiltonian:

@@ -8,8 +8,7 @@ w = p_s − b_s − M_sr ξ̇_r it is  R = ½ ξ̇_rᵀ M_rr ξ̇_r + b_rᵀ ξ�
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any, cast
 
@@ -17,6 +16,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.analyze.given import key_name
+from lagrangian.analyze.kept.canonical_forms import Routhian
 from lagrangian.analyze.kept.hamiltonian import STATES, TOLERANCE, momentum_names, split
 from lagrangian.analyze.kept.lagrangian_form import LagrangianForm
 from lagrangian.analyze.kept.squares import Piece, half_square, summed
@@ -27,26 +27,6 @@ from lagrangian.derive.formula import text
 from lagrangian.derive.sample import Sampler
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.model import Model, plain, time
-
-
-@dataclass(frozen=True, eq=False)
-class Routhian:
-    """R of the coordinates that are left, with the momenta of the ignorable ones as constants.
-
-    ``ignorable``: coordinate → symbol of its constant momentum. ``definitions``: that symbol → ∂L/∂ξ̇ in rates.
-    ``rates``: rate of an ignorable coordinate → its expression, for quadrature once the others are known.
-    ``coordinates`` are left; ``equations`` are theirs. ``potential`` is the effective potential, −R at rest.
-    """
-
-    model: Model
-    R: sp.Expr
-    ignorable: Mapping[sp.Expr, sp.Symbol]
-    definitions: Mapping[sp.Symbol, sp.Expr]
-    rates: Mapping[sp.Expr, sp.Expr]
-    coordinates: tuple[sp.Expr, ...]
-    equations: tuple[sp.Eq, ...]
-    potential: sp.Expr
-    checks: tuple[Check, ...]
 
 
 def routhian(model: Model, ignorable: Sequence[Any] | None = None) -> Routhian:

@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
 from types import ModuleType
 from typing import Any
 
 import numpy as np
-import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian.analyze.given import Group, number
-from lagrangian.analyze.linear.linearize import Linearization
+from lagrangian.analyze.linear.linear_model import LinearModel
 from lagrangian.analyze.linear.modes import slowest_first
 from lagrangian.analyze.linear.reach import controllable
+from lagrangian.analyze.linear.regulator import Regulator
 from lagrangian.analyze.linear.stability import shown
 from lagrangian.errors import MissingExtra, RunError
 
@@ -32,7 +31,7 @@ def python_control() -> ModuleType:
     return control
 
 
-def to_control(linear: Linearization) -> Any:
+def to_control(linear: LinearModel) -> Any:
     """The linearization as python-control's StateSpace, with the names of states, inputs and outputs."""
     return python_control().ss(
         linear.A,
@@ -46,33 +45,7 @@ def to_control(linear: Linearization) -> Any:
     )
 
 
-@dataclass(frozen=True, eq=False)
-class Regulator:
-    """u = u₀ − K (x − x₀): ``K`` (inputs × states), Riccati's ``S`` and the poles of A − B K [1/s], slowest first.
-
-    ``law`` is that feedback as expressions of the coordinates and rates by input symbol, for a simulation's inputs.
-    """
-
-    linear: Linearization = field(repr=False)
-    K: Array
-    S: Array
-    poles: NDArray[np.complex128]
-
-    @property
-    def law(self) -> dict[sp.Expr, sp.Expr]:
-        """Input symbol → u₀ − K (x − x₀)."""
-        linear = self.linear
-        model = linear.model
-        state = [*(c.symbol for c in model.coordinates), *(c.rate for c in model.coordinates)]
-        away = [x - sp.Float(value, 17) for x, value in zip(state, linear.at.values(), strict=True)]
-        found: dict[sp.Expr, sp.Expr] = {}
-        for u, row in zip(model.inputs, self.K, strict=True):
-            terms = [-sp.Float(float(k), 17) * d for k, d in zip(row, away, strict=True)]
-            found[u.symbol] = sp.Add(sp.Float(linear.inputs_at[u.name], 17), *terms)
-        return found
-
-
-def lqr(linear: Linearization, Q: Any, R: Any) -> Regulator:
+def lqr(linear: LinearModel, Q: Any, R: Any) -> Regulator:
     """The regulator that minimises ∫ (δxᵀQ δx + δuᵀR δu) dt, by python-control.
 
     ``Q`` and ``R``: a matrix, a number (times one), or weights of the diagonal by name (0 where not named). Raises

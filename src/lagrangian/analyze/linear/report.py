@@ -10,7 +10,7 @@ import numpy as np
 import sympy as sp
 
 from lagrangian.analyze.figures import complex_figure, figure, matrix, or_none, plain_numbers, scientific
-from lagrangian.analyze.linear.linearize import Linearization
+from lagrangian.analyze.linear.linear_model import LinearModel
 from lagrangian.analyze.linear.reach import Missing, Reach
 from lagrangian.analyze.linear.symbolic import SymbolicLinearization
 from lagrangian.analyze.report import Part, Report
@@ -39,7 +39,7 @@ def symbol(model: Model, name: str) -> Any:
     return name if found is None else found
 
 
-def linear_report(linear: Linearization, symbols: SymbolicLinearization | None = None) -> Report:
+def linear_report(linear: LinearModel, symbols: SymbolicLinearization | None = None) -> Report:
     """Return the report of a linearization, with its matrices in symbols where they are given."""
     parts = [_point(linear), _matrices(linear)]
     if linear.mass is not None and len(linear.mass) <= LARGEST:
@@ -51,7 +51,7 @@ def linear_report(linear: Linearization, symbols: SymbolicLinearization | None =
     return Report(f"{linear.model.name}: linearization", linear.model, tuple(parts), linear_data(linear))
 
 
-def _point(linear: Linearization) -> Part:
+def _point(linear: LinearModel) -> Part:
     model = linear.model
     rows = [(text(symbol(model, name)), text(figure(value))) for name, value in linear.at.items()]
     rows += [(text(symbol(model, name)), text(figure(value))) for name, value in linear.inputs_at.items()]
@@ -71,7 +71,7 @@ A, B, C, D, K, M, S, f = (Name(x) for x in ("A", "B", "C", "D matrix", "K", "M",
 x, u, y, q = (Name(f"{letter} vector") for letter in "xuyq")
 
 
-def _ordered(linear: Linearization, vector: Name, names: Sequence[str]) -> Text:
+def _ordered(linear: LinearModel, vector: Name, names: Sequence[str]) -> Text:
     """``x = (θ₁, θ₂, θ̇₁, θ̇₂)``, the vector's letter bold: a coordinate may be called x too."""
     parts: list[Any] = []
     for name in names:
@@ -79,12 +79,12 @@ def _ordered(linear: Linearization, vector: Name, names: Sequence[str]) -> Text:
     return text(vector, " = (", *parts, ")")
 
 
-def _entry(linear: Linearization, name: str) -> Any:
+def _entry(linear: LinearModel, name: str) -> Any:
     found = symbol(linear.model, name)
     return found if isinstance(found, sp.Basic) else Name(found)
 
 
-def _matrices(linear: Linearization) -> Part:
+def _matrices(linear: LinearModel) -> Part:
     items: list[Item] = []
     drift = linear.kind == "operating point"
     rate = ("δ", Name(x.base, "", 1), " = ", A, " δ", x, " + ", B, " δ", u, *((" + ", f) if drift else ()))
@@ -104,7 +104,7 @@ def _matrices(linear: Linearization) -> Part:
     return Part(text("The linear system"), tuple(items))
 
 
-def _second_order(linear: Linearization) -> Part:
+def _second_order(linear: LinearModel) -> Part:
     matrices = ((M, linear.mass), (D, linear.damping), (K, linear.stiffness), (S, linear.input_matrix))
     rates = (M, " δ", Name(q.base, "", 2), " + ", D, " δ", Name(q.base, "", 1), " + ", K, " δ", q, " = ", S, " δ", u)
     items: list[Item] = [text(*rates, ", with"), _ordered(linear, q, linear.coordinates)]
@@ -112,7 +112,7 @@ def _second_order(linear: Linearization) -> Part:
     return Part(text("Small motions"), tuple(items))
 
 
-def _modes(linear: Linearization) -> Part:
+def _modes(linear: LinearModel) -> Part:
     header = (text("pole [1/s]"), text("frequency [rad/s]"), text("damping ratio"), text("period [s]"), text("shape"))
     rows = []
     for mode in linear.modes:
@@ -139,7 +139,7 @@ def _modes(linear: Linearization) -> Part:
     return Part(text(POLES_AND_MODES), items)
 
 
-def _reach(linear: Linearization) -> Part:
+def _reach(linear: LinearModel) -> Part:
     """What inputs reach and outputs tell."""
     items: list[Item] = []
     if linear.inputs:
@@ -171,7 +171,7 @@ def _combination(missing: Missing) -> str:
     return words
 
 
-def _symbols(linear: Linearization, found: SymbolicLinearization) -> Part:
+def _symbols(linear: LinearModel, found: SymbolicLinearization) -> Part:
     items: list[Item] = [text("About ", *_exact_point(found), ":")]
     named = [(M, found.M), (D, found.D), (K, found.K), (S, found.S), (A, found.A), (B, found.B)]
     for name, m in named:
@@ -211,7 +211,7 @@ def _rounded(z: complex) -> complex:
     return complex(float(f"{z.real:.4g}"), float(f"{z.imag:.4g}"))
 
 
-def linear_data(linear: Linearization) -> dict[str, Any]:
+def linear_data(linear: LinearModel) -> dict[str, Any]:
     """A linearization as plain data."""
     return {
         "system": linear.model.name,

@@ -14,7 +14,7 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import derive
-from lagrangian.analyze.linear.linearize import Linearization
+from lagrangian.analyze.linear.linear_model import LinearModel
 from lagrangian.analyze.ratios import Ratio, inverse, written
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach
 from lagrangian.errors import RunError
@@ -46,7 +46,7 @@ class SymbolicLinearization(Brief):
     conditions: tuple[sp.Eq, ...]
 
 
-def symbolic(linear: Linearization) -> SymbolicLinearization:
+def symbolic(linear: LinearModel) -> SymbolicLinearization:
     """Return a linearization in symbols. Raises `RunError` where it is about no rest, or too long to write out."""
     model, n = linear.model, len(linear.model.coordinates)
     if linear.kind != "rest" or linear.mass is None:
@@ -134,7 +134,7 @@ def _at(matrix: sp.Matrix, point: dict[Any, Any], v: list[Any]) -> sp.Matrix:
     return sp.Matrix(matrix.applyfunc(lambda x: x.xreplace(still).xreplace(point)))
 
 
-def _point(linear: Linearization) -> dict[sp.Expr, sp.Expr]:
+def _point(linear: LinearModel) -> dict[sp.Expr, sp.Expr]:
     """Coordinate or input → exact value, or the symbol of its value at the rest; t is the moment's value."""
     model = linear.model
     taken = set(model.symbols)

@@ -7,10 +7,10 @@ finds nothing new. Directions that h does not depend on are held; roots that are
 from __future__ import annotations
 
 import logging
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
 from itertools import product
-from typing import Any, overload
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,11 +25,11 @@ from lagrangian.analyze.linear.rest import point_words
 from lagrangian.analyze.linear.stability import Stability
 from lagrangian.analyze.rests.box import Box, make_box
 from lagrangian.analyze.rests.families import Family, split
+from lagrangian.analyze.rests.found import Equilibria, Equilibrium
 from lagrangian.analyze.rests.roots import EXACT, Forces, Search, distinct, starts
 from lagrangian.errors import RunError
 from lagrangian.graph import Graph, Output, Program
 from lagrangian.model import Model
-from lagrangian.viewed import Brief
 
 _log = logging.getLogger(__name__)
 Array = NDArray[np.float64]
@@ -52,69 +52,6 @@ SINGULAR = 1e-13
 
 LARGE = 1e100
 """What stands for a value that is not finite."""
-
-
-@dataclass(frozen=True)
-class Equilibrium(Brief):
-    """A rest: values of all states by name (rates 0), with the inputs and parameters it belongs to.
-
-    ``residual`` is the largest |h| in units of h's own size in the box, ``stability`` the verdict. ``moves`` names the
-    coordinates that change along a family of rests, of which this is the one nearest to 0; ``dimension`` is the
-    family's, 0 where the rest is isolated. ``starts`` of the search led here.
-    """
-
-    at: Mapping[str, float]
-    inputs: Mapping[str, float]
-    parameters: Mapping[str, float]
-    residual: float
-    stability: Stability
-    starts: int = 0
-    moves: tuple[str, ...] = ()
-    dimension: int = 0
-
-    def __getitem__(self, name: str) -> float:
-        """The value of a coordinate or rate."""
-        return self.at[name]
-
-    def __str__(self) -> str:
-        """Read as a line."""
-        shown = {name: value for name, value in self.at.items() if not name.endswith("'")}
-        return f"{point_words(tuple(shown), np.array(list(shown.values())))}: {self.stability.verdict}"
-
-
-@dataclass(frozen=True, eq=False)
-class Equilibria(Sequence[Equilibrium]):
-    """The rests that were found, sorted by the values of the coordinates.
-
-    ``box`` is where the search started, by coordinate; ``free`` the directions that nothing depends on, each as
-    coordinate → share, held at ``held``; ``starts`` how many starts there were; ``sure`` whether every rest was met
-    several times and the last round found nothing new.
-    """
-
-    model: Model
-    found: tuple[Equilibrium, ...]
-    box: Mapping[str, tuple[float, float]]
-    free: tuple[Mapping[str, float], ...]
-    held: Mapping[str, float]
-    starts: int
-    sure: bool
-    notes: tuple[str, ...] = field(default=())
-
-    @overload
-    def __getitem__(self, index: int) -> Equilibrium: ...
-    @overload
-    def __getitem__(self, index: slice) -> tuple[Equilibrium, ...]: ...
-    def __getitem__(self, index: int | slice) -> Equilibrium | tuple[Equilibrium, ...]:
-        """The rest at an index."""
-        return self.found[index]
-
-    def __len__(self) -> int:
-        """How many there are."""
-        return len(self.found)
-
-    def __iter__(self) -> Iterator[Equilibrium]:
-        """One after the other."""
-        return iter(self.found)
 
 
 def equilibria(

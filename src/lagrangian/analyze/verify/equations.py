@@ -27,7 +27,7 @@ from lagrangian import dynamics
 from lagrangian.analyze.dimensions import Mismatch, check_dimensions, check_terms
 from lagrangian.analyze.given import check_sampling
 from lagrangian.analyze.verify.states import evaluated
-from lagrangian.derive import Check, Derivation
+from lagrangian.derive import Check, Derived
 from lagrangian.derive.formula import Name, text
 from lagrangian.derive.sample import Sampler
 from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy, hessian, jacobian, jvp, vjp
@@ -40,7 +40,7 @@ TOLERANCE = 1e-9
 """Relative difference up to which two numbers count as equal: rounding of long expressions, no more."""
 
 
-def verify(derivation: Derivation, *, states: int = 50, seed: int = 1) -> tuple[Check, ...]:
+def verify(derivation: Derived, *, states: int = 50, seed: int = 1) -> tuple[Check, ...]:
     """Return what was checked at ``states`` random states, each with its figure."""
     check_sampling(states, seed)
     _log.info("verifying: the equations at %d random states", states)
@@ -109,7 +109,7 @@ def _holds_rates(expr: sp.Expr) -> bool:
     return expr.has(sp.Derivative)
 
 
-def _dimensional(derivation: Derivation) -> Check | None:
+def _dimensional(derivation: Derived) -> Check | None:
     """Every term has the dimension of energy over its coordinate; None without units or with bare numbers."""
     dims = check_dimensions(derivation.model)
     what = text("dimensions: every term of an equation has the same unit")
@@ -139,7 +139,7 @@ class _Figures:
     power: float = 0.0
 
 
-def _figures(derivation: Derivation, states: int, seed: int) -> _Figures:
+def _figures(derivation: Derived, states: int, seed: int) -> _Figures:
     model, n = derivation.model, len(derivation.coordinates)
     exprs: list[sp.Expr] = [_residual(e) for e in derivation.equations]
     exprs += [*derivation.mass_matrix.flat(), *derivation.coriolis_matrix.flat(), *derivation.gravity_vector.flat()]
@@ -241,7 +241,7 @@ class _Nodes:
         return jvp(self.g, list(nodes), moving)
 
 
-def _program(derivation: Derivation, sampler: Sampler) -> Program:
+def _program(derivation: Derived, sampler: Sampler) -> Program:
     model, g = derivation.model, Graph()
     symbols = sampler.symbols
     table: dict[sp.Basic, int] = {s: g.input("x", i) for i, s in enumerate(symbols)}

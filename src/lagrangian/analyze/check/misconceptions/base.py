@@ -15,7 +15,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.derive import Derivation
+from lagrangian.derive import Derived
 from lagrangian.derive.formula import Text
 from lagrangian.model import (
     Action,
@@ -73,7 +73,7 @@ class Misconception(Protocol):
 class Ingredients:
     """What a system's equations are made of, as a misconception takes it apart; definitions are written out."""
 
-    def __init__(self, derivation: Derivation) -> None:
+    def __init__(self, derivation: Derived) -> None:
         self.derivation = derivation
         self.model: Model = derivation.model
         self.coordinates: tuple[Coordinate, ...] = self.model.coordinates

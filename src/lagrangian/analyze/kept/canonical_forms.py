@@ -3,16 +3,64 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import Any, cast
 
 import sympy as sp
 
-from lagrangian.analyze.kept.hamiltonian import Hamiltonian
-from lagrangian.analyze.kept.routhian import Routhian
 from lagrangian.analyze.report import Part, Report
-from lagrangian.derive import Check
-from lagrangian.derive.formula import Elided, Formula, Item, Left, Matrix, Name, Partial, Terms, formula, text
-from lagrangian.model import plain
+from lagrangian.derive.formula import Check, Elided, Formula, Item, Left, Matrix, Name, Partial, Terms, formula, text
+from lagrangian.model import Model, plain
+from lagrangian.write.written import Written
+
+
+@dataclass(frozen=True, eq=False)
+class Hamiltonian(Written):
+    """H(q, p, t) and what follows from it.
+
+    ``momenta``: coordinate → symbol of its momentum, a function of time. ``definitions``: momentum → ∂L/∂ξ̇ in rates.
+    ``equations``: rate of a coordinate or momentum → its expression in q, p, t. ``is_total`` says that H is T* + V,
+    ``is_constant`` that every motion keeps it; it is kept while the inputs of ``while_constant`` do not change where
+    there are such.
+    """
+
+    model: Model
+    H: sp.Expr
+    momenta: Mapping[sp.Expr, sp.Expr]
+    definitions: Mapping[sp.Expr, sp.Expr]
+    equations: Mapping[sp.Expr, sp.Expr]
+    is_total: bool
+    is_constant: bool
+    checks: tuple[Check, ...]
+    while_constant: tuple[str, ...] = ()
+
+    def report(self) -> Report[Model]:
+        """Return the report."""
+        return hamiltonian_report(self)
+
+
+@dataclass(frozen=True, eq=False)
+class Routhian(Written):
+    """R of the coordinates that are left, with the momenta of the ignorable ones as constants.
+
+    ``ignorable``: coordinate → symbol of its constant momentum. ``definitions``: that symbol → ∂L/∂ξ̇ in rates.
+    ``rates``: rate of an ignorable coordinate → its expression, for quadrature once the others are known.
+    ``coordinates`` are left; ``equations`` are theirs. ``potential`` is the effective potential, −R at rest.
+    """
+
+    model: Model
+    R: sp.Expr
+    ignorable: Mapping[sp.Expr, sp.Symbol]
+    definitions: Mapping[sp.Symbol, sp.Expr]
+    rates: Mapping[sp.Expr, sp.Expr]
+    coordinates: tuple[sp.Expr, ...]
+    equations: tuple[sp.Eq, ...]
+    potential: sp.Expr
+    checks: tuple[Check, ...]
+
+    def report(self) -> Report[Model]:
+        """Return the report."""
+        return routhian_report(self)
 
 
 def _defined(definitions: Mapping[Any, sp.Expr], rates: Mapping[Any, Any]) -> list[Item]:
@@ -58,7 +106,7 @@ def _entry(expr: Any) -> sp.Expr:
     return cast("sp.Expr", expr)
 
 
-def hamiltonian_report(found: Hamiltonian) -> Report:
+def hamiltonian_report(found: Hamiltonian) -> Report[Model]:
     """Return the report of Hamilton's form."""
     by_momentum = {found.momenta[c.symbol]: c.rate for c in found.model.coordinates}
     kind = "T* + V" if found.is_total else "not T* + V, for a motion is prescribed"
@@ -89,7 +137,7 @@ def hamiltonian_report(found: Hamiltonian) -> Report:
     return Report(f"{found.model.name}: Hamilton's form", found.model, parts, data)
 
 
-def routhian_report(found: Routhian) -> Report:
+def routhian_report(found: Routhian) -> Report[Model]:
     """Return the report of Routh's form."""
     by_momentum = {found.ignorable[c.symbol]: c.rate for c in found.model.coordinates if c.symbol in found.ignorable}
     equations: list[Item] = [

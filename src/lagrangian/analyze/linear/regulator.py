@@ -1,17 +1,21 @@
-"""A linear-quadratic regulator as a report: the law, its gains, and the poles it leaves."""
+"""A linear-quadratic regulator: the law, its gains, the poles it leaves, and its report."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian.analyze.figures import complex_figure, figure, matrix, plain_numbers
-from lagrangian.analyze.linear.regulate import Regulator
+from lagrangian.analyze.linear.linear_model import LinearModel
 from lagrangian.analyze.linear.report import symbol
 from lagrangian.analyze.report import Part, Report
 from lagrangian.derive.formula import Item, Name, Table, Text, formula, text
+from lagrangian.model import Model
+from lagrangian.write.written import Written
 
 Array = NDArray[np.float64]
 
@@ -19,7 +23,37 @@ DUST = 1e-11
 """Share of an entry, over the largest of its row, that is shown as zero."""
 
 
-def regulator_report(found: Regulator) -> Report:
+@dataclass(frozen=True, eq=False)
+class Regulator(Written):
+    """u = u₀ − K (x − x₀): ``K`` (inputs × states), Riccati's ``S`` and the poles of A − B K [1/s], slowest first.
+
+    ``law`` is that feedback as expressions of the coordinates and rates by input symbol, for a simulation's inputs.
+    """
+
+    linear: LinearModel = field(repr=False)
+    K: Array
+    S: Array
+    poles: NDArray[np.complex128]
+
+    @property
+    def law(self) -> dict[sp.Expr, sp.Expr]:
+        """Input symbol → u₀ − K (x − x₀)."""
+        linear = self.linear
+        model = linear.model
+        state = [*(c.symbol for c in model.coordinates), *(c.rate for c in model.coordinates)]
+        away = [x - sp.Float(value, 17) for x, value in zip(state, linear.at.values(), strict=True)]
+        found: dict[sp.Expr, sp.Expr] = {}
+        for u, row in zip(model.inputs, self.K, strict=True):
+            terms = [-sp.Float(float(k), 17) * d for k, d in zip(row, away, strict=True)]
+            found[u.symbol] = sp.Add(sp.Float(linear.inputs_at[u.name], 17), *terms)
+        return found
+
+    def report(self) -> Report[Model]:
+        """Return the report."""
+        return regulator_report(self)
+
+
+def regulator_report(found: Regulator) -> Report[Model]:
     """Return the report of a regulator."""
     linear = found.linear
     K, S, x, u = (Name(name) for name in ("K", "S", "x vector", "u vector"))

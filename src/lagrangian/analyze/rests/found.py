@@ -1,18 +1,93 @@
-"""Rests as a report: a table of where and how stable, how well they balance, and what nothing depends on."""
+"""Equilibria: where and how stable, how well they balance, what nothing depends on; and their report."""
 
 from __future__ import annotations
 
-from typing import Any
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, overload
+
+import numpy as np
 
 from lagrangian.analyze.figures import figure, scientific
 from lagrangian.analyze.linear.report import symbol
+from lagrangian.analyze.linear.rest import point_words
+from lagrangian.analyze.linear.stability import Stability
 from lagrangian.analyze.report import Part, Report
-from lagrangian.analyze.rests.equilibria import Equilibria, Equilibrium
 from lagrangian.analyze.rests.roots import EXACT
 from lagrangian.derive.formula import Item, Table, text
+from lagrangian.model import Model
+from lagrangian.viewed import Brief
+from lagrangian.write.written import Written
 
 
-def equilibria_report(found: Equilibria) -> Report:
+@dataclass(frozen=True)
+class Equilibrium(Brief):
+    """A rest: values of all states by name (rates 0), with the inputs and parameters it belongs to.
+
+    ``residual`` is the largest |h| in units of h's own size in the box, ``stability`` the verdict. ``moves`` names the
+    coordinates that change along a family of rests, of which this is the one nearest to 0; ``dimension`` is the
+    family's, 0 where the rest is isolated. ``starts`` of the search led here.
+    """
+
+    at: Mapping[str, float]
+    inputs: Mapping[str, float]
+    parameters: Mapping[str, float]
+    residual: float
+    stability: Stability
+    starts: int = 0
+    moves: tuple[str, ...] = ()
+    dimension: int = 0
+
+    def __getitem__(self, name: str) -> float:
+        """The value of a coordinate or rate."""
+        return self.at[name]
+
+    def __str__(self) -> str:
+        """Read as a line."""
+        shown = {name: value for name, value in self.at.items() if not name.endswith("'")}
+        return f"{point_words(tuple(shown), np.array(list(shown.values())))}: {self.stability.verdict}"
+
+
+@dataclass(frozen=True, eq=False)
+class Equilibria(Written, Sequence[Equilibrium]):
+    """The rests that were found, sorted by the values of the coordinates.
+
+    ``box`` is where the search started, by coordinate; ``free`` the directions that nothing depends on, each as
+    coordinate → share, held at ``held``; ``starts`` how many starts there were; ``sure`` whether every rest was met
+    several times and the last round found nothing new.
+    """
+
+    model: Model
+    found: tuple[Equilibrium, ...]
+    box: Mapping[str, tuple[float, float]]
+    free: tuple[Mapping[str, float], ...]
+    held: Mapping[str, float]
+    starts: int
+    sure: bool
+    notes: tuple[str, ...] = field(default=())
+
+    @overload
+    def __getitem__(self, index: int) -> Equilibrium: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Equilibrium, ...]: ...
+    def __getitem__(self, index: int | slice) -> Equilibrium | tuple[Equilibrium, ...]:
+        """The rest at an index."""
+        return self.found[index]
+
+    def __len__(self) -> int:
+        """How many there are."""
+        return len(self.found)
+
+    def __iter__(self) -> Iterator[Equilibrium]:
+        """One after the other."""
+        return iter(self.found)
+
+    def report(self) -> Report[Model]:
+        """Return the report."""
+        return equilibria_report(self)
+
+
+def equilibria_report(found: Equilibria) -> Report[Model]:
     """Return the report of rests."""
     names = list(found.box)
     letters = [symbol(found.model, name) for name in names]

@@ -31,9 +31,9 @@ from typing import Any
 
 import sympy as sp
 
-from lagrangian.derive import Check, Derivation
 from lagrangian.derive import formula as data
-from lagrangian.dynamics import notices
+from lagrangian.derive.derivation import Derived
+from lagrangian.derive.formula import Check
 from lagrangian.model import plain
 from lagrangian.write.glyphs import unicode
 from lagrangian.write.items import operations
@@ -45,7 +45,7 @@ SCHEMA = 1
 
 
 def to_dict(
-    derivation: Derivation, *, notation: Notation = "lecture", brief: bool = False, full: bool = False
+    derivation: Derived, *, notation: Notation = "lecture", brief: bool = False, full: bool = False
 ) -> dict[str, Any]:
     """Return the derivation as plain data: dictionaries, lists, text, numbers.
 
@@ -56,7 +56,7 @@ def to_dict(
 
 
 class _Data:
-    def __init__(self, derivation: Derivation, notation: Notation, brief: bool, full: bool) -> None:
+    def __init__(self, derivation: Derived, notation: Notation, brief: bool, full: bool) -> None:
         self.derivation, self.notation, self.brief = derivation, notation, brief
         self.write = Quantities(derivation.model, notation, full=full)
 
@@ -106,7 +106,7 @@ class _Data:
             ],
             "verified": self.checks(d.verified),
             "notes": [self.text(n) for n in d.notes],
-            "notices": [{"code": n.code, "where": n.where, "text": n.text} for n in notices(model)],
+            "notices": [{"code": n.code, "where": n.where, "text": n.text} for n in d.notices],
         }
 
     def expression(self, expr: sp.Basic) -> dict[str, str]:

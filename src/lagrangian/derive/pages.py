@@ -1,0 +1,150 @@
+"""How a derivation is laid out: what is shown, in which order, in which notation; and as every format.
+
+`lay_out` makes a Document; `write` renders it. Every function here takes a `Derivation`.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator, Mapping
+
+from lagrangian.derive import formula as data
+from lagrangian.derive.data import to_dict
+from lagrangian.derive.derivation import Derived, Step
+from lagrangian.write import html, latex, markdown, text
+from lagrangian.write.described import described
+from lagrangian.write.document import Block, Document, Paragraph, Section
+from lagrangian.write.items import Items
+from lagrangian.write.quantities import Notation
+
+
+def lay_out(
+    derivation: Derived,
+    *,
+    notation: Notation = "lecture",
+    brief: bool = False,
+    full: bool = False,
+    details: bool = False,
+) -> Document:
+    """Lay out a derivation.
+
+    ``brief`` keeps each step's title and what the derivation marked for the one-page checklist; ``full`` writes out
+    what would be summarised for its length; ``details`` puts that under collapsible summaries instead. Raises
+    `ModelError` for an unknown notation.
+    """
+    return _Layout(derivation, notation, brief, full, details).document()
+
+
+class _Layout(Items):
+    def __init__(self, derivation: Derived, notation: Notation, brief: bool, full: bool, details: bool) -> None:
+        super().__init__(derivation.model, notation, brief=brief, full=full, details=details)
+        self.derivation = derivation
+
+    def document(self) -> Document:
+        d = self.derivation
+        sections = [Section("notices", ("Notices",), tuple(self.noticed()))]
+        if not self.brief or d.model.definitions:
+            sections.append(self.system())
+        for step in d.steps:
+            title = self.inline(data.text(step.title))
+            sections.append(Section(f"step-{step.number}", title, tuple(self.step(step)), step.number))
+        sections.append(Section("result", ("Result",), tuple(self.result())))
+        if d.verified:
+            sections.append(Section("verified", ("Verified",), (self.checks(d.verified),)))
+        if notes := self.notes():
+            sections.append(Section("notes", ("Notes",), notes))
+        return Document(d.model.name, tuple(s for s in sections if s.blocks or s.number is not None), self.brief)
+
+    # -- sections ---------------------------------------------------------------------------------------------------
+
+    def system(self) -> Section:
+        """What was described: the symbols with their meaning, and the definitions."""
+        return described(self, self.derivation.model)
+
+    def noticed(self) -> Iterator[Paragraph]:
+        """What is to be known of the system, a paragraph each."""
+        for notice in self.derivation.notices:
+            yield Paragraph((f"{notice.where}: {notice.text}. [{notice.code}]",), "note")
+
+    def step(self, step: Step) -> Iterator[Block]:
+        if not self.brief:
+            yield Paragraph(self.inline(step.what), "what")
+            yield Paragraph(self.inline(step.why), "why")
+        yield from self.items(step.items, f"step-{step.number}")
+        if step.checked and not self.brief:
+            yield self.checks(step.checked)
+
+    def result(self) -> Iterator[Block]:
+        yield from self.items(self.derivation.result, "eq", terms=self.derivation.terms)
+
+    def notes(self) -> tuple[Block, ...]:
+        blocks: list[Block] = [] if self.brief else [Paragraph(self.inline(n), "note") for n in self.derivation.notes]
+        if self.elided:
+            words = "⟨n operations⟩ stands for an expression that is too long to read. "
+            how = "It opens where it stands." if self.details else "The option “full” writes it out."
+            blocks.append(Paragraph((words + how,), "note"))
+        return tuple(blocks)
+
+
+# -- every format ----------------------------------------------------------------------------------------------------
+
+
+def to_text(
+    derivation: Derived,
+    *,
+    notation: Notation = "lecture",
+    brief: bool = False,
+    full: bool = False,
+    width: int = 80,
+) -> str:
+    """Return the derivation as Unicode text of at most ``width`` columns, where its symbols allow it.
+
+    Raises `ModelError` for an unknown notation and a width under 40.
+    """
+    return text.page(lay_out(derivation, notation=notation, brief=brief, full=full), width)
+
+
+def to_markdown(
+    derivation: Derived, *, notation: Notation = "lecture", brief: bool = False, full: bool = False
+) -> str:
+    """Return the derivation as Markdown. Raises `ModelError` for an unknown notation."""
+    return markdown.page(lay_out(derivation, notation=notation, brief=brief, full=full))
+
+
+def to_latex(derivation: Derived, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
+    """Return the derivation as a complete LaTeX article. Raises `ModelError` for an unknown notation."""
+    return latex.page(lay_out(derivation, notation=notation, brief=brief, full=full))
+
+
+def to_html(derivation: Derived, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
+    """Return the derivation as a self-contained HTML page. Raises `ModelError` for an unknown notation."""
+    page = lay_out(derivation, notation=notation, brief=brief, full=full, details=True)
+    return html.page(page, "equations of motion")
+
+
+def to_html_fragment(derivation: Derived, *, notation: Notation = "lecture", brief: bool = True) -> str:
+    """Return the derivation as a piece of HTML for a notebook: the checklist unless ``brief`` is False."""
+    return html.fragment(lay_out(derivation, notation=notation, brief=brief, details=True))
+
+
+def section_to_html(derivation: Derived, anchor: str) -> str:
+    """Return one section of a derivation's page, such as ``step-6``, as a piece of HTML for a notebook."""
+    page = lay_out(derivation, details=True)
+    return html.fragment(Document(page.title, tuple(s for s in page.sections if s.anchor == anchor)))
+
+
+def to_json(derivation: Derived, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
+    """Return `to_dict` as JSON text."""
+    return (
+        json.dumps(to_dict(derivation, notation=notation, brief=brief, full=full), ensure_ascii=False, indent=1) + "\n"
+    )
+
+
+FORMATS: Mapping[str, Callable[..., str]] = {
+    "text": to_text,
+    "markdown": to_markdown,
+    "latex": to_latex,
+    "html": to_html,
+    "json": to_json,
+}
+"""Every format's writer: ``FORMATS[name](derivation, notation=…, brief=…, full=…) -> str``."""
