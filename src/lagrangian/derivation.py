@@ -6,7 +6,11 @@ from dataclasses import dataclass, fields, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from lagrangian import analyze, derive, dynamics
+from lagrangian import derive, dynamics
+from lagrangian.analyze.dimensions import check_dimensions
+from lagrangian.analyze.verify.equations import verify
+from lagrangian.analyze.verify.motion import verify_motion
+from lagrangian.analyze.verify.products import verify_products
 from lagrangian.calls import DERIVATION, Guided
 from lagrangian.derive import pages
 from lagrangian.model import Model
@@ -55,7 +59,7 @@ class Derivation(Guided, derive.Derived):
         not be checked on this machine, such as C without a compiler. Raises `ModelError` for numbers of states that
         are none.
         """
-        found = analyze.verify(self, states=states, seed=seed)
+        found = verify(self, states=states, seed=seed)
         return (*found, *verify_compiled(self.model, states=states, seed=seed))
 
     def check(self, answer: Any, *, hint: int = 3) -> CheckedAnswer:
@@ -81,21 +85,21 @@ def verify_compiled(model: Model, *, states: int, seed: int) -> tuple[Check, ...
     """Check what is compiled, exported and linearized from a model."""
     from lagrangian.compiled import Compiled, sources
 
-    return analyze.verify_products(model, Compiled(model), partial(sources, model), states=states, seed=seed)
+    return verify_products(model, Compiled(model), partial(sources, model), states=states, seed=seed)
 
 
 def verify_floating(model: Model, *, states: int, seed: int) -> tuple[Check, ...]:
     """Check a model whose frames float: its programs against each other, then what is made of them."""
-    found = analyze.verify_motion(model, states=states, seed=seed)
+    found = verify_motion(model, states=states, seed=seed)
     return (*found, *verify_compiled(model, states=states, seed=seed))
 
 
 def derive_and_verify(model: Model, *, detail: derive.Detail = "usual") -> Derivation:
     """Derive, and end with what was verified; ``detail="full"`` writes d/dt out term by term."""
-    analyze.check_dimensions(model)
+    check_dimensions(model)
     data = derive.derive(model, detail=detail)
     made = Derivation(**{f.name: getattr(data, f.name) for f in fields(data)})
-    made = replace(made, notices=dynamics.notices(model), verified=analyze.verify(made, states=10, seed=1))
+    made = replace(made, notices=dynamics.notices(model), verified=verify(made, states=10, seed=1))
     steps = tuple(replace(step, view=partial(_section, made, f"step-{step.number}")) for step in made.steps)
     return replace(made, steps=steps, ledger=Viewed(made.ledger, partial(_ledger, made)))
 
