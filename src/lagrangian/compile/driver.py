@@ -16,38 +16,16 @@ so every state goes through the same code, wherever a range begins and ends.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
 
 from .emit import attributes
 from .ir import Function, Module, Value
 from .move import emit_move
 from .packed import Short, emit_packed
+from .sizes import Array, Sizes
 
-Array = tuple[str, str, str]  # operands: address, stride from state to state, stride from entry to entry
 MAGNITUDE = 0x7FFFFFFFFFFFFFFF
 INFINITE = 0x7FF0000000000000
 NOT_FINITE, DOUBTFUL = 1, 2
-
-
-@dataclass(frozen=True)
-class Sizes:
-    """How many numbers the blocks hold.
-
-    Inputs by group, hoisted inputs by group, shared slots, outputs by array, scratch.
-    """
-
-    groups: tuple[int, ...]
-    hoisted: tuple[int, ...]
-    shared: int
-    outputs: tuple[int, ...]
-    scratch: int
-
-    def work(self, lanes: int, own_shared: bool) -> int:
-        """How many doubles of work space ``batch`` wants, its blocks one after the other."""
-        blocks = sum(self.groups) + sum(self.outputs) + self.scratch
-        if own_shared:
-            blocks += sum(self.hoisted) + self.shared
-        return lanes * max(1, blocks)
 
 
 def emit_single(module: Module, sizes: Sizes, body: str = "body_1", prologue: str = "prologue_1") -> None:

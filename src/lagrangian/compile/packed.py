@@ -15,7 +15,7 @@ from .ir import Function, Value, shuffle_mask
 from .move import Mover
 
 if TYPE_CHECKING:
-    from .driver import Array, Sizes
+    from .sizes import Array, Sizes
     from .tape import Tape
 
 FEW = 4  # entries up to which whole vectors are sorted; beyond, rows are transposed tile by tile

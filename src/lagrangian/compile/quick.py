@@ -20,7 +20,8 @@ from numpy.typing import NDArray
 
 from .arguments import FLOAT, PLAIN, Group
 from .batch import Array, Engine, Shapes
-from .driver import NOT_FINITE, Sizes
+from .driver import NOT_FINITE
+from .sizes import Sizes
 from .stage import NOTHING, Look, Row, Slot, Stage, address
 
 Entry: TypeAlias = Callable[[Any], int]

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .arguments import FLOAT, PLAIN, Group
-from .driver import Sizes
+from .sizes import Sizes
 
 
 @dataclass(frozen=True)

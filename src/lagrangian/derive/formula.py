@@ -12,7 +12,7 @@ from typing import TypeAlias
 import sympy as sp
 
 from lagrangian.model.plain import plain
-from lagrangian.viewed import Worded
+from lagrangian.viewed import Brief, Worded, cut
 
 
 @dataclass(frozen=True)

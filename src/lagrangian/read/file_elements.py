@@ -29,7 +29,8 @@ from lagrangian.read.source import shown
 from lagrangian.read.toml_index import Path
 
 if TYPE_CHECKING:
-    from lagrangian.read.file_load import Loader
+    from lagrangian.read.file_geometry import Geometry
+    from lagrangian.read.file_reading import Reading
 
 STANDARD_GRAVITY = 9.81
 """[m/s²] The parameter g unless the file declares it."""
@@ -38,8 +39,10 @@ STANDARD_GRAVITY = 9.81
 class _Reader:
     """Reads the fields of one element's table."""
 
-    def __init__(self, loader: Loader, kind: type[Element], table: Any, path: Path, at: Path | None) -> None:
-        self.loader, self.table, self.path = loader, table, path
+    def __init__(
+        self, loader: Reading, geometry: Geometry, kind: type[Element], table: Any, path: Path, at: Path | None
+    ) -> None:
+        self.loader, self.geometry, self.table, self.path = loader, geometry, table, path
         words = kind.kind.replace("_", " ")
         self.title = f"{words} {shown(table.name)}" if table.name else words
         self.place = loader.index.of_key(path)
@@ -70,14 +73,14 @@ class _Reader:
         for key in keys:
             value = getattr(self.table, key)
             if value is not None:
-                self.given[key] = self.loader.geometry.point(value, self.where(key))
+                self.given[key] = self.geometry.point(value, self.where(key))
 
     def between(self) -> None:
         """Read the two points that an element joins, where given."""
         if self.table.between is not None:
             path = self.where("between")
             self.given["between"] = tuple(
-                self.loader.geometry.named_point(name, (*path, i)) for i, name in enumerate(self.table.between)
+                self.geometry.named_point(name, (*path, i)) for i, name in enumerate(self.table.between)
             )
 
     def frames_or_angles(self, *keys: str) -> None:
@@ -85,12 +88,12 @@ class _Reader:
         for key in keys:
             value = getattr(self.table, key)
             if value is not None:
-                self.given[key] = self.loader.geometry.frame_or_angle(value, self.where(key), f"{key} of {self.title}")
+                self.given[key] = self.geometry.frame_or_angle(value, self.where(key), f"{key} of {self.title}")
 
     def axes(self) -> None:
         """Read the frame whose axes a vector is given in, where given."""
         if self.table.axes is not None:
-            self.given["axes"] = self.loader.geometry.frame(self.table.axes, self.where("axes"))
+            self.given["axes"] = self.geometry.frame(self.table.axes, self.where("axes"))
 
     def add(self, kind: type[Element]) -> None:
         """Make the element and hand it to the builder."""
@@ -194,9 +197,9 @@ KINDS = tuple(_KINDS)
 """The kinds of elements in a file, as its arrays of tables are called."""
 
 
-def add_element(loader: Loader, kind: str, table: Any, path: Path, at: Path | None = None) -> None:
+def add_element(loader: Reading, geometry: Geometry, kind: str, table: Any, path: Path, at: Path | None = None) -> None:
     """Read one element and add it; ``at`` is given where a whole element is one value of the file."""
     made, fill = _KINDS[kind]
-    reader = _Reader(loader, made, table, path, at)
+    reader = _Reader(loader, geometry, made, table, path, at)
     fill(reader)
     reader.add(made)

@@ -9,14 +9,15 @@ from lagrangian.read.letters import normal
 from lagrangian.read.source import shown
 
 if TYPE_CHECKING:
-    from lagrangian.read.file_load import Loader
+    from lagrangian.read.file_geometry import Geometry
+    from lagrangian.read.file_reading import Reading
 
 
 class Floating:
     """The floating frames of one file, each waiting for the coordinate, or the frame, that it comes ``after``."""
 
-    def __init__(self, loader: Loader) -> None:
-        self.loader = loader
+    def __init__(self, loader: Reading, geometry: Geometry) -> None:
+        self.loader, self.geometry = loader, geometry
         tables = enumerate(loader.file.frame)
         self.waiting = {n: None if t.after is None else normal(t.after) for n, t in tables if t.floating}
         self._refuse_after_without_floating()
@@ -43,8 +44,8 @@ class Floating:
             frame = loader.placed(lambda n=name, p=place: loader.builder.floating_frame(n, place=p), place)
             for x in (*frame.floating.coordinates, *frame.floating.velocities):
                 loader.scope.add(x.name, x.symbol)
-            loader.geometry.frames[frame.name] = frame
-            loader.geometry.points[frame.origin.name] = frame.origin
+            self.geometry.frames[frame.name] = frame
+            self.geometry.points[frame.origin.name] = frame.origin
             self.declare(frame.name)
 
     def finish(self) -> None:

@@ -19,7 +19,7 @@ from lagrangian.read.toml_index import Path
 from lagrangian.read.validate import owner
 
 if TYPE_CHECKING:
-    from lagrangian.read.file_load import Loader
+    from lagrangian.read.file_reading import Reading
 
 MAX_CHAIN = 200
 """Most points and frames that are defined in one chain, each from the one before in an order other than the file's."""
@@ -30,7 +30,7 @@ _WORD = re.compile(r"[^\W\d]\w*")
 class Geometry:
     """The points and frames of one file, by name."""
 
-    def __init__(self, loader: Loader) -> None:
+    def __init__(self, loader: Reading) -> None:
         self.loader, self.file, self.index, self.data = loader, loader.file, loader.index, loader.data
         self.points: dict[str, Point] = {"origin": loader.builder.origin}
         self.frames: dict[str, Frame] = {}  # those that float are there from the start, with their origins

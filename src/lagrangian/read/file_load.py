@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping
+from functools import partial
 from pathlib import Path as FilePath
 from typing import Any, NoReturn
 
@@ -11,18 +12,16 @@ import sympy as sp
 
 from lagrangian.errors import ModelError, ParseError, Place, did_you_mean
 from lagrangian.model import Builder
-from lagrangian.model.geometry import as_expr
 from lagrangian.read import file_schema as schema
-from lagrangian.read.expression import read_source
 from lagrangian.read.file_elements import KINDS, add_element
 from lagrangian.read.file_floating import Floating
 from lagrangian.read.file_geometry import Geometry
+from lagrangian.read.file_reading import Reading
 from lagrangian.read.letters import normal, spelled, twin
 from lagrangian.read.quantity import Quantity, parse_unit, read_quantity, unit_and_words
-from lagrangian.read.scope import Scope
 from lagrangian.read.source import shown
 from lagrangian.read.toml_index import Path
-from lagrangian.read.validate import MAX_BYTES, decode, owner, read_toml
+from lagrangian.read.validate import MAX_BYTES, decode, owner
 
 _WORD = re.compile(r"[^\W\d]\w*")
 
@@ -53,23 +52,12 @@ def loads(text: str, name: str | None = None) -> Builder:
     return Loader(text, name or "<text>").build()
 
 
-class Loader:
-    """Reads one file; ``scope`` holds every name declared so far."""
+class Loader(Reading):
+    """Reads the sections of one file."""
 
     def __init__(self, text: str, name: str) -> None:
-        self.file, self.data, self.index = read_toml(text, name)
-        self.builder = Builder(self.file.name if self.file.name.strip() else self._unnamed())
-        self.scope = Scope()
+        super().__init__(text, name)
         self.geometry = Geometry(self)
-
-    @property
-    def generalized_names(self) -> list[str]:
-        """What a generalized force may act on: the coordinates, and the velocities of floating frames."""
-        return list(dict.fromkeys(x.name for x in (*self.builder.coordinates, *self.builder.floating)))
-
-    def _unnamed(self) -> NoReturn:
-        place = self.index.of_value(("name",))
-        raise ParseError("the name of the system is empty", place=place, fix='name = "two-link arm"', code="E401")
 
     def build(self) -> Builder:
         """Read every section, in an order in which each finds what it refers to."""
@@ -85,19 +73,9 @@ class Loader:
 
     # -- names --------------------------------------------------------------------------------------------------
 
-    def placed(self, make: Callable[[], Any], place: Place, element: str | None = None) -> Any:
-        """Call ``make``; an error that does not know its place gets this one."""
-        try:
-            return make()
-        except ModelError as error:
-            error.at(place)
-            if error.element is None and element is not None:
-                error.element = element
-            raise
-
     def _coordinates(self) -> None:
         """Declare the coordinates, those of floating frames where they belong among them."""
-        floating = Floating(self)
+        floating = Floating(self, self.geometry)
         floating.declare(None)
         for name, value in self.file.coordinates.items():
             path, place = ("coordinates", name), self.index.of_key(("coordinates", name))
@@ -235,19 +213,6 @@ class Loader:
     def _texts(self) -> dict[str, str]:
         return {n: v for n, v in self.file.define.items() if isinstance(v, str)}
 
-    # -- values -------------------------------------------------------------------------------------------------
-
-    def expression(self, value: Any, path: Path, what: str, local: tuple[sp.Symbol, ...] = ()) -> sp.Expr:
-        """Return the SymPy expression of a text or number at a path; ``local`` are names of this expression alone."""
-        if not isinstance(value, str):
-            return self.placed(lambda: as_expr(_whole(value), what), self.index.of_value(path))
-        scope = self.scope.extended({s.name: s for s in local}) if local else self.scope
-        return read_source(self.index.source(path, value, what), scope)
-
-    def vector(self, values: list[Any], path: Path, what: str) -> tuple[sp.Expr, ...]:
-        """Return the expressions of a list."""
-        return tuple(self.expression(v, (*path, i), f"component {i + 1} of {what}") for i, v in enumerate(values))
-
     # -- elements -----------------------------------------------------------------------------------------------
 
     def _elements(self) -> None:
@@ -256,9 +221,8 @@ class Loader:
         for kind in KINDS:
             for number, table in enumerate(getattr(self.file, kind)):
                 path = (kind, number)
-                found.append(
-                    (self.index.offset(path), path, lambda k=kind, t=table, p=path: add_element(self, k, t, p))
-                )
+                add = partial(add_element, self, self.geometry, kind, table, path)
+                found.append((self.index.offset(path), path, add))
         if self.file.energies is not None:
             for key in ("T", "V", "D", "Xi"):
                 path = ("energies", key)
@@ -274,11 +238,11 @@ class Loader:
             for coordinate, value in table.Xi.items():
                 path = ("energies", "Xi", coordinate)
                 made = schema.GeneralizedForceTable(name=f"Xi_{coordinate}", coordinate=coordinate, value=value)
-                add_element(self, "generalized_force", made, path, path)
+                add_element(self, self.geometry, "generalized_force", made, path, path)
             return
         kind, name = {"T": ("kinetic", "T*"), "V": ("potential", "V"), "D": ("dissipation", "D")}[key]
         path = ("energies", key)
-        add_element(self, kind, schema.EnergyTable(name=name, value=getattr(table, key)), path, path)
+        add_element(self, self.geometry, kind, schema.EnergyTable(name=name, value=getattr(table, key)), path, path)
 
     # -- simulation ---------------------------------------------------------------------------------------------
 
@@ -325,11 +289,6 @@ class Loader:
     def _refuse(self, path: Path, message: str, fix: str, code: str) -> NoReturn:
         place = self.index.of_key(path) if code == "E402" else self.index.of_value(path)
         raise ParseError(message, element="[simulate]", place=place, fix=fix, code=code)
-
-
-def _whole(value: float) -> int | float:
-    """Return a whole number as an integer, so that it is shown without a point."""
-    return int(value) if float(value).is_integer() else value
 
 
 def _circle(table: Mapping[str, list[str]], start: str) -> list[str]:

@@ -57,6 +57,11 @@ class Task:
         return len(self.model.coordinates) + len(self.model.velocities)
 
     @property
+    def states(self) -> list[str]:
+        """The names of the states, coordinates first."""
+        return [*(c.name for c in self.model.coordinates), *(v.name for v in self.model.velocities)]
+
+    @property
     def impacts(self) -> list[tuple[str, Any, Mapping[Any, Any]]]:
         """The events as `lagrangian.dynamics.impacts` takes them."""
         return [(e.title, e.expression, e.reset) for e in self.events]
@@ -163,7 +168,7 @@ def _by_machine(task: Task) -> Outcome:
         _hits(task, found),
         "" if found.status[0] >= 0 else STATUS[int(found.status[0])],
     )
-    return resets.ended(task, outcome)
+    return resets.ended(outcome, task.states, [e.title for e in task.events])
 
 
 def _hits(task: Task, found: Any) -> list[Hit]:
@@ -246,4 +251,4 @@ def _by_scipy(task: Task) -> Outcome:
         atol=task.atol,
         bounds=task.bounds,
     )
-    return resets.ended(task, outcome)
+    return resets.ended(outcome, task.states, [e.title for e in task.events])

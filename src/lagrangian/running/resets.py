@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -16,7 +16,6 @@ from lagrangian.simulate.scipy_methods import Outcome
 
 if TYPE_CHECKING:
     from lagrangian.compile import Kernel
-    from lagrangian.running.integrating import Task
 
 Array = NDArray[np.float64]
 
@@ -43,13 +42,15 @@ def valued(kernel: Kernel) -> Callable[..., dict[str, Array]]:
     return evaluate
 
 
-def ended(task: Task, outcome: Outcome) -> Outcome:
-    """Return the outcome cut at the first event whose reset leaves a state without a finite value."""
+def ended(outcome: Outcome, states: Sequence[str], titles: Sequence[str]) -> Outcome:
+    """Return the outcome cut at the first event whose reset leaves a state without a finite value.
+
+    ``states`` are the names of the states, ``titles`` those of the events.
+    """
     for k, hit in enumerate(outcome.hits):
         if hit.after is None or np.isfinite(hit.after).all():
             continue
-        names = [*(c.name for c in task.model.coordinates), *(v.name for v in task.model.velocities)]
-        first = next(f"{name} = {x}" for name, x in zip(names, hit.after, strict=False) if not np.isfinite(x))
+        first = next(f"{name} = {x}" for name, x in zip(states, hit.after, strict=False) if not np.isfinite(x))
         kept = int(np.searchsorted(outcome.times, hit.time, side="right"))
         return replace(
             outcome,
@@ -59,6 +60,6 @@ def ended(task: Task, outcome: Outcome) -> Outcome:
             reached=hit.time,
             final=hit.before,
             hits=[*outcome.hits[:k], replace(hit, after=None)],
-            reason=f"[{NOT_A_VALUE}] the reset of event '{task.events[hit.index].title}' gives {first}",
+            reason=f"[{NOT_A_VALUE}] the reset of event '{titles[hit.index]}' gives {first}",
         )
     return outcome

@@ -17,6 +17,7 @@ from lagrangian.analyze.dimensions import NONE, RATE, Dimensions, Mismatch, chec
 from lagrangian.errors import ModelError
 from lagrangian.model import Frame, Model, plain
 from lagrangian.running.integrating import remembered
+from lagrangian.running.recorded import Recorded
 from lagrangian.view import Marks, Panel, Picture, Series, draw, joined
 from lagrangian.write.labels import Labels
 from lagrangian.write.tables import Column, Table
@@ -24,7 +25,6 @@ from lagrangian.write.tables import Column, Table
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from lagrangian.running.trajectory import Trajectory
 
 Array = NDArray[np.float64]
 
@@ -119,7 +119,7 @@ def _alone(angle: sp.Expr, q: Any) -> bool:
 # -- columns ----------------------------------------------------------------------------------------------------
 
 
-def table(run: Trajectory) -> Table:
+def table(run: Recorded) -> Table:
     """The states, the inputs, the energies and the named points over time."""
     model, units = run.model, Units(run.model)
     columns: list[Column] = []
@@ -148,7 +148,7 @@ def extremes(values: NDArray[np.float64]) -> tuple[float, float, float, float]:
     return float(values[0]), float(values[-1]), float(values.min()), float(values.max())
 
 
-def attributes(run: Trajectory) -> dict[str, Any]:
+def attributes(run: Recorded) -> dict[str, Any]:
     """What is to be known of a run: how it was made, how it ended, how well energy is balanced."""
     return {
         "title": run.model.name,
@@ -172,7 +172,7 @@ def _state_symbols(model: Model) -> list[Any]:
 # -- pictures ---------------------------------------------------------------------------------------------------
 
 
-def plot(run: Trajectory, asked: Sequence[Any], *, energy: bool | None, audit: bool, shown: bool = False) -> Figure:
+def plot(run: Recorded, asked: Sequence[Any], *, energy: bool | None, audit: bool, shown: bool = False) -> Figure:
     """The figure of what is asked for; of coordinates, inputs that act and energies where nothing is."""
     units, labels = Units(run.model), Labels(run.model)
     panels = [_panel(run, units, labels, _expression(run.model, x)) for x in asked]
@@ -213,7 +213,7 @@ def _expression(model: Model, asked: Any) -> sp.Expr:
     return asked
 
 
-def _panel(run: Trajectory, units: Units, labels: Labels, expr: sp.Expr) -> Panel:
+def _panel(run: Recorded, units: Units, labels: Labels, expr: sp.Expr) -> Panel:
     values, unit = run[expr], units.of(expr)
     what = KINDS.get(unit, "")
     if unit == "rad":
@@ -222,7 +222,7 @@ def _panel(run: Trajectory, units: Units, labels: Labels, expr: sp.Expr) -> Pane
     return Panel(what, unit, (Series(labels.tex(expr), labels.text(expr), values),))
 
 
-def _energies(run: Trajectory) -> Panel:
+def _energies(run: Recorded) -> Panel:
     T = Series("T^{*}", "T*", run.kinetic)
     V = Series("V", "V", run.potential)
     return Panel("energy", "J", (T, V, Series("T^{*} + V", "T* + V", run.energy, "k--")))

@@ -26,8 +26,9 @@ from lagrangian.running.ending import message
 from lagrangian.running.events import Event, listed_events
 from lagrangian.running.integrating import Task, remembered, right_hand_side, run
 from lagrangian.running.masses import check_masses
+from lagrangian.running.recorded import Occurrences
 from lagrangian.running.switching import with_stops
-from lagrangian.running.trajectory import Occurrences, Trajectory
+from lagrangian.running.trajectory import Trajectory
 from lagrangian.simulate import METHODS
 from lagrangian.simulate.crossings import Hit
 from lagrangian.simulate.scipy_methods import SCIPY, Bounds, Outcome

@@ -6,7 +6,6 @@ to choose the shape.
 """
 
 from lagrangian.derive.algebra.algebra import Algebra, equations
-from lagrangian.derive.algebra.form import Form, OutOfReach
-from lagrangian.derive.algebra.readable import Term
+from lagrangian.derive.algebra.form import Form, OutOfReach, Term
 
 __all__ = ["Algebra", "Form", "OutOfReach", "Term", "equations"]

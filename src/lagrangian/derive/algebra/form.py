@@ -11,9 +11,10 @@ is a generator of its own with its derivative, see `generators`.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterable
+from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import Any, Protocol
 
 import sympy as sp
 
@@ -29,10 +30,6 @@ from lagrangian.derive.algebra.monomials import (
     unit,
 )
 
-if TYPE_CHECKING:
-    from lagrangian.derive.algebra.algebra import Algebra
-    from lagrangian.derive.algebra.readable import Term
-
 LARGEST_FORM = 1_000_000
 """Terms above which a product is refused: such an expression is beyond reading and beyond memory."""
 
@@ -46,6 +43,50 @@ Rate = Callable[[int], "int | Form | None"]
 """A derivative's table: index → its derivative as a monomial, as a form, or None where it is zero."""
 
 
+@dataclass(frozen=True, eq=False)
+class Term:
+    """A readable term of an equation and its kind, judged by what it is a multiple of.
+
+    Kinds: "inertia" with an acceleration; "velocity" with a product of rates, or a rate and something else that moves;
+    "damping" with one bare rate; "stiffness" with coordinates and no sine; "gravity" with sines of coordinates, or
+    constant; "input"; "other".
+    """
+
+    expr: sp.Expr
+    kind: str
+
+
+class Ring(Protocol):
+    """What a form asks of the algebra that it belongs to; see `lagrangian.derive.algebra.algebra.Algebra`."""
+
+    generators: Any
+    writer: Any
+
+    def spend(self, operations: int) -> None:
+        """Count operations on terms; raise `OutOfReach` where they are too many."""
+        ...
+
+    def form(self, expr: sp.Expr) -> Form:
+        """Return the normal form of an expression."""
+        ...
+
+    def number(self, value: Packed) -> Form:
+        """Return a rational constant."""
+        ...
+
+    def monomial(self, packed: int) -> Form:
+        """Return a monomial of generators."""
+        ...
+
+    def total(self, forms: Iterable[Form]) -> Form:
+        """Return the sum of forms."""
+        ...
+
+    def reduced(self, form: Form) -> Form:
+        """Return the form with every power of a root replaced."""
+        ...
+
+
 class Form:
     """One expression in normal form: Σ_h C_h cos(h·a) + S_h sin(h·a), divided by ``den``.
 
@@ -57,7 +98,7 @@ class Form:
     __hash__ = None  # type: ignore[assignment] # equality is decided by clearing denominators, so no key stands for it
     __slots__ = ("algebra", "den", "parts")
 
-    def __init__(self, algebra: Algebra, parts: dict[Harmonic, Poly], den: int = 1) -> None:
+    def __init__(self, algebra: Ring, parts: dict[Harmonic, Poly], den: int = 1) -> None:
         kept: dict[Harmonic, Poly] = {}
         for h, p in parts.items():
             if not all(p.values()):

@@ -5,17 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from typing import TYPE_CHECKING, ClassVar, cast
+from typing import ClassVar, cast
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.derive.algebra.form import Form, Harmonic
+from lagrangian.derive.algebra.form import Form, Harmonic, Ring
 from lagrangian.derive.algebra.monomials import Packed, digits, multiples, packed, unit
-
-if TYPE_CHECKING:
-    from lagrangian.derive.algebra.algebra import Algebra
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,7 +79,7 @@ Slope = "int | Form | None"
 class Generators:
     """The table of generators and angles of an algebra; it grows as new ones are met."""
 
-    def __init__(self, algebra: Algebra, coordinates: Sequence[sp.Expr]) -> None:
+    def __init__(self, algebra: Ring, coordinates: Sequence[sp.Expr]) -> None:
         self.algebra = algebra
         self.table: list[Generator] = []
         self.roots: dict[int, Root] = {}

@@ -7,39 +7,23 @@ Each class is grouped by itself, see `group`.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from dataclasses import replace
 
 import sympy as sp
 
 from lagrangian.derive.algebra.factor import FACTOR_TERMS, SEARCH, Flat, Shortener, Tree, order
+from lagrangian.derive.algebra.form import Form, Term
 from lagrangian.derive.algebra.generators import Generators, Root
 from lagrangian.derive.algebra.group import LONG, Grouper, letters, role_of
 from lagrangian.derive.algebra.monomials import digits, unit
 from lagrangian.derive.algebra.sums import MOST, sums_in, with_sums
 from lagrangian.derive.algebra.trig import displayed
 
-if TYPE_CHECKING:
-    from lagrangian.derive.algebra.form import Form
-
 WRITTEN = 50
 """What a term costs that is written in SymPy, in products of terms in normal form."""
 
 KINDS = ("inertia", "velocity", "damping", "stiffness", "gravity", "other", "input")
 """The kinds of terms, in the order in which they are written."""
-
-
-@dataclass(frozen=True, eq=False)
-class Term:
-    """A readable term of an equation and its kind, judged by what it is a multiple of.
-
-    Kinds: "inertia" with an acceleration; "velocity" with a product of rates, or a rate and something else that moves;
-    "damping" with one bare rate; "stiffness" with coordinates and no sine; "gravity" with sines of coordinates, or
-    constant; "input"; "other".
-    """
-
-    expr: sp.Expr
-    kind: str
 
 
 def _merge_inputs(classes: dict[str, Flat], home_of: Callable[[int], str]) -> None:

@@ -4,18 +4,15 @@ from __future__ import annotations
 
 from fractions import Fraction
 from math import comb, isqrt
-from typing import TYPE_CHECKING, Any, cast
+from typing import Any, cast
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.derive.algebra.form import Form, OutOfReach
+from lagrangian.derive.algebra.form import Form, OutOfReach, Ring
 from lagrangian.derive.algebra.generators import Symbolic
 from lagrangian.derive.algebra.monomials import LARGEST_EXPONENT, Packed, common, content, digits, turn, unit, whole
-
-if TYPE_CHECKING:
-    from lagrangian.derive.algebra.algebra import Algebra
 
 EXACT_TURNS = 12
 """cos(x + π·p/q) is written out as cos x cos(πp/q) − sin x sin(πp/q) for q up to this, so that thirds cancel."""
@@ -34,7 +31,7 @@ LARGEST_PRODUCT = 10_000
 class Reader:
     """Reads expressions into an algebra; what has been read is remembered."""
 
-    def __init__(self, algebra: Algebra) -> None:
+    def __init__(self, algebra: Ring) -> None:
         self.algebra = algebra
         self._memo: dict[sp.Basic, Form] = {}
         self.left: dict[sp.Expr, None] = {}

@@ -2,22 +2,49 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
+from typing import Protocol
 
-from lagrangian.compile.ir import Value
+from lagrangian.compile.ir import Function, Value
 
 from . import layout as at
-from .method import rough_power
-from .printer import Vec
+from .events import Watch
+from .layout import Lanes
+from .method import Method, rough_power
+from .printer import Printer, Vec
 
-if TYPE_CHECKING:
-    from .loop import Loop
+
+class Around(Protocol):
+    """What this part asks of the loop around it; see `loop.Loop`."""
+
+    p: Printer
+    f: Function
+    lanes: Lanes
+    method: Method
+    watch: Watch | None
+    new_k: Vec
+    own_blocks: Sequence[Vec]
+    inlet: Sequence[Vec]
+    rtol: Value
+    atol: Vec
+
+    def rate(self, t: Value, x: Vec, into: Vec | None = None) -> Vec:
+        """Print the derivative at (t, x)."""
+        ...
+
+    def spend(self, flag: str, count: int) -> None:
+        """Print that evaluations were made."""
+        ...
+
+    def inputs_at(self, t: Value) -> Vec:
+        """Print the inputs at a time."""
+        ...
 
 
 class Begin:
     """Prints the part of the loop that follows the service."""
 
-    def __init__(self, loop: Loop) -> None:
+    def __init__(self, loop: Around) -> None:
         self.loop, self.p, self.f, self.lanes, self.method = loop, loop.p, loop.f, loop.lanes, loop.method
 
     def print(self) -> None:

@@ -5,7 +5,7 @@ Stop points are the end of the run, the knots of the inputs and, for a fixed ste
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import Protocol
 
 from . import layout as at
 from .evaluate import Tapes
@@ -13,10 +13,19 @@ from .layout import Lanes
 from .method import Method
 from .printer import Printer
 
-if TYPE_CHECKING:
-    from .events import Watch
-
 NEVER = "0x7FF0000000000000"  # +∞
+
+
+class Watching(Protocol):
+    """What looks for events, as far as single lanes are concerned."""
+
+    def forget(self, lane: str) -> None:
+        """Print that a lane has seen nothing yet."""
+        ...
+
+    def prologues(self) -> None:
+        """Print what is computed once for new parameters."""
+        ...
 
 
 class Service:
@@ -112,7 +121,7 @@ class Service:
 
     # The service itself ------------------------------------------------------------------------------------------
 
-    def print(self, tapes: Tapes, watch: Watch | None) -> None:
+    def print(self, tapes: Tapes, watch: Watching | None) -> None:
         """Print the service: at its end the function returns, or goes on to ``begin`` or ``head``."""
         p, f, lanes = self.p, self.f, self.lanes
         f.label("service")

@@ -1,0 +1,29 @@
+"""How many numbers the blocks of a kernel hold, and how its arrays are named in machine code."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+Array = tuple[str, str, str]
+"""Operands of an array: address, stride from state to state, stride from entry to entry."""
+
+
+@dataclass(frozen=True)
+class Sizes:
+    """How many numbers the blocks hold.
+
+    Inputs by group, hoisted inputs by group, shared slots, outputs by array, scratch.
+    """
+
+    groups: tuple[int, ...]
+    hoisted: tuple[int, ...]
+    shared: int
+    outputs: tuple[int, ...]
+    scratch: int
+
+    def work(self, lanes: int, own_shared: bool) -> int:
+        """How many doubles of work space ``batch`` wants, its blocks one after the other."""
+        blocks = sum(self.groups) + sum(self.outputs) + self.scratch
+        if own_shared:
+            blocks += sum(self.hoisted) + self.shared
+        return lanes * max(1, blocks)
