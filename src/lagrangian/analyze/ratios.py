@@ -10,6 +10,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach
+from lagrangian.derive.algebra.form import Ring
 
 LARGEST = 4
 """Rows of a block of M up to which its inverse is written out."""
@@ -30,7 +31,7 @@ class Ratio:
         return written(self.over.expr() / self.under.expr(), self.over.algebra)
 
 
-def written(expr: sp.Expr, algebra: Algebra) -> sp.Expr:
+def written(expr: sp.Expr, algebra: Ring) -> sp.Expr:
     """A quotient with common factors cancelled, numerator and denominator each made readable."""
     if expr == 0:
         return sp.S.Zero

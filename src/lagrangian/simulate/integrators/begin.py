@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Protocol
 
 from lagrangian.compile.ir import Function, Value
@@ -23,9 +22,10 @@ class Around(Protocol):
     method: Method
     watch: Watch | None
     new_k: Vec
-    own_blocks: Sequence[Vec]
-    inlet: Sequence[Vec]
+    own_blocks: tuple[Vec, ...]
+    inlet: tuple[Vec, ...]
     rtol: Value
+    max_step: Value
     atol: Vec
 
     def rate(self, t: Value, x: Vec, into: Vec | None = None) -> Vec:

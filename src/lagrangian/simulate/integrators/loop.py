@@ -65,7 +65,7 @@ class Loop:
         self.new_x, self.new_lost, self.new_k = p.block(), p.block(), p.block()
         self.own_blocks = tuple(p.block() for _ in range(method.blocks))
         self.own_slots = tuple(p.reserve(1) for _ in range(method.slots))
-        self.inlet = () if p.unrolled else (Vec(slot=self.tapes.start("body", "x")),)
+        self.inlet: tuple[Vec, ...] = () if p.unrolled else (Vec(slot=self.tapes.start("body", "x")),)
         self.service = Service(p, self.lanes, method, size=size, inputs=self.inputs, signals=self.signals)
         self.watch: Watch | None = None
         if watched is not None:
