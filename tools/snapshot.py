@@ -1,7 +1,7 @@
 """Everything that the product says and computes for its built-in examples, as files that can be compared.
 
-    python tools/snapshot.py take FOLDER            every page, command and kernel, into a new folder
-    python tools/snapshot.py compare BEFORE AFTER   what differs; exit code 1 where anything does
+    python tools/snapshot.py take FOLDER [EXAMPLE …]  every page, command and kernel, into a new folder
+    python tools/snapshot.py compare BEFORE AFTER     what differs; exit code 1 where anything does
 
 A change of structure is a change of structure alone where two snapshots are equal. A folder holds
 
@@ -79,12 +79,12 @@ EACH = {  # command lines of each example, after `-e EXAMPLE`
 }
 
 
-def take(folder: Path) -> None:
-    """Write a snapshot into a folder that must not exist yet."""
+def take(folder: Path, names: tuple[str, ...]) -> None:
+    """Write a snapshot of these examples, or of all, into a folder that must not exist yet."""
     from lagrangian import examples
 
     folder.mkdir(parents=True)
-    names = examples.names()
+    names = names or examples.names()
     with ProcessPoolExecutor(os.cpu_count(), mp_context=get_context("spawn")) as pool:
         tasks = [pool.submit(_shared, folder), *(pool.submit(_example, folder, name) for name in names)]
         for task in tasks:
@@ -215,14 +215,16 @@ def _write(path: Path, text: str) -> None:
 def _main() -> int:
     parser = argparse.ArgumentParser(description=(__doc__ or "").split("\n")[0])
     verbs = parser.add_subparsers(dest="verb", required=True)
-    verbs.add_parser("take").add_argument("folder", type=Path)
+    taken = verbs.add_parser("take")
+    taken.add_argument("folder", type=Path)
+    taken.add_argument("examples", nargs="*")
     both = verbs.add_parser("compare")
     both.add_argument("before", type=Path)
     both.add_argument("after", type=Path)
     given = parser.parse_args()
     if given.verb == "compare":
         return 1 if compare(given.before, given.after) else 0
-    take(given.folder)
+    take(given.folder, tuple(given.examples))
     return 0
 
 

@@ -45,7 +45,7 @@ class LagrangianForm:
                 for i, c in enumerate(model.coordinates):
                     forces[i] = forces[i] + effort * sp.diff(rate, c.rate)
         T, V = (model.expand(cast("sp.Expr", e), constants=True) for e in (T, V))
-        gone = dict.fromkeys(vanishing, sp.S.Zero)
+        gone: dict[Any, Any] = dict.fromkeys(vanishing, sp.S.Zero)
         made = [cast("sp.Expr", sp.sympify(e).xreplace(gone)) for e in (T, V, *forces)]
         if any(e.has(sp.zoo, sp.nan, sp.oo) for e in made):
             raise ModelError(
