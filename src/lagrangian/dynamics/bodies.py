@@ -6,8 +6,9 @@ axis of the turn. The equations stay the same, the numbers in them become fewer.
 
 from __future__ import annotations
 
+from lagrangian.dynamics.axes import Axes, Place
 from lagrangian.dynamics.inertia import AnyLink, Inertia, Link, PlaneLink
-from lagrangian.dynamics.motion import Axes, Motion, Place
+from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.vectors import Matrix, Vector, plus, scaled, zeros
 
 Plane = dict[tuple[Axes, Place], PlaneLink]

@@ -13,10 +13,11 @@ from typing import Any
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.dynamics.axes import Axes, Place
 from lagrangian.dynamics.bodies import Bodies
 from lagrangian.dynamics.floating import Float, floating_body, floating_rates
 from lagrangian.dynamics.mechanics import Mechanics, Pairs
-from lagrangian.dynamics.motion import Axes, Motion, Place
+from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.turns import along_axis
 from lagrangian.dynamics.vectors import Vector, dot, minus, plus, scaled, times, zeros
 from lagrangian.errors import ModelError

@@ -20,7 +20,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from lagrangian.dynamics.motion import Axes, Motion, Place
+from lagrangian.dynamics.axes import Axes, Place
+from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.vectors import Matrix, cross, dot, minus, plus, times
 from lagrangian.graph import Graph
 

@@ -13,7 +13,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from lagrangian.dynamics.motion import Accelerations, Axes, Motion, Place
+from lagrangian.dynamics.axes import Accelerations, Axes, Place
+from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.vectors import Matrix, Vector, cross, plus, product, scaled, times, transposed, zeros
 from lagrangian.graph import Graph
 

@@ -14,11 +14,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
+from lagrangian.dynamics.axes import Accelerations
 from lagrangian.dynamics.bodies import Bodies
 from lagrangian.dynamics.eliminate import Quadratic, condensed, solve
 from lagrangian.dynamics.floating import Float, bracket, transported
 from lagrangian.dynamics.inertia import AnyLink
-from lagrangian.dynamics.motion import Accelerations, Motion
+from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.tape import is_linear, make_tape, moving_nodes
 from lagrangian.dynamics.vectors import dot, minus, plus, zeros
 from lagrangian.graph import Graph, count_operations, gradient, hessian, jvp, operands, vjp

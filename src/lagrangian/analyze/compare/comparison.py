@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any, cast
 
@@ -10,7 +10,7 @@ import sympy as sp
 
 from lagrangian.analyze.change import Change
 from lagrangian.analyze.compare.rows import Difference, ParameterDifference, Rewritten, Row, Side
-from lagrangian.analyze.compare.words import recipe
+from lagrangian.analyze.compare.words import commas, recipe, symbols, within
 from lagrangian.analyze.report import Part, Report
 from lagrangian.derive.context import fit, fit_terms
 from lagrangian.derive.formula import (
@@ -135,7 +135,7 @@ class _Shown:
     def text(self, words: Text) -> Text:
         """Words that speak of the coordinates that both are written in."""
         names = self.names[self.found.into.tag]
-        return Text(tuple(p if isinstance(p, str) else _within(p, names) for p in words.parts))
+        return Text(tuple(p if isinstance(p, str) else within(p, names) for p in words.parts))
 
     def check(self, check: Check) -> Check:
         """A check in the letters of the report."""
@@ -196,7 +196,7 @@ class _Shown:
 
     def listed(self, side: Side) -> list[Left | str]:
         """The coordinates of one side."""
-        return _commas([self.expr(side, q) for q in side.derivation.coordinates])
+        return commas([self.expr(side, q) for q in side.derivation.coordinates])
 
     def change(self) -> list[Item]:
         """ξ = φ(η) and J."""
@@ -303,7 +303,7 @@ class _Shown:
         for tag, other in (("A", "B"), ("B", "A")):
             missing = [p.name for p in found.parameters if p.missing == tag]
             if missing:
-                items.append(text(f"Parameters of ({other}) that ({tag}) does not have: ", *_symbols(missing), "."))
+                items.append(text(f"Parameters of ({other}) that ({tag}) does not have: ", *symbols(missing), "."))
         return items
 
     def difference(self, d: Difference) -> list[str | Left]:
@@ -330,28 +330,6 @@ class _Shown:
         if d.element_a and d.element_b and d.a != 0 != d.b:
             pieces += ["; (A) minus (B) begins with ", fit(self.expr(into, d.term))]
         return [*pieces, "."]
-
-
-def _within(part: Any, names: Mapping[sp.Basic, sp.Expr]) -> Any:
-    """A symbol, also one in ∂…/∂…, under its name in the report."""
-    if isinstance(part, sp.Basic):
-        return part.xreplace(names)
-    by = getattr(part, "by", None)
-    return type(part)(part.of, by.xreplace(names)) if isinstance(by, sp.Basic) else part
-
-
-def _commas(exprs: Sequence[Left]) -> list[Left | str]:
-    parts: list[Left | str] = []
-    for e in exprs:
-        parts += [", ", e] if parts else [e]
-    return parts
-
-
-def _symbols(names: Sequence[str]) -> list[Left | str]:
-    return _commas([sp.Symbol(n) for n in names])
-
-
-# -- as data --------------------------------------------------------------------------------------------------------
 
 
 def comparison_data(found: Comparison) -> dict[str, Any]:

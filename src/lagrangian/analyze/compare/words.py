@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
 
 import sympy as sp
 
@@ -62,3 +63,24 @@ def _listed(pieces: list[tuple[sp.Expr, str]], *, plus: bool = False) -> list[st
             parts.append(" plus " if plus else " and " if k == len(pieces) - 1 else ", ")
         parts += [name] if factor == 1 else [*_factor(factor), f" times {name}"]
     return parts
+
+
+def within(part: Any, names: Mapping[sp.Basic, sp.Expr]) -> Any:
+    """A symbol, also one in ∂…/∂…, under its name in the report."""
+    if isinstance(part, sp.Basic):
+        return part.xreplace(names)
+    by = getattr(part, "by", None)
+    return type(part)(part.of, by.xreplace(names)) if isinstance(by, sp.Basic) else part
+
+
+def commas(exprs: Sequence[Left]) -> list[Left | str]:
+    """Expressions with commas between them."""
+    parts: list[Left | str] = []
+    for e in exprs:
+        parts += [", ", e] if parts else [e]
+    return parts
+
+
+def symbols(names: Sequence[str]) -> list[Left | str]:
+    """Names as symbols with commas between them."""
+    return commas([sp.Symbol(n) for n in names])
