@@ -15,7 +15,7 @@ from lagrangian import compile as machine
 from lagrangian import dynamics, read
 from lagrangian.advice import Advice, Argument
 from lagrangian.calls import TRAJECTORY, Guided
-from lagrangian.errors import ModelError, Notice, did_you_mean
+from lagrangian.errors import ModelError, NoSuchEntry, Notice, did_you_mean
 from lagrangian.model import Element, Model, Point, as_expr
 from lagrangian.running.integrating import remembered
 from lagrangian.viewed import Brief, Entries
