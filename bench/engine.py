@@ -28,8 +28,8 @@ import numpy as np
 import engine_systems as systems
 from engine_peers import PEERS, CasADi, Loop, Timed, address
 from engine_systems import Array, Tree
-from lagrangian import compile as machine
-from lagrangian.compile import Kernel
+from lagrangian import codegen as machine
+from lagrangian.codegen import Kernel
 from lagrangian.graph import count_program
 
 HERE = Path(__file__).parent

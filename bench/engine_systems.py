@@ -10,7 +10,7 @@ import sympy as sp
 from numpy.typing import NDArray
 
 import lagrangian as lg
-from lagrangian import compile as machine
+from lagrangian import codegen as machine
 from lagrangian.dynamics import Bodies, Mechanics, Motion
 from lagrangian.graph import Graph, Output, Program
 from lagrangian.model import Frame, Point

@@ -29,8 +29,8 @@ import numpy as np
 
 import lagrangian as lg
 from lagrangian import examples
-from lagrangian.compile import compile as compile_program
-from lagrangian.compile import to_c, to_numpy
+from lagrangian.codegen import compile as compile_program
+from lagrangian.codegen import to_c, to_numpy
 from lagrangian.graph import Program, evaluate
 
 HERE = Path(__file__).parent

@@ -26,7 +26,7 @@ import engine_systems as systems
 import lagrangian as lg
 from lagrangian import dynamics
 from lagrangian.graph import Program
-from lagrangian.simulate import Solver
+from lagrangian.integrate import Solver
 
 HERE = Path(__file__).parent
 STEP = 0.002

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 import typer
 
-from lagrangian.commands.app import app
+from lagrangian.cli.app import app
 
 ROOT = pathlib.Path(__file__).parent.parent
 

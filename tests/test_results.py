@@ -56,7 +56,7 @@ def parts(thing: Any, path: str, seen: set[int]) -> Iterator[tuple[str, Any]]:
     if id(thing) in seen or isinstance(thing, (str, sp.Basic, sp.MatrixBase, np.ndarray)):
         return
     seen.add(id(thing))
-    if isinstance(thing, Mapping) and not type(thing).__module__.startswith("lagrangian.running"):
+    if isinstance(thing, Mapping) and not type(thing).__module__.startswith("lagrangian.simulate"):
         listed = [(f"{path}[{k!s}]", x) for k, x in thing.items()]
     elif isinstance(thing, (tuple, list)):
         listed = [(f"{path}[{k}]", x) for k, x in enumerate(thing)]

@@ -10,8 +10,8 @@ import pytest
 import typer
 
 import lagrangian
-from lagrangian.commands.app import app
-from lagrangian.commands.verbs import VERBS
+from lagrangian.cli.app import app
+from lagrangian.cli.verbs import VERBS
 
 HEAVY = {"sympy", "numpy", "scipy", "llvmlite", "pint", "pydantic", "lark", "rich", "typer", "matplotlib", "mpmath"}
 
@@ -100,7 +100,7 @@ def test_public_names_are_all_and_no_more() -> None:
 
 def test_the_list_of_verbs_says_what_the_verbs_say() -> None:
     for name, (file, function, line) in VERBS.items():
-        found = getattr(import_module(f"lagrangian.commands.{file}"), function)
+        found = getattr(import_module(f"lagrangian.cli.{file}"), function)
         assert (inspect.getdoc(found) or "").splitlines()[0] == line, name
 
 

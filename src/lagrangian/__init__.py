@@ -1,47 +1,100 @@
 """Equations of motion by the Lagrangian approach: every step shown, every result checked."""
 
-from typing import TYPE_CHECKING
+import typing as _typing
 
-if TYPE_CHECKING:
-    from lagrangian.analyze.compare import Comparison, compare
+from lagrangian.lazily import closed as _closed
+from lagrangian.lazily import lazily as _lazily
+
+if _typing.TYPE_CHECKING:
+    from lagrangian.check.verb import CheckedAnswer
+    from lagrangian.compare import Comparison, compare
+    from lagrangian.compiled import Compiled
     from lagrangian.derivation import Derivation
+    from lagrangian.derive import LedgerRow, Origin, Step
+    from lagrangian.equilibria.points import Equilibria, Equilibrium
     from lagrangian.errors import Error, MissingExtra, ModelError, Notice, ParseError, Place, RunError
-    from lagrangian.running.ensemble import Ensemble
-    from lagrangian.running.events import Event, event
-    from lagrangian.running.trajectory import Trajectory
-    from lagrangian.system import System, load, loads
+    from lagrangian.invariants.canonical_forms import Hamiltonian, Routhian
+    from lagrangian.invariants.conserved_quantities import Conserved, ConservedQuantities
+    from lagrangian.linear.along import LinearizationAlong
+    from lagrangian.linear.linearization import Linearization
+    from lagrangian.linear.modes import Mode
+    from lagrangian.linear.regulator import Regulator
+    from lagrangian.linear.stability import Stability
+    from lagrangian.linear.symbolic import SymbolicLinearization
+    from lagrangian.page.formula import Check, EquationTerm
+    from lagrangian.page.report import Report
+    from lagrangian.simulate.ensemble import Ensemble
+    from lagrangian.simulate.events import Event, event
+    from lagrangian.simulate.recorded import Audit
+    from lagrangian.simulate.trajectory import Trajectory
+    from lagrangian.system import System, example, load, loads
 else:
-    from lagrangian.lazily import lazily
-
-    __getattr__ = lazily(
+    __getattr__ = _lazily(
         __name__,
         {
-            "analyze.compare": "Comparison compare",
+            "check.verb": "CheckedAnswer",
+            "compare": "Comparison compare",
+            "compiled": "Compiled",
             "derivation": "Derivation",
+            "derive": "LedgerRow Origin Step",
+            "equilibria.points": "Equilibria Equilibrium",
             "errors": "Error MissingExtra ModelError Notice ParseError Place RunError",
-            "running.ensemble": "Ensemble",
-            "running.events": "Event event",
-            "running.trajectory": "Trajectory",
-            "system": "System load loads",
+            "invariants.canonical_forms": "Hamiltonian Routhian",
+            "invariants.conserved_quantities": "Conserved ConservedQuantities",
+            "linear.along": "LinearizationAlong",
+            "linear.linearization": "Linearization",
+            "linear.modes": "Mode",
+            "linear.regulator": "Regulator",
+            "linear.stability": "Stability",
+            "linear.symbolic": "SymbolicLinearization",
+            "page.formula": "Check EquationTerm",
+            "page.report": "Report",
+            "simulate.ensemble": "Ensemble",
+            "simulate.events": "Event event",
+            "simulate.recorded": "Audit",
+            "simulate.trajectory": "Trajectory",
+            "system": "System example load loads",
         },
     )
 
 __all__ = [
+    "Audit",
+    "Check",
+    "CheckedAnswer",
     "Comparison",
+    "Compiled",
+    "Conserved",
+    "ConservedQuantities",
     "Derivation",
     "Ensemble",
+    "EquationTerm",
+    "Equilibria",
+    "Equilibrium",
     "Error",
     "Event",
+    "Hamiltonian",
+    "LedgerRow",
+    "Linearization",
+    "LinearizationAlong",
     "MissingExtra",
+    "Mode",
     "ModelError",
     "Notice",
+    "Origin",
     "ParseError",
     "Place",
+    "Regulator",
+    "Report",
+    "Routhian",
     "RunError",
+    "Stability",
+    "Step",
+    "SymbolicLinearization",
     "System",
     "Trajectory",
     "compare",
     "event",
+    "example",
     "load",
     "loads",
 ]
@@ -50,3 +103,6 @@ __version__ = "0.1.0"
 
 def __dir__() -> list[str]:
     return sorted([*__all__, *(name for name in globals() if name.startswith("__"))])
+
+
+_closed(__name__)

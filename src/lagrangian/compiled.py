@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from lagrangian import compile as machine
+from lagrangian import codegen as machine
 from lagrangian import dynamics
 from lagrangian.errors import ModelError, RunError
 from lagrangian.graph import reached
@@ -80,7 +80,7 @@ class Compiled(Looking):
             found = machine.compile(self.program(name), optional=optional, lanes=self._lanes, threads=self._threads)
             if name in _SOLVING and self.parameters:
                 # here, as exporting source makes no machine code
-                from lagrangian.running.masses import Admission, fitness
+                from lagrangian.simulate.admission import Admission, fitness
 
                 fit = fitness(self._model, self.parameters)
                 if fit is not None:

@@ -7,18 +7,18 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from lagrangian import derive, dynamics
-from lagrangian.analyze.dimensions import check_dimensions
-from lagrangian.analyze.verify.equations import verify
-from lagrangian.analyze.verify.motion import verify_motion
-from lagrangian.analyze.verify.products import verify_products
 from lagrangian.calls import DERIVATION, Guided
 from lagrangian.derive import pages
 from lagrangian.model import Model
+from lagrangian.values.dimensions import check_dimensions
+from lagrangian.verify.equations import verify
+from lagrangian.verify.motion import verify_motion
+from lagrangian.verify.products import verify_products
 from lagrangian.viewed import Viewed
 
 if TYPE_CHECKING:
-    from lagrangian.checking import CheckedAnswer
-    from lagrangian.derive import Check
+    from lagrangian.check.verb import CheckedAnswer
+    from lagrangian.page.formula import Check
     from lagrangian.write import Notation
 
 
@@ -69,7 +69,7 @@ class Derivation(Guided, derive.Derived):
         equations, or energies by name. ``hint`` is how much the words give away: 0 right or not, 1 the line, 2 the
         element and the step, 3 the term. Raises `ParseError` for a text that cannot be read.
         """
-        from lagrangian.checking import check_answer
+        from lagrangian.check.verb import check_answer
 
         return check_answer(self, answer, hint=hint)
 

@@ -11,7 +11,6 @@ from typing import Any, Self
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from lagrangian import read
 from lagrangian.calls import SYSTEM, Guided, worded
 from lagrangian.errors import ModelError, Notice
 from lagrangian.model import (
@@ -32,9 +31,10 @@ from lagrangian.model import (
     Spring,
     Torque,
     as_expr,
-    plain,
     time,
 )
+from lagrangian.page.plain import plain
+from lagrangian.quantities.quantity import parse_quantity
 
 STANDARD_GRAVITY = 9.81
 """[m/s²] The value of the parameter g unless one is given."""
@@ -378,16 +378,16 @@ def _unit(unit: str | None) -> str | None:
     if unit is not None:
         if not isinstance(unit, str):
             raise ModelError(f"a unit must be text (got {type(unit).__name__})", fix='such as "kg"', code="E408")
-        read.parse_quantity(f"1 {unit}")
+        parse_quantity(f"1 {unit}")
     return unit
 
 
 def _value(name: str, value: float | str | None, unit: str | None) -> tuple[Any, str | None]:
     """Return a value in SI units and the unit it was given in."""
     if isinstance(value, str):
-        quantity = read.parse_quantity(value, what=f"parameter '{name}'")
+        quantity = parse_quantity(value, what=f"parameter '{name}'")
         return quantity.value, quantity.unit
     if unit is not None and isinstance(value, (int, float)) and not isinstance(value, bool):
-        quantity = read.parse_quantity(f"{value!r} {unit}", what=f"parameter '{name}'")
+        quantity = parse_quantity(f"{value!r} {unit}", what=f"parameter '{name}'")
         return quantity.value, quantity.unit
     return value, unit

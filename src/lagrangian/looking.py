@@ -9,11 +9,12 @@ import numpy as np
 import sympy as sp
 from numpy.typing import ArrayLike, NDArray
 
-from lagrangian import compile as machine
+from lagrangian import codegen as machine
 from lagrangian import dynamics, read
 from lagrangian.calls import COMPILED, Guided
 from lagrangian.errors import ModelError
-from lagrangian.model import Frame, Point, as_expr, plain
+from lagrangian.model import Frame, Point, as_expr
+from lagrangian.page.plain import plain
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program

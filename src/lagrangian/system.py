@@ -17,22 +17,20 @@ from lagrangian.write import check_free, write_file
 if TYPE_CHECKING:  # every verb imports what it needs: describing a system waits for none of them
     from numpy.typing import ArrayLike
 
-    from lagrangian.analyze import (
-        ConservedQuantities,
-        Equilibria,
-        Hamiltonian,
-        Linearization,
-        LinearizationAlong,
-        Routhian,
-    )
-    from lagrangian.analyze.compare import Comparison
-    from lagrangian.checking import CheckedAnswer
+    from lagrangian.check.verb import CheckedAnswer
+    from lagrangian.compare import Comparison
     from lagrangian.compiled import Compiled
     from lagrangian.derivation import Derivation
-    from lagrangian.derive import Check, Detail
-    from lagrangian.running.ensemble import Ensemble
-    from lagrangian.running.events import Event
-    from lagrangian.running.trajectory import Trajectory
+    from lagrangian.derive import Detail
+    from lagrangian.equilibria.points import Equilibria
+    from lagrangian.invariants.canonical_forms import Hamiltonian, Routhian
+    from lagrangian.invariants.conserved_quantities import ConservedQuantities
+    from lagrangian.linear.along import LinearizationAlong
+    from lagrangian.linear.linearization import Linearization
+    from lagrangian.page.formula import Check
+    from lagrangian.simulate.ensemble import Ensemble
+    from lagrangian.simulate.events import Event
+    from lagrangian.simulate.trajectory import Trajectory
 
 
 @worded
@@ -64,7 +62,7 @@ class System(Described):
 
         Derives anew each time: for many answers derive once, and check with the derivation.
         """
-        from lagrangian.checking import check_answer
+        from lagrangian.check.verb import check_answer
         from lagrangian.derive import derive
 
         return check_answer(derive(self.model), answer, hint=hint)
@@ -75,7 +73,7 @@ class System(Described):
         The derived equations, the compiled functions, the exported sources, the linearization: see `Derivation.verify`.
         Where a frame floats there are no derived equations; all else is checked.
         """
-        from lagrangian.analyze.given import check_sampling
+        from lagrangian.values.values import check_sampling
 
         check_sampling(states, seed)
         if self.model.floating:
@@ -90,8 +88,8 @@ class System(Described):
         ``lanes`` states are computed side by side (the machine's widest unless given), ``threads`` cores work on a
         large batch (all unless given). No compiler is needed.
         """
-        from lagrangian.analyze import check_dimensions
         from lagrangian.compiled import Compiled
+        from lagrangian.values.dimensions import check_dimensions
 
         check_dimensions(self.model)
         return Compiled(self.model, lanes=lanes, threads=threads)
@@ -101,19 +99,19 @@ class System(Described):
 
         A parameter given as 0 vanishes.
         """
-        from lagrangian.analyze import conserved
+        from lagrangian.invariants.conserved import conserved
 
         return conserved(self.model, params=params)
 
     def hamiltonian(self) -> Hamiltonian:
         """Return momenta, H(q, p, t) and the canonical equations."""
-        from lagrangian.analyze import hamiltonian
+        from lagrangian.invariants.hamiltonian import hamiltonian
 
         return hamiltonian(self.model)
 
     def routhian(self, ignorable: Sequence[Any] | None = None) -> Routhian:
         """Return the Routhian: the Lagrangian of what is left once ignorable coordinates (all, or these) are gone."""
-        from lagrangian.analyze import routhian
+        from lagrangian.invariants.routhian import routhian
 
         return routhian(self.model, ignorable)
 
@@ -126,7 +124,7 @@ class System(Described):
         samples: int | None = None,
     ) -> Equilibria:
         """Return where the system can stay at rest: all equilibria found in a ``box`` of {name: (low, high)}."""
-        from lagrangian.analyze import equilibria
+        from lagrangian.equilibria.search import equilibria
 
         return equilibria(self.model, inputs=inputs, params=params, box=box, samples=samples)
 
@@ -145,7 +143,7 @@ class System(Described):
         ``at``: values of coordinates and rates by name or symbol (0 where not given), or an `Equilibrium`. ``outputs``:
         expressions, listed or by name. ``operating_point`` takes a point that is no equilibrium as it is.
         """
-        from lagrangian.analyze import linearize
+        from lagrangian.linear.linearize import linearize
 
         found: dict[str, Any] = {"inputs": inputs, "params": params, "outputs": outputs}
         return linearize(self.model, at, **found, time=time, operating_point=operating_point)
@@ -159,7 +157,7 @@ class System(Described):
         outputs: Any = None,
     ) -> LinearizationAlong:
         """Return A(t), B(t), C(t), D(t) along a run, or along (times, states)."""
-        from lagrangian.analyze import linearize_along
+        from lagrangian.linear.along import linearize_along
 
         return linearize_along(self.model, trajectory, inputs=inputs, params=params, outputs=outputs)
 
@@ -203,7 +201,7 @@ class System(Described):
         Raises `RunError` or `ModelError` for what is wrong before the run; a run that fails on its way is returned as
         far as it went, with the reason in its ``message``.
         """
-        from lagrangian.running.simulation import simulate
+        from lagrangian.simulate.simulation import simulate
 
         return simulate(
             self.model,
@@ -245,13 +243,13 @@ class System(Described):
 
         ``initial``, ``params``, ``inputs``: name or symbol → number, text with a unit, or array; ``dims`` names the
         axes. ``outputs``: expressions, by name or alone, ("theta1", "max theta1"); ``reduce``: what is kept of each
-        over time (`lagrangian.simulate.study.REDUCTIONS`), None for the samples at ``times`` (a number of them, or the
+        over time (`lagrangian.integrate.observe.REDUCTIONS`), None for the samples at ``times`` (a number of them, or the
         times). ``method``, ``rtol``, ``atol``, ``step``, ``events`` as in `simulate`; ``memory`` [bytes] bounds what is
         held at a time, ``threads`` the cores; ``progress(done, all)`` is called on the way. ``store="name.zarr"`` keeps
         results on disk as they come, ``resume=True`` goes on after an end of any kind; ``scheduler`` is the address of
         a Dask scheduler. A run that fails is NaN, with a status, and counted. Raises `RunError` for what does not fit.
         """
-        from lagrangian.running.sweeping import ensemble
+        from lagrangian.simulate.sweeping import ensemble
 
         return ensemble(self.model, duration, initial, params, inputs, dims, options)
 
@@ -278,7 +276,7 @@ class System(Described):
         ``grid``: texts as here, or name or symbol → values, an array or text: parameters, coordinates and rates at the
         start, inputs. The same ``seed`` draws the same samples. Everything else as in `ensemble`.
         """
-        from lagrangian.running.sweeping import sweep
+        from lagrangian.simulate.sweeping import sweep
 
         return sweep(self.model, duration, grid, initial, params, inputs, samples, seed, options)
 
@@ -288,7 +286,7 @@ class System(Described):
         Keys are coordinates or their names, values SymPy expressions or text; a coordinate that is not named is kept.
         Given the other way round, ``{"x2r": "x2 - x1"}``, it is solved where it is linear.
         """
-        from lagrangian.analyze.change import carried
+        from lagrangian.coordinates import carried
 
         builder = carried(self.model, change, name=name)
         return System(builder.name, _builder=builder)
@@ -298,7 +296,7 @@ class System(Described):
 
         ``change`` says coordinates of one in those of the other; left out, it is found where positions tell it.
         """
-        from lagrangian.analyze.compare import compare
+        from lagrangian.compare import compare
 
         return compare(self, other, change)
 
@@ -379,6 +377,16 @@ def loads(text: str, *, name: str | None = None) -> System:
     return System(builder.name, _builder=builder)
 
 
+def example(name: str) -> System:
+    """Return a built-in example, ``example("cart-pole")``; `lagrangian.examples.names` lists them.
+
+    Raises `ModelError` with the nearest name where there is no such example.
+    """
+    from lagrangian import examples
+
+    return loads(examples.text(name), name=f"<example {name}>")
+
+
 def _path(path: object) -> Path:
     """A path, if it is text or a path."""
     if isinstance(path, str | Path):
@@ -388,4 +396,4 @@ def _path(path: object) -> Path:
     )
 
 
-__all__ = ["Place", "System", "load", "loads"]
+__all__ = ["Place", "System", "example", "load", "loads"]

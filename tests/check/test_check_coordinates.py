@@ -4,7 +4,7 @@ import pytest
 
 from built_in import derivation as derived
 from lagrangian import System
-from lagrangian.analyze.check import Status
+from lagrangian.check import Status
 
 RELATIVE = "(m1 + m2)*x1'' + m2*{s}'' = 0\nm2*x1'' + m2*{s}'' + k*{s} = F"
 ABSOLUTE = "m1*x1'' - k*({x} - x1) = -F\nm2*{x}'' + k*({x} - x1) = F"

@@ -4,7 +4,7 @@ import pytest
 
 from built_in import derivation as derived
 from effort import at_most
-from lagrangian.analyze.check import Status
+from lagrangian.check import Status
 
 HAND = """
 # example 3B by hand

@@ -7,7 +7,7 @@ import sympy as sp
 from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
 
 from lagrangian import System
-from lagrangian.analyze.check import Line, Status, check
+from lagrangian.check import Line, Status, check
 
 
 def lines(*rows: sp.Expr) -> list[Line]:

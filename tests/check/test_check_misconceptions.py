@@ -7,8 +7,8 @@ import pytest
 
 from built_in import derivation as derived
 from lagrangian import examples, loads
-from lagrangian.analyze.check import effects, misconceptions
-from lagrangian.analyze.check.misconceptions import MISCONCEPTIONS, Ingredients
+from lagrangian.check import candidates, misconceptions
+from lagrangian.check.misconceptions import MISCONCEPTIONS, Ingredients
 from size import also_in_full, cases
 
 PENDULUM_R = "m*r'' - m*r*theta'^2 + k*(r - L_0) - m*g*cos(theta) = 0"
@@ -121,7 +121,7 @@ def test_a_wrong_term_of_the_answers_own() -> None:
 
 
 def test_a_system_that_is_too_long_is_told_by_its_terms(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(effects, "LONGEST_SYSTEM", 3)
+    monkeypatch.setattr(candidates, "LONGEST_SYSTEM", 3)
     pendulum = loads(examples.text("pendulum")).derive()
     verdict = pendulum.check("m*L^2*theta'' - b*theta' + m*g*L*sin(theta) = 0")
     assert verdict.mistake is not None and verdict.mistake.name == "sign_of_a_term"
@@ -164,8 +164,8 @@ def test_every_misconception_can_be_made_in_some_example() -> None:
 
 def test_mistakes_are_tried_up_to_a_number_of_operations(monkeypatch: pytest.MonkeyPatch) -> None:
     """The likelier ones first; where the operations are spent, the answer is told so."""
-    monkeypatch.setattr(effects, "WORK", 300)
-    effects.effects_of.cache_clear()
+    monkeypatch.setattr(candidates, "WORK", 300)
+    candidates.effects_of.cache_clear()
     checked = loads(examples.text("double-pendulum")).check("m1*theta1'' = 0\nm2*theta2'' = 0")
-    effects.effects_of.cache_clear()
+    candidates.effects_of.cache_clear()
     assert "too long for all well-known mistakes to be tried" in " ".join(checked.to_text().split())

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
 
 from lagrangian import System
-from lagrangian.analyze.check import Line, Status, check
+from lagrangian.check import Line, Status, check
 from lagrangian.derivation import Derivation
 from size import sized
 

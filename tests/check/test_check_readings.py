@@ -9,7 +9,7 @@ import pytest
 
 from built_in import derivation
 from lagrangian import examples, loads
-from lagrangian.analyze.check import Status
+from lagrangian.check import Status
 from lagrangian.derivation import Derivation
 from lagrangian.errors import ParseError
 

@@ -6,7 +6,7 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
-from lagrangian.analyze.check import Status
+from lagrangian.check import Status
 
 
 def oscillator() -> tuple[lg.System, Any, Any]:

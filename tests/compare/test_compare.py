@@ -13,7 +13,7 @@ from typer.testing import CliRunner
 import lagrangian as lg
 from lagrangian import examples
 from lagrangian.cli import main
-from lagrangian.commands.app import app
+from lagrangian.cli.app import app
 from size import rest_slow
 
 

@@ -5,7 +5,7 @@ import sympy as sp
 from sympy import cos, sin
 
 import lagrangian as lg
-from lagrangian.derive.formula import Formula, Terms, Total
+from lagrangian.page.formula import Formula, Terms, Total
 
 Pair = tuple[sp.Expr, sp.Expr]
 

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 import lagrangian as lg
 from lagrangian import dynamics
-from lagrangian.analyze import verify_motion
+from lagrangian.verify.motion import verify_motion
 from size import rest_slow
 
 TREES = {"body": [], "quadruped": QUADRUPED, "humanoid": HUMANOID}

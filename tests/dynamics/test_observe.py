@@ -9,7 +9,7 @@ import sympy as sp
 from scipy.integrate import solve_ivp
 
 import lagrangian as lg
-from lagrangian import compile as machine
+from lagrangian import codegen as machine
 from lagrangian import dynamics, examples
 from lagrangian.graph import evaluate
 from lagrangian.model import time

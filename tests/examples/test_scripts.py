@@ -10,7 +10,7 @@ import sympy as sp
 from derived import derivation
 from sympy.physics.mechanics import dynamicsymbols
 
-FOLDER = Path(__file__).parents[2] / "examples"
+FOLDER = Path(__file__).parents[2] / "docs" / "examples"
 SCRIPTS = sorted(FOLDER.glob("*.py"))
 
 

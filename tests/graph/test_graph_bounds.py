@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from lagrangian.compile import compile as compiled
+from lagrangian.codegen import compile as compiled
 from lagrangian.graph import Graph, Output, Program, Scalar, bounds
 
 SMOOTH = ("sin", "cos", "tan", "exp", "atan", "sinh", "cosh", "tanh", "asinh")

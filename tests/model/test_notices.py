@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 
 import lagrangian as lg
 from lagrangian import ModelError
-from lagrangian.commands.app import app
+from lagrangian.cli.app import app
 
 FILE = """
 name = "plate"

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from sympy.physics.vector import dynamicsymbols
 
 from lagrangian.model.names import time
-from lagrangian.model.plain import plain
+from lagrangian.page.plain import plain
 from lagrangian.read.expression import parse_expression
 from size import sized
 

@@ -6,11 +6,10 @@ import pytest
 
 import lagrangian as lg
 from lagrangian import write
-from lagrangian.analyze.report import Part, Report
-from lagrangian.derive import Check
-from lagrangian.derive.formula import Name, formula, text
-from lagrangian.derive.formula import Table as Rows
 from lagrangian.errors import ModelError
+from lagrangian.page.formula import Check, Name, formula, text
+from lagrangian.page.formula import Table as Rows
+from lagrangian.page.report import Part, Report
 
 
 @pytest.fixture

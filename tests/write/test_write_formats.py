@@ -13,16 +13,16 @@ import pytest
 from sympy import cos, sin
 
 import lagrangian as lg
-from lagrangian.derive import Check, Derived, derive
-from lagrangian.derive import formula as data
+from lagrangian.derive import Derived, derive
 from lagrangian.derive.data import to_dict
-from lagrangian.derive.formula import text
 from lagrangian.derive.pages import FORMATS, lay_out, to_html, to_html_fragment, to_latex, to_markdown, to_text
 from lagrangian.errors import ModelError
 from lagrangian.model import Builder, Damper, Force, Gravity, Particle, Spring, Torque
-from lagrangian.write import NOTATIONS, html
-from lagrangian.write.glyphs import columns
+from lagrangian.page import formula as data
+from lagrangian.page.formula import Check, text
+from lagrangian.write import NOTATIONS, html_page
 from lagrangian.write.numerals import figures, unit
+from lagrangian.write.unicode_math import columns
 
 
 def example_1() -> Builder:
@@ -370,9 +370,9 @@ def test_every_item_is_laid_out(derivations):
 
 
 def test_the_style_sheet_is_whole():
-    sheet = (Path(html.__file__).parent / "page.css").read_text(encoding="utf-8")
+    sheet = (Path(html_page.__file__).parent / "page.css").read_text(encoding="utf-8")
     assert sheet.count("{") == sheet.count("}")
-    used = set(re.findall(r'class="([\w ]+)"', Path(html.__file__).read_text(encoding="utf-8")))
+    used = set(re.findall(r'class="([\w ]+)"', Path(html_page.__file__).read_text(encoding="utf-8")))
     names = {name for group in used for name in group.split()} - {"whole", "lagrangian"}
     known = set(re.findall(r"\.([a-z]+)", sheet))
     assert names <= known | {"sign"}, names - known

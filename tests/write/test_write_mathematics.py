@@ -15,12 +15,12 @@ from hypothesis import strategies as st
 from lagrangian.model import Builder, Particle, time
 from lagrangian.write.breaking import break_lines
 from lagrangian.write.expression import Expressions
-from lagrangian.write.glyphs import columns, join, unicode
+from lagrangian.write.expression_tree import Grid, Letter, Number, Power, Ratio, Sum, Times, tokens
 from lagrangian.write.lines import lines, measure, set_columns
-from lagrangian.write.math import Grid, Letter, Number, Power, Ratio, Sum, Times, tokens
 from lagrangian.write.mathml import mathml
 from lagrangian.write.names import letters
 from lagrangian.write.tex import PAGE, WEB
+from lagrangian.write.unicode_math import columns, join, unicode
 from size import sized
 
 

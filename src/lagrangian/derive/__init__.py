@@ -5,7 +5,6 @@
 
 from lagrangian.derive.derivation import Derived, LedgerRow, Origin, Step
 from lagrangian.derive.derive import derive
-from lagrangian.derive.formula import Check, EquationTerm
 from lagrangian.derive.lagrange import Detail
 
-__all__ = ["Check", "Derived", "Detail", "EquationTerm", "LedgerRow", "Origin", "Step", "derive"]
+__all__ = ["Derived", "Detail", "LedgerRow", "Origin", "Step", "derive"]

@@ -8,9 +8,9 @@ from functools import cached_property
 import sympy as sp
 
 from lagrangian.derive.algebra import Algebra, Form, Term
-from lagrangian.derive.formula import Elided, Left, Name, Terms
 from lagrangian.derive.wiggle import Wiggle
 from lagrangian.model import Model
+from lagrangian.page.formula import Elided, Left, Name, Terms
 
 READABLE = 400
 """Operations above which a formula is summarised; the full text is one option away."""

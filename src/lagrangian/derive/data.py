@@ -31,15 +31,15 @@ from typing import Any
 
 import sympy as sp
 
-from lagrangian.derive import formula as data
 from lagrangian.derive.derivation import Derived
-from lagrangian.derive.formula import Check
-from lagrangian.model import plain
-from lagrangian.write.glyphs import unicode
-from lagrangian.write.items import operations
-from lagrangian.write.math import equality
+from lagrangian.page import formula as data
+from lagrangian.page.formula import Check
+from lagrangian.page.plain import plain
+from lagrangian.write.blocks import operations
+from lagrangian.write.expression_tree import equality
 from lagrangian.write.quantities import Notation, Quantities
 from lagrangian.write.tex import WEB
+from lagrangian.write.unicode_math import unicode
 
 SCHEMA = 1
 

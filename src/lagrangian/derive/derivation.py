@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from lagrangian.derive.formula import Check, EquationTerm, Formula, Item, Text
 from lagrangian.errors import ModelError, Notice, did_you_mean
-from lagrangian.model import as_expr, plain
+from lagrangian.model import as_expr
+from lagrangian.page.formula import Check, EquationTerm, Formula, Item, Text
+from lagrangian.page.plain import plain
 from lagrangian.viewed import Brief, cut
 
 if TYPE_CHECKING:

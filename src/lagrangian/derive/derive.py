@@ -14,13 +14,13 @@ from lagrangian.derive.coordinates import coordinates
 from lagrangian.derive.derivation import Derived
 from lagrangian.derive.energies import kinetic, lagrangian, potential, shares
 from lagrangian.derive.forces import contributions, forces
-from lagrangian.derive.formula import Text, text
 from lagrangian.derive.holonomy import holonomic
 from lagrangian.derive.lagrange import Detail, left_hand_sides, left_sides
 from lagrangian.derive.result import Shares, closing, equations, ledger, ledger_items, matrices
 from lagrangian.derive.wiggle import study
 from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.model import Model
+from lagrangian.page.formula import Text, text
 
 _log = logging.getLogger(__name__)
 

@@ -12,20 +12,8 @@ from lagrangian import bounded
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import Context, fit, fit_terms
 from lagrangian.derive.derivation import Step
-from lagrangian.derive.formula import (
-    Formula,
-    Heading,
-    Item,
-    Left,
-    Minus,
-    Name,
-    Product,
-    Square,
-    Terms,
-    formula,
-    text,
-)
 from lagrangian.model import Element, Gravity, Model, Particle, RigidBody, Spring, time
+from lagrangian.page.formula import Formula, Heading, Item, Left, Minus, Name, Product, Square, Terms, formula, text
 
 AXES = ("x", "y", "z")
 

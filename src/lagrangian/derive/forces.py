@@ -13,7 +13,8 @@ from lagrangian.derive.context import Context, big_xi, fit
 from lagrangian.derive.coordinates import chain_of
 from lagrangian.derive.derivation import Step
 from lagrangian.derive.ends import find_ends
-from lagrangian.derive.formula import (
+from lagrangian.model import DEFLECTION, Action, Damper, Dissipation, Element, Words, time
+from lagrangian.page.formula import (
     Check,
     Heading,
     Item,
@@ -30,7 +31,6 @@ from lagrangian.derive.formula import (
     formula,
     text,
 )
-from lagrangian.model import DEFLECTION, Action, Damper, Dissipation, Element, Words, time
 
 
 @dataclass(frozen=True, eq=False)

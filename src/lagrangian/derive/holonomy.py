@@ -8,8 +8,8 @@ import sympy as sp
 
 from lagrangian.derive.context import Context
 from lagrangian.derive.derivation import Step
-from lagrangian.derive.formula import Item, Left, Name, formula, text
 from lagrangian.model import Model, time
+from lagrangian.page.formula import Item, Left, Name, formula, text
 
 
 def holonomic(context: Context) -> Step:

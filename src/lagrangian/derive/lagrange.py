@@ -13,8 +13,8 @@ from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import Context, fit
 from lagrangian.derive.derivation import Step
 from lagrangian.derive.energies import Share
-from lagrangian.derive.formula import Heading, Item, Minus, Name, Partial, Terms, Total, formula, text
 from lagrangian.model import Coordinate, time
+from lagrangian.page.formula import Heading, Item, Minus, Name, Partial, Terms, Total, formula, text
 
 Detail: TypeAlias = Literal["usual", "full"]
 """How much of step 5 is written: "full" takes d/dt of every term by itself."""

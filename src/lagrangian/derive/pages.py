@@ -8,13 +8,13 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator, Mapping
 
-from lagrangian.derive import formula as data
 from lagrangian.derive.data import to_dict
 from lagrangian.derive.derivation import Derived, Step
-from lagrangian.write import html, latex, markdown, text
+from lagrangian.page import formula as data
+from lagrangian.write import html_page, latex, markdown, text
+from lagrangian.write.blocks import Items
 from lagrangian.write.described import described
 from lagrangian.write.document import Block, Document, Paragraph, Section
-from lagrangian.write.items import Items
 from lagrangian.write.quantities import Notation
 
 
@@ -117,18 +117,18 @@ def to_latex(derivation: Derived, *, notation: Notation = "lecture", brief: bool
 def to_html(derivation: Derived, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
     """Return the derivation as a self-contained HTML page. Raises `ModelError` for an unknown notation."""
     page = lay_out(derivation, notation=notation, brief=brief, full=full, details=True)
-    return html.page(page, "equations of motion")
+    return html_page.page(page, "equations of motion")
 
 
 def to_html_fragment(derivation: Derived, *, notation: Notation = "lecture", brief: bool = True) -> str:
     """Return the derivation as a piece of HTML for a notebook: the checklist unless ``brief`` is False."""
-    return html.fragment(lay_out(derivation, notation=notation, brief=brief, details=True))
+    return html_page.fragment(lay_out(derivation, notation=notation, brief=brief, details=True))
 
 
 def section_to_html(derivation: Derived, anchor: str) -> str:
     """Return one section of a derivation's page, such as ``step-6``, as a piece of HTML for a notebook."""
     page = lay_out(derivation, details=True)
-    return html.fragment(Document(page.title, tuple(s for s in page.sections if s.anchor == anchor)))
+    return html_page.fragment(Document(page.title, tuple(s for s in page.sections if s.anchor == anchor)))
 
 
 def to_json(derivation: Derived, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:

@@ -11,7 +11,9 @@ from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import READABLE, Context, fit_terms
 from lagrangian.derive.derivation import LedgerRow, Origin
 from lagrangian.derive.forces import Contribution
-from lagrangian.derive.formula import (
+from lagrangian.derive.lagrange import LeftSide
+from lagrangian.model import Damper, Dissipation, Element, Gravity, Model, Particle, RigidBody, Spring
+from lagrangian.page.formula import (
     Elided,
     EquationTerm,
     Heading,
@@ -25,8 +27,6 @@ from lagrangian.derive.formula import (
     formula,
     text,
 )
-from lagrangian.derive.lagrange import LeftSide
-from lagrangian.model import Damper, Dissipation, Element, Gravity, Model, Particle, RigidBody, Spring
 from lagrangian.viewed import Brief
 
 

@@ -11,7 +11,8 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy
-from lagrangian.model import Model, plain, time
+from lagrangian.model import Model, time
+from lagrangian.page.plain import plain
 
 TRIES = 60
 """Random draws before an expression counts as having no value anywhere (a square root of a negative, say)."""

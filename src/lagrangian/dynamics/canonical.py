@@ -11,8 +11,8 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
 
-from lagrangian.dynamics.closed import SUPPLY, Feedback, with_feedback
 from lagrangian.dynamics.eliminate import solve
+from lagrangian.dynamics.feedback import SUPPLY, Feedback, with_feedback
 from lagrangian.dynamics.impacts import Impact, impact_outputs
 from lagrangian.dynamics.observe import Observed
 from lagrangian.dynamics.power import supplied
@@ -76,7 +76,7 @@ class Canonical:
 
 
 def canonical(model: Model, feedback: Feedback, *, supply: bool = False) -> Program:
-    """x = [q; p], u, p, t → ẋ by Hamilton's equations; feedback and supply as in `lagrangian.dynamics.closed`."""
+    """x = [q; p], u, p, t → ẋ by Hamilton's equations; feedback and supply as in `lagrangian.dynamics.feedback`."""
     made = Canonical(model)
     seen = made.seen
     g, m = seen.graph, seen.mechanics

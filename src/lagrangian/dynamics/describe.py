@@ -18,7 +18,7 @@ from lagrangian.dynamics.bodies import Bodies
 from lagrangian.dynamics.floating import Float, floating_body, floating_rates
 from lagrangian.dynamics.mechanics import Mechanics, Pairs
 from lagrangian.dynamics.motion import Motion
-from lagrangian.dynamics.turns import along_axis
+from lagrangian.dynamics.rotations import along_axis
 from lagrangian.dynamics.vectors import Vector, dot, minus, plus, scaled, times, zeros
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, from_sympy, gradient

@@ -12,11 +12,12 @@ from typing import Any
 
 import sympy as sp
 
-from lagrangian.dynamics.closed import SUPPLY, Feedback, with_feedback
+from lagrangian.dynamics.feedback import SUPPLY, Feedback, with_feedback
 from lagrangian.dynamics.observe import Observed
 from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.graph import Output, Program
-from lagrangian.model import Model, plain
+from lagrangian.model import Model
+from lagrangian.page.plain import plain
 
 Impact = tuple[str, sp.Expr, Mapping[Any, sp.Expr]]
 """An event: what it is called, its function, and state → value after it."""
@@ -25,7 +26,7 @@ Impact = tuple[str, sp.Expr, Mapping[Any, sp.Expr]]
 def impacts(model: Model, events: Sequence[Impact], feedback: Feedback, *, supply: bool = False) -> Program:
     """x, u, p, t → ``g`` (ne,) and, where an event changes the state, ``after`` (ne, nx): the state after event k.
 
-    With ``supply`` x ends with the energy supplied (`lagrangian.dynamics.closed`), which no event changes.
+    With ``supply`` x ends with the energy supplied (`lagrangian.dynamics.feedback`), which no event changes.
     Raises `ModelError` for symbols that are not known and for what is no state.
     """
     seen = Observed(model)

@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from lagrangian.dynamics.axes import Accelerations, Axes, Place
-from lagrangian.dynamics.turns import swing
+from lagrangian.dynamics.rotations import swing
 from lagrangian.dynamics.vectors import (
     Matrix,
     Vector,

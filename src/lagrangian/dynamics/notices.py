@@ -19,7 +19,7 @@ from lagrangian.dynamics.programs import mass_matrix
 from lagrangian.errors import ModelError, Notice
 from lagrangian.graph import Program, evaluate
 from lagrangian.model import Gravity, Model, Parameter, RigidBody
-from lagrangian.model.masses import Doubt, Numbers, doubt
+from lagrangian.model.body_checks import Doubt, Numbers, doubt
 
 STATES = 20
 """Random states at which M is looked at, for each drawing of the parameters."""

@@ -17,7 +17,8 @@ from lagrangian.dynamics.describe import Inputs, _symbols, described
 from lagrangian.dynamics.programs import _program
 from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.graph import Graph, Output, Program, from_sympy
-from lagrangian.model import Model, Point, as_expr, plain, time
+from lagrangian.model import Model, Point, as_expr, time
+from lagrangian.page.plain import plain
 
 
 class Observed:

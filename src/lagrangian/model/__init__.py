@@ -26,7 +26,6 @@ from lagrangian.model.floating import Floating
 from lagrangian.model.geometry import Frame, Point, as_expr
 from lagrangian.model.model import Model
 from lagrangian.model.names import RESERVED, check_name, time
-from lagrangian.model.plain import plain
 from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, Velocity
 
 __all__ = [
@@ -59,6 +58,5 @@ __all__ = [
     "Words",
     "as_expr",
     "check_name",
-    "plain",
     "time",
 ]

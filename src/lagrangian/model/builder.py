@@ -10,12 +10,12 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.errors import ModelError, NoSuchEntry, Place, did_you_mean
+from lagrangian.model.body_checks import Numbers, check_body
 from lagrangian.model.checks import check_acted_on, check_kind, check_position, check_use, checked_number
 from lagrangian.model.effect import check_effect
 from lagrangian.model.elements import Element, GeneralizedForce, Particle, RigidBody
 from lagrangian.model.floating import Floating
 from lagrangian.model.geometry import Frame, Point, as_expr, as_vector
-from lagrangian.model.masses import Numbers, check_body
 from lagrangian.model.model import Model, written_out
 from lagrangian.model.names import check_name, moving_symbol, time
 from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, Velocity

@@ -14,8 +14,8 @@ from lagrangian.model.elements.base import Element, Level, Use
 from lagrangian.model.elements.raw import GeneralizedForce
 from lagrangian.model.floating import Floating
 from lagrangian.model.names import time
-from lagrangian.model.plain import plain
 from lagrangian.model.symbols import Coordinate, Velocity
+from lagrangian.page.plain import plain
 
 
 def check_use(

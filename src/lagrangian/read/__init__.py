@@ -1,4 +1,4 @@
-"""Reading what people wrote: expressions, quantities with units, model files; and writing model files."""
+"""Reading what people wrote: expressions and model files; and writing model files."""
 
 from typing import TYPE_CHECKING
 
@@ -9,7 +9,6 @@ if TYPE_CHECKING:
     from lagrangian.read.file_load import load, loads
     from lagrangian.read.file_save import dumps
     from lagrangian.read.file_schema import schema
-    from lagrangian.read.quantity import Quantity, parse_quantity, si_unit, unit_dimension, unit_factor
     from lagrangian.read.scope import Scope
     from lagrangian.read.validate import MAX_BYTES, decode
 else:
@@ -20,7 +19,6 @@ else:
             "file_load": "load loads",
             "file_save": "dumps",
             "file_schema": "schema",
-            "quantity": "Quantity parse_quantity si_unit unit_dimension unit_factor",
             "scope": "Scope",
             "validate": "MAX_BYTES decode",
         },
@@ -28,16 +26,11 @@ else:
 
 __all__ = [
     "MAX_BYTES",
-    "Quantity",
     "Scope",
     "decode",
     "dumps",
     "load",
     "loads",
     "parse_expression",
-    "parse_quantity",
     "schema",
-    "si_unit",
-    "unit_dimension",
-    "unit_factor",
 ]

@@ -6,8 +6,8 @@ import re
 
 from lagrangian.errors import ParseError
 from lagrangian.model.names import FUNCTIONS
-from lagrangian.read.source import Source, character, shown
-from lagrangian.read.units import BEFORE_WORDS
+from lagrangian.quantities.source import Source, character, shown
+from lagrangian.quantities.units import BEFORE_WORDS
 
 ALLOWED = "only numbers, names, + - * / ^ ( ) and the listed functions are allowed"
 _WORD = re.compile(r"[^\W\d]\w*")

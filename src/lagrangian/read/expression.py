@@ -18,10 +18,10 @@ from lagrangian import bounded
 from lagrangian.errors import Place, did_you_mean
 from lagrangian.model.names import FUNCTIONS as FUNCTION_NAMES
 from lagrangian.model.names import time
+from lagrangian.quantities.source import Source, shown
 from lagrangian.read.functions import ALIASES, FUNCTIONS
 from lagrangian.read.grammar import parse
 from lagrangian.read.scope import Scope
-from lagrangian.read.source import Source, shown
 
 MAX_EXPONENT = 100
 """Largest power, as a number: x^100."""

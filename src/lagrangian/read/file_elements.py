@@ -25,7 +25,7 @@ from lagrangian.model import (
 )
 from lagrangian.model.elements.damper import RATE
 from lagrangian.model.elements.spring import DELTA
-from lagrangian.read.source import shown
+from lagrangian.quantities.source import shown
 from lagrangian.read.toml_index import Path
 
 if TYPE_CHECKING:

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from lagrangian.errors import ParseError, did_you_mean
+from lagrangian.quantities.source import shown
 from lagrangian.read.letters import normal
-from lagrangian.read.source import shown
 
 if TYPE_CHECKING:
     from lagrangian.read.file_geometry import Geometry

@@ -13,8 +13,8 @@ import sympy as sp
 
 from lagrangian.errors import ParseError, did_you_mean
 from lagrangian.model import Frame, Point
+from lagrangian.quantities.source import shown
 from lagrangian.read import file_schema as schema
-from lagrangian.read.source import shown
 from lagrangian.read.toml_index import Path
 from lagrangian.read.validate import owner
 

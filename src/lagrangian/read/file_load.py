@@ -12,14 +12,14 @@ import sympy as sp
 
 from lagrangian.errors import ModelError, ParseError, Place, did_you_mean
 from lagrangian.model import Builder
+from lagrangian.quantities.quantity import Quantity, parse_unit, read_quantity, unit_and_words
+from lagrangian.quantities.source import shown
 from lagrangian.read import file_schema as schema
 from lagrangian.read.file_elements import KINDS, add_element
 from lagrangian.read.file_floating import Floating
 from lagrangian.read.file_geometry import Geometry
 from lagrangian.read.file_reading import Reading
 from lagrangian.read.letters import normal, spelled, twin
-from lagrangian.read.quantity import Quantity, parse_unit, read_quantity, unit_and_words
-from lagrangian.read.source import shown
 from lagrangian.read.toml_index import Path
 from lagrangian.read.validate import MAX_BYTES, decode, owner
 

@@ -17,11 +17,12 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.errors import ModelError, ParseError
-from lagrangian.model import Coordinate, Element, Floating, Frame, Model, Parameter, Point, plain
+from lagrangian.model import Coordinate, Element, Floating, Frame, Model, Parameter, Point
 from lagrangian.model.elements.damper import RATE
 from lagrangian.model.elements.spring import DELTA
+from lagrangian.page.plain import plain
+from lagrangian.quantities.quantity import parse_quantity, parse_unit, unit_and_words
 from lagrangian.read.expression import parse_expression
-from lagrangian.read.quantity import parse_quantity, parse_unit, unit_and_words
 from lagrangian.read.scope import Scope
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+\Z")

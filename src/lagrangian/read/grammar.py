@@ -11,8 +11,8 @@ from importlib.resources import files
 
 from lark import Lark, Tree, UnexpectedCharacters, UnexpectedToken
 
+from lagrangian.quantities.source import Source
 from lagrangian.read.explain import explain
-from lagrangian.read.source import Source
 
 MAX_CHARACTERS = 50_000
 """Longest expression that is read."""

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from typing import TypeAlias
 
 from lagrangian.errors import Place
-from lagrangian.read.source import Source, printable
+from lagrangian.quantities.source import Source, printable
 
 Path: TypeAlias = tuple[str | int, ...]
 

@@ -10,8 +10,8 @@ from pydantic import BaseModel, ValidationError
 
 from lagrangian.calls import CONSTRAINTS
 from lagrangian.errors import ParseError, Place, did_you_mean
+from lagrangian.quantities.source import printable, shown
 from lagrangian.read.file_schema import ModelFile
-from lagrangian.read.source import printable, shown
 from lagrangian.read.toml_index import Index, Path
 
 MAX_BYTES = 1 << 20

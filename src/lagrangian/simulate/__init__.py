@@ -1,18 +1,1 @@
-"""Program → trajectories: integrators in machine code, events, ensembles. Knows no mechanics."""
-
-from typing import TYPE_CHECKING
-
-from lagrangian.lazily import lazily
-
-if TYPE_CHECKING:
-    from .integrators import METHODS
-    from .problem import Events, Signals
-    from .solution import STATUS, Solution
-    from .solver import Solver
-else:
-    __getattr__ = lazily(
-        __name__,
-        {"integrators": "METHODS", "problem": "Events Signals", "solution": "STATUS Solution", "solver": "Solver"},
-    )
-
-__all__ = ["METHODS", "STATUS", "Events", "Signals", "Solution", "Solver"]
+"""From a description to runs: one, an ensemble, a sweep. Wires mechanics to integrators and names what comes out."""

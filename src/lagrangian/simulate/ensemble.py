@@ -1,109 +1,354 @@
-"""Many runs: an ensemble worked through chunk by chunk.
-
-What comes out does not depend on the chunks, on the order they are done in, or on the number of threads: a run knows
-its own row of the design and nothing of its neighbours.
-"""
+"""Many runs: what `system.ensemble` and `system.sweep` return."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
-from typing import Any, Protocol
+import csv
+import io
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.advice import Advice, Argument
-from lagrangian.errors import RunError
-from lagrangian.simulate.design import Design
-from lagrangian.simulate.portions import Portions
-from lagrangian.simulate.study import Study, Values
+from lagrangian.errors import NoSuchEntry, RunError, did_you_mean
+from lagrangian.integrate import STATUS
+from lagrangian.integrate.stored import LOST, NOT_RUN, Stored
+from lagrangian.simulate.plot import check_no_file
+from lagrangian.simulate.variation import SAMPLE, TIME
+from lagrangian.view.many import Along, Result, draw_many
+from lagrangian.viewed import Entries, cut
+from lagrangian.write.files import write_with
+from lagrangian.write.tables import check_target, needed
 
-Progress = Callable[[int, int], None]
-"""Called with the number of runs done and of all runs, after every chunk."""
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+SHOWN = 20
+"""Failures listed unless more are asked for."""
+
+ROWS = 1 << 15
+"""Rows that are written together."""
+
+UNDONE = {NOT_RUN: "not run yet", LOST: "its results are damaged"}
+"""Statuses of runs that have no results."""
 
 
-class Sink(Protocol):
-    """Where results go: arrays in memory, or a store on disk. ``done`` says which chunks are there already."""
+@dataclass(frozen=True)
+class Failure:
+    """A run that failed: its place along the axes, what varied there, when and why it ended."""
 
-    done: NDArray[np.bool_]
+    index: tuple[int, ...]
+    values: Mapping[str, float]
+    reached: float
+    reason: str
 
-    def write(self, index: int, box: tuple[slice, ...], values: Values) -> None:
-        """Keep the results of chunk ``index``, whose runs stand at ``box``."""
+    def __str__(self) -> str:
+        """Read as ``k = 10, m2 = 3: stopped at t = 0.5 s: the limit on the number of steps was reached``."""
+        where = ", ".join(f"{name} = {x:.6g}" for name, x in self.values.items()) or f"run {self.index}"
+        return f"{where}: stopped at t = {self.reached:.6g} s: {self.reason}"
+
+
+class Ensemble(Mapping[str, NDArray[Any]]):
+    """The results of many runs by name, arrays over the ensemble's axes; NaN where a run failed.
+
+    Runs whose events accumulate (status −4) are reduced over what they reached, as those that a terminal event ends.
+
+    ``dims`` and ``shape`` are the axes; ``coordinates`` what varied along them: name → (axes, values); ``times`` the
+    times of samples. ``runs["max theta1"]`` is an array of that shape, ``runs["theta1"]`` is short for it where only
+    one thing is kept of theta1; samples have the axis of time last. ``status`` says how each run ended.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        arrays: Mapping[str, Any],
+        dims: Mapping[str, tuple[str, ...]],
+        coordinates: Mapping[str, tuple[tuple[str, ...], NDArray[np.float64]]],
+        words: Mapping[str, Mapping[str, Any]],
+        settings: Mapping[str, Any],
+        notices: tuple[str, ...] = (),
+    ) -> None:
+        self.notices = notices
+        self.name, self._arrays, self._dims, self._words = name, arrays, dims, words
+        self.coordinates, self.settings = Entries(dict(coordinates), "coordinates"), settings
+        self.dims, self.shape = dims["status"], tuple(arrays["status"].shape)
+
+    @classmethod
+    def of_store(cls, path: str | Path, *, lost: bool = False) -> Ensemble:
+        """The results in a store, finished or not; arrays are read from disk when they are asked for.
+
+        What is read is what was written: raises `Error` where there is no store, `RunError` (code E804) where it is
+        damaged. With ``lost`` damaged runs are NaN with status −127, and the others can be read.
+        """
+        stored = Stored(Path(path), lost=lost)
+        task = stored.document.kept["task"]
+        members = stored.arrays
+        dims = {name: tuple(array.metadata.dimension_names or ()) for name, array in members.items()}
+        coordinates = {name: (dims[name], values) for name, values in stored.coordinates.items()}
+        words = {name: dict(array.attrs) for name, array in members.items()}
+        notices = (stored.said(),) if stored.lost else ()
+        return cls(task["system"], stored.results, dims, coordinates, words, task, notices)
+
+    # -- results ------------------------------------------------------------------------------------------------
+
+    def __getitem__(self, name: str) -> NDArray[Any]:
+        if name in self._arrays:
+            return np.asarray(self._arrays[name][...])
+        short = [full for full in self._arrays if full.partition(" ")[2] == name]
+        if len(short) == 1:
+            return np.asarray(self._arrays[short[0]][...])
+        if name in self.coordinates:
+            return self.coordinates[name][1]
+        known = [*self._arrays, *self.coordinates]
+        fix = f"use one of {', '.join(short)}" if short else did_you_mean(name, known) or f"known: {', '.join(known)}"
+        raise NoSuchEntry(f"there is no result '{name}'", fix=fix, code="E402")
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._arrays
+
+    def get(self, name: str, default: Any = None) -> Any:
+        """Return the result of that full name, or ``default``."""
+        if name not in self._arrays:
+            return default
+        return self[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._arrays)
+
+    def __len__(self) -> int:
+        return len(self._arrays)
+
+    @property
+    def times(self) -> NDArray[np.float64]:
+        """The times of the samples [s]; empty where no samples were kept."""
+        return self.coordinates[TIME][1] if TIME in self.coordinates else np.empty(0)
+
+    @property
+    def count(self) -> int:
+        """How many runs there are."""
+        return int(np.prod(self.shape))
+
+    # -- how it went --------------------------------------------------------------------------------------------
+
+    @property
+    def status(self) -> NDArray[np.int8]:
+        """How each run ended: 0 the end was reached, 1 a terminal event, negative a failure."""
+        return self["status"]
+
+    @property
+    def success(self) -> bool:
+        """Whether every run came to its end, or to a terminal event."""
+        return bool((self.status >= 0).all())
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How many runs ended how, in words."""
+        values, counts = np.unique(self.status, return_counts=True)
+        return {_reason(int(v)): int(n) for v, n in sorted(zip(values, counts, strict=True), key=lambda x: -x[1])}
+
+    def failures(self, most: int = SHOWN) -> list[Failure]:
+        """The first runs that failed, with what varied there and why they ended."""
+        status = self.status
+        places = np.flatnonzero((status < 0) & ~np.isin(status, list(UNDONE)))[:most]
+        reached = self["reached"]
+        found = []
+        for place in places:
+            index = tuple(int(k) for k in np.unravel_index(place, self.shape)) if self.shape else ()
+            found.append(Failure(index, self.at(index), float(reached[index]), _reason(int(status[index]))))
+        return found
+
+    def at(self, index: tuple[int, ...]) -> dict[str, float]:
+        """What varied, at one run: name → value."""
+        place = dict(zip(self.dims, index, strict=True))
+        return {
+            name: float(values[tuple(place[d] for d in dims)])
+            for name, (dims, values) in self.coordinates.items()
+            if set(dims) <= set(place)
+        }
+
+    def __repr__(self) -> str:
+        """Say how many runs there are, along which axes, how they ended and what was kept."""
+        axes = " × ".join(f"{d} {n}" for d, n in zip(self.dims, self.shape, strict=True))
+        sizes = f" ({axes})" if axes else ""
+        ends = ", ".join(f"{n} {words}" for words, n in self.counts.items())
+        kept = ", ".join(n for n in self if n not in ("status", "reached"))
+        said = "".join(f"; notice: {notice}" for notice in self.notices)
+        return cut(
+            f"<Ensemble {self.name!r}: {self.count} runs{sizes}, {self.settings['method']}; {ends}; {kept}{said}>"
+        )
+
+    def _repr_html_(self) -> str:
+        from lagrangian.write.views import table_view
+
+        axes = " × ".join(f"{d} {n}" for d, n in zip(self.dims, self.shape, strict=True))
+        kept = ", ".join(n for n in self if n not in ("status", "reached"))
+        words = [f"{self.count} runs{f' ({axes})' if axes else ''}, {self.settings['method']}", f"results: {kept}"]
+        rows = [(reason, str(n)) for reason, n in self.counts.items()]
+        return table_view(self.name, [*words, *map(str, self.notices)], ("how the runs ended", "runs"), rows)
+
+    # -- taking it elsewhere ------------------------------------------------------------------------------------
+
+    def to_xarray(self) -> Any:
+        """Return an ``xarray.Dataset`` with units and long names."""
+        xarray = needed("xarray")
+        made = xarray.Dataset(
+            {n: (self._dims[n], self[n], dict(self._words.get(n, {}))) for n in self},
+            {n: (dims, values, dict(self._words.get(n, {}))) for n, (dims, values) in self.coordinates.items()},
+            {"title": f"{self.name}: {self.count} runs", "method": self.settings["method"]},
+        )
+        for name, array in made.variables.items():
+            array.attrs.setdefault("long_name", str(name))
+        return made
+
+    def columns(self) -> dict[str, NDArray[Any]]:
+        """Everything as columns of one length: what varied, what was kept; a row a run (with samples, a run and time).
+
+        An axis along which nothing named varies is counted from 0.
+        """
+        dims = {name: self._dims[name] for name in self} | {name: d for name, (d, _) in self.coordinates.items()}
+        values = {name: self[name] for name in self} | {name: v for name, (_, v) in self.coordinates.items()}
+        sizes: dict[str, int] = {}
+        for name in self:
+            sizes.update(zip(dims[name], values[name].shape, strict=True))
+        counted = {d: np.arange(n) for d, n in sizes.items() if d not in self.coordinates}
+        dims |= {d: (d,) for d in counted}
+        order = [*counted, *self.coordinates, *self]
+        return {name: _spread(counted.get(name, values.get(name)), dims[name], sizes) for name in order}
+
+    def to_pandas(self) -> Any:
+        """Return a ``pandas.DataFrame`` of `columns`."""
+        return needed("pandas").DataFrame(self.columns())
+
+    def plot(self, *names: str) -> Figure:
+        """Return a pyplot figure of results (all that are numbers a run, unless named) over what varies.
+
+        Curves over one axis, maps over two, histograms of samples; samples over an axis as median and band. Runs that
+        failed have red crosses. Notebooks show it, ``plt.show()`` opens it, ``runs.plot().savefig(…)`` writes it.
+        """
+        return self._drawn(names, shown=True)
+
+    def figure(self, *names: str) -> Figure:
+        """Return what `plot` does as a figure apart from pyplot, for programs, threads and servers."""
+        return self._drawn(names, shown=False)
+
+    def _drawn(self, names: tuple[str, ...], *, shown: bool) -> Figure:
+        for name in names:
+            check_no_file(name, "runs.plot")
+        drawn = names or tuple(
+            n
+            for n in self
+            if self._dims[n] == self.dims and n not in ("status", "reached") and "count" not in n.split()
+        )
+        if not drawn:
+            raise RunError("none of the results is a single number per run", fix='reduce=("final", "max")', code="E501")
+        axes = [d for d in self.dims if d != SAMPLE]
+        return draw_many(
+            f"{self.name}: {self.count} runs",
+            tuple(Along(*self._shown(d, self._along(d))) for d in axes),
+            tuple(Result(*self._shown(n, self._over(n))) for n in drawn),
+            failed=self._failed(),
+            shown=shown,
+        )
+
+    def _failed(self) -> str:
+        """How many runs failed and how, in words; nothing where none did."""
+        status = self.status
+        lost = status[(status < 0) & (status != NOT_RUN)]
+        ways = ", ".join(_reason(int(s)) for s in np.unique(lost)[:3])
+        return f"{lost.size} of {self.count} runs FAILED: {ways}" if lost.size else ""
+
+    def _along(self, axis: str) -> NDArray[Any]:
+        """The values along an axis: its own, or those of the one thing that varies along it alone, or numbers."""
+        own = [values for dims, values in self.coordinates.values() if dims == (axis,)]
+        if axis in self.coordinates or len(own) == 1:
+            return self.coordinates[axis][1] if axis in self.coordinates else own[0]
+        return np.arange(self.shape[self.dims.index(axis)])
+
+    def _over(self, name: str) -> NDArray[Any]:
+        values = self[name]
+        if values.shape != self.shape:
+            raise RunError(
+                f"'{name}' is not a single number per run",
+                fix="reduce it, for example with 'max' or 'final'",
+                code="E501",
+            )
+        return values
+
+    def _shown(self, name: str, values: NDArray[Any]) -> tuple[str, str, NDArray[Any]]:
+        """Label, unit and values for a picture, angles in degrees."""
+        label = name
+        if name in self.dims and name not in self.coordinates:
+            label = next((n for n, (dims, _) in self.coordinates.items() if dims == (name,)), name)
+        full = next((n for n in self._arrays if n.partition(" ")[2] == name), name) if name not in self._words else name
+        unit = str(self._words.get(label, self._words.get(full, {})).get("units", ""))
+        return (label, "deg", np.degrees(values)) if unit == "rad" else (label, unit, values)
+
+    def save(self, path: str | Path, *, overwrite: bool = False) -> Path:
+        """Write everything to ``.csv``, ``.parquet`` (as `columns`) or ``.nc`` (as `to_xarray`), whole or not at all.
+
+        Raises `Error` where a file is there already (unless ``overwrite``), or nothing can be written there.
+        """
+        target = Path(path)
+        check_target(target, list(ENDINGS), overwrite=overwrite)
+        return write_with(target, lambda beside: ENDINGS[target.suffix.lower()](self, beside))
+
+
+def _spread(values: Any, dims: tuple[str, ...], sizes: Mapping[str, int]) -> NDArray[Any]:
+    """An array over some axes as one over all of them, row after row."""
+    shape = [sizes[d] if d in dims else 1 for d in sizes]
+    ordered = np.transpose(values, [dims.index(d) for d in sizes if d in dims])
+    return np.broadcast_to(ordered.reshape(shape), tuple(sizes.values())).reshape(-1)
+
+
+def _netcdf(runs: Ensemble, path: Path) -> None:
+    """NetCDF 4 made in memory: HDF5 crashes on a full disk. ``coordinates`` are named as the CF conventions ask."""
+    netcdf, data, memory = needed("h5netcdf"), runs.to_xarray(), io.BytesIO()
+    beside = [name for name, values in data.coords.items() if (name,) != values.dims and " " not in name]
+    with netcdf.File(memory, "w") as file:
+        file.dimensions = dict(data.sizes)
+        for name, variable in data.variables.items():
+            made = file.create_variable(name, variable.dims, data=variable.values)
+            made.attrs.update(variable.attrs)
+            along = [c for c in beside if name in data.data_vars and set(data[c].dims) <= set(variable.dims)]
+            if along:
+                made.attrs["coordinates"] = " ".join(along)
+        file.attrs.update(data.attrs)
+    path.write_bytes(memory.getbuffer())
+
+
+def _parquet(runs: Ensemble, path: Path) -> None:
+    pa, pq = needed("pyarrow"), needed("pyarrow.parquet")
+    pq.write_table(pa.table(runs.columns()), path)
+
+
+def _csv(runs: Ensemble, path: Path) -> None:
+    with path.open("w", encoding="utf-8", newline="") as file:
+        write_csv(runs, file)
+
+
+class Writable(Protocol):
+    """What text can be written into, piece by piece."""
+
+    def write(self, text: str, /) -> object:
+        """Write a piece of text."""
         ...
 
 
-class Executor(Protocol):
-    """Who computes: it takes chunks from ``portions`` and gives their results in any order."""
-
-    def __call__(self, study: Study, design: Design, portions: Portions, todo: Iterable[int]) -> Iterator[Any]:
-        """Pairs (chunk, values)."""
-        ...
-
-
-class Memory:
-    """A sink of plain arrays over the ensemble's shape."""
-
-    def __init__(self, study: Study, portions: Portions) -> None:
-        self.done = np.zeros(len(portions), bool)
-        self.arrays: dict[str, NDArray[Any]] = {}
-        for name, (dtype, shape) in study.fields().items():
-            try:
-                self.arrays[name] = np.empty((*portions.shape, *shape), dtype)
-            except MemoryError:
-                raise RunError(
-                    f"the results '{name}' of {np.prod(portions.shape):.0f} runs do not fit in memory",
-                    code="E505",
-                    fix=Advice("keep less of each run, or write to a store: ", Argument("store", '"sweep.zarr"')),
-                ) from None
-
-    def write(self, index: int, box: tuple[slice, ...], values: Values) -> None:
-        """Put the results of a chunk in their place."""
-        for name, array in self.arrays.items():
-            target = array[(*box, ...)]  # an array even where there are no axes
-            target[...] = values[name].reshape(target.shape)
-        self.done[index] = True
+def write_csv(runs: Ensemble, file: Writable) -> None:
+    """Write a line of names and a line a row; numbers with all their digits."""
+    columns = runs.columns()
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(columns)
+    count = len(next(iter(columns.values())))
+    for start in range(0, count, ROWS):
+        writer.writerows(zip(*[c[start : start + ROWS].tolist() for c in columns.values()], strict=True))
 
 
-class Here:
-    """Chunks are computed one after the other in this process, each by ``threads`` threads (all cores unless given)."""
-
-    def __init__(self, threads: int | None = None) -> None:
-        self.threads = threads
-
-    def __call__(self, study: Study, design: Design, portions: Portions, todo: Iterable[int]) -> Iterator[Any]:
-        """Pairs (chunk, values), as they are finished."""
-        solver = None
-        for index in todo:
-            solver = solver or solver_of(study, self.threads)
-            yield index, study.run(solver, design.rows(*portions.range(index)), self.threads)
+ENDINGS: Mapping[str, Callable[[Ensemble, Path], None]] = {".csv": _csv, ".nc": _netcdf, ".parquet": _parquet}
+"""How a file is written, by the ending of its name."""
 
 
-def solver_of(study: Study, threads: int | None) -> Any:
-    """The solver of a study."""
-    from lagrangian.simulate import Solver
-
-    def made() -> Any:
-        return Solver(study.program, study.method, events=study.events, threads=threads)
-
-    return made() if study.events is not None else study.program.remembered(("solver", study.method, threads), made)
-
-
-def carry_out(
-    study: Study,
-    design: Design,
-    portions: Portions,
-    sink: Sink,
-    *,
-    executor: Executor | None = None,
-    progress: Progress | None = None,
-) -> None:
-    """Do every chunk that the sink does not have, and hand it over as soon as it is done."""
-    todo = np.flatnonzero(~sink.done).tolist()
-    finished = sum(stop - start for start, stop in map(portions.range, np.flatnonzero(sink.done).tolist()))
-    if progress is not None:
-        progress(finished, design.count)
-    for index, values in (executor or Here())(study, design, portions, todo):
-        sink.write(index, portions.box(index), values)
-        finished += len(values["status"])
-        if progress is not None:
-            progress(finished, design.count)
+def _reason(status: int) -> str:
+    return UNDONE.get(status) or STATUS.get(status, f"status {status}")

@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
 
-from lagrangian.write.math import (
+from lagrangian.write.expression_tree import (
     GLUED,
     LOOSE,
     Apply,

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from lagrangian.model import Model
+from lagrangian.write.blocks import Items
 from lagrangian.write.document import Block, Display, Inline, Section, Table
-from lagrangian.write.items import Items
-from lagrangian.write.math import Math
+from lagrangian.write.expression_tree import Math
 from lagrangian.write.numerals import measured, unit
 from lagrangian.write.quantities import Notation, Quantities
 

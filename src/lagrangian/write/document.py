@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from lagrangian.write.math import Math
+from lagrangian.write.expression_tree import Math
 
 Inline: TypeAlias = tuple[str | Math, ...]
 """Words and mathematics in a line."""

@@ -12,8 +12,8 @@ from sympy.core.relational import Relational
 from sympy.logic.boolalg import BooleanFunction
 
 from lagrangian.model import Model, time
-from lagrangian.model.plain import as_cases
-from lagrangian.write.math import (
+from lagrangian.page.plain import as_cases
+from lagrangian.write.expression_tree import (
     FUNCTIONS,
     Apply,
     Cases,

@@ -6,8 +6,8 @@ from typing import Any
 
 from lagrangian.model import Model
 from lagrangian.write.expression import Expressions
-from lagrangian.write.glyphs import unicode
 from lagrangian.write.tex import PAGE
+from lagrangian.write.unicode_math import unicode
 
 
 class Labels:

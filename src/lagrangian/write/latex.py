@@ -16,13 +16,13 @@ from lagrangian.write.document import (
     Table,
     Verdicts,
 )
-from lagrangian.write.glyphs import columns
+from lagrangian.write.expression_tree import tokens
 from lagrangian.write.lines import set_columns
-from lagrangian.write.math import tokens
 from lagrangian.write.tex import PAGE
 from lagrangian.write.tex_lines import WIDTH, boxed, displayed, rows
 from lagrangian.write.tex_words import escape
 from lagrangian.write.text import clean
+from lagrangian.write.unicode_math import columns
 
 MOST_BOXED = 30
 """Rows of results that one box holds; more of them run over pages between two rules."""

@@ -8,8 +8,20 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from lagrangian.write.breaking import Row, break_lines
-from lagrangian.write.glyphs import columns, token, unicode
-from lagrangian.write.math import Grid, Letter, Math, Number, Ratio, Root, Token, Value, Word, equality, tokens
+from lagrangian.write.expression_tree import (
+    Grid,
+    Letter,
+    Math,
+    Number,
+    Ratio,
+    Root,
+    Token,
+    Value,
+    Word,
+    equality,
+    tokens,
+)
+from lagrangian.write.unicode_math import columns, token, unicode
 
 
 @dataclass(frozen=True)

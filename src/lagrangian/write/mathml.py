@@ -5,9 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from html import escape
 
-from lagrangian.write.glyphs import bold
-from lagrangian.write.lines import Line, lines
-from lagrangian.write.math import (
+from lagrangian.write.expression_tree import (
     GREEK,
     Apply,
     Cases,
@@ -29,6 +27,8 @@ from lagrangian.write.math import (
     numbered,
     tokens,
 )
+from lagrangian.write.lines import Line, lines
+from lagrangian.write.unicode_math import bold
 
 _DOTS = ("", "˙", "¨", "⃛")
 _GAP = '<mspace width="0.17em"></mspace>'

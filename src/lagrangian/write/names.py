@@ -10,7 +10,7 @@ import re
 import unicodedata
 from collections.abc import Iterable, Mapping
 
-from lagrangian.write.math import GREEK, Letter
+from lagrangian.write.expression_tree import GREEK, Letter
 
 SPELLED = {letter: name for name, letter in GREEK.items() if name != "lamda"}
 _VARIANTS = {"ϑ": "theta", "ϕ": "phi", "ϵ": "epsilon", "ς": "sigma", "µ": "mu"}

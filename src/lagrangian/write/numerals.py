@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from lagrangian.read import si_unit, unit_factor
+from lagrangian.quantities.quantity import si_unit, unit_factor
 
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _FIGURE = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)e([+-]?\d+)(?![\w.])")

@@ -20,7 +20,9 @@ from typing import Literal, TypeAlias, cast, get_args
 
 import sympy as sp
 
-from lagrangian.derive.formula import (
+from lagrangian.errors import ModelError, did_you_mean
+from lagrangian.model import Model
+from lagrangian.page.formula import (
     Elided,
     Formula,
     Left,
@@ -35,10 +37,8 @@ from lagrangian.derive.formula import (
     Total,
     Variation,
 )
-from lagrangian.errors import ModelError, did_you_mean
-from lagrangian.model import Model
 from lagrangian.write.expression import Expressions
-from lagrangian.write.math import (
+from lagrangian.write.expression_tree import (
     Fence,
     Grid,
     Letter,

@@ -6,12 +6,12 @@ import json
 from collections.abc import Iterator
 from typing import Literal, TypeAlias, get_args
 
-from lagrangian.analyze.report import Part, Report
 from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.model import Model
-from lagrangian.write import html, latex, markdown, text
+from lagrangian.page.report import Part, Report
+from lagrangian.write import html_page, latex, markdown, text
+from lagrangian.write.blocks import Items
 from lagrangian.write.document import Block, Document, Paragraph, Section
-from lagrangian.write.items import Items
 from lagrangian.write.quantities import Notation
 
 ReportFormat: TypeAlias = Literal["text", "markdown", "latex", "html", "json"]
@@ -63,7 +63,7 @@ def write_report(
     if format == "text":
         return text.page(document, width)
     if format == "html":
-        return html.page(document, "analysis")
+        return html_page.page(document, "analysis")
     return latex.page(document) if format == "latex" else markdown.page(document)
 
 
@@ -76,4 +76,4 @@ def report_rows(
 
 def report_fragment(report: Report[Model], *, notation: Notation = "lecture") -> str:
     """Return a report as a piece of HTML for a notebook."""
-    return html.fragment(lay_out_report(report, notation=notation, details=True))
+    return html_page.fragment(lay_out_report(report, notation=notation, details=True))

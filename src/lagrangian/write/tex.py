@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterable
 
-from lagrangian.write.math import (
+from lagrangian.write.expression_tree import (
     GREEK,
     Apply,
     Cases,

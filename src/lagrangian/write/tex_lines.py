@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from lagrangian.write.expression_tree import Math
 from lagrangian.write.lines import Line, lines
-from lagrangian.write.math import Math
 from lagrangian.write.tex import Tex
 
 WIDTH = 84

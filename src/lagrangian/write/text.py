@@ -19,9 +19,9 @@ from lagrangian.write.document import (
     Table,
     Verdicts,
 )
-from lagrangian.write.glyphs import columns, join, unicode
+from lagrangian.write.expression_tree import Grid, Math, Token, Word, equality, tokens
 from lagrangian.write.lines import chains, measure
-from lagrangian.write.math import Grid, Math, Token, Word, equality, tokens
+from lagrangian.write.unicode_math import columns, join, unicode
 
 NARROWEST = 40
 GAP = 3

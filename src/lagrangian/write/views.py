@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
-from lagrangian.write import html
+from lagrangian.write import html_page
 from lagrangian.write.described import system_section
 from lagrangian.write.document import Document, Inline, Paragraph, Section, Table
 
@@ -18,18 +18,18 @@ def system_view(model: Model, words: str) -> str:
     rows = [(element.title, element.ledger) for element in model.elements]
     elements = Section("elements", ("Elements",), (_table(("element", "booked in"), rows),))
     said = Section("summary", ("Description",), (Paragraph((words,)),))
-    return html.fragment(Document(model.name, (said, system_section(model), elements)))
+    return html_page.fragment(Document(model.name, (said, system_section(model), elements)))
 
 
 def words_view(title: str, words: Sequence[str]) -> str:
     """Return a title and paragraphs."""
-    return html.fragment(Document(title, (Section("words", (), tuple(Paragraph((w,)) for w in words)),)))
+    return html_page.fragment(Document(title, (Section("words", (), tuple(Paragraph((w,)) for w in words)),)))
 
 
 def table_view(title: str, words: Sequence[str], header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     """Return a title, paragraphs and a table."""
     blocks = (*(Paragraph((w,)) for w in words), _table(header, rows))
-    return html.fragment(Document(title, (Section("table", (), blocks),)))
+    return html_page.fragment(Document(title, (Section("table", (), blocks),)))
 
 
 def _table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> Table:

@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from lagrangian.analyze.report import Report
 from lagrangian.model import Model
+from lagrangian.page.report import Report
 from lagrangian.viewed import Brief, cut
 from lagrangian.write.quantities import Notation
 from lagrangian.write.report import report_fragment, write_report

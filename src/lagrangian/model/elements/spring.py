@@ -9,17 +9,9 @@ from typing import Any, ClassVar, Literal
 import sympy as sp
 
 from lagrangian.model.antiderivatives import antiderivative
-from lagrangian.model.elements.base import (
-    Element,
-    Level,
-    Surroundings,
-    Use,
-    called,
-    check_ends,
-    deflection_between,
-)
+from lagrangian.model.elements.base import Element, Level, Surroundings, Use, called, check_ends, deflection_between
 from lagrangian.model.geometry import Point, as_expr
-from lagrangian.model.plain import plain
+from lagrangian.page.plain import plain
 
 DELTA = sp.Symbol("delta")
 """In a law: the extension δ − δ₀ [m or rad]."""

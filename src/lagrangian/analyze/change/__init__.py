@@ -1,6 +1,0 @@
-"""The same system in other coordinates."""
-
-from lagrangian.analyze.change.carry import carried, changed
-from lagrangian.analyze.change.change import Change, check_regular, is_regular, read_change
-
-__all__ = ["Change", "carried", "changed", "check_regular", "is_regular", "read_change"]

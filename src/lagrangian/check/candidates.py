@@ -1,0 +1,188 @@
+"""Every way to go wrong in a system, and what it does to every line of an answer, at the states of the check.
+
+For all variants of all misconceptions at once, on one graph:
+ΔW_i = d/dt ∂ΔT/∂ξ̇_i − ∂ΔT/∂ξ_i + ∂ΔV/∂ξ_i − ΔΞ_i + Δrow_i.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property, lru_cache
+from types import ModuleType
+
+import numpy as np
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.misconceptions import GENERAL, MISCONCEPTIONS, Ingredients, Variant
+from lagrangian.check.reference import Truth
+from lagrangian.check.verdict import Mistake
+from lagrangian.derive.sampling import Array, Compiled
+from lagrangian.errors import ModelError
+from lagrangian.graph import jvp, vjp
+from lagrangian.model import time
+
+LONGEST_SYSTEM = 2_000
+"""Operations of T*, V and Ξ times coordinates, above which mistakes are not tried but told by their terms alone."""
+
+WORK = 120_000
+"""Operations that all variants of a system may have, the likelier first; those of a robot arm have half as many."""
+
+
+@dataclass(frozen=True, eq=False)
+class Wrong:
+    """A variant of a misconception; ``rank`` is its place in the order of belief."""
+
+    module: ModuleType
+    variant: Variant
+    rank: int
+
+    @property
+    def name(self) -> str:
+        """The misconception's name: its file's."""
+        return self.module.__name__.rsplit(".", 1)[-1]
+
+    @property
+    def general(self) -> bool:
+        """Whether it says little."""
+        return self.name in GENERAL
+
+    @property
+    def step(self) -> int:
+        """The step of the lecture in which it was made."""
+        v = self.variant
+        if v.rows or v.only is not None or ("L" in v.stated and "V" not in v.stated):
+            return self.module.STEP
+        if v.Xi:
+            return 6 if v.T == 0 and v.V == 0 else self.module.STEP
+        return 2 if v.T != 0 and v.V == 0 else 3 if v.T == 0 else self.module.STEP
+
+    def mistake(self, truth: Truth) -> Mistake:
+        """The mistake as data."""
+        v = self.variant
+        name = truth.model.coordinates[v.coordinate].name if v.coordinate is not None else None
+        title = v.element.title if v.element is not None else None
+        return Mistake(self.name, v.what, self.module.WHY, self.step, title, name)
+
+
+class Effects:
+    """What every variant does, at every state."""
+
+    def __init__(self, truth: Truth) -> None:
+        self.truth = truth
+        self.ingredients = Ingredients(truth.derivation)
+        self.graph = Compiled([])
+        c = truth.model.coordinates
+        self._q = [self.graph.input(x.symbol) for x in c]
+        self._v = [self.graph.input(x.rate) for x in c]
+        self._a = [self.graph.input(x.acceleration) for x in c]
+        self._moving = dict(zip((*self._q, *self._v), (*self._v, *self._a), strict=True))
+        self._moving[self.graph.input(time)] = self.graph.graph.one
+        self.left = WORK
+        self.wrongs = tuple(w for w in self._variants() if self._added(w))
+
+    def _variants(self) -> Iterator[Wrong]:
+        if too_long(self.truth):
+            return
+        for rank, module in enumerate(MISCONCEPTIONS):
+            for variant in module.wrong(self.ingredients):
+                self.left -= _operations(variant)
+                if self.left < 0:
+                    self.truth.tried_all = False
+                    return
+                yield Wrong(module, variant, rank)
+
+    def _added(self, wrong: Wrong) -> bool:
+        """Add the nodes of ΔT, ΔV, ΔΞ_i and ΔW_i of a variant; False where it divides by 0, and so is no answer."""
+        v = wrong.variant
+        put = self.truth.put
+        try:
+            T, V = self.graph.node(put(v.T)), self.graph.node(put(v.V))
+            Xi = [self.graph.node(put(sp.sympify(v.Xi.get(i, 0)))) for i in range(self.truth.n)]
+            self.graph.ids += [T, V, *Xi, *self.rows(v, T, V, Xi)]
+        except ModelError:
+            return False
+        return True
+
+    def rows(self, v: Variant, T: int, V: int, Xi: Sequence[int]) -> list[int]:
+        """The nodes of ΔW."""
+        g, n = self.graph.graph, self.truth.n
+        rows = [g.neg(x) for x in Xi]
+        felt = range(n) if v.only is None else sorted(v.only)
+        if v.T != 0:
+            slopes = vjp(g, [T], [g.one], [*self._q, *self._v])
+            rates = jvp(g, slopes[n:], self._moving)
+            for i in felt:
+                rows[i] = g.add(rows[i], g.sub(rates[i], slopes[i]))
+        if v.V != 0:
+            slopes = vjp(g, [V], [g.one], self._q)
+            for i in felt:
+                rows[i] = g.add(rows[i], slopes[i])
+        for i, extra in v.rows.items():
+            rows[i] = g.add(rows[i], self.graph.node(self.truth.put(sp.sympify(extra))))
+        return rows
+
+    @cached_property
+    def _values(self) -> Array:
+        """Everything of every variant at every state, shape (variants, 2 + 2n, size)."""
+        n = self.truth.n
+        return self.graph.at(self.truth.states).reshape(len(self.wrongs), 2 + 2 * n, self.truth.states.size)
+
+    @cached_property
+    def T(self) -> Array:
+        """ΔT where an answer's line of T* shows it, (variants, size)."""
+        return self._values[:, 0] * self._shown("T")
+
+    @cached_property
+    def V(self) -> Array:
+        """ΔV where an answer's line of V shows it, (variants, size)."""
+        return self._values[:, 1] * self._shown("V")
+
+    @cached_property
+    def L(self) -> Array:
+        """ΔT − ΔV where an answer's line of L shows it, (variants, size)."""
+        return (self._values[:, 0] - self._values[:, 1]) * self._shown("L")
+
+    @cached_property
+    def Xi(self) -> Array:
+        """ΔΞ where an answer's line of a Ξ shows it, (variants, n, size)."""
+        return self._values[:, 2 : 2 + self.truth.n] * self._shown("Xi")[:, :, None]
+
+    @cached_property
+    def W(self) -> Array:
+        """ΔW, (variants, n, size)."""
+        return self._values[:, 2 + self.truth.n :]
+
+    def _shown(self, key: str) -> Array:
+        """1 for the variants that a line of this kind shows: not those that concern single equations."""
+        shown = [key in w.variant.stated and w.variant.only is None for w in self.wrongs]
+        return np.array(shown, dtype=float)[:, None]
+
+    @cached_property
+    def usable(self) -> Array:
+        """Which variants have a value everywhere and do something, (variants,) of truth values."""
+        finite = np.isfinite(self._values).all(axis=(1, 2))
+        size = np.abs(np.where(np.isfinite(self._values), self._values, 0)).max(axis=(1, 2))
+        return finite & (size > 1e-12)
+
+    @cached_property
+    def felt(self) -> Array:
+        """Which variants change an equation, (variants,) of truth values."""
+        return np.abs(self.W).max(axis=(1, 2)) > 1e-12
+
+
+def too_long(truth: Truth) -> bool:
+    """Whether a system is too long for every way to go wrong in it to be tried."""
+    return sum(bounded.size(x) for x in (truth.T, truth.V, *truth.Xi)) * truth.n > LONGEST_SYSTEM
+
+
+def _operations(v: Variant) -> int:
+    """How many operations a variant has when it is written out."""
+    return sum(bounded.size(sp.sympify(x)) for x in (v.T, v.V, *v.Xi.values(), *v.rows.values()))
+
+
+@lru_cache(maxsize=32)
+def effects_of(truth: Truth) -> Effects:
+    """Every variant in a system, worked out once for the systems that were checked with last."""
+    return Effects(truth)

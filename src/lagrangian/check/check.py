@@ -1,0 +1,283 @@
+"""Is this answer right? The check as a table of contents."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import sympy as sp
+
+from lagrangian.check.candidates import too_long
+from lagrangian.check.coordinates import Change, Glance, candidates, in_these, likeliest, new_names
+from lagrangian.check.difference import differences, likeness, paired
+from lagrangian.check.lines import filled
+from lagrangian.check.mistakes import mistakes
+from lagrangian.check.reference import Truth, truth_of
+from lagrangian.check.rows import Comparison, Kind, Row, compare
+from lagrangian.check.spelling import Spelling, in_numbers, not_there, spelled
+from lagrangian.check.stated import Given, equations_follow, given, judge
+from lagrangian.check.verdict import Finding, Line, Status, Verdict
+from lagrangian.derive import Derived
+from lagrangian.page.formula import Terms, Text, text
+
+_log = logging.getLogger(__name__)
+
+
+def check(derivation: Derived, lines: Sequence[Line], *, hint: int = 3) -> Verdict:
+    """Return what is right and what is wrong with an answer, line by line and as a whole.
+
+    Lines are checked in order; equality is decided in normal form, or with 50 digits where there is none.
+    """
+    _log.info("checking the answer")
+    truth = truth_of(derivation)
+    truth.algebra.renew()
+    written = filled(truth, lines)
+    values = _values(truth, written)
+    numbers = bool(values) and in_numbers(truth, written)
+    verdict = _read(truth, spelled(truth, written), hint, explain=not numbers)
+    if verdict.right or verdict.status is Status.INCOMPLETE or not values:
+        return verdict
+    valued = truth.with_values(values)
+    put = _read(
+        valued, _with_values(values, spelled(valued, filled(valued, lines), numbers=False)), hint, explain=numbers
+    )
+    return put if put.right or numbers else verdict
+
+
+def _read(truth: Truth, spelling: Spelling, hint: int, *, explain: bool) -> Verdict:
+    """The verdict on an answer whose names are read; with ``explain``, what went wrong is looked for."""
+    judged = _judged(truth, spelling.lines)
+    verdict = Verdict(judged.status, judged.findings, notes=spelling.notes + judged.notes, hint=hint)
+    if judged.status.right or judged.status is Status.INCOMPLETE:
+        return replace(verdict, combination=judged.combination)
+    return (
+        _elsewhere(truth, spelling, verdict)
+        or _own_names(truth, spelling, verdict)
+        or (_explained(truth, spelling, judged, verdict) if explain else verdict)
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class Judged:
+    """The findings of all lines, and what they come to."""
+
+    status: Status
+    findings: tuple[Finding, ...]
+    comparison: Comparison
+    notes: tuple[Text, ...] = ()
+
+    @property
+    def combination(self) -> tuple[tuple[sp.Expr, ...], ...] | None:
+        """The factors of the answer's equations, where all were found."""
+        rows = [r for r in self.comparison.rows if r.kind is not Kind.NOTHING]
+        return tuple(r.factors or () for r in rows) if rows and all(r.factors is not None for r in rows) else None
+
+
+def _judged(truth: Truth, lines: Sequence[Line], change: Change | None = None) -> Judged:
+    """Judge every line, the equations together; with a change, everything is put into the system's coordinates."""
+    moved = lines if change is None else [replace(line, expr=change.put(line.expr)) for line in lines]
+    turn = change.turn(truth) if change is not None else None
+    truth = truth.within(change.region(truth)) if change is not None else truth
+    equations = [line for line in moved if line.kind == "equation"]
+    comparison = compare(truth, [line.expr for line in equations])
+    above = given(truth, moved)
+    found = dict(zip(map(id, equations), _equations(truth, equations, comparison, above), strict=True))
+    findings: list[Finding] = []
+    for k, (line, own) in enumerate(zip(moved, lines, strict=True)):
+        if line.kind in ("definition", "statement"):
+            continue
+        finding = found[id(line)] if line.kind == "equation" else judge(truth, moved, k, turn)
+        findings.append(replace(finding, line=own))
+    return Judged(*_overall(truth, comparison, findings), comparison, _missing(truth, comparison))
+
+
+def _overall(truth: Truth, comparison: Comparison, findings: Sequence[Finding]) -> tuple[Status, tuple[Finding, ...]]:
+    """The verdict on the whole: its worst line's, or what the equations come to together."""
+    statuses = [f.status for f in findings if f.line.kind != "equation"]
+    if comparison.rows:
+        statuses.append(of_equations(truth, comparison))
+    order = list(Status)
+    worst = max(statuses, key=order.index, default=Status.INCOMPLETE)
+    return worst, tuple(findings)
+
+
+def of_equations(truth: Truth, comparison: Comparison) -> Status:
+    """The verdict on a set of equations."""
+    rows = [r for r in comparison.rows if r.kind is not Kind.NOTHING]
+    if any(r.kind is Kind.WRONG for r in rows):
+        return Status.WRONG
+    if comparison.rank < truth.n:
+        return Status.INCOMPLETE
+    kinds = {r.kind for r in rows}
+    if kinds == {Kind.SAME} and [r.index for r in rows] == list(range(truth.n)):
+        return Status.RIGHT
+    if kinds <= {Kind.SAME, Kind.SCALED, Kind.COMBINED}:
+        return Status.EQUIVALENT
+    return Status.SAME_MOTION
+
+
+def _missing(truth: Truth, comparison: Comparison) -> tuple[Text, ...]:
+    """What is missing in a set of right equations that is too small, in words."""
+    rows = comparison.rows
+    if not rows or comparison.rank >= truth.n or any(r.kind is Kind.WRONG for r in rows):
+        return ()
+    count = "one" if truth.n == 1 else str(truth.n)
+    plural = "" if truth.n == 1 else "s"
+    notes = [
+        text(
+            f"A system with {count} generalized coordinate{plural} has {count} equation{plural} of motion; yours say ",
+            f"{comparison.rank} independent thing{'' if comparison.rank == 1 else 's'}.",
+        )
+    ]
+    said = {r.index for r in rows if r.index is not None}
+    if len(said) == comparison.rank:
+        for i, c in enumerate(truth.model.coordinates):
+            if i not in said:
+                notes.append(text("The equation of ", c.symbol, " is missing."))
+    return tuple(notes)
+
+
+# -- equations --------------------------------------------------------------------------------------------------------
+
+
+def _equations(truth: Truth, lines: Sequence[Line], comparison: Comparison, above: Given) -> list[Finding]:
+    """What was found of every equation; a wrong one is compared with the right one it is most like."""
+    taken = [r.index for r in comparison.rows if r.true and r.index is not None]
+    wrong = [j for j, r in enumerate(comparison.rows) if r.kind is Kind.WRONG]
+    forms = {j: truth.form(lines[j].expr) for j in wrong}
+    pairs = dict(zip(wrong, paired([likeness(forms[j], truth.forms) for j in wrong], taken), strict=True))
+    follow = dict(zip(wrong, equations_follow(truth, [lines[j].expr for j in wrong], above), strict=True))
+    found: list[Finding] = []
+    for j, (line, row) in enumerate(zip(lines, comparison.rows, strict=True)):
+        if row.kind is not Kind.WRONG:
+            found.append(Finding(line, _status(row), _note(truth, row), _name(truth, row.index)))
+            continue
+        like, form = pairs[j], forms[j]
+        right = truth.forms[like.index] if like is not None else None
+        if like is None or form is None or right is None:
+            found.append(Finding(line, Status.WRONG, follows=follow[j]))
+            continue
+        differing = differences(truth, form, right, like.factor, like.index)
+        found.append(Finding(line, Status.WRONG, None, _name(truth, like.index), differing, follow[j]))
+    return found
+
+
+def _name(truth: Truth, index: int | None) -> str | None:
+    return truth.model.coordinates[index].name if index is not None else None
+
+
+def _status(row: Row) -> Status:
+    if row.kind is Kind.SAME:
+        return Status.RIGHT
+    if row.kind in (Kind.SCALED, Kind.COMBINED):
+        return Status.EQUIVALENT
+    return Status.INCOMPLETE if row.kind is Kind.NOTHING else Status.SAME_MOTION
+
+
+def _note(truth: Truth, row: Row) -> Text | None:
+    """What a true row is made of, in words."""
+    if row.kind is Kind.NOTHING:
+        return text("says 0 = 0")
+    if row.kind is Kind.SCALED and row.index is not None:
+        times = row.factors[row.index] if row.factors is not None else "a factor"
+        return text("the equation of ", truth.derivation.coordinates[row.index], ", times ", times)
+    if row.factors is not None and row.kind in (Kind.COMBINED, Kind.TURNED):
+        parts: list[sp.Expr | str | Terms] = []
+        for factor, q in zip(row.factors, truth.derivation.coordinates, strict=True):
+            if factor != 0:
+                parts += [
+                    " and " if parts else "",
+                    *(("" if factor == 1 else factor), " times " if factor != 1 else ""),
+                ]
+                parts += ["the equation of ", q]
+        return text("the sum of ", *parts)
+    if row.kind is Kind.TURNED:
+        return text("the equations added with factors that depend on where the system is")
+    if row.kind is Kind.CONSEQUENCE:
+        return text("true whenever the right equations hold")
+    return None
+
+
+# -- other coordinates, and what went wrong ---------------------------------------------------------------------------
+
+
+def _elsewhere(truth: Truth, spelling: Spelling, verdict: Verdict) -> Verdict | None:
+    """The verdict in other coordinates, where the answer is right in some; a mistake goes before an unspoken change."""
+    glance = Glance(truth, spelling.lines)
+    for change in candidates(truth, spelling.lines):
+        if not glance.may_be(change):
+            continue
+        judged = _judged(truth, spelling.lines, change)
+        if not judged.status.right and judged.status is not Status.INCOMPLETE:
+            continue
+        if not change.plain or not (new_names(truth, spelling.lines) or _tells(spelling.lines)):
+            named = mistakes(truth, spelling.lines, verdict.findings)
+            if named.certain or too_long(truth):
+                note = text("It would be right with ", *change.words.parts, ".")
+                return replace(verdict, mistakes=named.told, alternatives=named.others, notes=(*verdict.notes, note))
+        status = Status.OTHER_COORDINATES if judged.status.right else judged.status
+        notes = (*spelling.notes, text("In other coordinates: ", *change.words.parts, "."), *judged.notes)
+        return Verdict(
+            status,
+            judged.findings,
+            combination=judged.combination,
+            change=change.table,
+            notes=notes,
+            hint=verdict.hint,
+        )
+    return None
+
+
+def _tells(lines: Sequence[Line]) -> bool:
+    """Whether an answer says enough to tell a relative coordinate from an absolute one that is wrong."""
+    kinds = {line.kind for line in lines}
+    return bool(kinds & {"equation", "L"}) or {"T", "V"} <= kinds
+
+
+def _values(truth: Truth, lines: Sequence[Line]) -> dict[sp.Symbol, sp.Expr]:
+    """The values of the parameters that an answer does not name."""
+    used = {x for line in lines for x in line.expr.free_symbols}
+    return {p: sp.Rational(str(v)) for p, v in truth.model.values.items() if p not in used}
+
+
+def _with_values(values: Mapping[sp.Symbol, sp.Expr], spelling: Spelling) -> Spelling:
+    """What is said of an answer in numbers: the values are put in."""
+    named = [x for p in sorted(values, key=str) for x in (p, ", ")][:-1]
+    return replace(spelling, notes=(*spelling.notes, text("The values of ", *named, " are put in.")))
+
+
+def _own_names(truth: Truth, spelling: Spelling, verdict: Verdict) -> Verdict | None:
+    """The verdict on a wrong answer with coordinates of its own: the system is derived in these, and compared anew."""
+    if not new_names(truth, spelling.lines):
+        return None
+    change = likeliest(truth, spelling.lines)
+    other = in_these(truth, change) if change is not None else None
+    if change is None or other is None:
+        return None
+    lines = tuple(line for line in spelling.lines if line.kind != "definition")
+    judged = _judged(other, lines)
+    if judged.status.right:  # equal in doubles alone
+        return None
+    named = mistakes(other, lines, judged.findings)
+    note = text("Your coordinates were read ", *change.words.parts, ".")
+    return Verdict(
+        judged.status,
+        judged.findings,
+        named.told,
+        named.others,
+        change=change.table,
+        notes=(*spelling.notes, note),
+        hint=verdict.hint,
+    )
+
+
+def _explained(truth: Truth, spelling: Spelling, judged: Judged, verdict: Verdict) -> Verdict:
+    """The verdict with the mistakes that explain it."""
+    named = mistakes(truth, spelling.lines, judged.findings)
+    notes = (*verdict.notes, *(not_there(truth, name) for name in new_names(truth, spelling.lines)))
+    if too_long(truth) or not truth.tried_all:
+        every = "" if too_long(truth) else "all "
+        said = f"The system is too long for {every}well-known mistakes to be tried; its terms are compared."
+        notes = (*notes, text(said))
+    return replace(verdict, mistakes=named.told, alternatives=named.others, notes=notes)

@@ -1,0 +1,328 @@
+"""Answers in other coordinates: which changes are tried, and what a line says in the system's own.
+
+A change writes the answer's coordinate η as ψ(ξ) in the system's. It is tried by putting ψ, ψ̇ and ψ̈ in place of η, η̇
+and η̈ in every line; what is right then was right in the other coordinates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import islice, product
+from typing import Any, cast
+
+import numpy as np
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian import bounded
+from lagrangian.check.reference import Truth
+from lagrangian.check.rows import CLOSE
+from lagrangian.check.verdict import Line
+from lagrangian.coordinates import changed
+from lagrangian.derive import derive
+from lagrangian.derive.sampling import Array, Compiled
+from lagrangian.errors import ModelError
+from lagrangian.model import time
+from lagrangian.page.formula import Text, text
+from lagrangian.page.plain import plain
+from lagrangian.viewed import Brief
+
+MOST = 200
+"""Changes that are tried."""
+
+
+@dataclass(frozen=True, eq=False)
+class Change(Brief):
+    """A change of coordinates: the answer's symbols in the system's, in words, and whether it needs to be said.
+
+    ``plain`` changes are those people make without a word (relative for absolute), or that the answer states itself by
+    a name of its own; the others are told where no mistake explains the answer.
+    """
+
+    table: Mapping[sp.Expr, sp.Expr]
+    words: Text
+    plain: bool
+
+    def put(self, expr: sp.Expr) -> sp.Expr:
+        """An expression of the answer in the system's coordinates."""
+        whole: dict[sp.Basic, sp.Expr] = {}
+        for eta, psi in self.table.items():
+            rate = sp.diff(psi, time)
+            whole[eta] = psi
+            whole[sp.Derivative(eta, time)] = rate
+            whole[sp.Derivative(eta, (time, 2))] = sp.diff(rate, time)
+        return cast("sp.Expr", expr.xreplace(whole))
+
+    def turn(self, truth: Truth) -> sp.Matrix | None:
+        """(∂ψ/∂ξ)⁻¹ with the answer's coordinates in the order of those they stand for; None where it is singular."""
+        psi = self._in_order(truth)
+        J = sp.Matrix([[p.diff(q) for q in truth.derivation.coordinates] for p in psi])
+        return sp.Matrix(J.inv()) if truth.n <= 6 and J.det() != 0 else None
+
+    def region(self, truth: Truth) -> sp.Expr | None:
+        """det ∂ψ/∂ξ, which keeps its sign where the change is one-to-one; None where it is constant, or too long."""
+        psi = self._in_order(truth)
+        q = truth.derivation.coordinates
+        J = sp.Matrix([[p.diff(x) for x in q] for p in psi])
+        if truth.n > 4 or not J.has(*q):
+            return None
+        det = cast("sp.Expr", J.det())
+        return det if det.has(*q) else None
+
+    def _in_order(self, truth: Truth) -> list[sp.Expr]:
+        """ψ of every coordinate: the own one where it stays; new names take the places of those that are gone."""
+        own = list(truth.derivation.coordinates)
+        new = [psi for eta, psi in self.table.items() if eta not in own]
+        psi: list[sp.Expr] = []
+        for q in own:
+            mine = self.table.get(q, q)
+            if q not in self.table and (found := next((x for x in new if x.has(q)), None)) is not None:
+                new.remove(found)
+                mine = found
+            psi.append(mine)
+        return psi
+
+
+def candidates(truth: Truth, lines: Sequence[Line]) -> Iterator[Change]:
+    """The changes worth trying for an answer: for its own names where it has any, else of the system's coordinates."""
+    new = new_names(truth, lines)
+    yield from islice(_renamed(truth, new, lines) if new else _reused(truth), MOST)
+
+
+def new_names(truth: Truth, lines: Sequence[Line]) -> list[sp.Expr]:
+    """What moves in an answer and is no coordinate, input or definition of the system."""
+    own = set(truth.derivation.coordinates) | {u.symbol for u in truth.model.inputs}
+    own |= {d.symbol for d in truth.model.definitions}
+    found = {f for line in lines for f in line.expr.atoms(AppliedUndef) if f.args == (time,)}
+    return sorted(found - own, key=str)
+
+
+# -- names of the answer's own ----------------------------------------------------------------------------------------
+
+
+def _renamed(truth: Truth, new: Sequence[sp.Expr], lines: Sequence[Line]) -> Iterator[Change]:
+    stated = {line.name: line.expr for line in lines if line.kind == "definition"}
+    solved: dict[sp.Expr, list[sp.Expr]] = {}
+    for c in truth.model.coordinates:
+        expr = stated.get(c.name)
+        for f in new if expr is not None else ():
+            if expr is not None and expr.has(f):
+                solved.setdefault(f, []).extend(_solutions(expr - c.symbol, f))
+    choices = [solved.get(f) or meanings(truth) for f in new]
+    if len(new) > 3:
+        return
+    used = {q for line in lines for q in truth.derivation.coordinates if line.expr.has(q) and line.kind != "definition"}
+    tried: list[tuple[tuple[int, int], Change]] = []
+    for k, picked in enumerate(islice(product(*choices), 4000)):
+        if len(set(picked)) < len(picked):
+            continue
+        table = dict(zip(new, picked, strict=True))
+        missing = sum(q not in used and not any(p.has(q) for p in picked) for q in truth.derivation.coordinates)
+        if missing == 0:
+            tried.append(((sum(p in used for p in picked), k), Change(table, _meant(table), True)))
+    yield from (change for _, change in sorted(tried, key=lambda x: x[0]))
+
+
+def _solutions(expr: sp.Expr, unknown: sp.Expr) -> list[sp.Expr]:
+    """What the unknown is, where the expression is linear in it."""
+    slope = expr.diff(unknown)
+    if slope == 0 or slope.has(unknown):
+        return []
+    rest = cast("sp.Expr", expr.xreplace({unknown: sp.S.Zero}))
+    return [bounded.expand(-rest / slope)]
+
+
+def _meant(table: Mapping[sp.Expr, sp.Expr]) -> Text:
+    parts: list[Any] = []
+    for eta, psi in table.items():
+        parts += [eta, " = ", psi, ", "]
+    return text("with ", *parts[:-1])
+
+
+def meanings(truth: Truth) -> list[sp.Expr]:
+    """What a coordinate of the answer's own may be: ours, sums and differences of ours, places and directions."""
+    q: list[sp.Expr] = list(truth.derivation.coordinates)
+    found: list[sp.Expr] = [*q, *(-x for x in q)]
+    for i, a in enumerate(q):
+        found += [a + b for b in q[i + 1 :]]
+        found += [a - b for b in q if b is not a]
+    for body in truth.model.bodies:
+        found += [x for p in truth.model.position(body.at) if (x := truth.expand(p)).has(*q)]
+        frame = getattr(body, "frame", None)
+        if frame is not None and frame.dimension == 2:
+            found.append(truth.expand(frame.total_angle))
+    found += [sp.Add(*q[: k + 1]) for k in range(2, len(q))]
+    for x in turning(truth):
+        found += [sp.pi / 2 - x, x + sp.pi / 2, x - sp.pi / 2, sp.pi - x, x + sp.pi]
+    for x, c in shifts(truth):
+        found += [x - c, c - x]
+    return list(dict.fromkeys(found))
+
+
+# -- the system's own names -------------------------------------------------------------------------------------------
+
+
+def _reused(truth: Truth) -> Iterator[Change]:
+    q: list[sp.Expr] = list(truth.derivation.coordinates)
+    turned = set(turning(truth))
+    groups = [g for g in ([x for x in q if x in turned], [x for x in q if x not in turned]) if g]
+    for group in groups:
+        yield from _relative(group)
+    for x in q:
+        yield Change({x: -x}, text(x, " counted the other way round"), False)
+    if len(q) > 1:
+        yield Change({x: -x for x in q}, text("every coordinate counted the other way round"), False)
+    away = [lambda x: sp.pi / 2 - x, lambda x: x + sp.pi / 2, lambda x: x - sp.pi / 2]
+    away += [lambda x: sp.pi - x, lambda x: x + sp.pi]
+    for other in away:
+        for x in turned:
+            yield Change({x: other(x)}, text(x, " measured from another axis: yours is ", other(x)), False)
+        if len(turned) > 1:
+            yield Change({x: other(x) for x in turned}, text("angles measured from another axis"), False)
+    moved = list(shifts(truth))
+    for x, c in moved:
+        yield Change({x: x - c}, text(x, " measured from another point: yours is ", x - c), False)
+        yield Change({x: c - x}, text(x, " measured from another point: yours is ", c - x), False)
+    rest = dict(_static(truth))
+    if len(rest) > 1:
+        yield Change({x: x - c for x, c in rest.items()}, text("coordinates measured from the place of rest"), False)
+
+
+def _relative(group: Sequence[sp.Expr]) -> Iterator[Change]:
+    """Relative for absolute and absolute for relative: pair by pair, and all along the chain."""
+    if len(group) > 2:
+        sums = {x: sp.Add(*group[: k + 1]) for k, x in enumerate(group) if k}
+        steps = {x: x - group[k] for k, x in enumerate(group[1:])}
+        yield Change(sums, text("every coordinate absolute"), True)
+        yield Change(steps, text("every coordinate relative to the one before"), True)
+    for k, x in enumerate(group):
+        for y in group[:k]:
+            yield Change({x: x + y}, text(x, " absolute: yours is ", x + y), True)
+            yield Change({x: x - y}, text(x, " relative to ", y, ": yours is ", x - y), True)
+
+
+def turning(truth: Truth) -> list[sp.Expr]:
+    """The coordinates that stand in sines and cosines, in order."""
+    angles = [f.args[0] for f in sp.Add(truth.T, truth.V, *truth.Xi).atoms(sp.sin, sp.cos)]
+    return [q for q in truth.derivation.coordinates if any(a.has(q) for a in angles)]
+
+
+def shifts(truth: Truth) -> Iterator[tuple[sp.Expr, sp.Expr]]:
+    """(coordinate, constant) pairs: rest lengths with both signs, and the place of rest."""
+    rests = [
+        truth.expand(r) for e in truth.model.elements if (r := cast("sp.Expr", getattr(e, "rest", sp.S.Zero))) != 0
+    ]
+    turned = set(turning(truth))
+    for q in truth.derivation.coordinates:
+        for rest in rests if q not in turned else ():
+            if not rest.has(*truth.derivation.coordinates):
+                yield q, rest
+                yield q, -rest
+    for q, c in _static(truth):
+        yield q, c
+        yield q, -c
+
+
+def _static(truth: Truth) -> list[tuple[sp.Expr, sp.Expr]]:
+    """The place where a system that is linear at rest stays, coordinate by coordinate; those that are not at 0."""
+    still: dict[sp.Basic, sp.Expr] = {u.symbol: sp.S.Zero for u in truth.model.inputs}
+    for c in truth.model.coordinates:
+        still |= {c.rate: sp.S.Zero, c.acceleration: sp.S.Zero}
+    q = list(truth.derivation.coordinates)
+    rows = [cast("sp.Expr", r.xreplace(still)) for r in truth.rows]
+    if truth.n > 4:
+        return []
+    slopes = bounded.searched(lambda: sp.Matrix([[bounded.diff(r, x) for x in q] for r in rows]))
+    if slopes is None or slopes.has(*q) or slopes.has(time) or slopes.det() == 0:
+        return []
+    place = slopes.LUsolve(-sp.Matrix([r.xreplace(dict.fromkeys(q, sp.S.Zero)) for r in rows]))
+    found = [(x, bounded.cancel(c)) for x, c in zip(q, place, strict=True)]
+    return [(x, c) for x, c in found if c != 0]
+
+
+# -- a quick look -----------------------------------------------------------------------------------------------------
+
+
+class Glance:
+    """Tells quickly whether a change may make an answer right: by its equations in doubles, else by an energy."""
+
+    def __init__(self, truth: Truth, lines: Sequence[Line]) -> None:
+        self.truth = truth
+        equations = [line.expr for line in lines if line.kind == "equation"]
+        self._equations = bool(equations)
+        energy = next((line for line in lines if line.kind in ("T", "V", "L")), None)
+        right = [{"T": truth.T, "V": truth.V, "L": truth.L}[energy.kind]] if energy is not None else []
+        self._own = Compiled([] if equations else right)
+        chosen = equations or ([energy.expr] if energy is not None else [])
+        self._compiled = Compiled(chosen)
+
+    def true_lines(self, change: Change) -> int:
+        """How many equations are true with this change, in doubles."""
+        if not self._equations:
+            return int(self.may_be(change))
+        return int(self._true(change).sum())
+
+    def _true(self, change: Change) -> Array:
+        states = self.truth.states
+        truly = self._compiled.at(states, self._values(change, truly=True))
+        off = self._compiled.at(states, self._values(change, truly=False))
+        good = np.isfinite(truly) & np.isfinite(off)
+        scale = np.where(good, np.abs(off), 0).max(axis=1)
+        small = np.where(good, np.abs(truly), 0).max(axis=1) <= CLOSE * scale
+        return np.logical_and(good.any(axis=1), small)
+
+    def may_be(self, change: Change) -> bool:
+        """Whether the answer may be right with this change; False where nothing can be compared."""
+        if not self._compiled.ids:
+            return False
+        states = self.truth.states
+        if not self._equations:
+            moved = self._compiled.at(states, self._values(change, truly=False))[0]
+            own = self._own.at(states)[0]
+            rest = (moved - own).reshape(2, -1)
+            rest = rest - rest[:, :1]
+            return bool(np.isfinite(rest).all() and np.abs(rest).max() <= 1e-6 * (1 + np.abs(own).max()))
+        return bool(self._true(change).all())
+
+    def _values(self, change: Change, *, truly: bool) -> dict[sp.Basic, Array]:
+        accelerations = self.truth.accelerations if truly else {}
+        out: dict[sp.Basic, Array] = dict(accelerations)
+        for eta, psi in change.table.items():
+            symbols = (eta, sp.Derivative(eta, time), sp.Derivative(eta, (time, 2)))
+            out.update(zip(symbols, _motion(psi).at(self.truth.states, accelerations), strict=True))
+        return out
+
+
+@lru_cache(maxsize=1024)
+def _motion(psi: sp.Expr) -> Compiled:
+    """ψ, ψ̇ and ψ̈ as one graph, made once for the changes of all answers."""
+    rate = sp.diff(psi, time)
+    return Compiled([psi, rate, sp.diff(rate, time)])
+
+
+# -- the system in the answer's coordinates ---------------------------------------------------------------------------
+
+
+def likeliest(truth: Truth, lines: Sequence[Line]) -> Change | None:
+    """The change that makes most equations of a wrong answer true; None where none makes any."""
+    glance = Glance(truth, lines)
+    tried = [(glance.true_lines(change), -k, change) for k, change in enumerate(candidates(truth, lines))]
+    best = max(tried, key=lambda x: x[:2], default=None)
+    if best is None:
+        return None
+    return best[2] if best[0] or len(tried) == 1 else None
+
+
+def in_these(truth: Truth, change: Change) -> Truth | None:
+    """What is right in the answer's coordinates, where the change can be turned round; made once a change."""
+    key = tuple(change.table.items())
+    known = truth.others
+    if key not in known:
+        try:
+            names = {plain(eta): psi for eta, psi in change.table.items()}
+            known[key] = Truth(derive(changed(truth.model, names)), truth.values)
+        except ModelError:
+            known[key] = None
+    return known[key]

@@ -1,0 +1,136 @@
+"""The smallest difference of terms between an answer's line and the right one, each term traced to its element."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.reference import Truth
+from lagrangian.check.rows import ratio
+from lagrangian.check.verdict import Difference, Origin
+from lagrangian.derive.algebra import Form
+from lagrangian.derive.algebra.form import Key
+from lagrangian.model import time
+
+MOST = 12
+"""Differences that are told; an answer with more of them is another answer."""
+
+
+@dataclass(frozen=True)
+class Likeness:
+    """How much a line is like a right one: which, times what factor, and the share of terms that agree."""
+
+    index: int
+    factor: sp.Expr
+    score: float
+
+
+def likeness(form: Form | None, rights: Sequence[Form | None]) -> list[Likeness]:
+    """How like each right form a form is, in the order of the right ones; a factor of 1 where nothing is alike."""
+    found: list[Likeness] = []
+    for i, right in enumerate(rights):
+        voted = ratio(form, right, unlike=0.5) if form is not None and right is not None else None
+        if voted is None or form is None or right is None:
+            found.append(Likeness(i, sp.S.One, 0.0))
+        else:
+            factor, count = voted
+            found.append(Likeness(i, factor, count / (form.size + right.size - count)))
+    return found
+
+
+def paired(likes: Sequence[Sequence[Likeness]], taken: Iterable[int]) -> list[Likeness | None]:
+    """The best pairing of lines with right equations that are not taken yet, the likest pair first."""
+    used = set(taken)
+    out: list[Likeness | None] = [None] * len(likes)
+    pairs = sorted(
+        ((like.score, -abs(i - j), i, j) for j, row in enumerate(likes) for i, like in enumerate(row)), reverse=True
+    )
+    for _, _, i, j in pairs:
+        if out[j] is None and i not in used:
+            used.add(i)
+            out[j] = likes[j][i]
+    return out
+
+
+def differences(truth: Truth, form: Form, right: Form, factor: sp.Expr, index: int | None) -> tuple[Difference, ...]:
+    """The terms in which ``form`` differs from ``factor`` times ``right``; ``index`` is the equation's coordinate.
+
+    They are told as the answer has them, times the factor.
+    """
+    scale = truth.form(factor)
+    if scale is None or scale.is_zero:
+        return ()
+    inverse = truth.form(1 / factor)
+    mine = form * inverse if inverse is not None else form
+    lacking = right - mine
+    if lacking.is_zero:
+        return ()
+    name = truth.model.coordinates[index].name if index is not None else None
+    found: list[Difference] = []
+    for keys in _groups(lacking):
+        ours, theirs = right.restricted(keys), mine.restricted(keys)
+        difference = lacking.restricted(keys)
+        if theirs.is_zero:
+            kind, term, written = "missing", ours, theirs
+        elif ours.is_zero:
+            kind, term, written = "extra", theirs, theirs
+        else:
+            term, written = _alone(ours, theirs, difference)
+            kind = "sign" if (term + written).is_zero else "missing" if written.is_zero else "coefficient"
+            if term.is_zero:
+                kind, term = "extra", written
+        as_written, written_so = (_scaled(x, factor) for x in (term, written))
+        found.append(Difference(kind, as_written, written_so, name, _origins(truth, term, index)))
+        if len(found) == MOST:
+            break
+    return tuple(found)
+
+
+def _scaled(term: Form, factor: sp.Expr) -> sp.Expr:
+    """A term of the right line in the scale of the answer; one that merely stands on the other side as it is."""
+    return term.expr() if abs(factor) == 1 else bounded.expand(factor * term.expr())
+
+
+def _alone(ours: Form, theirs: Form, difference: Form) -> tuple[Form, Form]:
+    """Of terms in the same motion only the monomials that differ: of m₁ẍ + m₂ẍ against m₁ẍ, the m₂ẍ."""
+    monomials = {(h, m) for h, p in difference.parts.items() for m in p}
+
+    def kept(form: Form) -> Form:
+        parts = {h: {m: c for m, c in p.items() if (h, m) in monomials} for h, p in form.parts.items()}
+        return Form(form.algebra, parts, form.den)
+
+    return kept(ours), kept(theirs)
+
+
+def _groups(form: Form) -> list[frozenset[Key]]:
+    """The keys of a form term by readable term: one group for each motion."""
+    return [frozenset({k}) for k in sorted(form.keys(), key=str)]
+
+
+def _origins(truth: Truth, term: Form, index: int | None) -> tuple[Origin, ...]:
+    """The elements behind a term of equation ``index``, each with its step, once."""
+    if index is None:
+        return _shares(truth, term)
+    found: dict[Origin, None] = {}
+    letters = term.expr().free_symbols - {time}
+    for origin in truth.derivation.shares.where(term.expr()):
+        shared = not letters or origin.share.free_symbols & letters
+        if shared and origin.coordinate == truth.model.coordinates[index].name:
+            found[Origin(origin.element.title, origin.step)] = None
+    return tuple(found)
+
+
+def _shares(truth: Truth, term: Form) -> tuple[Origin, ...]:
+    """The elements whose energies hold a term, each with its step."""
+    keys, letters = term.keys(), term.expr().free_symbols - {time}
+    found: dict[Origin, None] = {}
+    for element in truth.model.elements:
+        for energy, step in ((element.kinetic(truth.model), 2), (element.potential(truth.model), 3)):
+            form = truth.form(truth.expand(energy)) if energy != 0 else None
+            common = form.restricted(keys) if form is not None else None
+            if common is not None and not common.is_zero and (common.expr().free_symbols & letters or not letters):
+                found[Origin(element.title, step)] = None
+    return tuple(found)

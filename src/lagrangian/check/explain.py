@@ -1,0 +1,109 @@
+"""Which misconception explains an answer: the one whose equations are the answer's.
+
+An answer's equations P are explained by a variant with equations W + ΔW when every P_j is a sum of those with factors
+that do not depend on the motion or the place. Two mistakes at once add up, because Lagrange's equations are linear.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import sympy as sp
+
+from lagrangian.check.candidates import Effects, Wrong, effects_of
+from lagrangian.check.difference import likeness
+from lagrangian.check.reference import Truth
+from lagrangian.check.rows import CLOSE
+from lagrangian.derive.sampling import SETS, Array, Compiled
+
+
+@dataclass(frozen=True, eq=False)
+class Explanation:
+    """One mistake, or two at once, and how plainly it gives the answer.
+
+    0: row by row, 1: with factors, 2: mixed, 3: with factors that depend on the place.
+    """
+
+    wrongs: tuple[Wrong, ...]
+    plainness: int
+
+
+def explain_rows(truth: Truth, exprs: Sequence[sp.Expr]) -> list[Explanation]:
+    """The variants that give all of these equations, the likeliest first."""
+    P = Compiled(exprs).at(truth.states) * np.array([[_side(truth, e)] for e in exprs])
+    said = np.isfinite(P).all(axis=1) & (np.abs(P).max(axis=1) > 1e-12)
+    P = P[said]
+    if not len(P) or not np.isfinite(truth.W).all():
+        return []
+    effects = effects_of(truth)
+    size = truth.states.size // SETS
+    sets = [slice(k * size, (k + 1) * size) for k in range(SETS)]
+    return _alone(truth, effects, P, sets) or _together(truth, effects, P) or _by_place(truth, effects, P)
+
+
+def _side(truth: Truth, expr: sp.Expr) -> int:
+    """−1 where most terms of an equation stand on the other side than in the right one it is like."""
+    best = max(likeness(truth.form(expr), truth.forms), key=lambda x: x.score)
+    return -1 if best.factor.could_extract_minus_sign() else 1
+
+
+def _by_place(truth: Truth, effects: Effects, P: Array) -> list[Explanation]:
+    """The variants that give the answer with factors that depend on the place, as when r was divided out."""
+    found = _alone(truth, effects, P, list(truth.states.blocks()))
+    return [Explanation(e.wrongs, 3) for e in found]
+
+
+def _alone(truth: Truth, effects: Effects, P: Array, parts: Sequence[slice]) -> list[Explanation]:
+    """The single variants that give the answer with factors that are constant in each part of the states."""
+    candidates = np.flatnonzero(np.logical_and(effects.usable, effects.felt))
+    if not len(candidates):
+        return []
+    W = truth.W[None] + effects.W[candidates]
+    plain = np.zeros(len(candidates), int)
+    fits = np.ones(len(candidates), bool)
+    for part in parts:
+        fit, how = _spanned(P[:, part], W[:, :, part])
+        fits &= fit
+        plain = np.maximum(plain, how)
+    found = [Explanation((effects.wrongs[candidates[i]],), int(plain[i])) for i in np.flatnonzero(fits)]
+    return sorted(found, key=lambda e: (e.plainness, e.wrongs[0].general, e.wrongs[0].variant.doubt, e.wrongs[0].rank))
+
+
+def _spanned(P: Array, W: Array) -> tuple[Array, Array]:
+    """Which W (variants, n, s) span every row of P (k, s), and how plainly: same rows 0, scaled 1, mixed 2."""
+    scale = np.abs(W).max(axis=2, keepdims=True)
+    unit = W / np.where(scale > 0, scale, 1.0)
+    A = np.einsum("ks,vsn->vkn", P, np.linalg.pinv(unit, rcond=1e-10))
+    left = np.abs(P[None] - np.einsum("vkn,vns->vks", A, unit)).max(axis=2)
+    fits = (left <= CLOSE * np.abs(P).max(axis=1)[None]).all(axis=1)
+    A = A / np.where(scale > 0, scale, 1.0).transpose(0, 2, 1)
+    big = np.abs(A * scale.transpose(0, 2, 1)) > CLOSE * np.abs(P).max(axis=1)[None, :, None]
+    mixed = (big.sum(axis=2) > 1).any(axis=1)
+    ones = np.where(big, np.abs(A - 1), 0).max(axis=(1, 2)) < 1e-6
+    return fits, np.where(mixed, 2, np.where(ones, 0, 1))
+
+
+def _together(truth: Truth, effects: Effects, P: Array) -> list[Explanation]:
+    """Two mistakes whose effects add up to the answer's, row i for row i."""
+    if len(P) != truth.n:
+        return []
+    usable = [i for i in np.flatnonzero(np.logical_and(effects.usable, effects.felt)) if not effects.wrongs[i].general]
+    if len(usable) < 2:
+        return []
+    dW = effects.W[usable].reshape(len(usable), -1)
+    found: list[Explanation] = []
+    for sign in (1, -1):
+        D = (sign * P - truth.W).reshape(-1)
+        scale = max(float(np.abs(D).max()), 1e-300)
+        probe = np.random.default_rng(7).standard_normal(len(D))
+        sums, target = dW @ probe, D @ probe
+        order = np.argsort(sums)
+        near = np.searchsorted(sums[order], target - sums - 1e-6 * scale)
+        for i, start in enumerate(near):
+            for k in order[start : start + 8]:
+                if k > i and np.abs(dW[i] + dW[k] - D).max() <= CLOSE * scale:
+                    pair = sorted((effects.wrongs[usable[i]], effects.wrongs[usable[k]]), key=lambda w: w.rank)
+                    found.append(Explanation(tuple(pair), 0))
+    return sorted(found, key=lambda e: sum(w.rank for w in e.wrongs))

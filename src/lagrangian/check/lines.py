@@ -1,0 +1,85 @@
+"""From an answer as it was read to the lines that are checked, with what the answer itself gives put in."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, cast
+
+import sympy as sp
+
+from lagrangian.check.reading import Answer, generalized_force
+from lagrangian.check.reference import Truth
+from lagrangian.check.verdict import Line
+from lagrangian.errors import ModelError
+
+STATED = ("T", "V", "L", "D", "Xi", "p", "p-rate", "slope")
+"""Kinds of lines that give one quantity."""
+
+
+def lines_of(answer: Answer) -> tuple[Line, ...]:
+    """The lines of an answer that was read, numbered as in its text."""
+    found: list[Line] = []
+    for k, stated in enumerate(answer.lines, 1):
+        number = stated.place.line if stated.place is not None and stated.place.line is not None else k
+        found.append(Line(stated.kind, sp.sympify(stated.residual), number, stated.name, stated.text))
+    return tuple(found)
+
+
+def lines_from(things: object) -> tuple[Line, ...]:
+    """The lines of SymPy equations, expressions (= 0), or a mapping such as ``{"T": …, "V": …}``, in order.
+
+    Raises `ModelError` for anything else.
+    """
+    if isinstance(things, Mapping):
+        return tuple(_named(key, value, k) for k, (key, value) in enumerate(things.items(), 1))
+    if isinstance(things, (sp.Basic, sp.MatrixBase)):
+        things = things.flat() if isinstance(things, sp.MatrixBase) else [things]
+    if isinstance(things, Iterable) and not isinstance(things, (str, bytes)):
+        return tuple(_equation(x, k) for k, x in enumerate(things, 1))
+    raise ModelError(
+        f"an answer is text, a list of SymPy equations, or energies by name (got {type(things).__name__})",
+        fix='check("m*x\'\' + k*x = F"), check([Eq(…), Eq(…)]) or check({"T": …})',
+        code="E406",
+    )
+
+
+def _named(key: object, value: object, number: int) -> Line:
+    if isinstance(key, str) and key in ("T", "V", "L", "D"):
+        return Line(key, _expression(value), number)
+    if isinstance(key, sp.Basic):
+        return Line("Xi", _expression(value), number, getattr(key.func, "__name__", str(key)))
+    raise ModelError(
+        f"'{key}' is neither T, V, L, D nor a coordinate",
+        fix='{"T": …, "V": …, theta: …}, a coordinate for its Ξ',
+        code="E402",
+    )
+
+
+def _equation(thing: object, number: int) -> Line:
+    if isinstance(thing, sp.Equality):
+        lhs, rhs = (_expression(side) for side in (thing.lhs, thing.rhs))
+        return Line("equation", lhs - rhs, number, None, str(thing))
+    return Line("equation", _expression(thing), number, None, str(thing))
+
+
+def _expression(thing: object) -> sp.Expr:
+    if isinstance(thing, (int, float, sp.Expr)) and not isinstance(thing, bool):
+        return cast("sp.Expr", sp.sympify(thing))
+    raise ModelError(
+        f"an answer is made of SymPy expressions and equations (got {type(thing).__name__})",
+        fix="Eq(left, right), or an expression that is 0; text goes through check(text)",
+        code="E406",
+    )
+
+
+def filled(truth: Truth, lines: Sequence[Line]) -> tuple[Line, ...]:
+    """The lines with definitions written out and every Ξ that an equation only names put in: the answer's, or ours."""
+    given = {line.name: line.expr for line in lines if line.kind == "Xi"}
+    forces: dict[Any, sp.Expr] = {}
+    for c, own in zip(truth.model.coordinates, truth.Xi, strict=True):
+        forces[generalized_force(c.name)] = given.get(c.name, own)
+    out: list[Line] = []
+    for line in lines:
+        expr = truth.expand(cast("sp.Expr", line.expr.xreplace(forces)))
+        out.append(Line(line.kind, expr, line.number, line.name, line.text))
+    return tuple(out)

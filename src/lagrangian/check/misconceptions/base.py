@@ -1,0 +1,304 @@
+"""What a misconception is: one deliberate mistake, and what it adds to the energies, the forces and the equations.
+
+Lagrange's equations are linear in T*, V and Ξ, so that a system derived with a mistake differs from the right one by
+what the mistake adds:  wrong row i = right row i + d/dt ∂ΔT/∂ξ̇_i − ∂ΔT/∂ξ_i + ∂ΔV/∂ξ_i − ΔΞ_i + Δrow_i.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any, Protocol, cast
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian import bounded
+from lagrangian.derive import Derived
+from lagrangian.model import (
+    Action,
+    Coordinate,
+    Damper,
+    Dissipation,
+    Element,
+    Gravity,
+    Model,
+    Particle,
+    RigidBody,
+    Spring,
+    time,
+)
+from lagrangian.page.formula import Text
+
+MOST_PIECES = 120
+"""Terms of one equation that are looked at."""
+ENERGIES = frozenset({"T", "V", "L", "Xi"})
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Variant:
+    """One way to make a mistake in one system: what it adds, and what the person did, in words.
+
+    ``T`` and ``V`` are what it adds to the energies, ``only`` the equations that feel it (all unless given); ``Xi``
+    what it adds to the generalized forces and ``rows`` to the left-hand sides, by the number of the coordinate.
+    ``stated`` are the lines of an answer that show it beside the equations. Of two variants that explain an answer
+    the one with less ``doubt`` is told.
+    """
+
+    what: Text
+    T: sp.Expr = sp.S.Zero
+    V: sp.Expr = sp.S.Zero
+    Xi: Mapping[int, sp.Expr] = field(default_factory=dict)
+    rows: Mapping[int, sp.Expr] = field(default_factory=dict)
+    only: frozenset[int] | None = None
+    element: Element | None = None
+    coordinate: int | None = None
+    stated: frozenset[str] = ENERGIES
+    doubt: int = 0
+
+
+class Misconception(Protocol):
+    """A module of this folder: the step it belongs to, why it is wrong, and its variants in a system."""
+
+    STEP: int
+    WHY: Text
+
+    @property
+    def wrong(self) -> Callable[[Ingredients], Iterator[Variant]]:
+        """Every way to make this mistake in a system."""
+        ...
+
+
+class Ingredients:
+    """What a system's equations are made of, as a misconception takes it apart; definitions are written out."""
+
+    def __init__(self, derivation: Derived) -> None:
+        self.derivation = derivation
+        self.model: Model = derivation.model
+        self.coordinates: tuple[Coordinate, ...] = self.model.coordinates
+        self.n = len(self.coordinates)
+        self.q: list[Any] = [c.symbol for c in self.coordinates]
+        self.v: list[Any] = [c.rate for c in self.coordinates]
+        self.a: list[Any] = [c.acceleration for c in self.coordinates]
+        self._memo: dict[Any, Any] = {}
+
+    def kept(self, key: Any, make: Callable[[], Any]) -> Any:
+        """What ``make`` makes, worked out once for every key."""
+        if key not in self._memo:
+            self._memo[key] = make()
+        return self._memo[key]
+
+    def expand(self, expr: Any) -> sp.Expr:
+        """An expression with definitions written out."""
+        return self.model.expand(sp.sympify(expr), constants=True)
+
+    @cached_property
+    def T(self) -> sp.Expr:
+        """The kinetic co-energy."""
+        return self.expand(self.derivation.T)
+
+    @cached_property
+    def V(self) -> sp.Expr:
+        """The potential energy."""
+        return self.expand(self.derivation.V)
+
+    @cached_property
+    def Xi(self) -> list[sp.Expr]:
+        """The generalized forces."""
+        return [self.expand(self.derivation.Xi[q]) for q in self.q]
+
+    @cached_property
+    def momenta(self) -> list[sp.Expr]:
+        """∂T*/∂ξ̇_i."""
+        return [self.T.diff(v) for v in self.v]
+
+    @cached_property
+    def bodies(self) -> tuple[Any, ...]:
+        """Particles and rigid bodies."""
+        return self.model.bodies
+
+    def position(self, body: Any) -> tuple[sp.Expr, ...]:
+        """Where a body is, in the fixed axes."""
+        return tuple(self.expand(x) for x in self.model.position(body.at))
+
+    def parent(self, body: Any) -> tuple[sp.Expr, ...]:
+        """Where the point is from which a body's place is measured."""
+        zero = (sp.S.Zero,) * self.model.dimension
+        if body.at.parent is None or body.at.parent.is_origin:
+            return zero
+        return tuple(self.expand(x) for x in self.model.position(body.at.parent))
+
+    def velocity(self, body: Any) -> tuple[sp.Expr, ...]:
+        """How fast a body's centre of mass moves, in the fixed axes."""
+        return self.kept(("v", body), lambda: tuple(self.rate(x) for x in self.position(body)))
+
+    def omega(self, body: Any) -> tuple[sp.Expr, ...]:
+        """A rigid body's angular velocity; nothing for a particle."""
+        if ("w", body) not in self._memo:
+            rigid = isinstance(body, RigidBody)
+            self._memo["w", body] = tuple(map(self.expand, body.angular_velocity(self.model))) if rigid else ()
+        return self._memo["w", body]
+
+    def translation(self, body: Any) -> sp.Expr:
+        """½ m v²."""
+        return half_square(self.expand(body.mass), self.velocity(body))
+
+    def rotation(self, body: Any) -> sp.Expr:
+        """½ ωᵀ I ω."""
+        if not isinstance(body, RigidBody):
+            return sp.S.Zero
+        return self.kept(("J", body), lambda: self.rotating(body, self.omega(body)))
+
+    def rotating(self, body: RigidBody, omega: tuple[sp.Expr, ...]) -> sp.Expr:
+        """½ ωᵀ I ω with another ω."""
+        w = sp.Matrix(omega)
+        return self.expand((w.T * body.inertia * w)[0] / 2)
+
+    def kinetic(self, element: Element) -> sp.Expr:
+        """An element's share of T*."""
+        if isinstance(element, (Particle, RigidBody)):
+            return self.translation(element) + self.rotation(element)
+        return self.expand(element.kinetic(self.model))
+
+    def weights(self) -> Iterator[tuple[Gravity, Any, sp.Expr]]:
+        """Gravity, body and m g h for every body that gravity pulls; heights that do not move are left out."""
+        if "weights" not in self._memo:
+            every = [
+                (element, body, self.expand(energy))
+                for element in self.model.elements
+                if isinstance(element, Gravity)
+                for body, _, energy in element.shares(self.model)
+            ]
+            self._memo["weights"] = [w for w in every if self.moves(w[2])]
+        yield from self._memo["weights"]
+
+    def springs(self) -> Iterator[tuple[Spring, sp.Expr, sp.Expr]]:
+        """Spring, extension δ − δ₀ and energy for every spring."""
+        for element in self.model.elements:
+            if isinstance(element, Spring):
+                yield (
+                    element,
+                    self.expand(element.extension(self.model)),
+                    self.expand(element.potential(self.model)),
+                )
+
+    @cached_property
+    def acting(self) -> tuple[Element, ...]:
+        """Forces, torques and dampers."""
+        return tuple(e for e in self.model.elements if e.ledger == "Ξ")
+
+    @cached_property
+    def resisting(self) -> tuple[Element, ...]:
+        """Dampers, and forces that are made of rates alone, which damp as well."""
+        inputs = [u.symbol for u in self.model.inputs]
+        found: list[Element] = []
+        for element in self.acting:
+            shares = self.shares(element).values()
+            drag = bool(shares) and all(x.has(*self.v) and not x.has(*inputs) for x in shares)
+            if isinstance(element, (Damper, Dissipation)) or drag:
+                found.append(element)
+        return tuple(found)
+
+    def actions(self, element: Element) -> tuple[Action, ...]:
+        """An element's actions by virtual work."""
+        return element.works(self.model)
+
+    def xi(self, actions: tuple[Action, ...], i: int) -> sp.Expr:
+        """Σ effort · ∂rate/∂ξ̇_i."""
+        return self.expand(sp.Add(*[a.effort * sp.diff(a.rate, self.v[i]) for a in actions]))
+
+    def shares(self, element: Element) -> dict[int, sp.Expr]:
+        """What an element adds to every Ξ, where it adds anything."""
+        if ("Xi", element) not in self._memo:
+            actions = self.actions(element)
+            found = {i: self.xi(actions, i) for i in range(self.n)}
+            self._memo["Xi", element] = {i: x for i, x in found.items() if x != 0}
+        return self._memo["Xi", element]
+
+    def coupling(self, body: Any, j: int, k: int) -> tuple[sp.Expr, sp.Expr]:
+        """∂²T/∂ξ̇_j∂ξ̇_k of a body's translation and of its rotation: m ∂v/∂ξ̇_j · ∂v/∂ξ̇_k, and the same with I and ω."""
+        slopes = self._slopes(body)
+        (vj, wj), (vk, wk) = slopes[j], slopes[k]
+        turned = (wj.T * body.inertia * wk)[0] if wj is not None and wk is not None else sp.S.Zero
+        return self.expand(body.mass) * vj.dot(vk), self.expand(turned)
+
+    def _slopes(self, body: Any) -> list[tuple[sp.Matrix, sp.Matrix | None]]:
+        """∂v/∂ξ̇ and ∂ω/∂ξ̇ of every coordinate."""
+        if ("slopes", body) not in self._memo:
+            velocity, omega = sp.Matrix(self.velocity(body)), sp.Matrix(self.omega(body))
+            self._memo["slopes", body] = [(velocity.diff(v), omega.diff(v) if omega else None) for v in self.v]
+        return self._memo["slopes", body]
+
+    def rate(self, expr: sp.Expr) -> sp.Expr:
+        """d/dt."""
+        return cast("sp.Expr", sp.diff(expr, time))
+
+    def moves(self, expr: sp.Expr) -> bool:
+        """Whether a coordinate stands in an expression."""
+        return expr.has(*self.q)
+
+    def angles(self, expr: sp.Expr) -> list[sp.Expr]:
+        """What sines and cosines are taken of, where it moves."""
+        found = {cast("sp.Expr", f.args[0]) for f in expr.atoms(sp.sin, sp.cos)}
+        return sorted((a for a in found if a.has(AppliedUndef)), key=sp.default_sort_key)
+
+
+def put(expr: Any, table: Mapping[Any, Any]) -> sp.Expr:
+    """An expression with symbols exchanged for others, all at once."""
+    return cast("sp.Expr", expr.xreplace(dict(table)))
+
+
+def letters(expr: sp.Expr) -> list[Any]:
+    """The constants in an expression, by name."""
+    return sorted((s for s in expr.free_symbols if s != time), key=str)
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A term of an equation, on the left-hand side: the equation's number, the term, and how it is shown."""
+
+    row: int
+    expr: sp.Expr
+    shown: sp.Expr
+
+
+def pieces(s: Ingredients) -> list[Piece]:
+    """The terms of the equations: as they are read, multiplied out, and with cos(a − b) written out."""
+    return s.kept("pieces", lambda: list(_pieces(s)))
+
+
+def _pieces(s: Ingredients) -> Iterator[Piece]:
+    for i, row in enumerate(s.derivation.terms):
+        seen: dict[sp.Expr, Piece] = {}
+        for term in row:
+            sign = -1 if term.kind == "input" else 1
+            whole = s.expand(term.expr) * sign
+            seen.setdefault(whole, Piece(i, whole, term.expr))
+            for part in _addends(s, whole):
+                seen.setdefault(part, Piece(i, part, part))
+        yield from list(seen.values())[:MOST_PIECES]
+
+
+def _addends(s: Ingredients, term: sp.Expr) -> Iterator[sp.Expr]:
+    """The terms of a term: multiplied out, with sums of angles written out, and split by sin² + cos² = 1."""
+    expanded = bounded.expand(term)
+    yield from sp.Add.make_args(expanded)
+    if expanded.has(sp.sin, sp.cos):
+        for part in sp.Add.make_args(bounded.expand_angles(expanded)):
+            yield part
+        return
+    for f in sorted({a for a in s.angles(s.T + s.V) if a in s.q}, key=str):
+        for part in sp.Add.make_args(expanded):
+            yield part * sp.sin(f) ** 2
+            yield part * sp.cos(f) ** 2
+
+
+def half_square(mass: sp.Expr, velocity: tuple[sp.Expr, ...]) -> sp.Expr:
+    """½ m (v_x² + v_y² + …)."""
+    return mass / 2 * sp.Add(*[v**2 for v in velocity])
+
+
+def negative(forces: Mapping[int, sp.Expr], times: Any = 1) -> dict[int, sp.Expr]:
+    """The forces with their sign turned, times a factor."""
+    return {i: -times * x for i, x in forces.items()}

@@ -1,0 +1,25 @@
+"""A prescribed motion left out of the velocities."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lagrangian.check.misconceptions.base import Ingredients, Variant, half_square, put
+from lagrangian.page.formula import text
+
+STEP = 2
+WHY = text("A velocity is d/dt of a position: what moves by itself in time, such as a shaken pivot, is part of it.")
+
+
+def wrong(s: Ingredients) -> Iterator[Variant]:
+    """Every body whose velocity does not vanish when all rates do."""
+    for body in s.bodies:
+        zero = dict.fromkeys(s.v, 0)
+        velocity = s.velocity(body)
+        free = tuple(put(x, zero) for x in velocity)
+        if any(x != 0 for x in free):
+            own = tuple(x - f for x, f in zip(velocity, free, strict=True))
+            change = half_square(s.expand(body.mass), own) - s.translation(body)
+            yield Variant(
+                what=text(f"The prescribed motion is missing in the velocity of {body.title}."), T=change, element=body
+            )

@@ -1,0 +1,25 @@
+"""The factor 2 of a Coriolis term missing."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lagrangian.check.misconceptions.base import Ingredients, Variant
+from lagrangian.check.misconceptions.velocity_terms_forgotten import velocity_terms
+from lagrangian.page.formula import text
+
+STEP = 5
+WHY = text("d/dt (r²θ̇) = r²θ̈ + 2rṙθ̇: the derivative of a square brings the factor 2.")
+
+
+def wrong(s: Ingredients) -> Iterator[Variant]:
+    """Half of the products of two rates: in every equation, and in each one."""
+    products = {i: velocity_terms(s, i)[1] for i in range(s.n)}
+    held = {i: x for i, x in products.items() if x != 0}
+    if len(held) > 1:
+        yield Variant(
+            what=text("The factor 2 of the Coriolis terms is missing."), rows={i: -x / 2 for i, x in held.items()}
+        )
+    for i, x in held.items():
+        what = text("The factor 2 of the Coriolis term is missing in the equation of ", s.q[i], ".")
+        yield Variant(what=what, rows={i: -x / 2}, coordinate=i)

@@ -1,0 +1,21 @@
+"""−½bξ̇: the half of Rayleigh's function left in the force."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lagrangian.check.misconceptions.base import Ingredients, Variant
+from lagrangian.page.formula import Name, text
+
+STEP = 6
+WHY = text("D = ½bδ̇² is differentiated by the rate: the force is bδ̇, without the ½.")
+
+
+def wrong(s: Ingredients) -> Iterator[Variant]:
+    """Every damper with half its force."""
+    for element in s.resisting:
+        what = text(f"{element.title[:1].upper() + element.title[1:]} adds half its force to ", Name("Xi"), ".")
+        shares = s.shares(element)
+        yield Variant(what=what, Xi={i: -x / 2 for i, x in shares.items()}, element=element)
+        for i, x in shares.items() if len(shares) > 1 else ():
+            yield Variant(what=what, Xi={i: -x / 2}, element=element, coordinate=i)

@@ -1,0 +1,26 @@
+"""A damper counted in V, as if it stored energy."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lagrangian.check.misconceptions.base import Ingredients, Variant, negative
+from lagrangian.model import Damper
+from lagrangian.page.formula import Name, text
+
+STEP = 3
+WHY = text("A damper stores nothing: it has no potential energy, and belongs to Ξ alone.")
+
+
+def wrong(s: Ingredients) -> Iterator[Variant]:
+    """½ b δ² in V, ½ b δ̇² in V; in place of its Ξ or beside it."""
+    for element in s.acting:
+        if not isinstance(element, Damper) or element.b is None:
+            continue
+        b, shares = s.expand(element.b), s.shares(element)
+        delta, rate = s.expand(element.displacement(s.model)), s.expand(element.rate(s.model))
+        what = text(f"{element.title[:1].upper() + element.title[1:]} is counted in ", Name("V"), ".")
+        for gone in (negative(shares), {}):
+            yield Variant(what=what, V=b * delta**2 / 2, Xi=gone, element=element)
+            yield Variant(what=what, T=-b * rate**2 / 2, Xi=gone, element=element, stated=frozenset({"L", "Xi"}))
+        yield Variant(what=what, V=b * rate**2 / 2, element=element)

@@ -1,0 +1,27 @@
+"""A force or torque of several terms with one of them left out, as a motor without its back-EMF."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.misconceptions.base import Ingredients, Variant
+from lagrangian.page.formula import text
+
+STEP = 6
+WHY = text(
+    "What acts on the motion is every term of a force: a motor that turns also takes away the torque of its back-EMF, "
+    "and a term in a rate is a force as well."
+)
+
+
+def wrong(s: Ingredients) -> Iterator[Variant]:
+    """Every share without one of its terms, where it is no question of direction."""
+    for element in s.acting:
+        for i, x in s.shares(element).items():
+            pieces = sp.Add.make_args(bounded.expand(x))
+            for piece in pieces if len(pieces) > 1 and not x.has(sp.sin, sp.cos) else ():
+                what = text("The term ", piece, f" of what {element.title} adds is forgotten.")
+                yield Variant(what=what, Xi={i: -piece}, element=element, coordinate=i)

@@ -1,0 +1,27 @@
+"""+∂L/∂ξ in place of −∂L/∂ξ."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import sympy as sp
+
+from lagrangian.check.misconceptions.base import Ingredients, Variant
+from lagrangian.page.formula import Partial, text
+
+STEP = 5
+WHY = text("The left-hand side is d/dt ∂L/∂ξ̇ minus ∂L/∂ξ.")
+
+
+def wrong(s: Ingredients) -> Iterator[Variant]:
+    """∂T*/∂ξ with the other sign, and all of ∂L/∂ξ: in every equation, and in each one."""
+    L = sp.Symbol("L")
+    for energy in (s.T - s.V, s.T):
+        slopes = [energy.diff(q) for q in s.q]
+        if sum(x != 0 for x in slopes) > 1:
+            what = text("∂L/∂ξ has the wrong sign in every equation.")
+            yield Variant(what=what, rows={i: 2 * x for i, x in enumerate(slopes) if x != 0})
+        for i, x in enumerate(slopes):
+            if x != 0:
+                what = text(Partial(L, s.q[i]), " has the wrong sign.")
+                yield Variant(what=what, rows={i: 2 * x}, coordinate=i)

@@ -1,0 +1,31 @@
+"""The height of another point of the body: its end in place of its centre of mass, or half the way."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import sympy as sp
+
+from lagrangian.check.misconceptions.base import Ingredients, Variant, letters
+from lagrangian.page.formula import text
+
+STEP = 3
+WHY = text("h is the height of the centre of mass: for a uniform rod that is half its length.")
+
+
+def wrong(s: Ingredients) -> Iterator[Variant]:
+    """Every weight with twice and with half the distance from the parent; without the arm at all."""
+    for gravity, body, V in s.weights():
+        n = [s.expand(x) for x in gravity.direction]
+        own = sp.Add(*[-a * (x - p) for a, x, p in zip(n, s.position(body), s.parent(body), strict=True)])
+        mg = s.expand(body.mass) * s.expand(gravity.g)
+        for times, word in ((1, "twice"), (-sp.S.Half, "half")):
+            what = text(f"The height of {body.title} is taken {word} as far out as its centre of mass.")
+            if s.moves(own):
+                yield Variant(what=what, V=times * mg * own, element=gravity)
+            if mg * own != V:
+                yield Variant(what=what, V=times * V, element=gravity)
+        for p in letters(own):
+            if own.diff(p) != 0 and own.subs(p, 0) == 0 and not own.diff(p).has(p):
+                what = text(f"The weight of {body.title} comes without its arm ", p, ".")
+                yield Variant(what=what, V=mg * (own.diff(p) - own), element=gravity)

@@ -1,0 +1,56 @@
+"""Two parameters of one kind taken for each other: L₁ for L₂, k₁ for k₂."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import combinations
+
+import sympy as sp
+
+from lagrangian.check.misconceptions.base import Ingredients, Variant, put
+from lagrangian.page.formula import Name, text
+from lagrangian.page.plain import plain
+
+STEP = 2
+WHY = text("Every element has its own length, stiffness or damping; stay with the letters of the sketch.")
+
+
+def wrong(s: Ingredients) -> Iterator[Variant]:
+    """Every pair of parameters with one first letter: exchanged everywhere, or one for the other."""
+    symbols = [p.symbol for p in s.model.parameters]
+    for p, q in combinations(symbols, 2):
+        if p.name[0].lower() != q.name[0].lower():
+            continue
+        both = {p: q, q: p}
+        yield _put(s, both, text(p, " and ", q, " are exchanged."))
+        for a, b in ((p, q), (q, p)):
+            yield _put(s, {a: b}, text(b, " stands in place of ", a, "."))
+            for part in ("T", "V"):
+                energy = s.T if part == "T" else s.V
+                change = put(energy, {a: b}) - energy
+                if change == 0:
+                    continue
+                what = text(b, " stands in place of ", a, " in ", Name("T*" if part == "T" else "V"), ".")
+                yield Variant(what=what, T=change) if part == "T" else Variant(what=what, V=change)
+            yield from _in_elements(s, a, b)
+
+
+def _put(s: Ingredients, table: dict[sp.Symbol, sp.Symbol], what: object) -> Variant:
+    forces = {i: put(x, table) - x for i, x in enumerate(s.Xi) if put(x, table) != x}
+    return Variant(what=what, T=put(s.T, table) - s.T, V=put(s.V, table) - s.V, Xi=forces)  # type: ignore[arg-type]
+
+
+def _in_elements(s: Ingredients, a: sp.Symbol, b: sp.Symbol) -> Iterator[Variant]:
+    for element in s.model.elements:
+        T = s.kinetic(element)
+        V = s.expand(element.potential(s.model))
+        what = text(f"{plain(b)} stands in place of {plain(a)} in {element.title}.")
+        if T.has(a):
+            yield Variant(what=what, T=put(T, {a: b}) - T, element=element)
+        if V.has(a):
+            yield Variant(what=what, V=put(V, {a: b}) - V, element=element)
+        if element.ledger == "Ξ":
+            shares = s.shares(element)
+            changed = {i: put(x, {a: b}) - x for i, x in shares.items() if x.has(a)}
+            if changed:
+                yield Variant(what=what, Xi=changed, element=element)

@@ -1,0 +1,19 @@
+"""L = T* + V."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lagrangian.check.misconceptions.base import Ingredients, Variant
+from lagrangian.page.formula import Minus, Name, Terms, text
+
+STEP = 4
+WHY = text("The Lagrangian is kinetic minus potential energy.")
+
+
+def wrong(s: Ingredients) -> Iterator[Variant]:
+    """The whole of V with the other sign; as one line, L alone shows it."""
+    if s.moves(s.V):
+        right = Terms((Name("T*"), Minus(Name("V"))))
+        what = text("You took ", Name("L"), " = ", Terms((Name("T*"), Name("V"))), " in place of ", right, ".")
+        yield Variant(what=what, V=-2 * s.V, stated=frozenset({"L"}))

@@ -1,0 +1,61 @@
+"""Sine and cosine exchanged in a height, a deflection or a force."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import sympy as sp
+
+from lagrangian.check.misconceptions.base import Ingredients, Variant, put
+from lagrangian.page.formula import Name, text
+
+STEP = 3
+WHY = text(
+    "Look where the angle is measured from: along that line stands the cosine, across it the sine. "
+    "Try a special position, such as an angle of zero."
+)
+
+
+def wrong(s: Ingredients) -> Iterator[Variant]:
+    """Every weight, every spring, all of V, all of T* and every force with sin for cos; with both signs of it."""
+    pieces = [(gravity, V, f"the weight of {body.title}") for gravity, body, V in s.weights()]
+    pieces += [(spring, V, f"the energy of {spring.title}") for spring, _, V in s.springs()]
+    for element, V, words in pieces:
+        for other in _swapped(V):
+            yield Variant(what=text(f"Sine and cosine are exchanged in {words}."), V=other - V, element=element)
+    for other in _swapped(s.V):
+        yield Variant(what=text("Sine and cosine are exchanged in ", Name("V"), "."), V=other - s.V)
+    for body in s.bodies:
+        own = s.kinetic(body)
+        for other in _swapped(own):
+            what = text(f"Sine and cosine are exchanged in the energy of motion of {body.title}.")
+            yield Variant(what=what, T=other - own, element=body)
+    yield from _in_rows(s)
+    for element in s.acting:
+        shares = s.shares(element)
+        for k in (0, 1):
+            turned = {i: _swapped(x)[k] - x for i, x in shares.items() if _swapped(x)}
+            if turned:
+                what = text(f"Sine and cosine are exchanged in what {element.title} adds to ", Name("Xi"), ".")
+                yield Variant(what=what, Xi=turned, element=element)
+
+
+def _in_rows(s: Ingredients) -> Iterator[Variant]:
+    """One term of one equation."""
+    for i, row in enumerate(s.derivation.terms):
+        for term in row:
+            expr = s.expand(term.expr) * (-1 if term.kind == "input" else 1)
+            for other in _swapped(expr) if s.moves(expr) else ():
+                what = text(
+                    "Sine and cosine are exchanged in the term ", term.expr, " of the equation of ", s.q[i], "."
+                )
+                yield Variant(what=what, rows={i: other - expr}, coordinate=i, stated=frozenset())
+
+
+def _swapped(expr: sp.Expr) -> tuple[sp.Expr, ...]:
+    """The expression with sine for cosine and cosine for sine, and with the sign turned; nothing without any."""
+    table: dict[sp.Expr, sp.Expr] = {}
+    for f in expr.atoms(sp.sin, sp.cos):
+        table[f] = sp.cos(f.args[0]) if isinstance(f, sp.sin) else sp.sin(f.args[0])
+    changed = put(expr, table)
+    return (changed, -changed) if changed != expr else ()

@@ -1,0 +1,38 @@
+"""A spring between two bodies taken as one between a body and the ground."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import sympy as sp
+
+from lagrangian.check.misconceptions.base import Ingredients, Variant, put
+from lagrangian.page.formula import text
+
+STEP = 3
+WHY = text("Be careful: the Δx of a spring between two bodies is the motion of one relative to the other.")
+
+
+def wrong(s: Ingredients) -> Iterator[Variant]:
+    """Every linear spring with one coordinate of its deflection alone, or with a relative one made absolute."""
+    for spring, extension, V in s.springs():
+        held = [q for q in s.q if extension.has(q)]
+        if spring.k is None or not held:
+            continue
+        title, k = spring.title[:1].upper() + spring.title[1:], s.expand(spring.k)
+        if not any(extension.diff(q).has(*s.q) for q in held):
+            for q, p in ((q, p) for q in held for p in s.q if p not in held):
+                what = text(f"{title} is stretched by ", q + p, " in your V, as if to the ground.")
+                yield Variant(what=what, V=k * put(extension, {q: q + p}) ** 2 / 2 - V, element=spring)
+            each = sp.Add(*[(extension.diff(q) * q) ** 2 for q in held])
+            yield Variant(
+                what=text(f"{title} pulls each body as if to the ground."), V=k * each / 2 - V, element=spring
+            )
+        if len(held) < 2:
+            continue
+        for q in held:
+            own = put(extension, {p: sp.S.Zero for p in held if p != q})
+            if own.has(sp.nan, sp.zoo):
+                continue
+            what = text(f"{title} is stretched by ", q, " alone in your V.")
+            yield Variant(what=what, V=k * own**2 / 2 - V, element=spring)

@@ -1,0 +1,24 @@
+"""A rigid body that only turns: ½mv² of its centre of mass forgotten."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lagrangian.check.misconceptions.base import Ingredients, Variant
+from lagrangian.page.formula import text
+
+STEP = 2
+WHY = text("J is about the centre of mass; where the centre of mass itself moves, its ½mv² counts as well.")
+
+
+def wrong(s: Ingredients) -> Iterator[Variant]:
+    """Every rigid body without the motion of its centre of mass."""
+    for body in s.bodies:
+        if s.rotation(body) != 0 and s.translation(body) != 0:
+            yield Variant(what=text(f"½mv² of {body.title} is missing."), T=-s.translation(body), element=body)
+            for j, v in enumerate(s.v):
+                turned = any(w.has(v) for w in s.omega(body))
+                own = s.coupling(body, j, j)[0] * v**2 / 2
+                if turned and own not in (0, s.translation(body)):
+                    what = text(f"J of {body.title} is about its centre of mass: the m d² of its swing is missing.")
+                    yield Variant(what=what, T=-own, element=body)

@@ -1,0 +1,52 @@
+"""Centrifugal or Coriolis terms left out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import sympy as sp
+
+from lagrangian.check.misconceptions.base import Ingredients, Variant
+from lagrangian.page.formula import text
+
+STEP = 5
+WHY = text(
+    "Where T* depends on the coordinates, the equations hold squares of rates (centrifugal terms) and products of two "
+    "rates (Coriolis terms)."
+)
+
+
+def wrong(s: Ingredients) -> Iterator[Variant]:
+    """All, the squares, the products: everywhere and in each equation; the products with half their factor."""
+    squares, products = zip(*[velocity_terms(s, i) for i in range(s.n)], strict=True)
+    both = tuple(a + b for a, b in zip(squares, products, strict=True))
+    kinds = ((both, "products of rates"), (squares, "centrifugal terms"), (products, "Coriolis terms"))
+    for parts, words in kinds:
+        held = {i: x for i, x in enumerate(parts) if x != 0}
+        if parts is not both and tuple(parts) == both:
+            continue
+        if len(held) > 1:
+            yield Variant(what=text(f"The {words} are missing."), rows={i: -x for i, x in held.items()})
+        for i, x in held.items():
+            what = text(f"The {words} are missing in the equation of ", s.q[i], ".")
+            yield Variant(what=what, rows={i: -x}, coordinate=i)
+
+
+def velocity_terms(s: Ingredients, i: int) -> tuple[sp.Expr, sp.Expr]:
+    """Worked out once, see `_velocity_terms`."""
+    return s.kept(("velocity terms", i), lambda: _velocity_terms(s, i))
+
+
+def _velocity_terms(s: Ingredients, i: int) -> tuple[sp.Expr, sp.Expr]:
+    """The squares of rates and the products of two rates in equation i: Σ_jk (∂²T/∂ξ̇_i∂ξ̇_j)_k ξ̇_j ξ̇_k − ∂T/∂ξ_i."""
+    whole = sp.Add(*[s.momenta[i].diff(s.q[k]) * s.v[k] for k in range(s.n)]) - s.T.diff(s.q[i])
+    squares: list[sp.Expr] = []
+    products: list[sp.Expr] = []
+    for j in range(s.n):
+        slope = whole.diff(s.v[j])
+        for k in range(j, s.n):
+            factor = slope.diff(s.v[k])
+            if factor == 0:
+                continue
+            (squares if j == k else products).append(factor * s.v[j] * s.v[k] / (2 if j == k else 1))
+    return sp.Add(*squares), sp.Add(*products)

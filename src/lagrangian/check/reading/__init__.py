@@ -1,0 +1,7 @@
+"""Answers that people typed or wrote in LaTeX: equations, energies, generalized forces, whole hand derivations."""
+
+from lagrangian.check.reading.answer import Answer, AnswerLine, Kind, Unknown
+from lagrangian.check.reading.placeholders import ENERGIES, generalized_force
+from lagrangian.check.reading.read import MAX_ANSWER, parse_answer
+
+__all__ = ["ENERGIES", "MAX_ANSWER", "Answer", "AnswerLine", "Kind", "Unknown", "generalized_force", "parse_answer"]

@@ -1,0 +1,228 @@
+"""LaTeX cut into statements: mathematics found among the words, environments opened, rows and their continuations."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from itertools import pairwise
+
+from lagrangian.check.reading.latex_tokens import MATRICES, SYMMETRIC
+from lagrangian.check.reading.rows import MAX_STATEMENTS, Row, blank, incomplete, plain_words
+
+_COMMENT = re.compile(r"(?<!\\)%.*")
+_DISPLAYS = [
+    "equation",
+    "align",
+    "gather",
+    "multline",
+    "eqnarray",
+    "flalign",
+    "alignat",
+    "displaymath",
+    "math",
+    "dmath",
+]
+_OPENING = re.compile(rf"(?<!\\)\$\$?|\\\[|\\\(|\\begin\{{(?P<kind>(?:{'|'.join(_DISPLAYS)})\*?)\}}")
+_CLOSING = {"$": "$", "$$": "$$", "\\[": "\\]", "\\(": "\\)"}
+_WRAPPERS = [*_DISPLAYS, *["aligned", "alignedat", "gathered", "split", "subequations", "document", "center"]]
+_WRAPPER = re.compile(rf"\\(?:begin|end)\{{(?:{'|'.join(_WRAPPERS)})\*?\}}(?:\[[tcb]\])?")
+_SYSTEM = re.compile(
+    r"(?:\\left\s*(?:\\\{|\\lbrace|\.)\s*)?\\begin\{(?P<kind>array|cases|dcases)\}(?:\s*\{[lcr|@{}\s]{0,40}\})?"
+    r"(?P<rows>(?:(?!\\begin|\\end)[^=])*=(?:(?!\\begin\{(?P=kind)\}).)*?)\\end\{(?P=kind)\}"
+    r"(?:\s*\\right\s*(?:\.|\\\}|\\rbrace))?",
+    re.DOTALL,
+)
+_NOTE = re.compile(r"\\(?:label|tag\*?|ref|eqref|intertext|hspace\*?|vspace\*?|color)\s*\{[^{}]{0,200}\}")
+_BOXED = re.compile(r"\\(?:boxed|fbox|ensuremath)\s*\{")
+_WORDS = re.compile(r"(?<![_^{])(?<![_^]\s)\\(?:text|textbf|textit|textrm|mbox|emph)\s*\{")
+_SHORT = re.compile(r"\w{1,20}\Z")
+_LINKS = frozenset(
+    ["and", "where", "with", "so", "then", "for", "or", "hence", "thus", "therefore", "gives", "if", "when", "let"]
+)
+_SYMMETRIC = frozenset(["sym", "symm", "symmetric"])
+_MARK = re.compile(r"\\begin\{(\w+\*?)\}|\\end\{(\w+\*?)\}|\\\\(?:\s*\[[^\]\n]{0,20}\])?|\\[{}]|[{}]|\n")
+_SPACE = r"(?:\s|&|~|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})*"
+_NUMBER_BEFORE = re.compile(rf"{_SPACE}\(\s*\d{{1,3}}[a-z]?\s*\)(?={_SPACE}[^\s=+\-*/^])(?=.*=)", re.DOTALL)
+_PIECE = re.compile(r"(?:\s|&|~|\x00|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})|(?P<content>.)", re.DOTALL)
+_NUMBER = re.compile(r"\(\s*(?:\d{1,3}[a-z]?|[ivx]{1,4})\s*\)\Z")
+_GAP = re.compile(r"(?:\\q?quad|&|~|\s\s|\\[,;: ])\s*\Z")
+_ARROW = re.compile(rf"{_SPACE}\\(?:Rightarrow|implies|therefore|iff|Leftrightarrow|Longrightarrow|to|rightarrow)\b")
+_INDENTED = re.compile(r"\s*&?\s*(?:\\q?quad(?![A-Za-z])|\{\s*\})")
+_STARTS = re.compile(rf"{_SPACE}(?:[+*/=·×)\]^]|\\(?:cdot|times|right)(?![A-Za-z]))")
+_MINUS = re.compile(rf"{_SPACE}[-−–]")
+_CUT = re.compile(r"[,;](?!\w)|\\q?quad(?![A-Za-z])|\x00")
+
+
+def latex_rows(text: str) -> list[Row]:
+    """Return the statements of an answer in LaTeX; words around the mathematics are left out."""
+    text = _COMMENT.sub(lambda m: " " * len(m.group()), text)
+    found = list(_mathematics(text))
+    if not found:
+        return _statements(text, 0, lines=True)
+    rows: list[Row] = []
+    for start, inside in [x for x in found if "=" in x[1]] or found:
+        if len(rows) > MAX_STATEMENTS:
+            break
+        rows += _statements(inside, start, lines=False)
+    return rows
+
+
+def _mathematics(text: str) -> Iterator[tuple[int, str]]:
+    """The pieces between the marks of mathematics, with where each begins."""
+    at, missing = 0, set[str]()
+    while (match := _OPENING.search(text, at)) is not None:
+        closing = _CLOSING.get(match.group(), f"\\end{{{match['kind']}}}")
+        end = -1 if closing in missing else text.find(closing, match.end())
+        if end < 0:
+            missing.add(closing)
+            at = match.end()
+        else:
+            yield match.end(), text[match.end() : end]
+            at = end + len(closing)
+
+
+def _statements(text: str, start: int, *, lines: bool) -> list[Row]:
+    """The statements of one piece of mathematics; ``lines``: a line's end may end a statement."""
+    text = _SYSTEM.sub(lambda m: m["rows"].rjust(m.end("rows") - m.start()).ljust(len(m.group())), text)
+    for form in (_WRAPPER, _NOTE):
+        text = form.sub(lambda m: " " * len(m.group()), text)
+    text = _without_words(_unboxed(text))
+    rows: list[Row] = []
+    for at, piece, hard in _cut(text, lines):
+        kept = _labels(piece)
+        if not _content(kept):
+            continue
+        if rows and (previous := rows[-1]) and _continues(previous.text, piece, hard):
+            gap = at + start - previous.start - len(previous.text)
+            rows[-1] = Row(previous.start, previous.text + " " * gap + kept)
+        elif "\\" in kept or not plain_words(kept):
+            rows.append(Row(at + start, kept))
+    return [part for row in rows for part in _parts(_tidy(row))]
+
+
+def _without_words(text: str) -> str:
+    """Replace words by a mark and spaces; a short word that may be a name stays."""
+    at = 0
+    while (match := _WORDS.search(text, at)) is not None:
+        end = _closing(text, match.end())
+        words = text[match.end() : end - 1].strip()
+        symmetric = words.lower().rstrip(".") in _SYMMETRIC
+        if symmetric or not _SHORT.match(words) or words.lower() in _LINKS:
+            text = blank(text, match.start(), end)
+            text = text[: match.start()] + (SYMMETRIC if symmetric else "\x00") + text[match.start() + 1 :]
+        at = end
+    return text
+
+
+def _unboxed(text: str) -> str:
+    r"""Blank out every ``\boxed{`` and the brace that closes it."""
+    if "\\boxed" not in text and "\\fbox" not in text and "\\ensuremath" not in text:
+        return text
+    letters, boxes = list(text), list[bool]()
+    for match in re.finditer(rf"{_BOXED.pattern}|\\[{{}}]|[{{}}]", text):
+        mark = match.group()
+        if mark.endswith("{") and mark != "\\{":
+            boxes.append(len(mark) > 1)
+        if len(mark) > 2 or (mark == "}" and boxes and boxes.pop()):
+            letters[match.start() : match.end()] = " " * len(mark)
+    return "".join(letters)
+
+
+def _closing(text: str, start: int) -> int:
+    """Where the brace that was opened before ``start`` has closed."""
+    depth, at = 1, start
+    while at < len(text) and depth:
+        if text[at] == "\\":
+            at += 1
+        else:
+            depth += {"{": 1, "}": -1}.get(text[at], 0)
+        at += 1
+    return at
+
+
+def _cut(text: str, lines: bool) -> list[tuple[int, str, bool]]:
+    """Pieces between row separators outside braces and matrices, whether each begins after an explicit one."""
+    cuts: list[tuple[int, int, bool]] = [(0, 0, True)]
+    depth = matrices = 0
+    for match in _MARK.finditer(text):
+        mark = match.group()
+        if mark in ("{", "}"):
+            depth += 1 if mark == "{" else -1
+        elif match[1] or match[2]:
+            matrices += 1 if match[1] else -1
+        elif depth <= 0 and matrices <= 0 and (mark.startswith("\\\\") or (lines and mark == "\n")):
+            cuts.append((match.start(), match.end(), mark != "\n"))
+    cuts.append((len(text), len(text), True))
+    return [(a[1], text[a[1] : b[0]], a[2]) for a, b in pairwise(cuts)]
+
+
+def _labels(piece: str) -> str:
+    """Blank out arrows, and numbers of equations before and behind."""
+    for form in (_ARROW, _NUMBER_BEFORE):
+        if match := form.match(piece):
+            piece = blank(piece, 0, match.end())
+    end = _content_end(piece)
+    if (number := _NUMBER.search(piece[max(0, end - 12) : end])) is not None:
+        start = end - len(number.group())
+        if _GAP.search(piece[max(0, start - 12) : start]):
+            piece = blank(piece, start, len(piece))
+    return piece
+
+
+def _content_end(piece: str) -> int:
+    """Where spacing, alignment marks and words begin that only follow."""
+    return max((m.end() for m in _PIECE.finditer(piece) if m["content"] is not None), default=0)
+
+
+def _content(piece: str) -> bool:
+    """Whether anything but spacing and punctuation stands there."""
+    return any(m["content"] not in (None, ".", ",", ";") for m in _PIECE.finditer(piece))
+
+
+def _continues(before: str, piece: str, hard: bool) -> bool:
+    """Whether a row goes on with the one before it."""
+    if _STARTS.match(piece) or (hard and _INDENTED.match(piece)) or incomplete(before.replace("&", " ").rstrip("\\ ,")):
+        return True
+    return bool(_MINUS.match(piece)) and (("=" in before) != ("=" in piece))
+
+
+def _tidy(row: Row) -> Row:
+    text = row.text.replace("&", " ") if not any(f"{{{m}}}" in row.text for m in MATRICES) else _outer(row.text)
+    end = _content_end(text)
+    while end and text[end - 1] in ".,;":
+        end -= 2 if text[end - 2 : end - 1] == "\\" else 1
+        end = _content_end(text[:end])
+    return Row(row.start, text[:end])
+
+
+def _outer(text: str) -> str:
+    """Blank out the & that align rows, not those of matrices."""
+    matrices, letters = 0, list(text)
+    for match in re.finditer(r"\\begin|\\end|&", text):
+        if match.group() == "&":
+            if matrices <= 0:
+                letters[match.start()] = " "
+        else:
+            matrices += 1 if match.group() == "\\begin" else -1
+    return "".join(letters)
+
+
+def _parts(row: Row) -> list[Row]:
+    """Split a row at commas, wide spaces and words outside brackets, where every piece states something."""
+    if any("\x00" in side and not _content(side) for side in row.text.split("=")):
+        return []  # one side is words: a remark
+    depth, cuts = 0, [(0, 0)]
+    for match in re.finditer(rf"[(\[{{}}\])]|\\begin|\\end|{_CUT.pattern}", row.text):
+        mark = match.group()
+        if mark in "([{" or mark == "\\begin":
+            depth += 1
+        elif mark in ")]}" or mark == "\\end":
+            depth -= 1
+        elif depth <= 0:
+            cuts.append((match.start(), match.end()))
+    cuts.append((len(row.text), len(row.text)))
+    pieces = [(a[1], row.text[a[1] : b[0]]) for a, b in pairwise(cuts)]
+    pieces = [(at, piece) for at, piece in pieces if _content(piece)]
+    if all("=" in piece for _, piece in pieces):
+        return [Row(row.start + at, piece) for at, piece in pieces]
+    return [Row(row.start, row.text.replace("\x00", " "))]

@@ -1,0 +1,166 @@
+r"""Symbols in LaTeX: letters with subscripts, dots and stars; a run of letters is split into known names.
+
+A run that no known names make up, and that is nearly one of them, is a name that was misspelled.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from lagrangian.check.reading.latex_tokens import tokenize
+from lagrangian.check.reading.parser import Parser, Token
+from lagrangian.quantities.source import Source
+from lagrangian.read.letters import normal
+
+
+class LatexSymbols(Parser):
+    """The part of the parser that reads names.
+
+    ``known`` says whether a name means something, ``misspelled`` whether a run of letters is nearly a name.
+    """
+
+    def __init__(self, source: Source, known: Callable[[str], bool], misspelled: Callable[[str], bool]) -> None:
+        super().__init__(source, tokenize(source))
+        self.known, self.misspelled = known, misspelled
+
+    def _base(self) -> tuple[str, int, int]:
+        """A letter, a Greek one, a word, dotted or decorated: its name, its dots, where it begins."""
+        token = self.take()
+        if token.kind in ("accent", "decoration"):
+            self.deeper(token.start)
+            braced = self.accept("{")
+            if self.next.kind not in ("letters", "symbol", "upright", "accent", "decoration"):
+                raise self.stopped(True)
+            if not braced and self.next.kind == "letters" and len(self.next.text) > 1:
+                self._cut(1)
+            base, order, _ = self._base()
+            while braced and self.next.kind in ("_", "lowered"):
+                base = f"{base}_{self._subscript()}" if self.next.kind == "_" else base + normal(self.take().text)
+            if braced and not self.accept("}"):
+                raise self.stopped(False)
+            self.opened.pop()
+            if token.kind == "accent":
+                return base, order + int(token.text), token.start
+            return (base if base.startswith("bold ") else f"{base}_{token.text}"), order, token.start
+        if token.kind != "letters":
+            return token.text, 0, token.start
+        self.i -= 1
+        self._cut(self._first_name(token))
+        token = self.take()
+        if self._digits_belong(token):
+            return token.text + self.take().text, 0, token.start
+        return token.text, 0, token.start
+
+    def _digits_belong(self, token: Token) -> bool:
+        """Whether the number right behind a letter is part of its name: x1."""
+        behind = self.next
+        if behind.kind != "number" or behind.start != token.end or not behind.text.isdigit():
+            return False
+        return self.known(token.text + behind.text) or not self.known(token.text)
+
+    def _first_name(self, token: Token) -> int:
+        """How many letters of a run are its first name: the longest that is known with what follows it, else one."""
+        run = token.text
+        ending = ""
+        if self.ahead().kind == "_":
+            at = self.i
+            self.i += 1
+            ending = "_" + self._subscript()
+            self.i = at
+        elif self.ahead().kind == "number" and self.ahead().start == token.end:
+            ending = self.ahead().text
+        elif self.ahead().kind == "lowered":
+            ending = normal(self.ahead().text)
+        if self.misspelled(run):
+            return len(run)
+        for length in range(len(run), 0, -1):
+            candidate = run[:length] + (ending if length == len(run) else "")
+            if self.known(candidate) or (length == len(run) and length > 1 and self.known(run)):
+                return length
+        return 1
+
+    def _cut(self, length: int) -> None:
+        """Cut the run of letters that comes next after ``length`` of them."""
+        token = self.next
+        if length < len(token.text):
+            middle = token.start + length
+            first = replace(token, text=token.text[:length], end=middle)
+            self.tokens[self.i : self.i + 1] = [first, replace(token, text=token.text[length:], start=middle)]
+
+    def _subscript(self) -> str:
+        """The letters and digits behind _, written one after the other; long ones in braces."""
+        underscore = self.take()
+        if self.next.kind != "{":
+            if self.next.kind not in ("letters", "number", "symbol", "upright"):
+                raise self.stopped(True)
+            return self.take().text.removeprefix("bold ")
+        text, depth = "", 0
+        while True:
+            token = self.take()
+            if token.kind in ("letters", "number", "symbol", "upright", "lowered", "function"):
+                text += normal(token.text)
+            elif token.kind == "{":
+                depth += 1
+            elif token.kind == "}":
+                depth -= 1
+            elif token.kind not in (",", "_"):
+                raise self.source.error(
+                    "a subscript holds letters and digits only",
+                    underscore.start,
+                    fix="write x_1, x_{2r}, L_{\\mathrm{a}}",
+                )
+            if not depth:
+                return text
+
+    def _raised_primes(self) -> int:
+        """The primes in ^\\prime or ^{\\prime\\prime}; goes past them."""
+        at = self.i + 1
+        braced = self.tokens[at].kind == "{"
+        at += braced
+        count = 0
+        while self.tokens[at].kind == "prime":
+            count, at = count + 1, at + 1
+        if not count or (braced and self.tokens[at].kind != "}"):
+            return 0
+        self.i = at + braced
+        return count
+
+    def _depends(self, base: str) -> int:
+        """How many tokens say what a quantity depends on, and no product: V(θ) = …, C(q, q̇); 0 where none do."""
+        if self.next.kind != "(":
+            return 0
+        plain, commas, end = True, 0, self.i + 1
+        while self.tokens[end].kind not in (")", "end"):
+            kind = self.tokens[end].kind
+            commas += kind == ","
+            plain = plain and kind in (
+                "letters",
+                "symbol",
+                "upright",
+                "accent",
+                "_",
+                "{",
+                "}",
+                "number",
+                ",",
+                "lowered",
+            )
+            end += 1
+        if not plain or end == self.i + 1 or self.tokens[end].kind == "end":
+            return 0
+        stated = self.tokens[end + 1].kind == "="
+        return end + 1 - self.i if commas or stated or base.startswith("bold ") else 0
+
+    def _starred(self) -> bool:
+        """Whether ^* comes next, as in T^*; goes past it."""
+        texts = [x.text for x in self.tokens[self.i + 1 : self.i + 4]]
+        for form in (["*"], ["ast"], ["star"], ["{", "*", "}"], ["{", "ast", "}"], ["{", "star", "}"]):
+            if texts[: len(form)] == form:
+                self.i += 1 + len(form)
+                return True
+        return False
+
+    def _of_time(self) -> bool:
+        """Whether (t) comes next: \\theta(t)."""
+        return [x.text for x in self.tokens[self.i : self.i + 3]] == ["(", "t", ")"]

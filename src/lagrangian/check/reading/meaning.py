@@ -1,0 +1,265 @@
+"""From an answer's syntax tree to SymPy: derivatives and matrices on top of `lagrangian.read.expression`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any, cast
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+from sympy.matrices.matrixbase import MatrixBase
+
+from lagrangian.check.reading.names import Names, Value
+from lagrangian.check.reading.nodes import Node, only_name
+from lagrangian.check.reading.placeholders import ENERGIES, is_vector, variation
+from lagrangian.model.names import time
+from lagrangian.quantities.source import Source
+from lagrangian.read.expression import MAX_ORDER, Reader
+from lagrangian.read.letters import key, undotted
+
+MAX_SIZE = 20_000
+"""Most nodes of all definitions written out in one answer."""
+
+MAX_DERIVED = 120_000
+"""Most nodes of all derivatives in one answer, before terms are put together."""
+
+MAX_ENTRIES = 400
+"""Most entries of a matrix."""
+
+
+class Meaning(Reader):
+    """Reads the trees of one statement; ``budget`` is shared by the whole answer."""
+
+    def __init__(self, source: Source, names: Names, budget: Budget) -> None:
+        super().__init__(source, names.scope)
+        self.names, self.budget = names, budget
+        self._done: dict[int, Value] = {}
+
+    def value(self, node: Node) -> Value:
+        """The expression or matrix of a node, worked out once."""
+        if id(node) not in self._done:
+            self._done[id(node)] = super().value(node)
+        return self._done[id(node)]
+
+    def finite(self, value: Value, node: Node) -> sp.Expr:
+        """Return a value that is a finite number or expression."""
+        if value.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
+            self.fail("its value is not finite", node, fix="look for a division by zero", code="E705")
+        return value
+
+    # -- names -------------------------------------------------------------------------------------------------------
+
+    def _meaning(self, token: Any) -> tuple[str, sp.Expr, int]:
+        found, value, dots = self.names.meaning(token, self.source)
+        if not isinstance(value, (sp.Symbol, AppliedUndef)):
+            self._spend(value, token)
+        return found, value, dots
+
+    def _name(self, node: Node) -> Value:
+        """A name; a rate that was given a value of its own has that value."""
+        token, primes = node.children
+        base, dots = undotted(token)
+        order = dots + len(primes or "")
+        if order and (given := self.names.rates.get((key(base), order))) is not None:
+            self._spend(given, token)
+            return given
+        if order and (value := self._meaning(token)[1]).has(AppliedUndef, time) and order <= MAX_ORDER:
+            return self._rated(value, order, token)
+        return super()._name(node)
+
+    def _spend(self, value: Value, node: Node) -> None:
+        if not self.budget.spend(value):
+            self.fail(
+                "this becomes too long when it is written out",
+                node,
+                fix="give the answer in shorter pieces",
+                code="E703",
+            )
+
+    # -- derivatives -------------------------------------------------------------------------------------------------
+
+    def _rate(self, node: Node) -> Value:
+        of, order = node.children
+        value = self.value(of)
+        if order > MAX_ORDER:
+            self.fail(f"a derivative of order {order}", node, fix="derivatives go up to the second")
+        return self._rated(value, order, node)
+
+    def _rated(self, value: Value, order: int, node: Node) -> Value:
+        """The derivative by time, taken ``order`` times."""
+        for _ in range(order):
+            value = self._differentiated(value, time, node)
+        return value
+
+    def _differentiated(self, value: Value, by: sp.Expr, node: Node) -> Value:
+        """The derivative; what it takes is known before it is worked out."""
+        if (value, by) not in self.names.derivatives:
+            if not self.budget.affords_derivative(value):
+                self.fail(
+                    "this becomes too long when it is differentiated",
+                    node,
+                    fix="give the answer in shorter pieces",
+                    code="E703",
+                )
+            self.names.derivatives[value, by] = value.diff(by)
+        return self.names.derivatives[value, by]
+
+    def _partial(self, node: Node) -> sp.Expr:
+        """∂L/∂ξ or ∂L/∂ξ̇; of an energy that was not given it stays as it is, and so it does by a general ξ_i."""
+        what, by = node.children
+        kind = {"ℒ": "L"}.get(what, str(what))
+        energy = self.names.energy(kind)
+        if energy is None and kind not in ENERGIES:
+            energy = self._meaning(what)[1]
+            if not energy.args or isinstance(energy, AppliedUndef):
+                self.fail(
+                    f"'{what}' is not an energy that your answer gives",
+                    what,
+                    fix="write ∂L/∂x1', or state the energy on an earlier line",
+                )
+        variable = self.value(by)
+        if not isinstance(variable, (AppliedUndef, sp.Derivative, sp.Symbol)):
+            self.fail("energies can be differentiated only by a coordinate or its rate", by, fix="write ∂L/∂x1'")
+        moving = isinstance(variable, (AppliedUndef, sp.Derivative))
+        if energy is None or not moving or self.names.is_unknown(variable):
+            return cast("sp.Expr", sp.Derivative(ENERGIES.get(kind, ENERGIES["L"]), variable))
+        return self._differentiated(self.names.model.expand(energy), variable, node)
+
+    def _variation(self, node: Node) -> sp.Expr:
+        found = only_name(node.children[1])
+        return variation(str(found[0]) if found else "")
+
+    # -- matrices ----------------------------------------------------------------------------------------------------
+
+    def _matrix(self, node: Node) -> Value:
+        rows = [row.children for row in node.children[1:]]
+        if len({len(row) for row in rows}) != 1:
+            counts = " and ".join(str(n) for n in sorted({len(row) for row in rows}))
+            self.fail(
+                f"the rows of this matrix have {counts} entries", node, fix="give every row the same number of entries"
+            )
+        if sum(map(len, rows)) > MAX_ENTRIES:
+            self.fail(f"a matrix with more than {MAX_ENTRIES} entries", node, code="E703")
+        values = [[self.value(x) for x in row] for row in rows]
+        if any(isinstance(x, MatrixBase) for row in values for x in row):
+            self.fail("a matrix contains a matrix", node, fix="write one matrix [a, b; c, d]")
+        return sp.ImmutableMatrix(values)
+
+    def _transpose(self, node: Node) -> Value:
+        value = self.value(node.children[1])
+        return value.T if isinstance(value, MatrixBase) else value
+
+    def _sum(self, node: Node) -> Value:
+        sign, first, *rest = node.children
+        values = [(sign, first, self.value(first))]
+        values += [(s, t, self.value(t)) for s, t in zip(rest[::2], rest[1::2], strict=True)]
+        if not any(isinstance(v, MatrixBase) for _, _, v in values):
+            return super()._sum(node)
+        if (general := next((v for _, _, v in values if is_vector(v)), None)) is not None:
+            return general
+        total: Value = None
+        for sign, term, value in values:
+            value = self._signed_value(sign, value)
+            if value == 0 or (total is not None and total == 0):
+                total = value if total is None or total == 0 else total
+                continue
+            shapes = [getattr(x, "shape", "a number") for x in (total, value)]
+            if total is not None and shapes[0] != shapes[1]:
+                a, b = (_shape(x) for x in shapes)
+                self.fail(f"{a} and {b} cannot be added", term, fix="give both the same number of rows and columns")
+            total = value if total is None else total + value
+        return total
+
+    def _product(self, node: Node) -> Value:
+        first, *rest = node.children
+        values = [(None, first, self.value(first))]
+        values += [(o, c, self.value(c)) for o, c in zip(rest[::2], rest[1::2], strict=True)]
+        if not any(isinstance(v, MatrixBase) for _, _, v in values):
+            return super()._product(node)
+        if (general := next((v for _, _, v in values if is_vector(v)), None)) is not None:
+            return general
+        total: Value = sp.S.One
+        for operator, child, value in values:
+            if operator is not None and operator == "/":
+                if isinstance(value, MatrixBase) or value.is_zero:
+                    self.fail("a matrix can be divided by a number that is not 0 only", child)
+                value = 1 / value
+            both = isinstance(total, MatrixBase) and isinstance(value, MatrixBase)
+            if both and total.shape[1] != value.shape[0]:
+                a, b = _shape(total.shape), _shape(value.shape)
+                self.fail(
+                    f"{a} times {b} is not a product", child, fix="multiply a matrix of n columns by a column of n rows"
+                )
+            if both and total.shape[0] * value.shape[1] * value.shape[0] > 20 * MAX_ENTRIES:
+                self.fail("the matrices are too large to multiply", child, code="E703")
+            total = total * value
+            self._spend(total, child)
+        return total
+
+    def _raise(self, node: Node, base: Any, exponent: Any) -> sp.Expr:
+        if isinstance(base, MatrixBase) or isinstance(exponent, MatrixBase):
+            self.fail("a matrix is raised to a power", node, fix="write the equations out row by row")
+        return super()._raise(node, base, exponent)
+
+    def _call(self, node: Node) -> sp.Expr:
+        for argument in node.children[1:]:
+            if argument.data != "condition" and isinstance(self.value(argument), MatrixBase):
+                self.fail("a function is applied to a matrix", argument, fix="write the entries out")
+        return super()._call(node)
+
+
+class Budget:
+    """Counts the nodes of expressions as trees, shared parts as often as they stand there."""
+
+    def __init__(self, size: int = MAX_SIZE) -> None:
+        self.left = size
+        self.derived = MAX_DERIVED
+        self._sizes: dict[sp.Basic, int] = {}
+        self._slopes: dict[sp.Basic, int] = {}
+
+    def spend(self, value: Value) -> bool:
+        """Take the size of a value out of the budget; False where it is not enough."""
+        parts = value.flat() if isinstance(value, MatrixBase) else [value]
+        self.left -= sum(self.size(x) for x in parts)
+        return self.left >= 0
+
+    def affords_derivative(self, value: Value) -> bool:
+        """Take what a derivative costs out of the budget: its nodes before anything is put together.
+
+        A sum costs its terms' derivatives, a product of n factors n products, anything else itself and what is inside.
+        """
+        parts = value.flat() if isinstance(value, MatrixBase) else [value]
+        self.derived -= sum(self._slope(x) for x in parts)
+        return self.derived >= 0
+
+    def _slope(self, expr: sp.Basic) -> int:
+        self.size(expr)
+        for part in self._inner_first(expr, self._slopes):
+            inner = sum(self._slopes[a] for a in part.args)
+            own = len(part.args) if part.is_Mul else 0 if part.is_Add else 1
+            self._slopes[part] = inner + own * self._sizes[part] + 1
+        return self._slopes[expr]
+
+    def size(self, expr: sp.Basic) -> int:
+        """The number of nodes; each distinct part is visited once."""
+        for part in self._inner_first(expr, self._sizes):
+            self._sizes[part] = 1 + sum(self._sizes[a] for a in part.args)
+        return self._sizes[expr]
+
+    @staticmethod
+    def _inner_first(expr: sp.Basic, known: dict[sp.Basic, int]) -> Iterator[sp.Basic]:
+        """The parts of an expression that are not known, inner ones first."""
+        stack = [expr]
+        while stack:
+            part = stack[-1]
+            waiting = [a for a in part.args if a not in known]
+            if waiting and part not in known:
+                stack.extend(waiting)
+                continue
+            stack.pop()
+            if part not in known:
+                yield part
+
+
+def _shape(shape: Any) -> str:
+    return shape if isinstance(shape, str) else f"a matrix of {shape[0]} × {shape[1]}"

@@ -1,0 +1,217 @@
+"""What the names of one answer mean: the model's, the person's own, energies and Ξ; what is unknown is noted."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
+from difflib import get_close_matches
+from typing import Any
+
+import sympy as sp
+from lark import Token, Tree
+from sympy.core.function import AppliedUndef
+
+from lagrangian.check.reading.answer import Unknown
+from lagrangian.check.reading.nodes import Node, start_of
+from lagrangian.check.reading.placeholders import ENERGIES, generalized_force, vector
+from lagrangian.check.reading.stated import energy_of, force_of
+from lagrangian.errors import did_you_mean
+from lagrangian.model import Model
+from lagrangian.model.names import moving_symbol, time
+from lagrangian.quantities.source import Source
+from lagrangian.read.letters import key, spelled, undotted
+from lagrangian.read.scope import Scope, rate_stems
+
+MAX_NAME = 64
+MAX_UNKNOWN = 100
+"""Most names of an answer that neither the model nor the answer itself defines."""
+
+MAX_HINTS = 20
+"""Most unknown names that near misses are looked up for."""
+
+SHORTEST_NEAR, NEAR = 4, 0.8
+"""Fewest letters of a name that can be misspelled in LaTeX, where letters side by side are a product, and how near."""
+
+Value = Any
+"""An expression, or a matrix of them."""
+
+
+class Names:
+    """A table of names that grows as the answer is read, line by line."""
+
+    def __init__(self, model: Model) -> None:
+        self.model = model
+        self.scope = Scope(model.symbols)
+        self.own: dict[str, tuple[str, Value]] = {}
+        self.stated: dict[str, Value] = {}
+        self.unknown: dict[str, Unknown] = {}
+        self.rates: dict[tuple[str, int], Value] = {}
+        self.later: Callable[[str], None] = lambda base: None
+        self.derivatives: dict[tuple[Value, sp.Expr], Value] = {}
+        self._moving: set[str] = set()
+        self._seen: Counter[str] = Counter()
+
+    # -- before the meaning ----------------------------------------------------------------------------------------
+
+    def gather(self, trees: Iterable[Tree]) -> None:
+        """Note which names stand in the trees, and which of them are differentiated somewhere."""
+        for tree in trees:
+            for token, changing in _names(tree):
+                base, dots = undotted(token)
+                self._seen[key(base)] += 1
+                if changing or dots:
+                    self._moving.add(key(base))
+        for base in list(self._seen):
+            self._moving.update(key(stem) for _, stem in rate_stems(base) if key(stem) in self._seen)
+
+    def known(self, written: str) -> bool:
+        """Whether a name means something already."""
+        base, _ = undotted(written)
+        return bool(
+            self.scope.meanings(written)[0]
+            or key(base) in self.own
+            or written in ("t", "pi")
+            or energy_of(written, self.model)
+            or force_of(written, self.model)
+        )
+
+    def misspelled(self, run: str) -> bool:
+        """Whether a run of letters is nearly a name of the model, and no product of known ones."""
+        near = len(run) >= SHORTEST_NEAR and not self.known(run) and not self._factors(run)
+        return near and bool(get_close_matches(run, self.scope, n=1, cutoff=NEAR))
+
+    def occurs(self, written: str) -> int:
+        """How often a name stands in the answer."""
+        return self._seen[key(undotted(written)[0])]
+
+    def moves(self, written: str) -> bool:
+        """Whether a name is differentiated by time somewhere in the answer."""
+        return key(undotted(written)[0]) in self._moving
+
+    # -- meaning -----------------------------------------------------------------------------------------------------
+
+    def define(self, written: str, value: Value) -> None:
+        """Give a name of the person's own its meaning."""
+        self.own[key(undotted(written)[0])] = (str(written), value)
+
+    def meaning(self, token: Token, source: Source) -> tuple[str, Value, int]:
+        """Return the name that is meant, its value and its number of dots. An unknown one is noted, not refused.
+
+        A name that the answer defines further down ("where h = …") is looked up there, by ``later``.
+        """
+        names, dots = self.scope.meanings(token)
+        if len(names) > 1:
+            listed = " or ".join(f"'{n}'" for n in names)
+            what = f"'{token[:40]}' can mean {listed}"
+            raise source.error(what, start_of(token), fix="write the one you mean", code="E402")
+        if names:
+            return names[0], self.scope[names[0]], dots
+        base, dots = undotted(token)
+        if key(base) not in self.own:
+            self.later(key(base))
+        if (mine := self.own.get(key(base))) is not None:
+            return *mine, dots
+        if base in ("bold Xi", "bold Q"):
+            column = [generalized_force(c.name) for c in self.model.coordinates]
+            return base, sp.ImmutableMatrix(column), dots
+        if (kind := energy_of(base, self.model)) is not None:
+            given = self.energy(kind)
+            return kind, ENERGIES[kind] if given is None else given, dots
+        if (coordinate := force_of(base, self.model)) is not None:
+            return base, generalized_force(coordinate), dots
+        if base in ("pi", "π"):
+            return "pi", sp.pi, dots
+        if base == "t":
+            return "t", time, dots
+        if base.startswith("bold "):  # a letter in bold type that stands for no matrix of this answer
+            if not self.scope.meanings(base[5:])[0]:
+                return base, vector(base[5:]), dots
+            return self.meaning(Token("NAME", base[5:], start_pos=start_of(token)), source)
+        for order, stem in spelled_rates(base):
+            if (found := self._rate_of(stem)) is not None:
+                return *found, order + dots
+        return self._noted(base, token, source), self.unknown[key(base)].symbol, dots
+
+    def energy(self, kind: str) -> sp.Expr | None:
+        """An energy as the answer stated it so far; the Lagrangian also from T* and V."""
+        if kind == "L" and "L" not in self.stated and {"T", "V"} <= self.stated.keys():
+            return self.stated["T"] - self.stated["V"]
+        return self.stated.get(kind)
+
+    def is_unknown(self, symbol: sp.Basic) -> bool:
+        """Whether a symbol, or what it is the rate of, is unknown to the model."""
+        of = symbol.args[0] if isinstance(symbol, sp.Derivative) else symbol
+        return any(u.symbol == of for u in self.unknown.values())
+
+    def _rate_of(self, stem: str) -> tuple[str, Value] | None:
+        """What changes with time and is called ``stem``."""
+        names, _ = self.scope.meanings(stem)
+        if len(names) == 1 and self.scope[names[0]].has(AppliedUndef):
+            return names[0], self.scope[names[0]]
+        if (mine := self.own.get(key(stem))) is not None:
+            return mine
+        if key(stem) in self.unknown and key(stem) in self._moving:
+            return stem, self.unknown[key(stem)].symbol
+        return None
+
+    def _hint(self, base: str) -> str | None:
+        """What was probably meant: a product without *, a shorter spelling, a near miss."""
+        if len(parts := self._factors(base)) > 1:
+            return f"Write {'*'.join(parts)} for a product."
+        head, digits = re.fullmatch(r"(.*?)_?(\d*)", spelled(base), re.DOTALL).groups()  # type: ignore[union-attr]
+        longer = [n for n in self.scope if spelled(n).startswith(head) and re.fullmatch(rf".*?{digits}", n)]
+        if len(head) >= 2 and len(longer) == 1:
+            return f"Did you mean '{longer[0]}'?"
+        return self.scope.hint(base) or did_you_mean(spelled(base).swapcase(), self.scope)
+
+    def _factors(self, base: str) -> list[str]:
+        """The known names that a word is made of, the longest first; empty where it is not."""
+        parts: list[str] = []
+        at = 0
+        while at < len(base):
+            part = next((base[at:end] for end in range(len(base), at, -1) if base[at:end] in self.scope), None)
+            if part is None:
+                return []
+            parts.append(part)
+            at += len(part)
+        return parts
+
+    def _noted(self, base: str, token: Token, source: Source) -> str:
+        if len(base) > MAX_NAME:
+            what = f"a name with {len(base)} characters"
+            raise source.error(what, start_of(token), fix=f"names have at most {MAX_NAME}", code="E703")
+        if key(base) not in self.unknown:
+            if len(self.unknown) >= MAX_UNKNOWN:
+                what = f"more than {MAX_UNKNOWN} names that the system has not"
+                raise source.error(what, start_of(token), fix="use the names of the system", code="E703")
+            spelling = spelled(base)
+            symbol: sp.Expr = moving_symbol(spelling) if key(base) in self._moving else sp.Symbol(spelling)
+            hint = None
+            if len(self.unknown) < MAX_HINTS:
+                hint = self._hint(base)
+            self.unknown[key(base)] = Unknown(str(base), symbol, source.at(start_of(token)), hint)
+        return base
+
+
+def spelled_rates(base: str) -> Iterator[tuple[int, str]]:
+    """The orders and names that a spelled-out derivative can mean, xdd and xd among them."""
+    yield from rate_stems(base)
+    for suffix, order in (("dd", 2), ("d", 1)):
+        if base.endswith(suffix) and len(base) > len(suffix):
+            yield order, base.removesuffix(suffix)
+
+
+def _names(tree: Tree) -> Iterator[tuple[Token, bool]]:
+    """Every name of a tree, and whether it is differentiated by time there."""
+    stack: list[tuple[Node, bool]] = [(tree, False)]
+    while stack:
+        item, changing = stack.pop()
+        if not isinstance(item, Tree):
+            continue
+        if item.data == "name":
+            yield item.children[0], changing or item.children[1] is not None  # type: ignore[misc]
+        elif item.data == "partial":
+            stack.append((item.children[1], False))
+        else:
+            stack.extend((child, changing or item.data == "rate") for child in item.children)

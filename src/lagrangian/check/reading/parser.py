@@ -1,0 +1,127 @@
+"""Sums, products and powers, in whatever notation: a parser by recursive descent, its depth bounded.
+
+A notation's parser says what its tokens are, what an operand is, and whether two operands side by side are a product.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+from lark import Tree
+
+from lagrangian.check.reading.nodes import MAX_DEPTH, Node, leaf, node
+from lagrangian.errors import ParseError
+from lagrangian.quantities.source import Source
+
+
+@dataclass(frozen=True, slots=True)
+class Token:
+    """A piece of the text: its kind, itself, where it begins and ends."""
+
+    kind: str
+    text: str
+    start: int
+    end: int
+
+
+class Parser(ABC):
+    """Reads one statement. ``tokens`` ends with one of kind ``end``."""
+
+    def __init__(self, source: Source, tokens: list[Token]) -> None:
+        self.source, self.tokens = source, tokens
+        self.i = 0
+        self.opened: list[int] = []
+
+    # -- what a notation says ------------------------------------------------------------------------------------
+
+    @abstractmethod
+    def operand(self) -> Tree:
+        """Read a number, a name, a call, a bracket, with its powers and primes."""
+
+    @abstractmethod
+    def side_by_side(self) -> bool:
+        """Whether the next token begins another factor of the product without an operator."""
+
+    @abstractmethod
+    def stopped(self, wants_operand: bool) -> ParseError:
+        """Return the error for a text that cannot go on at the next token."""
+
+    # -- tokens ----------------------------------------------------------------------------------------------------
+
+    @property
+    def next(self) -> Token:
+        """The token that comes next."""
+        return self.tokens[self.i]
+
+    def ahead(self, count: int = 1) -> Token:
+        """The token after the next one."""
+        return self.tokens[min(self.i + count, len(self.tokens) - 1)]
+
+    def take(self) -> Token:
+        """Return the next token and go past it."""
+        token = self.next
+        self.i = min(self.i + 1, len(self.tokens) - 1)
+        return token
+
+    def accept(self, *kinds: str) -> Token | None:
+        """Go past the next token where it is of these kinds."""
+        return self.take() if self.next.kind in kinds else None
+
+    def deeper(self, start: int) -> None:
+        """Note a bracket that opens, and refuse too many inside each other."""
+        self.opened.append(start)
+        if len(self.opened) > MAX_DEPTH:
+            raise self.source.error(
+                f"brackets are nested more than {MAX_DEPTH} deep",
+                start,
+                fix="give the inner parts names on lines of their own: h = …",
+                code="E703",
+            )
+
+    def unclosed(self) -> ParseError | None:
+        """Return the error for a bracket that is open where the side ends."""
+        if not self.opened or self.next.kind not in ("=", "end"):
+            return None
+        at = self.opened[-1]
+        return self.source.error(
+            f"this '{self.source.text[at]}' is never closed", at, fix="close it on the same side of '='"
+        )
+
+    # -- grammar ---------------------------------------------------------------------------------------------------
+
+    def sides(self) -> list[Tree]:
+        """Read sums with = between them, to the end."""
+        found = [self.sum()]
+        while self.accept("="):
+            found.append(self.sum())
+        if self.next.kind != "end":
+            raise self.stopped(False)
+        return found
+
+    def sum(self) -> Tree:
+        """Read [sign] product (sign product)*."""
+        start = self.next.start
+        children: list[Node] = [self._sign(), self.product()]
+        while (sign := self._sign()) is not None:
+            children += [sign, self.product()]
+        return node("sum", start, *children)
+
+    def product(self) -> Tree:
+        """Read signed (operator signed)*, the operator left out where the notation allows it."""
+        start = self.next.start
+        children: list[Node] = [self.operand()]
+        while True:
+            if (operator := self.accept("times", "over")) is not None:
+                children.append(leaf("OPERATOR", "/" if operator.kind == "over" else "*", operator.start))
+                at = self.next.start
+                sign = self._sign()
+                children.append(node("signed", at, sign, self.operand()))
+            elif self.side_by_side():
+                children += [leaf("OPERATOR", "*", self.next.start), self.operand()]
+            else:
+                return node("product", start, *children)
+
+    def _sign(self) -> Node:
+        token = self.accept("plus", "minus")
+        return None if token is None else leaf("SIGN", "+" if token.kind == "plus" else "-", token.start)

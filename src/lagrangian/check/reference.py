@@ -1,0 +1,193 @@
+"""What is right: a system's own equations and energies, at random states and in normal form; made once."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Mapping, Sequence
+from functools import cached_property, lru_cache
+from typing import Any, cast
+
+import mpmath
+import numpy as np
+import sympy as sp
+
+from lagrangian.check.branches import Side, natural, sides_of
+from lagrangian.derive import Derived
+from lagrangian.derive.algebra import Algebra, Form, OutOfReach
+from lagrangian.derive.sampling import DIGITS, Array, Compiled, States
+from lagrangian.model import Model
+
+LONGEST = 4000
+"""Terms that an expression may have multiplied out before it is compared by numbers instead of its normal form."""
+
+
+class Truth:
+    """The right equations of a derivation, ready to be compared with; ``values`` are put in for parameters.
+
+    ``others`` keeps the same system in coordinates that answers had; ``tried_all`` turns false where well-known
+    mistakes have too many operations for all of them to be tried.
+    """
+
+    def __init__(self, derivation: Derived, values: Mapping[sp.Symbol, sp.Expr] | None = None) -> None:
+        self.derivation = derivation
+        self.values = dict(values or {})
+        self.others: dict[object, Truth | None] = {}
+        self.tried_all = True
+        self._valued: dict[tuple[tuple[sp.Symbol, sp.Expr], ...], Truth] = {}
+        self.model: Model = derivation.model
+        self.n = len(derivation.coordinates)
+        self.states = States(self.model, 2 * self.n + 6)
+        self.region: sp.Expr | None = None
+        self.sides: tuple[Side, ...] = ()
+        self.sides = self._sides()
+        self.T, self.V = self.expand(derivation.T), self.expand(derivation.V)
+        self.Xi = tuple(self.expand(derivation.Xi[q]) for q in derivation.coordinates)
+        self.rows = tuple(map(self.expand, self._differences()))
+
+    def _differences(self) -> list[sp.Expr]:
+        return [cast("sp.Expr", e.lhs) - cast("sp.Expr", e.rhs) for e in self.derivation.equations]
+
+    def _sides(self) -> tuple[Side, ...]:
+        d = self.derivation
+        exprs = [self.expand(x) for x in (d.T, d.V, *self._differences())]
+        M = sp.Matrix(d.mass_matrix.applyfunc(self.expand))
+        return sides_of(exprs, M, self.states, list(d.coordinates))
+
+    def within(self, region: sp.Expr | None) -> Truth:
+        """The same, compared far out only where ``region`` has the sign that it has at ordinary states."""
+        if region is None:
+            return self
+        other = copy.copy(self)
+        other.region = region
+        return other
+
+    def wide(self, exprs: Sequence[sp.Expr]) -> tuple[States, list[int]]:
+        """States of every size and sign, farther out than any number of the expressions, and which to look at.
+
+        Distances stay on their side; in changed coordinates only those states count where the change is one-to-one.
+        """
+        numbers = [abs(float(x)) for e in exprs for x in e.atoms(sp.Number) if x.is_finite]
+        reach = max([300.0, *(5 * x for x in numbers if x < 1e12)])
+        states = States(self.model, 2, reach=reach, sides=self.sides)
+        if self.region is None:
+            return states, list(range(states.size))
+        compiled = Compiled([self.region])
+        near, far = compiled.at(self.states)[0], compiled.at(states)[0]
+        sign = np.sign(np.nansum(np.sign(near)))
+        return states, [int(i) for i in np.flatnonzero(np.sign(far) == sign)]
+
+    @property
+    def L(self) -> sp.Expr:
+        """T* − V."""
+        return self.T - self.V
+
+    def expand(self, expr: sp.Expr) -> sp.Expr:
+        """An expression with every definition of the model written out, and values in place of parameters.
+
+        √(p²) is p for what is a distance in the model, see `sides`.
+        """
+        whole = self.model.expand(sp.sympify(expr), constants=True)
+        return self.put(whole)
+
+    def put(self, expr: sp.Expr) -> sp.Expr:
+        """The same for an expression without definitions."""
+        return natural(cast("sp.Expr", expr.xreplace(self.values)) if self.values else expr, self.sides)
+
+    def with_values(self, values: Mapping[sp.Symbol, sp.Expr]) -> Truth:
+        """The same with values in place of parameters, made once."""
+        key = tuple(sorted(values.items(), key=str))
+        if key not in self._valued:
+            self._valued[key] = Truth(self.derivation, values)
+        return self._valued[key]
+
+    @cached_property
+    def algebra(self) -> Algebra:
+        """The ring in which answers are compared exactly; the derivation's own stays as it was."""
+        return Algebra(self.model, (self.T, self.V, *self.Xi))
+
+    def form(self, expr: sp.Expr) -> Form | None:
+        """The normal form of an expression, or None where it would be too long."""
+        if terms(expr) > LONGEST:
+            return None
+        try:
+            return self.algebra.form(expr)
+        except (OutOfReach, OverflowError, ValueError):
+            return None
+
+    @cached_property
+    def forms(self) -> tuple[Form | None, ...]:
+        """The normal forms of the right equations, left minus right."""
+        return tuple(self.form(r) for r in self.rows)
+
+    @cached_property
+    def compiled(self) -> Compiled:
+        """The right equations as one graph."""
+        return Compiled(self.rows)
+
+    @cached_property
+    def W(self) -> Array:
+        """The right equations at every state, shape (n, size): left minus right."""
+        return self.compiled.at(self.states)
+
+    @cached_property
+    def _motion(self) -> Compiled:
+        d = self.derivation
+        bias: list[Any] = [r.xreplace({c.acceleration: sp.S.Zero for c in self.model.coordinates}) for r in self.rows]
+        inertia: list[Any] = list(d.mass_matrix.flat())
+        return Compiled([*map(self.expand, inertia), *bias])
+
+    @cached_property
+    def accelerations(self) -> dict[sp.Basic, Array]:
+        """The true accelerations M⁻¹ (Ξ − C ξ̇ − G) at every state; not a number where M is singular."""
+        values = self._motion.at(self.states)
+        n, size = self.n, self.states.size
+        M = values[: n * n].reshape(n, n, size).transpose(2, 0, 1)
+        h = values[n * n :].T
+        a = np.full((size, n), np.nan)
+        for s in range(size):
+            if np.isfinite(M[s]).all() and np.linalg.cond(M[s]) < 1e12:
+                a[s] = np.linalg.solve(M[s], -h[s])
+        return {c.acceleration: a[:, i] for i, c in enumerate(self.model.coordinates)}
+
+    def accelerations_exactly(self, states: States, index: int) -> dict[sp.Basic, Any]:
+        """The true accelerations at one state, with 50 digits."""
+        values, n = self._motion.exactly(states, index), self.n
+        with mpmath.workdps(DIGITS):
+            M = mpmath.matrix(n, n)
+            for k in range(n * n):
+                M[k // n, k % n] = values[k]
+            a = mpmath.lu_solve(M, mpmath.matrix([-x for x in values[n * n :]]))
+            return {c.acceleration: a[i] for i, c in enumerate(self.model.coordinates)}
+
+
+def terms(expr: sp.Basic) -> int:
+    """How many terms an expression has at most when it is multiplied out."""
+    known: dict[sp.Basic, int] = {}
+    for e in sp.postorder_traversal(expr):
+        if e in known:
+            continue
+        parts = [known[a] for a in e.args]
+        if isinstance(e, sp.Add):
+            known[e] = sum(parts)
+        elif isinstance(e, sp.Mul):
+            known[e] = _product(parts)
+        elif isinstance(e, sp.Pow) and isinstance(e.exp, sp.Integer) and parts[0] > 1:
+            known[e] = _product([parts[0]] * min(abs(int(e.exp)), 64))
+        else:
+            known[e] = max([1, *parts]) if isinstance(e, sp.Pow) else 1
+            if isinstance(e, sp.Function) and parts and max(parts) > LONGEST:
+                known[e] = max(parts)
+    return known[expr]
+
+
+def _product(counts: Sequence[int]) -> int:
+    total = 1
+    for c in counts:
+        total = min(total * c, 10**12)
+    return total
+
+
+@lru_cache(maxsize=32)
+def truth_of(derivation: Derived) -> Truth:
+    """What is right of a derivation, made once for the derivations that were checked with last."""
+    return Truth(derivation)

@@ -1,0 +1,318 @@
+"""An answer's equations against the right ones: which are true, and how much of every right equation is in each.
+
+With P_j the answer's equations and W_i the right ones, left minus right, the factors are P_j = Σ_i A_ji W_i. They are
+sought place by place over many motions; P_j is true where it vanishes with the true accelerations put in.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from enum import Enum
+from fractions import Fraction
+from typing import Any
+
+import mpmath
+import numpy as np
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.reference import Truth
+from lagrangian.derive.algebra import Form
+from lagrangian.derive.sampling import DIGITS, PLACES, SETS, Array, Compiled, States
+
+CLOSE = 1e-8
+"""Relative size below which a double may be zero; what is decided by it is decided again exactly."""
+EXACTLY = mpmath.mpf(10) ** -30
+SURE = 4
+"""States at which 50 digits are compared."""
+
+
+class Kind(Enum):
+    """What a true equation is made of."""
+
+    SAME = "a right equation"
+    SCALED = "a right equation times a factor"
+    COMBINED = "a sum of right equations with constant factors"
+    TURNED = "a sum of right equations with factors that depend on the place"
+    CONSEQUENCE = "true whenever the right equations hold"
+    NOTHING = "0 = 0"
+    WRONG = "not true"
+
+
+@dataclass(frozen=True)
+class Row:
+    """One equation of an answer: ``factors`` are its A_ji as SymPy, where they were found; ``index`` its equation."""
+
+    kind: Kind
+    factors: tuple[sp.Expr, ...] | None = None
+    index: int | None = None
+
+    @property
+    def true(self) -> bool:
+        """Whether it holds for the right motion and says something."""
+        return self.kind not in (Kind.WRONG, Kind.NOTHING)
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """All equations of an answer: each one's kind, and how many independent ones there are among the true."""
+
+    rows: tuple[Row, ...]
+    rank: int
+
+
+def compare(truth: Truth, exprs: Sequence[sp.Expr], *, instead: Mapping[sp.Basic, Array] | None = None) -> Comparison:
+    """Return what each expression, left minus right of an equation, is made of."""
+    compiled = Compiled(exprs)
+    P = compiled.at(truth.states, instead)
+    A, spanned = _factors(truth, P)
+    moving = _on_motion(truth, compiled)
+    rows = []
+    for j, expr in enumerate(exprs):
+        rows.append(_row(truth, expr, compiled, j, P[j], A[:, j, :], bool(spanned[j]), bool(moving[j])))
+    return Comparison(tuple(rows), _rank(truth, compiled, [r.true for r in rows]))
+
+
+def small(values: Array, scale: Array | float) -> bool:
+    """Whether every value is finite and next to nothing beside the scale."""
+    return bool(np.isfinite(values).all() and (np.abs(values) <= CLOSE * np.maximum(scale, 1e-300)).all())
+
+
+def zero_everywhere(truth: Truth, expr: sp.Expr) -> bool:
+    """Whether an expression vanishes identically: in normal form, else with 50 digits at several states."""
+    if expr == 0:
+        return True
+    compiled = Compiled([expr])
+    values = compiled.at(truth.states)[0]
+    values = values[np.isfinite(values)]
+    if not len(values) or np.abs(values).max() > 1e-6:
+        return False
+    form = truth.form(expr)
+    if form is not None and (form.is_zero or not form.opaque()):
+        return form.is_zero
+    step = max(1, truth.states.size // SURE)
+    found = [compiled.exactly(truth.states, i)[0] for i in range(0, truth.states.size, step)]
+    far, indices = truth.wide([expr])
+    found += [compiled.exactly(far, i)[0] for i in indices]
+    return all(abs(x) < EXACTLY for x in found if mpmath.isfinite(x))
+
+
+def _factors(truth: Truth, P: Array) -> tuple[Array, Array]:
+    """A (blocks, k, n) by least squares in every place, and which rows are wholly in the span."""
+    W, k = truth.W, len(P)
+    found, holds = [], np.ones(k, bool)
+    for block in truth.states.blocks():
+        w, p = W[:, block], P[:, block]
+        good = np.isfinite(w).all(axis=0) & np.isfinite(p).all(axis=0)
+        if good.sum() < truth.n + 2:
+            found.append(np.zeros((k, truth.n)))
+            holds &= np.isfinite(p).all(axis=1) & False
+            continue
+        w, p = w[:, good], p[:, good]
+        a = np.linalg.lstsq(w.T, p.T, rcond=None)[0].T
+        found.append(a)
+        scale = np.abs(p).max(axis=1)
+        holds &= np.abs(p - a @ w).max(axis=1) <= CLOSE * np.maximum(scale, 1e-300)
+    return np.array(found), holds
+
+
+def _on_motion(truth: Truth, compiled: Compiled) -> Array:
+    """Which expressions vanish along the true motion, beside what they are off it."""
+    truly = compiled.at(truth.states, truth.accelerations)
+    other = compiled.at(truth.states)
+    good = np.isfinite(truly) & np.isfinite(other)
+    holds = []
+    for t, o, g in zip(truly, other, good, strict=True):
+        holds.append(bool(g.sum() >= SETS * PLACES and small(t[g], float(np.abs(o[g]).max()))))
+    return np.array(holds)
+
+
+def _rank(truth: Truth, compiled: Compiled, true: list[bool]) -> int:
+    """How many of the true equations are independent: the rank of ∂P/∂ξ̈ at the true motion.
+
+    There, and not anywhere: the product of two equations is true as well, and says nothing.
+    """
+    if not any(true):
+        return 0
+    slopes = compiled.slopes([c.acceleration for c in truth.model.coordinates])
+    found = slopes.at(truth.states, truth.accelerations).reshape(len(true), truth.n, truth.states.size)[np.array(true)]
+    off = slopes.at(truth.states).reshape(len(true), truth.n, truth.states.size)[np.array(true)]
+    scale = np.abs(np.where(np.isfinite(off), off, 0)).max(axis=(1, 2), keepdims=True)
+    found = np.where(np.abs(found) > CLOSE * scale, found, 0)
+    ranks = [0]
+    for s in range(0, truth.states.size, truth.states.motions):
+        if np.isfinite(found[:, :, s]).all():
+            ranks.append(int(np.linalg.matrix_rank(_normed(found[:, :, s]), tol=1e-7)))
+    return max(ranks)
+
+
+def _normed(rows: Array) -> Array:
+    size = np.abs(rows).max(axis=1, keepdims=True)
+    return rows / np.where(size > 0, size, 1.0)
+
+
+def _row(
+    truth: Truth, expr: sp.Expr, compiled: Compiled, j: int, p: Array, A: Array, spanned: bool, moving: bool
+) -> Row:
+    form = truth.form(expr)
+    if (form is not None and form.is_zero) or small(p, 1.0):
+        return Row(Kind.NOTHING)
+    if not spanned and not moving:
+        return Row(Kind.WRONG)
+    factors = _symbolic(truth, expr, form, A) if spanned else None
+    exact = _exact(truth, form, factors) if factors is not None else None
+    if factors is not None and exact:
+        return _named(factors, truth)
+    if exact is False or not _surely(truth, compiled, j, expr):
+        return Row(Kind.WRONG)
+    if not spanned:
+        return Row(Kind.CONSEQUENCE)
+    if factors is not None:
+        return _named(factors, truth)
+    used = [i for i in range(truth.n) if np.abs(A[:, i]).max() > CLOSE * np.abs(A).max()]
+    if len(used) == 1:
+        return Row(Kind.SCALED, None, used[0])
+    return Row(Kind.TURNED)
+
+
+def _named(factors: tuple[sp.Expr, ...], truth: Truth) -> Row:
+    used = [i for i, f in enumerate(factors) if f != 0]
+    if len(used) == 1:
+        i = used[0]
+        return Row(Kind.SAME if abs(factors[i]) == 1 else Kind.SCALED, factors, i)
+    moving = any(f.free_symbols and f.has(*truth.derivation.coordinates) for f in factors)
+    return Row(Kind.TURNED if moving else Kind.COMBINED, factors)
+
+
+def _exact(truth: Truth, form: Form | None, factors: Sequence[sp.Expr]) -> bool | None:
+    """P − Σ A W = 0 in normal form; None where that does not tell, as with functions it does not know."""
+    if form is None:
+        return None
+    rest = form
+    for factor, right in zip(factors, truth.forms, strict=True):
+        if factor == 0:
+            continue
+        own = truth.form(factor)
+        if own is None or right is None:
+            return None
+        rest = rest - own * right
+    return True if rest.is_zero else None if rest.opaque() else False
+
+
+def _surely(truth: Truth, compiled: Compiled, j: int, expr: sp.Expr) -> bool:
+    """Whether expression j vanishes along the true motion, with 50 digits, at states near and far."""
+    step = max(1, truth.states.size // SURE)
+    near = [_vanishes(truth, compiled, j, truth.states, i) for i in range(0, truth.states.size, step)]
+    far_out, indices = truth.wide([expr])
+    far = [_vanishes(truth, compiled, j, far_out, i) for i in indices]
+    return False not in (*near, *far) and near.count(True) >= 2
+
+
+def _vanishes(truth: Truth, compiled: Compiled, j: int, states: States, index: int) -> bool | None:
+    """Whether expression j vanishes at one state; None where the right equations have no value themselves."""
+    try:
+        motion = truth.accelerations_exactly(states, index)
+    except (ZeroDivisionError, ValueError):
+        return None
+    if not all(mpmath.isfinite(x) for x in motion.values()):
+        return None
+    truly, off = compiled.exactly(states, index, motion)[j], compiled.exactly(states, index)[j]
+    if not (mpmath.isfinite(truly) and mpmath.isfinite(off)):
+        return False
+    with mpmath.workdps(DIGITS):
+        return bool(abs(truly) <= EXACTLY * (1 + abs(off)))
+
+
+# -- factors as expressions -----------------------------------------------------------------------------------------
+
+
+def _symbolic(truth: Truth, expr: sp.Expr, form: Form | None, A: Array) -> tuple[sp.Expr, ...] | None:
+    """The factors of one row as expressions, found from their values in every place; None where they are not."""
+    size = np.abs(A).max()
+    used = [i for i in range(truth.n) if np.abs(A[:, i]).max() > CLOSE * size]
+    factors: list[sp.Expr] = [sp.S.Zero] * truth.n
+    if len(used) == 1 and (right := truth.forms[used[0]]) is not None and form is not None:
+        found = ratio(form, right)
+        if found is not None and _exact(truth, form, _only(truth, used[0], found[0])):
+            return _only(truth, used[0], found[0])
+    if np.abs(A - A[0]).max() <= CLOSE * size:
+        for i in used:
+            number = Fraction(float(A[0, i])).limit_denominator(10_000)
+            if abs(float(number) - A[0, i]) > CLOSE * size:
+                return None
+            factors[i] = sp.Rational(number.numerator, number.denominator)
+        return tuple(factors)
+    if len(used) == 1:
+        return _quotient(truth, expr, used[0])
+    if truth.n <= 3 and terms_of(expr) <= 60:
+        return _solved(truth, expr, A)
+    return None
+
+
+def _only(truth: Truth, i: int, factor: sp.Expr) -> tuple[sp.Expr, ...]:
+    """The factors of a row that is a multiple of equation i."""
+    return tuple(factor if k == i else sp.S.Zero for k in range(truth.n))
+
+
+def terms_of(expr: sp.Expr) -> int:
+    """How many operations an expression has."""
+    return int(sp.count_ops(expr))
+
+
+def ratio(form: Form, right: Form, *, unlike: float = 1.0) -> tuple[sp.Expr, int] | None:
+    """The factor c, a number times a monomial, for which most terms of ``form`` are c times a term of ``right``.
+
+    Returns c and how many terms agree; None where nothing is alike. A factor other than ±1 counts ``unlike`` as much.
+    """
+    votes: Counter[tuple[Fraction, int]] = Counter()
+    for h, mine in form.parts.items():
+        theirs = right.parts.get(h)
+        if theirs is None or len(mine) * len(theirs) > 250_000:
+            continue
+        for m, c in mine.items():
+            for o, d in theirs.items():
+                votes[Fraction(c * right.den, d * form.den), m - o] += 1
+    if not votes:
+        return None
+    (number, monomial), count = max(
+        votes.items(),
+        key=lambda v: (
+            v[1] * (1.0 if v[0][1] == 0 and abs(v[0][0]) == 1 else unlike),
+            v[0][1] == 0,
+            v[0][0] == 1,
+            abs(v[0][0]) == 1,
+            -abs(v[0][1]),
+        ),
+    )
+    factor = sp.Rational(number.numerator, number.denominator) * form.algebra.generators.expr(monomial)
+    return factor, count
+
+
+def _quotient(truth: Truth, expr: sp.Expr, i: int) -> tuple[sp.Expr, ...] | None:
+    """The factor of a row that is a multiple of one right equation, by the coefficient of an acceleration."""
+    if terms_of(expr) > 200:
+        return None
+    for c in truth.model.coordinates:
+        above, below = expr.diff(c.acceleration), truth.rows[i].diff(c.acceleration)
+        if below != 0 and above != 0:
+            factor = bounded.cancel(bounded.together(above / below))
+            if terms_of(factor) <= 30:
+                return _only(truth, i, factor)
+    return None
+
+
+def _solved(truth: Truth, expr: sp.Expr, A: Array) -> tuple[sp.Expr, ...] | None:
+    """The factors from A M = ∂P/∂ξ̈, where they do not depend on the place."""
+    by_set = A.reshape(SETS, PLACES, -1)
+    if np.abs(by_set - by_set[:, :1]).max() > CLOSE * np.abs(A).max():
+        return None
+    M = truth.derivation.mass_matrix
+    slope = sp.Matrix([[expr.diff(c.acceleration) for c in truth.model.coordinates]])
+    if slope.has(*truth.derivation.coordinates) or M.has(*truth.derivation.coordinates):
+        return None
+    if M.det() == 0:
+        return None
+    solved: Any = (slope * M.inv()).applyfunc(bounded.cancel)
+    return tuple(solved)

@@ -1,0 +1,130 @@
+"""Names the system has not, and numbers where it has names: read as what they must mean, and said so."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import islice, permutations
+from typing import Any, cast
+
+import numpy as np
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian.check.reference import Truth
+from lagrangian.check.rows import CLOSE
+from lagrangian.check.verdict import Line
+from lagrangian.derive.sampling import Compiled
+from lagrangian.errors import did_you_mean
+from lagrangian.model import time
+from lagrangian.page.formula import Text, text
+from lagrangian.page.plain import plain
+
+MOST = 120
+"""Ways to read unknown names that are tried."""
+
+
+@dataclass(frozen=True)
+class Spelling:
+    """The lines with their names read, and what was read as what."""
+
+    lines: tuple[Line, ...]
+    notes: tuple[Text, ...] = ()
+
+
+def spelled(truth: Truth, lines: Sequence[Line], *, numbers: bool = True) -> Spelling:
+    """Read unknown constants as parameters the answer lacks, and numbers as the parameters that have these values.
+
+    Without ``numbers`` these stay what they are.
+    """
+    lines, notes = _numbers(truth, tuple(lines)) if numbers else (tuple(lines), ())
+    known = {p.symbol for p in truth.model.parameters} | {time}
+    used = {s for line in lines for s in line.expr.free_symbols}
+    unknown = sorted(used - known, key=str)
+    if not unknown:
+        return Spelling(lines, notes)
+    free = sorted(known - used - {time}, key=str)
+    inputs = [u.symbol for u in truth.model.inputs if not any(line.expr.has(u.symbol) for line in lines)]
+    for reading in _readings(unknown, [*free, *inputs]):
+        put = tuple(replace(line, expr=cast("sp.Expr", line.expr.xreplace(reading))) for line in lines)
+        if _may_be_right(truth, put):
+            return Spelling(put, (*notes, *(_read(a, b) for a, b in reading.items())))
+    close = _closest(unknown, [*free, *inputs])
+    put = tuple(replace(line, expr=cast("sp.Expr", line.expr.xreplace(close))) for line in lines)
+    left = [s for s in unknown if s not in close]
+    told = [_read(a, b) for a, b in close.items()]
+    told += [not_there(truth, s) for s in left]
+    return Spelling(put, (*notes, *told))
+
+
+def not_there(truth: Truth, symbol: sp.Basic) -> Text:
+    """Say that the system has no such symbol, and which of its names is nearest."""
+    hint = did_you_mean(plain(symbol), truth.model.symbols)
+    return text(f"The system has no '{plain(symbol)}'.{f' {hint}' if hint else ''}")
+
+
+def in_numbers(truth: Truth, lines: Sequence[Line]) -> bool:
+    """Whether an answer names no parameter, and has numbers that only values can be."""
+    known = {p.symbol for p in truth.model.parameters}
+    numbers = {abs(x) for line in lines for x in line.expr.atoms(sp.Rational, sp.Float)}
+    plain_ones = {sp.Rational(a, b) for a in range(5) for b in range(1, 5)}
+    return not any(line.expr.free_symbols & known for line in lines) and bool(numbers - plain_ones)
+
+
+def _read(written: sp.Basic, meant: sp.Basic) -> Text:
+    return text(f"'{plain(written)}' was read as ", cast("sp.Expr", meant), ".")
+
+
+def _readings(unknown: Sequence[sp.Basic], free: Sequence[sp.Expr]) -> list[dict[sp.Basic, sp.Expr]]:
+    if len(unknown) > 3 or len(free) < len(unknown):
+        return []
+    picked = islice(permutations(free, len(unknown)), MOST)
+    return [dict(zip(unknown, p, strict=True)) for p in picked]
+
+
+def _closest(unknown: Sequence[sp.Basic], free: Sequence[sp.Expr]) -> dict[sp.Basic, sp.Expr]:
+    """Every unknown name as the nearest one that the answer lacks; the only one, where there is one of each."""
+    if len(unknown) == 1 and len(free) == 1:
+        return {unknown[0]: free[0]}
+    found: dict[sp.Basic, sp.Expr] = {}
+    names = {plain(s): s for s in free}
+    for s in unknown:
+        for name in names:
+            if name.lower() == plain(s).lower() or did_you_mean(plain(s), [name]):
+                found[s] = names.pop(name)
+                break
+    return found
+
+
+def _may_be_right(truth: Truth, lines: Sequence[Line]) -> bool:
+    """Whether the equations vanish along the true motion, or the energies are the right ones, in doubles."""
+    for line in lines:
+        if line.kind == "equation":
+            compiled = Compiled([line.expr])
+            truly = compiled.at(truth.states, truth.accelerations)
+            scale = np.abs(compiled.at(truth.states)).max()
+            if not np.isfinite(truly).all() or np.abs(truly).max() > CLOSE * scale:
+                return False
+        elif line.kind in ("T", "V", "L"):
+            right = {"T": truth.T, "V": truth.V, "L": truth.L}[line.kind]
+            rest = Compiled([line.expr - right]).at(truth.states)[0].reshape(2, -1)
+            if not np.isfinite(rest).all() or np.abs(rest - rest[:, :1]).max() > 1e-6:
+                return False
+    return True
+
+
+def _numbers(truth: Truth, lines: tuple[Line, ...]) -> tuple[tuple[Line, ...], tuple[Text, ...]]:
+    """Numbers that can only be the value of a parameter the answer lacks, such as 9.81 for g."""
+    used = {s for line in lines for s in line.expr.free_symbols | line.expr.atoms(AppliedUndef)}
+    table: dict[sp.Basic, sp.Expr] = {}
+    notes: list[Text] = []
+    for p in truth.model.parameters:
+        if p.value is None or p.symbol in used or float(p.value).is_integer():
+            continue
+        number: Any = sp.Rational(str(p.value))
+        if number.q > 2 and any(line.expr.has(number) for line in lines) and number not in table:
+            table[number] = p.symbol
+            notes.append(text(f"{p.value:g} was read as ", p.symbol, "."))
+    if not table:
+        return lines, ()
+    return tuple(replace(line, expr=cast("sp.Expr", line.expr.xreplace(table))) for line in lines), tuple(notes)

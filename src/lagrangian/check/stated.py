@@ -1,0 +1,199 @@
+"""Lines that give one quantity, T*, V, L, D, a Ξ, ∂L/∂ξ̇, ∂L/∂ξ: right, right but for what does not matter, or wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import cast
+
+import numpy as np
+import sympy as sp
+
+from lagrangian.check.difference import differences
+from lagrangian.check.reference import Truth
+from lagrangian.check.rows import CLOSE, zero_everywhere
+from lagrangian.check.verdict import Finding, Line, Status
+from lagrangian.derive.sampling import Array, Compiled
+from lagrangian.graph import jvp, vjp
+from lagrangian.model import Damper, Dissipation, time
+from lagrangian.page.formula import Name, Text, text
+
+
+@dataclass(frozen=True)
+class Given:
+    """What an answer states, by kind: its own T*, V and L, and its own Ξ by coordinate; None where it states none."""
+
+    T: sp.Expr | None = None
+    V: sp.Expr | None = None
+    L: sp.Expr | None = None
+    Xi: tuple[sp.Expr | None, ...] = ()
+
+    @property
+    def stated(self) -> bool:
+        """Whether it states an energy or a force."""
+        return any(x is not None for x in (self.T, self.V, self.L, *self.Xi))
+
+    def lagrangian(self, truth: Truth) -> sp.Expr:
+        """The answer's Lagrangian: as stated, or its T* − V with the right ones where it states none."""
+        if self.L is not None:
+            return self.L
+        return (self.T if self.T is not None else truth.T) - (self.V if self.V is not None else truth.V)
+
+    def rows(self, truth: Truth) -> Array:
+        """The equations that follow from what the answer states, d/dt ∂L/∂ξ̇ − ∂L/∂ξ − Ξ, at every state."""
+        Xi = [truth.Xi[i] if (mine := self.Xi[i]) is None else mine for i in range(truth.n)]
+        return left_values(truth, self.lagrangian(truth)) - Compiled(Xi).at(truth.states)
+
+
+def given(truth: Truth, lines: Sequence[Line]) -> Given:
+    """What the lines state; the last one counts where a quantity is given twice."""
+    energies = {line.kind: line.expr for line in lines if line.kind in ("T", "V", "L")}
+    forces = {line.name: line.expr for line in lines if line.kind == "Xi"}
+    Xi = tuple(forces.get(c.name) for c in truth.model.coordinates)
+    return Given(energies.get("T"), energies.get("V"), energies.get("L"), Xi)
+
+
+def left_values(truth: Truth, L: sp.Expr) -> Array:
+    """d/dt ∂L/∂ξ̇_i − ∂L/∂ξ_i at every state, (n, size), differentiated on the graph."""
+    compiled = Compiled([])
+    coordinates, g = truth.model.coordinates, compiled.graph
+    q = [compiled.input(c.symbol) for c in coordinates]
+    v = [compiled.input(c.rate) for c in coordinates]
+    a = [compiled.input(c.acceleration) for c in coordinates]
+    slopes = vjp(g, [compiled.node(L)], [g.one], [*q, *v])
+    moving = dict(zip((*q, *v), (*v, *a), strict=True)) | {compiled.input(time): g.one}
+    rates = jvp(g, slopes[truth.n :], moving)
+    compiled.ids = [g.sub(rates[i], slopes[i]) for i in range(truth.n)]
+    return compiled.at(truth.states)
+
+
+def left_sides(truth: Truth, L: sp.Expr) -> list[sp.Expr]:
+    """d/dt ∂L/∂ξ̇_i − ∂L/∂ξ_i of every coordinate."""
+    return [cast("sp.Expr", sp.diff(L.diff(c.rate), time)) - L.diff(c.symbol) for c in truth.model.coordinates]
+
+
+def judge(truth: Truth, lines: Sequence[Line], k: int, turn: sp.Matrix | None = None) -> Finding:
+    """What was found of line number ``k``, which may follow from those above it.
+
+    ``turn`` is (∂ψ/∂ξ)⁻¹ where the answer has coordinates of its own: what belongs to one of them is a sum of ours.
+    """
+    line = lines[k]
+    i = index_of(truth, line.name)
+    right = right_value(truth, line, i, turn)
+    if right is None:
+        return Finding(line, Status.RIGHT)
+    coordinate = truth.model.coordinates[i].name if i is not None else None
+    rest = line.expr - right
+    if zero_everywhere(truth, rest):
+        return Finding(line, Status.RIGHT, None, coordinate)
+    if (note := harmless(truth, line, rest)) is not None:
+        return Finding(line, Status.EQUIVALENT, note, coordinate)
+    elsewhere = any(other.kind in ("D", "equation") for other in lines)
+    if line.kind == "Xi" and i is not None and elsewhere and zero_everywhere(truth, line.expr - driving(truth, i)):
+        note = text("without the dampers, which then stand on the left of the equation or in ", Name("D"))
+        return Finding(line, Status.EQUIVALENT, note, coordinate)
+    follows = _follows(truth, line, i, given(truth, lines[:k]))
+    mine, own = truth.form(line.expr), truth.form(right)
+    differing = differences(truth, mine, own, sp.S.One, i) if mine is not None and own is not None else ()
+    return Finding(line, Status.WRONG, None, coordinate, differing, follows)
+
+
+def index_of(truth: Truth, name: str | None) -> int | None:
+    """The number of the coordinate of a name."""
+    return next((i for i, c in enumerate(truth.model.coordinates) if c.name == name), None)
+
+
+def right_value(truth: Truth, line: Line, i: int | None, turn: sp.Matrix | None = None) -> sp.Expr | None:
+    """What the line should say; None where there is nothing to compare it with. Ξ_η = (∂ξ/∂η)ᵀ Ξ_ξ, see `judge`."""
+    if line.kind in ("T", "V", "L"):
+        return {"T": truth.T, "V": truth.V, "L": truth.L}[line.kind]
+    if line.kind == "D":
+        return dissipation(truth)
+    if line.kind == "identity":
+        return sp.S.Zero
+    if i is None:
+        return None
+    own = [_of_coordinate(truth, line.kind, k, truth.L, truth.Xi[k]) for k in range(truth.n)]
+    if turn is None or any(x is None for x in own):
+        return own[i]
+    return sp.Add(*[turn[k, i] * x for k, x in enumerate(own) if x is not None])
+
+
+def _of_coordinate(truth: Truth, kind: str, i: int, L: sp.Expr, Xi: sp.Expr) -> sp.Expr | None:
+    c = truth.model.coordinates[i]
+    if kind == "Xi":
+        return Xi
+    if kind == "p":
+        return L.diff(c.rate)
+    if kind == "p-rate":
+        return cast("sp.Expr", sp.diff(L.diff(c.rate), time))
+    return L.diff(c.symbol) if kind == "slope" else None
+
+
+def dissipation(truth: Truth) -> sp.Expr:
+    """Rayleigh's function of all dampers that have one."""
+    parts = [e.dissipation(truth.model) for e in truth.model.elements]
+    return sp.Add(*[truth.expand(d) for d in parts if d is not None])
+
+
+def driving(truth: Truth, i: int) -> sp.Expr:
+    """Ξ_i without the dampers."""
+    total: sp.Expr = sp.S.Zero
+    for element in truth.model.elements:
+        if element.ledger == "Ξ" and not isinstance(element, (Damper, Dissipation)):
+            rate = truth.model.coordinates[i].rate
+            total += truth.expand(sp.Add(*[a.effort * sp.diff(a.rate, rate) for a in element.works(truth.model)]))
+    return total
+
+
+def harmless(truth: Truth, line: Line, rest: sp.Expr) -> Text | None:
+    """Why a difference of an energy does not matter to the equations, in words; None where it does."""
+    coordinates = truth.model.coordinates
+    if line.kind == "V" and all(zero_everywhere(truth, rest.diff(c.symbol)) for c in coordinates):
+        if rest.has(*[c.rate for c in coordinates]):
+            return None
+        return text("up to a constant: the height or length from which it is counted is yours to choose")
+    if line.kind not in ("L", "T", "D") or (line.kind != "D" and np.nanmax(np.abs(left_values(truth, rest))) > 1e-6):
+        return None
+    if line.kind in ("L", "T") and all(zero_everywhere(truth, row) for row in left_sides(truth, rest)):
+        held = rest.has(*[c.rate for c in coordinates]) or rest.has(*[c.symbol for c in coordinates])
+        if line.kind == "T" and held:
+            return None
+        words = "the time derivative of a function" if held else "a constant"
+        return text(f"up to {words}, which changes no equation")
+    if line.kind == "D" and all(zero_everywhere(truth, rest.diff(c.rate)) for c in coordinates):
+        return text("up to what no rate changes")
+    return None
+
+
+def _follows(truth: Truth, line: Line, i: int | None, above: Given) -> bool:
+    """Whether a line is what the lines above it lead to."""
+    if line.kind == "L" and above.T is not None and above.V is not None:
+        return zero_everywhere(truth, line.expr - above.T + above.V)
+    if i is None or line.kind not in ("p", "p-rate", "slope") or not above.stated:
+        return False
+    own = _of_coordinate(truth, line.kind, i, above.lagrangian(truth), sp.S.Zero)
+    return own is not None and zero_everywhere(truth, line.expr - own)
+
+
+def spanned(P: Array, W: Array) -> bool:
+    """Whether constant factors make every row of P (k, s) out of the rows of W (n, s)."""
+    scale = np.abs(W).max(axis=1, keepdims=True)
+    unit = W / np.where(scale > 0, scale, 1.0)
+    left = np.abs(P - P @ np.linalg.pinv(unit, rcond=1e-10) @ unit).max(axis=1)
+    return bool((left <= CLOSE * np.abs(P).max(axis=1)).all())
+
+
+def equations_follow(truth: Truth, exprs: Sequence[sp.Expr], above: Given) -> list[bool]:
+    """Which equations are those that the answer's own energies and forces lead to."""
+    if not above.stated or not exprs:
+        return [False] * len(exprs)
+    W = above.rows(truth)
+    P = Compiled(exprs).at(truth.states)
+    size = truth.states.size // 2
+    out: list[bool] = []
+    for p in P:
+        finite = bool(np.isfinite(p).all() and np.isfinite(W).all())
+        parts = (slice(0, size), slice(size, 2 * size))
+        out.append(finite and all(spanned(p[None, s], W[:, s]) for s in parts))
+    return out

@@ -1,0 +1,158 @@
+"""A verdict in words: as much as the hint level gives away, kindly, and in the words of the lecture."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from lagrangian.check.verdict import Difference, Finding, Mistake, Status, Verdict
+from lagrangian.model import Model
+from lagrangian.page.formula import Item, Left, Table, Text, text
+from lagrangian.page.report import Part, Report
+
+STEPS = {
+    0: "Is it holonomic?",
+    1: "Generalized coordinates",
+    2: "Kinetic co-energy",
+    3: "Potential energy",
+    4: "Lagrangian",
+    5: "Left-hand sides",
+    6: "Non-conservative forces",
+}
+"""The lecture's steps."""
+
+
+def report(verdict: Verdict, model: Model) -> Report:
+    """Return the verdict as a report."""
+    parts = [Part(text("Is it right?"), tuple(_summary(verdict, model)))]
+    if verdict.hint >= 1 and verdict.findings:
+        parts.append(Part(text("Line by line"), (_lines(verdict),)))
+    if verdict.hint >= 2 and (verdict.mistakes or _differing(verdict)):
+        parts.append(Part(text("What went wrong"), tuple(_why(verdict))))
+    if verdict.hint >= 3 and (found := tuple(_terms(verdict))):
+        parts.append(Part(text("Term by term"), found))
+    return Report(f"Your answer: {model.name}", model, tuple(parts), Verdict.to_dict(verdict))
+
+
+def _summary(verdict: Verdict, model: Model) -> Iterator[Item]:
+    yield text(*_headline(verdict))
+    if verdict.hint == 0:
+        return
+    first = verdict.first_wrong
+    if verdict.status is Status.WRONG and first is not None:
+        yield text("Look at ", first.line.title, *_of(first, model), ": that is the first that is not right.")
+    if any(f.follows for f in verdict.findings):
+        yield text("What follows consistently from a wrong line is marked so; it needs no correction of its own.")
+    yield from verdict.notes
+
+
+def _headline(verdict: Verdict) -> tuple[str | Left, ...]:
+    if not verdict.findings:
+        return ("Nothing is stated that can be checked: write equations, T = …, V = …, L = … or a Ξ.",)
+    wrong = sum(not f.status.right for f in verdict.findings)
+    lines = len(verdict.findings)
+    match verdict.status:
+        case Status.RIGHT:
+            return ("Right.",)
+        case Status.EQUIVALENT:
+            return ("Right. It is written in another way than ours, and says the same.",)
+        case Status.OTHER_COORDINATES:
+            return ("Right, in other coordinates: any independent and complete set is OK.",)
+        case Status.SAME_MOTION:
+            return (
+                "The motion is right. These are not Lagrange's equations one by one, but they say the same together.",
+            )
+        case Status.INCOMPLETE:
+            return ("Right as far as it goes, but something is missing.",)
+        case Status.WRONG:
+            if wrong == lines or verdict.hint == 0:
+                return ("Not right yet.",)
+            return (f"Not right yet: {lines - wrong} of {lines} lines are right.",)
+
+
+def _of(finding: Finding, model: Model) -> tuple[str | Left, ...]:
+    """Whose equation a line is."""
+    if finding.line.kind != "equation" or finding.coordinate is None:
+        return ()
+    symbols = {c.name: c.symbol for c in model.coordinates}
+    return (", the equation of ", symbols.get(finding.coordinate, finding.coordinate))
+
+
+def _lines(verdict: Verdict) -> Table:
+    rows: list[tuple[Text, ...]] = []
+    for f in verdict.findings:
+        words: list[str | Left] = [_word(f)]
+        if f.note is not None:
+            words += [": ", *f.note.parts]
+        rows.append((text(f.line.title), text(*words)))
+    return Table((text("line"), text("verdict")), tuple(rows))
+
+
+def _word(finding: Finding) -> str:
+    if finding.follows:
+        return "not right, but it follows from a line above"
+    if finding.status is Status.WRONG:
+        return "not right"
+    return {Status.INCOMPLETE: "says nothing", Status.SAME_MOTION: "true"}.get(finding.status, "right")
+
+
+def _why(verdict: Verdict) -> Iterator[Item]:
+    """The mistakes; where none was found, the steps and elements that the wrong lines point to."""
+    for k, mistake in enumerate(verdict.mistakes):
+        yield text(*(("And: ",) if k else ()), *mistake.what.parts)
+        yield text("Why that is not so: ", *mistake.why.parts)
+        yield text(*_where(mistake))
+    if verdict.mistakes:
+        if verdict.alternatives:
+            yield text("It could also be this: ", *verdict.alternatives[0].what.parts)
+        return
+    yield text("No single mistake explains all of it; these are the places to look at.")
+    seen: list[str] = []
+    for f in verdict.findings:
+        for d in f.differences if not f.follows else ():
+            for origin in d.origins:
+                words = f"{f.line.title}: {origin.element}, step {origin.step} ({STEPS[origin.step]})"
+                if words not in seen:
+                    seen.append(words)
+                    yield text(words)
+
+
+def _where(mistake: Mistake) -> tuple[str, ...]:
+    element = f"; it concerns {mistake.element}" if mistake.element else ""
+    return (f"This belongs to step {mistake.step}, {STEPS[mistake.step].lower()}{element}.",)
+
+
+def _differing(verdict: Verdict) -> bool:
+    return any(f.differences for f in verdict.findings)
+
+
+def _terms(verdict: Verdict) -> Iterator[Item]:
+    """Every difference of the lines that need a correction of their own."""
+    for f in verdict.findings:
+        for d in f.differences if not f.follows else ():
+            yield text(*_said(f, d))
+
+
+def _said(finding: Finding, d: Difference) -> tuple[str | Left, ...]:
+    where = f"{finding.line.title}: "
+    words: tuple[str | Left, ...]
+    match d.kind:
+        case "missing":
+            words = (where, "the term ", d.term, " is missing")
+        case "extra":
+            words = (where, "the term ", d.term, " is too much")
+        case "sign":
+            words = (where, d.written, " has the wrong sign")
+        case _:
+            words = (where, d.written, " should be ", d.term)
+    return (*words, *_source(d))
+
+
+def _source(d: Difference) -> tuple[str | Left, ...]:
+    if d.kind == "extra" and not d.origins:
+        return (".",)
+    if not d.origins:
+        return (".",)
+    listed = " and ".join(dict.fromkeys(o.element for o in d.origins))
+    steps = sorted({o.step for o in d.origins})
+    verb = "It comes from" if d.kind != "extra" else "Such a term comes from"
+    return (f". {verb} {listed} in step{'s' if len(steps) > 1 else ''} {' and '.join(map(str, steps))}.",)

@@ -1,0 +1,81 @@
+"""The Typer application: the group of all verbs, and how a line of arguments becomes a verb that runs."""
+
+from __future__ import annotations
+
+import os
+from typing import Annotated
+
+import typer
+
+from lagrangian.cli.verbs import Verbs
+from lagrangian.errors import Error
+
+NAME = "lagrangian"
+
+COMPLETING = "_LAGRANGIAN_COMPLETE"
+"""What a shell sets in the environment where it asks what a line could go on with."""
+
+app = typer.Typer(
+    name=NAME,
+    cls=Verbs,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
+)
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        from lagrangian.cli.start import version
+
+        version()
+        raise typer.Exit
+
+
+@app.callback()
+def verbs(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
+    """Equations of motion by the Lagrangian approach: every step shown, every result checked.
+
+    \b
+    Examples:
+      lagrangian derive --example lecture-3b          the seven steps, written out
+      lagrangian new lecture-3b -o carts.toml         a model file to start from
+      lagrangian simulate carts.toml -d 10 -o run.csv
+
+    Every verb has examples of its own: lagrangian simulate --help.
+    """
+
+
+def invoked(arguments: list[str]) -> int:
+    """Run the verb that the arguments name; return the exit code."""
+    command = typer.main.get_command(app)
+    if COMPLETING in os.environ:
+        command.main(args=arguments, prog_name=NAME)
+    try:
+        with command.make_context(NAME, list(arguments) or ["--help"]) as context:
+            command.invoke(context)
+    except typer.Exit as stop:
+        return stop.exit_code if arguments else 2
+    except _MISUSE as wrong:
+        raise _said(wrong) from None
+    return 0
+
+
+_MISUSE: type[Exception] = typer.BadParameter.__mro__[1]
+"""Typer's error of all mistakes in options and arguments, which it does not name itself."""
+
+
+def _said(wrong: Exception) -> Error:
+    """Typer's error as one of ours: what is wrong, and what would be right."""
+    what, context = str(getattr(wrong, "message", wrong)), getattr(wrong, "ctx", None)
+    if isinstance(wrong, typer.BadParameter):
+        what = wrong.format_message()
+    what = " ".join(what.replace("Value error, ", "").split())
+    near = getattr(wrong, "possibilities", None)
+    verb = context.command_path if context is not None else NAME
+    fix = f"Did you mean {' or '.join(near)}?" if near else f"`{verb} --help` shows what it takes, with examples"
+    return Error(what[:1].lower() + what[1:].rstrip("."), fix=fix)

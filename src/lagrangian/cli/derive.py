@@ -1,0 +1,55 @@
+"""``lagrangian derive``: the seven steps, written out."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from typing import Annotated
+
+import typer
+
+from lagrangian import write
+from lagrangian.cli.door import put, say
+from lagrangian.cli.door import width as columns
+from lagrangian.cli.formats import Format, FormatOption, Notation, NotationOption, chosen
+from lagrangian.cli.terminal import Example, Force, Json, OptionalFile, Output, Width, open_system
+from lagrangian.derive import pages
+
+
+class Detail(StrEnum):
+    """How much of the differentiation is written."""
+
+    USUAL = "usual"
+    FULL = "full"
+
+
+def derive(
+    file: OptionalFile = None,
+    example: Example = None,
+    format: FormatOption = None,
+    notation: NotationOption = Notation.LECTURE,
+    brief: Annotated[bool, typer.Option("--brief", help="Write only the one-page checklist.")] = False,
+    full: Annotated[bool, typer.Option("--full", help="Write out even expressions that are too long to read.")] = False,
+    detail: Annotated[Detail, typer.Option(help="“full” differentiates term by term in step 5.")] = Detail.USUAL,
+    json: Json = False,
+    width: Width = None,
+    output: Output = None,
+    force: Force = False,
+) -> None:
+    """Derive the equations of motion, step by step; exit 1 if a check fails.
+
+    \b
+    Examples:
+      lagrangian derive --example lecture-3b
+      lagrangian derive carts.toml --brief
+      lagrangian derive carts.toml --notation physics -o carts.tex
+    """
+    wanted = chosen(format, json, output, force)
+    derivation = open_system(file, example).derive(detail=detail.value)
+    if wanted is Format.TEXT:
+        document = pages.lay_out(derivation, notation=notation.value, brief=brief, full=full)
+        put(write.page_rows(document, columns(width, output)), output)
+    else:
+        put(pages.FORMATS[wanted.value](derivation, notation=notation.value, brief=brief, full=full), output)
+    if any(check.holds is False for check in derivation.verified):
+        say("a check at the end of the derivation does not hold; see its ✗")
+        raise typer.Exit(1)

@@ -1,0 +1,70 @@
+"""``lagrangian equilibria``: where a system can stay at rest."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from lagrangian.cli.assignments import assignments
+from lagrangian.cli.formats import FormatOption, chosen, put_report
+from lagrangian.cli.terminal import (
+    ConstantInputs,
+    Example,
+    Force,
+    Json,
+    OptionalFile,
+    Output,
+    Parameters,
+    Width,
+    open_system,
+)
+from lagrangian.errors import Error
+
+
+def equilibria(
+    file: OptionalFile = None,
+    example: Example = None,
+    box: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--box",
+            metavar="NAME=LOW:HIGH",
+            help='Range of a coordinate to search: theta1=-pi:pi, "x=0 m : 30 cm". Repeatable.',
+        ),
+    ] = None,
+    values: Parameters = None,
+    inputs: ConstantInputs = None,
+    samples: Annotated[
+        int | None,
+        typer.Option(metavar="N", help="Number of starting points of the search. By default, as many as are needed."),
+    ] = None,
+    format: FormatOption = None,
+    json: Json = False,
+    width: Width = None,
+    output: Output = None,
+    force: Force = False,
+) -> None:
+    """Find the equilibria within given ranges of the coordinates, and whether each is stable.
+
+    \b
+    Examples:
+      lagrangian equilibria --example double-pendulum
+      lagrangian equilibria arm.toml --box theta1=-pi:pi --set m1=2 --input tau=3
+      lagrangian equilibria arm.toml --json
+    """
+    wanted = chosen(format, json, output, force)
+    found = open_system(file, example).equilibria(
+        inputs=assignments(inputs, "--input"),
+        params=assignments(values, "--set"),
+        box={name: _ends(name, side) for name, side in assignments(box, "--box").items()},
+        samples=samples,
+    )
+    put_report(found.report(), wanted, width, output)
+
+
+def _ends(name: str, side: str) -> tuple[str, str]:
+    low, colon, high = (part.strip() for part in side.partition(":"))
+    if not (low and colon and high):
+        raise Error(f"the box of '{name}' is not low:high", fix=f"--box {name}=-1:1", code="E406")
+    return low, high

@@ -1,0 +1,60 @@
+"""``lagrangian export``: the dynamics as source code."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from lagrangian import write
+from lagrangian.cli.door import put, say
+from lagrangian.cli.formats import as_json
+from lagrangian.cli.terminal import Example, Force, Json, OptionalFile, open_system
+from lagrangian.compiled import sources
+from lagrangian.errors import Error
+
+
+class Language(StrEnum):
+    """What source code is written in."""
+
+    C = "c"
+    PYTHON = "python"
+
+
+def export(
+    to: Annotated[Language, typer.Option("--to", help="The programming language.")],
+    file: OptionalFile = None,
+    example: Example = None,
+    output: Annotated[
+        Path, typer.Option("--output", "-o", metavar="FOLDER", help="Folder to write the files into.")
+    ] = Path(),
+    name: Annotated[
+        str, typer.Option(metavar="NAME", help="Name of the files and prefix of the functions.")
+    ] = "dynamics",
+    json: Json = False,
+    force: Force = False,
+) -> None:
+    """Write the dynamics as source code that runs without this package.
+
+    \b
+    Examples:
+      lagrangian export carts.toml --to c -o out
+      lagrangian export --example robot-arm --to python --name arm
+    """
+    if output.exists() and not output.is_dir():
+        raise Error(f"'{output}' is a file, not a folder", fix="name a folder with -o: -o out", code="E801")
+    files = {output / title: text for title, text in sources(open_system(file, example).model, to.value, name).items()}
+    if output.is_dir():
+        for path in files:
+            write.check_free(path, overwrite=force)
+    try:
+        output.mkdir(parents=True, exist_ok=True)
+    except OSError as trouble:
+        raise Error(f"cannot make the folder '{output}': {(trouble.strerror or '').lower()}", code="E801") from None
+    for path, text in files.items():
+        write.write_file(path, text)
+        say(f"wrote {path}")
+    if json:
+        put(as_json({"language": to.value, "files": [str(path) for path in files]}))

@@ -1,0 +1,68 @@
+"""A run in a few lines: how it went, and where every state began, ended and stayed between."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+
+from lagrangian.cli.wording import in_options
+from lagrangian.simulate import plot
+from lagrangian.simulate.trajectory import Trajectory
+from lagrangian.write import Title
+from lagrangian.write.tables import Column
+
+
+def summary(run: Trajectory) -> list[str]:
+    """A run on a screen; angles in degrees, with radians below."""
+    lines = [
+        Title(f"{run.model.name}: t = {run.t[0]:g} … {run.t[-1]:g} s, {len(run.t)} samples"),
+        f"  {run.method}: {run.steps} steps, {run.rejected} rejected, {run.nfev} evaluations",
+        f"  {run.audit}",
+        f"  {in_options(run.message)}",
+        "",
+    ]
+    rows: list[tuple[str, ...]] = [("", "start", "end", "least", "greatest", "")]
+    for column in _columns(run):
+        numbers = np.array(list(plot.extremes(column.values)))
+        if column.unit == "rad":  # people think in degrees; the SI values stand below
+            rows.append((column.name, *(f"{x:.6g}" for x in np.degrees(numbers)), "deg"))
+            rows.append(("", *(f"({x:.4g})" for x in numbers), "(rad)"))
+        else:
+            rows.append((column.name, *(f"{x:.6g}" for x in numbers), column.unit))
+    wide = [max(len(row[k]) for row in rows) for k in range(6)]
+    for row in rows:
+        cells = [row[0].ljust(wide[0]), *(row[k].rjust(wide[k]) for k in range(1, 5)), row[5]]
+        lines.append(("  " + "  ".join(cells)).rstrip())
+    return lines
+
+
+def figures(run: Trajectory) -> dict[str, Any]:
+    """The same as data, in SI units."""
+    return {
+        "name": run.model.name,
+        "success": bool(run.success),
+        "message": in_options(run.message),
+        "notices": [str(notice) for notice in run.notices],
+        "method": run.method,
+        "start": float(run.t[0]),
+        "end": float(run.t[-1]),
+        "samples": len(run.t),
+        "steps": int(run.steps),
+        "rejected": int(run.rejected),
+        "evaluations": int(run.nfev),
+        "balance": {"kind": "energy" if run.audit.conserved else "power", "missed_by": float(run.audit.figure)},
+        "columns": [
+            {
+                "name": c.name,
+                "unit": c.unit,
+                **dict(zip(("start", "end", "least", "greatest"), plot.extremes(c.values), strict=True)),
+            }
+            for c in _columns(run)
+        ],
+    }
+
+
+def _columns(run: Trajectory) -> Iterator[Column]:
+    yield from (column for column in plot.table(run).columns if "." not in column.name)

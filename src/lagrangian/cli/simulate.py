@@ -1,0 +1,207 @@
+"""``lagrangian simulate``: one run, its summary, its data, its picture."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from lagrangian.cli.assignments import assignments
+from lagrangian.cli.door import fail, put, say
+from lagrangian.cli.formats import as_json
+from lagrangian.cli.run_summary import figures, summary
+from lagrangian.cli.terminal import (
+    COMPUTING,
+    INTEGRATION,
+    OUTPUT,
+    Atol,
+    Duration,
+    Example,
+    Force,
+    Initial,
+    MaxStep,
+    MaxSteps,
+    OptionalFile,
+    Parameters,
+    Plot,
+    Rtol,
+    Step,
+    open_system,
+)
+from lagrangian.cli.wording import in_options
+from lagrangian.errors import Error, ModelError, Place
+from lagrangian.integrate import METHODS
+from lagrangian.integrate.scipy_methods import SCIPY
+from lagrangian.simulate.inputs import MAX_KNOTS
+from lagrangian.write import write_with
+from lagrangian.write.tables import ENDINGS, check_target
+
+PICTURES = (".png", ".pdf", ".svg", ".jpg")
+
+MAX_BYTES = 64 * MAX_KNOTS
+"""Bytes of a table's file: so many lines of two long numbers."""
+
+
+def simulate(
+    file: OptionalFile = None,
+    example: Example = None,
+    duration: Duration = None,
+    init: Initial = None,
+    set_: Parameters = None,
+    input_: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--input",
+            "-i",
+            metavar="NAME=VALUE",
+            help='An input: tau=2, "tau=3*sin(t)", "F=-k*x", or a table of times and values: F=@force.csv (straight '
+            'lines between them), "F=@force.csv hold" (steps). Repeatable.',
+        ),
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output",
+            "-o",
+            metavar="PATH",
+            help="Write the results to this file (.csv, .nc, .parquet, .npz); - writes CSV to standard output.",
+            rich_help_panel=OUTPUT,
+        ),
+    ] = None,
+    plot: Plot = None,
+    samples: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N", help="Number of evenly spaced times in the results; 1001 by default.", rich_help_panel=OUTPUT
+        ),
+    ] = None,
+    json: Annotated[bool, typer.Option("--json", help="Write the summary as JSON.", rich_help_panel=OUTPUT)] = False,
+    force: Force = False,
+    method: Annotated[
+        str | None,
+        typer.Option(
+            metavar="NAME",
+            help=f"One of {', '.join(METHODS)} (machine code; dop853 by default), {', '.join(SCIPY)} (SciPy).",
+            rich_help_panel=INTEGRATION,
+        ),
+    ] = None,
+    step: Step = None,
+    rtol: Rtol = 1e-9,
+    atol: Atol = 1e-12,
+    max_step: MaxStep = None,
+    max_steps: MaxSteps = 10_000_000,
+    max_events: Annotated[
+        int, typer.Option(metavar="N", help="Stop the run after so many events.", rich_help_panel=COMPUTING)
+    ] = 100_000,
+    timeout: Annotated[
+        float | None,
+        typer.Option(metavar="SECONDS", help="Stop the run after so much computing time.", rich_help_panel=COMPUTING),
+    ] = None,
+) -> None:
+    """Simulate the system and print a summary; exit 1 if the run stopped early (its results up to then are kept).
+
+    \b
+    Examples:
+      lagrangian simulate --example double-pendulum --duration 10 --plot run.png
+      lagrangian simulate carts.toml -d 10 --set k=80 --init "x2=0.4 m" -o run.csv
+      lagrangian simulate cart.toml -d "500 ms" --input "F=3*sin(t)" --method taylor
+    """
+    for path, endings in ((plot, PICTURES), (output, [*ENDINGS])):
+        if path is not None and str(path) != "-":
+            check_target(path, list(endings), overwrite=force)
+    system = open_system(file, example)
+    run = system.simulate(
+        duration,
+        initial=assignments(init, "--init"),
+        params=assignments(set_, "--set"),
+        inputs={name: _signal(name, value) for name, value in assignments(input_, "--input").items()},
+        method=method,
+        step=step,
+        rtol=rtol,
+        atol=atol,
+        samples=samples,
+        timeout=timeout,
+        max_step=math.inf if max_step is None else max_step,
+        max_steps=max_steps,
+        max_events=max_events,
+    )
+    if plot is not None:
+        figure = run.figure()
+        kind = plot.suffix.lower().removeprefix(".")
+        write_with(plot, lambda beside: figure.savefig(beside, format=kind, dpi=150))
+        say(f"wrote {plot}")
+    if output is not None and str(output) != "-":
+        say(f"wrote {run.save(output, overwrite=force)}")
+    if output is not None and str(output) == "-":
+        put(run.to_csv())
+    else:
+        put(as_json(figures(run)) if json else summary(run))
+    for notice in run.notices:
+        say(f"note: {notice}")
+    if run.audit.missed and run.success:
+        say(f"note: {in_options(run.audit.missed)}")
+    if not run.success:
+        fail(in_options(run.message))
+        raise typer.Exit(1)
+
+
+def _signal(name: str, value: str) -> Any:
+    """An input as it is written, or the table in a file: ``@force.csv`` with a time and a value a line."""
+    if not value.startswith("@"):
+        return value
+    path, _, kind = value[1:].strip().partition(" ")
+    if kind.strip() not in ("", "hold", "linear"):
+        what = f"--input {name}=@FILE takes 'hold' or 'linear' (got '{kind.strip()[:40]}')"
+        raise Error(what, fix=f"--input '{name}=@{path} hold'", code="E406")
+    return (*_columns(path), kind.strip() or "linear")
+
+
+def _columns(path: str) -> tuple[list[float], list[float]]:
+    """Times and values of a CSV file; a first line of names is passed over."""
+    times: list[float] = []
+    values: list[float] = []
+    for number, line in enumerate(_table_text(path).splitlines(), 1):
+        cells = [cell.strip().strip('"') for cell in line.split(",")]
+        if not line.strip() or line.lstrip().startswith("#") or (number == 1 and not any(map(_is_number, cells))):
+            continue
+        if len(cells) != 2 or not all(map(_is_number, cells)):
+            raise ModelError(
+                f"'{line[:60]}' is not a time and a value",
+                place=Place(path, number),
+                fix="write two numbers on each line: 0.5,12.3",
+                code="E406",
+            )
+        times.append(float(cells[0]))
+        values.append(float(cells[1]))
+        if len(times) > MAX_KNOTS:
+            raise ModelError(f"more than {MAX_KNOTS} lines", place=Place(path, number), code="E703")
+    if not times:
+        raise ModelError(
+            "the table holds no numbers", place=Place(path), fix="write a time and a value on each line", code="E406"
+        )
+    return times, values
+
+
+def _is_number(text: str) -> bool:
+    try:
+        float(text)
+    except ValueError:
+        return False
+    return True
+
+
+def _table_text(path: str) -> str:
+    """The text of a table's file, no more of it than a table can have; a byte order mark is left out."""
+    try:
+        with Path(path).open("rb") as file:
+            data = file.read(MAX_BYTES + 1)
+        text = data.decode("utf-8-sig")
+    except (OSError, UnicodeDecodeError) as trouble:
+        reason = getattr(trouble, "strerror", None) or "it is not text"
+        what, fix = f"cannot read the table: {reason.lower()}", "name a text file with a time and a value a line"
+        raise ModelError(what, place=Place(path), fix=fix, code="E702") from None
+    if len(data) > MAX_BYTES:
+        raise ModelError(f"the table has more than {MAX_BYTES} bytes", place=Place(path), code="E703")
+    return text

@@ -1,0 +1,141 @@
+"""Options that commands share, and how a model is opened."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from lagrangian.cli.door import NARROWEST, USUAL, WIDEST
+from lagrangian.errors import Error
+
+if TYPE_CHECKING:
+    from lagrangian.system import System
+
+
+OUTPUT, INTEGRATION, COMPUTING = "Output", "Integration", "Computing"
+"""The groups of options in a verb's help, behind its own ones."""
+
+
+def example_names(begun: str) -> list[str]:
+    """The names of the examples that begin so, for a shell to complete."""
+    from lagrangian import examples
+
+    return [name for name in examples.names() if name.startswith(begun)]
+
+
+File = Annotated[str, typer.Argument(metavar="FILE", help="A model file; - is standard input.", show_default=False)]
+OptionalFile = Annotated[
+    str | None, typer.Argument(metavar="FILE", help="A model file; - is standard input.", show_default=False)
+]
+Example = Annotated[
+    str | None,
+    typer.Option(
+        "--example",
+        "-e",
+        metavar="NAME",
+        help="Use a built-in example instead of a file.",
+        show_default=False,
+        autocompletion=example_names,
+    ),
+]
+Width = Annotated[
+    int | None,
+    typer.Option(
+        metavar="COLUMNS",
+        help=f"Width of the text in columns. By default, that of the terminal, or {USUAL}.",
+        min=NARROWEST,
+        max=WIDEST,
+        show_default=False,
+        rich_help_panel=OUTPUT,
+    ),
+]
+Json = Annotated[bool, typer.Option("--json", help="Write the result as JSON.", rich_help_panel=OUTPUT)]
+Output = Annotated[
+    Path | None,
+    typer.Option(
+        "--output",
+        "-o",
+        metavar="PATH",
+        help="Write to this file instead of standard output.",
+        show_default=False,
+        rich_help_panel=OUTPUT,
+    ),
+]
+Force = Annotated[bool, typer.Option("--force", help="Overwrite an existing file.", rich_help_panel=OUTPUT)]
+Parameters = Annotated[
+    list[str] | None,
+    typer.Option("--set", "-s", metavar="NAME=VALUE", help='Value of a parameter: k=80, "m1=2 kg". Repeatable.'),
+]
+ConstantInputs = Annotated[
+    list[str] | None,
+    typer.Option("--input", "-i", metavar="NAME=VALUE", help="Constant value of an input: F=2. Repeatable."),
+]
+
+# -- what `simulate` and `sweep` share --------------------------------------------------------------------------------
+
+Duration = Annotated[
+    str | None,
+    typer.Option(
+        "--duration",
+        "-d",
+        metavar="TIME",
+        help='How long to simulate: 10, "500 ms". By default, as the model file says.',
+        show_default=False,
+    ),
+]
+Initial = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--init",
+        metavar="NAME=VALUE",
+        help='Initial value of a coordinate or rate: "theta1=30 deg", "x\'=0.1". Repeatable.',
+    ),
+]
+Plot = Annotated[
+    Path | None,
+    typer.Option(
+        metavar="PATH",
+        help="Draw a picture into this file (.png, .pdf, .svg, .jpg).",
+        show_default=False,
+        rich_help_panel=OUTPUT,
+    ),
+]
+Step = Annotated[
+    str | None,
+    typer.Option(metavar="TIME", help='Step of rk4 and gauss4: 0.01, "10 ms".', rich_help_panel=INTEGRATION),
+]
+Rtol = Annotated[float, typer.Option(metavar="NUMBER", help="Relative tolerance.", rich_help_panel=INTEGRATION)]
+Atol = Annotated[float, typer.Option(metavar="NUMBER", help="Absolute tolerance.", rich_help_panel=INTEGRATION)]
+MaxStep = Annotated[
+    str | None, typer.Option(metavar="TIME", help='Longest step: 0.01, "10 ms".', rich_help_panel=INTEGRATION)
+]
+MaxSteps = Annotated[int, typer.Option(metavar="N", help="Stop a run after so many steps.", rich_help_panel=COMPUTING)]
+
+
+def open_system(file: str | None, example: str | None = None) -> System:
+    """Return the system of a model file (``-`` is standard input) or of a built-in example; one of the two is given."""
+    if (file is None) == (example is None):
+        what = "there is no model to work on" if file is None else "a file and --example are given: one is worked on"
+        raise Error(what, fix="name a model file, or a built-in example with --example NAME", code="E401")
+    from lagrangian import examples
+    from lagrangian.system import load, loads
+
+    if example is not None:
+        return loads(examples.text(example), name=f"<example {example}>")
+    assert file is not None
+    if file == "-":
+        return loads(standard_input(), name="<standard input>")
+    return load(file)
+
+
+def standard_input() -> str:
+    """Return the text of standard input; raises `Error` where it is closed."""
+    if sys.stdin is None:
+        raise Error("standard input is closed", fix="name a model file, or pipe one in", code="E702")
+    from lagrangian import read
+
+    data = sys.stdin.buffer.read(read.MAX_BYTES + 1)
+    return read.decode(data, "<standard input>")

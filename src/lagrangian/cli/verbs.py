@@ -1,0 +1,110 @@
+"""The verbs of the command: each with its line in the list, its file read only when the verb is used."""
+
+from __future__ import annotations
+
+import re
+from functools import cached_property
+from importlib import import_module
+from typing import Any
+
+import typer
+import typer.core
+
+VERBS = {
+    "derive": ("derive", "derive", "Derive the equations of motion, step by step; exit 1 if a check fails."),
+    "verify": (
+        "verify",
+        "verify",
+        "Check the equations, the compiled code, its exports and the linearization; exit 1 if a check fails.",
+    ),
+    "check": (
+        "check",
+        "check",
+        "Check your own answer: equations, energies or a whole derivation; exit 1 if it is wrong or incomplete.",
+    ),
+    "export": ("export", "export", "Write the dynamics as source code that runs without this package."),
+    "compare": (
+        "compare",
+        "compare",
+        "Compare the equations of two systems; exit 0 if both describe the same motion, 1 if they differ.",
+    ),
+    "linearize": ("linearize", "linearize", "Linearize about an equilibrium: A, B, C, D, poles, modes, stability."),
+    "equilibria": (
+        "equilibria",
+        "equilibria",
+        "Find the equilibria within given ranges of the coordinates, and whether each is stable.",
+    ),
+    "conserved": (
+        "conserved",
+        "conserved",
+        "Find conserved quantities: momenta, total momenta and energy, each proved and checked along a simulated run.",
+    ),
+    "simulate": (
+        "simulate",
+        "simulate",
+        "Simulate the system and print a summary; exit 1 if the run stopped early (its results up to then are kept).",
+    ),
+    "sweep": (
+        "sweep",
+        "sweep",
+        "Simulate every combination of values and keep a few numbers of each run; exit 1 if all runs fail.",
+    ),
+    "new": ("start", "new", "Print a model file to start from."),
+    "examples": ("start", "list_examples", "List the built-in examples."),
+    "schema": ("start", "schema", "Print the JSON Schema of model files, for editors."),
+    "version": ("start", "version", "Print the version."),
+}
+"""Name → file, function, and the first line of its help."""
+
+
+_ENDING = re.compile(r"[;.] [Ee]xit \d")
+"""Where the line of a verb goes over to exit codes, which the list of verbs leaves out."""
+
+
+class Grouped(typer.core.TyperCommand):
+    """A verb whose help lists its options by their groups, in the order in which these first appear."""
+
+    def format_options(self, ctx: Any, formatter: Any) -> None:
+        """Write the arguments, then the options of every group."""
+        groups: dict[str, list[tuple[str, str]]] = {}
+        for param in self.get_params(ctx):
+            if (record := param.get_help_record(ctx)) is None:
+                continue
+            if param.param_type_name == "argument":
+                groups.setdefault("Arguments", []).append((record[0].partition(" <")[0], record[1]))
+            else:
+                groups.setdefault(getattr(param, "rich_help_panel", None) or "Options", []).append(record)
+        for name, records in groups.items():
+            with formatter.section(name):
+                formatter.write_dl(records)
+
+
+class Deferred(typer.core.TyperCommand):
+    """A verb that is known by its name and its line of help until it is used."""
+
+    def __init__(self, name: str, file: str, function: str, help: str) -> None:
+        super().__init__(name, help=help, short_help=_ENDING.split(help)[0].rstrip(".") + ".")
+        self._file, self._function = file, function
+
+    @cached_property
+    def verb(self) -> Any:
+        """The command itself, with its options."""
+        alone = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
+        alone.command(self.name, cls=Grouped)(getattr(import_module(f"lagrangian.cli.{self._file}"), self._function))
+        return typer.main.get_command(alone)
+
+    def make_context(self, *arguments: Any, **options: Any) -> Any:
+        """Return the context of the command itself: from here on it is the one that runs."""
+        return self.verb.make_context(*arguments, **options)
+
+    def get_params(self, ctx: Any) -> list[Any]:
+        """Return the options and arguments of the command itself."""
+        return self.verb.get_params(ctx)
+
+
+class Verbs(typer.core.TyperGroup):
+    """All verbs, in the order of the list."""
+
+    def __init__(self, **attributes: Any) -> None:
+        super().__init__(**attributes)
+        self.commands = {name: Deferred(name, *where) for name, where in VERBS.items()}

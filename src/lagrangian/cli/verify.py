@@ -1,0 +1,38 @@
+"""``lagrangian verify``: the equations checked by independent routes."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+import typer
+
+from lagrangian.cli.formats import FormatOption, chosen, put_report
+from lagrangian.cli.terminal import Example, Force, Json, OptionalFile, Output, Width, open_system
+from lagrangian.verify.report import verification_report
+
+
+def verify(
+    file: OptionalFile = None,
+    example: Example = None,
+    states: Annotated[int, typer.Option(help="Number of random states at which to compare.", min=1, max=100_000)] = 100,
+    seed: Annotated[int, typer.Option(help="Seed of the random states.")] = 1,
+    format: FormatOption = None,
+    json: Json = False,
+    width: Width = None,
+    output: Output = None,
+    force: Force = False,
+) -> None:
+    """Check the equations, the compiled code, its exports and the linearization; exit 1 if a check fails.
+
+    \b
+    Examples:
+      lagrangian verify carts.toml
+      lagrangian verify --example double-pendulum --states 1000
+      lagrangian verify carts.toml --json
+    """
+    wanted = chosen(format, json, output, force)
+    system = open_system(file, example)
+    checks = system.verify(states=states, seed=seed)
+    put_report(verification_report(system.model, checks), wanted, width, output)
+    if any(check.holds is False for check in checks):
+        raise typer.Exit(1)

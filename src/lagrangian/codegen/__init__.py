@@ -1,0 +1,72 @@
+"""Program → Kernel: machine code through LLVM, C99 and NumPy sources."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import TYPE_CHECKING
+
+from lagrangian.errors import RunError
+from lagrangian.lazily import lazily
+
+if TYPE_CHECKING:
+    from lagrangian.graph import Program
+
+    from .buffers import Look, RawFunction, aligned
+    from .build import Build, Options
+    from .c99 import to_c
+    from .kernel import Kernel
+    from .numpy_source import to_numpy
+else:
+    __getattr__ = lazily(
+        __name__,
+        {
+            "build": "Build Options",
+            "c99": "to_c",
+            "kernel": "Kernel",
+            "numpy_source": "to_numpy",
+            "buffers": "Look RawFunction aligned",
+        },
+    )
+
+__all__ = ["Build", "Kernel", "Look", "Options", "RawFunction", "aligned", "compile", "to_c", "to_numpy"]
+
+
+def compile(
+    program: Program,
+    *,
+    hoist: Iterable[str] = ("p",),
+    optional: Mapping[str, float] | None = None,
+    lanes: int | None = None,
+    threads: int | None = None,
+    keep: bool = True,
+) -> Kernel:
+    """Compile ``program``; machine code is made at the first call of each kind (one state, many, a parameter set each).
+
+    ``hoist``: groups that stay the same over many states; what depends on them alone is computed once a set.
+    ``optional``: groups that may be left out, with the value their entries then have.
+    ``lanes``: states computed side by side in a batch (1, 2, 4, 8; the machine's widest unless given).
+    ``threads``: cores used for a large batch (all unless given). ``keep``: keep the code on disk between runs.
+
+    >>> from lagrangian.graph import Graph, Output, Program
+    >>> g = Graph()
+    >>> x, k = g.input("q", 0), g.input("p", 0)
+    >>> inputs, outputs = {"q": ("x",), "p": ("k",)}, {"force": Output((g.mul(k, x),), (1,))}
+    >>> spring = compile(Program("spring", g, inputs, outputs, {"k": 40.0}))
+    >>> spring([0.5])
+    array([20.])
+    >>> spring([[0.5], [0.25]], p={"k": 8.0})
+    array([[4.],
+           [2.]])
+    """
+    from . import native  # here LLVM is loaded: source code is written without it
+    from .build import Build, Options
+    from .kernel import Kernel
+
+    target = native.host()
+    width = target.lanes if lanes is None else lanes
+    if type(width) is not int or width not in (1, 2, 4, 8):
+        raise RunError(f"lanes must be 1, 2, 4 or 8 (got {lanes!r})", code="E501")
+    if threads is not None and (type(threads) is not int or threads < 1):
+        raise RunError(f"threads must be a whole number, at least 1 (got {threads!r})", code="E501")
+    build = Build(program, Options(width, tuple(hoist), keep=keep), target)
+    return Kernel(build, optional=optional or {}, threads=threads)

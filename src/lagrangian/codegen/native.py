@@ -1,0 +1,144 @@
+"""The machine underneath: what the host can do, IR text to object code, object code to addresses that can be called.
+
+llvmlite carries LLVM; nothing else is needed on the user's machine.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import threading
+from functools import cache
+
+from lagrangian.errors import MissingExtra, RunError
+
+try:
+    import llvmlite
+    import llvmlite.binding as llvm
+except ImportError:
+    raise MissingExtra(
+        "machine code is made by the package 'llvmlite', which is not installed",
+        fix="pip install llvmlite; derivations and exported source code need no machine code",
+        code="E801",
+    ) from None
+
+from .elementary import LIBM
+from .ir import BIND, Target
+
+_lock = threading.RLock()  # LLVM's global state (targets, engines) is set up by one thread at a time
+
+
+OLD = tuple(int(part) for part in llvmlite.__version__.split(".")[:2]) < (0, 45)  # LLVM 15
+
+
+@cache
+def _ready() -> None:
+    """Start LLVM's compiler for this machine."""
+    if OLD:  # later ones start themselves, and refuse to be told
+        llvm.initialize()
+    llvm.initialize_native_target()
+    llvm.initialize_native_asmprinter()
+
+
+@cache
+def host() -> Target:
+    """This machine: its name, its features, and the widest vector of doubles it has."""
+    with _lock:
+        _ready()
+        features = llvm.get_host_cpu_features()
+        # On Windows, too, what LLVM loads into memory is an ELF object.
+        triple = llvm.get_process_triple() + ("-elf" if os.name == "nt" else "")
+        flags = features.flatten()
+    arm = triple.startswith(("aarch64", "arm64"))
+    lanes = 8 if features.get("avx512f") and features.get("avx512dq") else 4 if features.get("avx2") else 2
+    # The features are the host's; the instruction scheduler gets the generation's common model: where both were tried
+    # its code was as fast as with the processor's own model, made in a quarter less time, and LLVM knows it even where
+    # it does not yet know the processor.
+    cpu = {8: "x86-64-v4", 4: "x86-64-v3", 2: "x86-64"}[lanes] if triple.startswith("x86_64") else ""
+    return Target(triple, cpu, flags, bool(arm or features.get("fma")), lanes, llvm.llvm_version_info[0] >= 19)
+
+
+def machine(target: Target, level: int) -> llvm.TargetMachine:
+    """LLVM's code generator for ``target`` at optimisation level 0–3."""
+    with _lock:
+        _ready()
+        # Position independent and small: constants are operands relative to the instruction pointer. The memory manager
+        # asked for in `load` keeps all sections of an object within reach.
+        return llvm.Target.from_triple(target.triple).create_target_machine(
+            cpu=target.cpu, features=target.features, opt=level, reloc="pic", codemodel="small", jit=True
+        )
+
+
+def _context() -> llvm.ContextRef:
+    """A context of our own: others' modules in this process, and their kind of pointers, stay apart."""
+    if OLD:  # pointers without a pointee's type must be asked for
+        return llvm.context.ContextRef(llvm.ffi.lib.LLVMPY_ContextCreate(True))
+    return llvm.create_context()
+
+
+@cache
+def _lasting_context() -> llvm.ContextRef:
+    """The context of the empty modules that engines are built around; it must outlive them all."""
+    return _context()
+
+
+def object_code(text: str, target: Target, level: int) -> bytes:
+    """Compile IR text. The text is our own; LLVM's refusal of it is a defect here, so its RuntimeError goes through."""
+    with _lock:
+        _ready()
+        context = _context()
+        module = llvm.parse_assembly(text, context)
+        try:
+            return machine(target, level).emit_object(module)
+        finally:
+            module.close()  # before its context
+            context.close()
+
+
+class Loaded:
+    """Object code in memory; it lives as long as this object does."""
+
+    def __init__(self, code: bytes, target: Target) -> None:
+        with _lock:
+            _ready()
+            shell = llvm.parse_assembly(f'target triple = "{target.triple}"', _lasting_context())
+            self._engine = llvm.create_mcjit_compiler(shell, machine(target, 1), use_lmm=True)
+            self._engine.add_object_file(llvm.ObjectFileRef.from_data(code))
+            self._engine.finalize_object()
+        bind = ctypes.CFUNCTYPE(None, ctypes.c_void_p)(self.address(BIND))
+        bind(libm_table())
+
+    def address(self, name: str) -> int:
+        """Where the function ``name`` starts."""
+        with _lock:
+            found = self._engine.get_function_address(name)
+        if not found:
+            raise KeyError(name)
+        return found
+
+
+_tables: list[ctypes.Array[ctypes.c_void_p]] = []  # compiled code points here: kept for the life of the process
+
+
+@cache
+def libm_table() -> int:
+    """Address of the table of C functions, in the order of :data:`~lagrangian.codegen.elementary.LIBM`."""
+    library = _c_library()
+    table = (ctypes.c_void_p * len(LIBM))()
+    for k, name in enumerate(LIBM):
+        table[k] = ctypes.cast(getattr(library, name), ctypes.c_void_p).value
+    _tables.append(table)
+    return ctypes.addressof(table)
+
+
+def _c_library() -> ctypes.CDLL:
+    """The C library's mathematical half."""
+    names = ["ucrtbase", "msvcrt"] if os.name == "nt" else [None, "libm.so.6"]
+    for name in names:
+        try:
+            library = ctypes.CDLL(name)
+            library.asinh  # noqa: B018  (asks whether it is there)
+        except (OSError, AttributeError):
+            continue
+        return library
+    raise RunError("the C mathematical library was not found", fix="install the system's C library (libm)")

@@ -1,0 +1,289 @@
+"""The quick ways into a kernel: what needs no closer look reaches the machine code with as little Python as can be.
+
+One state, and many states that stand in arrays. Whatever else is handed over is answered by None: the kernel then takes
+the way that converts, broadcasts, and explains what is wrong. A call here is as safe as there: every number is
+checked, results are new arrays, and several threads may call at once. What is written out in one piece here, or asked
+twice in other words, is so for the sake of time.
+"""
+
+from __future__ import annotations
+
+import math
+import struct
+from collections.abc import Callable, Sequence
+from functools import cache
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy import ndarray
+from numpy.typing import NDArray
+
+from .arguments import FLOAT, PLAIN, Group
+from .batch import Array, Engine, Shapes
+from .buffers import NOTHING, Look, Row, Slot, Stage, address
+from .driver import NOT_FINITE
+from .sizes import Sizes
+
+Entry: TypeAlias = Callable[[Any], int]
+"""A function of machine code that is handed the table of a stage; 0 where all is well."""
+
+_WORD = 8  # bytes of a number
+_PACKED = {n: struct.Struct(f"{n}q").pack for n in range(1, 64, 3)}
+"""Tables as the machine code reads them, by the number of their entries."""
+
+
+class Quick:
+    """The quick ways into one kernel, and what they find ready: stages, shared blocks, machine code.
+
+    ``owner`` keeps the machine code in memory. At most one group is hoisted.
+    """
+
+    def __init__(
+        self,
+        groups: Sequence[Group],
+        late: Sequence[int],
+        early: Sequence[int],
+        outputs: Shapes,
+        threads: int | None,
+        owner: object,
+    ) -> None:
+        self.stages: list[Stage] = []  # not in use
+        self.sizes: Sizes | None = None  # there is machine code as soon as they are known
+        self.single: Entry = absent
+        self.both: Entry = absent
+        self.parameters: Entry = absent
+        self.engines: dict[str, Engine] = {}
+        self.standard: Array | None = None  # the shared block of the default parameters, once used
+        self.admit: Callable[[Array], Look | None] | None = None  # looks at hoisted values before their use; may raise
+        self._threads, self._owner = threads, owner
+        self._early = Slot(early[0], groups[early[0]]) if early else None
+        self._late = [Slot(k, groups[k]) for k in late]
+        self._lead_at = next((slot.place for slot in self._late if not slot.scalar), None)
+        self._outputs = outputs
+        self._alone = len(outputs) == 1
+        self._sizes = [(shape, _WORD * math.prod(shape)) for shape in outputs.values()]
+
+    def __call__(self, given: Sequence[Any]) -> Any:
+        """The answer to a call with something, or None, for each group; None if anything needs a closer look."""
+        try:
+            stage = self.stages.pop()
+        except IndexError:  # no machine code yet, or other threads have them all
+            if self.sizes is None:
+                return None
+            stage = self.stage()
+        bad = 1
+        try:
+            for place, part, shape, default, plain in stage.parts:
+                array = given[place]
+                if type(array) is ndarray:
+                    if array.shape != shape or (array.dtype is not FLOAT and array.dtype != FLOAT):
+                        break
+                    part[...] = array  # a third of the time of part[:]
+                elif array is None:
+                    if default is None:
+                        break
+                    if default is not NOTHING:
+                        part[...] = default
+                elif shape is None:
+                    if type(array) not in PLAIN:
+                        break
+                    part[0] = array
+                else:
+                    array = plain(array)
+                    if array is None:
+                        break
+                    part[...] = array
+            else:
+                early = None if self._early is None else given[self._early.place]
+                if early is not None:
+                    bad = self._own(stage, early, self.single, self.both)
+                elif self.standard is not None:
+                    if stage.shared is not self.standard:
+                        stage.share(self.standard)
+                    bad = self.single(stage.where)
+        except OverflowError:  # an integer beyond all floats
+            bad = 1
+        answer = None if bad else stage.reads[0]() if self._alone else self.answer(stage)
+        if bad and self._lead_at is not None:
+            first = given[self._lead_at]
+            if type(first) is ndarray and first.ndim > 1:
+                answer = self._many(stage, given, first.shape[:-1])
+        self.stages.append(stage)
+        return answer
+
+    def _own(self, stage: Stage, early: Any, known: Entry, new: Entry) -> int:
+        """Call machine code with a stage's own shared block made of these parameters; not 0 if they need a closer look.
+
+        ``known`` is called if that is what the block is made of, ``new``, which makes it, if not.
+        """
+        slot = self._early
+        assert slot is not None
+        if type(early) is ndarray:
+            if early.shape != slot.shape or (early.dtype is not FLOAT and early.dtype != FLOAT):
+                return NOT_FINITE
+            key = early.tobytes()
+        else:
+            early = slot.plain(early)
+            if early is None:
+                return NOT_FINITE
+            try:
+                key = slot.pack(*early)
+            except struct.error:  # an integer beyond all floats
+                return NOT_FINITE
+        if stage.shared is not stage.own:
+            stage.share(stage.own)
+        if key == stage.key:
+            return known(stage.where)
+        stage.key = None
+        stage.hoisted[...] = early
+        bad = new(stage.where)
+        if bad & NOT_FINITE:
+            return bad
+        if self.admit is not None and (bad or stage.look is None):
+            look = self.admit(stage.hoisted)
+            if look is not None:
+                stage.ask(look)
+        stage.key = key
+        return 0
+
+    def stage(self) -> Stage:
+        """A stage for one state: one that is not in use, or a new one."""
+        try:
+            return self.stages.pop()
+        except IndexError:
+            assert self.sizes is not None
+            return Stage(self.sizes, self._late, tuple(self._outputs.values()))
+
+    def answer(self, stage: Stage) -> Any:
+        """The outputs of a stage, copied."""
+        if self._alone:
+            return stage.reads[0]()
+        answers = {}
+        for name, read in zip(self._outputs, stage.reads, strict=True):
+            answers[name] = read()
+        return answers
+
+    def _many(self, stage: Stage, given: Sequence[Any], lead: tuple[int, ...]) -> Any:
+        """Many states in arrays of one leading shape, or with one row for all of them, which the stage then holds."""
+        slot, rows, engine = self._early, stage.rows, self.engines.get("batch")
+        early = None if slot is None else given[slot.place]
+        if slot is None or early is None:
+            if self.standard is None:
+                return None
+            if stage.shared is not self.standard:
+                stage.share(self.standard)
+        elif type(early) is ndarray and early.ndim > 1:
+            if early.shape != lead + slot.shape or (early.dtype is not FLOAT and early.dtype != FLOAT):
+                return None
+            if self.admit is not None:
+                self.admit(early)
+            rows, engine = [*rows, (slot, stage.hoisted, 0)], self.engines.get("sweep")
+        elif self._own(stage, early, _made, self.parameters) != 0:
+            return None
+        count = lead[0] if len(lead) == 1 else math.prod(lead)
+        if engine is None or not count:
+            return None
+        if count >= engine.lanes:
+            return self._computed(stage, engine, rows, given, lead, count)
+        filled = _filled(rows, given, lead, count, engine.lanes)
+        if filled is None:
+            return None
+        answer = self._computed(stage, engine, rows, filled, (engine.lanes,), engine.lanes)
+        if type(answer) is dict:
+            return {name: array[:count].reshape(lead + array.shape[1:]) for name, array in answer.items()}
+        return None if answer is None else answer[:count].reshape(lead + answer.shape[1:])
+
+    def _computed(
+        self,
+        stage: Stage,
+        engine: Engine,
+        rows: Sequence[Row],
+        given: Sequence[Any],
+        lead: tuple[int, ...],
+        count: int,
+    ) -> Any:
+        """As many states as lanes, or more."""
+        entries: list[int] = []
+        try:
+            for slot, part, place in rows:
+                if not _reads(entries, slot, part, place, given[slot.place], lead):
+                    return None
+        except OverflowError:  # an integer beyond all floats
+            return None
+        results = []
+        for shape, size in self._sizes:
+            made = np.empty(lead + shape)
+            results.append(made)
+            entries += (address(made), size, _WORD)
+        entries.append(stage.table[1] or 0)
+        pack = _PACKED.get(len(entries))
+        if pack is None or engine.run(pack(*entries), count, self._threads) >= 0:
+            return None  # something is not finite: where, is for the other way to find
+        return results[0] if self._alone else dict(zip(self._outputs, results, strict=True))
+
+
+def _filled(
+    rows: Sequence[Row], given: Sequence[Any], lead: tuple[int, ...], count: int, lanes: int
+) -> list[Any] | None:
+    """Fewer states than the machine code computes side by side, filled up by the last; None if that cannot be."""
+    filled = list(given)
+    for slot, _, _ in rows:
+        array, size = given[slot.place], () if slot.scalar else slot.shape
+        if type(array) is ndarray and array.shape == lead + size and array.dtype == FLOAT:
+            filled[slot.place] = array.reshape(count, *size).take(_filling(count, lanes), 0)
+        elif type(array) is ndarray and array.shape != slot.shape:  # it might fit what is filled up
+            return None
+    return filled
+
+
+def _reads(entries: list[int], slot: Slot, part: Array, place: int, given: Any, lead: tuple[int, ...]) -> bool:
+    """Add a group of inputs to a table: its address, and strides in bytes; False if it needs a closer look.
+
+    Numbers that stand in no array are written to ``part``, at the address ``place``.
+    """
+    if type(given) is not ndarray:
+        if given is None:
+            if slot.address is None:
+                return False
+            entries += (slot.address, 0, _WORD)
+            return True
+        if slot.scalar and type(given) in PLAIN:
+            part[0] = given
+        else:
+            numbers = slot.plain(given)
+            if numbers is None:
+                return False
+            part[...] = numbers
+        entries += (place, 0, _WORD)
+        return True
+    flags, shape = given.flags, given.shape
+    if (given.dtype is not FLOAT and given.dtype != FLOAT) or not flags.aligned:
+        return False
+    if shape == (lead if slot.scalar else lead + slot.shape):
+        if flags.c_contiguous:
+            entries += (address(given), _WORD * slot.size, _WORD)
+        elif len(lead) == 1 and not slot.scalar:
+            entries += (address(given), *given.strides)
+        else:
+            return False
+    elif shape == slot.shape and not slot.scalar:  # one row for all states
+        entries += (address(given), 0, given.strides[0])
+    else:
+        return False
+    return True
+
+
+@cache
+def _filling(count: int, lanes: int) -> NDArray[np.intp]:
+    """Which of ``count`` states stands in which lane."""
+    return np.minimum(np.arange(lanes), count - 1)
+
+
+def absent(_: Any) -> int:
+    """Machine code that is not there yet."""
+    return NOT_FINITE
+
+
+def _made(_: Any) -> int:
+    """Nothing more to do."""
+    return 0

@@ -1,0 +1,223 @@
+"""Two derivations compared, as a table of contents.
+
+With ξ = φ(η) and J = ∂ξ/∂η:  T*_η = T*_ξ(φ),  V_η = V_ξ(φ) + a constant,  Ξ_η = Jᵀ Ξ_ξ,  and the equations of motion
+in η are Jᵀ times those in ξ: every row of one set is a sum of rows of the other, as the lecture's comparison of its
+examples 3A and 3B has it.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping
+from typing import Any, Protocol, cast
+
+import sympy as sp
+
+from lagrangian.advice import Advice, Argument
+from lagrangian.compare.comparison import Comparison
+from lagrangian.compare.differences import differing, parameter_differences, unmatched
+from lagrangian.compare.given import given_change
+from lagrangian.compare.match import agreement, places, solved
+from lagrangian.compare.rows import Rewritten, Row, Side
+from lagrangian.compare.shared import Shared, inverse
+from lagrangian.compare.words import combination, equality
+from lagrangian.compare.zero import Verdict, Zero
+from lagrangian.coordinates import Change, check_regular, is_regular
+from lagrangian.derive import Derived
+from lagrangian.errors import ModelError
+from lagrangian.model import Model
+from lagrangian.page.formula import Check, Name, Partial, text
+
+_log = logging.getLogger(__name__)
+
+
+class Derivable(Protocol):
+    """What can be derived: a `System`."""
+
+    def derive(self) -> Derived:
+        """Return the derivation."""
+        ...
+
+
+def compare(a: Derivable | Derived, b: Derivable | Derived, change: Mapping[Any, Any] | None = None) -> Comparison:
+    """Return two systems (or their derivations) side by side: are they one motion, and where do they differ?
+
+    ``change`` says coordinates of one in those of the other, ``{"x2": "x1 + x2r"}``; left out, it is found from what
+    both put in the same places. Raises `ModelError` where it cannot be found, or is no change.
+    """
+    a, b = _derived(a, "first"), _derived(b, "second")
+    tag_a, tag_b = _letters(a, b)
+    sides = Side("A", a, tag_a), Side("B", b, tag_b)
+    if len(a.coordinates) != len(b.coordinates):
+        return _of_other_size(sides)
+    _log.info("comparing: how the coordinates follow from each other")
+    found, turned, assumed = _correspondence(a.model, b.model, change)
+    source, into = reversed(sides) if turned else sides
+    shared = Shared(source.derivation, into.derivation, found)
+    _log.info("comparing: equation by equation")
+    return _compared(sides, (source, into), shared, assumed)
+
+
+def _derived(thing: object, which: str) -> Derived:
+    if isinstance(thing, Derived):
+        return thing
+    if not hasattr(thing, "derive"):
+        raise ModelError(
+            f"the {which} of the two is not a system (got {type(thing).__name__})",
+            fix="compare(System, System), or their derivations",
+            code="E406",
+        )
+    return thing.derive()  # type: ignore[attr-defined]
+
+
+def _letters(a: Derived, b: Derived) -> tuple[str, str]:
+    """The lecture's a for absolute and r for relative, where that tells the two apart; else a and b."""
+    relative = [any(to is not None for to in d.steps[1].expressions["relative"].values()) for d in (a, b)]
+    return ("r", "a") if relative == [True, False] else ("a", "r") if relative == [False, True] else ("a", "b")
+
+
+def _of_other_size(sides: tuple[Side, Side]) -> Comparison:
+    a, b = sides
+    counts = [len(s.derivation.coordinates) for s in sides]
+    why = text(
+        f"(A) has {counts[0]} generalized coordinate{'s' if counts[0] != 1 else ''} and (B) has {counts[1]}: "
+        "they do not move alike."
+    )
+    models = a.derivation.model, b.derivation.model
+    return Comparison(
+        a, b, a, b, False, False, differences=unmatched(*models), parameters=parameter_differences(*models), why=why
+    )
+
+
+def _correspondence(a: Model, b: Model, given: Mapping[Any, Any] | None) -> tuple[Change, bool, bool]:
+    """The change, whether it says (B)'s coordinates in (A)'s, and whether names alone speak for it."""
+    if given is not None:
+        change, turned = given_change(a, b, given)
+        check_regular(b if turned else a, change)
+        return change, turned, False
+    pairs = places(a, b)
+    proposals: list[tuple[float, int, Change, bool]] = []
+    names = {c.name: c for c in b.coordinates}
+    if all(c.name in names for c in a.coordinates):
+        same = Change(a.coordinates, b.coordinates, {c.symbol: c.symbol for c in a.coordinates})
+        proposals.append((agreement(a, same, pairs), 2, same, False))
+    if not proposals or proposals[0][0] < 1:
+        for turned, one, other, seen in ((False, a, b, pairs), (True, b, a, pairs.swapped())):
+            for table in solved(one, other, seen):
+                made = Change(one.coordinates, other.coordinates, table)
+                if is_regular(one, made):
+                    proposals.append((agreement(one, made, seen), 1 - turned, made, turned))
+                if proposals and proposals[-1][0] == 1:
+                    break
+            if proposals and proposals[-1][0] == 1:
+                break
+    if not proposals:
+        ours, theirs = (", ".join(c.name for c in m.coordinates) for m in (a, b))
+        raise ModelError(
+            f"how {ours} of '{a.name}' follow from {theirs} of '{b.name}' cannot be found by comparing positions",
+            fix=Advice(
+                "say it: ", Argument("change", "'x1 + x2r'", "x2"), ", coordinates of one by those of the other"
+            ),
+            code="E210",
+        )
+    score, _, change, turned = max(proposals, key=lambda p: p[:2])
+    return change, turned, score < 1
+
+
+def _compared(sides: tuple[Side, Side], roles: tuple[Side, Side], shared: Shared, assumed: bool) -> Comparison:
+    source, into = roles
+    zero = Zero(shared.b, [*shared.energies("T*"), *shared.energies("V")])
+    rewritten = _rewritten(source, into, shared, zero)
+    J = shared.J
+    theirs, ours = shared.rows_b, shared.rows_a
+    names = tuple(r.label for r in rewritten)
+    rows = tuple(_row(zero, into.label(j), tuple(J.col(j)), names, theirs[j], ours) for j in range(J.cols))
+    back: tuple[Row, ...] = ()
+    if (upside := inverse(J)) is not None:
+        labels = tuple(into.label(j) for j in range(J.cols))
+        back = tuple(_row(zero, names[i], tuple(upside.col(i)), labels, ours[i], theirs) for i in range(J.rows))
+    equations_same = all(r.holds for r in rows)
+    a, b = sides
+    values = parameter_differences(a.derivation.model, b.derivation.model)
+    forces = _forces(zero, shared)
+    energies = _energies(zero, shared)
+    booked = equations_same and all(c.holds for c in (*forces, *energies))
+    return Comparison(
+        a,
+        b,
+        source,
+        into,
+        same=equations_same and not any(not p.missing for p in values),
+        equations_same=equations_same,
+        change=shared.change,
+        J=J,
+        assumed=assumed,
+        rewritten=rewritten,
+        rows=rows,
+        back=back,
+        energies=energies,
+        forces=forces,
+        differences=() if booked else differing(zero, shared, turned=source is b),
+        parameters=values,
+    )
+
+
+def _rewritten(source: Side, into: Side, shared: Shared, zero: Zero) -> tuple[Rewritten, ...]:
+    """The rows of one set in the coordinates of the other: B-1, B-2."""
+    found = []
+    for i, equation in enumerate(source.derivation.equations):
+        left, right = (_readable(zero, shared.seen(cast("sp.Expr", x))) for x in (equation.lhs, equation.rhs))
+        found.append(Rewritten(f"{into.tag}-{i + 1}", source.label(i), left, right))
+    return tuple(found)
+
+
+def _readable(zero: Zero, expr: sp.Expr) -> tuple[sp.Expr, ...]:
+    form = zero.form(expr)
+    return tuple(t.expr for t in form.terms()) if form is not None else sp.Add.make_args(expr)
+
+
+def _row(
+    zero: Zero,
+    label: str,
+    factors: tuple[sp.Expr, ...],
+    of: tuple[str, ...],
+    row: sp.Expr,
+    others: tuple[sp.Expr, ...],
+) -> Row:
+    terms = [(sp.S.NegativeOne, row)]
+    terms += [(f, e) for f, e in zip(factors, others, strict=True) if f != 0]
+    verdict = zero.vanishes(terms)
+    words = combination(label, factors, of, holds=verdict.holds)
+    rest = sp.S.Zero if verdict.holds else zero.readable(-sp.Add(*(f * e for f, e in terms)))
+    return Row(label, factors, of, words, Check(equality(label, factors, of), verdict.holds, verdict.figure), rest)
+
+
+def _energies(zero: Zero, shared: Shared) -> tuple[Check, ...]:
+    """T* and V are the same functions, V up to what no derivative sees."""
+    T, V = (shared.energies(column) for column in ("T*", "V"))
+    found = [
+        Check(text(Name("T*"), " is the same"), *_pair(zero.vanishes([(sp.S.One, T[0]), (sp.S.NegativeOne, T[1])])))
+    ]
+    verdict = zero.vanishes([(sp.S.One, V[0]), (sp.S.NegativeOne, V[1])])
+    words = text(Name("V"), " is the same")
+    if not verdict.holds:
+        slopes = [zero.vanishes([(sp.S.One, sp.diff(V[0] - V[1], c.symbol))]) for c in shared.b.coordinates]
+        if all(s.holds for s in slopes):
+            verdict, words = slopes[0], text(Name("V"), " is the same up to what does not depend on the coordinates")
+    return (*found, Check(words, *_pair(verdict)))
+
+
+def _forces(zero: Zero, shared: Shared) -> tuple[Check, ...]:
+    """Ξ_j = Σ_i J_ij Ξ_i for every new coordinate j."""
+    found = []
+    for j, c in enumerate(shared.b.coordinates):
+        terms = [(sp.S.NegativeOne, shared.Xi_b[j])]
+        terms += [(shared.J[i, j], x) for i, x in enumerate(shared.Xi_a) if shared.J[i, j] != 0]
+        verdict = zero.vanishes(cast("list[tuple[sp.Expr, sp.Expr]]", terms))
+        whose = text(Name("Xi", str(j + 1)), " is the sum of ", Partial(Name("xi", "i"), c.symbol), " Ξᵢ")
+        found.append(Check(whose, *_pair(verdict)))
+    return tuple(found)
+
+
+def _pair(verdict: Verdict) -> tuple[bool, str]:
+    return verdict.holds, verdict.figure

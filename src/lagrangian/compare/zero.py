@@ -1,0 +1,101 @@
+"""Is this expression 0? By the normal form where it reaches, else at random states with 50 digits."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import mpmath
+import sympy as sp
+
+from lagrangian.derive.algebra import Algebra, Form, OutOfReach
+from lagrangian.derive.sampling import DIGITS, Compiled, States
+from lagrangian.errors import ModelError
+from lagrangian.model import Model
+
+ENOUGH = 5
+"""States at which 50 digits are compared."""
+EXACTLY = mpmath.mpf(10) ** -35
+LONGEST = 20_000
+"""Operations above which the normal form is not tried."""
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Whether something vanishes, and how that was found."""
+
+    holds: bool
+    figure: str
+
+
+class Zero:
+    """Decides in the ring of one model."""
+
+    def __init__(self, model: Model, expressions: Sequence[sp.Expr]) -> None:
+        self.algebra = Algebra(model, expressions)
+        self._states = States(model, 4)
+
+    def form(self, expr: sp.Expr) -> Form | None:
+        """The normal form, or None where it would be too long."""
+        if int(sp.count_ops(expr)) > LONGEST:
+            return None
+        try:
+            return self.algebra.form(expr)
+        except (OutOfReach, OverflowError, ValueError):
+            return None
+
+    def readable(self, expr: sp.Expr) -> sp.Expr:
+        """The expression as a textbook would write it, as it is where that is out of reach."""
+        form = self.form(expr)
+        return expr if form is None else form.expr()
+
+    def vanishes(self, terms: Sequence[tuple[sp.Expr, sp.Expr]]) -> Verdict:
+        """Whether Σ factor · expression, over all pairs, is 0. Raises `ModelError` where it has a value nowhere."""
+        exact = self._exactly(terms)
+        if exact is True:
+            return Verdict(True, "exact")
+        return self._numerically([f * e for f, e in terms])
+
+    def _exactly(self, terms: Sequence[tuple[sp.Expr, sp.Expr]]) -> bool | None:
+        total: list[Form] = []
+        for factor, expr in terms:
+            f, e = self.form(factor), self.form(expr)
+            if f is None or e is None:
+                return None
+            try:
+                total.append(f * e)
+            except (OutOfReach, OverflowError):
+                return None
+        try:
+            return self.algebra.total(total).is_zero
+        except OutOfReach:
+            return None
+
+    def _numerically(self, summands: Sequence[sp.Expr]) -> Verdict:
+        """|Σ| / Σ|summand| at random states, the largest; states where there is no value are passed over."""
+        parts = [t for s in summands for t in sp.Add.make_args(s)]
+        if not parts:
+            return Verdict(True, "exact")
+        compiled = Compiled(parts)
+        worst, seen = mpmath.mpf(0), 0
+        for index in range(self._states.size):
+            try:
+                values = compiled.exactly(self._states, index)
+            except (ZeroDivisionError, ValueError, OverflowError, TypeError):
+                continue
+            with mpmath.workdps(DIGITS):
+                if not all(isinstance(v, mpmath.mpf) and mpmath.isfinite(v) for v in map(mpmath.mpmathify, values)):
+                    continue
+                size = mpmath.fsum(abs(v) for v in values)
+                worst = max(worst, abs(mpmath.fsum(values)) / size if size else mpmath.mpf(0))
+            seen += 1
+            if seen == ENOUGH:
+                break
+        if not seen:
+            raise ModelError(
+                "the expressions to compare have no finite value at any random state",
+                fix="look for a root or a logarithm of a negative number",
+                code="E503",
+            )
+        figure = f"{float(worst):.0e} at {seen} random states with {DIGITS} digits"
+        return Verdict(bool(worst < EXACTLY), figure if worst else f"0 at {seen} random states with {DIGITS} digits")

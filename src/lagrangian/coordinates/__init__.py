@@ -1,0 +1,6 @@
+"""The same system in other coordinates."""
+
+from lagrangian.coordinates.carry import carried, changed
+from lagrangian.coordinates.change import Change, check_regular, is_regular, read_change
+
+__all__ = ["Change", "carried", "changed", "check_regular", "is_regular", "read_change"]

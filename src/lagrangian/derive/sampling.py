@@ -1,0 +1,217 @@
+"""Expressions at many states at once: fast in doubles to find out, with 50 digits to be sure.
+
+The states come in blocks, so that it can be told what a factor depends on: ``SETS`` sets of parameters, in each
+``PLACES`` places (coordinates and time), in each as many motions (rates, accelerations, inputs) as are asked for.
+Every value is a multiple of 2⁻¹², so that a double and 50 digits mean the same state.
+"""
+
+from __future__ import annotations
+
+import random
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any, Protocol, cast
+
+import mpmath
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+from sympy.core.function import AppliedUndef
+
+from lagrangian import bounded
+from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy, reached, vjp
+from lagrangian.model import Model, time
+from lagrangian.page.plain import plain
+
+SETS, PLACES = 2, 3
+DIGITS = 50
+SIZES = 3
+"""Sizes that states with a reach have, each with both signs."""
+EXACT_INTEGER = 2**53
+"""Whole numbers above are no doubles."""
+
+Array = NDArray[np.float64]
+
+
+class Placed(Protocol):
+    """A coordinate that stays on one side; see `sides`."""
+
+    @property
+    def q(self) -> sp.Expr:
+        """The coordinate."""
+        ...
+
+    def put(self, values: Array, states: States) -> Array:
+        """Its values, all on that side."""
+        ...
+
+
+class States:
+    """Random states in blocks; the value of a symbol at all of them depends on its name alone.
+
+    With a ``reach`` what moves is of either sign and of every size up to it: for expressions that are not smooth.
+    What stands for a distance stays on its side; see `sides`.
+    """
+
+    def __init__(self, model: Model, motions: int, *, reach: float = 0.0, sides: Sequence[Placed] = ()) -> None:
+        self.model = model
+        self.sides: dict[sp.Basic, Placed] = {side.q: side for side in sides}
+        self.reach = reach
+        self.motions = motions
+        self.size = SETS * PLACES * motions
+        self._known: dict[sp.Basic, Array] = {}
+
+    def of(self, symbol: sp.Basic) -> Array:
+        """The values of a symbol, shape (size,): constant in a set for parameters, in a place for coordinates."""
+        if symbol not in self._known:
+            self._known[symbol] = self._drawn(symbol)
+        return self._known[symbol]
+
+    def _drawn(self, symbol: sp.Basic) -> Array:
+        source = random.Random(f"state of {plain(symbol)}")
+        inputs = {u.symbol for u in self.model.inputs}
+        if symbol == time or (isinstance(symbol, AppliedUndef) and symbol not in inputs):
+            count, low = SETS * PLACES, 0.3
+        elif isinstance(symbol, sp.Symbol):
+            count, low = SETS, 0.4
+        else:
+            count, low = self.size, -1.6
+        drawn = [round(source.uniform(low, 1.6) * 4096) / 4096 or 0.5 for _ in range(count)]
+        if self.reach and not isinstance(symbol, sp.Symbol):
+            far = [(-1) ** k * self.reach ** (k // 2 % SIZES / (SIZES - 1)) for k in range(count)]
+            drawn = [round(x * f * 4096) / 4096 for x, f in zip(drawn, far, strict=True)]
+        values = np.repeat(np.array(drawn), self.size // count)
+        return self.sides[symbol].put(values, self) if symbol in self.sides else values
+
+    def blocks(self) -> Iterable[slice]:
+        """The states of each place."""
+        return (slice(i, i + self.motions) for i in range(0, self.size, self.motions))
+
+
+class Compiled:
+    """Expressions as one graph, to be evaluated at states."""
+
+    def __init__(self, exprs: Sequence[sp.Expr]) -> None:
+        self.graph = Graph()
+        self._numbers: dict[sp.Basic, Any] = {}
+        self.symbols: list[sp.Basic] = []
+        self.table: dict[sp.Basic, int] = {}
+        self._memo: dict[Any, int] = {}
+        self.ids = [self.node(e) for e in exprs]
+
+    def node(self, expr: sp.Expr) -> int:
+        """The node of an expression; its fractions become inputs, so that they can be exact."""
+        expr = self._without_fractions(sp.sympify(expr))
+        for s in sorted(bounded.names(expr) - self.table.keys(), key=sp.default_sort_key):
+            self.input(s)
+        return from_sympy(self.graph, expr, self.table, self._memo)
+
+    def input(self, symbol: sp.Basic) -> int:
+        """The node of a symbol."""
+        if symbol not in self.table:
+            self.table[symbol] = self.graph.input("x", len(self.symbols))
+            self.symbols.append(symbol)
+        return self.table[symbol]
+
+    def _without_fractions(self, expr: sp.Expr) -> sp.Expr:
+        table: dict[sp.Basic, sp.Expr] = {}
+        for number in expr.atoms(sp.Rational, sp.Float, sp.NumberSymbol):
+            if isinstance(number, sp.Integer) and abs(int(number)) <= EXACT_INTEGER:
+                continue
+            if number in (sp.S.Half, -sp.S.Half):  # roots: x^(1/2) is the graph's square root
+                continue
+            exact = sp.Rational(str(number)) if isinstance(number, sp.Float) else number
+            dummy = sp.Symbol(f"number {exact}")
+            self._numbers[dummy] = exact
+            table[number] = dummy
+        return cast("sp.Expr", expr.xreplace(table)) if table else expr
+
+    def slopes(self, symbols: Sequence[sp.Basic]) -> Compiled:
+        """∂expression/∂symbol, expression after expression."""
+        by = [self.input(x) for x in symbols]
+        other = Compiled([])
+        other.graph, other.symbols, other.table, other._numbers = self.graph, self.symbols, self.table, self._numbers
+        other.ids = [x for i in self.ids for x in vjp(self.graph, [i], [self.graph.one], by)]
+        return other
+
+    def at(self, states: States, instead: Mapping[sp.Basic, Array] | None = None) -> Array:
+        """The values at every state, shape (expressions, size); ``instead`` overrides symbols."""
+        instead = instead or {}
+        inputs = []
+        for s in self.symbols:
+            if s in self._numbers:
+                inputs.append(np.full(states.size, float(self._numbers[s])))
+            else:
+                inputs.append(instead[s] if s in instead else states.of(s))
+        return _walk(self.graph, self.ids, inputs, states.size)
+
+    def exactly(self, states: States, index: int, instead: Mapping[sp.Basic, Any] | None = None) -> list[Any]:
+        """The values at one state, with 50 digits."""
+        instead = instead or {}
+        with mpmath.workdps(DIGITS):
+            x: list[Any] = []
+            for s in self.symbols:
+                if s in self._numbers:
+                    x.append(_precise(self._numbers[s]))
+                else:
+                    x.append(instead[s] if s in instead else mpmath.mpf(float(states.of(s)[index])))
+            program = Program(
+                "check",
+                self.graph,
+                {"x": tuple(map(str, range(len(x))))},
+                {"y": Output(tuple(self.ids), (len(self.ids),))},
+                {},
+            )
+            return list(evaluate(program, {"x": x}, digits=DIGITS)["y"]) if self.ids else []
+
+
+def _precise(number: Any) -> Any:
+    if isinstance(number, sp.Rational):
+        return mpmath.mpf(int(number.p)) / int(number.q)
+    return mpmath.mpf(str(sp.N(number, DIGITS + 5)))
+
+
+_NUMPY: dict[str, Any] = {
+    "add": np.add,
+    "sub": np.subtract,
+    "mul": np.multiply,
+    "div": np.divide,
+    "neg": np.negative,
+    "abs": np.abs,
+    "sign": np.sign,
+    "min": np.minimum,
+    "max": np.maximum,
+    "pow": np.power,
+    "atan2": np.arctan2,
+    "asin": np.arcsin,
+    "acos": np.arccos,
+    "atan": np.arctan,
+    "asinh": np.arcsinh,
+    "acosh": np.arccosh,
+    "atanh": np.arctanh,
+    "lt": np.less,
+    "le": np.less_equal,
+    "eq": np.equal,
+    "and": np.logical_and,
+    "or": np.logical_or,
+    "not": np.logical_not,
+    "select": lambda c, a, b: np.where(c.astype(bool), a, b),
+    **{name: getattr(np, name) for name in ("sqrt", "sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "log")},
+}
+
+
+def _walk(graph: Graph, ids: Sequence[int], inputs: Sequence[Array], size: int) -> Array:
+    """The values of nodes, every one an array over the states; what has no value is not a number."""
+    value: dict[int, Any] = {}
+    with np.errstate(all="ignore"):
+        for i in reached(graph, ids):
+            node = graph.nodes[i]
+            op = node[0]
+            if op == "const":
+                value[i] = np.full(size, node[1])
+            elif op == "input":
+                value[i] = inputs[node[2]]
+            elif op == "powi":
+                value[i] = np.power(value[node[1]], float(node[2]))
+            else:
+                value[i] = _NUMPY[op](*(value[k] for k in node[1:]))
+    return np.array([value[i] for i in ids], dtype=float).reshape(len(ids), size)

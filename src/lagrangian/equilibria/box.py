@@ -1,0 +1,109 @@
+"""The box of coordinates in which rests are sought."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.errors import RunError
+from lagrangian.values.dimensions import LENGTH, NONE
+from lagrangian.values.values import Given, Group, number
+
+Array = NDArray[np.float64]
+
+TURN = 2 * np.pi
+LENGTHS = 4.0
+"""A side that is a length reaches so many times the largest length among the parameters."""
+
+SIDE = 10.0
+"""Half a side where no length is known."""
+
+
+@dataclass(frozen=True, eq=False)
+class Box:
+    """Low and high ends by coordinate; ``turns``: the same after a whole turn; ``given``: the side was given;
+    ``positive``: a distance, above 0.
+    """
+
+    names: tuple[str, ...]
+    low: Array
+    high: Array
+    turns: NDArray[np.bool_]
+    given: NDArray[np.bool_]
+    positive: NDArray[np.bool_]
+
+    @property
+    def sides(self) -> dict[str, tuple[float, float]]:
+        """(low, high) by coordinate."""
+        return {n: (float(a), float(b)) for n, a, b in zip(self.names, self.low, self.high, strict=True)}
+
+    def centre(self) -> Array:
+        """0 where the box holds it, else the middle."""
+        inside = (self.low <= 0) & (self.high >= 0) & ~self.positive
+        return np.where(inside, 0.0, (self.low + self.high) / 2)
+
+    def placed(self, q: Array) -> tuple[Array, bool]:
+        """A root with whole turns taken so that it lies in the box, and whether it does, where sides were given."""
+        slack = 1e-9 * (self.high - self.low)
+        turned = self.low - slack + (q - self.low + slack) % TURN
+        q = np.where(self.turns & self.given, turned, q)
+        inside = (q >= self.low - slack) & (q <= self.high + slack)
+        return q, bool((inside | ~self.given).all() and (q > 0)[self.positive].all())
+
+
+def make_box(given: Given, names: tuple[str, ...], asked: Mapping[Any, Any] | None, turns: NDArray[np.bool_]) -> Box:
+    """The box that was asked for, with (−π, π] for angles and a few lengths of the parameters for the rest."""
+    low, high, told = np.empty(len(names)), np.empty(len(names)), np.zeros(len(names), bool)
+    sides = _sides(given, names, asked)
+    reach = _reach(given)
+    positive = {c.name for c in given.model.coordinates if c.positive}
+    distances = np.array([name in positive for name in names], bool)
+    for k, name in enumerate(names):
+        if name in sides:
+            low[k], high[k] = sides[name]
+            told[k] = True
+            continue
+        half = np.pi if turns[k] or given.states.dims[k] == NONE else reach
+        low[k], high[k] = 0.0 if distances[k] else -half, half
+    return Box(names, low, high, turns, told, distances)
+
+
+def _sides(given: Given, names: tuple[str, ...], asked: Mapping[Any, Any] | None) -> dict[str, tuple[float, float]]:
+    if asked is None:
+        return {}
+    if not isinstance(asked, Mapping):
+        raise RunError(
+            "box must be a mapping from coordinates to (low, high)", fix="{coordinate: (low, high)}", code="E501"
+        )
+    group = Group("coordinate", names, given.states.dims[: len(names)])
+    found: dict[str, tuple[float, float]] = {}
+    for key, side in asked.items():
+        (name,) = group.values({key: 0.0})
+        dim = given.states.dims[names.index(name)]
+        if isinstance(side, str) or not isinstance(side, Sequence | np.ndarray) or len(side) != 2:
+            raise RunError(f"the box of '{name}' must be (low, high) (got {side!r:.40})", code="E501")
+        ends = (number(side[0], f"low end of '{name}'", dim), number(side[1], f"high end of '{name}'", dim))
+        if not ends[0] < ends[1]:
+            raise RunError(
+                f"the box of '{name}' is empty: {ends[0]:.6g} to {ends[1]:.6g}",
+                fix="give the lower end first",
+                code="E501",
+            )
+        found[name] = ends
+    return found
+
+
+def _reach(given: Given) -> float:
+    """Half a side of the box for what is no angle: a few times the largest length among the parameters."""
+    parameters = given.parameters
+    if given.dimensions is None:
+        return SIDE
+    values = {p.name: p.value for p in given.model.parameters}
+    lengths = [
+        abs(values[name] or 0.0) for name, dim in zip(parameters.names, parameters.dims, strict=True) if dim == LENGTH
+    ]
+    return LENGTHS * max(lengths) if lengths and max(lengths) > 0 else SIDE

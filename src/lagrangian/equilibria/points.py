@@ -1,0 +1,159 @@
+"""Equilibria: where and how stable, how well they balance, what nothing depends on; and their report."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, overload
+
+import numpy as np
+
+from lagrangian.equilibria.roots import EXACT
+from lagrangian.linear.report import symbol
+from lagrangian.linear.rest import point_words
+from lagrangian.linear.stability import Stability
+from lagrangian.model import Model
+from lagrangian.page.figures import figure, scientific
+from lagrangian.page.formula import Item, Table, text
+from lagrangian.page.report import Part, Report
+from lagrangian.viewed import Brief
+from lagrangian.write.written import Written
+
+
+@dataclass(frozen=True)
+class Equilibrium(Brief):
+    """A rest: values of all states by name (rates 0), with the inputs and parameters it belongs to.
+
+    ``residual`` is the largest |h| in units of h's own size in the box, ``stability`` the verdict. ``moves`` names the
+    coordinates that change along a family of rests, of which this is the one nearest to 0; ``dimension`` is the
+    family's, 0 where the rest is isolated. ``starts`` of the search led here.
+    """
+
+    at: Mapping[str, float]
+    inputs: Mapping[str, float]
+    parameters: Mapping[str, float]
+    residual: float
+    stability: Stability
+    starts: int = 0
+    moves: tuple[str, ...] = ()
+    dimension: int = 0
+
+    def __getitem__(self, name: str) -> float:
+        """The value of a coordinate or rate."""
+        return self.at[name]
+
+    def __str__(self) -> str:
+        """Read as a line."""
+        shown = {name: value for name, value in self.at.items() if not name.endswith("'")}
+        return f"{point_words(tuple(shown), np.array(list(shown.values())))}: {self.stability.verdict}"
+
+
+@dataclass(frozen=True, eq=False)
+class Equilibria(Written, Sequence[Equilibrium]):
+    """The rests that were found, sorted by the values of the coordinates.
+
+    ``box`` is where the search started, by coordinate; ``free`` the directions that nothing depends on, each as
+    coordinate → share, held at ``held``; ``starts`` how many starts there were; ``sure`` whether every rest was met
+    several times and the last round found nothing new.
+    """
+
+    model: Model
+    found: tuple[Equilibrium, ...]
+    box: Mapping[str, tuple[float, float]]
+    free: tuple[Mapping[str, float], ...]
+    held: Mapping[str, float]
+    starts: int
+    sure: bool
+    notes: tuple[str, ...] = field(default=())
+
+    @overload
+    def __getitem__(self, index: int) -> Equilibrium: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Equilibrium, ...]: ...
+    def __getitem__(self, index: int | slice) -> Equilibrium | tuple[Equilibrium, ...]:
+        """The rest at an index."""
+        return self.found[index]
+
+    def __len__(self) -> int:
+        """How many there are."""
+        return len(self.found)
+
+    def __iter__(self) -> Iterator[Equilibrium]:
+        """One after the other."""
+        return iter(self.found)
+
+    def report(self) -> Report[Model]:
+        """Return the report."""
+        return equilibria_report(self)
+
+
+def equilibria_report(found: Equilibria) -> Report[Model]:
+    """Return the report of rests."""
+    names = list(found.box)
+    letters = [symbol(found.model, name) for name in names]
+    items: list[Item] = []
+    if found:
+        header = (text(""), *(text(x) for x in letters), text("verdict"), text("starts"))
+        rows = tuple(
+            (
+                text(str(k)),
+                *(text(_shown(found, e, name)) for name in names),
+                text(e.stability.verdict),
+                text(str(e.starts) if e.starts else "–"),
+            )
+            for k, e in enumerate(found)
+        )
+        items.append(Table(header, rows))
+        items += [
+            text(f"{k}: {e.stability.reason[0].upper()}{e.stability.reason[1:]}.{_family(e)}")
+            for k, e in enumerate(found)
+        ]
+        items.append(text(f"Forces balance there to {scientific(EXACT, 1)} of their own size in the box."))
+    items += [text(note[0].upper() + note[1:] + ".") for note in found.notes]
+    sides: list[Any] = []
+    for name, letter in zip(names, letters, strict=True):
+        low, high = found.box[name]
+        sides += [", " if sides else "", letter, f" from {figure(low)} to {figure(high)}"]
+    items.append(text(f"Sought from {found.starts} starts in the box ", *sides, "."))
+    return Report(
+        f"{found.model.name}: equilibria", found.model, (Part(text("Equilibria"), tuple(items)),), data(found)
+    )
+
+
+def _shown(found: Equilibria, e: Equilibrium, name: str) -> str:
+    free = any(name in direction for direction in found.free) and name in found.held
+    return "free" if free else figure(e.at[name]) + (" *" if name in e.moves else "")
+
+
+def _family(e: Equilibrium) -> str:
+    if not e.dimension:
+        return ""
+    what = "a curve" if e.dimension == 1 else f"a family of {e.dimension} dimensions"
+    return f" One of {what} of rests along which {', '.join(e.moves)} (*) change."
+
+
+def data(found: Equilibria) -> dict[str, Any]:
+    """Rests as plain data."""
+    return {
+        "system": found.model.name,
+        "equilibria": [
+            {
+                "at": dict(e.at),
+                "inputs": dict(e.inputs),
+                "parameters": dict(e.parameters),
+                "residual": e.residual,
+                "verdict": e.stability.verdict,
+                "stable": e.stability.stable,
+                "reason": e.stability.reason,
+                "starts": e.starts,
+                "family": {"dimension": e.dimension, "moves": list(e.moves)} if e.dimension else None,
+            }
+            for e in found
+        ],
+        "box": {name: list(side) for name, side in found.box.items()},
+        "free": [dict(direction) for direction in found.free],
+        "held": dict(found.held),
+        "starts": found.starts,
+        "sure": found.sure,
+        "notes": list(found.notes),
+    }

@@ -1,0 +1,304 @@
+"""Where a system can stay at rest: h(q) = G(q) − Ξ(q, u) = 0 at q̇ = 0, all roots that can be found in a box.
+
+Many starts, damped Newton steps with the exact ∂h/∂q, until every root was met several times and a round of starts
+finds nothing new. Directions that h does not depend on are held; roots that are not isolated are one family.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import product
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian import codegen as machine
+from lagrangian import dynamics
+from lagrangian.equilibria.box import Box, make_box
+from lagrangian.equilibria.families import Family, split
+from lagrangian.equilibria.points import Equilibria, Equilibrium
+from lagrangian.equilibria.roots import EXACT, Forces, Search, distinct, starts
+from lagrangian.errors import RunError
+from lagrangian.graph import Graph, Output, Program
+from lagrangian.linear.echelon import null_space, reduced
+from lagrangian.linear.jacobians import Quick, values
+from lagrangian.linear.linearize import TIMES, Linearizer
+from lagrangian.linear.rest import point_words
+from lagrangian.linear.stability import Stability
+from lagrangian.model import Model
+from lagrangian.values.values import Given, Named
+
+_log = logging.getLogger(__name__)
+Array = NDArray[np.float64]
+
+ROUND = 256
+"""Starts a round."""
+
+ROUNDS = 16
+ENOUGH = 5
+"""Times that every root should be met."""
+
+MOST = 1000
+"""Rests above which the search ends: so many are no list to read."""
+
+MANY = 8
+"""Rests from which on their verdicts are worth machine code."""
+
+SINGULAR = 1e-13
+"""Eigenvalue of M, in widths of the box and over the largest, that counts as none."""
+
+LARGE = 1e100
+"""What stands for a value that is not finite."""
+
+
+def equilibria(
+    model: Model,
+    *,
+    inputs: Named | None = None,
+    params: Named | None = None,
+    box: Mapping[Any, Any] | None = None,
+    samples: int | None = None,
+) -> Equilibria:
+    """Return the rests of a model at constant inputs, all that can be found from starts in a box.
+
+    ``box``: coordinate → (low, high), numbers or text with units. Angles take (−π, π] unless given, lengths a few times
+    the largest length among the parameters; rests beyond a side that was not given are kept. ``samples``: how many
+    starts; as many as it takes unless given. Where forces depend on time, only what rests at all times is kept.
+    Raises `RunError` for values and names that do not fit.
+    """
+    if samples is not None and (type(samples) is not int or not 1 <= samples <= 1_000_000):
+        raise RunError(f"samples must be a whole number from 1 (got {samples!r})", code="E501")
+    task = _prepared(model, inputs, params, box)
+    _log.info("equilibria: searching the box")
+    found, hits, count, sure = _sought(task, samples)
+    isolated, families = split(task.search, found, task.box.low, task.box.high)
+    if len(isolated) > MANY:
+        task = replace(task, linearizer=Linearizer(model, Quick()))
+    proper = [q for q in isolated if not task.is_singular(q)]
+    _log.info("equilibria: the stability of %d", len(proper) + len(families))
+    listed = [task.equilibrium(q, hits) for q in proper]
+    listed += [task.equilibrium(f.root, hits, f) for f in families if not task.is_singular(f.root)]
+    left_out = [q for q in isolated if task.is_singular(q)]
+    kept = sorted((e for e in listed if e is not None), key=lambda e: [round(e.at[n], 9) + 0.0 for n in task.box.names])
+    return Equilibria(
+        model=model,
+        found=tuple(kept),
+        box=task.box.sides,
+        free=task.free,
+        held={task.box.names[k]: float(task.search.base[k]) for k in task.held},
+        starts=count,
+        sure=sure,
+        notes=_notes(task, kept, sure, left_out, len(listed) - len(kept)),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Task:
+    """One search: the model at given inputs and parameters, its box, and what nothing depends on."""
+
+    model: Model
+    box: Box
+    search: Search
+    free: tuple[dict[str, float], ...]
+    held: list[int]
+    linearizer: Linearizer
+    u: Array
+    p: Array
+
+    def equilibrium(self, q: Array, hits: Mapping[bytes, int], family: Family | None = None) -> Equilibrium | None:
+        """A root with its verdict; None where it is outside the box, or no rest at other times."""
+        count = hits.get(q.tobytes(), 0)
+        q, inside = self.box.placed(q)
+        if not inside or not self._rests_always(q):
+            return None
+        q = np.where(np.abs(q) < 1e-14 * self.search.width, 0.0, q)
+        x = np.concatenate([q, np.zeros(len(q))])
+        names = self.box.names
+        return Equilibrium(
+            at=dict(zip(self.linearizer.rates.inputs["x"], x.tolist(), strict=True)),
+            inputs=dict(zip((i.name for i in self.model.inputs), self.u.tolist(), strict=True)),
+            parameters=dict(zip((p.name for p in self.model.parameters), self.p.tolist(), strict=True)),
+            residual=float(self.search.residual(q[None])[0]),
+            stability=self._stability(x),
+            starts=count,
+            moves=() if family is None else tuple(names[k] for k in family.moving),
+            dimension=0 if family is None else family.dimension,
+        )
+
+    def _stability(self, x: Array) -> Stability:
+        try:
+            return self.linearizer.at_rest(x, self.u, self.p).stability
+        except RunError as trouble:  # a rest it is all the same
+            return Stability("marginal", trouble.what)
+
+    def is_singular(self, q: Array) -> bool:
+        """Whether M is singular at q: there h = 0 says nothing, for these coordinates do not describe what is near."""
+        M = self.linearizer.values(self.linearizer.mass, q=q, v=np.zeros_like(q), u=self.u, p=self.p, t=0.0)["M"]
+        if not np.isfinite(M).all():
+            return True
+        sized = np.linalg.eigvalsh(M * np.outer(self.search.width, self.search.width))
+        return bool(sized.min() < SINGULAR * np.abs(sized).max())
+
+    def moves_no_mass(self, q: Array) -> str:
+        """What moves no mass at q, for the middle of a sentence."""
+        moved = dynamics.loose(self.model, q.tolist(), self.u.tolist(), self.p.tolist(), 0.0)
+        return f" ({moved})" if moved else ""
+
+    def _rests_always(self, q: Array) -> bool:
+        program = self.linearizer.forces
+        if not self.linearizer.rests_change:
+            return True
+        for t in TIMES:
+            h = self.linearizer.values(program, q=q, v=np.zeros_like(q), u=self.u, p=self.p, t=t)["h"]
+            if np.abs(h / self.search.scale).max(initial=0.0) > 1e3 * EXACT:
+                return False
+        return True
+
+
+def _prepared(model: Model, inputs: Named | None, params: Named | None, asked: Mapping[Any, Any] | None) -> _Task:
+    linearizer = Linearizer(model)
+    given = Given.of(model, linearizer.rates)
+    u, p = given.input_values(inputs), given.parameter_values(params)
+    program = linearizer.forces
+    if len(program.inputs["q"]) != len(program.inputs["v"]):
+        raise RunError(
+            f"system '{model.name}' has a floating frame: the entries of a quaternion are not independent",
+            fix="describe its orientation by three angles instead (frames about axes)",
+            code="E202",
+        )
+    forces = _kernel(program, u, p)
+    box = make_box(given, program.inputs["q"], asked, _turning(linearizer, u, p))
+    h, K = forces(starts(64, box.low, box.high))
+    scale, width = _scale(h), box.high - box.low
+    good = K[(K != 0).any(axis=(1, 2)) & (np.abs(h) < LARGE).all(axis=1)]
+    directions, held = reduced(null_space((good / scale[:, None] * width).reshape(-1, len(width))) * width)
+    seek = np.array([k for k in range(len(width)) if k not in held], np.int64)
+    free = tuple({box.names[k]: float(x) for k, x in enumerate(row) if x} for row in directions)
+    return _Task(model, box, Search(forces, box.centre(), seek, scale, width, box.turns), free, held, linearizer, u, p)
+
+
+def _turning(linearizer: Linearizer, u: Array, p: Array) -> NDArray[np.bool_]:
+    """The coordinates of which h, ∂h/∂q and M are the same after a whole turn."""
+    n = len(linearizer.forces.inputs["q"])
+    source = np.random.default_rng(4)
+    same, fixed = np.ones(n, bool), np.ones(n, bool)
+    for _ in range(3):
+        q = source.uniform(-1, 1, n)
+        here = _all_forces(linearizer, q, u, p)
+        if not np.isfinite(here).all():
+            return np.zeros(n, bool)
+        for k in range(n):
+            for shift, found in ((2 * np.pi, same), (1.0, fixed)):
+                there = _all_forces(linearizer, q + shift * (np.arange(n) == k), u, p)
+                found[k] &= np.allclose(here, there, rtol=1e-9, atol=1e-9 * float(np.abs(here).max(initial=0.0)))
+    return same & ~fixed
+
+
+def _all_forces(linearizer: Linearizer, q: Array, u: Array, p: Array) -> Array:
+    groups = {"q": q, "v": np.zeros_like(q), "u": u, "p": p, "t": 0.0}
+    got = values(linearizer.forces, **groups)
+    return np.concatenate([got["h"], got["K"].ravel(), values(linearizer.mass, **groups)["M"].ravel()])
+
+
+def _sought(task: _Task, samples: int | None) -> tuple[Array, dict[bytes, int], int, bool]:
+    """Distinct roots, how many starts led to each, how many starts there were, and whether that is enough."""
+    search, box = task.search, task.box
+    found = np.empty((0, len(search.base)))
+    before, count, sure = -1, 0, False
+    roots, hits = distinct(search, found)
+    for _ in range(ROUNDS if samples is None else 1):
+        many = ROUND if samples is None else samples
+        q = starts(many, box.low, box.high, skip=count)
+        if count == 0:
+            q = np.concatenate([q, _corners(task)])
+        q[:, task.held] = search.base[task.held]
+        found = np.concatenate([found, search.roots(q)])
+        count += len(q)
+        roots, hits = distinct(search, found)
+        settled = samples is not None or len(roots) == before
+        sure = settled and (not len(hits) or int(hits.min()) >= ENOUGH)
+        if sure or len(roots) > MOST or (count >= 4 * ROUND and _is_family(search, roots, count)):
+            break
+        before = len(roots)
+    return roots, {r.tobytes(): int(n) for r, n in zip(roots, hits, strict=True)}, count, sure
+
+
+def _is_family(search: Search, roots: Array, count: int) -> bool:
+    """Whether many of the starts found a root of their own, and K is singular there."""
+    if len(roots) <= count // 8:
+        return False
+    flat = [search.singular(q)[0] for q in roots[:16]]
+    return sum(v.min() <= 1e-6 * max(v.max(), 1e-300) for v in flat) >= len(flat) // 2
+
+
+def _corners(task: _Task) -> Array:
+    """Angles at 0 or half a turn, all else at the centre: what hangs or stands."""
+    angles = [int(k) for k in np.flatnonzero(task.box.turns) if k in task.search.seek][:8]
+    grid = np.array(list(product((0.0, np.pi), repeat=len(angles))))
+    made = np.tile(task.box.centre(), (len(grid), 1))
+    made[:, angles] = grid
+    return made
+
+
+def _notes(
+    task: _Task, found: Sequence[Equilibrium], sure: bool, left_out: Sequence[Array], outside: int
+) -> tuple[str, ...]:
+    """What a reader should know besides the list."""
+    listed = []
+    if left_out:
+        where = point_words(task.box.names, left_out[0]) + (" and elsewhere" if len(left_out) > 1 else "")
+        moved = task.moves_no_mass(left_out[0])
+        listed.append(
+            f"the mass matrix is singular at {where}{moved}: these coordinates fail there, and it is left out"
+        )
+    for direction in task.free:
+        names = list(direction)
+        what = names[0] if len(names) == 1 else f"a shift of {', '.join(names)} together"
+        listed.append(f"no force depends on {what}: any is as good; {names[0]} is held")
+    if outside:
+        why = "or do not rest at other times" if task.linearizer.rests_change else "that was given"
+        listed.append(f"{outside} more lie outside the box {why}")
+    if not found:
+        h, _ = task.search.forces(starts(256, task.box.low, task.box.high))
+        one_sided = [n for n, row in zip(task.box.names, h.T, strict=True) if (row > 0).all() or (row < 0).all()]
+        why = f": the force on {one_sided[0]} has one sign everywhere, nothing balances it" if one_sided else ""
+        listed.append(f"there is no {'other ' if left_out else ''}rest in the box{why}")
+    elif not sure and not any(e.dimension for e in found):
+        listed.append("some were met by few starts: there may be more; raise samples, or narrow the box")
+    return tuple(listed)
+
+
+def _scale(h: Array) -> Array:
+    """The size of every entry of h over the starts; entries that are always 0 get that of the others."""
+    good = np.abs(h[(np.abs(h) < LARGE).all(axis=1)])
+    size = np.median(good, axis=0) + 1e-3 * good.max(axis=0) if len(good) else np.zeros(h.shape[1])
+    largest = float(size.max(initial=0.0)) or 1.0
+    return np.where(size > 1e-12 * largest, size, largest)
+
+
+def _kernel(program: Program, u: Array, p: Array) -> Forces:
+    """h and K at rest in machine code; where they are not finite h is `LARGE` and K is 0, so that no step leads on."""
+    g = program.graph
+    outputs = {
+        name: Output(tuple(_guarded(g, i) for i in program.outputs[name].ids), program.outputs[name].shape)
+        for name in ("h", "K")
+    }
+    kernel = machine.compile(Program("rest", g, program.inputs, outputs, program.defaults))
+
+    def forces(q: Array) -> tuple[Array, Array]:
+        got = kernel(q, np.zeros_like(q), u, p, 0.0)
+        h, K = np.array(got["h"]), np.array(got["K"])
+        bad = (np.abs(h) >= LARGE).any(axis=1) | (np.abs(K) >= LARGE).any(axis=(1, 2))
+        h[bad], K[bad] = LARGE, 0.0
+        return h, K
+
+    return forces
+
+
+def _guarded(g: Graph, i: int) -> int:
+    """The node where it is finite, else `LARGE`: a comparison with what is not a number is false."""
+    limit = g.const(LARGE)
+    return g.select(g.lt(g.abs(i), limit), i, limit)

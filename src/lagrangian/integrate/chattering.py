@@ -1,0 +1,146 @@
+"""Runs that stick where ẋ jumps: no step is short enough there, and no number of them gets through.
+
+A surface is s(x, u, p, t) = 0, s = a − b, where the right-hand side may jump: sign s, |s|, or a condition a < b. Where
+ẋ leads to the surface from both of its sides,
+
+    ṡ < 0 for s > 0 and ṡ > 0 for s < 0,        ṡ = ∇s·f + ∂s/∂t,
+
+the motion cannot leave it: it slides along it, or rests (A. F. Filippov, Differential Equations with Discontinuous
+Righthand Sides, 1988, section 4). A method jumps to and fro across it in steps that get ever shorter.
+"""
+
+from __future__ import annotations
+
+import threading
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.codegen import Kernel, compile
+from lagrangian.errors import RunError
+from lagrangian.graph import Output, Program, jacobian, jvp, operands, reached
+
+Array = NDArray[np.float64]
+
+LEAST = 256
+"""Fewest steps between two looks at how a run gets on."""
+
+NEAR = 1e-6
+"""Part of a run's time within which a state must be carried to a surface to count as on it."""
+
+ASIDE = 1e-9
+"""Part of the state by which one looks aside of a surface, at least."""
+
+RESTS = 1e-3
+"""Part of the speed towards a surface below which a state moves so little along its normal that it rests."""
+
+TROUBLE = ("E502", "E503")
+
+
+def jumps(program: Program) -> list[tuple[int, int]]:
+    """The pairs (a, b) of nodes whose order can make the right-hand side jump (s/|s| does), and that read the state."""
+    graph, nodes = program.graph, program.graph.nodes
+    live = reached(graph, program.ids)
+    state: dict[int, bool] = {}
+    for i in live:
+        node = nodes[i]
+        state[i] = node[:2] == ("input", "x") or any(state[k] for k in operands(node))
+    found: dict[tuple[int, int], None] = {}
+    for i in live:
+        node = nodes[i]
+        if node[0] in ("sign", "abs") and state[node[1]]:
+            found[node[1], graph.zero] = None
+        elif node[0] in ("lt", "le") and (state[node[1]] or state[node[2]]):
+            found[node[1], node[2]] = None
+    return list(found)
+
+
+@dataclass
+class Pace:
+    """How far a run had got at the last look: its time, and the steps it had tried."""
+
+    time: float
+    tried: int = 0
+
+
+class Sticking:
+    """Tells whether a run of ``rates`` sticks where its right-hand side jumps; false where there is no such place."""
+
+    def __init__(self, rates: Program) -> None:
+        self.rates, self.pairs = rates, jumps(rates)
+        self._field: Kernel | None = None
+        self._surfaces: Kernel | None = None
+        self._lock = threading.Lock()
+
+    def __bool__(self) -> bool:
+        return bool(self.pairs)
+
+    def hopeless(self, pace: Pace, time: float, tried: int, end: float, most: int) -> bool:
+        """Whether at the pace since the last look the steps that are left do not reach the end; note this look."""
+        steps = tried - pace.tried
+        if steps < LEAST:
+            return False
+        gained, pace.time, pace.tried = time - pace.time, time, tried
+        return gained * (most - tried) < (end - time) * steps
+
+    def at(self, x: Array, u: Array, p: Array, t: float, reach: float, step: float = 0.0) -> bool:
+        """Whether a state (nx,) sticks to a surface; see `among`."""
+        return bool(self.among(x[np.newaxis], u, p, np.array([t]), reach, step)[0])
+
+    def among(self, x: Array, u: Array, p: Array, t: Array, reach: float, step: float = 0.0) -> NDArray[np.bool_]:
+        """Which of the states x (n, nx) at times t (n,) stick to a surface; u and p are rows (n, …), or one for all.
+
+        ``reach`` [s]: within that time ẋ must carry a state to the surface, or a step of length ``step`` carry it there
+        that began on the other side. What rests exactly on the surface does not stick, nor does a state beside which
+        nothing is finite.
+        """
+        field, surfaces = self._kernels()
+        x = np.ascontiguousarray(x)
+        known, here = self._called(surfaces, x, u, p, t), self._called(field, x, u, p, t)["xdot"]
+        stuck = np.zeros(len(x), bool)
+        for k in range(len(self.pairs)):
+            s, normal = known["s"][:, k], known["normal"][:, k]
+            length = (normal * normal).sum(axis=1)
+            aside = 2 * np.abs(s) + ASIDE * (np.abs(normal) * (np.abs(x) + ASIDE)).sum(axis=1)
+            speeds = []
+            for side in (1.0, -1.0):
+                beside = x + ((side * aside - s) / np.where(length > 0, length, 1.0))[:, np.newaxis] * normal
+                rate, drift = self._called(field, beside, u, p, t)["xdot"], self._called(surfaces, beside, u, p, t)
+                speeds.append(-side * ((drift["normal"][:, k] * rate).sum(axis=1) + drift["drift"][:, k]))
+            slow, fast = np.minimum(*speeds), np.maximum(*speeds)
+            near = (aside <= reach * slow) | (aside <= 2 * step * fast)
+            moves = np.abs((normal * here).sum(axis=1) + known["drift"][:, k]) > RESTS * slow
+            stuck |= (slow > 0) & near & moves & np.isfinite(length) & (length > 0)  # no: ẋ is continuous and 0 there
+        return stuck
+
+    def _kernels(self) -> tuple[Kernel, Kernel]:
+        with self._lock:
+            if self._field is None or self._surfaces is None:
+                self._field, self._surfaces = compile(self.rates, threads=1), compile(self._program(), threads=1)
+            return self._field, self._surfaces
+
+    def _called(self, kernel: Kernel, x: Array, u: Array, p: Array, t: Array) -> dict[str, Array]:
+        """The outputs at every state, finite or not."""
+        given = {"x": x, "u": u, "p": p, "t": t}
+        made = {name: np.empty((len(x), *output.shape)) for name, output in kernel.program.outputs.items()}
+        try:
+            kernel(
+                **{name: value for name, value in given.items() if name in kernel.program.inputs},
+                out=made if len(made) > 1 else made["xdot"],
+            )
+        except RunError as trouble:
+            if trouble.code not in TROUBLE:
+                raise
+        return made
+
+    def _program(self) -> Program:
+        """``s`` (m,), ``normal`` = ∂s/∂x (m, nx) and ``drift`` = ∂s/∂t (m,)."""
+        program, g = self.rates, self.rates.graph
+        n, m = len(program.inputs["x"]), len(self.pairs)
+        s = [g.sub(a, b) for a, b in self.pairs]
+        entries = jacobian(g, s, [g.input("x", k) for k in range(n)])
+        normal = tuple(entries.get((i, k), g.zero) for i in range(m) for k in range(n))
+        drift = tuple(jvp(g, s, {g.input("t", 0): g.one}))
+        outputs = {"s": Output(tuple(s), (m,)), "normal": Output(normal, (m, n)), "drift": Output(drift, (m,))}
+        return Program(f"{program.name} surfaces", g, program.inputs, outputs, program.defaults)

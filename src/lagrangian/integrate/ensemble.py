@@ -1,0 +1,109 @@
+"""Many runs: an ensemble worked through chunk by chunk.
+
+What comes out does not depend on the chunks, on the order they are done in, or on the number of threads: a run knows
+its own row of the design and nothing of its neighbours.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.advice import Advice, Argument
+from lagrangian.errors import RunError
+from lagrangian.integrate.chunks import Portions
+from lagrangian.integrate.design import Design
+from lagrangian.integrate.observe import Study, Values
+
+Progress = Callable[[int, int], None]
+"""Called with the number of runs done and of all runs, after every chunk."""
+
+
+class Sink(Protocol):
+    """Where results go: arrays in memory, or a store on disk. ``done`` says which chunks are there already."""
+
+    done: NDArray[np.bool_]
+
+    def write(self, index: int, box: tuple[slice, ...], values: Values) -> None:
+        """Keep the results of chunk ``index``, whose runs stand at ``box``."""
+        ...
+
+
+class Executor(Protocol):
+    """Who computes: it takes chunks from ``portions`` and gives their results in any order."""
+
+    def __call__(self, study: Study, design: Design, portions: Portions, todo: Iterable[int]) -> Iterator[Any]:
+        """Pairs (chunk, values)."""
+        ...
+
+
+class Memory:
+    """A sink of plain arrays over the ensemble's shape."""
+
+    def __init__(self, study: Study, portions: Portions) -> None:
+        self.done = np.zeros(len(portions), bool)
+        self.arrays: dict[str, NDArray[Any]] = {}
+        for name, (dtype, shape) in study.fields().items():
+            try:
+                self.arrays[name] = np.empty((*portions.shape, *shape), dtype)
+            except MemoryError:
+                raise RunError(
+                    f"the results '{name}' of {np.prod(portions.shape):.0f} runs do not fit in memory",
+                    code="E505",
+                    fix=Advice("keep less of each run, or write to a store: ", Argument("store", '"sweep.zarr"')),
+                ) from None
+
+    def write(self, index: int, box: tuple[slice, ...], values: Values) -> None:
+        """Put the results of a chunk in their place."""
+        for name, array in self.arrays.items():
+            target = array[(*box, ...)]  # an array even where there are no axes
+            target[...] = values[name].reshape(target.shape)
+        self.done[index] = True
+
+
+class Here:
+    """Chunks are computed one after the other in this process, each by ``threads`` threads (all cores unless given)."""
+
+    def __init__(self, threads: int | None = None) -> None:
+        self.threads = threads
+
+    def __call__(self, study: Study, design: Design, portions: Portions, todo: Iterable[int]) -> Iterator[Any]:
+        """Pairs (chunk, values), as they are finished."""
+        solver = None
+        for index in todo:
+            solver = solver or solver_of(study, self.threads)
+            yield index, study.run(solver, design.rows(*portions.range(index)), self.threads)
+
+
+def solver_of(study: Study, threads: int | None) -> Any:
+    """The solver of a study."""
+    from lagrangian.integrate import Solver
+
+    def made() -> Any:
+        return Solver(study.program, study.method, events=study.events, threads=threads)
+
+    return made() if study.events is not None else study.program.remembered(("solver", study.method, threads), made)
+
+
+def carry_out(
+    study: Study,
+    design: Design,
+    portions: Portions,
+    sink: Sink,
+    *,
+    executor: Executor | None = None,
+    progress: Progress | None = None,
+) -> None:
+    """Do every chunk that the sink does not have, and hand it over as soon as it is done."""
+    todo = np.flatnonzero(~sink.done).tolist()
+    finished = sum(stop - start for start, stop in map(portions.range, np.flatnonzero(sink.done).tolist()))
+    if progress is not None:
+        progress(finished, design.count)
+    for index, values in (executor or Here())(study, design, portions, todo):
+        sink.write(index, portions.box(index), values)
+        finished += len(values["status"])
+        if progress is not None:
+            progress(finished, design.count)

@@ -1,0 +1,102 @@
+"""The machine code of an integrator: made, kept on disk, called."""
+
+from __future__ import annotations
+
+import ctypes
+import hashlib
+from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.codegen import Build, Options, aligned, native
+from lagrangian.codegen.buffers import address
+from lagrangian.codegen.build import fingerprint
+
+from .methods.loop import Loop, Variant
+from .methods.memory_layout import PLACES
+from .methods.method import Method
+
+if TYPE_CHECKING:
+    from lagrangian.codegen.ir import Module
+    from lagrangian.graph import Program
+
+    from .problem import Events
+
+_RUN = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64)
+_TAPE = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)
+
+
+@cache
+def _printer_version() -> str:
+    """A sum over this room's sources: any change may change the code."""
+    total = hashlib.sha256()
+    for source in sorted((Path(__file__).parent / "integrators").glob("*.py")):
+        total.update(source.read_bytes())
+    return total.hexdigest()
+
+
+class Machine:
+    """An integrator in memory: what is called, and how much work space it wants."""
+
+    def __init__(self, build: Build, method: Method, variant: Variant, events: Events | None = None) -> None:
+        def printer(module: Module, build: Build) -> None:
+            Loop(module, build.program, method, variant, events).print()
+
+        name = f"{method.name} {method.order} {variant!r} {_printer_version()} {_fingerprint(events, build)}"
+        self.variant = variant
+        self._loaded = build.extended(name, printer)
+        self.call = _RUN(self._loaded.address("run"))
+        facts = (ctypes.c_int64 * (1 + len(_BLOCKS) + len(PLACES)))()
+        ctypes.CFUNCTYPE(None, ctypes.c_void_p)(self._loaded.address("facts"))(ctypes.addressof(facts))
+        self.slots, *rest = facts
+        self._shared = rest[: len(_BLOCKS)]
+        self.places = dict(zip(PLACES, rest[len(_BLOCKS) :], strict=True))
+
+    def space(self) -> NDArray[np.float64]:
+        """Work space for a range of runs, every lane empty."""
+        return aligned_to(8 * self.variant.lanes, self.slots * self.variant.lanes)
+
+    def shared(self, p: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
+        """What follows from one parameter set for all runs, for the table."""
+        blocks = {}
+        for (entry, name), count in zip(_BLOCKS.items(), self._shared, strict=True):
+            block = blocks[entry] = aligned(count)
+            if count and not self.variant.own:
+                given = aligned(len(p))
+                given[:] = p
+                scratch = self.space()
+                _TAPE(self._loaded.address(name))(address(given), None, address(block), address(scratch))
+        return blocks
+
+
+_BLOCKS = {
+    "shared": "body_prologue_1",
+    "guard_shared": "guard_prologue_1",
+    "after_shared": "after_prologue_1",
+    "bounds_shared": "bounds_prologue_1",
+}
+"""Entries of the table and the functions that fill what they point to."""
+
+
+def _fingerprint(events: Events | None, build: Build) -> str:
+    """What stands for the events in the name of the code."""
+    if events is None:
+        return ""
+    what = (events.direction, events.terminal, events.reset)
+    return f"{fingerprint(events.program, build.options, build.target)} {what}"
+
+
+def aligned_to(size: int, count: int) -> NDArray[np.float64]:
+    """Zeros that start at a multiple of ``size`` bytes, at least a cache line."""
+    size = max(size, 64)
+    raw = np.zeros(8 * count + size, np.uint8)
+    start = -address(raw) % size
+    return raw[start : start + 8 * count].view(np.float64)
+
+
+def build_of(program: Program, lanes: int, keep: bool) -> Build:
+    """The build that the modules of a program's integrators belong to."""
+    return Build(program, Options(lanes, ("p",), keep=keep), native.host())

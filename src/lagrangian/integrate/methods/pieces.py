@@ -1,0 +1,129 @@
+"""A step piece by piece: each so short that no function of an event can cross zero twice in it.
+
+A piece is settled where, for every function g, bounds of g along the polynomial inside the step (`graph.bounds`) leave
+no zero in it, or bounds of g′ no turning point; else its first half comes first. Behind a piece that was proved the
+next one is twice as long. Pieces are no shorter than `FINEST`; where `MOST` of them, counted from the last event,
+did not get through, no shorter than `COARSE`. All lengths are parts of the step.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from lagrangian.codegen.ir import Value
+from lagrangian.graph import Program, bounds, states_read
+
+from . import memory_layout as at
+from .evaluate import Tapes
+from .memory_layout import Lanes
+from .method import Method, Step
+from .printer import Printer, Vec
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from .lane_scheduler import Service
+
+FINEST = 2.0**-24
+"""The shortest piece: two crossings in one are not seen."""
+
+COARSE = 2.0**-8
+"""The shortest piece once there have been too many."""
+
+MOST = 512
+"""Pieces after the last event from which on none is shorter than `COARSE`."""
+
+
+class Pieces:
+    """Prints how the pieces of a step follow each other."""
+
+    def __init__(
+        self, p: Printer, lanes: Lanes, method: Method, service: Service, guard: Program, *, own: bool
+    ) -> None:
+        self.p, self.f, self.lanes, self.method, self.service = p, p.f, lanes, method, service
+        self.read = states_read(guard)
+        self.tapes = Tapes(p, bounds(guard), "bounds", own=own, copies=1)
+        self.span, self.count = p.reserve(1), p.reserve(1)
+        self.terms: list[int] = []
+
+    def prepare(self) -> None:
+        """Print, at the start of the function, what is read from the table."""
+        self.shared = self.p.entry(at.TABLE.index("bounds_shared"), "ptr")
+
+    def begin(self, s: Step, coefficients: list[Vec]) -> None:
+        """Print what a step starts with: the polynomials of the states that are read, and one piece."""
+        p = self.p
+        self.terms = []
+        for entry in self.read:
+            found = self.method.powers(s, coefficients, entry)
+            self.terms.append(p.reserve(len(found)))
+            for j, c in enumerate(found):
+                p.store(c, self.terms[-1], j)
+        self.degree = len(coefficients)
+        p.store(1.0, self.span)
+        p.store(0.0, self.count)
+
+    def refresh(self, busy: str) -> None:
+        """Count anew in lanes that just had an event."""
+        p = self.p
+        p.store(self.f.select(busy, 0.0, p.load(self.count)), self.count)
+
+    def judged(self, s: Step, inputs: Callable[[Value], Vec], low: Value, busy: str) -> tuple[str, Value]:
+        """Look at the next piece of busy lanes: where it is settled, and its end. What comes next is noted."""
+        p, f = self.p, self.f
+        span, count = p.load(self.span), p.load(self.count)
+        high = low + span
+        high = f.select(f.compare("olt", high, 1.0), high, 1.0)
+        proved = self._proved(s, inputs, low, high)
+        least = f.select(f.compare("ogt", count, float(MOST)), COARSE, FINEST)
+        length = high - low
+        settled = f.logic("or", proved, f.compare("ole", length, least))
+        longer = f.select(proved, span + span, f.select(f.compare("olt", span, least), least, span))
+        following = f.select(settled, longer, length * 0.5)
+        p.store(f.select(busy, following, span), self.span)
+        p.store(f.select(busy, count + 1.0, count), self.count)
+        return f.logic("and", busy, settled), high
+
+    def _proved(self, s: Step, inputs: Callable[[Value], Vec], low: Value, high: Value) -> str:
+        """Where no function can cross zero twice between two places of the step."""
+        p, f = self.p, self.f
+        centre, r = (low + high) * 0.5, (high - low) * 0.5
+        origin = self.method.origin
+        z = centre - origin
+        far = f.intrinsic("fabs", z) + r
+        columns = [self._jet(slot, z, far, r) for slot in self.terms]
+        names = ("x", "rate", "bend")
+        values = {name: Vec(values=column) for name, column in zip(names, zip(*columns, strict=True), strict=False)}
+        t = f.fma(centre, s.h, s.t)
+        zero = Value(f, f.constant(0.0))
+        slopes = (
+            tuple(p.load(self.lanes.slope, k) * s.h for k in range(self.service.inputs))
+            if self.service.signals
+            else (zero,) * self.service.inputs
+        )
+        values |= {"u": inputs(t), "drift": Vec(values=slopes), "stretch": Vec(values=(s.h, r))}
+        found = self.tapes.evaluate(self.shared, values, t)
+        assert found is not None
+        half = len(found) // 2
+        proved = ""
+        for clear, steady in zip(found[:half], found[half:], strict=True):
+            good = f.logic("or", f.compare("ogt", clear, 0.0), f.compare("ogt", steady, 0.0))
+            proved = f.logic("and", proved, good) if proved else good
+        return proved
+
+    def _jet(self, slot: int, z: Value, far: Value, r: Value) -> tuple[Value, Value, Value]:
+        """A polynomial at z: value, derivative, and the greatest second derivative within r.
+
+        ``far`` ≥ |z| + r bounds the third derivative term by term.
+        """
+        p, f, n = self.p, self.f, self.degree
+        zero = Value(f, f.constant(0.0))
+        value, rate, bend, third = p.load(slot, n), zero, zero, zero
+        for j in range(n - 1, -1, -1):
+            bend = f.fma(bend, z, rate)
+            rate = f.fma(rate, z, value)
+            value = f.fma(value, z, p.load(slot, j))
+        for j in range(n, 2, -1):
+            size = f.intrinsic("fabs", p.load(slot, j)) * float(j * (j - 1) * (j - 2))
+            third = f.fma(third, far, size)
+        return value, rate, f.fma(third, r, f.intrinsic("fabs", bend) * 2.0)

@@ -1,0 +1,153 @@
+"""An ensemble over several machines: chunks are tasks of Dask's distributed scheduler.
+
+Every worker compiles the study itself, once, for its own processor. A task carries its rows, so that it can be done by
+anyone at any time: what a worker that dies had under way, or had done and not handed over, is done again by another.
+Results come to this process, which alone writes.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import importlib.metadata
+import pickle
+import threading
+from collections import OrderedDict
+from collections.abc import Iterable, Iterator
+from concurrent.futures import CancelledError
+from typing import Any
+
+from lagrangian.advice import Advice, Argument
+from lagrangian.errors import Error, MissingExtra, RunError
+from lagrangian.integrate.chunks import Portions
+from lagrangian.integrate.design import Design, Rows
+from lagrangian.integrate.ensemble import solver_of
+from lagrangian.integrate.observe import Study, Values
+from lagrangian.integrate.store import RESUME
+
+PATIENCE = 30.0
+"""Seconds to wait for the scheduler and a first worker."""
+
+AHEAD = 2
+"""Tasks under way for each thread of the workers, so that none waits for this process."""
+
+REMEMBERED = 4
+"""Studies that a worker keeps compiled."""
+
+_known: OrderedDict[str, tuple[Study, Any]] = OrderedDict()
+_lock = threading.Lock()
+
+
+def work(key: str, packed: bytes, version: str, rows: Rows) -> Values:
+    """One chunk, in a worker; the study in ``packed`` is compiled when its ``key`` is met first."""
+    if version != (own := _version()):
+        raise RunError(
+            f"a worker runs lagrangian {own}, but this process runs {version}",
+            code="E506",
+            fix="install the same version",
+        )
+    with _lock:
+        if key not in _known:
+            study: Study = pickle.loads(packed)
+            _known[key] = study, solver_of(study, 1)
+            while len(_known) > REMEMBERED:
+                _known.popitem(last=False)
+        study, solver = _known[key]
+    return study.run(solver, rows, 1)
+
+
+def _version() -> str:
+    return importlib.metadata.version("lagrangian")
+
+
+class Dask:
+    """Chunks are computed by the workers of a scheduler: its address, such as ``tcp://host:8786``, or a client.
+
+    ``held`` is how many chunks a worker has in memory at a time, ``threads`` how many threads all workers have.
+    Raises `MissingExtra` where distributed is not installed, `RunError` where nobody answers.
+    """
+
+    def __init__(self, scheduler: Any) -> None:
+        try:
+            import distributed
+        except ImportError:
+            raise MissingExtra("Dask's distributed is not installed", fix="pip install 'lagrangian[sweep]'") from None
+        self._lib, self._own = distributed, isinstance(scheduler, str)
+        self.client: Any
+        if self._own:
+            try:
+                self.client = distributed.Client(scheduler, timeout=PATIENCE, set_as_default=False)
+            except (OSError, ValueError) as trouble:
+                raise RunError(
+                    f"no scheduler answers at '{scheduler}': {trouble}",
+                    code="E506",
+                    fix="start one with `dask scheduler` and give the address it prints, such as tcp://host:8786",
+                ) from None
+        elif isinstance(scheduler, distributed.Client):
+            self.client = scheduler
+        else:
+            raise RunError(
+                f"a scheduler is an address or a distributed.Client (got {type(scheduler).__name__})", code="E506"
+            )
+        try:
+            self.client.wait_for_workers(1, timeout=PATIENCE)
+        except TimeoutError:
+            self.close()
+            raise RunError(
+                "the scheduler has no workers", code="E506", fix="start some with `dask worker ADDRESS`"
+            ) from None
+        threads = self.client.nthreads().values()
+        self.held, self.threads = max(threads), sum(threads)
+
+    def close(self) -> None:
+        """Let go of the scheduler; a client that was handed over is left as it is."""
+        if self._own:
+            self.client.close()
+
+    def __call__(self, study: Study, design: Design, portions: Portions, todo: Iterable[int]) -> Iterator[Any]:
+        """Pairs (chunk, values), as they come back."""
+        packed = pickle.dumps(study)
+        head = (hashlib.blake2b(packed, digest_size=16).hexdigest(), packed, _version())
+        waiting, done = iter(todo), self._lib.as_completed(loop=self.client.loop)
+        running: dict[Any, int] = {}
+
+        def feed() -> None:
+            while len(running) < AHEAD * max(1, self.threads) and (index := next(waiting, None)) is not None:
+                future = self.client.submit(work, *head, design.rows(*portions.range(index)), pure=False)
+                running[future] = index
+                done.add(future)
+
+        try:
+            feed()
+            for future in done:
+                values = self._result(future)
+                yield running.pop(future), values
+                feed()
+        finally:
+            with contextlib.suppress(Exception):  # the scheduler may be gone: then there is nothing to call off
+                self.client.cancel(list(running))
+            self.close()
+
+    def _result(self, future: Any) -> Values:
+        """What a worker computed; where nobody could, why."""
+        try:
+            return future.result()
+        except Error:
+            raise
+        except self._lib.KilledWorker as trouble:
+            raise RunError(
+                "every worker that computed one of the chunks died",
+                code="E506",
+                fix=Advice(
+                    "look at the workers' memory: a smaller ",
+                    Argument("memory"),
+                    " makes smaller chunks; then go on with ",
+                    RESUME,
+                ),
+            ) from trouble
+        except ModuleNotFoundError as trouble:
+            raise RunError(f"a worker lacks a package: {trouble}", code="E506", fix="pip install lagrangian") from None
+        except (CancelledError, OSError) as trouble:
+            raise RunError(
+                f"the scheduler was lost: {trouble}", code="E506", fix=Advice("start it, then go on with ", RESUME)
+            ) from trouble

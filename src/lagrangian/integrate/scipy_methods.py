@@ -1,0 +1,292 @@
+"""SciPy's solvers over a compiled right-hand side and a compiled analytic Jacobian, step by step.
+
+For stiff systems (``Radau``, ``BDF``, ``LSODA``), for inputs that are Python functions, and for whoever trusts these
+more. Each step is taken here, so that what was reached is kept whatever ends the run: an event, a state that is not
+finite, a step that cannot get smaller, a bound on steps or time.
+"""
+
+from __future__ import annotations
+
+import math
+import time as clock
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.errors import RunError
+from lagrangian.integrate.chattering import LEAST, NEAR, Pace, Sticking
+from lagrangian.integrate.crossings import Crossings, Hit
+from lagrangian.integrate.methods.memory_layout import BLIND, CHATTERS, CROWDED, MARGIN, TOO_MANY, UNDERFLOW, ZENO
+
+Array = NDArray[np.float64]
+Control = Callable[[float, Array], Array]
+
+SCIPY = ("RK45", "RK23", "DOP853", "Radau", "BDF", "LSODA")
+"""SciPy's methods by the names that `scipy.integrate.solve_ivp` gives them."""
+
+IMPLICIT = frozenset({"Radau", "BDF", "LSODA"})
+"""Those that use a Jacobian."""
+
+MAX_NOT_FINITE = 1000
+"""Evaluations without a finite result, one after another, after which a solver is not asked to try a smaller step."""
+
+
+@dataclass(frozen=True)
+class Leg:
+    """A stretch of time up to ``end`` on which the inputs u(t, x) are linear in time, but for those ``asked``."""
+
+    end: float
+    u: Control
+    asked: tuple[int, ...] = ()
+
+
+@dataclass
+class Outcome:
+    """A run as far as it went: states (S, nx) at ``times`` (S,), and how it ended.
+
+    ``status`` as in `lagrangian.integrate.STATUS`; ``reached`` and ``final`` are the last time and state; ``hits`` are
+    the events; ``reason`` says more where there is more to say.
+    """
+
+    times: Array
+    states: Array
+    status: int
+    reached: float
+    final: Array
+    steps: int = 0
+    rejected: int = 0
+    evaluations: int = 0
+    hits: list[Hit] = field(default_factory=list)
+    reason: str = ""
+
+
+@dataclass
+class Bounds:
+    """What ends a run that does not end by itself: steps, events, and seconds of computing."""
+
+    max_steps: int = 10_000_000
+    max_events: int = 100_000
+    max_step: float = math.inf
+    seconds: float | None = None
+
+
+class _NotFiniteError(Exception):
+    """The right-hand side is not finite, however small the step."""
+
+
+class _Field:
+    """f(t, x) and its Jacobian for SciPy, counting; what is not finite is NaN there, so that the step gets smaller."""
+
+    def __init__(self, rhs: Any, jacobian: Any, p: Array, nx: int) -> None:
+        self.rhs, self.jacobian, self.p = rhs, jacobian, p
+        self.evaluations = self.trouble = 0
+        self.why = ""  # the latest evaluation that was not finite
+        self.nothing = np.full(nx, np.nan)
+        self.u: Control = lambda t, x: np.empty(0)
+        self.last = math.inf  # the time that evaluations at the end of a stretch are for
+
+    def __call__(self, t: float, x: Array) -> Array:
+        self.evaluations += 1
+        t = min(t, self.last)
+        try:
+            value = self.rhs(np.ascontiguousarray(x), self.u(t, x), self.p, t)
+        except RunError as error:
+            if error.code not in ("E502", "E503"):
+                raise
+            if not self.trouble:  # the first is the cause, what follows it only hears of it
+                self.why = f"[{error.code}] {error.what}"
+            self.trouble += 1
+            if self.trouble > MAX_NOT_FINITE:
+                raise _NotFiniteError from None
+            return self.nothing
+        self.trouble = 0
+        return value
+
+    def slope(self, t: float, x: Array) -> Array:
+        """∂f/∂x, shape (nx, nx)."""
+        t = min(t, self.last)
+        try:
+            return self.jacobian(np.ascontiguousarray(x), self.u(t, x), self.p, t)
+        except RunError as error:
+            if error.code not in ("E502", "E503"):
+                raise
+            raise _NotFiniteError from None
+
+
+def integrate_scipy(
+    method: str,
+    rhs: Any,
+    x0: Array,
+    times: Array,
+    legs: Sequence[Leg],
+    p: Array,
+    *,
+    jacobian: Any = None,
+    crossings: Crossings | None = None,
+    rtol: float = 1e-9,
+    atol: float | Array = 1e-12,
+    bounds: Bounds | None = None,
+) -> Outcome:
+    """Run ẋ = rhs(x, u, p, t) from ``times[0]`` and return the states at ``times``.
+
+    ``rhs`` and ``jacobian`` are kernels (`lagrangian.codegen`) of the groups x, u, p, t; ``legs`` cover the time from
+    ``times[0]`` to ``times[-1]``. Nothing is raised for a run that fails on its way: its outcome says so.
+    """
+    march = _March(method, _Field(rhs, jacobian, p, len(x0)), x0, times, crossings, rtol, atol, bounds or Bounds())
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # LSODA warns of what its return code says as well
+        try:
+            for leg in legs:
+                if not march.over(leg):
+                    if march.status in (TOO_MANY, UNDERFLOW):
+                        march.sticks(leg, last=True)
+                    break
+            else:
+                march.status = 0
+        except _NotFiniteError:
+            march.status, march.reason = -2, march.f.why
+    return march.outcome()
+
+
+class _March:
+    """One run while it is made."""
+
+    def __init__(
+        self,
+        method: str,
+        f: _Field,
+        x0: Array,
+        times: Array,
+        crossings: Crossings | None,
+        rtol: float,
+        atol: float | Array,
+        bounds: Bounds,
+    ) -> None:
+        from scipy import integrate  # takes longer to load than most runs: commands that run nothing do without
+
+        self.make: Callable[..., Any] = getattr(integrate, method)
+        self.f, self.crossings, self.bounds = f, crossings, bounds
+        self.options: dict[str, Any] = {"rtol": rtol, "atol": atol, "max_step": bounds.max_step}
+        if method in IMPLICIT and f.jacobian is not None:
+            self.options["jac"] = f.slope
+        self.t, self.x = float(times[0]), np.array(x0, float)
+        self.times, self.states = times, np.empty((len(times), len(x0)))
+        self.states[0], self.stored = self.x, 1
+        self.status, self.reason, self.steps = 0, "", 0
+        self.deadline = math.inf if bounds.seconds is None else clock.monotonic() + bounds.seconds
+        self.hits: list[Hit] = []
+        self.pace = Pace(self.t)
+        self.sticking: Sticking | None = None
+
+    def over(self, leg: Leg) -> bool:
+        """March over a leg; return whether to go on after it."""
+        self.f.u, self.f.last = leg.u, max(leg.end - MARGIN * abs(leg.end), self.t)
+        while self.t < leg.end:
+            if self.crossings is not None:
+                self.crossings.start(self.t, self.x, leg.u, self.f)
+                if self.crossings.blind is not None:
+                    self.status = BLIND
+                    return False
+            solver = self.make(self.f, self.t, self.x, leg.end, **self.options)
+            jumped = False
+            while solver.status == "running" and not jumped:
+                if not self._within_bounds() or self.sticks(leg):
+                    return False
+                words = solver.step()
+                self.steps += 1
+                if solver.status == "failed":
+                    self._failed(words)
+                    return False
+                if not np.all(np.isfinite(solver.y)):
+                    self.status, self.reason = -2, "the state is not finite after this step"
+                    return False
+                jumped = self._advance(solver, leg)
+                if self.status != 0:
+                    return False
+        return True
+
+    def _within_bounds(self) -> bool:
+        if self.steps >= self.bounds.max_steps:
+            self.status = -3
+        elif clock.monotonic() > self.deadline:
+            self.status = -6
+        return self.status == 0
+
+    def sticks(self, leg: Leg, *, last: bool = False) -> bool:
+        """Whether the run sticks where ẋ jumps and gets on no more: looked at now and then, and at the ``last``."""
+        if not last and (self.steps == 0 or self.steps % (2 * LEAST)):
+            return False
+        self.sticking = self.sticking or Sticking(self.f.rhs.program)
+        start, end = float(self.times[0]), float(self.times[-1])
+        if not self.sticking or not (
+            last or self.sticking.hopeless(self.pace, self.t, self.steps, end, self.bounds.max_steps)
+        ):
+            return False
+        u = leg.u(self.t, self.x)
+        if self.sticking.at(self.x, u, self.f.p, self.t, NEAR * (end - start)):
+            self.status, self.reason = CHATTERS, ""
+        return self.status == CHATTERS
+
+    def _failed(self, words: str | None) -> None:
+        broken = self.f.trouble > 0
+        self.status = -2 if broken else -1
+        self.reason = self.f.why if broken else (words or "").strip().rstrip(".")
+
+    def _advance(self, solver: Any, leg: Leg) -> bool:
+        """Take in one step up to its end, or to an event that stops or changes the state; return whether it did."""
+        dense, end = solver.dense_output(), solver.t
+        hits = [] if self.crossings is None else self.crossings.between(self.t, end, dense, leg.u, leg.asked)
+        for hit in hits:
+            self.hits.append(hit)
+            crowded = len(self.hits) >= self.bounds.max_events and not hit.terminal
+            if hit.terminal or hit.after is not None or crowded:
+                self._store(dense, hit.time)
+                stuck = hit.after is not None and hit.time <= self.t and self.steps > 1  # the first may be at the start
+                self.t, self.x = hit.time, hit.before if hit.after is None else hit.after
+                if hit.terminal:
+                    self.status = 1
+                elif not np.all(np.isfinite(self.x)):
+                    self.status, self.reason, self.x = -2, "the state after an event is not finite", hit.before
+                elif stuck:
+                    self.status = ZENO
+                elif crowded:
+                    self.status = CROWDED if hit.after is None else ZENO
+                return True
+        if self.crossings is not None and self.crossings.settled is not None:
+            self.status = ZENO
+            return True
+        if self.crossings is not None and self.crossings.blind is not None:
+            self.status, end = BLIND, self.crossings.blind
+            self._store(dense, end)
+            self.t, self.x = end, np.array(dense(end)) if end > self.t else self.x
+            return True
+        self._store(dense, end)
+        self.t, self.x = end, solver.y
+        if self.stored and self.times[self.stored - 1] == end:
+            self.states[self.stored - 1] = solver.y  # the step's own end, not the polynomial's
+        return False
+
+    def _store(self, dense: Any, until: float) -> None:
+        upto = int(np.searchsorted(self.times, until, side="right"))
+        if upto > self.stored:
+            self.states[self.stored : upto] = dense(self.times[self.stored : upto]).T
+            self.stored = upto
+
+    def outcome(self) -> Outcome:
+        """What there is now."""
+        return Outcome(
+            self.times[: self.stored],
+            self.states[: self.stored],
+            self.status,
+            self.t,
+            self.x,
+            self.steps,
+            0,
+            self.f.evaluations,
+            self.hits,
+            self.reason,
+        )

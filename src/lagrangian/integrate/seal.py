@@ -1,0 +1,223 @@
+"""What makes a store of results trustworthy: checksums of all that is relied on, and a mark for every chunk.
+
+The root document ``zarr.json`` holds a *seal*: checksums of each of our attributes and of the metadata of each array.
+Every chunk of a result ends with its own checksum (crc32c), and the array ``done`` holds a *mark* for every chunk of
+every result, made of the seal, the result's name, the chunk's number and that checksum, and of a checksum of the whole
+file: a chunk that is missing, cut off, or of another place, another result or another store does not fit its mark. The
+first half of a mark is checked without reading the file.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import zlib
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.advice import Advice, Argument
+from lagrangian.errors import Error, RunError
+from lagrangian.integrate.chunks import Portions
+
+FORMAT = 2
+KEY = "lagrangian"
+DONE = "done"
+ROOT = "zarr.json"
+CHECKSUM = 4
+"""Bytes at the end of a chunk's file that hold its checksum."""
+
+RESUME, OVERWRITE = Argument("resume", "True"), Argument("overwrite", "True")
+"""What is done about a store that is there."""
+AGAIN = Advice("restore it from a copy, or start anew with ", OVERWRITE)
+
+Marks = NDArray[np.uint64]
+
+
+@dataclass(frozen=True)
+class Document:
+    """The checked root document of a store: ``kept`` is what its maker wrote, ``arrays`` the metadata of its arrays."""
+
+    path: Path
+    kept: Mapping[str, Any]
+    arrays: Mapping[str, Mapping[str, Any]]
+
+    @property
+    def results(self) -> list[str]:
+        """The names of the results."""
+        return self.kept["results"]
+
+    @property
+    def portions(self) -> Portions:
+        """How the results are cut into chunks."""
+        block = tuple(self.kept["block"])
+        return Portions(tuple(self.arrays["status"]["shape"][: len(block)]), block)
+
+    @property
+    def marks_file(self) -> Path:
+        """The file of the marks: one of 8 bytes for every result of every chunk, 0 where it is not there."""
+        return self.path / DONE / "c" / "0"
+
+    def marks(self, data: bytes) -> Marks:
+        """The marks in a file's bytes (chunks, results), those that are cut off as 0."""
+        shape = (len(self.portions), len(self.results))
+        whole = data[: 8 * shape[0] * shape[1]]
+        return np.frombuffer(whole.ljust(8 * shape[0] * shape[1], b"\0"), "<u8").astype(np.uint64).reshape(shape)
+
+    def chunk(self, name: str, index: int) -> Path:
+        """The file of a chunk of a result."""
+        grid = self.portions.grid
+        place = [int(k) for k in np.unravel_index(index, grid)] if grid else []
+        place += [0] * (len(self.arrays[name]["shape"]) - len(place))
+        return self.path.joinpath(name, "c", *map(str, place))
+
+    def mark(self, name: str, index: int) -> int:
+        """The mark of a chunk as it is on disk: where it belongs and its stored checksum, then its bytes' checksum."""
+        data = self.chunk(name, index).read_bytes()
+        return self._place(name, index, len(data), data[-CHECKSUM:]) << 32 | zlib.crc32(data)
+
+    def _place(self, name: str, index: int, size: int, end: bytes) -> int:
+        said = canonical([self.kept["seal"]["seal"], name, index, size]) + end
+        return 1 | int.from_bytes(hashlib.blake2b(said, digest_size=4).digest(), "little")  # never 0: that is not done
+
+    def _fits(self, name: str, index: int, mark: int, every_byte: bool) -> bool:
+        try:
+            if every_byte:
+                return self.mark(name, index) == mark
+            with self.chunk(name, index).open("rb") as file:
+                size = file.seek(0, 2)
+                file.seek(max(0, size - CHECKSUM))
+                return self._place(name, index, size, file.read()) == mark >> 32
+        except FileNotFoundError:
+            return False
+
+    def unfit(self, marks: Marks, names: Iterable[str] = (), *, every_byte: bool = False) -> dict[int, str]:
+        """The finished chunks with a file (of the results ``names``, or all) that does not fit its mark, and which.
+
+        Presence, length and the checksum stored in the file are looked at, or ``every_byte`` of it.
+        """
+        lost: dict[int, str] = {}
+        columns = [(self.results.index(name), name) for name in names or self.results]
+        for index in np.flatnonzero(finished(marks)).tolist():
+            for column, name in columns:
+                if not self._fits(name, index, int(marks[index, column]), every_byte):
+                    file = self.chunk(name, index)
+                    there = "is not what was written" if file.exists() else "is missing"
+                    lost[index] = f"'{file.relative_to(self.path).as_posix()}' {there}"
+                    break
+        return lost
+
+
+def finished(marks: Marks) -> NDArray[np.bool_]:
+    """Which chunks are done: those with a mark for every result."""
+    return np.asarray(marks.all(axis=1))
+
+
+def open_document(path: Path) -> Document:
+    """Read and check the root document of a store; raises `Error` where there is none, and `RunError` for damage."""
+    if not path.exists():
+        raise Error(f"there is no '{path}'", fix=Advice("start without ", RESUME), code="E801")
+    root = parsed(path)
+    kept = _at(root, "attributes", KEY)
+    if root is None or not kept:
+        raise Error(f"'{path}' is not a store of a sweep: {found(path)}", fix="name one that a sweep made", code="E803")
+    if kept.get("format") != FORMAT:
+        raise Error(
+            f"'{path}' has format {kept.get('format')!r:.20}, known is {FORMAT}",
+            fix=Advice("use the version of lagrangian that made it, or start anew with ", OVERWRITE),
+            code="E803",
+        )
+    sealed, now = _at(kept, "seal"), seal(root)
+    wrong = [name for name in sealed if name != "seal" and sealed[name] != now.get(name)]
+    if not wrong and sealed.get("seal") != _of_all(sealed):
+        wrong = [f"{KEY}.seal"]
+    if wrong:
+        more = f" (and {len(wrong) - 1} more)" if len(wrong) > 1 else ""
+        raise RunError(
+            f"'{path}' is damaged: in its {ROOT}, '{wrong[0]:.60}'{more} is not what was written",
+            fix=Advice("undo the change, ", AGAIN),
+            code="E804",
+        )
+    return Document(path, kept, {name: _at(root, "consolidated_metadata", "metadata", name) for name in _members(kept)})
+
+
+def seal(root: Mapping[str, Any]) -> dict[str, str]:
+    """A checksum of everything in a root document that is relied on, by its name; ``seal`` is that of all of them.
+
+    Attributes that someone added beside ours are left out.
+    """
+    kept = _at(root, "attributes", KEY)
+    said: dict[str, Any] = {f"{KEY}.{k}": v for k, v in kept.items() if k not in ("seal", "task")}
+    said |= {f"{KEY}.task.{k}": v for k, v in _at(kept, "task").items()}
+    for name in _members(kept):
+        array = _at(root, "consolidated_metadata", "metadata", name)
+        said |= {f"{k} of {name}": v for k, v in array.items() if k != "attributes"}
+        said |= {f"{k} of {name}": v for k, v in _at(array, "attributes").items()}
+    about = {k: v for k, v in _at(root, "consolidated_metadata").items() if k != "metadata"}
+    said["group"] = [about, {k: v for k, v in root.items() if k not in ("attributes", "consolidated_metadata")}]
+    sums = {name: checksum(canonical(value)) for name, value in said.items()}
+    return {**sums, "seal": _of_all(sums)}
+
+
+def _of_all(sums: Mapping[str, str]) -> str:
+    return checksum(canonical({name: value for name, value in sums.items() if name != "seal"}))
+
+
+def _members(kept: Mapping[str, Any]) -> list[str]:
+    results, coordinates = kept.get("results"), kept.get("coordinates")
+    return [
+        *([r for r in results if isinstance(r, str)] if isinstance(results, list) else []),
+        *(coordinates if isinstance(coordinates, dict) else {}),
+        DONE,
+    ]
+
+
+def _at(data: Any, *keys: str) -> dict[str, Any]:
+    """The mapping at nested keys; an empty one where there is none."""
+    for key in keys:
+        data = data.get(key) if isinstance(data, dict) else None
+    return data if isinstance(data, dict) else {}
+
+
+def canonical(data: Any) -> bytes:
+    """Plain data as bytes: the same for the same data, in whatever order mappings are."""
+    return json.dumps(data, sort_keys=True, separators=(",", ":")).encode()
+
+
+def checksum(data: bytes) -> str:
+    """A checksum of 16 digits."""
+    return hashlib.blake2b(data, digest_size=8).hexdigest()
+
+
+def parsed(path: Path) -> dict[str, Any] | None:
+    """The root document of a Zarr group as plain data, or None where it is not there or cannot be read."""
+    try:
+        root = json.loads((path / ROOT).read_bytes())
+    except (FileNotFoundError, NotADirectoryError, ValueError, RecursionError):
+        return None
+    return root if isinstance(root, dict) else None
+
+
+def found(path: Path) -> str:
+    """In words, what stands at a path that is not a store of ours."""
+    if path.is_file():
+        return "it is a file"
+    if not path.is_dir():
+        return "it is not a folder"
+    names = sorted(entry.name for entry in path.iterdir())
+    listed = ", ".join(names[:3]) + (", …" if len(names) > 3 else "")
+    if not names:
+        return "it is an empty folder"
+    if ROOT not in names:
+        return f"it is a folder without {ROOT} ({listed})"
+    root = parsed(path)
+    if root is None:
+        return f"its {ROOT} cannot be read"
+    if root.get("node_type") == "array":
+        return "it is a Zarr array of another program"
+    members = ", ".join(name for name in names if name != ROOT)[:60]
+    return f"it is a Zarr group of another program ({members or 'empty'})"

@@ -1,0 +1,358 @@
+"""Results of an ensemble written to disk, chunk by chunk, so that a kill loses at most the chunks under way.
+
+A Zarr group (format 3) with one array a result over the ensemble's shape, coordinates beside them, and the array
+``done`` of marks (`lagrangian.integrate.seal`), plain and uncompressed. A chunk's results are written first, each file
+beside its place and renamed into it, its marks last: a chunk is done or it is not. The group's attributes hold what the
+task is; another task is never carried on in the same store. To go on with a store, all of it is checked first: what is
+damaged is done again.
+"""
+
+from __future__ import annotations
+
+import errno
+import hashlib
+import json
+import os
+import shutil
+import tempfile
+import warnings
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.advice import Advice
+from lagrangian.errors import Error, RunError
+from lagrangian.integrate.chunks import Portions
+from lagrangian.integrate.observe import Values
+from lagrangian.integrate.seal import (
+    AGAIN,
+    DONE,
+    FORMAT,
+    KEY,
+    OVERWRITE,
+    RESUME,
+    ROOT,
+    Document,
+    finished,
+    found,
+    open_document,
+    parsed,
+    seal,
+)
+from lagrangian.integrate.stored import explained, fill, library, lost_chunks, opened, whole
+
+
+@dataclass(frozen=True)
+class Variable:
+    """An array of a store: type, names of its axes, shape, and words about it (units, long_name)."""
+
+    dtype: str
+    dims: tuple[str, ...]
+    shape: tuple[int, ...]
+    words: Mapping[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What a store will hold.
+
+    ``results``: arrays whose first axes are the ensemble's; ``coordinates``: other arrays with their values, given as
+    portions to be written one after the other along the first axis; ``task``: what is done, as plain data: two tasks
+    are the same where this is equal.
+    """
+
+    portions: Portions
+    results: Mapping[str, Variable]
+    coordinates: Mapping[str, tuple[Variable, Sequence[Any] | Iterator[NDArray[Any]]]]
+    task: Mapping[str, Any]
+    words: Mapping[str, Any] = field(default_factory=dict)
+
+
+class Store:
+    """A sink on disk; use it as a context, so that it is closed. One process at a time may write to it.
+
+    ``done`` (chunks,): which chunks are there. ``notices``: what was damaged and is made good.
+    """
+
+    def __init__(self, document: Document) -> None:
+        self.path, self.document, self.portions = document.path, document, document.portions
+        self.notices: list[str] = []
+        self._file = _alone(document.marks_file)
+        os.lseek(self._file, 0, os.SEEK_SET)
+        data = os.read(self._file, os.fstat(self._file).st_size)
+        self.marks = document.marks(data)
+        if len(data) != self.marks.nbytes:
+            self.notices.append(f"the list of finished chunks in '{self.path}' had a wrong length")
+            os.ftruncate(self._file, self.marks.nbytes)  # what was cut off is filled with zeros: not done
+        self.done = finished(self.marks)
+        self._arrays = opened(document, "r+")
+
+    def __enter__(self) -> Store:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Let go of the store, so that another process may write to it."""
+        if self._file >= 0:
+            os.close(self._file)
+            self._file = -1
+
+    def write(self, index: int, box: tuple[slice, ...], values: Values) -> None:
+        """Write the results of a chunk, then its marks."""
+        with explained(self.path, "write", self._kept):
+            sizes = tuple(part.stop - part.start for part in box)
+            for name in self.document.results:
+                self.document.chunk(name, index).unlink(missing_ok=True)  # of an end in the middle: never read
+            for name in self.document.results:  # the status last: other readers go by it
+                self._arrays[name][(*box, ...)] = values[name].reshape(*sizes, *values[name].shape[1:])
+            self._mark(index, [self.document.mark(name, index) for name in self.document.results])
+        self.done[index] = True
+
+    def _mark(self, index: int, marks: Sequence[int]) -> None:
+        self.marks[index] = marks
+        os.lseek(self._file, index * self.marks[index].nbytes, os.SEEK_SET)
+        os.write(self._file, self.marks[index].astype("<u8").tobytes())
+
+    def mend(self, plan: Plan) -> None:
+        """Find all that is damaged: chunks are taken as not done, coordinates and metadata written again."""
+        with explained(self.path, "repair"):
+            self._mend_metadata()
+            for name, (_, values) in plan.coordinates.items():
+                self._mend_coordinate(name, values)
+            lost = self.document.unfit(self.marks, every_byte=True)
+            for index in lost:
+                self._mark(index, [0] * len(self.document.results))
+        if lost:
+            self.done[list(lost)] = False
+            they = "they are" if len(lost) > 1 else "it is"
+            self.notices.append(f"{lost_chunks(self.document, lost)}: {they} computed again")
+
+    def _mend_metadata(self) -> None:
+        for name, metadata in self.document.arrays.items():
+            file = self.path / name / ROOT
+            if not _holds(parsed(file.parent), metadata):
+                _put(file, json.dumps(metadata, indent=2).encode())
+                self.notices.append(f"'{name}/{ROOT}' in '{self.path}' was damaged: written again")
+
+    def _mend_coordinate(self, name: str, values: Iterable[Any]) -> None:
+        """Write a coordinate again where it is not what it was; ``values`` are those of the task."""
+        array, right = self._arrays[name], self.document.kept["coordinates"][name]
+        if whole(array, right) is not None:
+            return
+        shutil.rmtree(self.path / name / "c", ignore_errors=True)
+        _fill_array(array, values)
+        if whole(array, right) is None:
+            raise RunError(
+                f"'{self.path}' is damaged: the values of '{name}' match neither what was written nor this sweep",
+                fix=AGAIN,
+                code="E804",
+            )
+        self.notices.append(f"the values of '{name}' in '{self.path}' were damaged: written again")
+
+    def _kept(self) -> str:
+        ranges = map(self.portions.range, np.flatnonzero(self.done).tolist())
+        safe = sum(stop - start for start, stop in ranges)
+        return Advice(f"{safe} runs are safely there: make room, then go on with ", RESUME)
+
+
+def create(path: Path, plan: Plan, *, overwrite: bool = False) -> Store:
+    """Make a store at ``path``, whole or not at all; an existing one is replaced only with ``overwrite``.
+
+    Raises `Error` where something else than a store stands there: that is never removed.
+    """
+    library()
+    if os.path.lexists(path) and not overwrite:
+        raise Error(
+            f"'{path}' exists",
+            fix=Advice("continue it with ", RESUME, ", replace it with ", OVERWRITE, ", or use another name"),
+            code="E802",
+        )
+    with explained(path, "make"):
+        folder = path.resolve().parent
+        if not folder.is_dir():
+            raise Error(f"cannot write '{path}': there is no folder '{path.parent}'", fix="make it first", code="E801")
+        beside = Path(tempfile.mkdtemp(dir=folder, prefix=f".{path.name[:100]}.", suffix=".part"))
+        try:
+            _fill(beside / "new", plan)
+            if os.path.lexists(path):
+                _move_away(path, beside / "old")
+            try:
+                (beside / "new").rename(path)
+            except OSError:
+                if (beside / "old").exists():
+                    (beside / "old").rename(path)
+                raise
+        finally:
+            shutil.rmtree(beside, ignore_errors=True)
+    return Store(open_document(path))
+
+
+def _fill(path: Path, plan: Plan) -> None:
+    """Write a new store: empty results, coordinates, no marks; then its seal."""
+    zarr = library()
+    said = {"format": FORMAT, "block": list(plan.portions.block), "results": list(plan.results), "task": plan.task}
+    group = zarr.create_group(path, attributes={**plan.words, KEY: said})
+    squeezed = zarr.codecs.BloscCodec(cname="lz4", clevel=5, shuffle="shuffle")  # of smooth curves: fast, and smallest
+    how: dict[str, Any] = {"compressors": [squeezed, zarr.codecs.Crc32cCodec()]}
+    for name, variable in plan.results.items():
+        extra = variable.shape[len(plan.portions.block) :]
+        missing = fill(variable.dtype, name)
+        _array(group, name, variable, chunks=(*plan.portions.block, *extra), fill_value=missing, **how)
+    sums, how = {}, {**how, "config": {"write_empty_chunks": True}}
+    for name, (variable, values) in plan.coordinates.items():
+        array = _array(group, name, variable, chunks=_chunks(variable.shape), **how)
+        sums[name] = _fill_array(array, values)
+    count = len(plan.portions) * len(plan.results)
+    _array(group, DONE, Variable("uint64", ("chunk",), (count,)), chunks=(count,), compressors=None, fill_value=0)
+    with warnings.catch_warnings():  # zarr says that the listing is its own extension of the format; xarray expects it
+        warnings.simplefilter("ignore")
+        zarr.consolidate_metadata(path)
+    root = json.loads((path / ROOT).read_bytes())
+    root["attributes"][KEY]["coordinates"] = sums
+    root["attributes"][KEY]["seal"] = seal(root)
+    _put(path / ROOT, json.dumps(root, indent=2).encode())
+    _put(open_document(path).marks_file, bytes(8 * count))
+
+
+def _fill_array(array: Any, values: Iterable[Any]) -> str:
+    """Write portions one after the other along the first axis; return the checksum of them all."""
+    sums, at = hashlib.blake2b(digest_size=8), 0
+    for part in values:
+        part = np.asarray(part, array.dtype)
+        sums.update(np.ascontiguousarray(part).tobytes())
+        if array.shape:
+            array[at : at + len(part)] = part
+            at += len(part)
+        else:
+            array[()] = part.reshape(())
+    return sums.hexdigest()
+
+
+def _array(group: Any, name: str, variable: Variable, **more: Any) -> Any:
+    return group.create_array(
+        name,
+        shape=variable.shape,
+        dtype=variable.dtype,
+        dimension_names=variable.dims,
+        attributes=dict(variable.words),
+        **more,
+    )
+
+
+def _chunks(shape: tuple[int, ...]) -> tuple[int, ...]:
+    """Chunks of a coordinate: up to a million numbers along its first axis."""
+    return (max(1, min(shape[0], 1 << 20)), *shape[1:]) if shape else ()
+
+
+def resume(path: Path, plan: Plan) -> Store:
+    """Open the store at ``path`` to go on with the same task; there must be one, of this task.
+
+    All of it is checked: damaged chunks are not ``done``, and ``notices`` says how many there are. Raises `RunError`
+    where it holds another task, or is damaged where nothing can be made good.
+    """
+    library()
+    with explained(path, "open"):
+        document = open_document(path)
+    differing = differences(document.kept["task"], json.loads(json.dumps(plan.task)))
+    if differing:
+        raise RunError(
+            f"'{path}' belongs to a different sweep: " + "; ".join(differing),
+            code="E803",
+            fix="repeat the sweep that it was made for, or use another name for this one",
+        )
+    store = Store(document)
+    try:
+        store.mend(plan)
+    except BaseException:
+        store.close()
+        raise
+    return store
+
+
+def _holds(there: Any, metadata: Any) -> bool:
+    """Whether metadata on disk are ours, with attributes that someone added."""
+    if not isinstance(there, dict) or not isinstance(metadata, dict):
+        return there == metadata
+    return all(key in there and _holds(there[key], value) for key, value in metadata.items())
+
+
+def differences(before: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:
+    """What two tasks differ in, in words: ``rtol was 1e-09, is 1e-06``."""
+    found = []
+    for key in dict.fromkeys([*before, *now]):
+        old, new = before.get(key), now.get(key)
+        if isinstance(old, Mapping) and isinstance(new, Mapping):
+            found += [f"{key} {words}" for words in differences(old, new)]
+        elif old != new:
+            found.append(f"{key} was {_short(old)}, is {_short(new)}")
+    return found
+
+
+def _short(value: Any) -> str:
+    text = "absent" if value is None else str(value)
+    return text if len(text) <= 60 else text[:59] + "…"
+
+
+def _alone(marks: Path) -> int:
+    """Open the list of finished chunks for this process alone; the operating system lets go of it when that ends."""
+    path = marks.parents[2]
+    with explained(path, "open"):
+        marks.parent.mkdir(parents=True, exist_ok=True)
+        file = os.open(marks, os.O_RDWR | os.O_CREAT | getattr(os, "O_BINARY", 0), 0o666)
+    try:
+        if os.name == "posix":
+            import fcntl
+
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        else:
+            import msvcrt
+
+            os.lseek(file, 1 << 30, os.SEEK_SET)  # far behind the end: what is locked cannot be read by others
+            msvcrt.locking(file, msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined]
+    except OSError as trouble:
+        os.close(file)
+        if trouble.errno not in (errno.EWOULDBLOCK, errno.EACCES, errno.EAGAIN, errno.EDEADLK):
+            reason = (trouble.strerror or str(trouble)).lower()
+            raise Error(f"'{path}' cannot be locked: {reason}", fix="use a local disk", code="E801") from trouble
+        raise Error(
+            f"another process is writing to '{path}'", fix="wait for it, or use another name", code="E801"
+        ) from None
+    return file
+
+
+def _move_away(path: Path, where: Path) -> None:
+    """Move a store that nobody writes to; anything else that stands at its place, or in it, is left alone."""
+    root = None if path.is_symlink() else parsed(path)
+    attributes = root.get("attributes") if root is not None else None
+    kept = attributes.get(KEY) if isinstance(attributes, dict) else None
+    if not isinstance(kept, dict) or not {"format", "results", "task"} <= kept.keys():
+        what = "it is a link" if path.is_symlink() else found(path)
+        raise Error(
+            f"'{path}' is not a store of a sweep and is not replaced: {what}",
+            fix="remove it yourself, or use another name",
+            code="E801",
+        )
+    ours = {ROOT, DONE, *(name.partition("/")[0] for name in [*kept["results"], *kept["coordinates"]])}
+    if others := sorted(entry.name for entry in path.iterdir() if entry.name not in ours):
+        raise Error(
+            f"'{path}' is not replaced: '{others[0]}' in it was not written by a sweep",
+            fix="move that to another place, or use another name",
+            code="E801",
+        )
+    if (path / DONE / "c" / "0").is_file():
+        os.close(_alone(path / DONE / "c" / "0"))
+    path.rename(where)
+
+
+def _put(file: Path, data: bytes) -> None:
+    """Write a file whole or not at all."""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    beside = file.with_name(f".{file.name}.part")
+    beside.write_bytes(data)
+    beside.replace(file)

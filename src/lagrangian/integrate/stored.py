@@ -1,0 +1,190 @@
+"""Results read from a store: what a finished chunk holds is what was written, or a named error.
+
+`zarr` takes a missing file for values that nobody wrote; here every file is held against its mark first.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import errno
+import hashlib
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from types import EllipsisType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.advice import Advice
+from lagrangian.errors import Error, MissingExtra, RunError
+from lagrangian.integrate.seal import AGAIN, DONE, RESUME, Document, finished, open_document
+
+NOT_RUN = -128
+"""Status of a run that nobody has done yet."""
+LOST = -127
+"""Status of a run whose results are damaged."""
+LISTED = 3
+"""Damaged chunks that are listed."""
+
+
+def library() -> Any:
+    """The module zarr; raises `MissingExtra` where it is not installed."""
+    try:
+        import zarr
+    except ImportError:
+        raise MissingExtra(
+            "storing results on disk needs the package zarr, which is not installed",
+            fix="pip install 'lagrangian[sweep]'",
+        ) from None
+    return zarr
+
+
+@contextlib.contextmanager
+def explained(path: Path, verb: str, kept: Callable[[], str] | None = None) -> Iterator[None]:
+    """Turn what the operating system refuses into an `Error` that says what is safe."""
+    try:
+        yield
+    except OSError as trouble:
+        reason = (trouble.strerror or str(trouble)).lower()
+        full = trouble.errno in (errno.ENOSPC, errno.EDQUOT)
+        fix = kept() if kept is not None else "make room" if full else "check the place and its permissions"
+        raise Error(f"cannot {verb} '{path}': {reason}", fix=fix, code="E801") from trouble
+
+
+def fill(dtype: str, name: str) -> float | int:
+    """What stands where a run has no result."""
+    return np.nan if dtype.startswith("float") else NOT_RUN if name == "status" else -1
+
+
+def opened(document: Document, mode: str) -> dict[str, Any]:
+    """The arrays of a store. Chunks are written even where they hold the fill value: a missing one is a lost one."""
+    zarr = library()
+    with explained(document.path, "open"), zarr.config.set({"array.write_empty_chunks": True}):
+        group = zarr.open_group(document.path, mode=mode, use_consolidated=True)
+        return {name: group[name] for name in document.arrays if name != DONE}
+
+
+def lost_chunks(document: Document, lost: Mapping[int, str]) -> str:
+    """Say how many chunks of a store are damaged, and which."""
+    ranges = map(document.portions.range, lost)
+    runs = sum(stop - start for start, stop in ranges)
+    files = ", ".join(list(lost.values())[:LISTED]) + (", …" if len(lost) > LISTED else "")
+    chunks = f"{len(lost)} damaged chunk{'s' if len(lost) > 1 else ''}"
+    return f"'{document.path}' has {chunks} ({runs} runs): {files}"
+
+
+def whole(array: Any, right: str) -> NDArray[Any] | None:
+    """All values of a coordinate, or None where they are not those with that checksum."""
+    try:
+        values = np.asarray(array[...])
+    except ValueError:
+        return None
+    return values if hashlib.blake2b(values.tobytes(), digest_size=8).hexdigest() == right else None
+
+
+@dataclass(frozen=True, eq=False)
+class Result:
+    """One result in a store, read whole with ``[...]``: its fill value where a run is not done or is lost."""
+
+    stored: Stored
+    name: str
+    array: Any
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The ensemble's shape and the result's own."""
+        return tuple(self.array.shape)
+
+    def __getitem__(self, _: EllipsisType) -> NDArray[Any]:
+        """Read all values; raises `RunError` where one is not what was written, `Error` where it cannot be read."""
+        with explained(self.stored.document.path, "read"):
+            return self._values()
+
+    def _values(self) -> NDArray[Any]:
+        document, done = self.stored.document, self.stored.done
+        marks = self.stored.marks * done[:, None]
+        if lost := document.unfit(marks, [self.name]):
+            raise self.stored.error(lost)
+        try:
+            if done.all():
+                return np.asarray(self.array[...])
+            values = np.full(self.shape, fill(str(self.array.dtype), self.name), self.array.dtype)
+            for index in np.flatnonzero(done).tolist():
+                box = (*document.portions.box(index), ...)
+                values[box] = self.array[box]
+        except ValueError:  # a checksum at a chunk's end is not that of what stands before it
+            if lost := document.unfit(marks, [self.name], every_byte=True):
+                raise self.stored.error(lost) from None
+            raise
+        if self.name == "status":
+            for index in self.stored.lost:
+                values[document.portions.box(index)] = LOST
+        return values
+
+
+class Stored:
+    """What is in a store, as far as it was done when it was opened.
+
+    Opening it checks the metadata, the coordinates, and that every finished chunk is there with the checksum it was
+    written with; reading a result checks the chunks themselves. With ``lost`` every byte is checked, and damaged
+    chunks are left out. Raises `Error` where there is no store, `RunError` (E804) where it is damaged.
+    """
+
+    def __init__(self, path: Path, *, lost: bool = False) -> None:
+        library()
+        with explained(path, "read"):
+            self.document = open_document(path)
+            self.marks = self.document.marks(self._marks_file())
+            self.arrays = opened(self.document, "r")
+            self.coordinates = {name: self._coordinate(name) for name in self.document.kept["coordinates"]}
+            self.lost = self.document.unfit(self.marks, every_byte=lost)
+        if self.lost and not lost:
+            raise self.error(self.lost)
+        self.done = finished(self.marks)
+        self.done[list(self.lost)] = False
+
+    @property
+    def results(self) -> dict[str, Result]:
+        """The results, read when they are asked for."""
+        return {name: Result(self, name, self.arrays[name]) for name in self.document.results}
+
+    def said(self) -> str:
+        """In words, what is damaged."""
+        return lost_chunks(self.document, self.lost)
+
+    def error(self, lost: Mapping[int, str]) -> RunError:
+        """The error that names what is damaged."""
+        return RunError(
+            lost_chunks(self.document, lost),
+            fix=Advice(
+                "repeat the sweep with ",
+                RESUME,
+                ", which computes only these again; or read the others in Python with "
+                f"Ensemble.of_store('{self.document.path}', lost=True)",
+            ),
+            code="E804",
+        )
+
+    def _marks_file(self) -> bytes:
+        file = self.document.marks_file
+        data = file.read_bytes() if file.exists() else None
+        if data is None or len(data) != 8 * len(self.document.portions) * len(self.document.results):
+            raise RunError(
+                f"'{self.document.path}' is damaged: its list of finished chunks, "
+                f"'{DONE}/c/0', is {'missing' if data is None else 'cut off'}",
+                fix=Advice("repeat the sweep with ", RESUME, ", which computes again what is not listed"),
+                code="E804",
+            )
+        return data
+
+    def _coordinate(self, name: str) -> NDArray[Any]:
+        values = whole(self.arrays[name], self.document.kept["coordinates"][name])
+        if values is None:
+            raise RunError(
+                f"'{self.document.path}' is damaged: the values of '{name}' are not what was written",
+                fix=Advice("repeat the sweep with ", RESUME, ", which writes them again; or ", AGAIN),
+                code="E804",
+            )
+        return values

@@ -1,0 +1,236 @@
+"""Symmetries of a Lagrangian: directions in which nothing changes, found by a null space and proved in normal form.
+
+Along δξ_i = a_i + Σ_j B_ij ξ_j (shifts, turns and what is made of them; a, B and e made of parameters) and δt = −e
+
+    d/dt (Σ_i δξ_i p_i + e h) = Σ_i (δξ_i (∂L/∂ξ_i + Ξ_i) + δξ̇_i p_i) + e (Ξ·ξ̇ − ∂L/∂t),
+
+which is linear in a, B, e: Noether's theorem with forces. Its value at random states, parameters and inputs gives one
+row a state; what is 0 everywhere is the null space. Source: Noether, Göttinger Nachrichten (1918) 235–257.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any, cast
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrangian import bounded
+from lagrangian.derive.algebra import Form
+from lagrangian.derive.sample import Sampler
+from lagrangian.errors import ModelError
+from lagrangian.invariants.lagrangian_form import LagrangianForm
+from lagrangian.linear.echelon import null_space, reduced
+from lagrangian.model import time
+from lagrangian.viewed import Brief
+
+TURNS = 12
+"""Coordinates up to which directions that depend on the coordinates are looked for."""
+
+DENOMINATOR = 24
+"""Largest denominator of a share in a direction."""
+
+
+PARAMETRIC = 6
+"""Coordinates up to which turns whose shares depend on parameters are looked for."""
+
+
+@dataclass(frozen=True, eq=False)
+class Symmetry(Brief):
+    """δξ_i = shift_i + Σ_j turn_ij ξ_j and δt = −time that leave the motion as it is; shares hold parameters only."""
+
+    system: LagrangianForm
+    shift: tuple[sp.Expr, ...]
+    turn: Mapping[tuple[int, int], sp.Expr]
+    time: sp.Expr
+
+    @cached_property
+    def direction(self) -> tuple[Form, ...]:
+        """δξ_i."""
+        algebra = self.system.algebra
+        n = len(self.system.q)
+        found = []
+        for i in range(n):
+            parts = [algebra.form(self.shift[i])] if self.shift[i] != 0 else []
+            parts += [algebra.form(self.system.q[j]) * algebra.form(c) for (k, j), c in self.turn.items() if k == i]
+            found.append(algebra.total(parts))
+        return tuple(found)
+
+    @cached_property
+    def conserved(self) -> Form:
+        """Σ δξ_i p_i + e h."""
+        algebra = self.system.algebra
+        parts = [d * p for d, p in zip(self.direction, self.system.momenta, strict=True) if d.parts]
+        if self.time != 0:
+            parts.append(self.system.energy * algebra.form(self.time))
+        return algebra.total(parts)
+
+    @cached_property
+    def rate(self) -> Form:
+        """What it changes at."""
+        system, algebra = self.system, self.system.algebra
+        parts = []
+        for d, push, p in zip(self.direction, system.pushes, system.momenta, strict=True):
+            if d.parts:
+                parts += [d * push, d.total_derivative() * p]
+        if self.time != 0:
+            parts.append(system.power * algebra.form(self.time))
+        return algebra.total(parts)
+
+    @property
+    def kind(self) -> str:
+        """What it is: "energy", "momentum" (of one coordinate), "shift" (of several), "turn", "screw" (with energy)."""
+        moved = sum(1 for x in self.shift if x != 0)
+        if self.time != 0:
+            return "energy" if not moved and not self.turn else "screw"
+        if self.turn:
+            return "turn"
+        return "momentum" if moved == 1 else "shift"
+
+
+@dataclass(frozen=True, eq=False)
+class _Columns:
+    """The elementary directions and their rates at random states."""
+
+    system: LagrangianForm
+    names: list[tuple[str, int, int]]
+    sampler: Sampler
+
+    @classmethod
+    def of(cls, system: LagrangianForm, still: Mapping[Any, Any], turns: bool) -> _Columns:
+        n = len(system.q)
+        names = [("shift", i, 0) for i in range(n)]
+        names += [("turn", i, j) for i in range(n) for j in range(n)] if turns else []
+        forms = [*system.pushes, *system.momenta, system.power]
+        exprs: list[sp.Expr] = [system.at(f, still).raw() for f in forms]
+        return cls(system, [*names, ("time", 0, 0)], Sampler(system.model, [*exprs, *system.q, *system.v]))
+
+    def null_rows(self, fixed: Mapping[Any, float]) -> tuple[NDArray[np.float64], list[int]]:
+        """The null space in reduced form, and its leading columns, with the symbols of ``fixed`` at their values."""
+        rows = np.array([self._row(got) for got in self._states(fixed)])
+        if not len(rows):
+            raise ModelError(
+                f"the forces of system '{self.system.model.name}' have no finite value at any random state",
+                fix="check square roots, logarithms and divisions for arguments that are never allowed",
+                code="E503",
+            )
+        size = np.linalg.norm(rows, axis=0)
+        scale = np.where(size > 0, size, 1.0)  # one tolerance serves all; a column of zeros is a symmetry by itself
+        return reduced(null_space(rows / scale) / scale)
+
+    def _states(self, fixed: Mapping[Any, float]) -> list[list[float]]:
+        found: list[list[float]] = []
+        wanted = 2 * len(self.names) + 8
+        for seed in range(4 * wanted):
+            got = self.sampler.at({**self.sampler.draw(seed), **fixed})
+            if np.isfinite(got).all():
+                found.append(got)
+                if len(found) == wanted:
+                    break
+        return found
+
+    def _row(self, got: list[float]) -> list[float]:
+        n = len(self.system.q)
+        push, p, power = got[:n], got[n : 2 * n], got[2 * n]
+        q, v = got[2 * n + 1 : 3 * n + 1], got[3 * n + 1 :]
+        row = []
+        for kind, i, j in self.names:
+            row.append(push[i] if kind == "shift" else q[j] * push[i] + v[j] * p[i] if kind == "turn" else power)
+        return row
+
+    def symmetry(self, shares: Sequence[sp.Expr]) -> Symmetry:
+        """The symmetry with these shares of the elementary directions."""
+        shift = [sp.S.Zero] * len(self.system.q)
+        turn: dict[tuple[int, int], sp.Expr] = {}
+        at_time: sp.Expr = sp.S.Zero
+        for (kind, i, j), share in zip(self.names, shares, strict=True):
+            if share == 0:
+                continue
+            if kind == "shift":
+                shift[i] = share  # type: ignore[call-overload]
+            elif kind == "turn":
+                turn[i, j] = share
+            else:
+                at_time = share
+        return Symmetry(self.system, tuple(shift), turn, at_time)
+
+
+def symmetries(system: LagrangianForm, still: Mapping[Any, Any]) -> list[Symmetry]:
+    """The symmetries of a system, with the symbols of ``still`` at their values; proved, and independent.
+
+    What is found is exact: a direction counts only if the normal form of its rate is 0. Shares are small fractions, or
+    such times powers of parameters.
+    """
+    n = len(system.q)
+    columns = _Columns.of(system, still, n <= TURNS)
+    found, _ = columns.null_rows({})
+    shares = [row for row in (_rational(r) for r in found) if row is not None]
+    wider = columns if n <= PARAMETRIC else _Columns.of(system, still, turns=False)
+    candidates = [columns.symmetry(row) for row in shares]
+    known = sum(1 for c in candidates if wider is columns or not c.turn)
+    own = _parametric(wider, [s for s in columns.sampler.symbols if isinstance(s, sp.Symbol) and s != time], known)
+    if own is not None:
+        extra = [wider.symmetry(row) for row in own]
+        candidates = extra if wider is columns else [*extra, *(c for c in candidates if c.turn)]
+    return [c for c in candidates if c.conserved.parts and system.at(c.rate, still).is_zero]
+
+
+def _parametric(columns: _Columns, parameters: Sequence[Any], known: int) -> list[list[sp.Expr]] | None:
+    """Shares as fractions times powers of parameters: how they change when one parameter after the other doubles.
+
+    None where there are no more than the ``known`` ones, or where they are not of this form.
+    """
+    base = {p: 0.5 + 0.37 * ((k * 0.618) % 1.0) for k, p in enumerate(parameters)}
+    first, leading = columns.null_rows(base)
+    if len(first) <= known:
+        return None
+    powers = np.zeros((*first.shape, len(parameters)))
+    for k, p in enumerate(parameters):
+        moved, others = columns.null_rows({**base, p: 2 * base[p]})
+        if others != leading or ((moved == 0) != (first == 0)).any():
+            return None
+        with np.errstate(divide="ignore", invalid="ignore"):
+            powers[:, :, k] = np.where(first == 0, 0.0, np.log2(np.abs(moved / first)))
+    found = []
+    for r in range(first.shape[0]):
+        shares = [_power(float(first[r, k]), powers[r, k, :], parameters, base) for k in range(first.shape[1])]
+        if all(s is not None for s in shares):
+            found.append(_cleared([s for s in shares if s is not None]))
+    return found
+
+
+def _power(
+    x: float, exponents: NDArray[np.float64], parameters: Sequence[Any], base: Mapping[Any, float]
+) -> sp.Expr | None:
+    """x as a small fraction times powers of parameters, or None."""
+    if x == 0:
+        return sp.S.Zero
+    whole: list[int] = [round(e) for e in exponents.tolist()]
+    if any(abs(e - w) > 1e-6 or abs(w) > 4 for e, w in zip(exponents.tolist(), whole, strict=True)):
+        return None
+    size = float(np.prod([base[p] ** e for p, e in zip(parameters, whole, strict=True)]))
+    number = _rational([x / size])
+    if number is None:
+        return None
+    return cast("sp.Expr", sp.Mul(number[0], *(p**e for p, e in zip(parameters, whole, strict=True))))
+
+
+def _cleared(shares: list[sp.Expr]) -> list[sp.Expr]:
+    """The shares times what stands below the line in them."""
+    under = sp.S.One
+    for share in shares:
+        under = sp.lcm(under, sp.fraction(share)[1])
+    return [cast("sp.Expr", bounded.expand(share * under)) for share in shares]
+
+
+def _rational(row: Any) -> list[sp.Expr] | None:
+    """A row as small fractions, or None."""
+    shares = [Fraction(float(x)).limit_denominator(DENOMINATOR) for x in row]
+    if not all(abs(float(s) - x) < 1e-7 for s, x in zip(shares, row, strict=True)):
+        return None
+    return [sp.Rational(s.numerator, s.denominator) for s in shares]  # type: ignore[misc]

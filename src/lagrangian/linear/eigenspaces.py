@@ -1,0 +1,122 @@
+"""Poles of a matrix with what belongs to each, the same on every processor.
+
+Rounding splits a pole of a Jordan block of m rows into m poles about (ε‖A‖)^(1/m) apart, differently on every machine,
+and turns the vectors of equal poles into any others that span the same. So poles that rounding cannot tell apart are
+taken together, at their mean, which is exact to first order; their vectors are the null space of A − λ by singular
+values. How many poles belong to λ is told by the staircase: the null space, that of what is left across it, and so on.
+Sources: Golub & Van Loan, Matrix Computations (4th ed.), §§ 7.1.6, 7.2.2; Kublanovskaya, USSR Comp. Math. 6 (1966).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.linear.echelon import reduced
+from lagrangian.viewed import Brief
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+EPSILON = float(np.finfo(float).eps)
+SLACK = 100.0
+"""How many times the first-order bound of its rounding error a real part must exceed to count as not zero."""
+
+EQUAL = float(np.sqrt(EPSILON))
+"""Difference of two poles, over their size, up to which they are one."""
+
+LARGEST = 6
+"""Rows of the largest Jordan block that is looked for."""
+
+ILL = 1e-2
+"""Cosine of a pole's left and right vectors below which it may belong to a Jordan block."""
+
+
+@dataclass(frozen=True, eq=False)
+class Eigenspace(Brief):
+    """A pole that counts ``times``, its rounding error, and {w : A w = λ w}, a column of ``basis`` a dimension."""
+
+    pole: complex
+    times: int
+    error: float
+    basis: Complex
+
+
+def eigenspaces(A: Array, noise: float = 0.0) -> list[Eigenspace]:
+    """The poles of A (n×n, balanced), every one once; ``noise`` is the rounding error in the entries of A beyond ε."""
+    import scipy.linalg  # a third of a second that only who asks for poles pays
+
+    found: Any = scipy.linalg.eig(A, left=True, right=True)
+    poles, left, right = (np.asarray(x, np.complex128) for x in found)
+    cosine = np.abs(np.einsum("ik,ik->k", left.conj(), right))
+    error = SLACK * EPSILON * float(np.linalg.norm(A, 2)) + noise
+    errors = error / np.maximum(cosine, EQUAL)
+    listed = []
+    for group in _groups(A, poles, cosine, errors, error):
+        pole = complex(poles[group].mean())
+        basis = right[:, group] if len(group) == 1 else _null_space(A, pole, len(group), error)
+        listed.append(Eigenspace(pole, len(group), float(errors[group].max()), basis))
+    return listed
+
+
+def _groups(A: Array, poles: Complex, cosine: Array, errors: Array, error: float) -> list[list[int]]:
+    """The indices of poles that are one."""
+    left, found = list(range(len(poles))), []
+    for m in range(min(LARGEST, len(poles)), 1, -1):
+        for k in list(left):
+            near = sorted(left, key=lambda i: abs(poles[i] - poles[k]))[:m]
+            if k in left and len(near) == m and _is_block(A, poles[near], cosine[near], error):
+                found.append(near)
+                left = [i for i in left if i not in near]
+    while left:
+        group = [left.pop(0)]
+        for i in group:
+            close = [
+                j
+                for j in left
+                if abs(poles[i] - poles[j]) <= max(EQUAL * max(abs(poles[i]), abs(poles[j])), errors[i] + errors[j])
+            ]
+            group += close
+            left = [j for j in left if j not in close]
+        found.append(sorted(group))
+    return found
+
+
+def _is_block(A: Array, poles: Complex, cosine: Array, error: float) -> bool:
+    """Whether poles are what rounding makes of one that is not simple and has too few vectors."""
+    size = float(np.linalg.norm(A, 2)) or 1.0
+    mean = complex(poles.mean())
+    spread = float(np.abs(poles - mean).max())
+    if cosine.max() > ILL or spread > size * (error / size) ** (1 / len(poles)):
+        return False
+    return _multiplicity(A, mean, error) == len(poles)
+
+
+def _multiplicity(A: Array, pole: complex, error: float) -> int:
+    """How many poles of A are ``pole``, by the staircase of null spaces."""
+    rest = A - pole * np.eye(len(A))
+    count = 0
+    while len(rest):
+        _, values, rows = np.linalg.svd(rest)
+        null = int((values <= error).sum())
+        if not null:
+            break
+        count += null
+        across = rows[: len(rest) - null]
+        rest = across @ rest @ across.conj().T
+    return count
+
+
+def _null_space(A: Array, pole: complex, times: int, error: float) -> Complex:
+    """An orthonormal basis of {w : A w = λ w}, of at least one and at most ``times`` columns."""
+    _, values, rows = np.linalg.svd(A - pole * np.eye(len(A)))
+    count = int((values <= error + 2 * EQUAL * abs(pole)).sum())
+    return rows[len(A) - min(max(count, 1), times) :].conj().T
+
+
+def plain_basis(basis: Any) -> Any:
+    """The same space by the reduced row echelon form of its columns: what people can name."""
+    return reduced(basis.T)[0].T if basis.shape[1] > 1 else basis

@@ -1,0 +1,115 @@
+"""The data of a linearization: the matrices with their names, and what follows from them alone."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.linear.modes import Mode, Spectrum, modes, spectrum
+from lagrangian.linear.reach import Reach, controllable, observable
+from lagrangian.linear.stability import Stability, judge
+from lagrangian.model import Model
+from lagrangian.viewed import Brief
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class LinearModel(Brief):
+    """δẋ = A δx + B δu, δy = C δx + D δu about a point x₀, u₀.
+
+    ``states``, ``inputs``, ``outputs`` name the entries in declared order, x = [q; q̇]. ``at``, ``inputs_at``,
+    ``parameters`` are the values there by name. ``kind`` is "rest", "steady motion" (only coordinates that nothing
+    depends on move) or "operating point", where ``drift`` = f(x₀, u₀) adds to δẋ. ``residual`` is the largest |q̈|.
+    ``mass``, ``damping``, ``stiffness``, ``input_matrix`` are M, D, K and S of the second-order form about a rest, else
+    None. ``notes`` say what else there is to know of the point, ``free`` names what nothing depends on, ``changing``
+    says that A or B changes with time, ``minimum`` that energy has a strict minimum there and nothing supplies power.
+    ``noise`` are the rounding errors in A and in M⁻¹K.
+    """
+
+    model: Model
+    A: Array
+    B: Array
+    C: Array
+    D: Array
+    states: tuple[str, ...]
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    at: Mapping[str, float]
+    inputs_at: Mapping[str, float]
+    outputs_at: Mapping[str, float]
+    parameters: Mapping[str, float]
+    kind: str
+    drift: Array
+    residual: float
+    mass: Array | None
+    damping: Array | None
+    stiffness: Array | None
+    input_matrix: Array | None
+    time: float
+    notes: tuple[str, ...] = ()
+    free: tuple[str, ...] = ()
+    changing: bool = False
+    minimum: bool = False
+    noise: tuple[float, float] = (0.0, 0.0)
+
+    @property
+    def coordinates(self) -> tuple[str, ...]:
+        """The coordinates' names."""
+        return tuple(c.name for c in self.model.coordinates)
+
+    @cached_property
+    def spectrum(self) -> Spectrum:
+        """The eigenvalues of A with the bounds of their rounding errors."""
+        if self.mass is not None and self.damping is not None and self.stiffness is not None:
+            return spectrum(self.A, (self.mass, self.damping, self.stiffness), self.noise)
+        return spectrum(self.A, None, self.noise)
+
+    @property
+    def poles(self) -> NDArray[np.complex128]:
+        """The eigenvalues of A [1/s], slowest first."""
+        return self.spectrum.poles
+
+    @property
+    def frequencies(self) -> Array:
+        """|λ| of every pole [rad/s]."""
+        return np.abs(self.poles)
+
+    @property
+    def damping_ratios(self) -> Array:
+        """−Re λ/|λ| of every pole; nan for a pole at 0."""
+        size = np.abs(self.poles)
+        return np.where(size > 0, -self.poles.real / np.where(size > 0, size, 1.0), np.nan)
+
+    @cached_property
+    def modes(self) -> tuple[Mode, ...]:
+        """The modes, slowest first, with their shapes by the names of the coordinates."""
+        return modes(self.spectrum, self.states[: len(self.coordinates)])
+
+    @cached_property
+    def stability(self) -> Stability:
+        """The verdict and its reason."""
+        if self.changing:
+            return Stability("depends on time", "A changes with time, and poles at one moment decide nothing")
+        if self.kind == "operating point":
+            return Stability("marginal", "the point is not a rest; poles tell how neighbours part, for a short while")
+        return judge(self.spectrum, self.states[: len(self.coordinates)], self.minimum)
+
+    @property
+    def controllability(self) -> Reach:
+        """What the inputs reach, and the modes they do not. Raises `RunError` where there is no input."""
+        return controllable(self.A, self.B, self.states)
+
+    @property
+    def observability(self) -> Reach:
+        """What the outputs tell, and the modes they do not show."""
+        return observable(self.A, self.C, self.states)
+
+    @property
+    def stable(self) -> bool | None:
+        """True or False where the verdict is known, else None."""
+        return self.stability.stable

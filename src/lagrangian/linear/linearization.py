@@ -1,0 +1,55 @@
+"""Linearization: its data, its report, and what can be asked of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from lagrangian.linear.linear_model import LinearModel
+from lagrangian.linear.modes import Mode, modes
+from lagrangian.linear.regulate import lqr, to_control
+from lagrangian.linear.regulator import Regulator
+from lagrangian.linear.report import POLES_AND_MODES, linear_report
+from lagrangian.linear.symbolic import SymbolicLinearization
+from lagrangian.linear.symbolic import symbolic as in_symbols
+from lagrangian.model import Model
+from lagrangian.page.report import Report
+from lagrangian.viewed import Viewed
+from lagrangian.write.report import report_fragment
+from lagrangian.write.written import Written
+
+
+@dataclass(frozen=True, eq=False)
+class Linearization(Written, LinearModel):
+    """δẋ = A δx + B δu, δy = C δx + D δu, with names, poles, modes and the verdict; see `LinearModel`."""
+
+    def report(self, *, symbols: bool = False) -> Report[Model]:
+        """Return the report; with ``symbols`` also its matrices in symbols."""
+        return linear_report(self, self.symbolic if symbols else None)
+
+    @cached_property
+    def modes(self) -> tuple[Mode, ...]:
+        """The modes, slowest first; a notebook shows them as a table."""
+        return Viewed(modes(self.spectrum, self.states[: len(self.coordinates)]), self._modes_view)
+
+    def _modes_view(self) -> str:
+        found = self.report()
+        parts = tuple(part for part in found.parts if str(part.title) == POLES_AND_MODES)
+        return report_fragment(Report(found.title, found.model, parts))
+
+    @cached_property
+    def symbolic(self) -> SymbolicLinearization:
+        """M, D, K, S, A, B as SymPy, parameters as letters; raises `RunError` where they are too long to write."""
+        return in_symbols(self)
+
+    def to_control(self) -> Any:
+        """Return python-control's StateSpace with the names of states, inputs and outputs."""
+        return to_control(self)
+
+    def lqr(self, Q: Any, R: Any) -> Regulator:
+        """Return the linear-quadratic regulator u = u₀ − K (x − x₀), by python-control.
+
+        ``Q`` weighs states, ``R`` inputs: a matrix, one number, or weights by name.
+        """
+        return lqr(self, Q, R)

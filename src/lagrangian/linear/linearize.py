@@ -1,0 +1,249 @@
+"""Linearization: δẋ = A δx + B δu, δy = C δx + D δu, exact, with the names of everything.
+
+A = ∂ẋ/∂x and B = ∂ẋ/∂u of ẋ = f(x, u, p, t), x = [q; q̇], by differentiating the graph of the forward dynamics; q̈ is
+already solved for in it. About a rest the same is M δq̈ + D δq̇ + K δq = S δu, with K = ∂h/∂q, D = ∂h/∂q̇, S = −∂h/∂u of
+h = C q̇ + G − Ξ.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian import dynamics
+from lagrangian.errors import RunError
+from lagrangian.graph import Program
+from lagrangian.linear.jacobians import Arrays, forces, may_kink, rates, reads, values, with_jacobians
+from lagrangian.linear.linearization import Linearization
+from lagrangian.linear.modes import EPSILON, SLACK
+from lagrangian.linear.outputs import Measured, measured
+from lagrangian.linear.rest import TIMES, Rest, rest
+from lagrangian.linear.stability import has_minimum, loses_power, loses_power_beyond_potential
+from lagrangian.model import Model
+from lagrangian.values.values import Given, Named
+
+Array = NDArray[np.float64]
+_log = logging.getLogger(__name__)
+
+PERTURBED = 1e-12
+"""Relative change of parameters and point by which rounding errors are estimated."""
+
+STEP = 1e-6
+"""Step by which a motion with kinks is looked at."""
+
+
+def linearize(
+    model: Model,
+    at: Any = None,
+    *,
+    inputs: Named | None = None,
+    params: Named | None = None,
+    outputs: Any = None,
+    time: object = 0.0,
+    operating_point: bool = False,
+) -> Linearization:
+    """Return the linearization of a model about a point.
+
+    ``at``: values of coordinates and rates by name or symbol, 0 where not given, or an `Equilibrium`; a number or text
+    with a unit each. ``outputs``: expressions, listed or by name; the coordinates unless given. A point that is no rest
+    is refused unless ``operating_point`` asks for it; what is within rounding of one is moved onto it and says so.
+    Raises `RunError` for names and values that do not fit, where M is not positive definite, and at a kink.
+    """
+    linearizer = Linearizer(model)
+    given = Given.of(model, linearizer.rates)
+    t = given.time_value(time)
+    _log.info("linearizing: the point")
+    here = rest(model, linearizer.rates, given, at, inputs, params, t, operating_point)
+    _log.info("linearizing: A, B, C, D")
+    return linearizer.about(here, t, outputs)
+
+
+@dataclass(frozen=True, eq=False)
+class Linearizer:
+    """The programs behind linearizations of one model, made once; ``values`` evaluates them."""
+
+    model: Model
+    values: Callable[..., Arrays] = values
+
+    @cached_property
+    def rates(self) -> Program:
+        """ẋ, A and B."""
+        return rates(self.model)
+
+    @cached_property
+    def forces(self) -> Program:
+        """h, K, D and S."""
+        return forces(self.model)
+
+    @cached_property
+    def mass(self) -> Program:
+        """M."""
+        return dynamics.mass_matrix(self.model)
+
+    @cached_property
+    def power(self) -> Program:
+        """The power of what is not conservative."""
+        return dynamics.power(self.model)
+
+    @cached_property
+    def power_slopes(self) -> Program:
+        """That power with its first and second derivatives."""
+        return with_jacobians(with_jacobians(self.power, {"W": ("P", "x")}), {"slope": ("W", "x")})
+
+    @cached_property
+    def _reads_time(self) -> bool:
+        return bool(reads(self.rates, "A", "t") or reads(self.rates, "B", "t"))
+
+    @cached_property
+    def _may_kink(self) -> bool:
+        return may_kink(self.rates, "xdot")
+
+    @cached_property
+    def rests_change(self) -> bool:
+        """Whether the forces read time."""
+        return bool(reads(self.forces, "h", "t"))
+
+    @cached_property
+    def _plain(self) -> Measured:
+        """The coordinates as outputs."""
+        return measured(self.model, None, self.rates)
+
+    def at_rest(self, x: Array, u: Array, p: Array) -> Linearization:
+        """The linearization about what is known to be a rest."""
+        return self.about(Rest(self.rates.inputs["x"], x, u, p, "rest", 0.0), 0.0, None)
+
+    def about(self, here: Rest, t: float, outputs: Any) -> Linearization:
+        """The linearization about a point of known kind."""
+        program = self.rates
+        found = _finite(self.values(program, x=here.x, u=here.u, p=here.p, t=t), here)
+        self._proper(here, t, found)
+        y = self._plain if outputs is None else measured(self.model, outputs, program)
+        seen = _finite(self.values(y.program, x=here.x, u=here.u, p=here.p, t=t), here)
+        if may_kink(y.program, "y"):
+            self._sloped(y.program, "y", seen["C"], here, t, "an output")
+        second = None if here.kind == "operating point" else self._second_order(here, t)
+        noise, noise_of_K = self._noise(here, t, found, second)
+        return Linearization(
+            model=self.model,
+            A=found["A"],
+            B=found["B"],
+            C=seen["C"],
+            D=seen["D"],
+            states=program.inputs["x"],
+            inputs=program.inputs["u"],
+            outputs=y.names,
+            at=dict(zip(program.inputs["x"], here.x.tolist(), strict=True)),
+            inputs_at=dict(zip(program.inputs["u"], here.u.tolist(), strict=True)),
+            outputs_at=dict(zip(y.names, seen["y"].tolist(), strict=True)),
+            parameters=dict(zip(program.inputs["p"], here.p.tolist(), strict=True)),
+            kind=here.kind,
+            drift=found["xdot"],
+            residual=here.residual,
+            mass=None if second is None else second["M"],
+            damping=None if second is None else second["D"],
+            stiffness=None if second is None else second["K"],
+            input_matrix=None if second is None else -second["S"],
+            time=t,
+            notes=here.notes,
+            free=here.free,
+            changing=self._changes(here),
+            minimum=here.kind == "rest" and second is not None and self._minimum(second, here, noise_of_K),
+            noise=noise,
+        )
+
+    def _proper(self, here: Rest, t: float, found: Arrays) -> None:
+        """Refuse a mass matrix that is not positive, and a point where the motion has no slope."""
+        n = len(self.forces.inputs["q"])
+        M = self.values(self.mass, q=here.x[:n], v=here.x[n:], u=here.u, p=here.p, t=t)["M"]
+        least = float(np.linalg.eigvalsh((M + M.T) / 2).min())
+        if not least > 0:
+            raise RunError(
+                f"the mass matrix is not positive definite at {here.shown}: its least eigenvalue is {least:.3g}",
+                fix="give masses and inertias above 0",
+                code="E203",
+            )
+        if self._may_kink:
+            self._sloped(self.rates, "xdot", found["A"], here, t, "the motion")
+
+    def _sloped(self, program: Program, output: str, slope: Array, here: Rest, t: float, what: str) -> None:
+        """Refuse a point where an output does not follow its slope to either side."""
+        source = np.random.default_rng(6)
+        size = max(1.0, _largest(slope))
+        start = self.values(program, x=here.x, u=here.u, p=here.p, t=t)[output]
+        for _ in range(8):
+            step = STEP * source.choice([-1.0, 1.0], len(here.x)) * source.uniform(0.5, 1.0, len(here.x))
+            near = self.values(program, x=here.x + step, u=here.u, p=here.p, t=t)[output]
+            if not _largest(near - start - slope @ step) <= 1e-3 * size * STEP:
+                raise RunError(
+                    f"{what} has a kink or a jump at {here.shown}: it has no linearization there",
+                    fix="choose a point next to it, or replace abs, sign, min, max and piecewise by a smooth law",
+                    code="E525",
+                )
+
+    def _second_order(self, here: Rest, t: float) -> Arrays | None:
+        """M, D, K, S about a rest, where velocities are the rates of the coordinates."""
+        n = len(self.forces.inputs["q"])
+        if n != len(self.forces.inputs["v"]):
+            return None
+        point = {"q": here.x[:n], "v": here.x[n:], "u": here.u, "p": here.p, "t": t}
+        return self.values(self.forces, **point) | self.values(self.mass, **point)
+
+    def _noise(self, here: Rest, t: float, found: Arrays, second: Arrays | None) -> tuple[tuple[float, float], float]:
+        """The rounding errors in A and M⁻¹K, and in K: how they change when all digits behind the twelfth do.
+
+        Where terms cancel, as at a bifurcation, they are much larger than ε times what is left.
+        """
+        source = np.random.default_rng(5)
+        dA = dK = dMK = 0.0
+        for _ in range(3):
+            x, p = (v * (1 + PERTURBED * source.uniform(-1, 1, len(v))) for v in (here.x, here.p))
+            moved = replace(here, x=x, p=p)
+            near = self.values(self.rates, x=x, u=here.u, p=p, t=t)
+            dA = max(dA, _largest(near["A"] - found["A"]))
+            if second is not None and (other := self._second_order(moved, t)) is not None:
+                dK = max(dK, _largest(other["K"] - second["K"]))
+                n = len(second["K"])
+                dMK = max(dMK, _largest(near["A"][n:, :n] - found["A"][n:, :n]))
+        digits = SLACK * EPSILON / PERTURBED
+        return (dA * digits, dMK * digits), dK * digits
+
+    def _minimum(self, second: Arrays, here: Rest, noise: float) -> bool:
+        n = len(second["K"])
+        if not has_minimum(second["M"], second["K"], noise):
+            return False
+        point = (here.x[:n], here.u, here.p)
+        return loses_power(self.values, self.power, *point) or loses_power_beyond_potential(
+            self.values, self.power_slopes, *point
+        )
+
+    def _changes(self, here: Rest) -> bool:
+        """Whether A or B differs between a few times."""
+        if not self._reads_time:
+            return False
+        first, *others = (self.values(self.rates, x=here.x, u=here.u, p=here.p, t=t) for t in TIMES)
+        return any(
+            np.abs(other[k] - first[k]).max(initial=0.0) > 1e-9 * max(1.0, np.abs(first[k]).max(initial=0.0))
+            for other in others
+            for k in ("A", "B")
+        )
+
+
+def _finite(found: Arrays, here: Rest) -> Arrays:
+    for name, array in found.items():
+        if not np.isfinite(array).all():
+            raise RunError(
+                f"{name} is not finite at {here.shown}",
+                fix="check for a square root of 0 or a division by 0 there",
+                code="E503",
+            )
+    return found
+
+
+def _largest(a: Array) -> float:
+    return float(np.abs(a).max(initial=0.0))

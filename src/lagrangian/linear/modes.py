@@ -1,0 +1,182 @@
+"""Poles, modes and what they say of stability.
+
+    M δq̈ + D δq̇ + K δq = 0        δẋ = A δx,  x = [q; q̇]
+
+Without damping and with symmetric K the poles are ±√(−κ) of the symmetric pair K φ = κ M φ, and shapes are real; in
+general they are the eigenvalues of A. Equal poles have shapes that span theirs, in reduced row echelon form. Sources:
+Meirovitch, Fundamentals of Vibrations (2001), ch. 7; the error of an eigenvalue is ε‖A‖ over the cosine between its
+left and right eigenvectors: Golub & Van Loan, Matrix Computations (4th ed.), §7.2.2.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.linear.eigenspaces import EPSILON, EQUAL, SLACK, eigenspaces, plain_basis
+from lagrangian.viewed import Brief
+
+Array = NDArray[np.float64]
+
+SYMMETRIC = 1e-10
+"""Relative difference up to which K counts as symmetric and D as zero."""
+
+DUST = 1e-9
+"""Share of a shape, over the largest, that is shown as zero."""
+
+
+@dataclass(frozen=True)
+class Mode(Brief):
+    """One way in which the linear system moves by itself.
+
+    ``pole`` λ [1/s] (of a pair, the one with positive imaginary part), ``frequency`` ω_n = |λ| [rad/s], ``damping``
+    ζ = −Re λ/|λ| (1 for decay without swinging, nan at λ = 0), ``shape`` the displacement of every coordinate, the
+    largest one 1: real where the system is undamped. ``pair`` says whether the conjugate pole belongs to it.
+    """
+
+    pole: complex
+    frequency: float
+    damping: float
+    shape: dict[str, complex]
+    pair: bool
+
+    @property
+    def period(self) -> float:
+        """2π/|Im λ| [s]; infinite where nothing swings."""
+        return 2 * np.pi / abs(self.pole.imag) if self.pole.imag else float("inf")
+
+    @property
+    def is_real(self) -> bool:
+        """Whether all coordinates move in step or opposite."""
+        return all(x.imag == 0 for x in self.shape.values())
+
+
+@dataclass(frozen=True, eq=False)
+class Spectrum(Brief):
+    """The eigenvalues of A, [1/s], with the bound of each one's rounding error, and their vectors, a column each."""
+
+    poles: NDArray[np.complex128]
+    errors: Array
+    vectors: NDArray[np.complex128]
+
+    @cached_property
+    def sides(self) -> NDArray[np.int64]:
+        """−1 in the left half plane, 0 on the imaginary axis as far as rounding lets one tell, +1 in the right one."""
+        real = self.poles.real
+        return np.where(np.abs(real) <= self.errors, 0, np.sign(real)).astype(np.int64)
+
+
+def spectrum(
+    A: Array, second_order: tuple[Array, Array, Array] | None = None, noise: tuple[float, float] = (0.0, 0.0)
+) -> Spectrum:
+    """The spectrum of A (n×n); ``second_order`` is (M, D, K) where A is made of them.
+
+    ``noise`` are the rounding errors in the entries of A and of M⁻¹K, where these are known to be larger than ε.
+    """
+    if A.shape[0] == 0:
+        return Spectrum(np.zeros(0, complex), np.zeros(0), np.zeros((0, 0), complex))
+    if second_order is not None and is_conservative(*second_order):
+        return _undamped(second_order[0], second_order[2], noise[1])
+    import scipy.linalg
+
+    balanced, scaling = scipy.linalg.matrix_balance(A, permute=False, separate=False)
+    spaces = eigenspaces(balanced, noise[0])
+    poles: NDArray[np.complex128] = np.array([s.pole for s in spaces for _ in range(s.times)], np.complex128)
+    errors = np.array([s.error for s in spaces for _ in range(s.times)])
+    vectors = [scaling @ _columns(plain_basis(s.basis), s.times) for s in spaces]
+    real = np.where(np.abs(poles.real) <= errors, 0.0, poles.real)
+    imag = np.where(np.abs(poles) <= errors, 0.0, poles.imag)
+    return _sorted(np.asarray(real + 1j * imag, np.complex128), errors, np.asarray(np.hstack(vectors), complex))
+
+
+def _columns(basis: NDArray[Any], count: int) -> NDArray[Any]:
+    """``count`` columns: those of the basis, and again where they are fewer."""
+    return basis[:, np.arange(count) % basis.shape[1]]
+
+
+def is_conservative(M: Array, D: Array, K: Array) -> bool:
+    """Whether D vanishes, K is symmetric and M positive definite."""
+    size = float(np.abs(K).max(initial=0.0))
+    rate = np.sqrt(size * float(np.abs(M).max(initial=0.0)))
+    return (
+        K.shape[0] == K.shape[1]
+        and bool(np.abs(D).max(initial=0.0) <= SYMMETRIC * rate)
+        and bool(np.abs(K - K.T).max(initial=0.0) <= SYMMETRIC * size)
+        and bool(np.all(np.linalg.eigvalsh((M + M.T) / 2) > 0))
+    )
+
+
+def _undamped(M: Array, K: Array, noise: float) -> Spectrum:
+    """λ = ±√(−κ) with K φ = κ M φ; what is zero up to rounding is zero."""
+    import scipy.linalg
+
+    kappa, shapes = scipy.linalg.eigh((K + K.T) / 2, (M + M.T) / 2)
+    bound = SLACK * EPSILON * float(np.abs(kappa).max(initial=0.0)) + noise
+    kappa = np.where(np.abs(kappa) <= bound, 0.0, kappa)
+    unit = np.sqrt(np.diag(M))[:, None]
+    for group in _equal(kappa, bound):
+        kappa[group] = kappa[group].mean()
+        shapes[:, group] = plain_basis(shapes[:, group] * unit) / unit
+    roots = np.sqrt(-kappa.astype(complex))
+    poles = np.concatenate([roots, -roots])
+    # of λ² = −κ: the error of λ is that of κ over 2|λ|
+    error = np.where(kappa == 0, 0.0, bound / (2 * np.sqrt(np.maximum(np.abs(kappa), bound or 1.0))))
+    vectors = np.vstack([np.hstack([shapes, shapes]), np.hstack([shapes * roots, -shapes * roots])])
+    return _sorted(poles, np.concatenate([error, error]), vectors)
+
+
+def _equal(rising: Array, bound: float) -> list[slice]:
+    """Where rising numbers, known up to ``bound``, are one."""
+    room = np.maximum(EQUAL * np.maximum(np.abs(rising[1:]), np.abs(rising[:-1])), 2 * bound)
+    ends = [0, *(np.flatnonzero(np.diff(rising) > room) + 1).tolist(), len(rising)]
+    return [slice(a, b) for a, b in pairwise(ends)]
+
+
+def _sorted(poles: NDArray[np.complex128], errors: Array, vectors: NDArray[np.complex128]) -> Spectrum:
+    """The spectrum, slowest first; of a pair the pole above the real axis first."""
+    order = slowest_first(poles)
+    return Spectrum(np.asarray(poles[order] + 0.0, complex), errors[order], np.asarray(vectors[:, order], complex))
+
+
+def slowest_first(poles: NDArray[np.complex128]) -> NDArray[np.int64]:
+    """The order of poles: by size, those of one size by real part, of a pair the one above the real axis first."""
+    size = np.abs(poles)
+    rising = np.sort(size)
+    steps = np.concatenate([[0], np.cumsum(np.diff(rising) > DUST * rising[1:])])
+    return np.lexsort((-poles.imag, poles.real, steps[np.searchsorted(rising, size)]))
+
+
+def modes(found: Spectrum, coordinates: tuple[str, ...]) -> tuple[Mode, ...]:
+    """One mode a real pole or conjugate pair, its shape by the names of the coordinates.
+
+    A pole that counts twice has two modes where it has two shapes, else one: standing still and drifting, or what a
+    critical damper leaves.
+    """
+    listed: list[Mode] = []
+    for k, pole in enumerate(found.poles):
+        if pole.imag < 0:
+            continue
+        size = abs(pole)
+        ratio = float(-pole.real / size) if size else float("nan")
+        shape = _shape(found.vectors[: len(coordinates), k], coordinates)
+        if any(m.pole == pole and m.shape == shape for m in listed):
+            continue
+        listed.append(Mode(complex(pole), float(size), ratio, shape, bool(pole.imag > 0)))
+    return tuple(listed)
+
+
+def _shape(vector: NDArray[np.complex128], names: tuple[str, ...]) -> dict[str, complex]:
+    """The displacements over the largest of them (the first of equals), dust swept to zero."""
+    sizes = np.abs(vector)
+    if not len(sizes) or not sizes.max():
+        return dict.fromkeys(names, 0j)
+    lead = int(np.argmax(sizes >= (1 - 1e-9) * sizes.max()))
+    scaled = vector / vector[lead]
+    real = np.where(np.abs(scaled.real) < DUST, 0.0, scaled.real)
+    imag = np.where(np.abs(scaled.imag) < DUST, 0.0, scaled.imag)
+    return {name: complex(a, b) for name, a, b in zip(names, real, imag, strict=True)}

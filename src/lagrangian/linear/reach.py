@@ -1,0 +1,134 @@
+"""What inputs can move and what outputs can tell: controllability and observability of δẋ = A δx + B δu, δy = C δx.
+
+The staircase: orthogonal turns split off what B reaches, then what A makes of that, and so on; what is left over is
+never reached. Ranks are taken by singular values, of A balanced and B with columns of length one, so that units do not
+decide. The test of Popov, Belevitch and Hautus names the modes: a pole λ is uncontrollable where some w ≠ 0 has
+wᵀA = λ wᵀ and wᵀB = 0: the left null space of A − λ within what is left over. Source: Paige, IEEE Trans. AC-26 (1981)
+130–138.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.errors import RunError
+from lagrangian.linear.eigenspaces import eigenspaces, plain_basis
+from lagrangian.viewed import Brief
+
+Array = NDArray[np.float64]
+
+SMALL = 1e-11
+"""Singular value, over the norm of the balanced A and B, that counts as none."""
+
+
+@dataclass(frozen=True)
+class Missing(Brief):
+    """A pole that inputs do not move (or outputs do not show), with its combination of states.
+
+    For controllability ``combination`` is the w of Popov, Belevitch and Hautus: Σ w_i x_i runs by itself. For
+    observability it is the motion that leaves all outputs at rest. The largest share is 1. Where a pole has several,
+    they are a basis in reduced row echelon form. ``times`` is how often the pole counts among those that are missing:
+    more often than it has combinations where one of them drives another, as momentum does position.
+    """
+
+    pole: complex
+    combination: dict[str, complex]
+    times: int = 1
+
+
+@dataclass(frozen=True)
+class Reach(Brief):
+    """``rank`` of ``order`` dimensions are reached; ``missing`` are the modes of the others, of a pair one."""
+
+    order: int
+    rank: int
+    missing: tuple[Missing, ...]
+
+    @property
+    def complete(self) -> bool:
+        """Whether all of the state is reached."""
+        return self.rank == self.order
+
+    @property
+    def enough(self) -> bool:
+        """Whether what is missing decays by itself: stabilizable (by inputs), detectable (from outputs)."""
+        return all(m.pole.real < 0 for m in self.missing)
+
+
+def controllable(A: Array, B: Array, states: tuple[str, ...]) -> Reach:
+    """What the inputs reach. Raises `RunError` where there are none."""
+    if not B.shape[1]:
+        raise RunError(
+            "the system has no input",
+            fix="declare one: system.input(…), or under [inputs] in a model file",
+            code="E401",
+        )
+    return _reach(A, B, states)
+
+
+def observable(A: Array, C: Array, states: tuple[str, ...]) -> Reach:
+    """What the outputs tell. Raises `RunError` where there are none."""
+    if not C.shape[0]:
+        raise RunError("no output is given", fix="write outputs=[expression, …]", code="E401")
+    return _reach(A.T, C.T, states)
+
+
+def _reach(A: Array, B: Array, states: tuple[str, ...]) -> Reach:
+    import scipy.linalg
+
+    found: Any = scipy.linalg.matrix_balance(A, permute=False, separate=True)
+    balanced, scale = found[0], found[1][0]
+    inputs = B / scale[:, None]
+    sizes = np.linalg.norm(inputs, axis=0)
+    inputs = inputs / np.where(sizes > 0, sizes, 1.0)
+    size = float(np.linalg.norm(balanced, 2)) or 1.0
+    basis, rank = _staircase(balanced / size, inputs)
+    rest = basis[:, rank:]
+    own = rest.T @ balanced @ rest
+    missing = []
+    for space in eigenspaces(own.T) if len(own) else []:
+        pole = _clean(space.pole, size)
+        if pole.imag >= 0:
+            basis = plain_basis(rest @ space.basis) / scale[:, None]
+            missing += [Missing(pole, _named(w, states), space.times) for w in basis.T]
+    return Reach(len(A), rank, tuple(sorted(missing, key=_slowest_first)))
+
+
+def _slowest_first(missing: Missing) -> tuple[float, float]:
+    return float(f"{abs(missing.pole):.9e}"), missing.pole.real
+
+
+def _staircase(A: Array, B: Array) -> tuple[Array, int]:
+    """An orthogonal basis whose first ``rank`` columns span what B, AB, A²B, … reach."""
+    n = len(A)
+    basis, rank, step = np.eye(n), 0, B
+    while rank < n:
+        U, values, _ = np.linalg.svd(step)
+        fresh = int((values > SMALL).sum())
+        if not fresh:
+            break
+        basis[:, rank:] = basis[:, rank:] @ U
+        inside = basis[:, rank : rank + fresh]
+        rank += fresh
+        step = basis[:, rank:].T @ A @ inside
+    return basis, rank
+
+
+def _clean(value: complex, size: float) -> complex:
+    real = 0.0 if abs(value.real) < 1e3 * SMALL * size else value.real
+    return complex(real, 0.0 if abs(value.imag) < 1e3 * SMALL * size else value.imag)
+
+
+def _named(w: NDArray[Any], states: tuple[str, ...]) -> dict[str, complex]:
+    """The shares by name over the largest, those that are not dust."""
+    lead = int(np.argmax(np.abs(w) >= (1 - 1e-9) * np.abs(w).max()))
+    shares = w / w[lead]
+    return {
+        name: complex(x.real if abs(x.real) > 1e-9 else 0.0, x.imag if abs(x.imag) > 1e-9 else 0.0)
+        for name, x in zip(states, shares, strict=True)
+        if abs(x) > 1e-9
+    }

@@ -1,0 +1,110 @@
+"""A linear-quadratic regulator: the law, its gains, the poles it leaves, and its report."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrangian.linear.linear_model import LinearModel
+from lagrangian.linear.report import symbol
+from lagrangian.model import Model
+from lagrangian.page.figures import complex_figure, figure, matrix, plain_numbers
+from lagrangian.page.formula import Item, Name, Table, Text, formula, text
+from lagrangian.page.report import Part, Report
+from lagrangian.write.written import Written
+
+Array = NDArray[np.float64]
+
+DUST = 1e-11
+"""Share of an entry, over the largest of its row, that is shown as zero."""
+
+
+@dataclass(frozen=True, eq=False)
+class Regulator(Written):
+    """u = u₀ − K (x − x₀): ``K`` (inputs × states), Riccati's ``S`` and the poles of A − B K [1/s], slowest first.
+
+    ``law`` is that feedback as expressions of the coordinates and rates by input symbol, for a simulation's inputs.
+    """
+
+    linear: LinearModel = field(repr=False)
+    K: Array
+    S: Array
+    poles: NDArray[np.complex128]
+
+    @property
+    def law(self) -> dict[sp.Expr, sp.Expr]:
+        """Input symbol → u₀ − K (x − x₀)."""
+        linear = self.linear
+        model = linear.model
+        state = [*(c.symbol for c in model.coordinates), *(c.rate for c in model.coordinates)]
+        away = [x - sp.Float(value, 17) for x, value in zip(state, linear.at.values(), strict=True)]
+        found: dict[sp.Expr, sp.Expr] = {}
+        for u, row in zip(model.inputs, self.K, strict=True):
+            terms = [-sp.Float(float(k), 17) * d for k, d in zip(row, away, strict=True)]
+            found[u.symbol] = sp.Add(sp.Float(linear.inputs_at[u.name], 17), *terms)
+        return found
+
+    def report(self) -> Report[Model]:
+        """Return the report."""
+        return regulator_report(self)
+
+
+def regulator_report(found: Regulator) -> Report[Model]:
+    """Return the report of a regulator."""
+    linear = found.linear
+    K, S, x, u = (Name(name) for name in ("K", "S", "x vector", "u vector"))
+    names = [*zip(linear.states, linear.at.values(), strict=True)]
+    names += [*zip(linear.inputs, linear.inputs_at.values(), strict=True)]
+    point = tuple((_symbol(found, name), text(figure(value))) for name, value in names)
+    law: tuple[Item, ...] = (
+        text(u, " = ", u, "₀ − ", K, " (", x, " − ", x, "₀), with"),
+        _ordered(found, u, linear.inputs),
+        _ordered(found, x, linear.states),
+        formula(K, matrix(_swept(found.K, np.sqrt(np.abs(np.diag(found.S)))))),
+        text("about the point"),
+        Table((text("state, input"), text("value")), point),
+    )
+    poles = tuple((text(complex_figure(complex(pole))),) for pole in found.poles)
+    cost = text("From δ", x, " the law costs δ", x, "ᵀ ", S, " δ", x, ", with")
+    parts = (
+        Part(text("The law"), law),
+        Part(text("The poles that it leaves"), (Table((text("pole [1/s]"),), poles),)),
+        Part(text("Riccati's matrix"), (cost, formula(S, matrix(_swept(found.S, np.sqrt(np.abs(np.diag(found.S)))))))),
+    )
+    return Report(f"{linear.model.name}: linear-quadratic regulator", linear.model, parts, _data(found))
+
+
+def _swept(found: Array, unit: Array) -> Array:
+    """What rounding left of zeros is zero: entries far below the others of their row, columns in units of S's own."""
+    sized = np.abs(found) / np.where(unit > 0, unit, 1.0)
+    return np.where(sized > DUST * sized.max(axis=1, initial=0.0, keepdims=True), found, 0.0)
+
+
+def _symbol(found: Regulator, name: str) -> Text:
+    return text(symbol(found.linear.model, name))
+
+
+def _ordered(found: Regulator, vector: Name, names: tuple[str, ...]) -> Text:
+    """``x = (θ, θ̇)``."""
+    parts: list[Any] = []
+    for name in names:
+        parts += [", " if parts else "", symbol(found.linear.model, name)]
+    return text(vector, " = (", *parts, ")")
+
+
+def _data(found: Regulator) -> dict[str, Any]:
+    linear = found.linear
+    return {
+        "system": linear.model.name,
+        "states": list(linear.states),
+        "inputs": list(linear.inputs),
+        "at": dict(linear.at),
+        "inputs_at": dict(linear.inputs_at),
+        "K": found.K.tolist(),
+        "S": found.S.tolist(),
+        "poles": plain_numbers(found.poles),
+    }

@@ -1,0 +1,213 @@
+"""The point to linearize about: is it a rest, a steady motion, or neither?"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian import dynamics
+from lagrangian.advice import Advice, Argument, Verb
+from lagrangian.errors import RunError
+from lagrangian.graph import Program
+from lagrangian.linear.jacobians import Arrays, reads, values
+from lagrangian.model import Model
+from lagrangian.values.values import Given, Named
+
+Array = NDArray[np.float64]
+
+ANY_POINT = Argument("operating_point", "True")
+"""What takes a point that is no equilibrium as it is."""
+
+NEAR = 1e-4
+"""Newton's step, relative to 1 + |q|, up to which a point counts as a rest that was typed with few digits."""
+
+ROUNDING = 1e-9
+"""Accelerations left over at a rest, relative to the largest entry of A."""
+
+TIMES = (0.0, 0.37, 1.91, 7.13)
+"""[s] Times at which what reads t is compared."""
+
+
+@dataclass(frozen=True, eq=False)
+class Rest:
+    """A point x, u, p with what moves there.
+
+    ``kind``: "rest", "steady motion" or "operating point"; ``residual`` the largest |q̈|; ``free`` the coordinates that
+    nothing depends on.
+    """
+
+    names: tuple[str, ...]
+    x: Array
+    u: Array
+    p: Array
+    kind: str
+    residual: float
+    free: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    @property
+    def shown(self) -> str:
+        """The point in words."""
+        return point_words(self.names, self.x)
+
+
+def point_words(names: tuple[str, ...], x: Array) -> str:
+    """``theta = 0.1, x' = 2``: the first entries of a point."""
+    listed = [f"{n} = {v:.6g}" for n, v in zip(names, x, strict=True)]
+    return ", ".join(listed[:8]) + (", …" if len(listed) > 8 else "")
+
+
+def rest(
+    model: Model,
+    program: Program,
+    given: Given,
+    at: Any,
+    inputs: Named | None,
+    params: Named | None,
+    t: float,
+    any_point: bool,
+) -> Rest:
+    """The point that was asked for. Raises `RunError` where it is no rest and ``any_point`` is not set."""
+    states = program.inputs["x"]
+    if at is not None and not isinstance(at, Mapping) and hasattr(at, "at"):  # an Equilibrium brings its own
+        inputs = {**at.inputs, **given.inputs.values(inputs)}
+        params = {**at.parameters, **given.parameters.values(params)}
+        at = at.at
+    start = dict.fromkeys(states, 0.0) | {c.name: c.start for c in model.coordinates}
+    x = np.array(list((start | given.states.values(at)).values()))
+    u, p = given.input_values(inputs), given.parameter_values(params)
+    here = Rest(states, x, u, p, "operating point", 0.0)
+    q = x[: len(model.coordinates)]
+    if moved := dynamics.loose(model, q.tolist(), u.tolist(), p.tolist(), t):
+        raise RunError(
+            f"the mass matrix is singular at {point_words(states[: len(q)], q)}: {moved}, so that nothing decides the "
+            "accelerations",
+            fix="give what they move a mass or an inertia, or choose a neighbouring point or other coordinates",
+            code="E203",
+        )
+    found = _values(program, here, t)
+    n = len(model.coordinates)
+    here = replace(here, residual=_largest(found["xdot"][n:]), free=free_coordinates(program, here, n, t))
+    settled = _classified(here, found, n) if any_point else _settled(model, program, here, found, n, t)
+    later = None if settled.kind == "operating point" else _moved_later(program, settled, t)
+    if later is None:
+        return settled
+    if any_point:
+        return replace(settled, kind="operating point")
+    raise RunError(
+        f"{settled.shown} is at rest at t = {t:g} s only: forces change with time, and at {later:g} s it moves",
+        fix=Advice(ANY_POINT, " linearizes about any point and keeps the constant term (drift) of that moment"),
+        code="E521",
+    )
+
+
+def _values(program: Program, here: Rest, t: float) -> Arrays:
+    found = values(program, x=here.x, u=here.u, p=here.p, t=t)
+    if np.isfinite(found["xdot"]).all() and not all(np.isfinite(a).all() for a in found.values()):
+        raise RunError(
+            f"the accelerations have no finite slope at {here.shown}",
+            fix="choose a neighbouring point: there is a square root of 0 or a division by 0 here",
+            code="E525",
+        )
+    if not np.isfinite(found["xdot"]).all():
+        raise RunError(
+            f"the accelerations are not finite at {here.shown}",
+            fix="choose a neighbouring point: there is a square root of a negative number or a division by 0",
+            code="E203",
+        )
+    return found
+
+
+def _moved_later(program: Program, here: Rest, t: float) -> float | None:
+    """A time at which ẋ is another there than at t; None where it never is."""
+    if not reads(program, "xdot", "t"):
+        return None
+    found = _values(program, here, t)
+    bound = ROUNDING * max(1.0, _largest(found["A"]))
+    changes = (s for s in TIMES if _largest(_values(program, here, s)["xdot"] - found["xdot"]) > bound)
+    return next(changes, None)
+
+
+def _largest(a: Array) -> float:
+    return float(np.abs(a).max(initial=0.0))
+
+
+def free_coordinates(program: Program, here: Rest, n: int, t: float) -> tuple[str, ...]:
+    """The coordinates that ẋ does not depend on, there and at random states."""
+    source = np.random.default_rng(2)
+    constant = np.ones(n, bool)
+    for k in range(4):
+        x = here.x + (k > 0) * 0.3 * source.standard_normal(len(here.x))
+        A = values(program, x=x, u=here.u, p=here.p, t=t)["A"]
+        if np.isfinite(A).all():
+            constant &= np.abs(A[:, :n]).max(axis=0) <= 1e-11 * max(1.0, _largest(A))
+        if not constant.any():
+            break
+    return tuple(name for name, c in zip(here.names, constant, strict=False) if c)
+
+
+def _classified(here: Rest, found: Arrays, n: int) -> Rest:
+    """Which kind of point it is as it stands."""
+    bound = ROUNDING * max(1.0, _largest(found["A"]))
+    if here.residual > bound:
+        return here
+    moving = [name for name, rate in zip(here.names[:n], found["xdot"][:n], strict=True) if abs(rate) > bound]
+    if not moving:
+        return replace(here, kind="rest")
+    if set(moving) <= set(here.free):
+        note = f"steady motion of {', '.join(moving)}, on which nothing depends"
+        return replace(here, kind="steady motion", notes=(*here.notes, note))
+    return here
+
+
+def _settled(model: Model, program: Program, here: Rest, found: Arrays, n: int, t: float) -> Rest:
+    """The rest that the point is, or is within rounding of; else the error that teaches."""
+    start = here.x
+    moved = 0.0
+    for _ in range(6):
+        step = _newton(here, found, n)
+        if _largest(step / (1 + np.abs(here.x))) < 1e-14:
+            break
+        moved = _largest((here.x + step - start) / (1 + np.abs(start)))
+        if moved > NEAR:
+            break
+        here = replace(here, x=here.x + step)
+        found = _values(program, here, t)
+        here = replace(here, residual=_largest(found["xdot"][n:]))
+    settled = _classified(here, found, n)
+    if moved > NEAR or settled.kind == "operating point":
+        raise _refused(model, replace(here, x=start), program, n, t)
+    if moved > 1e-12:
+        note = f"moved by {moved:.1e} onto the rest at {point_words(here.names[:n], here.x[:n])}"
+        settled = replace(settled, notes=(*settled.notes, note))
+    return settled
+
+
+def _newton(here: Rest, found: Arrays, n: int) -> Array:
+    """The shortest change of the coordinates that is not free which makes q̈ vanish, rates kept."""
+    A, a = found["A"][n:, :n], found["xdot"][n:]
+    step = np.zeros(len(here.x))
+    step[:n] = -np.linalg.lstsq(A, a, rcond=1e-12)[0]
+    return step
+
+
+def _refused(model: Model, here: Rest, program: Program, n: int, t: float) -> RunError:
+    found = _values(program, here, t)
+    worst = int(np.argmax(np.abs(found["xdot"][n:])))
+    bound = ROUNDING * max(1.0, _largest(found["A"]))
+    if np.abs(found["xdot"][n:]).max(initial=0.0) > bound:
+        name = here.names[n + worst]
+        why = f"{name}' = {found['xdot'][n + worst]:.6g} there"
+    else:
+        k = int(np.argmax(np.abs(found["xdot"][:n])))
+        why = f"{here.names[k]} changes at {found['xdot'][k]:.6g}"
+    search = ["give the inputs that hold it still"] if model.floating else [Verb("equilibria"), " finds them"]
+    return RunError(
+        f"{here.shown} is not an equilibrium: {why}",
+        fix=Advice(*search, "; ", ANY_POINT, " linearizes about any point and keeps the constant term (drift)"),
+        code="E521",
+    )

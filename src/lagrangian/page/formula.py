@@ -1,0 +1,245 @@
+"""What a step of a derivation is made of: words with symbols in them, formulas, tables.
+
+These are data without any markup. `write` lays them out; ``str()`` gives a plain reading. A quantity is named by its
+meaning ("T*", "Xi"), and the writer chooses the letter of the notation that was asked for (T*, T or K; Ξ, Q or τ).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import sympy as sp
+
+from lagrangian.page.plain import plain
+from lagrangian.viewed import Brief, Worded, cut
+
+
+@dataclass(frozen=True)
+class Name(Worded):
+    """A named quantity: ``base`` is its meaning, ``index`` its subscript, ``dots`` its time derivatives.
+
+    Bases: "T*" kinetic co-energy, "V" potential energy, "L" Lagrangian, "D" Rayleigh's function, "Xi" generalized
+    force, "xi" generalized coordinate, "delta" deflection, "h" height, "v" speed, "omega" angular velocity, "x", "y",
+    "z" positions, "phi" an angle, "W" virtual work, "F" force, "M" mass matrix, "C" Coriolis matrix, "G" gravity and
+    stiffness vector, "q" the vector of coordinates, "E" energy, "H" Hamiltonian, "R" Routhian; matrices "A", "B",
+    "D matrix", "J", "K", "S"; vectors "x vector", "u vector", "y vector", "q vector", "f vector". A base outside this
+    list is shown as it is.
+    """
+
+    base: str
+    index: str = ""
+    dots: int = 0
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        return self.base + (f"_{self.index}" if self.index else "") + "'" * self.dots
+
+
+@dataclass(frozen=True)
+class Partial(Worded):
+    """∂of/∂by."""
+
+    of: Left
+    by: Left
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        return f"∂{show(self.of)}/∂{show(self.by)}"
+
+
+@dataclass(frozen=True)
+class Total(Worded):
+    """d/dt of something."""
+
+    of: Left
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        return f"d/dt({show(self.of)})"
+
+
+@dataclass(frozen=True)
+class Variation(Worded):
+    """δ of something: a virtual displacement or virtual work."""
+
+    of: Left
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        return f"δ{show(self.of)}"
+
+
+@dataclass(frozen=True)
+class Terms(Worded):
+    """A sum whose terms keep this order; an empty one is 0."""
+
+    terms: tuple[Left, ...]
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        text = " + ".join(show(t) for t in self.terms) or "0"
+        return text.replace("+ -", "- ")
+
+
+@dataclass(frozen=True)
+class Minus(Worded):
+    """−of."""
+
+    of: Left
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        return f"-{show(self.of)}"
+
+
+@dataclass(frozen=True)
+class Product(Worded):
+    """Factors side by side, in this order, a sum among them in parentheses."""
+
+    factors: tuple[Left, ...]
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        return "·".join(f"({show(f)})" if isinstance(f, (Terms, sp.Add)) else show(f) for f in self.factors)
+
+
+@dataclass(frozen=True)
+class Square(Worded):
+    """coefficient · (a² + b² + …), each square written as a square: ½ m (ẋ² + ẏ²), ½ k (x₁ − x₂)²."""
+
+    coefficient: sp.Expr
+    of: tuple[Left, ...]
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        inner = " + ".join(f"({show(a)})^2" for a in self.of)
+        return f"{plain(self.coefficient)}*({inner})" if len(self.of) > 1 else f"{plain(self.coefficient)}*{inner}"
+
+
+@dataclass(frozen=True)
+class Matrix(Worded):
+    """A matrix or column of expressions, row by row; of a symmetric one the writer shows the upper half."""
+
+    rows: tuple[tuple[Left, ...], ...]
+    symmetric: bool = False
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        return "[" + "; ".join(", ".join(show(x) for x in row) for row in self.rows) + "]"
+
+
+Left: TypeAlias = "Name | Partial | Total | Variation | Terms | Minus | Product | Square | Matrix | Elided | sp.Expr"
+"""Anything that can stand on a side of an equality."""
+
+
+@dataclass(frozen=True)
+class Elided(Worded):
+    """An expression or matrix too long to read: how many operations it has, and all of it for those who want it."""
+
+    expr: sp.Expr | Matrix
+    operations: int
+    terms: tuple[sp.Expr, ...] = ()
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        return f"[{self.operations} operations]"
+
+
+def show(item: Left | str) -> str:
+    """Return a plain reading of anything that stands in a formula or a text."""
+    return plain(item) if isinstance(item, sp.Basic) else str(item)
+
+
+@dataclass(frozen=True)
+class Formula(Worded):
+    """A chain of equalities a = b = c. ``brief`` marks what belongs on the one-page checklist, ``boxed`` a result."""
+
+    sides: tuple[Left, ...]
+    note: Text | None = None
+    brief: bool = False
+    boxed: bool = False
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        return " = ".join(show(s) for s in self.sides)
+
+
+@dataclass(frozen=True)
+class Text(Worded):
+    """Words with symbols in them, in order."""
+
+    parts: tuple[str | Left, ...]
+    brief: bool = False
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        return "".join(show(p) for p in self.parts)
+
+
+@dataclass(frozen=True)
+class Heading(Worded):
+    """A heading inside a step."""
+
+    text: Text
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        return str(self.text)
+
+
+@dataclass(frozen=True)
+class Table(Worded):
+    """A table; a cell is a `Text`, a `Formula` or a single quantity."""
+
+    header: tuple[Text, ...]
+    rows: tuple[tuple[Text | Formula, ...], ...]
+    brief: bool = False
+
+    def __str__(self) -> str:
+        """Read as plain text."""
+        lines = [" | ".join(str(h) for h in self.header)]
+        return "\n".join(lines + [" | ".join(str(c) for c in row) for row in self.rows])
+
+
+Item: TypeAlias = "Text | Formula | Heading | Table"
+
+
+@dataclass(frozen=True)
+class Check(Brief):
+    """Something that was verified: in words, whether it holds, and the figure.
+
+    ``holds`` is None for what could not be checked here; the figure then says why.
+    """
+
+    what: Text
+    holds: bool | None
+    figure: str = ""
+
+    def __repr__(self) -> str:
+        """Read as ``<Check: the equations agree with …: holds, largest relative difference 5e-16 …>``."""
+        verdict = {True: "holds", False: "DOES NOT HOLD", None: "not checked"}[self.holds]
+        return cut(f"<Check: {self.what}: {verdict}{', ' if self.figure else ''}{self.figure}>")
+
+
+@dataclass(frozen=True)
+class EquationTerm(Brief):
+    """A readable term of an equation of motion: its kind and the elements that make it.
+
+    Kinds: "inertia" (with an acceleration), "velocity" (products of rates), "damping", "stiffness", "gravity", "input",
+    "other".
+    """
+
+    expr: sp.Expr
+    kind: str
+    elements: tuple[str, ...]
+
+
+def text(*parts: str | Left, brief: bool = False) -> Text:
+    """Return words with symbols in them: ``text("wiggle only ", theta, ": …")``."""
+    return Text(parts, brief)
+
+
+def formula(*sides: Left, note: Text | None = None, brief: bool = False, boxed: bool = False) -> Formula:
+    """Return the chain of equalities ``sides[0] = sides[1] = …``."""
+    return Formula(sides, note, brief, boxed)

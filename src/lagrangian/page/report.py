@@ -1,0 +1,35 @@
+"""Report: what an analysis says, as data that `write` can lay out: words, formulas, tables, checks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, Generic, TypeVar
+
+from lagrangian.page.formula import Check, Item, Text
+from lagrangian.viewed import Brief
+
+M = TypeVar("M")
+"""The model whose letters are used."""
+
+
+@dataclass(frozen=True)
+class Part(Brief):
+    """A section of a report: items in reading order, then what was checked."""
+
+    title: Text
+    items: tuple[Item, ...] = ()
+    checks: tuple[Check, ...] = ()
+
+
+@dataclass(frozen=True)
+class Report(Brief, Generic[M]):
+    """A title, parts, and the model whose letters and names the parts use.
+
+    ``data`` is what JSON gives: dictionaries, lists, text, numbers, true, false and null alone.
+    """
+
+    title: str
+    model: M
+    parts: tuple[Part, ...]
+    data: Mapping[str, Any] = field(default_factory=dict, repr=False)

@@ -1,0 +1,84 @@
+"""Events of a run: ``lagrangian.event(theta, terminal=True)``."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import sympy as sp
+
+from lagrangian.errors import ModelError, RunError
+from lagrangian.model import as_expr, check_name
+from lagrangian.page.plain import plain
+
+
+@dataclass(frozen=True, eq=False)
+class Event:
+    """Where an expression of state and time crosses zero, and what happens there; made by `event`."""
+
+    expression: sp.Expr
+    direction: int = 0
+    terminal: bool = False
+    reset: Mapping[Any, sp.Expr] = field(default_factory=dict)
+    name: str = ""
+
+    @property
+    def title(self) -> str:
+        """Its name, or its expression where it has none."""
+        return self.name or plain(self.expression)
+
+
+def event(
+    expression: Any,
+    direction: int = 0,
+    terminal: bool = False,
+    reset: Mapping[Any, Any] | None = None,
+    name: str = "",
+) -> Event:
+    """Return an event where ``expression``, of coordinates, rates, inputs, parameters and t, crosses zero.
+
+    ``direction``: +1 where it rises, −1 where it falls, 0 both. ``terminal`` ends the run there. ``reset`` maps states
+    to their values after the event, made of the state before: an impact is ``reset={y.diff(): -e*y.diff()}``.
+
+    >>> from sympy.physics.mechanics import dynamicsymbols
+    >>> y = dynamicsymbols("y")
+    >>> event(y, direction=-1, reset={y.diff(): -0.9*y.diff()}, name="bounce").title
+    'bounce'
+    """
+    if direction not in (-1, 0, 1) or isinstance(direction, bool):
+        raise ModelError(
+            f"the direction of an event is -1, 0 or 1 (got {direction!r:.20})",
+            fix="use 1 for a rising expression, -1 for a falling one, 0 for both",
+            code="E406",
+        )
+    if name:
+        check_name(name, "event")
+    made = as_expr(expression, "the expression of an event")
+    if made.is_number:
+        raise ModelError(
+            f"the event's expression {made} never changes", fix="give an expression of the state", code="E416"
+        )
+    if reset is not None and not isinstance(reset, Mapping):
+        raise ModelError(
+            "reset must be a mapping from states to values", fix="reset={y.diff(): -0.9*y.diff()}", code="E406"
+        )
+    after = {state: as_expr(value, f"the value of {state} after an event") for state, value in (reset or {}).items()}
+    return Event(made, int(direction), bool(terminal), after, name)
+
+
+def listed_events(given: Any) -> tuple[Event, ...]:
+    """Return one event or several as a tuple. Raises `RunError` for what is none, and for two of one name."""
+    listed = tuple(given) if isinstance(given, Iterable) else (given,)
+    for e in listed:
+        if not isinstance(e, Event):
+            raise RunError(
+                f"an event is made with lagrangian.event(…) (got {type(e).__name__})",
+                fix="events=[lagrangian.event(theta, terminal=True)]",
+                code="E501",
+            )
+    titles = [e.title for e in listed]
+    for title in titles:
+        if titles.count(title) > 1:
+            raise RunError(f"two events are called '{title}'", fix="give them names", code="E404")
+    return listed

@@ -1,0 +1,254 @@
+"""One run, by machine code where that is possible and by SciPy's solvers where it is asked for.
+
+Either way the state that is integrated is [q; v] with the energy supplied beside it; a symplectic method integrates
+[q; p], and the state is turned into momenta and back at its border.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian import codegen as machine
+from lagrangian import dynamics
+from lagrangian.graph import Output, Program, jacobian
+from lagrangian.integrate import STATUS, Events, Signals, Solver
+from lagrangian.integrate.crossings import Crossings, Hit
+from lagrangian.integrate.scipy_methods import IMPLICIT, SCIPY, Bounds, Outcome, integrate_scipy
+from lagrangian.model import Model
+from lagrangian.simulate import resets
+from lagrangian.simulate.events import Event
+from lagrangian.simulate.inputs import Driving
+
+_log = logging.getLogger(__name__)
+Array = NDArray[np.float64]
+
+SYMPLECTIC = frozenset({"gauss4"})
+"""Methods that want canonical coordinates and momenta."""
+
+REMEMBERED = 32
+"""Compiled things kept with a model, the latest."""
+
+
+@dataclass(frozen=True, eq=False)
+class Task:
+    """Everything a run needs, understood and checked; ``rtol`` and ``atol`` are those of one step."""
+
+    model: Model
+    drive: Driving
+    times: Array
+    x0: Array
+    p: Array
+    method: str
+    rtol: float
+    atol: float
+    step: float | None
+    events: tuple[Event, ...]
+    bounds: Bounds
+
+    @property
+    def size(self) -> int:
+        """The number of states [q; v]."""
+        return len(self.model.coordinates) + len(self.model.velocities)
+
+    @property
+    def states(self) -> list[str]:
+        """The names of the states, coordinates first."""
+        return [*(c.name for c in self.model.coordinates), *(v.name for v in self.model.velocities)]
+
+    @property
+    def impacts(self) -> list[tuple[str, Any, Mapping[Any, Any]]]:
+        """The events as `lagrangian.dynamics.impacts` takes them."""
+        return [(e.title, e.expression, e.reset) for e in self.events]
+
+
+def remembered(model: Model, key: Any, make: Callable[[], Any]) -> Any:
+    """What was compiled for a model under a key, made at the first asking."""
+    kept: dict[Any, Any] = model._memo.setdefault("compiled", {})
+    found = kept.pop(key, None)  # one step, as other threads ask too; one that finds nothing meanwhile makes its own
+    if found is None:
+        found = make()
+    kept[key] = found  # the latest last
+    for oldest in list(kept)[:-REMEMBERED]:
+        kept.pop(oldest, None)
+    return found
+
+
+def run(task: Task) -> Outcome:
+    """Integrate; the outcome's states are [q; v] and, where something supplies energy, what was supplied."""
+    if len(task.times) == 1:
+        return Outcome(task.times, task.x0[np.newaxis], 0, float(task.times[0]), task.x0)
+    if task.method in SCIPY:
+        _log.info("integrating by %s of SciPy", task.method)
+        return _by_scipy(task)
+    outcome = _by_machine(task)
+    return _from_momenta(task, outcome) if task.method in SYMPLECTIC else outcome
+
+
+# -- programs ---------------------------------------------------------------------------------------------------
+
+
+def right_hand_side(model: Model, drive: Driving, *, canonical: bool = False) -> Program:
+    """ẋ with the feedback compiled in and the energy supplied as a last state, if any can be."""
+    key = ("rhs", canonical, frozenset(drive.feedback.items()))
+    make = dynamics.canonical if canonical else dynamics.closed
+    return remembered(model, key, lambda: make(model, drive.feedback, supply=True))
+
+
+def _event_key(task: Task) -> Any:
+    return tuple((e.expression, e.direction, e.terminal, frozenset(e.reset.items())) for e in task.events)
+
+
+def _event_program(task: Task, program: Program) -> Program:
+    make = dynamics.canonical_impacts if task.method in SYMPLECTIC else dynamics.impacts
+    return make(task.model, task.impacts, task.drive.feedback, supply=dynamics.SUPPLY in program.inputs["x"])
+
+
+def _jacobian(program: Program) -> Program:
+    """x, u, p, t → ∂ẋ/∂x, shape (nx, nx)."""
+    g, n = program.graph, len(program.inputs["x"])
+    entries = jacobian(g, program.outputs["xdot"].ids, [g.input("x", i) for i in range(n)])
+    ids = tuple(entries.get((i, k), g.zero) for i in range(n) for k in range(n))
+    return Program("jacobian", g, program.inputs, {"J": Output(ids, (n, n))}, program.defaults)
+
+
+# -- machine code -----------------------------------------------------------------------------------------------
+
+
+def _by_machine(task: Task) -> Outcome:
+    drive, times = task.drive, task.times
+    program = right_hand_side(task.model, drive, canonical=task.method in SYMPLECTIC)
+
+    def make() -> Solver:
+        events = None
+        if task.events:
+            events = Events(
+                _event_program(task, program),
+                tuple(e.direction for e in task.events),
+                tuple(e.terminal for e in task.events),
+                tuple(bool(e.reset) for e in task.events),
+            )
+        return Solver(program, task.method, events=events)
+
+    key = ("solver", task.method, frozenset(drive.feedback.items()), _event_key(task))
+    solver: Solver = remembered(task.model, key, make)
+    start, end = float(times[0]), float(times[-1])
+    u = drive.at(times[:1], task.x0[np.newaxis])[0] if drive.constant else Signals(*drive.pieces(start, end))
+    x0 = _to_momenta(task, task.x0) if task.method in SYMPLECTIC else task.x0
+    found = solver.solve(
+        x0,
+        times,
+        u=u,
+        p=task.p,
+        step=task.step,
+        max_steps=task.bounds.max_steps,
+        max_step=task.bounds.max_step,
+        max_events=task.bounds.max_events,
+        deadline=task.bounds.seconds,
+        rtol=task.rtol,
+        atol=task.atol,
+    )
+    states = found.states[0]
+    whole = np.isfinite(states).all(axis=1)
+    kept = len(whole) if whole.all() else int(np.argmin(whole))
+    outcome = Outcome(
+        times[:kept],
+        states[:kept],
+        int(found.status[0]),
+        float(found.reached[0]),
+        found.final[0],
+        int(found.steps[0]),
+        int(found.rejected[0]),
+        int(found.evaluations[0]),
+        _hits(task, found),
+        "" if found.status[0] >= 0 else STATUS[int(found.status[0])],
+    )
+    return resets.ended(outcome, task.states, [e.title for e in task.events])
+
+
+def _hits(task: Task, found: Any) -> list[Hit]:
+    """The events of the only run, with the states after those that changed it."""
+    hits: list[Hit] = []
+    for e in range(int(found.event_count[0]) if task.events else 0):
+        k, time, before = int(found.event_index[0, e]), float(found.event_time[0, e]), found.event_state[0, e]
+        hits.append(Hit(k, time, before, None, task.events[k].terminal))
+    if any(task.events[h.index].reset for h in hits):
+        program = right_hand_side(task.model, task.drive, canonical=task.method in SYMPLECTIC)
+        kernel = resets.valued(machine.compile(_event_program(task, program)))
+        for n, h in enumerate(hits):
+            if task.events[h.index].reset:
+                t = np.array([h.time])
+                u = task.drive.at(t, h.before[np.newaxis])[0]
+                hits[n] = replace(h, after=kernel(np.array(h.before), u, task.p, h.time)["after"][h.index])
+    return hits
+
+
+# -- momenta ----------------------------------------------------------------------------------------------------
+
+
+def _to_momenta(task: Task, x: Array) -> Array:
+    kernel = remembered(task.model, "momenta", lambda: machine.compile(dynamics.momenta(task.model)))
+    n, size = len(task.model.coordinates), task.size
+    u = np.zeros(len(task.model.inputs))  # a kinetic energy reads no input
+    return np.concatenate([x[:n], kernel(np.array(x[:size]), u, task.p, float(task.times[0])), x[size:]])
+
+
+def _from_momenta(task: Task, outcome: Outcome) -> Outcome:
+    kernel = remembered(task.model, "velocities", lambda: machine.compile(dynamics.velocities(task.model)))
+    n, size = len(task.model.coordinates), task.size
+    u = np.zeros(len(task.model.inputs))
+
+    def back(x: Array, t: Any) -> Array:
+        x = np.array(x)
+        x[..., n:size] = kernel(np.ascontiguousarray(x[..., :size]), u, task.p, t)
+        return x
+
+    hits = [
+        replace(h, before=back(h.before, h.time), after=None if h.after is None else back(h.after, h.time))
+        for h in outcome.hits
+    ]
+    states = back(outcome.states, outcome.times)
+    return replace(outcome, states=states, final=back(outcome.final, outcome.reached), hits=hits)
+
+
+# -- SciPy ------------------------------------------------------------------------------------------------------
+
+
+def _by_scipy(task: Task) -> Outcome:
+    drive, times, model = task.drive, task.times, task.model
+    program = right_hand_side(model, drive)
+    feedback = frozenset(drive.feedback.items())
+    rhs = remembered(model, ("kernel", feedback), lambda: machine.compile(program))
+    slope = None
+    if task.method in IMPLICIT and not drive.calls_python:
+        slope = remembered(model, ("jacobian", feedback), lambda: machine.compile(_jacobian(program)))
+    crossings = None
+    if task.events:
+        watched = _event_program(task, program)
+        crossings = Crossings(
+            resets.valued(machine.compile(watched)),
+            watched,
+            task.p,
+            [e.direction for e in task.events],
+            [e.terminal for e in task.events],
+            [bool(e.reset) for e in task.events],
+        )
+    outcome = integrate_scipy(
+        task.method,
+        rhs,
+        task.x0,
+        times,
+        drive.legs(float(times[0]), float(times[-1])),
+        task.p,
+        jacobian=slope,
+        crossings=crossings,
+        rtol=task.rtol,
+        atol=task.atol,
+        bounds=task.bounds,
+    )
+    return resets.ended(outcome, task.states, [e.title for e in task.events])

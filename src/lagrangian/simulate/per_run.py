@@ -1,0 +1,230 @@
+"""What is done with each run of an ensemble: how it is integrated, what is observed and which of it is kept."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, TypeAlias
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrangian import dynamics, read
+from lagrangian.advice import Advice, Argument
+from lagrangian.errors import ModelError, RunError, did_you_mean
+from lagrangian.integrate import METHODS, Events, Signals
+from lagrangian.integrate.observe import REDUCTIONS, EventsKept, Kept, Study
+from lagrangian.model import Model
+from lagrangian.page.plain import plain
+from lagrangian.simulate.events import Event, listed_events
+from lagrangian.simulate.inputs import Driving
+from lagrangian.simulate.integrating import SYMPLECTIC, remembered
+from lagrangian.simulate.simulation import FINEST, NO_DURATION, SHARE
+from lagrangian.simulate.variation import TAKEN
+from lagrangian.values.dimensions import SECOND
+from lagrangian.values.values import number
+
+Array: TypeAlias = NDArray[np.float64]
+Outputs: TypeAlias = Mapping[str, Any] | Iterable[Any] | str | sp.Expr | None
+
+MOST_CHARACTERS = 200
+"""Longest name of a result, which is the name of a folder in a store."""
+
+TIMES = 1001
+"""Times at which each run is sampled unless told otherwise."""
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """Everything about the runs but what varies; see `lagrangian.System.ensemble`."""
+
+    duration: Any = None
+    inputs: Mapping[Any, Any] | None = None
+    outputs: Outputs = None
+    reduce: str | Sequence[str] | None = ("final",)
+    times: Any = TIMES
+    start: Any = 0.0
+    method: str = "dop853"
+    rtol: float = 1e-9
+    atol: float = 1e-12
+    step: Any = None
+    max_step: Any = math.inf
+    max_steps: int = 10_000_000
+    max_events: int = 10_000
+    events: Sequence[Event] | Event = ()
+    event_times: int = 1
+
+
+def instants(model: Model, wanted: Wanted) -> Array:
+    """The times of the samples, the start first."""
+    begin = number(wanted.start, "start", SECOND)
+    given = wanted.times
+    duration = model.settings.get("duration") if wanted.duration is None else wanted.duration
+    if np.ndim(given) == 0:
+        if isinstance(given, bool) or not isinstance(given, (int, np.integer)) or not 2 <= given <= 10**8:
+            raise RunError(
+                f"times must be a number of times, at least 2, or the times themselves (got {given!r:.30})",
+                code="E501",
+            )
+        if duration is None:
+            raise RunError("no duration is given", fix=NO_DURATION, code="E401")
+        length = number(duration, "duration", SECOND)
+        if not (length > 0 and begin + length > begin):
+            raise RunError(
+                f"the duration must be above 0 (got {length:g} s)", fix=Advice(Argument("duration", "10")), code="E501"
+            )
+        return np.linspace(begin, begin + length, int(given))
+    if wanted.duration is not None:
+        raise RunError("both times and a duration are given", code="E501")
+    array = np.array([number(t, "a time", SECOND) for t in given])
+    array = array if array.size and array[0] == begin else np.concatenate([[begin], array])
+    if array.size < 2 or np.any(np.diff(array) <= 0):
+        raise RunError("times must increase from the start on", fix="sort them and give each only once", code="E501")
+    return array
+
+
+def study_of(model: Model, wanted: Wanted, drive: Driving, times: Array) -> tuple[Study, dict[str, sp.Expr]]:
+    """What is done with every run, and the expressions observed by name.
+
+    Raises `RunError` or `ModelError` for what is not known or does not fit.
+    """
+    if wanted.method not in METHODS:
+        fix = did_you_mean(str(wanted.method), METHODS) or f"use one of {', '.join(METHODS)}"
+        raise RunError(f"there is no method {wanted.method!r:.40} for ensembles", fix=fix, code="E402")
+    expressions, kept = _kept(model, wanted.outputs, wanted.reduce)
+    events, events_kept = _events(model, wanted, drive)
+    signals = None if drive.constant else Signals(*drive.pieces(float(times[0]), float(times[-1])))
+    canonical, feedback = wanted.method in SYMPLECTIC, frozenset(drive.feedback.items())
+    make = dynamics.canonical if canonical else dynamics.closed
+    study = Study(
+        program=remembered(model, ("runs", canonical, feedback), lambda: make(model, drive.feedback)),
+        method=wanted.method,
+        times=times,
+        outputs=remembered(
+            model,
+            ("observed", tuple(expressions.items()), feedback),
+            lambda: dynamics.observe_closed(model, expressions, drive.feedback),
+        ),
+        kept=kept,
+        events=events,
+        events_kept=events_kept,
+        signals=signals,
+        canonical=remembered(model, "canonical", lambda: (dynamics.momenta(model), dynamics.velocities(model)))
+        if canonical
+        else None,
+        options=_accuracy(wanted),
+    )
+    return study, expressions
+
+
+def _accuracy(wanted: Wanted) -> dict[str, Any]:
+    """What decides step lengths and ends of runs; tolerances mean what they mean for one run."""
+    options: dict[str, Any] = {"max_steps": wanted.max_steps, "max_events": wanted.max_events}
+    options["max_step"] = (
+        wanted.max_step if wanted.max_step == math.inf else number(wanted.max_step, "max_step", SECOND)
+    )
+    if METHODS[wanted.method].adaptive:
+        rtol, atol = (number(x, what) for x, what in ((wanted.rtol, "rtol"), (wanted.atol, "atol")))
+        if not (rtol > 0 and atol > 0):
+            raise RunError(f"rtol and atol must be above 0 (got {rtol:g}, {atol:g})", fix="such as 1e-9", code="E501")
+        options |= {"rtol": max(rtol * SHARE, FINEST), "atol": atol * SHARE}
+    if wanted.step is not None:
+        options["step"] = number(wanted.step, "step", SECOND)
+    return options
+
+
+def _kept(
+    model: Model, outputs: Outputs, reduce: str | Sequence[str] | None
+) -> tuple[dict[str, sp.Expr], tuple[Kept, ...]]:
+    """The expressions to observe by name, and what is kept of each."""
+    reductions = list(reduce) if isinstance(reduce, Iterable) and not isinstance(reduce, str) else [reduce]
+    for r in reductions:
+        _reduction(r)
+    if not reductions:
+        raise RunError("reduce is empty", fix='reduce=("final",), or reduce=None for samples', code="E501")
+    expressions: dict[str, sp.Expr] = {}
+    kept: dict[str, Kept] = {}
+    for name, asked in _named(model, outputs):
+        own, expr, title = _asked(model, name, asked)
+        if expressions.setdefault(title, expr) != expr:
+            raise RunError(f"two outputs are called '{title}'", fix="give them other names", code="E404")
+        for r in reductions if own is None else [own]:
+            result = title if r is None or (own and name) else f"{r} {title}"
+            _check_result(result)
+            kept[result] = Kept(result, title, r)
+    if not kept:
+        raise RunError("no output is given", fix="outputs=['theta1']", code="E401")
+    return expressions, tuple(kept.values())
+
+
+def _check_result(name: str) -> None:
+    """Refuse what cannot be the name of an array in a file, or is the name of another."""
+    if name in TAKEN:
+        raise RunError(f"a result cannot be called '{name}'", fix=f"not one of {', '.join(sorted(TAKEN))}", code="E403")
+    strange = next((c for c in name if c in "/\\" or not c.isprintable()), None)
+    if strange is not None or name.startswith(".") or len(name) > MOST_CHARACTERS:
+        why = f"its {strange!r}" if strange else "its first character" if name.startswith(".") else "its length"
+        shown = name if len(name) <= 60 else name[:59] + "…"
+        raise RunError(
+            f"{shown!r} cannot be the name of a result, for {why}",
+            fix='give it a name: {"half": "theta/2"}, or half=theta/2',
+            code="E702",
+        )
+
+
+def _reduction(name: Any) -> None:
+    if name is not None and name not in REDUCTIONS:
+        fix = did_you_mean(str(name), REDUCTIONS) or f"use one of {', '.join(REDUCTIONS)}"
+        raise RunError(f"there is no reduction {name!r:.40}", fix=fix, code="E402")
+
+
+def _named(model: Model, outputs: Outputs) -> list[tuple[str | None, Any]]:
+    """Outputs with the names they were given, if any."""
+    if outputs is None:
+        return [(None, s.symbol) for s in (*model.coordinates, *model.velocities)]
+    if isinstance(outputs, Mapping):
+        return [(str(name), asked) for name, asked in outputs.items()]
+    if isinstance(outputs, str) or not isinstance(outputs, Iterable):
+        return [(None, outputs)]
+    return [(None, asked) for asked in outputs]
+
+
+def _asked(model: Model, name: str | None, asked: Any) -> tuple[str | None, sp.Expr, str]:
+    """The reduction that an output asks for itself ("max theta1"), its expression, and its name."""
+    if isinstance(asked, sp.Expr):
+        return None, asked, name or plain(asked)
+    if not isinstance(asked, str):
+        raise RunError(f"an output is text or an expression (got {type(asked).__name__})", code="E501")
+    first, space, rest = asked.strip().partition(" ")
+    own = first if space and first in REDUCTIONS else None
+    text = rest.strip() if own else asked.strip()
+    try:
+        expr = read.parse_expression(text, read.Scope(model.symbols), what=f"output '{text[:40]}'")
+    except ModelError as trouble:
+        if space and own is None and rest[:1].isidentifier() and first.isidentifier() and first not in model.symbols:
+            raise RunError(
+                f"there is no reduction '{first[:40]}'",
+                fix=did_you_mean(first, REDUCTIONS) or f"use one of {', '.join(REDUCTIONS)}",
+                code="E402",
+            ) from None
+        raise trouble
+    return own, expr, name or text
+
+
+def _events(model: Model, wanted: Wanted, drive: Driving) -> tuple[Events | None, tuple[EventsKept, ...]]:
+    listed = listed_events(wanted.events)
+    if not listed:
+        return None, ()
+    titles = [e.title for e in listed]
+    for title in titles:
+        _check_result(f"count {title}")
+    times = wanted.event_times
+    if isinstance(times, bool) or not isinstance(times, int) or not 1 <= times <= 10_000:
+        raise RunError(f"event_times, the number of times to keep, must be at least 1 (got {times!r:.30})", code="E501")
+    make = dynamics.canonical_impacts if wanted.method in SYMPLECTIC else dynamics.impacts
+    program = make(model, [(e.title, e.expression, e.reset) for e in listed], drive.feedback)
+    directions, terminal = tuple(e.direction for e in listed), tuple(e.terminal for e in listed)
+    made = Events(program, directions, terminal, tuple(bool(e.reset) for e in listed))
+    return made, tuple(EventsKept(title, k, times) for k, title in enumerate(titles))

@@ -1,0 +1,229 @@
+"""What a run looks like: its columns with units and words, and its picture."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from importlib.metadata import version
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrangian import read
+from lagrangian.errors import ModelError
+from lagrangian.model import Frame, Model
+from lagrangian.page.plain import plain
+from lagrangian.simulate.integrating import remembered
+from lagrangian.simulate.recorded import Recorded
+from lagrangian.values.dimensions import NONE, RATE, Dimensions, Mismatch, check_dimensions
+from lagrangian.view import Marks, Panel, Picture, Series, draw, joined
+from lagrangian.write.labels import Labels
+from lagrangian.write.tables import Column, Table
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+Array = NDArray[np.float64]
+
+TURNS = 4 * np.pi
+"""[rad] Angles that go farther than this are drawn in turns, others in degrees."""
+
+PICTURES = frozenset((".png", ".pdf", ".svg", ".jpg", ".jpeg", ".eps"))
+"""Endings of the names of pictures."""
+
+KINDS = {
+    "rad": "angle",
+    "m": "position",
+    "rad/s": "angular velocity",
+    "m/s": "velocity",
+    "rad/s^2": "angular acceleration",
+    "m/s^2": "acceleration",
+    "N": "force",
+    "N m": "torque",
+    "J": "energy",
+    "W": "power",
+}
+"""What quantities of a unit are together."""
+
+NAMED = {"kg m/s^2": "N", "kg m^2/s^2": "N m", "kg m^2/s^3": "W", "kg/s^2": "N/m", "kg/s": "N s/m"}
+
+
+class Units:
+    """The SI units of a model's quantities, as far as its declarations and its geometry tell."""
+
+    def __init__(self, model: Model) -> None:
+        self.model = model
+        self._dims: Dimensions | None = check_dimensions(model)
+        self._angles: set[Any] = remembered(model, "angles", lambda: _angles(model))
+
+    def of(self, expr: sp.Expr) -> str:
+        """The unit of an expression, or nothing where it is not known."""
+        if isinstance(expr, sp.Add):
+            found = {self.of(term) for term in expr.args}
+            return found.pop() if len(found) == 1 else self._worked_out(expr)
+        number, bare = expr.as_coeff_Mul()
+        if number != 1 and not bare.is_number:
+            return self.of(bare)
+        if isinstance(expr, sp.Derivative) and expr.expr in self._angles:
+            return "rad/s" if expr.derivative_count == 1 else f"rad/s^{expr.derivative_count}"
+        if expr in self._angles:
+            return "rad"
+        for x in (*self.model.coordinates, *self.model.velocities, *self.model.inputs):
+            if x.symbol == expr and x.unit:
+                return x.unit.replace("*", " ")
+        return self._worked_out(expr)
+
+    def _worked_out(self, expr: sp.Expr) -> str:
+        if self._dims is None:
+            return ""
+        try:
+            found = self._dims.of(expr)
+        except Mismatch:
+            return ""
+        if found is None or found.unknown or found == NONE:
+            return ""
+        text = str(found)
+        if found == NONE.times(RATE):
+            return "1/s"
+        return NAMED.get(text, text)
+
+
+def _angles(model: Model) -> set[Any]:
+    """Coordinates that turn something: those in an angle of a frame or under a sine."""
+    exprs: list[Any] = [x for body in model.bodies for x in model.position(body.at)]
+    exprs += [x for point in model.points for x in model.position(point)]
+    frames = [f for e in model.elements for _, f in e.frames()] + list(model.frames)
+    turned: list[Any] = []
+    seen: set[int] = set()
+    while frames:
+        frame: Frame | None = frames.pop()
+        if frame is None or id(frame) in seen:
+            continue
+        seen.add(id(frame))
+        frames.append(frame.parent)  # type: ignore[arg-type]
+        if frame.floating is None:
+            turned.append(frame.angle)
+    turned += [f.args[0] for e in exprs for f in model.expand(e).atoms(sp.sin, sp.cos, sp.tan)]
+    angles = {c.symbol for c in model.coordinates if c.unit in (None, "rad")}
+    return {q for q in angles if any(_alone(model.expand(a), q) for a in turned)}
+
+
+def _alone(angle: sp.Expr, q: Any) -> bool:
+    """Whether q stands in an angle as one of the terms of a sum, times a number at most."""
+    return bool(sp.diff(angle, q).is_number) and angle.has(q)
+
+
+# -- columns ----------------------------------------------------------------------------------------------------
+
+
+def table(run: Recorded) -> Table:
+    """The states, the inputs, the energies and the named points over time."""
+    model, units = run.model, Units(run.model)
+    columns: list[Column] = []
+    words = {c.name: c.description for c in model.coordinates}
+    for name, values, symbol in zip(run.states, run.y, _state_symbols(model), strict=True):
+        base = name.removesuffix("'")
+        said = words.get(base) or base
+        columns.append(Column(name, values, units.of(symbol), said if name == base else f"rate of {said}"))
+    signals = run.observe({u.name: u.symbol for u in model.inputs}) if model.inputs else {}
+    for u in model.inputs:
+        columns.append(Column(u.name, signals[u.name], units.of(u.symbol), u.description or u.name))
+    for key, values, said in (
+        ("kinetic", run.kinetic, "kinetic co-energy T*"),
+        ("potential", run.potential, "potential energy V"),
+        ("supplied", run.supplied, "energy supplied since the start"),
+    ):
+        columns.append(Column(f"energy.{key}", values, "J", said))
+    for name, path in run.points.items():
+        for axis, values in zip("xyz", path.T, strict=False):
+            columns.append(Column(f"{name}.{axis}", values, "m", f"{axis} of point {name}"))
+    return Table(Column("t", run.t, "s", "time"), tuple(columns), attributes(run))
+
+
+def extremes(values: NDArray[np.float64]) -> tuple[float, float, float, float]:
+    """Where a quantity began, ended, and stayed between."""
+    return float(values[0]), float(values[-1]), float(values.min()), float(values.max())
+
+
+def attributes(run: Recorded) -> dict[str, Any]:
+    """What is to be known of a run: how it was made, how it ended, how well energy is balanced."""
+    return {
+        "title": run.model.name,
+        "source": f"lagrangian {version('lagrangian')}",
+        "method": run.method,
+        **run.settings,
+        "steps": run.steps,
+        "nfev": run.nfev,
+        "success": int(run.success),
+        "message": run.message,
+        "audit": float(run.audit),
+        "parameters": run.params,
+        "feedback": {plain(symbol): plain(expr) for symbol, expr in run.feedback.items()},
+    }
+
+
+def _state_symbols(model: Model) -> list[Any]:
+    return [*(c.symbol for c in model.coordinates), *(v.symbol for v in model.velocities)]
+
+
+# -- pictures ---------------------------------------------------------------------------------------------------
+
+
+def plot(run: Recorded, asked: Sequence[Any], *, energy: bool | None, audit: bool, shown: bool = False) -> Figure:
+    """The figure of what is asked for; of coordinates, inputs that act and energies where nothing is."""
+    units, labels = Units(run.model), Labels(run.model)
+    panels = [_panel(run, units, labels, _expression(run.model, x)) for x in asked]
+    if not asked:
+        panels = [_panel(run, units, labels, c.symbol) for c in run.model.coordinates]
+        driven = [_panel(run, units, labels, u.symbol) for u in run.model.inputs]
+        panels += [p for p in driven if any(s.values.any() for s in p.series)]
+    panels = list(joined(panels))
+    if energy if energy is not None else not asked:
+        panels.append(_energies(run))
+    if audit:
+        panels.append(Panel("imbalance", "J", (Series(r"\Delta E", "ΔE", run.imbalance),)))
+    marks = tuple(Marks(name, found.t) for name, found in run.events.items() if len(found))
+    footer, failure = f"{run.method}, {run.audit}", "" if run.success else run.message
+    return draw(Picture(run.model.name, run.t, tuple(panels), marks, footer, failure), shown=shown)
+
+
+def check_no_file(asked: Any, verb: str) -> None:
+    """Refuse the name of a picture's file where a quantity is asked for."""
+    if isinstance(asked, (str, os.PathLike)) and Path(asked).suffix.lower() in PICTURES:
+        raise ModelError(
+            f"plot takes names and expressions, and '{str(asked)[:60]}' names a file",
+            fix=f'{verb}().savefig("{str(asked)[:60]}")',
+            code="E406",
+        )
+
+
+def _expression(model: Model, asked: Any) -> sp.Expr:
+    check_no_file(asked, "run.plot")
+    if isinstance(asked, str):
+        return read.parse_expression(asked, read.Scope(model.symbols), what="what is plotted")
+    if not isinstance(asked, sp.Expr):
+        raise ModelError(
+            f"a plot shows expressions and names (got {type(asked).__name__})",
+            fix='run.plot("theta", "theta\'"), or SymPy expressions',
+            code="E406",
+        )
+    return asked
+
+
+def _panel(run: Recorded, units: Units, labels: Labels, expr: sp.Expr) -> Panel:
+    values, unit = run[expr], units.of(expr)
+    what = KINDS.get(unit, "")
+    if unit == "rad":
+        turns = bool(len(values)) and float(np.max(np.abs(values))) > TURNS
+        values, unit = (values / (2 * np.pi), "turns") if turns else (np.degrees(values), "deg")
+    return Panel(what, unit, (Series(labels.tex(expr), labels.text(expr), values),))
+
+
+def _energies(run: Recorded) -> Panel:
+    T = Series("T^{*}", "T*", run.kinetic)
+    V = Series("V", "V", run.potential)
+    return Panel("energy", "J", (T, V, Series("T^{*} + V", "T* + V", run.energy, "k--")))

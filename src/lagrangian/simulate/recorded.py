@@ -1,0 +1,257 @@
+"""A run as it was recorded, and what can be asked of it: states, expressions, energies, points, the energy balance."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrangian import codegen as machine
+from lagrangian import dynamics, read
+from lagrangian.advice import Advice, Argument
+from lagrangian.calls import TRAJECTORY, Guided
+from lagrangian.errors import ModelError, NoSuchEntry, Notice, did_you_mean
+from lagrangian.model import Element, Model, Point, as_expr
+from lagrangian.simulate.integrating import remembered
+from lagrangian.viewed import Brief, Entries
+
+if TYPE_CHECKING:
+    from lagrangian.graph import Program
+
+Array = NDArray[np.float64]
+
+
+TRUSTED = 1e-3
+"""Largest miss of the energy balance that is passed over, relative to the energy that moves."""
+
+ROUNDING = 1e-13
+"""Energy supplied below this share of the energy that moves is none."""
+
+
+@dataclass(frozen=True)
+class Audit(Brief):
+    """How well a run keeps its energy balance h(t) = h(0) + energy supplied, h = q̇·∂L/∂q̇ − L.
+
+    ``figure`` is the largest difference relative to the energy that moves in the run (the largest of T*, of the change
+    of V, and of the energy supplied); ``time`` is where it is largest. float(audit) is the figure.
+    """
+
+    figure: float
+    time: float
+    conserved: bool
+
+    def __float__(self) -> float:
+        return self.figure
+
+    @property
+    def missed(self) -> Advice:
+        """What is to be said of a balance that is off by more than `TRUSTED`, else nothing."""
+        if self.figure <= TRUSTED:
+            return Advice()
+        return Advice(
+            f"energy balance missed by {100 * self.figure:.2g} % at t = {self.time:.4g} s: the integration is not to "
+            "be trusted: smaller ",
+            Argument("max_step"),
+            ", ",
+            Argument("step"),
+            " or tolerances",
+        )
+
+    def __str__(self) -> str:
+        """Read as ``energy drift 3.1e-12`` or ``power balance 3.1e-12``."""
+        return f"{'energy drift' if self.conserved else 'power balance'} {self.figure:.1e}"
+
+
+@dataclass(frozen=True)
+class Occurrences(Brief):
+    """When an event happened: ``t`` (k,) and the states just before it, ``y`` (n_states, k)."""
+
+    t: Array
+    y: Array
+
+    def __len__(self) -> int:
+        return len(self.t)
+
+
+@dataclass(eq=False)
+class Recorded(Guided):
+    """The numbers of a run, and everything that can be asked of them by name; see `Trajectory`."""
+
+    _guide = TRAJECTORY
+
+    model: Model = field(repr=False)
+    t: Array
+    y: Array
+    status: int
+    success: bool
+    message: str
+    method: str
+    nfev: int
+    steps: int
+    rejected: int
+    p: Array
+    u: Array
+    feedback: dict[Any, sp.Expr]
+    events: Mapping[str, Occurrences]
+    supplied: Array
+    jumps: Array
+    settings: Mapping[str, Any]
+    notices: tuple[Notice, ...] = ()
+
+    # -- asking -------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def states(self) -> tuple[str, ...]:
+        """The names of the states, coordinates first."""
+        return (*(c.name for c in self.model.coordinates), *(v.name for v in self.model.velocities))
+
+    @property
+    def params(self) -> dict[str, float]:
+        """The parameters the run was made with."""
+        values = zip((p.name for p in self.model.parameters), map(float, self.p), strict=True)
+        return Entries(dict(values), "params")
+
+    def __getitem__(self, asked: Any) -> Array:
+        """Return a quantity at every time: a state by name, an expression (SymPy or text), or a point's path (S, d)."""
+        if isinstance(asked, str):
+            if asked in self.states:
+                return self.y[self.states.index(asked)]
+            asked = read.parse_expression(asked, read.Scope(self.model.symbols), what="what is asked of the run")
+        elif isinstance(asked, (int, slice)):
+            raise ModelError(
+                f"run[…] takes a name or an expression (got {asked!r:.40})",
+                fix=f"run['{self.states[0]}']; the rows of run.y are the states",
+                code="E406",
+            )
+        if isinstance(asked, sp.Expr) and (at := self._places.get(asked)) is not None:
+            return self.y[at]
+        return self.observe({"asked": asked})["asked"]
+
+    @cached_property
+    def _places(self) -> dict[Any, int]:
+        """Where the symbols of the states stand in ``y``."""
+        symbols = [*(c.symbol for c in self.model.coordinates), *(v.symbol for v in self.model.velocities)]
+        return {symbol: i for i, symbol in enumerate(symbols)}
+
+    def _own_name(self, name: str) -> str | None:
+        """A quantity is an entry, not an attribute."""
+        model = self.__dict__.get("model")
+        return f'run["{name}"]' if model is not None and name in model.symbols else None
+
+    def observe(self, outputs: Mapping[str, Any]) -> dict[str, Array]:
+        """Return several expressions or points at once, by name."""
+        asked = {k: x if isinstance(x, Point) else as_expr(x, f"'{k}'") for k, x in outputs.items()}
+        key = ("observe", tuple(asked.items()), frozenset(self.feedback.items()))
+        return self._evaluated(key, lambda: dynamics.observe_closed(self.model, asked, self.feedback))
+
+    def _evaluated(self, key: Any, make: Callable[[], Program]) -> dict[str, Array]:
+        """What a program says at every time; it is compiled once for all runs of the system."""
+        kernel: machine.Kernel = remembered(self.model, key, lambda: machine.compile(make()))
+        answer = kernel(np.ascontiguousarray(self.y.T), self.u, self.p, self.t)
+        return answer if isinstance(answer, dict) else {next(iter(kernel.program.outputs)): answer}
+
+    # -- energies -----------------------------------------------------------------------------------------------
+
+    @cached_property
+    def _power(self) -> dict[str, Array]:
+        key = ("power", frozenset(self.feedback.items()))
+        return self._evaluated(key, lambda: dynamics.power_closed(self.model, self.feedback))
+
+    @property
+    def kinetic(self) -> Array:
+        """T* [J], shape (S,)."""
+        return self._power["T"]
+
+    @property
+    def potential(self) -> Array:
+        """V [J], shape (S,)."""
+        return self._power["V"]
+
+    @property
+    def energy(self) -> Array:
+        """T* + V [J], shape (S,)."""
+        return self.kinetic + self.potential
+
+    @property
+    def power(self) -> Array:
+        """The power supplied from outside, Ξ·q̇ − ∂L/∂t [W], shape (S,)."""
+        return self._power["P"]
+
+    @cached_property
+    def imbalance(self) -> Array:
+        """h(t) − h(0) − the energy supplied until t [J], shape (S,): what `audit` judges."""
+        h = self._power["h"]
+        return h - h[0] - self.supplied - self.jumps if len(h) else h
+
+    @cached_property
+    def audit(self) -> Audit:
+        """The energy balance as a figure."""
+        if not len(self.t):
+            return Audit(0.0, 0.0, True)
+        T, V, W = self.kinetic, self.potential, self.supplied
+        given = float(np.max(np.abs(W)))
+        scale = max(float(np.max(np.abs(T))), float(np.ptp(V)), given)
+        worst = int(np.argmax(np.abs(self.imbalance)))
+        largest = abs(float(self.imbalance[worst]))
+        return Audit(largest / scale if largest else 0.0, float(self.t[worst]), given <= ROUNDING * scale)
+
+    @cached_property
+    def points(self) -> Mapping[str, Array]:
+        """Paths of the named points, (S, d) each, in the fixed axes [m]."""
+        return Named(self, "point", {p.name: partial(_same, p) for p in self.model.points if p.name})
+
+    @cached_property
+    def powers(self) -> Mapping[str, Array]:
+        """The power [W] that each force, damper, spring, … by its name gives to what moves, (S,) each."""
+        acting = [e for e in self.model.elements if e.ledger != "T*"]
+        return Named(self, "element that gives power,", {e.name: partial(element_power, self.model, e) for e in acting})
+
+
+class Named(Mapping[str, Array]):
+    """Quantities of a run by name, worked out when asked for; ``what`` they are called in messages."""
+
+    def __init__(self, run: Recorded, what: str, quantities: Mapping[str, Callable[[], Any]]) -> None:
+        self._run, self._what, self._quantities = run, what, quantities
+        self._known: dict[str, Array] = {}
+
+    def __getitem__(self, name: Any) -> Array:
+        key = getattr(name, "name", name)  # the point or element itself will do
+        if key not in self._quantities:
+            known = ", ".join(self._quantities) or "none"
+            fix = did_you_mean(str(key), self._quantities) or f"known: {known}"
+            raise NoSuchEntry(f"there is no {self._what} '{key}'", fix=fix, code="E412")
+        if key not in self._known:
+            self._known[key] = self._run[self._quantities[key]()]
+        return self._known[key]
+
+    def __contains__(self, name: object) -> bool:
+        return getattr(name, "name", name) in self._quantities
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._quantities)
+
+    def __len__(self) -> int:
+        return len(self._quantities)
+
+    def __repr__(self) -> str:
+        """List the names."""
+        return f"<{', '.join(self._quantities) or 'nothing'}>"
+
+
+def _same(thing: Any) -> Any:
+    return thing
+
+
+def element_power(model: Model, element: Element) -> sp.Expr:
+    """The power [W] an element gives to what moves: Σ effort · rate, and −V̇ of what it stores by position.
+
+    V̇ is taken along the motion, with inputs and time held.
+    """
+    given = sum((a.effort * a.rate for a in element.works(model)), sp.S.Zero)
+    stored = element.potential(model)
+    return given - sum((sp.diff(stored, c.symbol) * c.rate for c in model.coordinates), sp.S.Zero)

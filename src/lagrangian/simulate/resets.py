@@ -1,0 +1,65 @@
+"""Resets without a value: the run ends at the state before the event, and the reason is told."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.errors import RunError
+from lagrangian.integrate.methods.memory_layout import NOT_FINITE
+from lagrangian.integrate.scipy_methods import Outcome
+
+if TYPE_CHECKING:
+    from lagrangian.codegen import Kernel
+
+Array = NDArray[np.float64]
+
+NOT_A_VALUE = "E503"
+"""The code of outputs that are not finite."""
+
+
+def valued(kernel: Kernel) -> Callable[..., dict[str, Array]]:
+    """The outputs ``g`` and ``after`` of events, where a value that is not finite is one and raises nothing."""
+    shapes = {name: out.shape for name, out in kernel.program.outputs.items()}
+
+    def evaluate(x: Array, u: Any, p: Array, t: Any) -> dict[str, Array]:
+        try:
+            answer = kernel(x, u, p, t)
+            return answer if isinstance(answer, dict) else {"g": answer}
+        except RunError as trouble:
+            if trouble.code != NOT_A_VALUE:  # an input that is not finite, say
+                raise
+        found = {name: np.empty(shape) for name, shape in shapes.items()}
+        with contextlib.suppress(RunError):  # the same again, now with every value written
+            kernel(x, u, p, t, out=found)
+        return found
+
+    return evaluate
+
+
+def ended(outcome: Outcome, states: Sequence[str], titles: Sequence[str]) -> Outcome:
+    """Return the outcome cut at the first event whose reset leaves a state without a finite value.
+
+    ``states`` are the names of the states, ``titles`` those of the events.
+    """
+    for k, hit in enumerate(outcome.hits):
+        if hit.after is None or np.isfinite(hit.after).all():
+            continue
+        first = next(f"{name} = {x}" for name, x in zip(states, hit.after, strict=False) if not np.isfinite(x))
+        kept = int(np.searchsorted(outcome.times, hit.time, side="right"))
+        return replace(
+            outcome,
+            times=outcome.times[:kept],
+            states=outcome.states[:kept],
+            status=NOT_FINITE,
+            reached=hit.time,
+            final=hit.before,
+            hits=[*outcome.hits[:k], replace(hit, after=None)],
+            reason=f"[{NOT_A_VALUE}] the reset of event '{titles[hit.index]}' gives {first}",
+        )
+    return outcome

@@ -1,0 +1,335 @@
+"""``system.ensemble`` and ``system.sweep``: from a description to many runs."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.metadata
+import math
+import os
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+from typing import Any, TypeAlias
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrangian.advice import Advice, Argument
+from lagrangian.errors import RunError, did_you_mean
+from lagrangian.graph import Program
+from lagrangian.integrate.chunks import FEW, MEMORY, Portions, cut
+from lagrangian.integrate.design import Design
+from lagrangian.integrate.ensemble import Executor, Here, Memory, Progress, carry_out
+from lagrangian.integrate.observe import Kept, Study
+from lagrangian.integrate.store import Plan, Variable, create, resume
+from lagrangian.model import Model
+from lagrangian.page.plain import plain
+from lagrangian.simulate.admission import check_masses, fitness
+from lagrangian.simulate.ensemble import Ensemble
+from lagrangian.simulate.inputs import Driving, check_covers, driving
+from lagrangian.simulate.integrating import remembered
+from lagrangian.simulate.per_run import Wanted, instants, study_of
+from lagrangian.simulate.plot import Units
+from lagrangian.simulate.switching import with_stops_of_all
+from lagrangian.simulate.variation import EVENT, TIME, Varying, from_arrays, from_grid
+from lagrangian.values.dimensions import SECOND
+from lagrangian.values.values import key_name, number
+
+Array: TypeAlias = NDArray[np.float64]
+
+STORE = Argument("store", '"sweep.zarr"')
+"""What keeps results on disk."""
+
+LARGEST = 2**30
+"""Bytes of a chunk on disk at most: compressors take no more than 2 GiB at a time."""
+
+MOST_MEMORY = 0.5
+"""Part of the machine's memory that results without a store may take."""
+
+
+@dataclass(frozen=True)
+class Way:
+    """How the runs are done and where results go."""
+
+    memory: int = MEMORY
+    threads: int | None = None
+    progress: Progress | None = None
+    store: str | Path | None = None
+    resume: bool = False
+    overwrite: bool = False
+    scheduler: Any = None
+
+
+def ensemble(
+    model: Model,
+    duration: Any,
+    initial: Mapping[Any, Any] | None,
+    params: Mapping[Any, Any] | None,
+    inputs: Mapping[Any, Any] | None,
+    dims: Sequence[str] | None,
+    options: Mapping[str, Any],
+) -> Ensemble:
+    """Many runs from arrays; see `lagrangian.System.ensemble`."""
+    wanted, way, more = _options(model, options, duration)
+    varied, driven = _split_inputs(inputs)
+    initial = {**(initial or {}), **more}
+    varying = from_arrays(model, {"x": initial, "p": params, "u": varied}, dims)
+    return _done(model, varying, wanted, driven, way)
+
+
+def sweep(
+    model: Model,
+    duration: Any,
+    grid: Mapping[Any, Any] | Iterable[str] | str,
+    initial: Mapping[Any, Any] | None,
+    params: Mapping[Any, Any] | None,
+    inputs: Mapping[Any, Any] | None,
+    samples: int | None,
+    seed: int,
+    options: Mapping[str, Any],
+) -> Ensemble:
+    """Every combination of values; see `lagrangian.System.sweep`."""
+    wanted, way, more = _options(model, options, duration)
+    initial = {**(initial or {}), **more}
+    varying = from_grid(model, grid, {"x": initial, "p": params}, samples, seed)
+    return _done(model, varying, wanted, dict(inputs or {}), way)
+
+
+def _options(model: Model, options: Mapping[str, Any], duration: Any) -> tuple[Wanted, Way, dict[str, Any]]:
+    """Options of the runs, of the way they are done, and initial values given by name: ``theta1=0.2``."""
+    names = {"wanted": set(Wanted.__dataclass_fields__) - {"duration", "inputs"}, "way": set(Way.__dataclass_fields__)}
+    known = names["wanted"] | names["way"]
+    states = {s.name for s in (*model.coordinates, *model.velocities)}
+    for name in options:
+        if name not in known | states:
+            owners = (("params", model.parameters), ("inputs", model.inputs))
+            own = [f"{word}={{'{name}': …}}" for word, xs in owners if any(x.name == name for x in xs)]
+            raise RunError(
+                f"there is no option or coordinate '{name[:64]}'",
+                fix=(own[0] if own else did_you_mean(name, known | states)) or f"options: {', '.join(sorted(known))}",
+                code="E402",
+            )
+    wanted = Wanted(duration=duration, **{k: v for k, v in options.items() if k in names["wanted"]})
+    way = Way(**{k: v for k, v in options.items() if k in names["way"]})
+    return wanted, way, {k: v for k, v in options.items() if k not in known}
+
+
+def _split_inputs(inputs: Mapping[Any, Any] | None) -> tuple[dict[Any, Any], dict[Any, Any]]:
+    """Inputs that are arrays of constants, one a run; and the others: numbers, expressions, tables."""
+    varied, driven = {}, {}
+    for key, value in (inputs or {}).items():
+        array = (isinstance(value, np.ndarray) and value.ndim > 0) or isinstance(value, list)
+        (varied if array else driven)[key] = value
+    return varied, driven
+
+
+# -- what every run does ----------------------------------------------------------------------------------------
+
+
+def _done(model: Model, varying: Varying, wanted: Wanted, inputs: dict[Any, Any], way: Way) -> Ensemble:
+    """Do the runs, or what is missing of them."""
+    drive = _drive(model, varying, inputs)
+    times = instants(model, wanted)
+    check_covers(drive, float(times[0]), float(times[-1]))
+    design = varying.design()
+    longest = math.inf if wanted.max_step == math.inf else number(wanted.max_step, "max_step", SECOND)
+    drive, said = with_stops_of_all(model, drive, design, times, longest)
+    varied = [name for group, name in varying.columns if group == "p"]
+    check_masses(model, design.base["p"], varied)
+    study, expressions = study_of(model, wanted, drive, times)
+    (fit,) = remembered(model, ("fitness", *varied), lambda: (fitness(model, varied),))
+    study = replace(study, fitness=fit)
+    task = _task(model, varying, wanted, drive, study)
+    executor, cutting = _executor(way)
+    memory = _bytes(way.memory)
+    if way.store is not None:
+        memory = min(memory, LARGEST)
+    portions = cut(design.shape, study.bytes_per_run, memory=memory, **cutting)
+    plan = _plan(model, varying, study, expressions, portions, task)
+    if way.store is None:
+        if way.resume or way.overwrite:
+            raise RunError("resume and overwrite apply only to a store", fix=Advice(STORE), code="E501")
+        made = _in_memory(study, design, plan, executor, way.progress)
+        made.notices = said
+        return made
+    path = Path(way.store)
+    if path.suffix != ".zarr":
+        raise RunError(f"the store '{path.name}' must end in .zarr", fix=Advice(STORE), code="E801")
+    with resume(path, plan) if way.resume and path.exists() else create(path, plan, overwrite=way.overwrite) as sink:
+        carry_out(study, design, sink.portions, sink, executor=executor, progress=way.progress)
+    made = Ensemble.of_store(path)
+    made.notices = (*said, *sink.notices)
+    return made
+
+
+def _in_memory(study: Study, design: Design, plan: Plan, executor: Executor, progress: Progress | None) -> Ensemble:
+    size = sum(np.dtype(v.dtype).itemsize * math.prod(v.shape) for v in plan.results.values())
+    if size > MOST_MEMORY * _machine_memory():
+        raise RunError(
+            f"the results of {design.count} runs take {size / 2**30:.3g} GiB",
+            fix=Advice("keep less of each run, or write to a store: ", STORE),
+            code="E505",
+        )
+    sink = Memory(study, plan.portions)
+    carry_out(study, design, plan.portions, sink, executor=executor, progress=progress)
+    coordinates = {
+        name: (variable.dims, np.concatenate([np.atleast_1d(a) for a in parts]).reshape(variable.shape))
+        for name, (variable, parts) in plan.coordinates.items()
+    }
+    dims = {name: variable.dims for name, variable in plan.results.items()}
+    words = {name: variable.words for name, variable in plan.results.items()}
+    words.update({name: variable.words for name, (variable, _) in plan.coordinates.items()})
+    return Ensemble(str(plan.task["system"]), sink.arrays, dims, coordinates, words, plan.task)
+
+
+def _machine_memory() -> float:
+    try:
+        return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
+    except (AttributeError, ValueError, OSError):  # not told on this system: 4 GiB are nearly always there
+        return 4.0 * 2**30
+
+
+def _bytes(memory: Any) -> int:
+    if isinstance(memory, bool) or not isinstance(memory, (int, np.integer)) or memory < 1:
+        raise RunError(f"memory must be a number of bytes (got {memory!r:.30})", fix="256 * 2**20", code="E501")
+    return int(memory)
+
+
+def _executor(way: Way) -> tuple[Executor, dict[str, int]]:
+    """Who computes, and what that asks of the chunks."""
+    if way.scheduler is None:
+        return Here(way.threads), {}
+    from lagrangian.integrate.remote import Dask
+
+    dask = Dask(way.scheduler)
+    return dask, {"held": dask.held, "few": max(FEW, 8 * dask.threads)}
+
+
+def _drive(model: Model, varying: Varying, inputs: dict[Any, Any]) -> Driving:
+    """The inputs that do not vary; one given twice is refused."""
+    varied = {name for group, name in varying.columns if group == "u"}
+    for key in inputs:
+        if key_name(key) in varied:
+            raise RunError(
+                f"input '{key_name(key)}' varies and also has a fixed value",
+                fix="give only one of the two",
+                code="E404",
+            )
+    settings = {k: v for k, v in model.settings.get("inputs", {}).items() if k not in varied}
+    names = varying.entries.given.inputs
+    drive = driving(model, inputs, settings, dict(zip(names.names, names.dims, strict=True)))
+    if drive.calls_python:
+        raise RunError(
+            "an input of an ensemble cannot be a Python function",
+            fix="give an expression of time and state, a table, or numbers; or run one at a time with simulate",
+            code="E501",
+        )
+    if varied and not drive.constant:
+        raise RunError(
+            f"input '{min(varied)}' varies from run to run while another is a table",
+            fix="give the table as an expression of time, with a parameter for what varies",
+            code="E501",
+        )
+    for u, source in zip(drive.free, drive.sources, strict=True):
+        if isinstance(source, float):
+            varying.entries.base["u"][u.name] = source
+    feedback = {plain(symbol) for symbol in drive.feedback}
+    varying.entries.base["u"] = {n: v for n, v in varying.entries.base["u"].items() if n not in feedback}
+    return drive
+
+
+# -- what is written of it --------------------------------------------------------------------------------------
+
+
+def _plan(
+    model: Model,
+    varying: Varying,
+    study: Study,
+    expressions: Mapping[str, sp.Expr],
+    portions: Portions,
+    task: dict[str, Any],
+) -> Plan:
+    fields, units = study.fields(), Units(model)
+    dims = varying.dims(fields)
+    made_of = {k.name: (k, units.of(expressions[k.of])) for k in study.kept}
+    results = {}
+    for name, (dtype, extra) in fields.items():
+        more = () if not extra else (EVENT,) if name.startswith("time ") else (TIME,)
+        results[name] = Variable(dtype, (*dims, *more), (*portions.shape, *extra), _words(made_of, name))
+    coordinates: dict[str, Any] = dict(varying.coordinates(fields, units))
+    if any(k.reduction is None for k in study.kept):
+        words = {"units": "s", "long_name": "time"}
+        coordinates[TIME] = Variable("float64", (TIME,), study.times.shape, words), [study.times]
+    beside = " ".join(
+        name for name, (variable, _) in coordinates.items() if (name,) != variable.dims and " " not in name
+    )
+    words = {"title": model.name, **({"coordinates": beside} if beside else {})}
+    return Plan(portions, results, coordinates, task, words)
+
+
+def _words(made_of: Mapping[str, tuple[Kept, str]], name: str) -> dict[str, Any]:
+    """Long name and unit of a result."""
+    if name in made_of:
+        kept, unit = made_of[name]
+        words = name if kept.reduction is None else f"{kept.reduction} of {kept.of}"
+        return {"long_name": words, **({"units": unit} if unit else {})}
+    if name == "status":
+        return {"long_name": "how the run ended: 0 its end, 1 a terminal event, negative a failure, -128 not run yet"}
+    if name == "reached":
+        return {"long_name": "time of the last state", "units": "s"}
+    return {"long_name": name, **({"units": "s"} if name.startswith("time ") else {})}
+
+
+def _task(model: Model, varying: Varying, wanted: Wanted, drive: Driving, study: Study) -> dict[str, Any]:
+    """What is done, as plain data: two tasks with equal data give the same bits."""
+    times = study.times
+    return {
+        "version": _version(),
+        "system": model.name,
+        "equations": digest(study.program),
+        **varying.task(),
+        "inputs": {
+            **{plain(symbol): str(expr) for symbol, expr in drive.feedback.items()},
+            **{u.name: _source(s) for u, s in zip(drive.free, drive.sources, strict=True)},
+        },
+        "times": f"{len(times)} from {float(times[0])} to {float(times[-1])} #{_hash(times.tobytes())}",
+        "method": study.method,
+        "options": {k: v if np.isfinite(v) else str(v) for k, v in study.options.items()},
+        "kept": [k.name for k in study.kept],
+        "outputs": digest(study.outputs),
+        "events": "none" if study.events is None else _events(study),
+    }
+
+
+@cache
+def _version() -> str:
+    return importlib.metadata.version("lagrangian")
+
+
+def _events(study: Study) -> str:
+    """Which events there are, how many times of each are kept, and all that decides what they do."""
+    e = study.events
+    named = [f"{kept.name} {kept.times}" for kept in study.events_kept]
+    return f"{named} #{_hash(repr((e.direction, e.terminal, e.reset, digest(e.program))).encode())}"
+
+
+def _source(source: Any) -> Any:
+    if isinstance(source, float):
+        return source
+    return f"table #{_hash(source.times.tobytes() + source.values.tobytes() + bytes([source.hold]))}"
+
+
+def digest(program: Program) -> str:
+    """A short text that differs where two programs compute something different."""
+    return program.remembered("digest", lambda: _digest(program))
+
+
+def _digest(program: Program) -> str:
+    said: list[Any] = [sorted(program.inputs.items()), [(n, o.ids, o.shape) for n, o in program.outputs.items()]]
+    return _hash(repr([*said, program.graph.nodes]).encode())
+
+
+def _hash(data: bytes) -> str:
+    return hashlib.blake2b(data, digest_size=8).hexdigest()

@@ -1,0 +1,264 @@
+"""When conditions in time alone switch: the times at which steps have to end, as they do at the knots of tables.
+
+A step's error is judged at a few places inside it; a pulse between them is not seen at all, and a jump is seen as an
+error that no step is short enough for. Where piecewise, Heaviside, abs, sign, min, max and atan2 read nothing but time
+and constants, the times at which they switch are known before the run.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import Any, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian import codegen as machine
+from lagrangian.advice import Advice, Argument
+from lagrangian.errors import RunError
+from lagrangian.graph import Graph, Output, Program, operands, reached
+from lagrangian.integrate.design import Design
+from lagrangian.integrate.methods.memory_layout import MARGIN
+from lagrangian.model import Model
+from lagrangian.simulate.inputs import MAX_KNOTS, Driving
+from lagrangian.simulate.integrating import remembered, right_hand_side
+from lagrangian.simulate.pulses import Pulses
+
+Array = NDArray[np.float64]
+
+COARSE, FINE = 1 << 12, 1 << 20
+"""Places at which conditions are looked at: at first, and at most where finer looks find more switches."""
+
+ROUNDS = 1100
+"""Halvings between any two doubles, at most."""
+
+MOST_RUNS, MOST_DIFFERENT = 100_000, 1000
+"""Runs that are looked through for different times of switches, and runs with different ones, at most."""
+
+MOST_PULSES, SOME = 10_000, 32
+"""Ends of steps at the pulses of all runs of an ensemble, at most; runs that are looked at where there are too many."""
+
+NOT_FINITE = "E503"
+
+
+def pairs(program: Program, *, inputs: bool) -> list[tuple[int, int]]:
+    """The pairs (a, b) of nodes whose order decides something and that read time, and beside it constants alone.
+
+    ``inputs``: whether the inputs are constants.
+    """
+    graph, nodes = program.graph, program.graph.nodes
+    time: dict[int, bool] = {}
+    state: dict[int, bool] = {}
+    found: dict[tuple[int, int], None] = {}
+    for i in reached(graph, program.ids):
+        node = nodes[i]
+        if node[0] == "input":
+            time[i], state[i] = node[1] == "t", node[1] == "x" or (node[1] == "u" and not inputs)
+            continue
+        below = operands(node)
+        time[i], state[i] = any(time[k] for k in below), any(state[k] for k in below)
+        pair = _pair(graph, node)
+        if pair is not None and any(time.get(k) for k in pair) and not any(state.get(k) for k in pair):
+            found[pair] = None
+    return list(found)
+
+
+def _pair(graph: Graph, node: Any) -> tuple[int, int] | None:
+    """The two nodes whose order decides what an operation does, if it has such."""
+    match node[0]:
+        case "lt" | "le" | "min" | "max":
+            return node[1], node[2]
+        case "abs" | "sign" | "atan2":  # atan2 jumps where its first argument changes sign
+            return node[1], graph.zero
+    return None
+
+
+def parameters_read(program: Program, found: list[tuple[int, int]]) -> set[int]:
+    """Which parameters decide when the pairs switch."""
+    nodes = program.graph.nodes
+    ids = [i for pair in found for i in pair]
+    return {nodes[i][2] for i in reached(program.graph, ids) if nodes[i][:2] == ("input", "p")}
+
+
+class Switches:
+    """The conditions in time alone of a model that is driven so."""
+
+    def __init__(self, model: Model, drive: Driving) -> None:
+        self.program, self._model = right_hand_side(model, drive), model
+        self._key = ("switches", drive.constant, frozenset(drive.feedback.items()))
+        self.pairs = remembered(model, (*self._key, "pairs"), lambda: pairs(self.program, inputs=drive.constant))
+
+    def __bool__(self) -> bool:
+        return bool(self.pairs)
+
+    @property
+    def parameters(self) -> set[int]:
+        """Which parameters decide when they switch."""
+        return parameters_read(self.program, self.pairs)
+
+    def times(self, p: Array, u: Array, start: float, end: float) -> Array:
+        """The times in (start, end] at which something switches: each the first at which all has switched there."""
+        count = COARSE
+        grid = np.linspace(start, end, count + 1)
+        order = self._order(grid, p, u)
+        changed = order[1:] != order[:-1]
+        while count < FINE:
+            count *= 4
+            finer = np.linspace(start, end, count + 1)
+            order = self._order(finer, p, u)
+            more = order[1:] != order[:-1]
+            same = more.sum() == changed.sum()
+            grid, changed = finer, more
+            if same:
+                break
+        where, which = np.nonzero(changed)
+        if len(where) > MAX_KNOTS:
+            raise RunError(
+                f"conditions in time switch {len(where)} times in this run", fix="simulate a shorter time", code="E505"
+            )
+        low, high = grid[where], grid[where + 1]
+        after = order[where + 1, which]  # equality may lie between: it is passed as well
+        for _ in range(ROUNDS):
+            middle = low + (high - low) / 2
+            open_ = (middle > low) & (middle < high)
+            if not open_.any():
+                break
+            now = self._order(middle, p, u)[np.arange(len(middle)), which] != after
+            low, high = np.where(open_ & now, middle, low), np.where(open_ & ~now, middle, high)
+        return merged(high, start, end)
+
+    def _order(self, t: Array, p: Array, u: Array) -> NDArray[np.int8]:
+        """−1, 0 or 1 of each pair at times t: whether the first is less, equal or greater; (S, pairs)."""
+        kernel = remembered(self._model, (*self._key, "kernel"), self._kernel)
+        out = np.empty((len(t), 2 * len(self.pairs)))
+        x = np.zeros(len(self.program.inputs["x"]))
+        try:
+            kernel(x=x, u=u, p=p, t=np.ascontiguousarray(t), out=out)
+        except RunError as trouble:  # every time is computed all the same; what is no number has no order
+            if trouble.code != NOT_FINITE:
+                raise
+        a, b = out[:, 0::2], out[:, 1::2]
+        return (a > b).astype(np.int8) - (a < b).astype(np.int8)
+
+    def _kernel(self) -> Any:
+        ids = tuple(i for pair in self.pairs for i in pair)
+        program = self.program
+        made = Program("switches", program.graph, program.inputs, {"g": Output(ids, (len(ids),))}, program.defaults)
+        return machine.compile(made)
+
+
+def merged(times: Array, start: float, end: float) -> Array:
+    """Times in order, of those that rounding alone tells apart (0 is passed in two bits) the last."""
+    ordered = np.unique(times[(times > start) & (times <= end)])
+    if not len(ordered):
+        return ordered
+    near = MARGIN / 2 * np.abs(ordered)
+    ordered = ordered[ordered - start > near]
+    apart = np.diff(ordered) > MARGIN / 2 * np.abs(ordered[1:])
+    return ordered[np.append(apart, True)] if len(ordered) else ordered
+
+
+def with_stops(model: Model, drive: Driving, p: Array, times: Array) -> Driving:
+    """The same driving with the times at which conditions in time switch in a run over ``times``."""
+    if len(times) < 2:
+        return drive
+    switches, pulses = Switches(model, drive), Pulses(model, drive)
+    u = _constants(drive, times)
+    start, end = float(times[0]), float(times[-1])
+    found = [kind.times(p, u, start, end) for kind in (switches, pulses) if kind]
+    return replace(drive, stops=merged(np.concatenate(found), start, end)) if found else drive
+
+
+def with_stops_of_all(
+    model: Model, drive: Driving, design: Design, times: Array, max_step: float
+) -> tuple[Driving, tuple[Advice, ...]]:
+    """The same driving with the times at which conditions in time switch in any run of an ensemble, and of pulses.
+
+    Where these differ from run to run, every run's steps end at all of them. Raises `RunError` where conditions switch
+    at too many different times, unless steps are bounded by ``max_step``. Pulses at too many times are left to that
+    bound, and a notice says so where there is none.
+    """
+    found = _switches_of_all(model, drive, design, times, max_step)
+    narrow = _pulses_of_all(model, drive, design, times)
+    said: tuple[Advice, ...] = ()
+    if narrow is None and not math.isfinite(max_step):
+        said = (
+            Advice(
+                "an input is narrow at different times in too many runs: steps do not end there, and a run may jump "
+                "over a pulse. Limit the steps to less than the shortest one: ",
+                Argument("max_step", "0.01"),
+            ),
+        )
+    found += narrow or []
+    if found:
+        drive = replace(drive, stops=merged(np.concatenate(found), float(times[0]), float(times[-1])))
+    return drive, said
+
+
+def _constants(drive: Driving, times: Array) -> Array:
+    """The inputs where all are constant, else zeros."""
+    return drive.at(times[:1], np.zeros((1, drive.size)))[0] if drive.constant else np.zeros(len(drive.free))
+
+
+def _pulses_of_all(model: Model, drive: Driving, design: Design, times: Array) -> list[Array] | None:
+    """The times of narrow functions of time in the runs of an ensemble; None where there are too many."""
+    pulses = Pulses(model, drive)
+    if not pulses:
+        return []
+    deciding = pulses.parameters
+    listed = any(c.group == "p" and c.index in deciding for c in design.columns)
+    known = not any(c.group == "u" for c in design.columns)
+    p, u = np.array(design.base["p"])[np.newaxis], _constants(drive, times)
+    if listed:
+        known = known and design.count <= MOST_RUNS
+        p = design.rows(0, design.count if known else SOME).p
+        p = p[np.unique(p[:, sorted(deciding)], axis=0, return_index=True)[1]]
+    times_of = pulses.times if len(p) == 1 else pulses.times_anew
+    known = known and len(p) <= MOST_DIFFERENT
+    found, total = [], 0
+    for row in p if known else p[:: max(1, len(p) // SOME)]:
+        found.append(times_of(np.ascontiguousarray(row), u, float(times[0]), float(times[-1])))
+        total += len(found[-1])
+        if total > (MOST_PULSES if known else 0):
+            return None
+    return found
+
+
+def _switches_of_all(model: Model, drive: Driving, design: Design, times: Array, max_step: float) -> list[Array]:
+    """The times at which conditions in time switch in the runs of an ensemble."""
+    switches = Switches(model, drive)
+    if not switches:
+        return []
+    varied_inputs = any(c.group == "u" for c in design.columns)
+    deciding = switches.parameters
+    listed = [c for c in design.columns if c.group == "p" and c.index in deciding]
+    if (varied_inputs or (listed and design.count > MOST_RUNS)) and math.isfinite(max_step):
+        return []
+    if varied_inputs:
+        raise RunError(
+            "an input varies from run to run, and conditions on time switch",
+            fix=Advice("make the varied quantity a parameter, or limit the steps: ", Argument("max_step", "0.01")),
+            code="E501",
+        )
+    p = np.array(design.base["p"])[np.newaxis]
+    if listed:
+        if design.count > MOST_RUNS:
+            _too_many(design.count, [c.name for c in listed])
+        p = design.rows(0, design.count).p
+        _, first = np.unique(p[:, sorted(deciding)], axis=0, return_index=True)
+        p = p[first]
+        if len(p) > MOST_DIFFERENT:
+            if math.isfinite(max_step):
+                return []
+            _too_many(len(p), [c.name for c in listed])
+    u = _constants(drive, times)
+    return [switches.times(row, u, float(times[0]), float(times[-1])) for row in p]
+
+
+def _too_many(count: int, names: list[str]) -> NoReturn:
+    raise RunError(
+        f"each of {count} runs switches at different times, depending on {', '.join(names)}",
+        fix=Advice("limit the steps to less than the shortest pulse: ", Argument("max_step", "0.01")),
+        code="E505",
+    )

@@ -1,0 +1,89 @@
+"""A run: what `system.simulate` returns, with its tables and pictures."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from lagrangian.errors import RunError
+from lagrangian.simulate import plot
+from lagrangian.simulate.recorded import Recorded
+from lagrangian.viewed import cut
+from lagrangian.write import tables
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    import pandas
+    import xarray
+    from matplotlib.figure import Figure
+
+
+@dataclass(eq=False)
+class Trajectory(Recorded):
+    """A run of a system, as SciPy's solvers return one, and everything that can be asked of it by name.
+
+    ``t`` (S,) are the times [s], ``y`` (n_states, S) the states x = [q; v] in declared order, ``states`` their names.
+    ``run["theta1"]``, ``run["theta1'"]``, ``run["theta1''"]`` and ``run[expression]`` are arrays (S,), in SI units.
+    ``success`` is whether the run came to its end (or to a terminal event), ``message`` says how it ended; a run that
+    failed keeps what it reached. ``notices`` say what is to be known of the system with these
+    parameters. ``nfev`` counts evaluations of the right-hand side, ``method`` is what integrated.
+    """
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Return an `xarray.Dataset` over ``t``: states, inputs, energies, points; units as attributes."""
+        return tables.to_xarray(plot.table(self))
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """Return a `pandas.DataFrame` indexed by ``t`` with the same columns."""
+        return tables.to_pandas(plot.table(self))
+
+    def to_csv(self) -> str:
+        """Return the same columns as CSV text: a line of names, then a line a sample."""
+        return tables.to_csv(plot.table(self))
+
+    def save(self, path: str | Path, *, overwrite: bool = False) -> Path:
+        """Write the run to a ``.csv``, ``.nc`` (NetCDF), ``.parquet`` or ``.npz`` file, whole or not at all.
+
+        Raises `Error` where the file exists, unless ``overwrite``, or where it cannot be written.
+        """
+        return tables.save(plot.table(self), path, overwrite=overwrite)
+
+    def plot(self, *quantities: Any, energy: bool | None = None, audit: bool = False) -> Figure:
+        """Return a pyplot figure of ``quantities`` (names, text or SymPy expressions) over time.
+
+        Notebooks show it, ``plt.show()`` opens it, ``run.plot().savefig("run.png")`` writes it. Of the coordinates, the
+        inputs that act and the energies where none is named. ``energy`` adds or leaves out the energies; ``audit`` adds
+        what the energy balance is off by. Angles are drawn in degrees, or in turns if many. A run that failed has
+        crosses where it ended, and the reason.
+        """
+        return plot.plot(self, quantities, energy=energy, audit=audit, shown=True)
+
+    def figure(self, *quantities: Any, energy: bool | None = None, audit: bool = False) -> Figure:
+        """Return what `plot` does as a figure apart from pyplot, for programs, threads and servers."""
+        return plot.plot(self, quantities, energy=energy, audit=audit)
+
+    def _repr_html_(self) -> str:
+        from lagrangian.write.views import table_view
+
+        words = [f"{self.method}, {self.steps} steps, {len(self.t)} samples", self.message, *map(str, self.notices)]
+        if len(self.t):
+            words[0] = f"t = {self.t[0]:g} … {self.t[-1]:g} s; {words[0]}; {self.audit}"
+        header = ("quantity", "start", "end", "least", "greatest", "unit")
+        rows = [(c.name, *(f"{x:.6g}" for x in plot.extremes(c.values)), c.unit) for c in plot.table(self).columns]
+        return table_view(self.model.name, words, header, rows if len(self.t) else [])
+
+    # -- showing ------------------------------------------------------------------------------------------------
+
+    def __repr__(self) -> str:
+        """Say what ran, how, how far, and how well energy is balanced."""
+        span = f"t = {self.t[0]:g} … {self.t[-1]:g} s" if len(self.t) else "nothing"
+        end = "" if self.success else f"; FAILED: {self.message}"
+        try:
+            audit = (self.success and self.audit.missed) or str(self.audit)
+        except RunError as trouble:  # an energy that is not finite somewhere must not hide the run
+            audit = f"no energy balance: {trouble.what}"
+        return cut(
+            f"<Trajectory {self.model.name!r}: {span}, {len(self.t)} samples, {self.method}, {self.steps} steps, "
+            f"{audit}{end}{''.join(f'; notice {n}' for n in self.notices)}>"
+        )

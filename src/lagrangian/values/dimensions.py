@@ -1,0 +1,409 @@
+"""Do the units fit? Dimensions are worked out by solving for those that were not given.
+
+Every symbol has a dimension kg^a m^b s^c, known from its unit or unknown. What the model says ("this is a mass", "this
+is added to that", "this is the argument of a sine") are linear equations between the exponents; they are solved one
+after another, and the first that contradicts the others is the error, with the element it stands in. Angles have no
+dimension. A bare number may stand for a quantity ("0.5" for half a metre): where that would explain a difference there
+is no error, and then the equations' terms are not compared.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import Any, cast
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+from sympy.functions.elementary.miscellaneous import MinMaxBase
+
+from lagrangian.errors import ModelError, Place
+from lagrangian.model import (
+    Damper,
+    Dissipation,
+    Force,
+    GeneralizedForce,
+    Gravity,
+    Kinetic,
+    Model,
+    Parameter,
+    Particle,
+    Point,
+    Potential,
+    RigidBody,
+    Spring,
+    Torque,
+    time,
+)
+from lagrangian.page.plain import plain
+from lagrangian.quantities.quantity import parse_quantity, unit_dimension
+
+DELTA, RATE_SYMBOL = sp.Symbol("delta"), sp.Symbol("rate")
+Exponents = tuple[Fraction, Fraction, Fraction]
+
+
+@dataclass(frozen=True)
+class Dim:
+    """kg^a m^b s^c times powers of dimensions not known yet (``unknown``: symbol → power)."""
+
+    known: Exponents = (Fraction(0), Fraction(0), Fraction(0))
+    unknown: tuple[tuple[Any, Fraction], ...] = ()
+
+    def times(self, other: Dim, power: Fraction = Fraction(1)) -> Dim:
+        """self · other^power."""
+        table = dict(self.unknown)
+        for symbol, p in other.unknown:
+            table[symbol] = table.get(symbol, Fraction(0)) + power * p
+        known = tuple(a + power * b for a, b in zip(self.known, other.known, strict=True))
+        left = tuple((s, p) for s, p in sorted(table.items(), key=lambda x: str(x[0])) if p)
+        return Dim(known, left)  # type: ignore[arg-type]
+
+    def power(self, exponent: Fraction) -> Dim:
+        """self^exponent."""
+        return NONE.times(self, exponent)
+
+    def __str__(self) -> str:
+        """Read as a unit: ``kg m^2/s^2``, and ``1`` for none."""
+        over = [_factor(u, e) for u, e in zip(("kg", "m", "s"), self.known, strict=True) if e > 0]
+        under = [_factor(u, -e) for u, e in zip(("kg", "m", "s"), self.known, strict=True) if e < 0]
+        text = " ".join(over) or "1"
+        return text + ("/" + ("(" + " ".join(under) + ")" if len(under) > 1 else under[0]) if under else "")
+
+
+def _factor(unit: str, exponent: Fraction) -> str:
+    return unit if exponent == 1 else f"{unit}^{exponent}"
+
+
+def _dim(mass: int, length: int, seconds: int) -> Dim:
+    return Dim((Fraction(mass), Fraction(length), Fraction(seconds)))
+
+
+NONE, MASS, LENGTH, SECOND = _dim(0, 0, 0), _dim(1, 0, 0), _dim(0, 1, 0), _dim(0, 0, 1)
+FORCE, ENERGY, POWER, INERTIA = _dim(1, 1, -2), _dim(1, 2, -2), _dim(1, 2, -3), _dim(1, 2, 0)
+RATE = NONE.times(SECOND, Fraction(-1))
+
+
+class Mismatch(Exception):
+    """Two dimensions that should be equal are not."""
+
+    def __init__(self, found: Dim, wanted: Dim) -> None:
+        super().__init__(f"{found} instead of {wanted}")
+        self.found, self.wanted = found, wanted
+
+
+@dataclass
+class Dimensions:
+    """The dimensions solved so far; ``loose`` once a bare number stood for a quantity with a unit.
+
+    ``given``: whether anybody gave a unit, beside the standard g's own.
+    """
+
+    solved: dict[Any, Dim] = field(default_factory=dict)
+    loose: bool = False
+    given: bool = True
+    seen: dict[int, Point] = field(default_factory=dict)
+
+    def reduce(self, dim: Dim) -> Dim:
+        """The dimension with all that is solved put in."""
+        result = Dim(dim.known)
+        for symbol, power in dim.unknown:
+            part = self.solved.get(symbol)
+            result = result.times(Dim(unknown=((symbol, Fraction(1)),)) if part is None else self.reduce(part), power)
+        return result
+
+    def equal(self, found: Dim, wanted: Dim) -> Dim:
+        """Take ``found`` = ``wanted`` into account; raise `Mismatch` where that contradicts what is known."""
+        found, wanted = self.reduce(found), self.reduce(wanted)
+        rest = found.times(wanted, Fraction(-1))
+        if rest.unknown:
+            symbol, power = rest.unknown[0]
+            other = Dim(rest.known, rest.unknown[1:])
+            self.solved[symbol] = other.power(-1 / power)
+        elif any(rest.known):
+            raise Mismatch(found, wanted)
+        return self.reduce(wanted)
+
+    def of(self, expr: sp.Expr) -> Dim | None:
+        """The dimension of an expression, or None for a bare number."""
+        if expr.is_number:
+            return None
+        if expr == time:
+            return SECOND
+        if isinstance(expr, (sp.Symbol, AppliedUndef)):
+            return self.reduce(Dim(unknown=((expr, Fraction(1)),)))
+        if isinstance(expr, sp.Derivative):
+            base = self.of(cast("sp.Expr", expr.expr))
+            return None if base is None else base.times(SECOND, Fraction(-int(expr.derivative_count)))
+        if isinstance(expr, sp.Mul):
+            factors = [d for d in map(self.of, expr.args) if d is not None]
+            product = NONE
+            for d in factors:
+                product = product.times(d)
+            return self.reduce(product)
+        if isinstance(expr, sp.Pow):
+            return self._power(expr)
+        if isinstance(expr, (sp.Add, MinMaxBase)):
+            return self._same(expr.args)
+        if isinstance(expr, sp.Piecewise):
+            return self._same([value for value, _ in cast("Any", expr.args)])
+        if isinstance(expr, sp.Abs):
+            return self.of(cast("sp.Expr", expr.args[0]))
+        if isinstance(expr, sp.atan2):
+            self._same(expr.args)
+            return NONE
+        if not isinstance(expr, sp.sign):
+            for argument in cast("tuple[sp.Expr, ...]", expr.args):
+                found = self.of(argument)
+                if found is not None:
+                    self.settle(found, NONE, argument)
+        return NONE
+
+    def _power(self, expr: sp.Pow) -> Dim | None:
+        base = self.of(expr.base)
+        if isinstance(expr.exp, sp.Rational):
+            return None if base is None else self.reduce(base.power(Fraction(int(expr.exp.p), int(expr.exp.q))))
+        for part in (base, self.of(expr.exp)):
+            if part is not None:
+                self.equal(part, NONE)
+        return NONE
+
+    def _same(self, parts: Any) -> Dim | None:
+        first: Dim | None = None
+        for part in sorted(parts, key=_number_explains):  # what has no numbers in it sets the dimension
+            found = self.of(part)
+            if found is not None and first is not None:
+                self.settle(found, first, part)
+            first = found if first is None else first
+        return None if first is None else self.reduce(first)
+
+    def settle(self, found: Dim, wanted: Dim, expr: sp.Expr) -> None:
+        """Take ``found`` = ``wanted`` into account, unless a bare number in ``expr`` may carry what is missing."""
+        try:
+            self.equal(found, wanted)
+        except Mismatch:
+            if not _number_explains(expr):
+                raise
+            self.loose = True
+
+
+PURE = 12
+"""Up to here numerators and denominators are pure numbers, as in L/2 or m L²/12; 9.81 may well be a quantity."""
+
+
+def _number_explains(expr: sp.Expr) -> bool:
+    """Whether a number in the expression may carry a unit of its own.
+
+    A factor that is not ±1 may, as in ``0.5*sin(theta)`` or ``3*t``, but not a small one beside parameters: ``L/2``.
+    """
+    for term in sp.Add.make_args(expr):
+        number, rest = term.as_coeff_Mul()
+        small = isinstance(number, sp.Rational) and abs(int(number.p)) <= PURE and int(number.q) <= PURE
+        named = any(isinstance(f.as_base_exp()[0], sp.Symbol) and f != time for f in sp.Mul.make_args(rest))
+        if number not in (1, -1) and not (small and named):
+            return True
+    return False
+
+
+def check_dimensions(model: Model) -> Dimensions | None:
+    """Raise `ModelError` where a unit does not fit; return the solved dimensions, or None when no unit was given."""
+    if "dimensions" not in model._memo:
+        model._memo["dimensions"] = _checked(model)
+    found: Dimensions | None = model._memo["dimensions"]
+    return None if found is None else replace(found, solved=dict(found.solved), seen=dict(found.seen))
+
+
+def _checked(model: Model) -> Dimensions | None:
+    own = {
+        x for f in model.floating if f.floating is not None for x in (*f.floating.coordinates, *f.floating.velocities)
+    }
+    named = (*model.coordinates, *model.velocities, *model.parameters, *model.inputs)
+    if not any(x.unit for x in named if x not in own):
+        return None
+    dims = Dimensions(given=any(x.unit for x in named if x not in own and not _is_standard_gravity(x)))
+    for x in named:
+        if x.unit:
+            if not isinstance(x, Parameter) and (scale := parse_quantity(f"1 {x.unit}").value) != 1:
+                raise ModelError(
+                    f"'{x.name}' has the unit {x.unit}, which is {scale:.6g} in SI units",
+                    place=x.place,
+                    fix="coordinates and inputs are in SI units (rad, m, N); only values of parameters are converted",
+                    code="E408",
+                )
+            dims.solved[x.symbol] = Dim(unit_dimension(x.unit))
+    for definition in model.definitions:
+        _settle(dims, definition.symbol, definition.expression, f"definition '{definition.name}'", definition.place)
+    for element in model.elements:
+        for what, expr, wanted in _claims(model, element, dims):
+            _claim(dims, element.title, element.place, what, expr, wanted)
+    return dims
+
+
+def _settle(dims: Dimensions, symbol: Any, expr: sp.Expr, where: str, place: Place | None) -> None:
+    try:
+        found = dims.of(expr)
+        if found is not None and not _number_explains(expr):
+            dims.equal(dims.of(symbol) or NONE, found)
+    except Mismatch as wrong:
+        raise ModelError(
+            f"{where} adds a quantity in {wrong.found} to one in {wrong.wanted}",
+            place=place,
+            fix="check the units in it",
+            code="E408",
+        ) from None
+
+
+def _claim(dims: Dimensions, title: str, place: Place | None, what: str, expr: sp.Expr, wanted: Dim) -> None:
+    try:
+        found = dims.of(expr)
+    except Mismatch as wrong:
+        raise ModelError(
+            f"the units inside its {what}, {plain(expr)}, do not fit: {wrong.found} where {wrong.wanted} is needed",
+            element=title,
+            place=place,
+            fix="give the terms of a sum the same unit, and functions an angle or a plain number",
+            code="E408",
+        ) from None
+    if found is None:
+        dims.loose = dims.loose or expr != 0
+        return
+    try:
+        dims.settle(found, wanted, expr)
+    except Mismatch as wrong:
+        if not dims.given:  # nobody spoke of units: a bare sin(theta) is a position in units of its own
+            dims.loose = True
+            return
+        names = ", ".join(sorted(plain(s) for s in _atoms(expr)))
+        bare = f"a number has no unit: multiply by a parameter that has one, or check the units of {names}"
+        raise ModelError(
+            f"its {what} {plain(expr)} has the unit {wrong.found}, but {wrong.wanted} is needed",
+            element=title,
+            place=place,
+            fix=bare if found == NONE else f"check the units of {names}",
+            code="E408",
+        ) from None
+
+
+def _is_standard_gravity(x: Any) -> bool:
+    """Whether this is the parameter that `gravity` adds when none is given."""
+    return isinstance(x, Parameter) and (x.name, x.unit, x.value) == ("g", "m/s^2", 9.81)
+
+
+def _atoms(expr: sp.Expr) -> set[sp.Basic]:
+    return (expr.free_symbols - {time}) | expr.atoms(AppliedUndef)
+
+
+Claim = tuple[str, sp.Expr, Dim]
+
+
+def _claims(model: Model, element: Any, dims: Dimensions) -> Iterator[Claim]:
+    """What an element says of its expressions: (what it is, the expression, its dimension)."""
+    for key, point in element.points():
+        at = point
+        while not at.is_origin and id(at) not in dims.seen:  # what it hangs on was settled when it was first met
+            dims.seen[id(at)] = at
+            for x in at.offset:
+                yield f"position ({key})", x, LENGTH
+            at = at.parent
+    for key, frame in element.frames():
+        yield f"angle ({key})", frame.angle, NONE
+    yield from _CLAIMS[type(element)](model, element, dims)
+
+
+def _body(model: Model, body: Any, dims: Dimensions) -> Iterator[Claim]:
+    yield "mass", body.mass, MASS
+    for entry in getattr(body, "inertia", ()):
+        yield "inertia", entry, INERTIA
+
+
+def _gravity(model: Model, gravity: Gravity, dims: Dimensions) -> Iterator[Claim]:
+    yield "strength", gravity.g, LENGTH.times(SECOND, Fraction(-2))
+
+
+def _deflection(element: Any, dims: Dimensions) -> Dim:
+    """The dimension of what an element acts along: a length between points, else its deflection's own."""
+    if element.between:
+        return LENGTH
+    found = dims.of(element.deflection)
+    return LENGTH if found is None else found
+
+
+def _spring(model: Model, spring: Spring, dims: Dimensions) -> Iterator[Claim]:
+    delta = _deflection(spring, dims)
+    if spring.rest != 0:
+        yield "rest length", spring.rest, delta
+    if spring.k is not None:
+        yield "stiffness", spring.k, ENERGY.times(delta, Fraction(-2))
+    else:
+        dims.solved[DELTA] = delta  # in this spring's law, and in no other's
+    if spring.law is not None:
+        yield "law", spring.law, ENERGY.times(delta, Fraction(-1))
+
+
+def _damper(model: Model, damper: Damper, dims: Dimensions) -> Iterator[Claim]:
+    rate = _deflection(damper, dims).times(RATE)
+    if damper.law is not None:
+        dims.solved[RATE_SYMBOL] = rate
+        yield "law", damper.law, POWER.times(rate, Fraction(-1))
+    if damper.b is not None:
+        yield "damping coefficient", damper.b, POWER.times(rate, Fraction(-2))
+
+
+def _force(model: Model, force: Force, dims: Dimensions) -> Iterator[Claim]:
+    if force.is_vector:
+        for f in force.value:
+            yield "value", f, FORCE
+    else:
+        yield "value", force.value, ENERGY.times(_deflection(force, dims), Fraction(-1))
+
+
+def _torque(model: Model, torque: Torque, dims: Dimensions) -> Iterator[Claim]:
+    for value in torque.value if isinstance(torque.value, tuple) else (torque.value,):
+        yield "value", value, ENERGY
+    for key, angle in (("on", torque.on), ("reaction", torque.reaction)):
+        if isinstance(angle, sp.Expr):
+            yield f"angle ({key})", angle, NONE
+
+
+def _energy(model: Model, element: Any, dims: Dimensions) -> Iterator[Claim]:
+    for term in sp.Add.make_args(element.value):
+        yield "value", term, ENERGY
+
+
+def _dissipation(model: Model, element: Any, dims: Dimensions) -> Iterator[Claim]:
+    for term in sp.Add.make_args(element.value):
+        yield "value", term, POWER
+
+
+def _generalized(model: Model, element: Any, dims: Dimensions) -> Iterator[Claim]:
+    along = dims.of(element.coordinate)
+    rate = any(element.coordinate == v.symbol for v in model.velocities)  # then their product is a power
+    yield "value", element.value, (POWER if rate else ENERGY).times(along or NONE, Fraction(-1))
+
+
+_CLAIMS: dict[type, Callable[[Model, Any, Dimensions], Iterator[Claim]]] = {
+    Particle: _body,
+    RigidBody: _body,
+    Gravity: _gravity,
+    Spring: _spring,
+    Damper: _damper,
+    Force: _force,
+    Torque: _torque,
+    Potential: _energy,
+    Kinetic: _energy,
+    Dissipation: _dissipation,
+    GeneralizedForce: _generalized,
+}
+
+
+def check_terms(dims: Dimensions, terms: tuple[sp.Expr, ...], coordinate: sp.Expr) -> int:
+    """Return how many terms of an equation have the dimension energy / ξ; raise `Mismatch` for one that has not.
+
+    Numbers here are pure (they come from the derivation), so every term counts.
+    """
+    wanted = ENERGY.times(dims.of(coordinate) or NONE, Fraction(-1))
+    for term in terms:
+        found = dims.of(term)
+        if found is not None:
+            dims.equal(found, wanted)
+    return len(terms)

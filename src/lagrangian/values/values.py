@@ -1,0 +1,176 @@
+"""What people hand to an analysis by name: numbers, or text with units, for coordinates, rates, inputs, parameters."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrangian.advice import Advice, Argument
+from lagrangian.errors import RunError, did_you_mean
+from lagrangian.graph import Program
+from lagrangian.model import Model
+from lagrangian.page.plain import plain
+from lagrangian.quantities.quantity import parse_quantity
+from lagrangian.values.dimensions import NONE, RATE, SECOND, Dim, Dimensions, check_dimensions
+
+Named = Mapping[Any, Any]
+"""Values by name or by symbol; each a number in SI units or text with a unit, such as "12 deg"."""
+
+
+def key_name(key: object) -> str:
+    """The name behind a key: text as it is, a symbol (or the derivative of one) as it is written in a model file."""
+    return plain(key) if isinstance(key, sp.Basic) else str(key)
+
+
+def _unit(dim: Dim) -> str:
+    """A dimension as its SI unit; what has none is an angle, or a number."""
+    return "rad (or no unit)" if dim.known == NONE.known else str(dim)
+
+
+def number(value: object, what: str, dim: Dim | None = None) -> float:
+    """A finite number in SI units, from a number or from text with a unit; ``dim`` is the dimension it must have.
+
+    Raises `RunError`: complex, not finite, not a number, or of another dimension.
+    """
+    if isinstance(value, str):
+        quantity = parse_quantity(value, what=what)
+        found = Dim(quantity.dimension.mechanical)
+        if dim is not None and not dim.unknown and not quantity.is_bare and found.known != dim.known:
+            raise RunError(
+                f"{what} = {value!r} has the unit {_unit(found)}, but {_unit(dim)} is needed",
+                fix="check whether it is the quantity that is meant, or give a number alone, in SI units",
+                code="E408",
+            )
+        return quantity.value
+    if isinstance(value, (bool, bytes)) or not hasattr(value, "__float__") or isinstance(value, complex):
+        raise RunError(
+            f"{what} must be a real number (got {value!r:.40})",
+            fix='a number in SI units, or text: "12 deg"',
+            code="E501",
+        )
+    try:
+        real = float(value)  # type: ignore[arg-type]
+    except (TypeError, ValueError, OverflowError):
+        raise RunError(
+            f"{what} must be one real number (got {value!r:.40})", fix='a number, or text: "12 deg"', code="E501"
+        ) from None
+    if not math.isfinite(real):
+        raise RunError(f"{what} is {real}", fix="give a finite number", code="E502")
+    return real
+
+
+MOST_STATES = 1_000_000
+"""Most random states at which a check is made."""
+
+
+def check_sampling(states: object, seed: object) -> None:
+    """Refuse a number of random states or a seed that is not a whole number in range."""
+    for name, value, least, most in (("states", states, 1, MOST_STATES), ("seed", seed, 0, None)):
+        whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
+        if not whole or int(value) < least or (most is not None and int(value) > most):  # type: ignore[call-overload]
+            upper = f" to {most}" if most is not None else " or more"
+            raise RunError(
+                f"{name} must be a whole number, {least}{upper} (got {value!r:.40})", fix=f"{name}=1", code="E501"
+            )
+
+
+@dataclass(frozen=True)
+class Group:
+    """The entries of one group of a program that values are given for: what an entry is called, and its dimension."""
+
+    noun: str
+    names: tuple[str, ...]
+    dims: tuple[Dim | None, ...]
+
+    def values(self, given: Named | Sequence[float] | NDArray[Any] | None) -> dict[str, float]:
+        """Name → number of what was given; an array stands for all entries in order. Raises `RunError`."""
+        if given is None:
+            return {}
+        if not isinstance(given, Mapping):
+            return self._listed(given)
+        found: dict[str, float] = {}
+        for key, value in given.items():
+            name = key_name(key)
+            if name not in self.names:
+                known = f"known: {', '.join(self.names[:12])}{', …' if len(self.names) > 12 else ''}"
+                raise RunError(
+                    f"there is no {self.noun} '{name[:64]}'", fix=did_you_mean(name, self.names) or known, code="E402"
+                )
+            if name in found:
+                raise RunError(f"{self.noun} '{name}' is given twice, by name and by symbol", code="E404")
+            found[name] = number(value, f"{self.noun} '{name}'", self.dims[self.names.index(name)])
+        return found
+
+    def _listed(self, given: Any) -> dict[str, float]:
+        try:
+            values = list(given)
+        except TypeError:
+            values = [given]
+        if isinstance(given, (str, bytes)) or len(values) != len(self.names):
+            raise RunError(
+                f"{len(values)} values for {len(self.names)} of {self.noun}s: {', '.join(self.names)}",
+                fix="give a mapping by name, or one number for each, in this order",
+                code="E501",
+            )
+        return {name: number(v, f"{self.noun} '{name}'") for name, v in zip(self.names, values, strict=True)}
+
+
+@dataclass(frozen=True, eq=False)
+class Given:
+    """The groups of a model: states (from the program's group x), inputs and parameters."""
+
+    model: Model
+    states: Group
+    inputs: Group
+    parameters: Group
+    dimensions: Dimensions | None
+
+    @classmethod
+    def of(cls, model: Model, program: Program) -> Given:
+        """The groups x, u, p of ``program``, with the dimensions that the model's units imply."""
+        dims = check_dimensions(model)
+        moving = {c.name: _dim(dims, c.symbol) for c in model.coordinates}
+        rates = {f"{name}'": None if d is None else d.times(RATE) for name, d in moving.items()}
+        known = {**moving, **rates}
+        states = program.inputs["x"]
+        return cls(
+            model,
+            Group("state", states, tuple(known.get(s) for s in states)),
+            Group("input", program.inputs["u"], tuple(_dim(dims, u.symbol) for u in model.inputs)),
+            Group("parameter", program.inputs["p"], tuple(_dim(dims, p.symbol) for p in model.parameters)),
+            dims,
+        )
+
+    def parameter_values(self, given: Named | None) -> NDArray[np.float64]:
+        """Every parameter's value: given, else declared. Raises `RunError` that lists those without one."""
+        values = {p.name: p.value for p in self.model.parameters} | self.parameters.values(given)
+        missing = [name for name, value in values.items() if value is None]
+        if missing:
+            raise RunError(
+                f"parameter '{missing[0]}' has no value. Missing: {', '.join(missing)}",
+                fix=Advice("give ", Argument("params", "…", missing[0]), ", or a value where it is declared"),
+                code="E401",
+            )
+        return np.array(list(values.values()), float)
+
+    def input_values(self, given: Named | None) -> NDArray[np.float64]:
+        """Every input's constant value, 0 where none is given."""
+        values = dict.fromkeys(self.inputs.names, 0.0) | self.inputs.values(given)
+        return np.array(list(values.values()), float)
+
+    def time_value(self, given: object) -> float:
+        """A time in seconds."""
+        return number(given, "time", SECOND)
+
+
+def _dim(dims: Dimensions | None, symbol: Any) -> Dim | None:
+    if dims is None:
+        return None
+    found = dims.of(symbol)
+    return None if found is None or found.unknown else found

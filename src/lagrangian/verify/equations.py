@@ -1,0 +1,279 @@
+"""Checks of a derivation that share nothing with how it was found.
+
+The derived equations came from energies, by Lagrange's equations, in a normal form. Here they meet, at random states,
+
+* virtual work, `dynamics.inverse`: Σ_b (m a − F)·∂v/∂ξ̇_i + (I ω̇ + ω × I ω)·∂ω/∂ξ̇_i, differentiated on the graph
+  straight from positions and angles, with no energy of motion and no normal form in it;
+* Lagrange's equations again, `dynamics.inverse_from_lagrangian`, with L differentiated on the graph;
+* what the machine is given of them, `dynamics.forward`, `mass_matrix` and `energy`: q̈ that solves the derived
+  equations, the Hessian of the derived T*, the derived energies;
+* what any such equations obey: M symmetric and positive definite, Ṁ − 2C skew-symmetric, power balance;
+* dimensions, where units were given.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TypeAlias, cast
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+from sympy.core.function import AppliedUndef
+
+from lagrangian import dynamics
+from lagrangian.derive import Derived
+from lagrangian.derive.sample import Sampler
+from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy, hessian, jacobian, jvp, vjp
+from lagrangian.model import Model, time
+from lagrangian.page.formula import Check, Name, text
+from lagrangian.values.dimensions import Mismatch, check_dimensions, check_terms
+from lagrangian.values.values import check_sampling
+from lagrangian.verify.states import evaluated
+
+_log = logging.getLogger(__name__)
+Array: TypeAlias = NDArray[np.float64]
+
+TOLERANCE = 1e-9
+"""Relative difference up to which two numbers count as equal: rounding of long expressions, no more."""
+
+
+def verify(derivation: Derived, *, states: int = 50, seed: int = 1) -> tuple[Check, ...]:
+    """Return what was checked at ``states`` random states, each with its figure."""
+    check_sampling(states, seed)
+    _log.info("verifying: the equations at %d random states", states)
+    figures = _figures(derivation, states, seed)
+    n = f"{states} random state{'s' if states != 1 else ''}"
+    work, energy = figures.work, figures.energy
+    M, C, Xi = Name("M"), Name("C"), Name("Xi")
+    checks = [
+        Check(
+            text("the equations agree with virtual work, a route without energies"),
+            work < TOLERANCE,
+            f"largest relative difference {work:.1e} at {n}",
+        ),
+        Check(
+            text("the equations agree with ", Name("L"), " differentiated by the machine"),
+            energy < TOLERANCE,
+            f"largest relative difference {energy:.1e} at {n}",
+        ),
+        Check(
+            text("the accelerations that are compiled solve the equations"),
+            figures.forward < TOLERANCE,
+            f"largest relative residual {figures.forward:.1e}",
+        ),
+        Check(
+            text("the ", M, " that is compiled is the one above, and the Hessian of ", Name("T*"), " in the rates"),
+            figures.mass < TOLERANCE,
+            f"largest relative difference {figures.mass:.1e}",
+        ),
+        Check(
+            text("the energies that are compiled are ", Name("T*"), " and ", Name("V")),
+            figures.energies < TOLERANCE,
+            f"largest relative difference {figures.energies:.1e}",
+        ),
+        Check(text(M, " is symmetric"), figures.asymmetry < TOLERANCE, f"largest difference {figures.asymmetry:.1e}"),
+        Check(text(M, " is positive definite"), figures.smallest > 0, f"smallest eigenvalue {figures.smallest:.2e}"),
+    ]
+    if not any(map(_holds_rates, derivation.mass_matrix.flat())):  # Christoffel's C is that of a quadratic T*
+        timed = any(map(_holds_time, derivation.mass_matrix.flat()))
+        held = ("; t itself, which stands in ", M, ", is held") if timed else ()
+        skew = text("d", M, "/dt − 2", C, " is skew-symmetric", *held)
+        checks.append(Check(skew, figures.skew < TOLERANCE, f"{figures.skew:.1e}"))
+    checks.append(
+        Check(
+            text("power balance: the energy grows by the power of ", Xi),
+            figures.power < TOLERANCE,
+            f"largest relative difference {figures.power:.1e}",
+        )
+    )
+    if (dimensional := _dimensional(derivation)) is not None:
+        checks.append(dimensional)
+    return tuple(checks)
+
+
+def _residual(equation: sp.Eq) -> sp.Expr:
+    """Left minus right."""
+    return cast("sp.Expr", equation.lhs) - cast("sp.Expr", equation.rhs)
+
+
+def _holds_time(expr: sp.Expr) -> bool:
+    """Whether t itself stands in an expression, apart from the coordinates that depend on it."""
+    return expr.replace(lambda e: isinstance(e, (AppliedUndef, sp.Derivative)), lambda _: sp.Dummy()).has(time)
+
+
+def _holds_rates(expr: sp.Expr) -> bool:
+    """Whether a rate stands in an expression: an entry of M where T* is not quadratic in the rates."""
+    return expr.has(sp.Derivative)
+
+
+def _dimensional(derivation: Derived) -> Check | None:
+    """Every term has the dimension of energy over its coordinate; None without units or with bare numbers."""
+    dims = check_dimensions(derivation.model)
+    what = text("dimensions: every term of an equation has the same unit")
+    if dims is None or dims.loose:
+        return None
+    terms = 0
+    for coordinate, row in zip(derivation.coordinates, derivation.terms, strict=True):
+        try:
+            terms += check_terms(dims, tuple(term.expr for term in row), coordinate)
+        except Mismatch as wrong:
+            return Check(what, False, f"a term has the unit {wrong.found} where {wrong.wanted} is needed")
+    return Check(what, True, f"{terms} terms")
+
+
+@dataclass
+class _Figures:
+    """The worst that was met."""
+
+    work: float = 0.0
+    energy: float = 0.0
+    forward: float = 0.0
+    mass: float = 0.0
+    energies: float = 0.0
+    asymmetry: float = 0.0
+    smallest: float = float("inf")
+    skew: float = 0.0
+    power: float = 0.0
+
+
+def _figures(derivation: Derived, states: int, seed: int) -> _Figures:
+    model, n = derivation.model, len(derivation.coordinates)
+    exprs: list[sp.Expr] = [_residual(e) for e in derivation.equations]
+    exprs += [*derivation.mass_matrix.flat(), *derivation.coriolis_matrix.flat(), *derivation.gravity_vector.flat()]
+    exprs += [*derivation.generalized_forces.flat(), *(c.acceleration for c in model.coordinates)]
+    exprs += [*(c.rate for c in model.coordinates), *(c.symbol for c in model.coordinates)]
+    exprs += [*(p.symbol for p in model.parameters), *(u.symbol for u in model.inputs)]
+    sampler = Sampler(model, exprs)
+    program = _program(derivation, sampler)
+    routes = (dynamics.inverse(model), dynamics.inverse_from_lagrangian(model))
+    machine = (dynamics.forward(model), dynamics.mass_matrix(model), dynamics.energy(model))
+    found = _Figures()
+    for state, _ in sampler.states(states, seed=seed):
+        got = {k: np.array(v, float) for k, v in evaluate(program, {"x": [state[s] for s in sampler.symbols]}).items()}
+        M, C, Mdot = (got[k].reshape(n, n) for k in ("M", "C", "Mdot"))
+        v, a = got["v"], got["a"]
+        # rates and accelerations are about 1, so that M is the size of what moves, however small the masses are
+        size = float(np.abs(M).max())
+        scale = max(size, float(max(np.abs(M * a).max(), np.abs(C * v).max(), np.abs(got["G"]).max())))
+        groups = _groups(model, state)
+        by_work, by_energy = (np.array(evaluate(r, groups)["r"], float) for r in routes)
+        found.work = _worse(found.work, float(np.abs(got["equations"] - by_work).max()) / scale)
+        found.energy = _worse(found.energy, float(np.abs(got["equations"] - by_energy).max()) / scale)
+        _hold_machine(found, got, machine, groups)
+        found.asymmetry = _worse(found.asymmetry, float(np.abs(M - M.T).max()) / size)
+        found.smallest = float(np.minimum(found.smallest, np.linalg.eigvalsh((M + M.T) / 2).min()))
+        skew = Mdot - 2 * C
+        found.skew = _worse(found.skew, float(np.abs(skew + skew.T).max()) / max(size, float(np.abs(C).max())))
+        # along a motion: ξ̈ from the derived matrices, then d/dt(ξ̇·∂L/∂ξ̇ − L) = Ξ·ξ̇ − ∂L/∂t
+        a = np.linalg.solve(M, got["Xi"] - C @ v - got["G"])
+        balance = got["hdot0"][0] + got["p_a"] @ a - got["Xi"] @ v + got["L_t"][0]
+        size = max(size, float(np.abs(got["G"]).max() + np.abs(got["Xi"]).max()))
+        found.power = _worse(found.power, abs(float(balance)) / size)
+    return found
+
+
+def _hold_machine(
+    found: _Figures, got: Mapping[str, Array], machine: Sequence[Program], groups: Mapping[str, list[float]]
+) -> None:
+    """The programs of forward dynamics, M and the energies at a state, against what was derived."""
+    n = len(got["v"])
+    forward, mass, energy = (evaluated(program, groups) for program in machine)
+    M, a, bias = got["M"].reshape(n, n), np.array(forward["a"], float), got["C"].reshape(n, n) @ got["v"] + got["G"]
+    terms = np.concatenate([M.ravel(), (M * a).ravel(), bias, got["Xi"]])
+    residual = M @ a + bias - got["Xi"]
+    found.forward = _worse(found.forward, float(np.abs(residual).max() / np.abs(terms).max()))
+    compiled = np.array(mass["M"], float)
+    for other in (M, got["H"].reshape(n, n)):
+        found.mass = _worse(found.mass, float(np.abs(compiled - other).max() / np.abs(other).max()))
+    energies, derived = np.array([energy["T"], energy["V"]], float), np.array([got["T"][0], got["V"][0]])
+    off = float(np.abs(energies - derived).max()) / float(np.abs(derived).max())
+    found.energies = _worse(found.energies, off)
+
+
+def _worse(a: float, b: float) -> float:
+    """The larger; not-a-number is the worst and stays, where Python's ``max`` would drop it."""
+    return float(np.maximum(a, b))
+
+
+def _groups(model: Model, state: Mapping[sp.Basic, float]) -> dict[str, list[float]]:
+    """A state as the groups that the programs of `dynamics` are called with."""
+    return {
+        "q": [state[c.symbol] for c in model.coordinates],
+        "v": [state[c.rate] for c in model.coordinates],
+        "a": [state[c.acceleration] for c in model.coordinates],
+        "u": [state[u.symbol] for u in model.inputs],
+        "p": [state[p.symbol] for p in model.parameters],
+        "t": [state[time]],
+    }
+
+
+def _sum(g: Graph, nodes: Sequence[int]) -> int:
+    total = g.const(0.0)
+    for x in nodes:
+        total = g.add(total, x)
+    return total
+
+
+class _Nodes:
+    """Expressions as graph nodes, and rates along a motion ξ̇, ξ̈, 1."""
+
+    def __init__(self, g: Graph, model: Model, table: dict[sp.Basic, int]) -> None:
+        self.g, self._model, self._table = g, model, table
+        self.q = [table[c.symbol] for c in model.coordinates]
+        self.v = [table[c.rate] for c in model.coordinates]
+        self.a = [table[c.acceleration] for c in model.coordinates]
+        self.t = table[time]
+
+    def of(self, expr: sp.Expr) -> int:
+        """The node of an expression."""
+        return from_sympy(self.g, self._model.expand(sp.sympify(expr), constants=True), self._table)
+
+    def rates(self, nodes: Sequence[int], *, with_acceleration: bool = True, running: bool = True) -> list[int]:
+        """d/dt of nodes along the motion; not ``running``, t itself is held."""
+        moving = dict(zip(self.q, self.v, strict=True))
+        if running:
+            moving[self.t] = self.g.const(1.0)
+        if with_acceleration:
+            moving |= dict(zip(self.v, self.a, strict=True))
+        return jvp(self.g, list(nodes), moving)
+
+
+def _program(derivation: Derived, sampler: Sampler) -> Program:
+    model, g = derivation.model, Graph()
+    symbols = sampler.symbols
+    table: dict[sp.Basic, int] = {s: g.input("x", i) for i, s in enumerate(symbols)}
+    node = _Nodes(g, model, table)
+    M = [node.of(x) for x in derivation.mass_matrix.flat()]
+    v = node.v
+    # h = ξ̇·∂L/∂ξ̇ − L; its rate at ξ̈ = 0, and what ξ̈ adds
+    lagrangian = node.of(derivation.L)
+    T, n = node.of(derivation.T), len(v)
+    second = hessian(g, T, v)
+    momenta = vjp(g, [lagrangian], [g.const(1.0)], v)
+    h = g.sub(_sum(g, [g.mul(p, x) for p, x in zip(momenta, v, strict=True)]), lagrangian)
+    outputs = {
+        "equations": [node.of(_residual(e)) for e in derivation.equations],
+        "M": M,
+        "H": [second.get((i, k), g.zero) for i in range(n) for k in range(n)],
+        "T": [T],
+        "V": [node.of(derivation.V)],
+        "Mdot": node.rates(M, running=False),
+        "C": [node.of(x) for x in derivation.coriolis_matrix.flat()],
+        "G": [node.of(x) for x in derivation.gravity_vector.flat()],
+        "Xi": [node.of(x) for x in derivation.generalized_forces.flat()],
+        "v": v,
+        "a": node.a,
+        "hdot0": node.rates([h], with_acceleration=False),
+        "p_a": vjp(g, [h], [g.const(1.0)], v),
+        "L_t": [_partial(g, lagrangian, node.t)],
+    }
+    shaped = {k: Output(tuple(ids), (len(ids),)) for k, ids in outputs.items()}
+    return Program("verify", g, {"x": tuple(str(s) for s in symbols)}, shaped, {})
+
+
+def _partial(g: Graph, output: int, by: int) -> int:
+    found = jacobian(g, [output], [by])
+    return found.get((0, 0), g.const(0.0))

@@ -1,0 +1,136 @@
+"""Exported sources, run and compared with the slow evaluation of the programs they are written of."""
+
+from __future__ import annotations
+
+import ctypes
+import importlib.util
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from types import ModuleType
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.graph import Program
+from lagrangian.page.formula import Check, text
+from lagrangian.verify.states import State, cancelling, evaluated, relative
+
+Array: TypeAlias = NDArray[np.float64]
+
+Sources: TypeAlias = Callable[[str, str], Mapping[str, str]]
+"""(language, stem) → file name → text."""
+
+Call: TypeAlias = Callable[[State], Sequence[Array]]
+"""A function of an exported file at a state: its outputs in order."""
+
+TOLERANCE = 1e-9
+"""Difference, relative to the largest term of an output, up to which two numbers count as equal."""
+
+COMPILERS = ("cc", "gcc", "clang")
+"""C compilers that take these options, in the order in which they are looked for."""
+
+OPTIONS = ("-std=c99", "-O1", "-ffp-contract=off", "-shared", "-fPIC")
+"""What the exported C is compiled with: products and sums rounded one by one, as where it is evaluated slowly."""
+
+PATIENCE = 300
+"""[s] after which a C compiler is given up."""
+
+STEM = "exported"
+
+
+def exported(
+    program: Callable[[str], Program], names: Sequence[str], sources: Sources, states: Sequence[State]
+) -> tuple[Check, ...]:
+    """Return a check of the exported Python and one of the exported C.
+
+    ``program(name)`` are the programs that the sources are written of, ``names`` which of them. Where no C compiler is
+    found, the check of the C source has ``holds`` None.
+    """
+    programs = {name: program(name) for name in names}
+    with tempfile.TemporaryDirectory(prefix="lagrangian-", ignore_cleanup_errors=True) as folder:
+        return (
+            _python(programs, sources("python", STEM), states, Path(folder)),
+            _c(programs, sources("c", STEM), states, Path(folder)),
+        )
+
+
+def _python(programs: Mapping[str, Program], texts: Mapping[str, str], states: Sequence[State], folder: Path) -> Check:
+    what = text("the exported Python gives the same numbers")
+    module = _imported(folder, texts)
+
+    def caller(name: str, program: Program) -> Call:
+        function = getattr(module, f"{STEM}_{name}")
+
+        def call(state: State) -> Sequence[Array]:
+            given = [np.array(state[group]) if group != "t" else np.array(state["t"][0]) for group in program.inputs]
+            answer = function(*given)
+            return answer if isinstance(answer, tuple) else (answer,)
+
+        return call
+
+    return Check(what, *_compared(programs, caller, states))
+
+
+def _imported(folder: Path, texts: Mapping[str, str]) -> ModuleType:
+    """The exported module, from a file as its users load it."""
+    (file_name,) = texts
+    path = folder / file_name
+    path.write_text(texts[file_name], encoding="utf-8")
+    spec = importlib.util.spec_from_file_location(STEM, path)
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def _c(programs: Mapping[str, Program], texts: Mapping[str, str], states: Sequence[State], folder: Path) -> Check:
+    what = text("the exported C gives the same numbers")
+    compiler = next((path for name in COMPILERS if (path := shutil.which(name))), None)
+    if compiler is None:
+        return Check(what, None, f"not checked: no C compiler was found (looked for {', '.join(COMPILERS)})")
+    for file_name, source in texts.items():
+        (folder / file_name).write_text(source, encoding="utf-8")
+    library = folder / f"{STEM}.shared"
+    command = [compiler, *OPTIONS, "-o", str(library), str(folder / f"{STEM}.c"), "-lm"]
+    try:
+        done = subprocess.run(command, capture_output=True, text=True, timeout=PATIENCE, check=False)
+    except (OSError, subprocess.TimeoutExpired) as error:
+        return Check(what, None, f"not checked: the C compiler could not be run ({error})")
+    if done.returncode:
+        said = next((line for line in done.stderr.splitlines() if "error" in line), f"exit {done.returncode}")
+        return Check(what, False, f"the C compiler refuses it: {said[:200]}")
+    loaded = ctypes.CDLL(str(library))
+
+    def caller(name: str, program: Program) -> Call:
+        function = getattr(loaded, f"{STEM}_{name}")
+        function.restype = None
+
+        def call(state: State) -> Sequence[Array]:
+            given = [np.array(state[group], float) for group in program.inputs]
+            answers = [np.full(len(output.ids), np.nan) for output in program.outputs.values()]
+            function(*(x.ctypes.data_as(ctypes.c_void_p) for x in (*given, *answers)))
+            return answers
+
+        return call
+
+    return Check(what, *_compared(programs, caller, states))
+
+
+def _compared(
+    programs: Mapping[str, Program], caller: Callable[[str, Program], Call], states: Sequence[State]
+) -> tuple[bool, str]:
+    """Whether every function agrees with the slow evaluation of its program, and the figure."""
+    worst, calls = 0.0, {name: caller(name, program) for name, program in programs.items()}
+    for state in states:
+        M = np.array(evaluated(programs["mass_matrix"], state)["M"], float)
+        for name, program in programs.items():
+            terms = np.ravel(cancelling(name, state, M))
+            for expected, answer in zip(evaluated(program, state).values(), calls[name](state), strict=True):
+                found = np.ravel(np.array(expected, float))
+                worst = float(np.maximum(worst, relative(np.ravel(answer) - found, found, terms)))
+    n = f"{len(states)} random state{'s' if len(states) != 1 else ''}"
+    return worst < TOLERANCE, f"largest relative difference {worst:.1e} at {n}"

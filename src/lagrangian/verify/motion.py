@@ -1,0 +1,147 @@
+"""Checks of a model that has no derivation to read: what every set of equations of motion obeys, at random states.
+
+For systems with floating frames, whose velocities are not the rates of their coordinates. By virtual work and by
+Lagrange's equations for quasi-velocities (`dynamics.floating` has the formula) the same forces must come out; forward
+dynamics must solve them; and M, C and the energy must keep their laws.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian import dynamics
+from lagrangian.graph import Graph, Output, Program, jvp, reached
+from lagrangian.model import Model
+from lagrangian.page.formula import Check, Name, text
+from lagrangian.values.dimensions import check_dimensions
+from lagrangian.values.values import check_sampling
+from lagrangian.verify.states import evaluated, random_states
+
+TOLERANCE = 1e-9
+"""Relative difference up to which two numbers count as equal: rounding, no more."""
+
+Array: TypeAlias = NDArray[np.float64]
+
+
+@dataclass
+class _Worst:
+    """The worst that was met."""
+
+    routes: float = 0.0
+    solved: float = 0.0
+    asymmetry: float = 0.0
+    smallest: float = float("inf")
+    skew: float = 0.0
+    rates: float = 0.0
+    power: float = 0.0
+
+    def note(self, name: str, value: float) -> None:
+        """Keep the larger; not-a-number is the worst and stays."""
+        setattr(self, name, float(np.maximum(getattr(self, name), value)))
+
+
+def verify_motion(model: Model, *, states: int = 50, seed: int = 1) -> tuple[Check, ...]:
+    """Check the programs of a model against each other at ``states`` random states.
+
+    Raises `ModelError` where a unit does not fit, a velocity moves no mass, or no random state has finite forces.
+    """
+    check_sampling(states, seed)
+    dims = check_dimensions(model)
+    worst, timed = _measured(model, states, seed), _reads_time(model)
+    M, C, n = Name("M"), Name("C"), f"{states} random state{'s' if states != 1 else ''}"
+    checks = [
+        Check(
+            text("virtual work and Lagrange's equations for quasi-velocities agree, two independent routes"),
+            worst.routes < TOLERANCE,
+            f"largest relative difference {worst.routes:.1e} at {n}",
+        ),
+        Check(
+            text("the accelerations of forward dynamics solve them"),
+            worst.solved < TOLERANCE,
+            f"largest relative residual {worst.solved:.1e}",
+        ),
+        Check(text(M, " is symmetric"), worst.asymmetry < TOLERANCE, f"largest difference {worst.asymmetry:.1e}"),
+        Check(text(M, " is positive definite"), worst.smallest > 0, f"smallest eigenvalue {worst.smallest:.2e}"),
+    ]
+    if not timed:
+        checks += [
+            Check(text("d", M, "/dt − 2", C, " is skew-symmetric"), worst.skew < TOLERANCE, f"{worst.skew:.1e}"),
+            Check(
+                text(C, " times the velocities is the force that they make"),
+                worst.rates < TOLERANCE,
+                f"largest relative difference {worst.rates:.1e}",
+            ),
+        ]
+    checks.append(
+        Check(
+            text("power balance: the energy grows by the power of ", Name("Xi")),
+            worst.power < TOLERANCE,
+            f"largest relative difference {worst.power:.1e}",
+        )
+    )
+    if dims is not None and not dims.loose:
+        checks.append(Check(text("dimensions: the units of all elements fit together"), True, "all elements"))
+    return tuple(checks)
+
+
+def _measured(model: Model, states: int, seed: int) -> _Worst:
+    forward, inverse = dynamics.forward(model), dynamics.inverse(model)
+    second, gravity, bias = dynamics.inverse_from_lagrangian(model), dynamics.gravity(model), dynamics.bias(model)
+    matrices, balance, rhs = _matrices(model), _balance(model), dynamics.rhs(model)
+    worst = _Worst()
+    for state in random_states(model, forward, states, seed):
+        by_work, by_energy = (np.array(evaluated(p, state)["r"]) for p in (inverse, second))
+        got = {name: np.array(x) for name, x in evaluated(matrices, state).items()}
+        n = len(model.velocities)
+        M, Mdot, C = (got[k].reshape(n, n) for k in ("M", "Mdot", "C"))
+        v, G = np.array(state["v"]), np.array(evaluated(gravity, state)["G"])
+        size = max(1.0, float(np.abs(M * np.array(state["a"])).max()), float(np.abs(G).max()))
+        worst.note("routes", float(np.abs(by_work - by_energy).max()) / size)
+        worst.note("asymmetry", float(np.abs(M - M.T).max() / np.abs(M).max()))
+        worst.smallest = float(np.minimum(worst.smallest, np.linalg.eigvalsh((M + M.T) / 2).min()))
+        skew = Mdot - 2 * C
+        worst.note("skew", float(np.abs(skew + skew.T).max()) / max(1.0, float(np.abs(C).max())))
+        without = np.array(evaluated(bias, state)["h"]) + got["Xi"] - G
+        worst.note("rates", float(np.abs(C @ v - without).max()) / size)
+        found = {**state, "a": list(evaluated(forward, state)["a"])}
+        worst.note("solved", float(np.abs(evaluated(inverse, found)["r"]).max()) / size)
+        x = [*state["q"], *state["v"]]
+        along = {**state, "x": x, "xdot": list(evaluated(rhs, {**state, "x": x})["xdot"])}
+        power = {name: float(np.array(y)) for name, y in evaluated(balance, along).items()}
+        worst.note("power", abs(power["hdot"] - power["P"]) / max(1.0, float(np.abs(G).max()), abs(power["P"])))
+    return worst
+
+
+def _matrices(model: Model) -> Program:
+    """q, v, u, p, t → M, Ṁ along the motion, C, and the applied forces Ξ."""
+    g = Graph()
+    inputs = dynamics.Inputs.of(g, model)
+    m = dynamics.describe(model, g, inputs)
+    M = [x for row in m.mass_matrix() for x in row]
+    along = {**dict(zip(inputs.q, m.motion.rates, strict=True)), inputs.t: g.one}
+    made = {"M": M, "Mdot": jvp(g, M, along), "C": [x for row in m.coriolis() for x in row]}
+    made["Xi"] = m.gathered(m.efforts)
+    names = dynamics.forward(model).inputs
+    return Program("matrices", g, names, {k: Output(tuple(ids), (len(ids),)) for k, ids in made.items()})
+
+
+def _balance(model: Model) -> Program:
+    """x, ẋ, u, p, t → the rate of the energy h along ẋ, and the power P that is supplied."""
+    power = dynamics.power(model)
+    g, names = power.graph, power.inputs["x"]
+    rates = {g.input("x", i): g.input("xdot", i) for i in range(len(names))}
+    (hdot,) = jvp(g, list(power.outputs["h"].ids), {**rates, g.input("t", 0): g.one})
+    inputs = {**power.inputs, "xdot": tuple(f"d{name}" for name in names)}
+    return Program("balance", g, inputs, {"hdot": Output((hdot,), ()), "P": power.outputs["P"]}, power.defaults)
+
+
+def _reads_time(model: Model) -> bool:
+    """Whether the kinetic energy depends on time itself: then C v is not all that velocities do."""
+    g = Graph()
+    inputs = dynamics.Inputs.of(g, model)
+    m = dynamics.describe(model, g, inputs)
+    return inputs.t in reached(g, [m.kinetic()])

@@ -1,0 +1,221 @@
+"""What people take away from a system, held against other routes: compiled functions, their exports, linearizations.
+
+Every compiled function is compared with the slow evaluation of its own program (`graph.evaluate`), state by state and
+in one batch, and then with routes that share nothing with it:
+
+    forward        Lagrange's equations, differentiated on the graph from L, vanish at its accelerations;
+                   M q̈ = −bias
+    inverse        Lagrange's equations at any accelerations;  M a + bias
+    mass_matrix    the Hessian of T* in the velocities
+    rhs            the rates of the coordinates, and forward
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from typing import Any, Protocol, TypeAlias
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrangian import dynamics
+from lagrangian.errors import Error
+from lagrangian.graph import Graph, Output, Program, hessian
+from lagrangian.model import Model
+from lagrangian.page.formula import Check, Name, Text, text
+from lagrangian.verify.exports import Sources, exported
+from lagrangian.verify.slopes import slopes
+from lagrangian.verify.states import State, cancelling, evaluated, random_states, relative
+
+_log = logging.getLogger(__name__)
+TOLERANCE = 1e-9
+"""Difference, relative to the largest term, up to which two numbers count as equal: rounding, no more."""
+
+ONE_BY_ONE = 3
+"""States at which functions are called one state at a time as well; all others go in one batch."""
+
+Array: TypeAlias = NDArray[np.float64]
+
+
+Function: TypeAlias = Callable[..., Array]
+
+
+Programs: TypeAlias = Callable[[str], Program]
+
+
+class Functions(Protocol):
+    """The compiled functions of a system, as `lagrangian.Compiled` has them."""
+
+    @property
+    def forward(self) -> Function: ...  # noqa: D102
+    @property
+    def inverse(self) -> Function: ...  # noqa: D102
+    @property
+    def mass_matrix(self) -> Function: ...  # noqa: D102
+    @property
+    def bias(self) -> Function: ...  # noqa: D102
+    @property
+    def gravity(self) -> Function: ...  # noqa: D102
+    @property
+    def coriolis_matrix(self) -> Function: ...  # noqa: D102
+    @property
+    def energies(self) -> Callable[..., tuple[Array, Array]]: ...  # noqa: D102
+    @property
+    def rates(self) -> Function: ...  # noqa: D102
+    @property
+    def rhs(self) -> Function: ...  # noqa: D102
+    @property
+    def program(self) -> Callable[[str], Program]: ...  # noqa: D102
+    @property
+    def exported(self) -> tuple[str, ...]: ...  # noqa: D102
+    @property
+    def quadratic(self) -> bool: ...  # noqa: D102
+
+
+@dataclass
+class Worst:
+    """The largest relative difference of each comparison by name; not-a-number is the worst and stays."""
+
+    figures: dict[str, float] = field(default_factory=dict)
+
+    def note(self, name: str, difference: Array, *terms: Array) -> None:
+        """Take in a difference, relative to the largest of ``terms``."""
+        self.figures[name] = float(np.maximum(self.figures.get(name, 0.0), relative(difference, *terms)))
+
+
+def verify_products(
+    model: Model, functions: Functions, sources: Sources, *, states: int = 50, seed: int = 1
+) -> tuple[Check, ...]:
+    """Return a check of every compiled function, of the exported sources and of the linearization.
+
+    Parameters keep the values they have. A check that could not be made on this machine has ``holds`` None and says
+    why. Raises `ModelError` where no random state has finite accelerations.
+    """
+    found = list(random_states(model, dynamics.forward(model), states, seed))
+    program = cache(functions.program)  # every state is compared with the same programs
+    _log.info("verifying: the compiled functions")
+    try:
+        compiled = _compiled(model, functions, program, found)
+    except Error as error:  # a compiled function that refuses a state at which its formulas are finite
+        return (Check(text("every compiled function can be evaluated"), False, str(error)),)
+    _log.info("verifying: the exported sources and the linearization")
+    written = exported(program, functions.exported, sources, found)
+    return (*compiled, *written, slopes(model, functions.rhs, found))
+
+
+def _compiled(model: Model, functions: Functions, program: Programs, states: Sequence[State]) -> list[Check]:
+    """The compiled functions against the slow evaluator and against each other."""
+    worst, routes = Worst(), _Routes(model)
+    batch = _calls(functions, _stacked(states))
+    for k, state in enumerate(states):
+        answers = {name: answer[k] for name, answer in batch.items()}
+        _against_formulas(program, state, answers, worst)
+        if k < ONE_BY_ONE:
+            for name, answer in _calls(functions, {group: np.array(x) for group, x in state.items()}).items():
+                terms = cancelling(name, state, answers["mass_matrix"])
+                worst.note("formulas", answer - answers[name], answers[name], terms)
+        routes.hold(state, answers, worst)
+    n = f"{len(states)} random state{'s' if len(states) != 1 else ''}"
+    figures = worst.figures
+    M, T, V = Name("M"), Name("T*"), Name("V")
+    described: list[tuple[str, Text]] = [
+        ("formulas", text("every compiled function equals the slow evaluation of its formulas, singly and in batches")),
+        ("forward", text("the compiled accelerations solve Lagrange's equations")),
+        ("solved", text("they are ", M, "⁻¹ times what the compiled bias leaves")),
+        ("inverse", text("the compiled inverse dynamics equals Lagrange's equations, and ", M, " a + bias")),
+        ("hessian", text("the compiled ", M, " is the Hessian of ", T, " in the rates")),
+        ("energies", text("the compiled energies are the sums of ", T, " and ", V, " over the elements")),
+        ("rhs", text("the compiled right-hand side is the rates and these accelerations")),
+    ]
+    return [
+        Check(what, figures[name] < TOLERANCE, f"largest relative difference {figures[name]:.1e} at {n}")
+        for name, what in described
+        if name in figures
+    ]
+
+
+def _stacked(states: Sequence[State]) -> dict[str, Array]:
+    return {group: np.array([state[group] for state in states]) for group in states[0]}
+
+
+def _calls(functions: Functions, at: Mapping[str, Array]) -> dict[str, Array]:
+    """What every compiled function says at one state or at many."""
+    q, v, a, u, p, t = (at[group] for group in ("q", "v", "a", "u", "p", "t"))
+    t = t[..., 0]
+    T, V = functions.energies(q, v, u=u, p=p, t=t)
+    found = {
+        "forward": functions.forward(q, v, u=u, p=p, t=t),
+        "inverse": functions.inverse(q, v, a, u=u, p=p, t=t),
+        "mass_matrix": functions.mass_matrix(q, p=p, t=t, v=v),
+        "bias": functions.bias(q, v, u=u, p=p, t=t),
+        "gravity": functions.gravity(q, u=u, p=p, t=t),
+        "rates": functions.rates(q, v),
+        "rhs": functions.rhs(t, np.concatenate([q, v], axis=-1), u=u, p=p),
+        "T": np.asarray(T),
+        "V": np.asarray(V),
+    }
+    if functions.quadratic:
+        found["coriolis"] = functions.coriolis_matrix(q, v, p=p, t=t)
+    return found
+
+
+def _against_formulas(program: Programs, state: State, answers: Mapping[str, Array], worst: Worst) -> None:
+    """Every answer against the slow evaluation of its own program."""
+    x = [*state["q"], *state["v"]]
+    for name, answer in answers.items():
+        if name in ("T", "V"):
+            slow: Any = evaluated(program("energy"), state)[name]
+        else:
+            (slow,) = evaluated(program(name), {**state, "x": x}).values()
+        expected = np.array(slow, float)
+        worst.note("formulas", answer - expected, expected, cancelling(name, state, answers["mass_matrix"]))
+
+
+class _Routes:
+    """Routes to the same numbers that share nothing with the elimination that is compiled."""
+
+    def __init__(self, model: Model) -> None:
+        self._lagrange = dynamics.inverse_from_lagrangian(model)
+        self._hessian = _hessian_of_kinetic(model)
+        self._energies = None if model.floating else _energies_of_elements(model)
+
+    def hold(self, state: State, answers: Mapping[str, Array], worst: Worst) -> None:
+        """Compare the answers at a state with every route."""
+        a, forward = np.array(state["a"]), answers["forward"]
+        M, bias = answers["mass_matrix"], answers["bias"]
+        terms = cancelling("inverse", state, M), bias
+        worst.note("forward", self._residual({**state, "a": forward.tolist()}), M * forward, *terms)
+        worst.note("solved", M @ forward + bias, M * forward, *terms)
+        for expected in (self._residual(state), M @ a + bias):
+            worst.note("inverse", answers["inverse"] - expected, *terms)
+        worst.note("hessian", M - np.array(evaluated(self._hessian, state)["H"], float), M)
+        if self._energies is not None:
+            found = evaluated(self._energies, {**state, "x": [*state["q"], *state["v"]]})
+            T, V = (np.array(found[name], float) for name in ("T", "V"))
+            worst.note("energies", np.array([answers["T"] - T, answers["V"] - V]), T, V)
+        rhs = np.concatenate([answers["rates"], forward])
+        worst.note("rhs", answers["rhs"] - rhs, rhs)
+
+    def _residual(self, state: State) -> Array:
+        return np.array(evaluated(self._lagrange, state)["r"], float)
+
+
+def _hessian_of_kinetic(model: Model) -> Program:
+    """∂²T*/∂v_i∂v_k, shape (n, n), of T* as the sum over bodies, with the rates themselves varied."""
+    graph = Graph()
+    inputs = dynamics.Inputs.of(graph, model)
+    T, n = dynamics.describe(model, graph, inputs).kinetic(), len(inputs.v)
+    entries = hessian(graph, T, inputs.v)
+    ids = tuple(entries.get((i, k), graph.zero) for i in range(n) for k in range(n))
+    return Program("hessian", graph, dynamics.energy(model).inputs, {"H": Output(ids, (n, n))})
+
+
+def _energies_of_elements(model: Model) -> Program:
+    """T* and V as the elements state them in the derivation, not as they are gathered for the machine."""
+    T = sp.Add(*(e.kinetic(model) for e in model.elements))
+    V = sp.Add(*(e.potential(model) for e in model.elements))
+    return dynamics.observe(model, {"T": T, "V": V})

@@ -1,0 +1,88 @@
+"""A linearization held against difference quotients of the compiled right-hand side."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.errors import Error
+from lagrangian.linear.linearize import linearize
+from lagrangian.model import Model
+from lagrangian.page.formula import Check, Name, text
+from lagrangian.verify.states import State
+
+Array: TypeAlias = NDArray[np.float64]
+
+TOLERANCE = 1e-6
+"""Difference from a quotient, relative to the largest slope: what quotients of doubles can tell."""
+
+SETTLED = 1e-7
+"""Change of a quotient by its last refinement, relative to the largest slope, up to which it is taken."""
+
+WIDTH = 1e-2
+"""The first of the three widths of a quotient, relative to 1 + |x|; each next is half as wide."""
+
+POINTS = 3
+"""States at which quotients are taken."""
+
+
+def slopes(model: Model, rhs: Callable[..., Array], states: Sequence[State]) -> Check:
+    """Return the check of A = ∂ẋ/∂x and B = ∂ẋ/∂u at a few states where the quotients settle.
+
+    Central quotients D(h) = (f(x + h) − f(x − h))/2h at h, h/2 and h/4 are extrapolated to h → 0 (Richardson), which
+    leaves O(h⁶). Where two extrapolations differ by more than `SETTLED`, as across a kink, the state is passed over.
+    """
+    what = text("the linearization's ", Name("A"), " and ", Name("B"), " equal difference quotients of these rates")
+    worst, points, refused = 0.0, 0, ""
+    for state in states:
+        if points == POINTS:
+            break
+        try:
+            found = linearized(model, state)
+        except Error as error:
+            refused = refused or error.what
+            continue
+        quotients, doubt = _quotients(rhs, state)
+        exact = np.hstack([found.A, found.B])
+        size = float(np.max(np.abs(quotients), initial=0.0)) or 1.0
+        if not doubt < SETTLED * size:
+            refused = refused or "the difference quotients do not settle"
+            continue
+        points += 1
+        worst = float(np.maximum(worst, np.max(np.abs(exact - quotients), initial=0.0) / size))
+    if not points:
+        return Check(what, None, f"not checked at any of {len(states)} random states: {refused}")
+    at = f"{points} random state{'s' if points != 1 else ''}"
+    return Check(what, worst < TOLERANCE, f"largest relative difference {worst:.1e} at {at}")
+
+
+def linearized(model: Model, state: State) -> Any:
+    """The linearization about a state, whether it rests there or not."""
+    names = (*(c.name for c in model.coordinates), *(v.name for v in model.velocities))
+    return linearize(
+        model,
+        dict(zip(names, (*state["q"], *state["v"]), strict=True)),
+        inputs={u.name: x for u, x in zip(model.inputs, state["u"], strict=True)},
+        params={p.name: x for p, x in zip(model.parameters, state["p"], strict=True)},
+        time=state["t"][0],
+        operating_point=True,
+    )
+
+
+def _quotients(rhs: Callable[..., Array], state: State) -> tuple[Array, float]:
+    """∂ẋ/∂[x; u], shape (n, n + m), and the largest change by the last extrapolation."""
+    point = np.array([*state["q"], *state["v"], *state["u"]])
+    n = len(state["q"]) + len(state["v"])
+    steps = WIDTH * (1 + np.abs(point))
+    levels = []
+    for k in range(3):
+        offsets = np.diag(steps / 2**k)
+        around = np.concatenate([point + offsets, point - offsets])
+        f = rhs(state["t"][0], around[:, :n], u=around[:, n:], p=np.array(state["p"]))
+        levels.append((f[: len(point)] - f[len(point) :]).T / (2 * steps / 2**k))
+    once = [(4 * levels[k + 1] - levels[k]) / 3 for k in range(2)]
+    twice = (16 * once[1] - once[0]) / 15
+    return twice, float(np.max(np.abs(twice - once[1]), initial=0.0))

@@ -1,0 +1,170 @@
+"""From words, formulas and tables to blocks of a Document, in a notation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+
+import sympy as sp
+
+from lagrangian.model import Model
+from lagrangian.page import formula as data
+from lagrangian.page.formula import Check, EquationTerm
+from lagrangian.write.document import (
+    Block,
+    Boxed,
+    Details,
+    Display,
+    Heading,
+    Inline,
+    Paragraph,
+    Table,
+    Verdict,
+    Verdicts,
+)
+from lagrangian.write.expression_tree import Math, Number, Sum, Tagged
+from lagrangian.write.numerals import figures
+from lagrangian.write.quantities import Notation, Quantities
+from lagrangian.write.unicode_math import unicode
+
+DETAILS_OPERATIONS = 4000
+"""Operations above which an elided expression is left out of the collapsible details too; ``full`` writes it."""
+
+SET_OPERATIONS = 800
+"""Operations up to which elided mathematics is set as such in its details; more of it is plain text there."""
+
+
+class Items:
+    """Lays out the items of a derivation's step or of a report's part over one model.
+
+    ``brief`` keeps what is marked for the one-page checklist; ``full`` writes out what would be summarised for its
+    length; ``details`` puts that under collapsible summaries instead. Raises `ModelError` for an unknown notation.
+    """
+
+    def __init__(self, model: Model, notation: Notation, *, brief: bool, full: bool, details: bool) -> None:
+        self.brief, self.details = brief, details
+        self.write = Quantities(model, notation, full=full)
+        self.whole = self.write if full else Quantities(model, notation, full=True)
+        spoken = (*model.coordinates, *model.parameters, *model.inputs)
+        self.given = frozenset(x.description for x in spoken if x.description)
+        self.elided = False
+
+    def items(
+        self, items: Iterable[data.Item], anchor: str, *, terms: Sequence[Sequence[EquationTerm]] = ()
+    ) -> Iterator[Block]:
+        """The blocks of items; boxed formulas that follow each other share a box."""
+        box: list[Display] = []
+        count, number = 0, 0
+        for item in items:
+            kept = not self.brief or getattr(item, "brief", False)
+            if not kept:
+                continue
+            sides: tuple[Math, ...] = ()
+            if isinstance(item, data.Formula):
+                count += 1
+                sides = self.write.formula(item)
+                if item.boxed:
+                    known = terms[number] if number < len(terms) else ()
+                    number += 1
+                    box.append(Display(self.tagged(item, sides, known), f"{anchor}-{number}", number, self.note(item)))
+                    continue
+            if box:
+                yield Boxed(tuple(box))
+                yield from self.hidden_boxes(items)
+                box = []
+            match item:
+                case data.Formula():
+                    if len(sides) > 1 or len(item.sides) == 1:  # x₁ = x₁ says nothing
+                        yield Display(sides, f"{anchor}-f{count}", None, self.note(item))
+                        yield from self.hidden(item)
+                case data.Text():
+                    yield Paragraph(self.inline(item))
+                case data.Heading():
+                    yield Heading(self.inline(item.text))
+                case data.Table():
+                    header = tuple(self.inline(h) for h in item.header)
+                    yield Table(header, tuple(tuple(self.inline(c) for c in row) for row in item.rows))
+        if box:
+            yield Boxed(tuple(box))
+            yield from self.hidden_boxes(items)
+
+    def note(self, item: data.Formula) -> Inline:
+        """What stands beside a formula."""
+        return self.inline(item.note) if item.note is not None else ()
+
+    def inline(self, item: data.Text | data.Formula) -> Inline:
+        """Words and mathematics in a line."""
+        return self.write.inline(item, given=self.given)
+
+    def checks(self, checks: Sequence[Check]) -> Verdicts:
+        """The checks; on the checklist all that hold share one line."""
+        if self.brief and all(c.holds for c in checks):
+            return Verdicts((Verdict((f"{len(checks)} checks hold",), True, ""),))
+        return Verdicts(tuple(Verdict(self.inline(c.what), c.holds, figures(c.figure)) for c in checks))
+
+    # -- what is hidden, and where a term came from -------------------------------------------------------------------
+
+    def hidden_boxes(self, items: Iterable[data.Item]) -> Iterator[Block]:
+        """The full text of boxed formulas that are summarised."""
+        for item in items:
+            if isinstance(item, data.Formula) and item.boxed:
+                yield from self.hidden(item)
+
+    def hidden(self, item: data.Formula) -> Iterator[Block]:
+        """The full text of a formula that is summarised, under a summary."""
+        longest = max((n for side in item.sides for n in operations(side)), default=0)
+        if not longest or self.write.full:
+            return
+        self.elided = True
+        if self.details and longest <= DETAILS_OPERATIONS:
+            sides = self.whole.formula(item)
+            yield Details((f"written out: {longest} operations",), (Display(sides, ""),), longest > SET_OPERATIONS)
+
+    def tagged(self, item: data.Formula, sides: tuple[Math, ...], known: Sequence[EquationTerm]) -> tuple[Math, ...]:
+        """Mark each term of an equation of motion with the elements that make it."""
+        origin = {term.expr: (self.spoken(term.elements), term.kind) for term in known}
+        if not origin or len(sides) != len(item.sides):
+            return sides
+        made: list[Math] = []
+        for side, shown in zip(item.sides, sides, strict=True):
+            exprs = _terms(side) if self.write.full or not isinstance(side, data.Elided) else ()
+            pairs = shown.terms if isinstance(shown, Sum) else ((False, shown),)
+            if len(pairs) != len(exprs) or shown == Number("0"):
+                made.append(shown)
+                continue
+            tagged = tuple(
+                (minus, Tagged(math, *origin[e]) if e in origin else math)
+                for (minus, math), e in zip(pairs, exprs, strict=True)
+            )
+            made.append(Sum(tagged) if isinstance(shown, Sum) else tagged[0][1])
+        return tuple(made)
+
+    def spoken(self, titles: Iterable[str]) -> tuple[str, ...]:
+        """Titles of elements as lines of text, symbols in them as in the formulas."""
+        return tuple("".join(x if isinstance(x, str) else unicode(x) for x in self.write.words(t)) for t in titles)
+
+
+def _terms(side: data.Left) -> tuple[sp.Expr, ...]:
+    match side:
+        case data.Terms(terms):
+            return tuple(t for t in terms if isinstance(t, sp.Expr))
+        case data.Elided(_, _, terms):
+            return terms
+        case sp.Expr():
+            return (side,)
+    return ()
+
+
+def operations(side: data.Left) -> Iterator[int]:
+    """The sizes of the elided expressions in a side."""
+    match side:
+        case data.Elided():
+            yield side.operations
+        case data.Matrix(rows):
+            for row in rows:
+                for entry in row:
+                    yield from operations(entry)
+        case data.Terms(parts) | data.Product(parts) | data.Square(_, parts):
+            for part in parts:
+                yield from operations(part)
+        case data.Minus(of) | data.Total(of) | data.Variation(of):
+            yield from operations(of)

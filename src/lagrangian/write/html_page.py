@@ -1,0 +1,231 @@
+"""A derivation as one HTML page that works offline: MathML, no scripts, nothing loaded from anywhere.
+
+Hovering over a term of the final equations, or focusing it with the keyboard or a tap, shows the elements it came from.
+Every step can be folded away; on paper all of them are open. A formula that is wider than the screen is scrolled.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from html import escape as _escape
+from importlib.resources import files
+
+from lagrangian.write.document import (
+    Block,
+    Boxed,
+    Details,
+    Display,
+    Document,
+    Heading,
+    Inline,
+    Paragraph,
+    Section,
+    Table,
+    Verdicts,
+)
+from lagrangian.write.expression_tree import Grid, Math, Number, Sum, Tagged, Token, tokens
+from lagrangian.write.lines import lines, set_columns
+from lagrangian.write.mathml import displayed, row, wide
+from lagrangian.write.text import clean
+from lagrangian.write.text import display as text_lines
+
+WIDTH = 96
+"""Columns of Unicode text that fit the width of the page's text."""
+
+SHORT = 24
+"""Columns up to which a formula among words is kept in one piece."""
+
+EQUALS = '<span class="sign"><math><mo>=</mo></math></span>&#xa0;'
+
+KINDS = {
+    "inertia": "inertia: with an acceleration",
+    "velocity": "velocity: products of rates",
+    "damping": "damping",
+    "stiffness": "stiffness",
+    "gravity": "gravity",
+    "input": "input: from outside",
+    "other": "other",
+}
+"""The kinds of terms, as the legend names them."""
+
+
+def page(document: Document, subject: str) -> str:
+    """Return a document as a self-contained HTML page; ``subject`` stands in its title beside the document's own."""
+    title = escape(document.title)
+    body = "\n".join(_section(section, brief=document.brief) for section in document.sections)
+    return (
+        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        '<meta name="color-scheme" content="light dark">\n'
+        f"<title>{title}: {escape(subject)}</title>\n<style>\n{_style()}</style>\n</head>\n<body>\n"
+        f'<main class="{"brief" if document.brief else "whole"}">\n<header><h1>{title}</h1></header>\n'
+        f"{_contents(document)}{body}\n</main>\n</body>\n</html>\n"
+    )
+
+
+def fragment(document: Document) -> str:
+    """Return a document as a piece of HTML that brings its own style."""
+    body = "\n".join(_section(section, brief=document.brief, anchors=False) for section in document.sections)
+    nested = _style().replace(":root", "&").replace("body {", "& {")  # the page's rules, for this piece alone
+    style = f"<style>\n.lagrangian {{\n{nested}}}\n</style>"
+    head = f'<div class="lagrangian" lang="en">{style}\n<div class="{"brief" if document.brief else "whole"}">'
+    return f"{head}\n<h3>{escape(document.title)}</h3>\n{body}\n</div></div>"
+
+
+def _style() -> str:
+    return files("lagrangian.write").joinpath("page.css").read_text(encoding="utf-8")
+
+
+def escape(words: str) -> str:
+    """Any text so that a browser shows it."""
+    return _escape(clean(words), quote=True)
+
+
+def inline(text: Inline) -> str:
+    """Words and mathematics in a line."""
+    return "".join(escape(x) if isinstance(x, str) else _flowing(x) for x in text)
+
+
+def _flowing(formula: Math) -> str:
+    """A formula in a line of words; a long one in pieces, between which the line can end."""
+    pieces: list[list[Token]] = [[]]
+    for token in tokens(formula):
+        if token.level is not None and token.level <= 1 and sum(set_columns(t) for t in pieces[-1]) > SHORT:
+            pieces.append([])
+        pieces[-1].append(token)
+    return "<wbr>".join(f"<math>{row(piece)}</math>" for piece in pieces)
+
+
+def _contents(document: Document) -> str:
+    if document.brief:
+        return ""
+    items = "".join(f'<li><a href="#{s.anchor}">{_number(s)}{inline(s.title)}</a></li>' for s in document.sections)
+    return f'<nav aria-label="Contents"><ol>{items}</ol></nav>\n'
+
+
+def _number(section: Section) -> str:
+    return f'<span class="number">{section.number}</span> ' if section.number is not None else ""
+
+
+def _section(section: Section, *, brief: bool, anchors: bool = True) -> str:
+    identity = f' id="{section.anchor}"' if anchors else ""
+    blocks = "\n".join(line for block in section.blocks for line in _block(block, anchors))
+    title = f"<h2>{_number(section)}{inline(section.title)}</h2>"
+    if section.number is None or brief:
+        return f"<section{identity}>\n{title}\n{blocks}\n</section>"
+    step = f'<details class="step" open><summary>{title}</summary>\n{blocks}\n</details>'
+    return f"<section{identity}>\n{step}\n</section>"
+
+
+def _block(block: Block, anchors: bool) -> Iterator[str]:
+    match block:
+        case Heading(text):
+            yield f"<h3>{inline(text)}</h3>"
+        case Paragraph(text, role):
+            lead = '<span class="lead">Why:</span> ' if role == "why" else ""
+            yield f"<p{f' class={role}' if role else ''}>{lead}{inline(text)}</p>"
+        case Display():
+            yield _display(block, anchors)
+        case Boxed(displays):
+            yield from _boxed(displays, anchors)
+        case Table():
+            yield _table(block)
+        case Verdicts(verdicts):
+            items = "".join(
+                f'<li class="{v.standing.replace(" ", "-")}"><span aria-hidden="true">{v.mark}</span> '
+                f'<span class="unseen">{v.standing}: </span>{inline(v.what)}'
+                + (f' <span class="figure">({escape(v.figure)})</span>' if v.figure else "")
+                + "</li>"
+                for v in verdicts
+            )
+            yield f'<ul class="checks">{items}</ul>'
+        case Details(summary, blocks):
+            inner = _preformatted(blocks) if block.vast else "".join(x for b in blocks for x in _block(b, False))
+            yield f"<details><summary>{inline(summary)}</summary>{inner}</details>"
+
+
+def _preformatted(blocks: tuple[Block, ...]) -> str:
+    """Formulas as lines of text: mathematics of this length takes a browser long."""
+    shown = [line for block in blocks if isinstance(block, Display) for line in text_lines(block, WIDTH)]
+    return f"<pre>{escape_lines(shown)}</pre>"
+
+
+def escape_lines(listed: list[str]) -> str:
+    """Lines of text so that a browser shows them."""
+    return "\n".join(escape(line) for line in listed)
+
+
+def _display(block: Display, anchors: bool) -> str:
+    identity = f' id="{block.anchor}"' if anchors and block.anchor else ""
+    note = f' <span class="note">{inline(block.note)}</span>' if block.note else ""
+    return f'<div class="formula"{identity}>{_chain(block.sides)}{note}</div>'
+
+
+def _chain(sides: tuple[Math, ...]) -> str:
+    """A formula term by term, so that its lines end where the screen does; a matrix in one piece."""
+    if any(isinstance(side, Grid) for side in sides):
+        return displayed(sides, WIDTH)
+    laid = [_terms(side, []) for side in sides]
+    if len(lines(sides, WIDTH)) == 1 or len(sides) < 3:
+        return f'<div class="terms">{_kept(laid, EQUALS)}</div>'
+    blocks = [_kept(laid[:2], EQUALS), *(EQUALS + side for side in laid[2:])]
+    return f'<div>{"".join(f"""<div class="terms">{x}</div>""" for x in blocks)}</div>'
+
+
+def _boxed(displays: tuple[Display, ...], anchors: bool) -> Iterator[str]:
+    """The results, term by term; each term can be asked for the elements it came from."""
+    equations: list[str] = []
+    kinds: list[str] = []
+    for formula in displays:
+        sides = [_terms(side, kinds) for side in formula.sides]
+        identity = f' id="{formula.anchor}"' if anchors else ""
+        number = f'<span class="tag">({formula.number})</span>' if len(displays) > 1 else ""
+        equations.append(
+            f'<div class="equation"{identity}><div class="terms">{_kept(sides, EQUALS)}</div>{number}</div>'
+        )
+    yield f'<div class="result" role="group" aria-label="Equations of motion">{"".join(equations)}</div>'
+    if kinds:
+        shown = "".join(f'<li><span class="swatch {k}"></span>{escape(KINDS[k])}</li>' for k in KINDS if k in kinds)
+        yield f'<p class="hint">Point at a term to see the elements it came from.</p><ul class="legend">{shown}</ul>'
+
+
+def _kept(sides: list[str], equals: str) -> str:
+    """The sides with equals signs; a short right-hand side stays with its sign."""
+    text = sides[0]
+    for side in sides[1:]:
+        alone = side.count("<math") == 1
+        text += f'<span class="kept">{equals}{side.strip()}</span> ' if alone else equals + side
+    return text
+
+
+def _terms(side: Math, kinds: list[str]) -> str:
+    pairs = side.terms if isinstance(side, Sum) else ((False, side),)
+    out: list[str] = []
+    for i, (minus, term) in enumerate(pairs or ((False, Number("0")),)):
+        form = "infix" if i else "prefix"
+        sign = f'<mo form="{form}">{"−" if minus else "+"}</mo>' if i or minus else ""
+        inner = wide(sign, term, WIDTH - 12) or f'<math displaystyle="true">{sign}{row(tokens(term))}</math>'
+        if isinstance(term, Tagged) and term.elements:
+            kind = term.kind if term.kind in KINDS else "other"
+            if kind not in kinds:
+                kinds.append(kind)
+            origin = escape(", ".join(term.elements))
+            out.append(
+                f'<span class="term {kind}" tabindex="0" aria-label="from {origin}" data-from="{origin}">{inner}</span>'
+            )
+        else:
+            out.append(f'<span class="sign">{inner}</span>')
+    return " ".join(out) + " "
+
+
+def _table(table: Table) -> str:
+    head = "".join(f'<th scope="col">{inline(h)}</th>' for h in table.header)
+    rows = "".join(
+        "<tr>"
+        + "".join(
+            f'<th scope="row">{inline(c)}</th>' if j == 0 else f"<td>{inline(c)}</td>" for j, c in enumerate(row_)
+        )
+        + "</tr>"
+        for row_ in table.rows
+    )
+    return f'<div class="table"><table><thead><tr>{head}</tr></thead><tbody>{rows}</tbody></table></div>'

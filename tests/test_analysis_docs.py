@@ -1,0 +1,15 @@
+"""What docs/analysis.md says runs as it stands there."""
+
+import pathlib
+import re
+
+ROOT = pathlib.Path(__file__).parents[1]
+
+
+def test_the_manuals_python_runs() -> None:
+    text = (ROOT / "docs" / "analysis.md").read_text(encoding="utf-8")
+    code = "\n".join(re.findall(r"^```python\n(.*?)^```", text, flags=re.M | re.S))
+    names: dict[str, object] = {}
+    exec(compile(code, "docs/analysis.md", "exec"), names)
+    assert names["along"].A.shape == (11, 4, 4)  # type: ignore[attr-defined]
+    assert names["regulator"].K.shape == (1, 4)  # type: ignore[attr-defined]
