@@ -110,3 +110,28 @@ def test_continuous_integration_runs_the_readmes_test_command() -> None:
     if shutil.which("awk"):
         done = subprocess.run(["sh", "-c", extract[1]], cwd=ROOT, capture_output=True, text=True, check=True)
         assert done.stdout.strip() == command[1]
+
+
+def test_a_class_name_occurs_once() -> None:
+    """Whoever searches for a class finds one; private ones, of one file alone, may repeat."""
+    found: dict[str, list[str]] = {}
+    for file in FILES:
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+                found.setdefault(node.name, []).append(str(file.relative_to(SOURCE)))
+    assert not {name: files for name, files in found.items() if len(files) > 1}
+
+
+def test_no_module_is_named_like_one_of_the_standard_library() -> None:
+    names = {p.stem for p in FILES} | {p.name for p in SOURCE.rglob("*") if p.is_dir()}
+    assert not (names & sys.stdlib_module_names) - {"__init__", "__main__", "__pycache__"}
+
+
+def test_the_names_of_the_package_are_those_of_all() -> None:
+    """Rooms are no names of the package, whatever was imported: ``lg.derive`` is not a module that cannot be called."""
+    code = "import lagrangian as lg, lagrangian.cli.app, lagrangian.derive.pages, lagrangian.simulate.sweeping\n"
+    code += "[getattr(lg, name) for name in lg.__all__]\n"
+    code += "print(sorted(set(vars(lg)) ^ set(lg.__all__)))"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    left = ast.literal_eval(done.stdout or "['nothing']")
+    assert not [name for name in left if not name.startswith("_")], done.stdout + done.stderr

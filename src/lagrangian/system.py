@@ -243,7 +243,7 @@ class System(Described):
 
         ``initial``, ``params``, ``inputs``: name or symbol → number, text with a unit, or array; ``dims`` names the
         axes. ``outputs``: expressions, by name or alone, ("theta1", "max theta1"); ``reduce``: what is kept of each
-        over time (`lagrangian.integrate.observe.REDUCTIONS`), None for the samples at ``times`` (a number of them, or the
+        over time (`lagrangian.integrate.observe.REDUCTIONS`), None for samples at ``times`` (a number of them, or the
         times). ``method``, ``rtol``, ``atol``, ``step``, ``events`` as in `simulate`; ``memory`` [bytes] bounds what is
         held at a time, ``threads`` the cores; ``progress(done, all)`` is called on the way. ``store="name.zarr"`` keeps
         results on disk as they come, ``resume=True`` goes on after an end of any kind; ``scheduler`` is the address of

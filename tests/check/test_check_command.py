@@ -2,6 +2,7 @@
 
 import csv
 import json
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -118,7 +119,7 @@ def test_what_can_be_read_is_never_called_unreadable(
         raise ModelError("too much for this check")
 
     (tmp_path / "ann.txt").write_text(RIGHT)
-    monkeypatch.setattr("lagrangian.check.verb.check_answer", refused)
+    monkeypatch.setattr(import_module("lagrangian.check.verb"), "check_answer", refused)
     code, out, _ = run(capsys, "-e", "lecture-3b", str(tmp_path))
     assert code == 1 and "ann.txt  cannot be judged" in out and "too much for this check" in out
     assert "unreadable" not in out and "1  unjudged" in out

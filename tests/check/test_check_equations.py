@@ -7,11 +7,11 @@ import sympy as sp
 from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
 
 from lagrangian import System
-from lagrangian.check import Line, Status, check
+from lagrangian.check import AnsweredLine, Status, check
 
 
-def lines(*rows: sp.Expr) -> list[Line]:
-    return [Line("equation", r, i) for i, r in enumerate(rows, 1)]
+def lines(*rows: sp.Expr) -> list[AnsweredLine]:
+    return [AnsweredLine("equation", r, i) for i, r in enumerate(rows, 1)]
 
 
 def cart_and_pendulum() -> tuple[Any, list[sp.Expr]]:

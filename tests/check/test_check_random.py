@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from sympy.physics.mechanics import LagrangesMethod, dynamicsymbols
 
 from lagrangian import System
-from lagrangian.check import Line, Status, check
+from lagrangian.check import AnsweredLine, Status, check
 from lagrangian.derivation import Derivation
 from size import sized
 
@@ -34,8 +34,8 @@ def arm() -> tuple[Derivation, tuple[sp.Expr, ...], tuple[sp.Symbol, ...]]:
     return s.derive(), (rows[0], rows[1] - tau), symbols
 
 
-def lines(rows: list[sp.Expr]) -> list[Line]:
-    return [Line("equation", r, i) for i, r in enumerate(rows, 1)]
+def lines(rows: list[sp.Expr]) -> list[AnsweredLine]:
+    return [AnsweredLine("equation", r, i) for i, r in enumerate(rows, 1)]
 
 
 WHOLE = st.integers(-3, 3)

@@ -9,12 +9,13 @@ import signal
 import subprocess
 import sys
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 
 import pytest
 
 from lagrangian.cli import CLOSED_PIPE, main
-from lagrangian.cli.progress import Status, status
+from lagrangian.cli.progress import StatusLine, status
 
 if os.name != "posix":
     pytest.skip("signals and terminals of POSIX", allow_module_level=True)
@@ -39,7 +40,7 @@ run()
 
 @pytest.mark.parametrize(
     "name",
-    ["typer", "lagrangian.cli.simulate", "numpy", "sympy", "lagrangian.derive", "lagrangian.codegen.native"],
+    ["typer", "lagrangian.cli.simulate", "numpy", "sympy", "lagrangian.dynamics", "lagrangian.codegen.native"],
 )
 def test_an_interrupt_while_something_is_imported_is_one_line(name: str) -> None:
     code = AS_IT_IMPORTS.format(name=name, line=["simulate", "-e", "pendulum", "-d", "1"])
@@ -125,7 +126,7 @@ def test_a_reader_that_goes_away_is_quiet_and_ends_like_other_tools() -> None:
 
 
 def test_the_line_says_what_is_done_and_fits_the_terminal() -> None:
-    made = Status()
+    made = StatusLine()
     made.words = "deriving: step 2, the kinetic energy of 'a\x1b[31mb'"
     assert made.line(3.2, 80).endswith("deriving: step 2, the kinetic energy of 'a [31mb' … 3 s")
     assert all(len(made.line(12.0, columns)) < columns for columns in (20, 40, 60))
@@ -169,7 +170,7 @@ def test_every_verb_says_what_it_does(
 def test_the_line_appears_and_goes_before_anything_else_is_written(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("lagrangian.cli.progress.AFTER", 0.0)
+    monkeypatch.setattr(import_module("lagrangian.cli.progress"), "AFTER", 0.0)
     monkeypatch.setattr(sys.stderr, "isatty", lambda: True)
     with status.showing("working"):
         while "working" not in capsys.readouterr().err:

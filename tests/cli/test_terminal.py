@@ -100,7 +100,7 @@ def test_what_is_hidden_is_shown_and_data_stays_the_same(capsys: pytest.CaptureF
 
 def test_the_door_is_the_only_way_out() -> None:
     rooms = Path(lagrangian.__file__).parent
-    for path in [rooms / "cli.py", *(rooms / "commands").glob("*.py")]:
+    for path in (rooms / "cli").glob("*.py"):
         if path.name in ("door.py", "progress.py"):
             continue
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):

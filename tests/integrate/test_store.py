@@ -11,13 +11,13 @@ import pytest
 from lagrangian.errors import Error, MissingExtra, RunError
 from lagrangian.integrate import store
 from lagrangian.integrate.chunks import Portions
-from lagrangian.integrate.store import Plan, Variable
+from lagrangian.integrate.store import ChunkPlan, Variable
 from lagrangian.integrate.stored import NOT_RUN, Stored
 
 PORTIONS = Portions((3, 10), (1, 4))
 
 
-def plan(**changed) -> Plan:
+def plan(**changed) -> ChunkPlan:
     results = {
         "max x": Variable("float64", ("k", "run"), (3, 10), {"units": "m"}),
         "x": Variable("float64", ("k", "run", "time"), (3, 10, 5)),
@@ -27,7 +27,9 @@ def plan(**changed) -> Plan:
         "k": (Variable("float64", ("k",), (3,)), [np.array([1.0, 2.0]), np.array([3.0])]),
         "g": (Variable("float64", (), ()), [np.array(9.81)]),
     }
-    return Plan(PORTIONS, results, coordinates, {"rtol": 1e-9, "grid": {"k": "1:3:3"}, **changed}, {"title": "test"})
+    return ChunkPlan(
+        PORTIONS, results, coordinates, {"rtol": 1e-9, "grid": {"k": "1:3:3"}, **changed}, {"title": "test"}
+    )
 
 
 def values(index: int) -> dict[str, np.ndarray]:

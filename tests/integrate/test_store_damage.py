@@ -14,7 +14,7 @@ import lagrangian as lg
 from lagrangian.errors import Error
 from lagrangian.integrate import store
 from lagrangian.integrate.chunks import Portions
-from lagrangian.integrate.store import Plan, Variable
+from lagrangian.integrate.store import ChunkPlan, Variable
 from lagrangian.integrate.stored import LOST, NOT_RUN, Stored
 
 PORTIONS = Portions((2, 3), (1, 3))
@@ -25,13 +25,13 @@ RESULTS = {
 }
 
 
-def plan(rtol: float = 1e-9, k: float = 1.0) -> Plan:
+def plan(rtol: float = 1e-9, k: float = 1.0) -> ChunkPlan:
     coordinates = {
         "k": (Variable("float64", ("k",), (2,)), [np.array([k]), np.array([2 * k])]),
         "g": (Variable("float64", (), ()), [np.array(9.81)]),
     }
     task = {"system": "test", "rtol": rtol, "options": {"atol": 1e-12}, "varied": {"k": k}, "method": "rk4"}
-    return Plan(PORTIONS, RESULTS, coordinates, task, {"title": "test"})
+    return ChunkPlan(PORTIONS, RESULTS, coordinates, task, {"title": "test"})
 
 
 def values(index: int, scale: float = 1.0) -> dict[str, np.ndarray]:
@@ -41,7 +41,7 @@ def values(index: int, scale: float = 1.0) -> dict[str, np.ndarray]:
     return {"x": np.sin(runs[:, None] + np.arange(3)), "count e": zeros, "status": zeros.astype(np.int8)}
 
 
-def made(path: pathlib.Path, which: Plan, scale: float = 1.0, chunks: int = len(PORTIONS)) -> pathlib.Path:
+def made(path: pathlib.Path, which: ChunkPlan, scale: float = 1.0, chunks: int = len(PORTIONS)) -> pathlib.Path:
     with store.create(path, which) as sink:
         for index in range(chunks):
             sink.write(index, PORTIONS.box(index), values(index, scale))

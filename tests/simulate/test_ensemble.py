@@ -10,7 +10,7 @@ from lagrangian.errors import RunError
 from lagrangian.graph import Graph, Output, Program
 from lagrangian.integrate import ensemble
 from lagrangian.integrate.chunks import Portions, cut
-from lagrangian.integrate.design import Column, Design, Drawn
+from lagrangian.integrate.design import Design, DesignColumn, Drawn
 from lagrangian.integrate.ensemble import Memory, carry_out
 from lagrangian.integrate.observe import Kept, Study
 
@@ -48,7 +48,7 @@ def test_reductions_of_an_oscillator_against_its_closed_form(slow, memory: int) 
         ("x", "omega"),
         (3, 2),
         BASE,
-        [Column("x", 0, "x", amplitudes[:, None]), Column("p", 0, "omega", omegas[None, :])],
+        [DesignColumn("x", 0, "x", amplitudes[:, None]), DesignColumn("p", 0, "omega", omegas[None, :])],
     )
     kept = [Kept(f"{r} x", "x", r) for r in ("final", "max", "min", "mean", "rms", "range")]
     kept += [Kept("max energy", "energy", "max"), Kept("x", "x", None)]
@@ -78,7 +78,7 @@ def test_reductions_of_an_oscillator_against_its_closed_form(slow, memory: int) 
 
 
 def test_a_run_that_fails_keeps_nothing_but_its_status(slow) -> None:
-    column = Column("p", 0, "omega", np.array([2.0, 3000.0, 1.0]))
+    column = DesignColumn("p", 0, "omega", np.array([2.0, 3000.0, 1.0]))
     design = Design(("omega",), (3,), BASE, [column])
     s = study([Kept("max energy", "energy", "max"), Kept("final x", "x", "final")], np.linspace(0, 1, 5))
     portions = cut(design.shape, s.bytes_per_run)
@@ -136,9 +136,9 @@ def test_draws_are_the_same_in_any_portion_and_follow_their_law() -> None:
 
 def test_what_does_not_fit_is_refused() -> None:
     with pytest.raises(RunError, match=r"does not broadcast to \(3,\)"):
-        Design(("run",), (3,), BASE, [Column("x", 0, "x", np.zeros(4))])
+        Design(("run",), (3,), BASE, [DesignColumn("x", 0, "x", np.zeros(4))])
     with pytest.raises(RunError, match="'x' is nan at"):
-        Design(("run",), (3,), BASE, [Column("x", 0, "x", np.array([0.0, np.nan, 1.0]))])
+        Design(("run",), (3,), BASE, [DesignColumn("x", 0, "x", np.array([0.0, np.nan, 1.0]))])
     with pytest.raises(RunError, match="'k' is empty"):
         Design(("k",), (0,), BASE)
     with pytest.raises(RunError, match="too many"):

@@ -8,7 +8,7 @@ import pytest
 import lagrangian as lg
 from lagrangian import examples
 from lagrangian.cli import main
-from lagrangian.view.many import Along, Result, draw_many
+from lagrangian.view.many import SweptAxis, SweptResult, draw_many
 
 FAST = {"method": "rk4", "step": 0.02, "outputs": {"swing": "max theta2", "reach": "max L1*sin(theta1)"}, "times": 51}
 
@@ -51,8 +51,8 @@ def test_what_failed_is_left_out_and_said_where_nothing_is_left() -> None:
     nan = np.full((3, 4), np.nan)
     some = nan.copy()
     some[0] = [1, 2, 3, np.nan]
-    x = Along("k", "N/m", np.array([1.0, 2.0, 3.0]))
-    figure = draw_many("test", (x,), (Result("a", "m", some), Result("b", "m", nan)))
+    x = SweptAxis("k", "N/m", np.array([1.0, 2.0, 3.0]))
+    figure = draw_many("test", (x,), (SweptResult("a", "m", some), SweptResult("b", "m", nan)))
     np.testing.assert_array_equal(figure.axes[0].lines[0].get_ydata(), [2, np.nan, np.nan])
     assert figure.axes[1].texts[0].get_text() == "every run failed"
 

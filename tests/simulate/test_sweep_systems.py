@@ -13,7 +13,7 @@ import lagrangian as lg
 from lagrangian import examples
 from lagrangian.integrate import Solver
 from lagrangian.simulate.inputs import driving
-from lagrangian.simulate.per_run import Wanted, study_of
+from lagrangian.simulate.per_run import RunSettings, study_of
 from size import sized
 
 
@@ -386,7 +386,7 @@ def test_memory_is_left_for_the_events_of_a_chunk() -> None:
     system.particle(system.parameter("m", 1.0), at=system.origin + (0, y))
     system.gravity()
     bounce = lg.event(y, direction=-1, reset={y.diff(): -y.diff()}, name="bounce")
-    wanted = Wanted(duration=100.0, events=bounce, max_events=50, outputs=["y"])
+    wanted = RunSettings(duration=100.0, events=bounce, max_events=50, outputs=["y"])
     study, _ = study_of(system.model, wanted, driving(system.model, None, {}), np.array([0.0, 100.0]))
     x0 = np.column_stack([np.linspace(0.5, 1.0, 20), np.zeros(20)])
     found = Solver(study.program, study.method, events=study.events).solve(

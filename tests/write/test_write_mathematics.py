@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 from lagrangian.model import Builder, Particle, time
 from lagrangian.write.breaking import break_lines
 from lagrangian.write.expression import Expressions
-from lagrangian.write.expression_tree import Grid, Letter, Number, Power, Ratio, Sum, Times, tokens
+from lagrangian.write.expression_tree import Addition, Grid, Letter, Number, Power, Quotient, Times, tokens
 from lagrangian.write.lines import lines, measure, set_columns
 from lagrangian.write.mathml import mathml
 from lagrangian.write.names import letters
@@ -337,9 +337,9 @@ def test_numbers_are_small_subscripts_and_letters_never_are() -> None:
 
 def test_a_fraction_too_long_for_a_line_lets_what_follows_be_cut() -> None:
     """No line is longer than the width, whatever stands first, and every letter is still there."""
-    long = Sum(tuple((False, Letter("a", (str(k),))) for k in range(30)))
-    ratio = Ratio(Number("1"), Times((Number("2"), long)))
-    whole = Sum(((False, ratio), (False, Power(long, Number("2"))), (True, Letter("b"))))
+    long = Addition(tuple((False, Letter("a", (str(k),))) for k in range(30)))
+    ratio = Quotient(Number("1"), Times((Number("2"), long)))
+    whole = Addition(((False, ratio), (False, Power(long, Number("2"))), (True, Letter("b"))))
     for flat, width_of in ((True, measure), (False, set_columns)):
         rows = [join(row.tokens) for row in break_lines(list(tokens(whole)), 60, width_of, flat=flat)]
         assert max(len(line) for line in rows) <= 60

@@ -2,16 +2,16 @@
 
 from lagrangian.check.check import check
 from lagrangian.check.lines import lines_from, lines_of
-from lagrangian.check.verdict import Difference, Finding, Line, Mistake, Origin, Status, Verdict
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status, TermDifference, TermOrigin, Verdict
 from lagrangian.check.words import report
 
 __all__ = [
-    "Difference",
+    "AnsweredLine",
     "Finding",
-    "Line",
     "Mistake",
-    "Origin",
     "Status",
+    "TermDifference",
+    "TermOrigin",
     "Verdict",
     "check",
     "lines_from",

@@ -16,14 +16,14 @@ import sympy as sp
 from sympy.polys.polyerrors import PolynomialError
 
 from lagrangian import bounded
-from lagrangian.derive.sampling import Array, Compiled, States
+from lagrangian.derive.sampling import Array, CompiledExpressions, States
 
 LONGEST = 80
 """Operations of an expression whose factors are looked at."""
 
 
 @dataclass(frozen=True)
-class Side:
+class Branch:
     """``p``, which is ±``q`` + c, is positive; ``root`` says whether the model has the root of its square."""
 
     q: sp.Expr
@@ -33,25 +33,25 @@ class Side:
     def put(self, values: Array, states: States) -> Array:
         """Values of the coordinate, those beyond p = 0 reflected in it; multiples of 2⁻¹² as every state's are."""
         slope = int(_slope(self.p, self.q))
-        c = Compiled([self.p - slope * self.q]).at(states)[0]
+        c = CompiledExpressions([self.p - slope * self.q]).at(states)[0]
         p = np.abs(slope * values + c)
         return np.round((p - c) * slope * 4096) / 4096
 
 
-def sides_of(exprs: Sequence[sp.Expr], M: sp.Matrix, states: States, q: Sequence[sp.Expr]) -> tuple[Side, ...]:
+def sides_of(exprs: Sequence[sp.Expr], M: sp.Matrix, states: States, q: Sequence[sp.Expr]) -> tuple[Branch, ...]:
     """The sides that expressions with roots and a mass matrix tell, one a coordinate."""
-    found: dict[sp.Expr, Side] = {}
+    found: dict[sp.Expr, Branch] = {}
     for root, p in (*((True, p) for p in _rooted(exprs)), *((False, p) for p in _singular(M, states, q))):
         of = [x for x in q if p.has(x)]
         if len(of) != 1 or of[0] in found or abs(_slope(p, of[0])) != 1 or (p - _slope(p, of[0]) * of[0]).has(*q):
             continue
-        values = Compiled([p]).at(states)[0]
+        values = CompiledExpressions([p]).at(states)[0]
         if (values > 0).all() or (values < 0).all():
-            found[of[0]] = Side(of[0], p if values[0] > 0 else -p, root)
+            found[of[0]] = Branch(of[0], p if values[0] > 0 else -p, root)
     return tuple(found.values())
 
 
-def natural(expr: sp.Expr, sides: Sequence[Side]) -> sp.Expr:
+def natural(expr: sp.Expr, sides: Sequence[Branch]) -> sp.Expr:
     """The expression with √(p²) and |p| written as p, for every p that is positive on its side."""
     if not sides:
         return expr
@@ -75,7 +75,7 @@ def _slope(p: sp.Expr, q: sp.Expr) -> sp.Expr:
     return cast("sp.Expr", p.coeff(q))
 
 
-def _positive(p: sp.Expr, sides: Sequence[Side]) -> sp.Expr | None:
+def _positive(p: sp.Expr, sides: Sequence[Branch]) -> sp.Expr | None:
     for side in sides:
         if bounded.expand(p - side.p) == 0 or bounded.expand(p + side.p) == 0:
             return side.p
@@ -139,5 +139,5 @@ def _singular(M: sp.Matrix, states: States, q: Sequence[sp.Expr]) -> Iterator[sp
 def _determinants(M: sp.Matrix, states: States) -> Array:
     """det M at every state."""
     entries: list[Any] = list(M.flat())
-    values = Compiled(entries).at(states).reshape(M.rows, M.rows, states.size).transpose(2, 0, 1)
+    values = CompiledExpressions(entries).at(states).reshape(M.rows, M.rows, states.size).transpose(2, 0, 1)
     return np.linalg.det(np.where(np.isfinite(values), values, np.nan))

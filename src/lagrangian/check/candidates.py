@@ -16,9 +16,9 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.misconceptions import GENERAL, MISCONCEPTIONS, Ingredients, Variant
-from lagrangian.check.reference import Truth
+from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import Mistake
-from lagrangian.derive.sampling import Array, Compiled
+from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.errors import ModelError
 from lagrangian.graph import jvp, vjp
 from lagrangian.model import time
@@ -58,7 +58,7 @@ class Wrong:
             return 6 if v.T == 0 and v.V == 0 else self.module.STEP
         return 2 if v.T != 0 and v.V == 0 else 3 if v.T == 0 else self.module.STEP
 
-    def mistake(self, truth: Truth) -> Mistake:
+    def mistake(self, truth: Reference) -> Mistake:
         """The mistake as data."""
         v = self.variant
         name = truth.model.coordinates[v.coordinate].name if v.coordinate is not None else None
@@ -69,10 +69,10 @@ class Wrong:
 class Effects:
     """What every variant does, at every state."""
 
-    def __init__(self, truth: Truth) -> None:
+    def __init__(self, truth: Reference) -> None:
         self.truth = truth
         self.ingredients = Ingredients(truth.derivation)
-        self.graph = Compiled([])
+        self.graph = CompiledExpressions([])
         c = truth.model.coordinates
         self._q = [self.graph.input(x.symbol) for x in c]
         self._v = [self.graph.input(x.rate) for x in c]
@@ -172,7 +172,7 @@ class Effects:
         return np.abs(self.W).max(axis=(1, 2)) > 1e-12
 
 
-def too_long(truth: Truth) -> bool:
+def too_long(truth: Reference) -> bool:
     """Whether a system is too long for every way to go wrong in it to be tried."""
     return sum(bounded.size(x) for x in (truth.T, truth.V, *truth.Xi)) * truth.n > LONGEST_SYSTEM
 
@@ -183,6 +183,6 @@ def _operations(v: Variant) -> int:
 
 
 @lru_cache(maxsize=32)
-def effects_of(truth: Truth) -> Effects:
+def effects_of(truth: Reference) -> Effects:
     """Every variant in a system, worked out once for the systems that were checked with last."""
     return Effects(truth)

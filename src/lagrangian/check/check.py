@@ -9,22 +9,22 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from lagrangian.check.candidates import too_long
-from lagrangian.check.coordinates import Change, Glance, candidates, in_these, likeliest, new_names
+from lagrangian.check.coordinates import Glance, ProposedChange, candidates, in_these, likeliest, new_names
 from lagrangian.check.difference import differences, likeness, paired
 from lagrangian.check.lines import filled
 from lagrangian.check.mistakes import mistakes
-from lagrangian.check.reference import Truth, truth_of
-from lagrangian.check.rows import Comparison, Kind, Row, compare
+from lagrangian.check.reference import Reference, truth_of
+from lagrangian.check.rows import Kind, ReferenceRow, RowComparison, compare
 from lagrangian.check.spelling import Spelling, in_numbers, not_there, spelled
-from lagrangian.check.stated import Given, equations_follow, given, judge
-from lagrangian.check.verdict import Finding, Line, Status, Verdict
+from lagrangian.check.stated import StatedQuantity, equations_follow, given, judge
+from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
 from lagrangian.derive import Derived
 from lagrangian.page.formula import Terms, Text, text
 
 _log = logging.getLogger(__name__)
 
 
-def check(derivation: Derived, lines: Sequence[Line], *, hint: int = 3) -> Verdict:
+def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3) -> Verdict:
     """Return what is right and what is wrong with an answer, line by line and as a whole.
 
     Lines are checked in order; equality is decided in normal form, or with 50 digits where there is none.
@@ -45,7 +45,7 @@ def check(derivation: Derived, lines: Sequence[Line], *, hint: int = 3) -> Verdi
     return put if put.right or numbers else verdict
 
 
-def _read(truth: Truth, spelling: Spelling, hint: int, *, explain: bool) -> Verdict:
+def _read(truth: Reference, spelling: Spelling, hint: int, *, explain: bool) -> Verdict:
     """The verdict on an answer whose names are read; with ``explain``, what went wrong is looked for."""
     judged = _judged(truth, spelling.lines)
     verdict = Verdict(judged.status, judged.findings, notes=spelling.notes + judged.notes, hint=hint)
@@ -64,7 +64,7 @@ class Judged:
 
     status: Status
     findings: tuple[Finding, ...]
-    comparison: Comparison
+    comparison: RowComparison
     notes: tuple[Text, ...] = ()
 
     @property
@@ -74,7 +74,7 @@ class Judged:
         return tuple(r.factors or () for r in rows) if rows and all(r.factors is not None for r in rows) else None
 
 
-def _judged(truth: Truth, lines: Sequence[Line], change: Change | None = None) -> Judged:
+def _judged(truth: Reference, lines: Sequence[AnsweredLine], change: ProposedChange | None = None) -> Judged:
     """Judge every line, the equations together; with a change, everything is put into the system's coordinates."""
     moved = lines if change is None else [replace(line, expr=change.put(line.expr)) for line in lines]
     turn = change.turn(truth) if change is not None else None
@@ -92,7 +92,9 @@ def _judged(truth: Truth, lines: Sequence[Line], change: Change | None = None) -
     return Judged(*_overall(truth, comparison, findings), comparison, _missing(truth, comparison))
 
 
-def _overall(truth: Truth, comparison: Comparison, findings: Sequence[Finding]) -> tuple[Status, tuple[Finding, ...]]:
+def _overall(
+    truth: Reference, comparison: RowComparison, findings: Sequence[Finding]
+) -> tuple[Status, tuple[Finding, ...]]:
     """The verdict on the whole: its worst line's, or what the equations come to together."""
     statuses = [f.status for f in findings if f.line.kind != "equation"]
     if comparison.rows:
@@ -102,7 +104,7 @@ def _overall(truth: Truth, comparison: Comparison, findings: Sequence[Finding]) 
     return worst, tuple(findings)
 
 
-def of_equations(truth: Truth, comparison: Comparison) -> Status:
+def of_equations(truth: Reference, comparison: RowComparison) -> Status:
     """The verdict on a set of equations."""
     rows = [r for r in comparison.rows if r.kind is not Kind.NOTHING]
     if any(r.kind is Kind.WRONG for r in rows):
@@ -117,7 +119,7 @@ def of_equations(truth: Truth, comparison: Comparison) -> Status:
     return Status.SAME_MOTION
 
 
-def _missing(truth: Truth, comparison: Comparison) -> tuple[Text, ...]:
+def _missing(truth: Reference, comparison: RowComparison) -> tuple[Text, ...]:
     """What is missing in a set of right equations that is too small, in words."""
     rows = comparison.rows
     if not rows or comparison.rank >= truth.n or any(r.kind is Kind.WRONG for r in rows):
@@ -141,7 +143,9 @@ def _missing(truth: Truth, comparison: Comparison) -> tuple[Text, ...]:
 # -- equations --------------------------------------------------------------------------------------------------------
 
 
-def _equations(truth: Truth, lines: Sequence[Line], comparison: Comparison, above: Given) -> list[Finding]:
+def _equations(
+    truth: Reference, lines: Sequence[AnsweredLine], comparison: RowComparison, above: StatedQuantity
+) -> list[Finding]:
     """What was found of every equation; a wrong one is compared with the right one it is most like."""
     taken = [r.index for r in comparison.rows if r.true and r.index is not None]
     wrong = [j for j, r in enumerate(comparison.rows) if r.kind is Kind.WRONG]
@@ -163,11 +167,11 @@ def _equations(truth: Truth, lines: Sequence[Line], comparison: Comparison, abov
     return found
 
 
-def _name(truth: Truth, index: int | None) -> str | None:
+def _name(truth: Reference, index: int | None) -> str | None:
     return truth.model.coordinates[index].name if index is not None else None
 
 
-def _status(row: Row) -> Status:
+def _status(row: ReferenceRow) -> Status:
     if row.kind is Kind.SAME:
         return Status.RIGHT
     if row.kind in (Kind.SCALED, Kind.COMBINED):
@@ -175,7 +179,7 @@ def _status(row: Row) -> Status:
     return Status.INCOMPLETE if row.kind is Kind.NOTHING else Status.SAME_MOTION
 
 
-def _note(truth: Truth, row: Row) -> Text | None:
+def _note(truth: Reference, row: ReferenceRow) -> Text | None:
     """What a true row is made of, in words."""
     if row.kind is Kind.NOTHING:
         return text("says 0 = 0")
@@ -202,7 +206,7 @@ def _note(truth: Truth, row: Row) -> Text | None:
 # -- other coordinates, and what went wrong ---------------------------------------------------------------------------
 
 
-def _elsewhere(truth: Truth, spelling: Spelling, verdict: Verdict) -> Verdict | None:
+def _elsewhere(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdict | None:
     """The verdict in other coordinates, where the answer is right in some; a mistake goes before an unspoken change."""
     glance = Glance(truth, spelling.lines)
     for change in candidates(truth, spelling.lines):
@@ -229,13 +233,13 @@ def _elsewhere(truth: Truth, spelling: Spelling, verdict: Verdict) -> Verdict | 
     return None
 
 
-def _tells(lines: Sequence[Line]) -> bool:
+def _tells(lines: Sequence[AnsweredLine]) -> bool:
     """Whether an answer says enough to tell a relative coordinate from an absolute one that is wrong."""
     kinds = {line.kind for line in lines}
     return bool(kinds & {"equation", "L"}) or {"T", "V"} <= kinds
 
 
-def _values(truth: Truth, lines: Sequence[Line]) -> dict[sp.Symbol, sp.Expr]:
+def _values(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Symbol, sp.Expr]:
     """The values of the parameters that an answer does not name."""
     used = {x for line in lines for x in line.expr.free_symbols}
     return {p: sp.Rational(str(v)) for p, v in truth.model.values.items() if p not in used}
@@ -247,7 +251,7 @@ def _with_values(values: Mapping[sp.Symbol, sp.Expr], spelling: Spelling) -> Spe
     return replace(spelling, notes=(*spelling.notes, text("The values of ", *named, " are put in.")))
 
 
-def _own_names(truth: Truth, spelling: Spelling, verdict: Verdict) -> Verdict | None:
+def _own_names(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdict | None:
     """The verdict on a wrong answer with coordinates of its own: the system is derived in these, and compared anew."""
     if not new_names(truth, spelling.lines):
         return None
@@ -272,7 +276,7 @@ def _own_names(truth: Truth, spelling: Spelling, verdict: Verdict) -> Verdict | 
     )
 
 
-def _explained(truth: Truth, spelling: Spelling, judged: Judged, verdict: Verdict) -> Verdict:
+def _explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Verdict) -> Verdict:
     """The verdict with the mistakes that explain it."""
     named = mistakes(truth, spelling.lines, judged.findings)
     notes = (*verdict.notes, *(not_there(truth, name) for name in new_names(truth, spelling.lines)))

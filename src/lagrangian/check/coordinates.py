@@ -17,12 +17,12 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.check.reference import Truth
+from lagrangian.check.reference import Reference
 from lagrangian.check.rows import CLOSE
-from lagrangian.check.verdict import Line
+from lagrangian.check.verdict import AnsweredLine
 from lagrangian.coordinates import changed
 from lagrangian.derive import derive
-from lagrangian.derive.sampling import Array, Compiled
+from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.errors import ModelError
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
@@ -34,7 +34,7 @@ MOST = 200
 
 
 @dataclass(frozen=True, eq=False)
-class Change(Brief):
+class ProposedChange(Brief):
     """A change of coordinates: the answer's symbols in the system's, in words, and whether it needs to be said.
 
     ``plain`` changes are those people make without a word (relative for absolute), or that the answer states itself by
@@ -55,13 +55,13 @@ class Change(Brief):
             whole[sp.Derivative(eta, (time, 2))] = sp.diff(rate, time)
         return cast("sp.Expr", expr.xreplace(whole))
 
-    def turn(self, truth: Truth) -> sp.Matrix | None:
+    def turn(self, truth: Reference) -> sp.Matrix | None:
         """(∂ψ/∂ξ)⁻¹ with the answer's coordinates in the order of those they stand for; None where it is singular."""
         psi = self._in_order(truth)
         J = sp.Matrix([[p.diff(q) for q in truth.derivation.coordinates] for p in psi])
         return sp.Matrix(J.inv()) if truth.n <= 6 and J.det() != 0 else None
 
-    def region(self, truth: Truth) -> sp.Expr | None:
+    def region(self, truth: Reference) -> sp.Expr | None:
         """det ∂ψ/∂ξ, which keeps its sign where the change is one-to-one; None where it is constant, or too long."""
         psi = self._in_order(truth)
         q = truth.derivation.coordinates
@@ -71,7 +71,7 @@ class Change(Brief):
         det = cast("sp.Expr", J.det())
         return det if det.has(*q) else None
 
-    def _in_order(self, truth: Truth) -> list[sp.Expr]:
+    def _in_order(self, truth: Reference) -> list[sp.Expr]:
         """ψ of every coordinate: the own one where it stays; new names take the places of those that are gone."""
         own = list(truth.derivation.coordinates)
         new = [psi for eta, psi in self.table.items() if eta not in own]
@@ -85,13 +85,13 @@ class Change(Brief):
         return psi
 
 
-def candidates(truth: Truth, lines: Sequence[Line]) -> Iterator[Change]:
+def candidates(truth: Reference, lines: Sequence[AnsweredLine]) -> Iterator[ProposedChange]:
     """The changes worth trying for an answer: for its own names where it has any, else of the system's coordinates."""
     new = new_names(truth, lines)
     yield from islice(_renamed(truth, new, lines) if new else _reused(truth), MOST)
 
 
-def new_names(truth: Truth, lines: Sequence[Line]) -> list[sp.Expr]:
+def new_names(truth: Reference, lines: Sequence[AnsweredLine]) -> list[sp.Expr]:
     """What moves in an answer and is no coordinate, input or definition of the system."""
     own = set(truth.derivation.coordinates) | {u.symbol for u in truth.model.inputs}
     own |= {d.symbol for d in truth.model.definitions}
@@ -102,7 +102,7 @@ def new_names(truth: Truth, lines: Sequence[Line]) -> list[sp.Expr]:
 # -- names of the answer's own ----------------------------------------------------------------------------------------
 
 
-def _renamed(truth: Truth, new: Sequence[sp.Expr], lines: Sequence[Line]) -> Iterator[Change]:
+def _renamed(truth: Reference, new: Sequence[sp.Expr], lines: Sequence[AnsweredLine]) -> Iterator[ProposedChange]:
     stated = {line.name: line.expr for line in lines if line.kind == "definition"}
     solved: dict[sp.Expr, list[sp.Expr]] = {}
     for c in truth.model.coordinates:
@@ -114,14 +114,14 @@ def _renamed(truth: Truth, new: Sequence[sp.Expr], lines: Sequence[Line]) -> Ite
     if len(new) > 3:
         return
     used = {q for line in lines for q in truth.derivation.coordinates if line.expr.has(q) and line.kind != "definition"}
-    tried: list[tuple[tuple[int, int], Change]] = []
+    tried: list[tuple[tuple[int, int], ProposedChange]] = []
     for k, picked in enumerate(islice(product(*choices), 4000)):
         if len(set(picked)) < len(picked):
             continue
         table = dict(zip(new, picked, strict=True))
         missing = sum(q not in used and not any(p.has(q) for p in picked) for q in truth.derivation.coordinates)
         if missing == 0:
-            tried.append(((sum(p in used for p in picked), k), Change(table, _meant(table), True)))
+            tried.append(((sum(p in used for p in picked), k), ProposedChange(table, _meant(table), True)))
     yield from (change for _, change in sorted(tried, key=lambda x: x[0]))
 
 
@@ -141,7 +141,7 @@ def _meant(table: Mapping[sp.Expr, sp.Expr]) -> Text:
     return text("with ", *parts[:-1])
 
 
-def meanings(truth: Truth) -> list[sp.Expr]:
+def meanings(truth: Reference) -> list[sp.Expr]:
     """What a coordinate of the answer's own may be: ours, sums and differences of ours, places and directions."""
     q: list[sp.Expr] = list(truth.derivation.coordinates)
     found: list[sp.Expr] = [*q, *(-x for x in q)]
@@ -164,52 +164,54 @@ def meanings(truth: Truth) -> list[sp.Expr]:
 # -- the system's own names -------------------------------------------------------------------------------------------
 
 
-def _reused(truth: Truth) -> Iterator[Change]:
+def _reused(truth: Reference) -> Iterator[ProposedChange]:
     q: list[sp.Expr] = list(truth.derivation.coordinates)
     turned = set(turning(truth))
     groups = [g for g in ([x for x in q if x in turned], [x for x in q if x not in turned]) if g]
     for group in groups:
         yield from _relative(group)
     for x in q:
-        yield Change({x: -x}, text(x, " counted the other way round"), False)
+        yield ProposedChange({x: -x}, text(x, " counted the other way round"), False)
     if len(q) > 1:
-        yield Change({x: -x for x in q}, text("every coordinate counted the other way round"), False)
+        yield ProposedChange({x: -x for x in q}, text("every coordinate counted the other way round"), False)
     away = [lambda x: sp.pi / 2 - x, lambda x: x + sp.pi / 2, lambda x: x - sp.pi / 2]
     away += [lambda x: sp.pi - x, lambda x: x + sp.pi]
     for other in away:
         for x in turned:
-            yield Change({x: other(x)}, text(x, " measured from another axis: yours is ", other(x)), False)
+            yield ProposedChange({x: other(x)}, text(x, " measured from another axis: yours is ", other(x)), False)
         if len(turned) > 1:
-            yield Change({x: other(x) for x in turned}, text("angles measured from another axis"), False)
+            yield ProposedChange({x: other(x) for x in turned}, text("angles measured from another axis"), False)
     moved = list(shifts(truth))
     for x, c in moved:
-        yield Change({x: x - c}, text(x, " measured from another point: yours is ", x - c), False)
-        yield Change({x: c - x}, text(x, " measured from another point: yours is ", c - x), False)
+        yield ProposedChange({x: x - c}, text(x, " measured from another point: yours is ", x - c), False)
+        yield ProposedChange({x: c - x}, text(x, " measured from another point: yours is ", c - x), False)
     rest = dict(_static(truth))
     if len(rest) > 1:
-        yield Change({x: x - c for x, c in rest.items()}, text("coordinates measured from the place of rest"), False)
+        yield ProposedChange(
+            {x: x - c for x, c in rest.items()}, text("coordinates measured from the place of rest"), False
+        )
 
 
-def _relative(group: Sequence[sp.Expr]) -> Iterator[Change]:
+def _relative(group: Sequence[sp.Expr]) -> Iterator[ProposedChange]:
     """Relative for absolute and absolute for relative: pair by pair, and all along the chain."""
     if len(group) > 2:
         sums = {x: sp.Add(*group[: k + 1]) for k, x in enumerate(group) if k}
         steps = {x: x - group[k] for k, x in enumerate(group[1:])}
-        yield Change(sums, text("every coordinate absolute"), True)
-        yield Change(steps, text("every coordinate relative to the one before"), True)
+        yield ProposedChange(sums, text("every coordinate absolute"), True)
+        yield ProposedChange(steps, text("every coordinate relative to the one before"), True)
     for k, x in enumerate(group):
         for y in group[:k]:
-            yield Change({x: x + y}, text(x, " absolute: yours is ", x + y), True)
-            yield Change({x: x - y}, text(x, " relative to ", y, ": yours is ", x - y), True)
+            yield ProposedChange({x: x + y}, text(x, " absolute: yours is ", x + y), True)
+            yield ProposedChange({x: x - y}, text(x, " relative to ", y, ": yours is ", x - y), True)
 
 
-def turning(truth: Truth) -> list[sp.Expr]:
+def turning(truth: Reference) -> list[sp.Expr]:
     """The coordinates that stand in sines and cosines, in order."""
     angles = [f.args[0] for f in sp.Add(truth.T, truth.V, *truth.Xi).atoms(sp.sin, sp.cos)]
     return [q for q in truth.derivation.coordinates if any(a.has(q) for a in angles)]
 
 
-def shifts(truth: Truth) -> Iterator[tuple[sp.Expr, sp.Expr]]:
+def shifts(truth: Reference) -> Iterator[tuple[sp.Expr, sp.Expr]]:
     """(coordinate, constant) pairs: rest lengths with both signs, and the place of rest."""
     rests = [
         truth.expand(r) for e in truth.model.elements if (r := cast("sp.Expr", getattr(e, "rest", sp.S.Zero))) != 0
@@ -225,7 +227,7 @@ def shifts(truth: Truth) -> Iterator[tuple[sp.Expr, sp.Expr]]:
         yield q, -c
 
 
-def _static(truth: Truth) -> list[tuple[sp.Expr, sp.Expr]]:
+def _static(truth: Reference) -> list[tuple[sp.Expr, sp.Expr]]:
     """The place where a system that is linear at rest stays, coordinate by coordinate; those that are not at 0."""
     still: dict[sp.Basic, sp.Expr] = {u.symbol: sp.S.Zero for u in truth.model.inputs}
     for c in truth.model.coordinates:
@@ -248,23 +250,23 @@ def _static(truth: Truth) -> list[tuple[sp.Expr, sp.Expr]]:
 class Glance:
     """Tells quickly whether a change may make an answer right: by its equations in doubles, else by an energy."""
 
-    def __init__(self, truth: Truth, lines: Sequence[Line]) -> None:
+    def __init__(self, truth: Reference, lines: Sequence[AnsweredLine]) -> None:
         self.truth = truth
         equations = [line.expr for line in lines if line.kind == "equation"]
         self._equations = bool(equations)
         energy = next((line for line in lines if line.kind in ("T", "V", "L")), None)
         right = [{"T": truth.T, "V": truth.V, "L": truth.L}[energy.kind]] if energy is not None else []
-        self._own = Compiled([] if equations else right)
+        self._own = CompiledExpressions([] if equations else right)
         chosen = equations or ([energy.expr] if energy is not None else [])
-        self._compiled = Compiled(chosen)
+        self._compiled = CompiledExpressions(chosen)
 
-    def true_lines(self, change: Change) -> int:
+    def true_lines(self, change: ProposedChange) -> int:
         """How many equations are true with this change, in doubles."""
         if not self._equations:
             return int(self.may_be(change))
         return int(self._true(change).sum())
 
-    def _true(self, change: Change) -> Array:
+    def _true(self, change: ProposedChange) -> Array:
         states = self.truth.states
         truly = self._compiled.at(states, self._values(change, truly=True))
         off = self._compiled.at(states, self._values(change, truly=False))
@@ -273,7 +275,7 @@ class Glance:
         small = np.where(good, np.abs(truly), 0).max(axis=1) <= CLOSE * scale
         return np.logical_and(good.any(axis=1), small)
 
-    def may_be(self, change: Change) -> bool:
+    def may_be(self, change: ProposedChange) -> bool:
         """Whether the answer may be right with this change; False where nothing can be compared."""
         if not self._compiled.ids:
             return False
@@ -286,7 +288,7 @@ class Glance:
             return bool(np.isfinite(rest).all() and np.abs(rest).max() <= 1e-6 * (1 + np.abs(own).max()))
         return bool(self._true(change).all())
 
-    def _values(self, change: Change, *, truly: bool) -> dict[sp.Basic, Array]:
+    def _values(self, change: ProposedChange, *, truly: bool) -> dict[sp.Basic, Array]:
         accelerations = self.truth.accelerations if truly else {}
         out: dict[sp.Basic, Array] = dict(accelerations)
         for eta, psi in change.table.items():
@@ -296,16 +298,16 @@ class Glance:
 
 
 @lru_cache(maxsize=1024)
-def _motion(psi: sp.Expr) -> Compiled:
+def _motion(psi: sp.Expr) -> CompiledExpressions:
     """ψ, ψ̇ and ψ̈ as one graph, made once for the changes of all answers."""
     rate = sp.diff(psi, time)
-    return Compiled([psi, rate, sp.diff(rate, time)])
+    return CompiledExpressions([psi, rate, sp.diff(rate, time)])
 
 
 # -- the system in the answer's coordinates ---------------------------------------------------------------------------
 
 
-def likeliest(truth: Truth, lines: Sequence[Line]) -> Change | None:
+def likeliest(truth: Reference, lines: Sequence[AnsweredLine]) -> ProposedChange | None:
     """The change that makes most equations of a wrong answer true; None where none makes any."""
     glance = Glance(truth, lines)
     tried = [(glance.true_lines(change), -k, change) for k, change in enumerate(candidates(truth, lines))]
@@ -315,14 +317,14 @@ def likeliest(truth: Truth, lines: Sequence[Line]) -> Change | None:
     return best[2] if best[0] or len(tried) == 1 else None
 
 
-def in_these(truth: Truth, change: Change) -> Truth | None:
+def in_these(truth: Reference, change: ProposedChange) -> Reference | None:
     """What is right in the answer's coordinates, where the change can be turned round; made once a change."""
     key = tuple(change.table.items())
     known = truth.others
     if key not in known:
         try:
             names = {plain(eta): psi for eta, psi in change.table.items()}
-            known[key] = Truth(derive(changed(truth.model, names)), truth.values)
+            known[key] = Reference(derive(changed(truth.model, names)), truth.values)
         except ModelError:
             known[key] = None
     return known[key]

@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.check.reference import Truth
+from lagrangian.check.reference import Reference
 from lagrangian.check.rows import ratio
-from lagrangian.check.verdict import Difference, Origin
+from lagrangian.check.verdict import TermDifference, TermOrigin
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.algebra.form import Key
 from lagrangian.model import time
@@ -55,7 +55,9 @@ def paired(likes: Sequence[Sequence[Likeness]], taken: Iterable[int]) -> list[Li
     return out
 
 
-def differences(truth: Truth, form: Form, right: Form, factor: sp.Expr, index: int | None) -> tuple[Difference, ...]:
+def differences(
+    truth: Reference, form: Form, right: Form, factor: sp.Expr, index: int | None
+) -> tuple[TermDifference, ...]:
     """The terms in which ``form`` differs from ``factor`` times ``right``; ``index`` is the equation's coordinate.
 
     They are told as the answer has them, times the factor.
@@ -69,7 +71,7 @@ def differences(truth: Truth, form: Form, right: Form, factor: sp.Expr, index: i
     if lacking.is_zero:
         return ()
     name = truth.model.coordinates[index].name if index is not None else None
-    found: list[Difference] = []
+    found: list[TermDifference] = []
     for keys in _groups(lacking):
         ours, theirs = right.restricted(keys), mine.restricted(keys)
         difference = lacking.restricted(keys)
@@ -83,7 +85,7 @@ def differences(truth: Truth, form: Form, right: Form, factor: sp.Expr, index: i
             if term.is_zero:
                 kind, term = "extra", written
         as_written, written_so = (_scaled(x, factor) for x in (term, written))
-        found.append(Difference(kind, as_written, written_so, name, _origins(truth, term, index)))
+        found.append(TermDifference(kind, as_written, written_so, name, _origins(truth, term, index)))
         if len(found) == MOST:
             break
     return tuple(found)
@@ -110,27 +112,27 @@ def _groups(form: Form) -> list[frozenset[Key]]:
     return [frozenset({k}) for k in sorted(form.keys(), key=str)]
 
 
-def _origins(truth: Truth, term: Form, index: int | None) -> tuple[Origin, ...]:
+def _origins(truth: Reference, term: Form, index: int | None) -> tuple[TermOrigin, ...]:
     """The elements behind a term of equation ``index``, each with its step, once."""
     if index is None:
         return _shares(truth, term)
-    found: dict[Origin, None] = {}
+    found: dict[TermOrigin, None] = {}
     letters = term.expr().free_symbols - {time}
     for origin in truth.derivation.shares.where(term.expr()):
         shared = not letters or origin.share.free_symbols & letters
         if shared and origin.coordinate == truth.model.coordinates[index].name:
-            found[Origin(origin.element.title, origin.step)] = None
+            found[TermOrigin(origin.element.title, origin.step)] = None
     return tuple(found)
 
 
-def _shares(truth: Truth, term: Form) -> tuple[Origin, ...]:
+def _shares(truth: Reference, term: Form) -> tuple[TermOrigin, ...]:
     """The elements whose energies hold a term, each with its step."""
     keys, letters = term.keys(), term.expr().free_symbols - {time}
-    found: dict[Origin, None] = {}
+    found: dict[TermOrigin, None] = {}
     for element in truth.model.elements:
         for energy, step in ((element.kinetic(truth.model), 2), (element.potential(truth.model), 3)):
             form = truth.form(truth.expand(energy)) if energy != 0 else None
             common = form.restricted(keys) if form is not None else None
             if common is not None and not common.is_zero and (common.expr().free_symbols & letters or not letters):
-                found[Origin(element.title, step)] = None
+                found[TermOrigin(element.title, step)] = None
     return tuple(found)

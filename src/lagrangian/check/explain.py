@@ -14,9 +14,9 @@ import sympy as sp
 
 from lagrangian.check.candidates import Effects, Wrong, effects_of
 from lagrangian.check.difference import likeness
-from lagrangian.check.reference import Truth
+from lagrangian.check.reference import Reference
 from lagrangian.check.rows import CLOSE
-from lagrangian.derive.sampling import SETS, Array, Compiled
+from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,9 +30,9 @@ class Explanation:
     plainness: int
 
 
-def explain_rows(truth: Truth, exprs: Sequence[sp.Expr]) -> list[Explanation]:
+def explain_rows(truth: Reference, exprs: Sequence[sp.Expr]) -> list[Explanation]:
     """The variants that give all of these equations, the likeliest first."""
-    P = Compiled(exprs).at(truth.states) * np.array([[_side(truth, e)] for e in exprs])
+    P = CompiledExpressions(exprs).at(truth.states) * np.array([[_side(truth, e)] for e in exprs])
     said = np.isfinite(P).all(axis=1) & (np.abs(P).max(axis=1) > 1e-12)
     P = P[said]
     if not len(P) or not np.isfinite(truth.W).all():
@@ -43,19 +43,19 @@ def explain_rows(truth: Truth, exprs: Sequence[sp.Expr]) -> list[Explanation]:
     return _alone(truth, effects, P, sets) or _together(truth, effects, P) or _by_place(truth, effects, P)
 
 
-def _side(truth: Truth, expr: sp.Expr) -> int:
+def _side(truth: Reference, expr: sp.Expr) -> int:
     """−1 where most terms of an equation stand on the other side than in the right one it is like."""
     best = max(likeness(truth.form(expr), truth.forms), key=lambda x: x.score)
     return -1 if best.factor.could_extract_minus_sign() else 1
 
 
-def _by_place(truth: Truth, effects: Effects, P: Array) -> list[Explanation]:
+def _by_place(truth: Reference, effects: Effects, P: Array) -> list[Explanation]:
     """The variants that give the answer with factors that depend on the place, as when r was divided out."""
     found = _alone(truth, effects, P, list(truth.states.blocks()))
     return [Explanation(e.wrongs, 3) for e in found]
 
 
-def _alone(truth: Truth, effects: Effects, P: Array, parts: Sequence[slice]) -> list[Explanation]:
+def _alone(truth: Reference, effects: Effects, P: Array, parts: Sequence[slice]) -> list[Explanation]:
     """The single variants that give the answer with factors that are constant in each part of the states."""
     candidates = np.flatnonzero(np.logical_and(effects.usable, effects.felt))
     if not len(candidates):
@@ -85,7 +85,7 @@ def _spanned(P: Array, W: Array) -> tuple[Array, Array]:
     return fits, np.where(mixed, 2, np.where(ones, 0, 1))
 
 
-def _together(truth: Truth, effects: Effects, P: Array) -> list[Explanation]:
+def _together(truth: Reference, effects: Effects, P: Array) -> list[Explanation]:
     """Two mistakes whose effects add up to the answer's, row i for row i."""
     if len(P) != truth.n:
         return []

@@ -8,24 +8,24 @@ from typing import Any, cast
 import sympy as sp
 
 from lagrangian.check.reading import Answer, generalized_force
-from lagrangian.check.reference import Truth
-from lagrangian.check.verdict import Line
+from lagrangian.check.reference import Reference
+from lagrangian.check.verdict import AnsweredLine
 from lagrangian.errors import ModelError
 
 STATED = ("T", "V", "L", "D", "Xi", "p", "p-rate", "slope")
 """Kinds of lines that give one quantity."""
 
 
-def lines_of(answer: Answer) -> tuple[Line, ...]:
+def lines_of(answer: Answer) -> tuple[AnsweredLine, ...]:
     """The lines of an answer that was read, numbered as in its text."""
-    found: list[Line] = []
+    found: list[AnsweredLine] = []
     for k, stated in enumerate(answer.lines, 1):
         number = stated.place.line if stated.place is not None and stated.place.line is not None else k
-        found.append(Line(stated.kind, sp.sympify(stated.residual), number, stated.name, stated.text))
+        found.append(AnsweredLine(stated.kind, sp.sympify(stated.residual), number, stated.name, stated.text))
     return tuple(found)
 
 
-def lines_from(things: object) -> tuple[Line, ...]:
+def lines_from(things: object) -> tuple[AnsweredLine, ...]:
     """The lines of SymPy equations, expressions (= 0), or a mapping such as ``{"T": …, "V": …}``, in order.
 
     Raises `ModelError` for anything else.
@@ -43,11 +43,11 @@ def lines_from(things: object) -> tuple[Line, ...]:
     )
 
 
-def _named(key: object, value: object, number: int) -> Line:
+def _named(key: object, value: object, number: int) -> AnsweredLine:
     if isinstance(key, str) and key in ("T", "V", "L", "D"):
-        return Line(key, _expression(value), number)
+        return AnsweredLine(key, _expression(value), number)
     if isinstance(key, sp.Basic):
-        return Line("Xi", _expression(value), number, getattr(key.func, "__name__", str(key)))
+        return AnsweredLine("Xi", _expression(value), number, getattr(key.func, "__name__", str(key)))
     raise ModelError(
         f"'{key}' is neither T, V, L, D nor a coordinate",
         fix='{"T": …, "V": …, theta: …}, a coordinate for its Ξ',
@@ -55,11 +55,11 @@ def _named(key: object, value: object, number: int) -> Line:
     )
 
 
-def _equation(thing: object, number: int) -> Line:
+def _equation(thing: object, number: int) -> AnsweredLine:
     if isinstance(thing, sp.Equality):
         lhs, rhs = (_expression(side) for side in (thing.lhs, thing.rhs))
-        return Line("equation", lhs - rhs, number, None, str(thing))
-    return Line("equation", _expression(thing), number, None, str(thing))
+        return AnsweredLine("equation", lhs - rhs, number, None, str(thing))
+    return AnsweredLine("equation", _expression(thing), number, None, str(thing))
 
 
 def _expression(thing: object) -> sp.Expr:
@@ -72,14 +72,14 @@ def _expression(thing: object) -> sp.Expr:
     )
 
 
-def filled(truth: Truth, lines: Sequence[Line]) -> tuple[Line, ...]:
+def filled(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
     """The lines with definitions written out and every Ξ that an equation only names put in: the answer's, or ours."""
     given = {line.name: line.expr for line in lines if line.kind == "Xi"}
     forces: dict[Any, sp.Expr] = {}
     for c, own in zip(truth.model.coordinates, truth.Xi, strict=True):
         forces[generalized_force(c.name)] = given.get(c.name, own)
-    out: list[Line] = []
+    out: list[AnsweredLine] = []
     for line in lines:
         expr = truth.expand(cast("sp.Expr", line.expr.xreplace(forces)))
-        out.append(Line(line.kind, expr, line.number, line.name, line.text))
+        out.append(AnsweredLine(line.kind, expr, line.number, line.name, line.text))
     return tuple(out)

@@ -10,15 +10,15 @@ import numpy as np
 from lagrangian.check.candidates import Effects, Wrong, effects_of
 from lagrangian.check.explain import Explanation, explain_rows
 from lagrangian.check.own_terms import wrong_term
-from lagrangian.check.reference import Truth
+from lagrangian.check.reference import Reference
 from lagrangian.check.rows import CLOSE
 from lagrangian.check.stated import dissipation, index_of
-from lagrangian.check.verdict import Finding, Line, Mistake, Status
-from lagrangian.derive.sampling import SETS, Array, Compiled
+from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
+from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
 
 
 @dataclass(frozen=True)
-class Named:
+class NamedMistakes:
     """The mistakes that explain an answer, the likeliest set first; ``others`` explain it as well.
 
     ``certain``: one mistake of a particular kind explains everything.
@@ -29,14 +29,14 @@ class Named:
     certain: bool = False
 
 
-def mistakes(truth: Truth, lines: Sequence[Line], findings: Sequence[Finding]) -> Named:
+def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence[Finding]) -> NamedMistakes:
     """Find the mistakes behind the wrong lines; lines that follow from others need no explanation of their own.
 
     A mistake that would show in a line that is right is believed last.
     """
     wrong = [f.line for f in findings if f.status is Status.WRONG and not f.follows]
     if not wrong:
-        return Named()
+        return NamedMistakes()
     groups: list[list[Explanation]] = []
     for line in [w for w in wrong if w.kind != "equation"]:
         groups.append([Explanation((w,), 0) for w in _explain_line(truth, line)])
@@ -48,16 +48,16 @@ def mistakes(truth: Truth, lines: Sequence[Line], findings: Sequence[Finding]) -
             own = [f for f in findings if f.status is Status.WRONG and f.line.kind == "equation"]
             found = [wrong_term(truth, f.line.expr, f.coordinate) for f in own]
             if all(m is not None for m in found):
-                return Named(tuple(m for m in found if m is not None))
+                return NamedMistakes(tuple(m for m in found if m is not None))
         groups.append(explained)
     if not (groups := [g for g in groups if g]):
-        return Named()
+        return NamedMistakes()
     against = _contradicted(truth, [f.line for f in findings if f.status.right])
     groups = [sorted(g, key=lambda e: any(w in against for w in e.wrongs)) for g in groups]
     return _named(truth, groups, against)
 
 
-def _contradicted(truth: Truth, right: Sequence[Line]) -> set[Wrong]:
+def _contradicted(truth: Reference, right: Sequence[AnsweredLine]) -> set[Wrong]:
     """The variants that would show in a line that is right."""
     found: set[Wrong] = set()
     for line in right:
@@ -73,7 +73,7 @@ def _contradicted(truth: Truth, right: Sequence[Line]) -> set[Wrong]:
     return found
 
 
-def _named(truth: Truth, groups: Sequence[Sequence[Explanation]], against: set[Wrong]) -> Named:
+def _named(truth: Reference, groups: Sequence[Sequence[Explanation]], against: set[Wrong]) -> NamedMistakes:
     """One mistake that explains every group, else the best of each group in turn."""
     held = [{w for e in g if len(e.wrongs) == 1 for w in e.wrongs} for g in groups]
     shared = set.intersection(*held) if all(held) else set()
@@ -87,7 +87,7 @@ def _named(truth: Truth, groups: Sequence[Sequence[Explanation]], against: set[W
     others = _once([w.mistake(truth) for e in first[1:] for w in e.wrongs if w not in against], told)
     single = (bool(shared) or len(groups) == 1) and len(best.wrongs) == 1
     certain = single and best.plainness < 2 and not best.wrongs[0].general and best.wrongs[0] not in against
-    return Named(tuple(told), others[:5], certain)
+    return NamedMistakes(tuple(told), others[:5], certain)
 
 
 def _once(mistakes: Sequence[Mistake], told: Sequence[Mistake]) -> tuple[Mistake, ...]:
@@ -101,7 +101,7 @@ def _once(mistakes: Sequence[Mistake], told: Sequence[Mistake]) -> tuple[Mistake
     return tuple(kept)
 
 
-def _explain_line(truth: Truth, line: Line) -> list[Wrong]:
+def _explain_line(truth: Reference, line: AnsweredLine) -> list[Wrong]:
     """The variants that give a line of T*, V, L or a Ξ, the likeliest first."""
     i = index_of(truth, line.name)
     if line.kind == "D":
@@ -113,7 +113,7 @@ def _explain_line(truth: Truth, line: Line) -> list[Wrong]:
     if right is None:
         assert i is not None
         right = truth.Xi[i]
-    rest = Compiled([line.expr - right]).at(truth.states)[0]
+    rest = CompiledExpressions([line.expr - right]).at(truth.states)[0]
     if not np.isfinite(rest).all():
         return []
     change = _changes(effects, line.kind, i)
@@ -125,11 +125,11 @@ def _explain_line(truth: Truth, line: Line) -> list[Wrong]:
     return sorted(found, key=lambda w: (w.general, w.variant.doubt, w.rank))
 
 
-def _explain_dissipation(truth: Truth, line: Line) -> list[Wrong]:
+def _explain_dissipation(truth: Reference, line: AnsweredLine) -> list[Wrong]:
     """The variants whose ΔΞ is −∂ΔD/∂ξ̇."""
     effects = effects_of(truth)
     rest = line.expr - dissipation(truth)
-    change = Compiled([-rest.diff(c.rate) for c in truth.model.coordinates]).at(truth.states)
+    change = CompiledExpressions([-rest.diff(c.rate) for c in truth.model.coordinates]).at(truth.states)
     if not np.isfinite(change).all():
         return []
     scale = max(float(np.abs(change).max()), 1e-300)

@@ -16,10 +16,10 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.check.reference import Truth, terms
+from lagrangian.check.reference import Reference, terms
 from lagrangian.check.rows import CLOSE
 from lagrangian.check.verdict import Mistake
-from lagrangian.derive.sampling import SETS, Array, Compiled
+from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
 from lagrangian.page.formula import text
 
 MOST_TERMS = 250
@@ -28,14 +28,14 @@ MOST_TERMS = 250
 WHY = text("Go through ∂L/∂ξ̇, its d/dt and ∂L/∂ξ once more, term by term, and mind the signs.")
 
 
-def wrong_term(truth: Truth, expr: sp.Expr, coordinate: str | None) -> Mistake | None:
+def wrong_term(truth: Reference, expr: sp.Expr, coordinate: str | None) -> Mistake | None:
     """The one term of an equation, left minus right, that makes it wrong; None where no single one does."""
     if terms(expr) > MOST_TERMS or not np.isfinite(truth.W).all():
         return None
     parts = (*sp.Add.make_args(expr), *sp.Add.make_args(bounded.expand(expr)))
     written = [t for t in dict.fromkeys(parts) if t not in (0, expr)]
     siblings = list(dict.fromkeys(s for t in written for s in _siblings(t)))[: 4 * MOST_TERMS]
-    values = Compiled([expr, *written, *siblings]).at(truth.states)
+    values = CompiledExpressions([expr, *written, *siblings]).at(truth.states)
     if not np.isfinite(values[0]).all():
         return None
     left = _beside(truth, values)
@@ -61,7 +61,7 @@ def _of_own(t: sp.Expr, c: sp.Expr, coordinate: str | None) -> Mistake:
     return Mistake("factor_of_a_term", what, WHY, 5, None, coordinate)
 
 
-def _beside(truth: Truth, values: Array) -> Array:
+def _beside(truth: Reference, values: Array) -> Array:
     """What is left of each row when the right equations, with factors constant in each set, are projected out."""
     size = truth.states.size // SETS
     out = np.empty_like(values)

@@ -11,17 +11,17 @@ import mpmath
 import numpy as np
 import sympy as sp
 
-from lagrangian.check.branches import Side, natural, sides_of
+from lagrangian.check.branches import Branch, natural, sides_of
 from lagrangian.derive import Derived
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach
-from lagrangian.derive.sampling import DIGITS, Array, Compiled, States
+from lagrangian.derive.sampling import DIGITS, Array, CompiledExpressions, States
 from lagrangian.model import Model
 
 LONGEST = 4000
 """Terms that an expression may have multiplied out before it is compared by numbers instead of its normal form."""
 
 
-class Truth:
+class Reference:
     """The right equations of a derivation, ready to be compared with; ``values`` are put in for parameters.
 
     ``others`` keeps the same system in coordinates that answers had; ``tried_all`` turns false where well-known
@@ -31,14 +31,14 @@ class Truth:
     def __init__(self, derivation: Derived, values: Mapping[sp.Symbol, sp.Expr] | None = None) -> None:
         self.derivation = derivation
         self.values = dict(values or {})
-        self.others: dict[object, Truth | None] = {}
+        self.others: dict[object, Reference | None] = {}
         self.tried_all = True
-        self._valued: dict[tuple[tuple[sp.Symbol, sp.Expr], ...], Truth] = {}
+        self._valued: dict[tuple[tuple[sp.Symbol, sp.Expr], ...], Reference] = {}
         self.model: Model = derivation.model
         self.n = len(derivation.coordinates)
         self.states = States(self.model, 2 * self.n + 6)
         self.region: sp.Expr | None = None
-        self.sides: tuple[Side, ...] = ()
+        self.sides: tuple[Branch, ...] = ()
         self.sides = self._sides()
         self.T, self.V = self.expand(derivation.T), self.expand(derivation.V)
         self.Xi = tuple(self.expand(derivation.Xi[q]) for q in derivation.coordinates)
@@ -47,13 +47,13 @@ class Truth:
     def _differences(self) -> list[sp.Expr]:
         return [cast("sp.Expr", e.lhs) - cast("sp.Expr", e.rhs) for e in self.derivation.equations]
 
-    def _sides(self) -> tuple[Side, ...]:
+    def _sides(self) -> tuple[Branch, ...]:
         d = self.derivation
         exprs = [self.expand(x) for x in (d.T, d.V, *self._differences())]
         M = sp.Matrix(d.mass_matrix.applyfunc(self.expand))
         return sides_of(exprs, M, self.states, list(d.coordinates))
 
-    def within(self, region: sp.Expr | None) -> Truth:
+    def within(self, region: sp.Expr | None) -> Reference:
         """The same, compared far out only where ``region`` has the sign that it has at ordinary states."""
         if region is None:
             return self
@@ -71,7 +71,7 @@ class Truth:
         states = States(self.model, 2, reach=reach, sides=self.sides)
         if self.region is None:
             return states, list(range(states.size))
-        compiled = Compiled([self.region])
+        compiled = CompiledExpressions([self.region])
         near, far = compiled.at(self.states)[0], compiled.at(states)[0]
         sign = np.sign(np.nansum(np.sign(near)))
         return states, [int(i) for i in np.flatnonzero(np.sign(far) == sign)]
@@ -93,11 +93,11 @@ class Truth:
         """The same for an expression without definitions."""
         return natural(cast("sp.Expr", expr.xreplace(self.values)) if self.values else expr, self.sides)
 
-    def with_values(self, values: Mapping[sp.Symbol, sp.Expr]) -> Truth:
+    def with_values(self, values: Mapping[sp.Symbol, sp.Expr]) -> Reference:
         """The same with values in place of parameters, made once."""
         key = tuple(sorted(values.items(), key=str))
         if key not in self._valued:
-            self._valued[key] = Truth(self.derivation, values)
+            self._valued[key] = Reference(self.derivation, values)
         return self._valued[key]
 
     @cached_property
@@ -120,9 +120,9 @@ class Truth:
         return tuple(self.form(r) for r in self.rows)
 
     @cached_property
-    def compiled(self) -> Compiled:
+    def compiled(self) -> CompiledExpressions:
         """The right equations as one graph."""
-        return Compiled(self.rows)
+        return CompiledExpressions(self.rows)
 
     @cached_property
     def W(self) -> Array:
@@ -130,11 +130,11 @@ class Truth:
         return self.compiled.at(self.states)
 
     @cached_property
-    def _motion(self) -> Compiled:
+    def _motion(self) -> CompiledExpressions:
         d = self.derivation
         bias: list[Any] = [r.xreplace({c.acceleration: sp.S.Zero for c in self.model.coordinates}) for r in self.rows]
         inertia: list[Any] = list(d.mass_matrix.flat())
-        return Compiled([*map(self.expand, inertia), *bias])
+        return CompiledExpressions([*map(self.expand, inertia), *bias])
 
     @cached_property
     def accelerations(self) -> dict[sp.Basic, Array]:
@@ -188,6 +188,6 @@ def _product(counts: Sequence[int]) -> int:
 
 
 @lru_cache(maxsize=32)
-def truth_of(derivation: Derived) -> Truth:
+def truth_of(derivation: Derived) -> Reference:
     """What is right of a derivation, made once for the derivations that were checked with last."""
-    return Truth(derivation)
+    return Reference(derivation)

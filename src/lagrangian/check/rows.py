@@ -18,9 +18,9 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.check.reference import Truth
+from lagrangian.check.reference import Reference
 from lagrangian.derive.algebra import Form
-from lagrangian.derive.sampling import DIGITS, PLACES, SETS, Array, Compiled, States
+from lagrangian.derive.sampling import DIGITS, PLACES, SETS, Array, CompiledExpressions, States
 
 CLOSE = 1e-8
 """Relative size below which a double may be zero; what is decided by it is decided again exactly."""
@@ -42,7 +42,7 @@ class Kind(Enum):
 
 
 @dataclass(frozen=True)
-class Row:
+class ReferenceRow:
     """One equation of an answer: ``factors`` are its A_ji as SymPy, where they were found; ``index`` its equation."""
 
     kind: Kind
@@ -56,23 +56,25 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Comparison:
+class RowComparison:
     """All equations of an answer: each one's kind, and how many independent ones there are among the true."""
 
-    rows: tuple[Row, ...]
+    rows: tuple[ReferenceRow, ...]
     rank: int
 
 
-def compare(truth: Truth, exprs: Sequence[sp.Expr], *, instead: Mapping[sp.Basic, Array] | None = None) -> Comparison:
+def compare(
+    truth: Reference, exprs: Sequence[sp.Expr], *, instead: Mapping[sp.Basic, Array] | None = None
+) -> RowComparison:
     """Return what each expression, left minus right of an equation, is made of."""
-    compiled = Compiled(exprs)
+    compiled = CompiledExpressions(exprs)
     P = compiled.at(truth.states, instead)
     A, spanned = _factors(truth, P)
     moving = _on_motion(truth, compiled)
     rows = []
     for j, expr in enumerate(exprs):
         rows.append(_row(truth, expr, compiled, j, P[j], A[:, j, :], bool(spanned[j]), bool(moving[j])))
-    return Comparison(tuple(rows), _rank(truth, compiled, [r.true for r in rows]))
+    return RowComparison(tuple(rows), _rank(truth, compiled, [r.true for r in rows]))
 
 
 def small(values: Array, scale: Array | float) -> bool:
@@ -80,11 +82,11 @@ def small(values: Array, scale: Array | float) -> bool:
     return bool(np.isfinite(values).all() and (np.abs(values) <= CLOSE * np.maximum(scale, 1e-300)).all())
 
 
-def zero_everywhere(truth: Truth, expr: sp.Expr) -> bool:
+def zero_everywhere(truth: Reference, expr: sp.Expr) -> bool:
     """Whether an expression vanishes identically: in normal form, else with 50 digits at several states."""
     if expr == 0:
         return True
-    compiled = Compiled([expr])
+    compiled = CompiledExpressions([expr])
     values = compiled.at(truth.states)[0]
     values = values[np.isfinite(values)]
     if not len(values) or np.abs(values).max() > 1e-6:
@@ -99,7 +101,7 @@ def zero_everywhere(truth: Truth, expr: sp.Expr) -> bool:
     return all(abs(x) < EXACTLY for x in found if mpmath.isfinite(x))
 
 
-def _factors(truth: Truth, P: Array) -> tuple[Array, Array]:
+def _factors(truth: Reference, P: Array) -> tuple[Array, Array]:
     """A (blocks, k, n) by least squares in every place, and which rows are wholly in the span."""
     W, k = truth.W, len(P)
     found, holds = [], np.ones(k, bool)
@@ -118,7 +120,7 @@ def _factors(truth: Truth, P: Array) -> tuple[Array, Array]:
     return np.array(found), holds
 
 
-def _on_motion(truth: Truth, compiled: Compiled) -> Array:
+def _on_motion(truth: Reference, compiled: CompiledExpressions) -> Array:
     """Which expressions vanish along the true motion, beside what they are off it."""
     truly = compiled.at(truth.states, truth.accelerations)
     other = compiled.at(truth.states)
@@ -129,7 +131,7 @@ def _on_motion(truth: Truth, compiled: Compiled) -> Array:
     return np.array(holds)
 
 
-def _rank(truth: Truth, compiled: Compiled, true: list[bool]) -> int:
+def _rank(truth: Reference, compiled: CompiledExpressions, true: list[bool]) -> int:
     """How many of the true equations are independent: the rank of ∂P/∂ξ̈ at the true motion.
 
     There, and not anywhere: the product of two equations is true as well, and says nothing.
@@ -154,39 +156,46 @@ def _normed(rows: Array) -> Array:
 
 
 def _row(
-    truth: Truth, expr: sp.Expr, compiled: Compiled, j: int, p: Array, A: Array, spanned: bool, moving: bool
-) -> Row:
+    truth: Reference,
+    expr: sp.Expr,
+    compiled: CompiledExpressions,
+    j: int,
+    p: Array,
+    A: Array,
+    spanned: bool,
+    moving: bool,
+) -> ReferenceRow:
     form = truth.form(expr)
     if (form is not None and form.is_zero) or small(p, 1.0):
-        return Row(Kind.NOTHING)
+        return ReferenceRow(Kind.NOTHING)
     if not spanned and not moving:
-        return Row(Kind.WRONG)
+        return ReferenceRow(Kind.WRONG)
     factors = _symbolic(truth, expr, form, A) if spanned else None
     exact = _exact(truth, form, factors) if factors is not None else None
     if factors is not None and exact:
         return _named(factors, truth)
     if exact is False or not _surely(truth, compiled, j, expr):
-        return Row(Kind.WRONG)
+        return ReferenceRow(Kind.WRONG)
     if not spanned:
-        return Row(Kind.CONSEQUENCE)
+        return ReferenceRow(Kind.CONSEQUENCE)
     if factors is not None:
         return _named(factors, truth)
     used = [i for i in range(truth.n) if np.abs(A[:, i]).max() > CLOSE * np.abs(A).max()]
     if len(used) == 1:
-        return Row(Kind.SCALED, None, used[0])
-    return Row(Kind.TURNED)
+        return ReferenceRow(Kind.SCALED, None, used[0])
+    return ReferenceRow(Kind.TURNED)
 
 
-def _named(factors: tuple[sp.Expr, ...], truth: Truth) -> Row:
+def _named(factors: tuple[sp.Expr, ...], truth: Reference) -> ReferenceRow:
     used = [i for i, f in enumerate(factors) if f != 0]
     if len(used) == 1:
         i = used[0]
-        return Row(Kind.SAME if abs(factors[i]) == 1 else Kind.SCALED, factors, i)
+        return ReferenceRow(Kind.SAME if abs(factors[i]) == 1 else Kind.SCALED, factors, i)
     moving = any(f.free_symbols and f.has(*truth.derivation.coordinates) for f in factors)
-    return Row(Kind.TURNED if moving else Kind.COMBINED, factors)
+    return ReferenceRow(Kind.TURNED if moving else Kind.COMBINED, factors)
 
 
-def _exact(truth: Truth, form: Form | None, factors: Sequence[sp.Expr]) -> bool | None:
+def _exact(truth: Reference, form: Form | None, factors: Sequence[sp.Expr]) -> bool | None:
     """P − Σ A W = 0 in normal form; None where that does not tell, as with functions it does not know."""
     if form is None:
         return None
@@ -201,7 +210,7 @@ def _exact(truth: Truth, form: Form | None, factors: Sequence[sp.Expr]) -> bool 
     return True if rest.is_zero else None if rest.opaque() else False
 
 
-def _surely(truth: Truth, compiled: Compiled, j: int, expr: sp.Expr) -> bool:
+def _surely(truth: Reference, compiled: CompiledExpressions, j: int, expr: sp.Expr) -> bool:
     """Whether expression j vanishes along the true motion, with 50 digits, at states near and far."""
     step = max(1, truth.states.size // SURE)
     near = [_vanishes(truth, compiled, j, truth.states, i) for i in range(0, truth.states.size, step)]
@@ -210,7 +219,7 @@ def _surely(truth: Truth, compiled: Compiled, j: int, expr: sp.Expr) -> bool:
     return False not in (*near, *far) and near.count(True) >= 2
 
 
-def _vanishes(truth: Truth, compiled: Compiled, j: int, states: States, index: int) -> bool | None:
+def _vanishes(truth: Reference, compiled: CompiledExpressions, j: int, states: States, index: int) -> bool | None:
     """Whether expression j vanishes at one state; None where the right equations have no value themselves."""
     try:
         motion = truth.accelerations_exactly(states, index)
@@ -228,7 +237,7 @@ def _vanishes(truth: Truth, compiled: Compiled, j: int, states: States, index: i
 # -- factors as expressions -----------------------------------------------------------------------------------------
 
 
-def _symbolic(truth: Truth, expr: sp.Expr, form: Form | None, A: Array) -> tuple[sp.Expr, ...] | None:
+def _symbolic(truth: Reference, expr: sp.Expr, form: Form | None, A: Array) -> tuple[sp.Expr, ...] | None:
     """The factors of one row as expressions, found from their values in every place; None where they are not."""
     size = np.abs(A).max()
     used = [i for i in range(truth.n) if np.abs(A[:, i]).max() > CLOSE * size]
@@ -251,7 +260,7 @@ def _symbolic(truth: Truth, expr: sp.Expr, form: Form | None, A: Array) -> tuple
     return None
 
 
-def _only(truth: Truth, i: int, factor: sp.Expr) -> tuple[sp.Expr, ...]:
+def _only(truth: Reference, i: int, factor: sp.Expr) -> tuple[sp.Expr, ...]:
     """The factors of a row that is a multiple of equation i."""
     return tuple(factor if k == i else sp.S.Zero for k in range(truth.n))
 
@@ -290,7 +299,7 @@ def ratio(form: Form, right: Form, *, unlike: float = 1.0) -> tuple[sp.Expr, int
     return factor, count
 
 
-def _quotient(truth: Truth, expr: sp.Expr, i: int) -> tuple[sp.Expr, ...] | None:
+def _quotient(truth: Reference, expr: sp.Expr, i: int) -> tuple[sp.Expr, ...] | None:
     """The factor of a row that is a multiple of one right equation, by the coefficient of an acceleration."""
     if terms_of(expr) > 200:
         return None
@@ -303,7 +312,7 @@ def _quotient(truth: Truth, expr: sp.Expr, i: int) -> tuple[sp.Expr, ...] | None
     return None
 
 
-def _solved(truth: Truth, expr: sp.Expr, A: Array) -> tuple[sp.Expr, ...] | None:
+def _solved(truth: Reference, expr: sp.Expr, A: Array) -> tuple[sp.Expr, ...] | None:
     """The factors from A M = ∂P/∂ξ̈, where they do not depend on the place."""
     by_set = A.reshape(SETS, PLACES, -1)
     if np.abs(by_set - by_set[:, :1]).max() > CLOSE * np.abs(A).max():

@@ -11,10 +11,10 @@ import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from lagrangian.check.reference import Truth
+from lagrangian.check.reference import Reference
 from lagrangian.check.rows import CLOSE
-from lagrangian.check.verdict import Line
-from lagrangian.derive.sampling import Compiled
+from lagrangian.check.verdict import AnsweredLine
+from lagrangian.derive.sampling import CompiledExpressions
 from lagrangian.errors import did_you_mean
 from lagrangian.model import time
 from lagrangian.page.formula import Text, text
@@ -28,11 +28,11 @@ MOST = 120
 class Spelling:
     """The lines with their names read, and what was read as what."""
 
-    lines: tuple[Line, ...]
+    lines: tuple[AnsweredLine, ...]
     notes: tuple[Text, ...] = ()
 
 
-def spelled(truth: Truth, lines: Sequence[Line], *, numbers: bool = True) -> Spelling:
+def spelled(truth: Reference, lines: Sequence[AnsweredLine], *, numbers: bool = True) -> Spelling:
     """Read unknown constants as parameters the answer lacks, and numbers as the parameters that have these values.
 
     Without ``numbers`` these stay what they are.
@@ -57,13 +57,13 @@ def spelled(truth: Truth, lines: Sequence[Line], *, numbers: bool = True) -> Spe
     return Spelling(put, (*notes, *told))
 
 
-def not_there(truth: Truth, symbol: sp.Basic) -> Text:
+def not_there(truth: Reference, symbol: sp.Basic) -> Text:
     """Say that the system has no such symbol, and which of its names is nearest."""
     hint = did_you_mean(plain(symbol), truth.model.symbols)
     return text(f"The system has no '{plain(symbol)}'.{f' {hint}' if hint else ''}")
 
 
-def in_numbers(truth: Truth, lines: Sequence[Line]) -> bool:
+def in_numbers(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
     """Whether an answer names no parameter, and has numbers that only values can be."""
     known = {p.symbol for p in truth.model.parameters}
     numbers = {abs(x) for line in lines for x in line.expr.atoms(sp.Rational, sp.Float)}
@@ -96,24 +96,24 @@ def _closest(unknown: Sequence[sp.Basic], free: Sequence[sp.Expr]) -> dict[sp.Ba
     return found
 
 
-def _may_be_right(truth: Truth, lines: Sequence[Line]) -> bool:
+def _may_be_right(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
     """Whether the equations vanish along the true motion, or the energies are the right ones, in doubles."""
     for line in lines:
         if line.kind == "equation":
-            compiled = Compiled([line.expr])
+            compiled = CompiledExpressions([line.expr])
             truly = compiled.at(truth.states, truth.accelerations)
             scale = np.abs(compiled.at(truth.states)).max()
             if not np.isfinite(truly).all() or np.abs(truly).max() > CLOSE * scale:
                 return False
         elif line.kind in ("T", "V", "L"):
             right = {"T": truth.T, "V": truth.V, "L": truth.L}[line.kind]
-            rest = Compiled([line.expr - right]).at(truth.states)[0].reshape(2, -1)
+            rest = CompiledExpressions([line.expr - right]).at(truth.states)[0].reshape(2, -1)
             if not np.isfinite(rest).all() or np.abs(rest - rest[:, :1]).max() > 1e-6:
                 return False
     return True
 
 
-def _numbers(truth: Truth, lines: tuple[Line, ...]) -> tuple[tuple[Line, ...], tuple[Text, ...]]:
+def _numbers(truth: Reference, lines: tuple[AnsweredLine, ...]) -> tuple[tuple[AnsweredLine, ...], tuple[Text, ...]]:
     """Numbers that can only be the value of a parameter the answer lacks, such as 9.81 for g."""
     used = {s for line in lines for s in line.expr.free_symbols | line.expr.atoms(AppliedUndef)}
     table: dict[sp.Basic, sp.Expr] = {}

@@ -10,17 +10,17 @@ import numpy as np
 import sympy as sp
 
 from lagrangian.check.difference import differences
-from lagrangian.check.reference import Truth
+from lagrangian.check.reference import Reference
 from lagrangian.check.rows import CLOSE, zero_everywhere
-from lagrangian.check.verdict import Finding, Line, Status
-from lagrangian.derive.sampling import Array, Compiled
+from lagrangian.check.verdict import AnsweredLine, Finding, Status
+from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.graph import jvp, vjp
 from lagrangian.model import Damper, Dissipation, time
 from lagrangian.page.formula import Name, Text, text
 
 
 @dataclass(frozen=True)
-class Given:
+class StatedQuantity:
     """What an answer states, by kind: its own T*, V and L, and its own Ξ by coordinate; None where it states none."""
 
     T: sp.Expr | None = None
@@ -33,29 +33,29 @@ class Given:
         """Whether it states an energy or a force."""
         return any(x is not None for x in (self.T, self.V, self.L, *self.Xi))
 
-    def lagrangian(self, truth: Truth) -> sp.Expr:
+    def lagrangian(self, truth: Reference) -> sp.Expr:
         """The answer's Lagrangian: as stated, or its T* − V with the right ones where it states none."""
         if self.L is not None:
             return self.L
         return (self.T if self.T is not None else truth.T) - (self.V if self.V is not None else truth.V)
 
-    def rows(self, truth: Truth) -> Array:
+    def rows(self, truth: Reference) -> Array:
         """The equations that follow from what the answer states, d/dt ∂L/∂ξ̇ − ∂L/∂ξ − Ξ, at every state."""
         Xi = [truth.Xi[i] if (mine := self.Xi[i]) is None else mine for i in range(truth.n)]
-        return left_values(truth, self.lagrangian(truth)) - Compiled(Xi).at(truth.states)
+        return left_values(truth, self.lagrangian(truth)) - CompiledExpressions(Xi).at(truth.states)
 
 
-def given(truth: Truth, lines: Sequence[Line]) -> Given:
+def given(truth: Reference, lines: Sequence[AnsweredLine]) -> StatedQuantity:
     """What the lines state; the last one counts where a quantity is given twice."""
     energies = {line.kind: line.expr for line in lines if line.kind in ("T", "V", "L")}
     forces = {line.name: line.expr for line in lines if line.kind == "Xi"}
     Xi = tuple(forces.get(c.name) for c in truth.model.coordinates)
-    return Given(energies.get("T"), energies.get("V"), energies.get("L"), Xi)
+    return StatedQuantity(energies.get("T"), energies.get("V"), energies.get("L"), Xi)
 
 
-def left_values(truth: Truth, L: sp.Expr) -> Array:
+def left_values(truth: Reference, L: sp.Expr) -> Array:
     """d/dt ∂L/∂ξ̇_i − ∂L/∂ξ_i at every state, (n, size), differentiated on the graph."""
-    compiled = Compiled([])
+    compiled = CompiledExpressions([])
     coordinates, g = truth.model.coordinates, compiled.graph
     q = [compiled.input(c.symbol) for c in coordinates]
     v = [compiled.input(c.rate) for c in coordinates]
@@ -67,12 +67,12 @@ def left_values(truth: Truth, L: sp.Expr) -> Array:
     return compiled.at(truth.states)
 
 
-def left_sides(truth: Truth, L: sp.Expr) -> list[sp.Expr]:
+def left_sides(truth: Reference, L: sp.Expr) -> list[sp.Expr]:
     """d/dt ∂L/∂ξ̇_i − ∂L/∂ξ_i of every coordinate."""
     return [cast("sp.Expr", sp.diff(L.diff(c.rate), time)) - L.diff(c.symbol) for c in truth.model.coordinates]
 
 
-def judge(truth: Truth, lines: Sequence[Line], k: int, turn: sp.Matrix | None = None) -> Finding:
+def judge(truth: Reference, lines: Sequence[AnsweredLine], k: int, turn: sp.Matrix | None = None) -> Finding:
     """What was found of line number ``k``, which may follow from those above it.
 
     ``turn`` is (∂ψ/∂ξ)⁻¹ where the answer has coordinates of its own: what belongs to one of them is a sum of ours.
@@ -98,12 +98,12 @@ def judge(truth: Truth, lines: Sequence[Line], k: int, turn: sp.Matrix | None = 
     return Finding(line, Status.WRONG, None, coordinate, differing, follows)
 
 
-def index_of(truth: Truth, name: str | None) -> int | None:
+def index_of(truth: Reference, name: str | None) -> int | None:
     """The number of the coordinate of a name."""
     return next((i for i, c in enumerate(truth.model.coordinates) if c.name == name), None)
 
 
-def right_value(truth: Truth, line: Line, i: int | None, turn: sp.Matrix | None = None) -> sp.Expr | None:
+def right_value(truth: Reference, line: AnsweredLine, i: int | None, turn: sp.Matrix | None = None) -> sp.Expr | None:
     """What the line should say; None where there is nothing to compare it with. Ξ_η = (∂ξ/∂η)ᵀ Ξ_ξ, see `judge`."""
     if line.kind in ("T", "V", "L"):
         return {"T": truth.T, "V": truth.V, "L": truth.L}[line.kind]
@@ -119,7 +119,7 @@ def right_value(truth: Truth, line: Line, i: int | None, turn: sp.Matrix | None 
     return sp.Add(*[turn[k, i] * x for k, x in enumerate(own) if x is not None])
 
 
-def _of_coordinate(truth: Truth, kind: str, i: int, L: sp.Expr, Xi: sp.Expr) -> sp.Expr | None:
+def _of_coordinate(truth: Reference, kind: str, i: int, L: sp.Expr, Xi: sp.Expr) -> sp.Expr | None:
     c = truth.model.coordinates[i]
     if kind == "Xi":
         return Xi
@@ -130,13 +130,13 @@ def _of_coordinate(truth: Truth, kind: str, i: int, L: sp.Expr, Xi: sp.Expr) -> 
     return L.diff(c.symbol) if kind == "slope" else None
 
 
-def dissipation(truth: Truth) -> sp.Expr:
+def dissipation(truth: Reference) -> sp.Expr:
     """Rayleigh's function of all dampers that have one."""
     parts = [e.dissipation(truth.model) for e in truth.model.elements]
     return sp.Add(*[truth.expand(d) for d in parts if d is not None])
 
 
-def driving(truth: Truth, i: int) -> sp.Expr:
+def driving(truth: Reference, i: int) -> sp.Expr:
     """Ξ_i without the dampers."""
     total: sp.Expr = sp.S.Zero
     for element in truth.model.elements:
@@ -146,7 +146,7 @@ def driving(truth: Truth, i: int) -> sp.Expr:
     return total
 
 
-def harmless(truth: Truth, line: Line, rest: sp.Expr) -> Text | None:
+def harmless(truth: Reference, line: AnsweredLine, rest: sp.Expr) -> Text | None:
     """Why a difference of an energy does not matter to the equations, in words; None where it does."""
     coordinates = truth.model.coordinates
     if line.kind == "V" and all(zero_everywhere(truth, rest.diff(c.symbol)) for c in coordinates):
@@ -166,7 +166,7 @@ def harmless(truth: Truth, line: Line, rest: sp.Expr) -> Text | None:
     return None
 
 
-def _follows(truth: Truth, line: Line, i: int | None, above: Given) -> bool:
+def _follows(truth: Reference, line: AnsweredLine, i: int | None, above: StatedQuantity) -> bool:
     """Whether a line is what the lines above it lead to."""
     if line.kind == "L" and above.T is not None and above.V is not None:
         return zero_everywhere(truth, line.expr - above.T + above.V)
@@ -184,12 +184,12 @@ def spanned(P: Array, W: Array) -> bool:
     return bool((left <= CLOSE * np.abs(P).max(axis=1)).all())
 
 
-def equations_follow(truth: Truth, exprs: Sequence[sp.Expr], above: Given) -> list[bool]:
+def equations_follow(truth: Reference, exprs: Sequence[sp.Expr], above: StatedQuantity) -> list[bool]:
     """Which equations are those that the answer's own energies and forces lead to."""
     if not above.stated or not exprs:
         return [False] * len(exprs)
     W = above.rows(truth)
-    P = Compiled(exprs).at(truth.states)
+    P = CompiledExpressions(exprs).at(truth.states)
     size = truth.states.size // 2
     out: list[bool] = []
     for p in P:

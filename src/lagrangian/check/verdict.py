@@ -31,7 +31,7 @@ class Status(StrEnum):
 
 
 @dataclass(frozen=True)
-class Line(Brief):
+class AnsweredLine(Brief):
     """One line of an answer: what it states, and as what. ``expr`` is the energy, the force, or left minus right."""
 
     kind: str
@@ -51,7 +51,7 @@ class Line(Brief):
 
 
 @dataclass(frozen=True)
-class Origin(Brief):
+class TermOrigin(Brief):
     """Where a term comes from: the element in words, and the step that puts it in."""
 
     element: str
@@ -63,7 +63,7 @@ class Origin(Brief):
 
 
 @dataclass(frozen=True)
-class Difference(Brief):
+class TermDifference(Brief):
     """A term that differs from the best matching right line: missing, extra, or with another coefficient.
 
     ``term`` is what the right line has (what the answer has, where it is extra); ``written`` what the answer has in
@@ -74,7 +74,7 @@ class Difference(Brief):
     term: sp.Expr
     written: sp.Expr
     coordinate: str | None
-    origins: tuple[Origin, ...] = ()
+    origins: tuple[TermOrigin, ...] = ()
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data."""
@@ -117,11 +117,11 @@ class Finding(Brief):
     ``coordinate`` is the equation it is, or was meant to be; ``note`` says what is special about it.
     """
 
-    line: Line
+    line: AnsweredLine
     status: Status
     note: Text | None = None
     coordinate: str | None = None
-    differences: tuple[Difference, ...] = ()
+    differences: tuple[TermDifference, ...] = ()
     follows: bool = False
 
     def to_dict(self) -> dict[str, Any]:

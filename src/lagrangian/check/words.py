@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from lagrangian.check.verdict import Difference, Finding, Mistake, Status, Verdict
+from lagrangian.check.verdict import Finding, Mistake, Status, TermDifference, Verdict
 from lagrangian.model import Model
 from lagrangian.page.formula import Item, Left, Table, Text, text
 from lagrangian.page.report import Part, Report
@@ -132,7 +132,7 @@ def _terms(verdict: Verdict) -> Iterator[Item]:
             yield text(*_said(f, d))
 
 
-def _said(finding: Finding, d: Difference) -> tuple[str | Left, ...]:
+def _said(finding: Finding, d: TermDifference) -> tuple[str | Left, ...]:
     where = f"{finding.line.title}: "
     words: tuple[str | Left, ...]
     match d.kind:
@@ -147,7 +147,7 @@ def _said(finding: Finding, d: Difference) -> tuple[str | Left, ...]:
     return (*words, *_source(d))
 
 
-def _source(d: Difference) -> tuple[str | Left, ...]:
+def _source(d: TermDifference) -> tuple[str | Left, ...]:
     if d.kind == "extra" and not d.origins:
         return (".",)
     if not d.origins:

@@ -24,7 +24,7 @@ _TURNING = "⠋⠙⠹⠸⠼⠴⠦⠧⠇⠏"
 _EMPTY = "\r\x1b[K"
 
 
-class Status(logging.Handler):
+class StatusLine(logging.Handler):
     """A line on standard error that says what is being done, for how long, and turns; it goes as others write."""
 
     def __init__(self) -> None:
@@ -105,5 +105,5 @@ def _columns() -> int:
         return 80
 
 
-status = Status()
+status = StatusLine()
 """That of this process."""

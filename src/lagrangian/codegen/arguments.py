@@ -31,7 +31,7 @@ def is_scalar(group: str, entries: Sequence[str]) -> bool:
 
 
 @dataclass(frozen=True)
-class Group:
+class InputGroup:
     """One group of inputs: its name, its entries, and the values entries take when not given (None: must be given)."""
 
     name: str
@@ -175,7 +175,7 @@ def where(lead: tuple[int, ...], state: int) -> str:
     return f" at state {index[0] if len(index) == 1 else index}"
 
 
-def not_finite_input(group: Group, row: NDArray[np.float64], at: str) -> RunError | None:
+def not_finite_input(group: InputGroup, row: NDArray[np.float64], at: str) -> RunError | None:
     """The error for the first entry of a row that is NaN or infinite, if any."""
     if np.isfinite(row).all():
         return None

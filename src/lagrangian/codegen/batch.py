@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from lagrangian.errors import RunError
 
 from . import workers
-from .arguments import FLOAT, Group, not_finite_input, rows, where
+from .arguments import FLOAT, InputGroup, not_finite_input, rows, where
 from .buffers import address, aligned
 
 Array = NDArray[np.float64]
@@ -25,7 +25,7 @@ class Engine:
     """One of a program's ``batch`` functions: its groups of inputs in the order of its table, and what it needs."""
 
     call: Callable[[int | bytes, int, int, int], int]
-    groups: tuple[Group, ...]
+    groups: tuple[InputGroup, ...]
     outputs: Shapes
     lanes: int
     work: int  # doubles of work space
@@ -158,7 +158,7 @@ def targets(outputs: Shapes, out: Any, lead: tuple[int, ...]) -> dict[str, Array
 
 
 def trouble(
-    groups: Sequence[Group], inputs: Sequence[Array], outputs: Shapes, results: Sequence[Array], at: str
+    groups: Sequence[InputGroup], inputs: Sequence[Array], outputs: Shapes, results: Sequence[Array], at: str
 ) -> RunError | None:
     """The error for the first number of a state that is not finite, inputs first; None if all are."""
     for group, row in zip(groups, inputs, strict=True):

@@ -13,7 +13,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from .arguments import FLOAT, PLAIN, Group
+from .arguments import FLOAT, PLAIN, InputGroup
 from .sizes import Sizes
 
 
@@ -55,7 +55,7 @@ class Slot:
 
     __slots__ = ("address", "default", "pack", "pick", "place", "places", "scalar", "shape", "size", "values")
 
-    def __init__(self, place: int, group: Group) -> None:
+    def __init__(self, place: int, group: InputGroup) -> None:
         self.place, self.size, self.scalar, self.values = place, len(group.entries), group.scalar, group.defaults
         self.shape = (self.size,)
         self.places = {name: k for k, name in enumerate(group.entries)}

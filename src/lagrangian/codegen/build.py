@@ -26,7 +26,7 @@ from . import cache as disk
 from . import driver, native
 from .emit import emit, plan
 from .ir import Module, Target
-from .packed_loop import Short
+from .packed_loop import PackedLoop
 from .tape import Lowered, lower
 
 if TYPE_CHECKING:
@@ -145,11 +145,11 @@ class Build:
         return module.text()
 
     @property
-    def short(self) -> Short | None:
+    def short(self) -> PackedLoop | None:
         """The body, where it is short enough for the batch's own loop."""
         body, lanes = self.lowered.body, self.options.lanes
         fits = lanes > 1 and sum(self.sizes.groups) and body.operations <= SHORT * lanes
-        return Short(body, SIDE_BY_SIDE) if fits else None
+        return PackedLoop(body, SIDE_BY_SIDE) if fits else None
 
     def emit_tapes(self, module: Module, lanes: int, *, own_shared: bool = False) -> None:
         """Print ``body_<lanes>``, and ``prologue_<lanes>`` unless all lanes share one parameter set."""

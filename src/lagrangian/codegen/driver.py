@@ -19,7 +19,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from .emit import attributes
 from .ir import Function, Module, Value
-from .packed_loop import Short, emit_packed
+from .packed_loop import PackedLoop, emit_packed
 from .sizes import Array, Sizes
 from .transpose import emit_move
 
@@ -149,7 +149,14 @@ end:
 
 
 def emit_batch(
-    module: Module, sizes: Sizes, lanes: int, *, own_shared: bool, body: str, prologue: str, short: Short | None = None
+    module: Module,
+    sizes: Sizes,
+    lanes: int,
+    *,
+    own_shared: bool,
+    body: str,
+    prologue: str,
+    short: PackedLoop | None = None,
 ) -> None:
     """Print ``batch`` around the ``lanes`` wide ``body``, and around ``prologue`` where every state has its own.
 

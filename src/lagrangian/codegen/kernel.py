@@ -15,7 +15,7 @@ from numpy import ndarray
 from lagrangian.errors import RunError, did_you_mean
 
 from . import native
-from .arguments import Group, not_finite_input
+from .arguments import InputGroup, not_finite_input
 from .batch import Array, Batch, Engine, trouble
 from .buffers import Look, RawFunction, Stage, aligned
 from .build import Build, Options
@@ -59,7 +59,7 @@ class Kernel:
         self.threads = threads
         self.build, self._optional = build, dict(optional)
         self._groups = tuple(
-            Group(name, tuple(e), tuple(program.defaults.get(x) if name == "p" else optional.get(name) for x in e))
+            InputGroup(name, tuple(e), tuple(program.defaults.get(x) if name == "p" else optional.get(name) for x in e))
             for name, e in program.inputs.items()
         )
         self._outputs = {name: tuple(o.shape) for name, o in program.outputs.items()}

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from .emit import emit_inline
 from .ir import Function, Value, shuffle_mask
-from .transpose import Mover
+from .transpose import Transposer
 
 if TYPE_CHECKING:
     from .sizes import Array, Sizes
@@ -24,7 +24,7 @@ FEW = 4  # entries up to which whole vectors are sorted; beyond, rows are transp
 def load(f: Function, base: str, n: int) -> list[Value]:
     """``n`` entries of W rows that lie one after the other at ``base``: one vector an entry."""
     if n > FEW:
-        mover = Mover(f, _rows(f, base, n), gather=True)
+        mover = Transposer(f, _rows(f, base, n), gather=True)
         found: dict[int, str] = {}
         for start, width in mover.pieces(n):
             found.update(zip(range(start, start + width), mover.lifted(str(start), width), strict=True))
@@ -39,7 +39,7 @@ def store(f: Function, base: str, values: Sequence[Value]) -> None:
     """The reverse of `load`."""
     n = len(values)
     if n > FEW:
-        mover = Mover(f, _rows(f, base, n), gather=False)
+        mover = Transposer(f, _rows(f, base, n), gather=False)
         for start, width in mover.pieces(n):
             mover.dropped(str(start), width, [v.name for v in values[start : start + width]])
         return
@@ -79,7 +79,7 @@ def _sorted(f: Function, sources: Sequence[str], spots: Sequence[tuple[int, int]
 
 
 @dataclass(frozen=True)
-class Short:
+class PackedLoop:
     """A tape short enough to be printed into the loop, ``blocks`` × W states in one turn."""
 
     tape: Tape
@@ -87,7 +87,7 @@ class Short:
 
 
 def emit_packed(
-    f: Function, short: Short, sizes: Sizes, arrays: Sequence[Array], at: dict[str, str], shared: str
+    f: Function, short: PackedLoop, sizes: Sizes, arrays: Sequence[Array], at: dict[str, str], shared: str
 ) -> tuple[str, str, str]:
     """Print the loop for packed arrays, taken where there is one full turn; then the block ``loop`` or ``end`` follows.
 
@@ -115,7 +115,7 @@ def emit_packed(
     for k in reversed(range(short.blocks)):
         values = [wide.part(x, f, k) for x in results]
         _write(f, outputs, sizes.outputs, firsts[k], values)
-        trouble = Mover(f, [], gather=True).noted([x.name for x in (*read[k], *values)], Value(f, f.constant(0.0)))
+        trouble = Transposer(f, [], gather=True).noted([x.name for x in (*read[k], *values)], Value(f, f.constant(0.0)))
         fine = f.all_lanes(f.compare("oeq", trouble, 0.0))
         found = f.put(f"select i1 {fine}, i64 {found}, i64 {firsts[k]}")
     known = f.put(f"select i1 {f.put('icmp eq i64 %known, -1')}, i64 {found}, i64 %known")

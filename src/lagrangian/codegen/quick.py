@@ -18,7 +18,7 @@ import numpy as np
 from numpy import ndarray
 from numpy.typing import NDArray
 
-from .arguments import FLOAT, PLAIN, Group
+from .arguments import FLOAT, PLAIN, InputGroup
 from .batch import Array, Engine, Shapes
 from .buffers import NOTHING, Look, Row, Slot, Stage, address
 from .driver import NOT_FINITE
@@ -40,7 +40,7 @@ class Quick:
 
     def __init__(
         self,
-        groups: Sequence[Group],
+        groups: Sequence[InputGroup],
         late: Sequence[int],
         early: Sequence[int],
         outputs: Shapes,

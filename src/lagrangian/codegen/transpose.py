@@ -31,7 +31,7 @@ def emit_move(module: Module, lanes: int, n: int, *, gather: bool) -> str:
         rows.append(f.put(f"getelementptr i8, ptr %base, i64 {f.put(f'mul i64 %row, {k}')}"))
     f.do("%columns = icmp eq i64 %row, 8")
     f.do("br i1 %columns, label %beside, label %apart")
-    mover = Mover(f, rows, gather)
+    mover = Transposer(f, rows, gather)
     f.label("beside")
     mover.side_by_side(n)
     f.label("apart")
@@ -46,7 +46,7 @@ def emit_move(module: Module, lanes: int, n: int, *, gather: bool) -> str:
     return "@" + name
 
 
-class Mover:
+class Transposer:
     """Prints the two ways through a move; ``rows`` are the addresses of the lanes' rows."""
 
     def __init__(self, f: Function, rows: list[str], gather: bool) -> None:

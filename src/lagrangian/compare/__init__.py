@@ -2,15 +2,15 @@
 
 from lagrangian.compare.compare import compare
 from lagrangian.compare.comparison import Comparison, comparison_report
-from lagrangian.compare.rows import Difference, ParameterDifference, Rewritten, Row, Side
+from lagrangian.compare.rows import ComparedSystem, Difference, EquationRow, ParameterDifference, Rewritten
 
 __all__ = [
+    "ComparedSystem",
     "Comparison",
     "Difference",
+    "EquationRow",
     "ParameterDifference",
     "Rewritten",
-    "Row",
-    "Side",
     "compare",
     "comparison_report",
 ]

@@ -18,10 +18,10 @@ from lagrangian.compare.comparison import Comparison
 from lagrangian.compare.differences import differing, parameter_differences, unmatched
 from lagrangian.compare.given import given_change
 from lagrangian.compare.match import agreement, places, solved
-from lagrangian.compare.rows import Rewritten, Row, Side
+from lagrangian.compare.rows import ComparedSystem, EquationRow, Rewritten
 from lagrangian.compare.shared import Shared, inverse
 from lagrangian.compare.words import combination, equality
-from lagrangian.compare.zero import Verdict, Zero
+from lagrangian.compare.zero import Zero, ZeroVerdict
 from lagrangian.coordinates import Change, check_regular, is_regular
 from lagrangian.derive import Derived
 from lagrangian.errors import ModelError
@@ -47,7 +47,7 @@ def compare(a: Derivable | Derived, b: Derivable | Derived, change: Mapping[Any,
     """
     a, b = _derived(a, "first"), _derived(b, "second")
     tag_a, tag_b = _letters(a, b)
-    sides = Side("A", a, tag_a), Side("B", b, tag_b)
+    sides = ComparedSystem("A", a, tag_a), ComparedSystem("B", b, tag_b)
     if len(a.coordinates) != len(b.coordinates):
         return _of_other_size(sides)
     _log.info("comparing: how the coordinates follow from each other")
@@ -76,7 +76,7 @@ def _letters(a: Derived, b: Derived) -> tuple[str, str]:
     return ("r", "a") if relative == [True, False] else ("a", "r") if relative == [False, True] else ("a", "b")
 
 
-def _of_other_size(sides: tuple[Side, Side]) -> Comparison:
+def _of_other_size(sides: tuple[ComparedSystem, ComparedSystem]) -> Comparison:
     a, b = sides
     counts = [len(s.derivation.coordinates) for s in sides]
     why = text(
@@ -124,7 +124,12 @@ def _correspondence(a: Model, b: Model, given: Mapping[Any, Any] | None) -> tupl
     return change, turned, score < 1
 
 
-def _compared(sides: tuple[Side, Side], roles: tuple[Side, Side], shared: Shared, assumed: bool) -> Comparison:
+def _compared(
+    sides: tuple[ComparedSystem, ComparedSystem],
+    roles: tuple[ComparedSystem, ComparedSystem],
+    shared: Shared,
+    assumed: bool,
+) -> Comparison:
     source, into = roles
     zero = Zero(shared.b, [*shared.energies("T*"), *shared.energies("V")])
     rewritten = _rewritten(source, into, shared, zero)
@@ -132,7 +137,7 @@ def _compared(sides: tuple[Side, Side], roles: tuple[Side, Side], shared: Shared
     theirs, ours = shared.rows_b, shared.rows_a
     names = tuple(r.label for r in rewritten)
     rows = tuple(_row(zero, into.label(j), tuple(J.col(j)), names, theirs[j], ours) for j in range(J.cols))
-    back: tuple[Row, ...] = ()
+    back: tuple[EquationRow, ...] = ()
     if (upside := inverse(J)) is not None:
         labels = tuple(into.label(j) for j in range(J.cols))
         back = tuple(_row(zero, names[i], tuple(upside.col(i)), labels, ours[i], theirs) for i in range(J.rows))
@@ -162,7 +167,7 @@ def _compared(sides: tuple[Side, Side], roles: tuple[Side, Side], shared: Shared
     )
 
 
-def _rewritten(source: Side, into: Side, shared: Shared, zero: Zero) -> tuple[Rewritten, ...]:
+def _rewritten(source: ComparedSystem, into: ComparedSystem, shared: Shared, zero: Zero) -> tuple[Rewritten, ...]:
     """The rows of one set in the coordinates of the other: B-1, B-2."""
     found = []
     for i, equation in enumerate(source.derivation.equations):
@@ -183,13 +188,15 @@ def _row(
     of: tuple[str, ...],
     row: sp.Expr,
     others: tuple[sp.Expr, ...],
-) -> Row:
+) -> EquationRow:
     terms = [(sp.S.NegativeOne, row)]
     terms += [(f, e) for f, e in zip(factors, others, strict=True) if f != 0]
     verdict = zero.vanishes(terms)
     words = combination(label, factors, of, holds=verdict.holds)
     rest = sp.S.Zero if verdict.holds else zero.readable(-sp.Add(*(f * e for f, e in terms)))
-    return Row(label, factors, of, words, Check(equality(label, factors, of), verdict.holds, verdict.figure), rest)
+    return EquationRow(
+        label, factors, of, words, Check(equality(label, factors, of), verdict.holds, verdict.figure), rest
+    )
 
 
 def _energies(zero: Zero, shared: Shared) -> tuple[Check, ...]:
@@ -219,5 +226,5 @@ def _forces(zero: Zero, shared: Shared) -> tuple[Check, ...]:
     return tuple(found)
 
 
-def _pair(verdict: Verdict) -> tuple[bool, str]:
+def _pair(verdict: ZeroVerdict) -> tuple[bool, str]:
     return verdict.holds, verdict.figure

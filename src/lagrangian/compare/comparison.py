@@ -8,7 +8,7 @@ from typing import Any, cast
 
 import sympy as sp
 
-from lagrangian.compare.rows import Difference, ParameterDifference, Rewritten, Row, Side
+from lagrangian.compare.rows import ComparedSystem, Difference, EquationRow, ParameterDifference, Rewritten
 from lagrangian.compare.words import commas, recipe, symbols, within
 from lagrangian.coordinates import Change
 from lagrangian.derive.context import fit, fit_terms
@@ -36,18 +36,18 @@ class Comparison(Written):
     correspond at all ``change`` is None and ``why`` says it.
     """
 
-    a: Side
-    b: Side
-    source: Side
-    into: Side
+    a: ComparedSystem
+    b: ComparedSystem
+    source: ComparedSystem
+    into: ComparedSystem
     same: bool
     equations_same: bool
     change: Change | None = None
     J: sp.ImmutableMatrix | None = None
     assumed: bool = False
     rewritten: tuple[Rewritten, ...] = ()
-    rows: tuple[Row, ...] = ()
-    back: tuple[Row, ...] = ()
+    rows: tuple[EquationRow, ...] = ()
+    back: tuple[EquationRow, ...] = ()
     energies: tuple[Check, ...] = ()
     forces: tuple[Check, ...] = ()
     differences: tuple[Difference, ...] = ()
@@ -107,11 +107,11 @@ class _Shown:
 
     # -- letters ------------------------------------------------------------------------------------------------
 
-    def expr(self, side: Side, expr: sp.Expr) -> sp.Expr:
+    def expr(self, side: ComparedSystem, expr: sp.Expr) -> sp.Expr:
         """An expression of one side, its letters told apart."""
         return cast("sp.Expr", expr.xreplace(self.names[side.tag])) if self.names[side.tag] else expr
 
-    def left(self, side: Side, item: Any) -> Any:
+    def left(self, side: ComparedSystem, item: Any) -> Any:
         """Anything that stands in a formula."""
         if isinstance(item, sp.Expr):
             return self.expr(side, item)
@@ -129,7 +129,7 @@ class _Shown:
         """A check in the letters of the report."""
         return replace(check, what=self.text(check.what))
 
-    def checks(self, rows: Sequence[Row]) -> tuple[Check, ...]:
+    def checks(self, rows: Sequence[EquationRow]) -> tuple[Check, ...]:
         """What was verified of rows."""
         return tuple(self.check(r.check) for r in rows)
 
@@ -182,7 +182,7 @@ class _Shown:
             items += [formula(name, fit(x)) for name, cells in rows if (x := cells[k]) is not None]
         return items
 
-    def listed(self, side: Side) -> list[Left | str]:
+    def listed(self, side: ComparedSystem) -> list[Left | str]:
         """The coordinates of one side."""
         return commas([self.expr(side, q) for q in side.derivation.coordinates])
 
@@ -208,7 +208,7 @@ class _Shown:
             items.append(formula(Name("J"), Matrix(rows)))
         return items
 
-    def equations(self, side: Side) -> list[Item]:
+    def equations(self, side: ComparedSystem) -> list[Item]:
         """The equations of motion of one side, labelled 1a, 2a."""
         items: list[Item] = [Heading(text(f"({side.tag}) {side.derivation.model.name}"))]
         boxed = [f for f in side.derivation.result if isinstance(f, Formula) and f.boxed]
@@ -234,7 +234,7 @@ class _Shown:
         items.append(Heading(text("Row by row")))
         return [*items, *self.row_by_row(found.rows, found.into)]
 
-    def row_by_row(self, rows: Sequence[Row], side: Side) -> list[Item]:
+    def row_by_row(self, rows: Sequence[EquationRow], side: ComparedSystem) -> list[Item]:
         """First the rows that match as they are, then those that must be added, written out."""
         boxed = [f for f in side.derivation.result if isinstance(f, Formula) and f.boxed]
         alone: list[Item] = []
@@ -251,7 +251,7 @@ class _Shown:
             added.append(formula(*sides, note=text(f"matches {row.label}")))
         return [*alone, *added]
 
-    def recipe(self, row: Row, *, first: bool) -> Text:
+    def recipe(self, row: EquationRow, *, first: bool) -> Text:
         """What is to be done: "Now add B-1 and B-2:"."""
         words = recipe(row.factors, row.of)
         start = str(words[0])
@@ -367,7 +367,7 @@ def comparison_data(found: Comparison) -> dict[str, Any]:
     }
 
 
-def _row_data(row: Row) -> dict[str, Any]:
+def _row_data(row: EquationRow) -> dict[str, Any]:
     factors = {name: plain(f) for f, name in zip(row.factors, row.of, strict=True) if f != 0}
     words = "".join(show(p) for p in row.words.parts)
     return {

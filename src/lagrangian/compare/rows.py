@@ -13,7 +13,7 @@ from lagrangian.viewed import Brief
 
 
 @dataclass(frozen=True, eq=False)
-class Side(Brief):
+class ComparedSystem(Brief):
     """One of the two: its tag "A" or "B", its derivation, and the letter of its rows (a absolute, r relative)."""
 
     tag: Literal["A", "B"]
@@ -26,7 +26,7 @@ class Side(Brief):
 
 
 @dataclass(frozen=True)
-class Row(Brief):
+class EquationRow(Brief):
     """An equation of one set as a sum of rows of the other: ``label`` = Σ factors · ``of``.
 
     ``rest`` is what is left over, ``label`` − Σ factors · ``of``: 0 where the row holds.

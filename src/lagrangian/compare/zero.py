@@ -9,7 +9,7 @@ import mpmath
 import sympy as sp
 
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach
-from lagrangian.derive.sampling import DIGITS, Compiled, States
+from lagrangian.derive.sampling import DIGITS, CompiledExpressions, States
 from lagrangian.errors import ModelError
 from lagrangian.model import Model
 
@@ -21,7 +21,7 @@ LONGEST = 20_000
 
 
 @dataclass(frozen=True)
-class Verdict:
+class ZeroVerdict:
     """Whether something vanishes, and how that was found."""
 
     holds: bool
@@ -49,11 +49,11 @@ class Zero:
         form = self.form(expr)
         return expr if form is None else form.expr()
 
-    def vanishes(self, terms: Sequence[tuple[sp.Expr, sp.Expr]]) -> Verdict:
+    def vanishes(self, terms: Sequence[tuple[sp.Expr, sp.Expr]]) -> ZeroVerdict:
         """Whether Σ factor · expression, over all pairs, is 0. Raises `ModelError` where it has a value nowhere."""
         exact = self._exactly(terms)
         if exact is True:
-            return Verdict(True, "exact")
+            return ZeroVerdict(True, "exact")
         return self._numerically([f * e for f, e in terms])
 
     def _exactly(self, terms: Sequence[tuple[sp.Expr, sp.Expr]]) -> bool | None:
@@ -71,12 +71,12 @@ class Zero:
         except OutOfReach:
             return None
 
-    def _numerically(self, summands: Sequence[sp.Expr]) -> Verdict:
+    def _numerically(self, summands: Sequence[sp.Expr]) -> ZeroVerdict:
         """|Σ| / Σ|summand| at random states, the largest; states where there is no value are passed over."""
         parts = [t for s in summands for t in sp.Add.make_args(s)]
         if not parts:
-            return Verdict(True, "exact")
-        compiled = Compiled(parts)
+            return ZeroVerdict(True, "exact")
+        compiled = CompiledExpressions(parts)
         worst, seen = mpmath.mpf(0), 0
         for index in range(self._states.size):
             try:
@@ -98,4 +98,6 @@ class Zero:
                 code="E503",
             )
         figure = f"{float(worst):.0e} at {seen} random states with {DIGITS} digits"
-        return Verdict(bool(worst < EXACTLY), figure if worst else f"0 at {seen} random states with {DIGITS} digits")
+        return ZeroVerdict(
+            bool(worst < EXACTLY), figure if worst else f"0 at {seen} random states with {DIGITS} digits"
+        )

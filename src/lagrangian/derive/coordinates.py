@@ -17,7 +17,7 @@ from lagrangian.page.formula import Check, Formula, Item, Left, Table, Text, for
 
 
 @dataclass(frozen=True)
-class Measured:
+class MeasuredFrom:
     """How a coordinate is measured: an angle or a length, absolute (``to`` is None) or relative to another one."""
 
     angle: bool
@@ -69,7 +69,7 @@ def coordinates(context: Context) -> Step:
     )
 
 
-def _note(coordinate: Coordinate, kind: Measured) -> Text | None:
+def _note(coordinate: Coordinate, kind: MeasuredFrom) -> Text | None:
     """What stands beside ξ_i on the checklist: the person's words, and what a relative one is measured from."""
     parts: list[str | Left] = [coordinate.description] if coordinate.description else []
     if kind.to is not None:
@@ -79,7 +79,7 @@ def _note(coordinate: Coordinate, kind: Measured) -> Text | None:
     return text(*parts) if parts else None
 
 
-def _kind_words(kind: Measured) -> list[str | Left]:
+def _kind_words(kind: MeasuredFrom) -> list[str | Left]:
     if not kind.known:
         return ["as given, with the energies"]
     what = "an angle" if kind.angle else "a displacement"
@@ -109,7 +109,7 @@ def _listed(elements: list[Element] | tuple[Element, ...]) -> str:
 # -- absolute or relative, from the geometry ------------------------------------------------------------------------
 
 
-def measured(model: Model) -> dict[sp.Expr, Measured]:
+def measured(model: Model) -> dict[sp.Expr, MeasuredFrom]:
     """Work out how every coordinate is measured.
 
     An angle shows itself in the directions of the system (arguments of sine and cosine, angles of frames): where every
@@ -120,15 +120,15 @@ def measured(model: Model) -> dict[sp.Expr, Measured]:
     symbols: list[sp.Expr] = [c.symbol for c in model.coordinates]
     directions, carried = _directions(model, symbols), _carriers(model, symbols)
     reach = {s: sum(any(depends(model, x, s) for x in _where(model, b)) for b in model.bodies) for s in symbols}
-    found: dict[sp.Expr, Measured] = {}
+    found: dict[sp.Expr, MeasuredFrom] = {}
     lengths, turns = _lengths(model, symbols), _turns(model, symbols)
     for s in symbols:
         holding = [d for d in directions if s in d]
         if s in carried:
-            found[s] = Measured(True, carried[s])
+            found[s] = MeasuredFrom(True, carried[s])
         elif s in lengths:
             to = _carried_by(model, s, symbols, reach)
-            found[s] = Measured(to is None and s in turns, to)
+            found[s] = MeasuredFrom(to is None and s in turns, to)
         elif holding:
             smallest = min(holding, key=lambda d: (len(d), [symbols.index(x) for x in d]))
             others = [x for x in smallest if x is not s]
@@ -136,11 +136,11 @@ def measured(model: Model) -> dict[sp.Expr, Measured]:
             # of two coordinates that only ever appear together, the first one declared is the one measured from
             rest = others if len(holding) > 1 or not later else [x for x in others if x not in later]
             if len(rest) and all(set(smallest) <= set(d) for d in holding):
-                found[s] = Measured(True, min(rest, key=lambda x: (reach[x], -symbols.index(x))))
+                found[s] = MeasuredFrom(True, min(rest, key=lambda x: (reach[x], -symbols.index(x))))
             else:
-                found[s] = Measured(True, None)
+                found[s] = MeasuredFrom(True, None)
         else:
-            found[s] = Measured(False, None, known=False)
+            found[s] = MeasuredFrom(False, None, known=False)
     return found
 
 

@@ -87,7 +87,7 @@ class States:
         return (slice(i, i + self.motions) for i in range(0, self.size, self.motions))
 
 
-class Compiled:
+class CompiledExpressions:
     """Expressions as one graph, to be evaluated at states."""
 
     def __init__(self, exprs: Sequence[sp.Expr]) -> None:
@@ -125,10 +125,10 @@ class Compiled:
             table[number] = dummy
         return cast("sp.Expr", expr.xreplace(table)) if table else expr
 
-    def slopes(self, symbols: Sequence[sp.Basic]) -> Compiled:
+    def slopes(self, symbols: Sequence[sp.Basic]) -> CompiledExpressions:
         """∂expression/∂symbol, expression after expression."""
         by = [self.input(x) for x in symbols]
-        other = Compiled([])
+        other = CompiledExpressions([])
         other.graph, other.symbols, other.table, other._numbers = self.graph, self.symbols, self.table, self._numbers
         other.ids = [x for i in self.ids for x in vjp(self.graph, [i], [self.graph.one], by)]
         return other

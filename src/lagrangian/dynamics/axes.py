@@ -24,14 +24,14 @@ class Axes:
 
 
 @dataclass(eq=False)
-class Place:
+class PlaceMotion:
     """A place that moves: ``offset`` and its rate in ``axes``, from ``parent``; ``velocity`` in ``axes``.
 
     ``slide`` are velocity components against the ground in ``axes``, for a place that floats with quasi-velocities;
     ``given`` are the axes and components an offset in the plane was given in.
     """
 
-    parent: Place | None
+    parent: PlaceMotion | None
     axes: Axes
     offset: Vector
     offset_rate: Vector
@@ -47,4 +47,4 @@ class Accelerations:
 
     vdot: Vector
     alpha: dict[Axes, Vector]
-    a: dict[Place, Vector]
+    a: dict[PlaceMotion, Vector]

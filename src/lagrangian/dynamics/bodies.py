@@ -6,12 +6,12 @@ axis of the turn. The equations stay the same, the numbers in them become fewer.
 
 from __future__ import annotations
 
-from lagrangian.dynamics.axes import Axes, Place
+from lagrangian.dynamics.axes import Axes, PlaceMotion
 from lagrangian.dynamics.inertia import AnyLink, Inertia, Link, PlaneLink
 from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.vectors import Matrix, Vector, plus, scaled, zeros
 
-Plane = dict[tuple[Axes, Place], PlaneLink]
+Plane = dict[tuple[Axes, PlaceMotion], PlaneLink]
 
 
 class Bodies:
@@ -19,15 +19,15 @@ class Bodies:
 
     def __init__(self, motion: Motion) -> None:
         self.motion = motion
-        self._space: dict[tuple[Axes, Place], Inertia] = {}
+        self._space: dict[tuple[Axes, PlaceMotion], Inertia] = {}
         self._plane: Plane = {}
-        self._points: list[tuple[Place, int]] = []
+        self._points: list[tuple[PlaceMotion, int]] = []
 
-    def add_in_plane(self, axes: Axes, place: Place, m: int, J: int) -> None:
+    def add_in_plane(self, axes: Axes, place: PlaceMotion, m: int, J: int) -> None:
         """A body in the plane: mass m, inertia J about its centre ``place``, turning with ``axes``."""
         self._put_in_plane(self._plane, axes, place, m, J)
 
-    def add(self, axes: Axes, place: Place, m: int, central: Matrix) -> None:
+    def add(self, axes: Axes, place: PlaceMotion, m: int, central: Matrix) -> None:
         """A body in space: mass m, centre of mass at ``place``, inertia ``central`` about it in ``axes``."""
         motion, g = self.motion, self.motion.graph
         home, turn = motion.base(axes)
@@ -36,14 +36,14 @@ class Bodies:
         old = self._space.get((home, anchor))
         self._space[home, anchor] = matter if old is None else old.plus(g, matter)
 
-    def add_point(self, place: Place, m: int) -> None:
+    def add_point(self, place: PlaceMotion, m: int) -> None:
         """A point mass."""
         if self.motion.dimension == 2:
             self._points.append((place, m))
         else:
             self.add(place.axes, place, m, [zeros(self.motion.graph, 3) for _ in range(3)])
 
-    def _put_in_plane(self, plane: Plane, axes: Axes, place: Place, m: int, J: int) -> None:
+    def _put_in_plane(self, plane: Plane, axes: Axes, place: PlaceMotion, m: int, J: int) -> None:
         g = self.motion.graph
         anchor, r = self.motion.anchor(place, axes)
         h = scaled(g, m, r)
@@ -118,7 +118,7 @@ class Bodies:
                     waiting = sorted({*waiting, anchor}, key=lambda at: number[at])
         return [link for link in kept.values() if {link.m, *link.h, link.J} != {g.zero}]
 
-    def _put_moved(self, kept: Plane, axes: Axes, anchor: Place, m: int, r: Vector) -> None:
+    def _put_moved(self, kept: Plane, axes: Axes, anchor: PlaceMotion, m: int, r: Vector) -> None:
         g = self.motion.graph
         h = scaled(g, m, r)
         old = kept.get((axes, anchor)) or PlaneLink(axes, anchor, g.zero, zeros(g, 2), g.zero)

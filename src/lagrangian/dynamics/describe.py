@@ -13,7 +13,7 @@ from typing import Any
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.dynamics.axes import Axes, Place
+from lagrangian.dynamics.axes import Axes, PlaceMotion
 from lagrangian.dynamics.bodies import Bodies
 from lagrangian.dynamics.floating import Float, floating_body, floating_rates
 from lagrangian.dynamics.mechanics import Mechanics, Pairs
@@ -59,7 +59,7 @@ class Description:
     table: dict[Any, int]
     memo: dict[Any, int] = field(default_factory=dict)
     axes: dict[Frame, Axes] = field(default_factory=dict)
-    places: dict[Point, Place] = field(default_factory=dict)
+    places: dict[Point, PlaceMotion] = field(default_factory=dict)
     angles: dict[Frame, int] = field(default_factory=dict)
 
     def node(self, expr: Any, local: Mapping[Any, int] | None = None) -> int:
@@ -218,7 +218,7 @@ def _deflection(d: Description, e: Any) -> tuple[int, int | None, Vector, Vector
     return g.sqrt(dot(g, apart, apart)), None, apart, velocity
 
 
-def _velocity(d: Description, place: Place) -> Vector:
+def _velocity(d: Description, place: PlaceMotion) -> Vector:
     """The velocity of a place in the fixed axes."""
     return d.motion.turned(place.velocity, place.axes, d.motion.root)
 

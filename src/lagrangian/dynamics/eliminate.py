@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from lagrangian.dynamics.tape import Form, Tape
+from lagrangian.dynamics.tape import EliminationTape, Form
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph
 
@@ -61,11 +61,11 @@ class Quadratic:
 
 
 @dataclass
-class Solver:
+class Elimination:
     """The elimination of one tape: H and one or more linear terms, and how each rate is recovered."""
 
     graph: Graph
-    tape: Tape
+    tape: EliminationTape
     H: Quadratic
     g: dict[int, int]
     names: Mapping[int, str]
@@ -191,7 +191,7 @@ class Solver:
 
 def solve(
     graph: Graph,
-    tape: Tape,
+    tape: EliminationTape,
     H: Quadratic,
     g: Mapping[int, int],
     rates: Sequence[int],
@@ -201,18 +201,18 @@ def solve(
 
     Raises `ModelError` that names the coordinate where a pivot is zero by structure.
     """
-    solver = Solver(graph, tape, H.copy(), dict(g), names)
+    solver = Elimination(graph, tape, H.copy(), dict(g), names)
     solver.run()
     value = solver.accelerations()
     return [value[r] for r in rates]
 
 
-def condensed(graph: Graph, tape: Tape, H: Quadratic, rates: Sequence[int]) -> list[list[int]]:
+def condensed(graph: Graph, tape: EliminationTape, H: Quadratic, rates: Sequence[int]) -> list[list[int]]:
     """The mass matrix M over ``rates``, row after row: H with every step of the tape substituted.
 
     Links that move together are summed on the way, as composite bodies.
     """
-    solver = Solver(graph, tape, H.copy(), {}, {})
+    solver = Elimination(graph, tape, H.copy(), {}, {})
     solver.run(minimise=False)
     rows = solver.H.rows
     return [[rows.get(i, {}).get(k, graph.zero) for k in rates] for i in rates]

@@ -20,7 +20,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from lagrangian.dynamics.axes import Axes, Place
+from lagrangian.dynamics.axes import Axes, PlaceMotion
 from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.vectors import Matrix, cross, dot, minus, plus, times
 from lagrangian.graph import Graph
@@ -63,7 +63,7 @@ def floating_rates(g: Graph, q: Sequence[int], u: Sequence[int]) -> list[int]:
     return [*times(g, quaternion_rotation(g, q[3:7]), u[:3]), *turned]
 
 
-def floating_body(motion: Motion, q: Sequence[int], u: Sequence[int]) -> tuple[Axes, Place]:
+def floating_body(motion: Motion, q: Sequence[int], u: Sequence[int]) -> tuple[Axes, PlaceMotion]:
     """Axes and origin of a body that floats, with q = (p, e) and u = (v, ω) among the motion's coordinates."""
     axes = motion.turned_axes(motion.root, quaternion_rotation(motion.graph, q[3:7]), list(u[3:6]))
     return axes, motion.floating(q[:3], axes, u[:3])

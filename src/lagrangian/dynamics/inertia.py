@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from lagrangian.dynamics.axes import Accelerations, Axes, Place
+from lagrangian.dynamics.axes import Accelerations, Axes, PlaceMotion
 from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.vectors import Matrix, Vector, cross, plus, product, scaled, times, transposed, zeros
 from lagrangian.graph import Graph
@@ -90,7 +90,7 @@ class Link:
     """A rigid piece in space: its axes, its place and its inertia about that place in those axes."""
 
     axes: Axes
-    place: Place
+    place: PlaceMotion
     inertia: Inertia
 
     def velocity(self, motion: Motion) -> Vector:
@@ -142,7 +142,7 @@ class PlaneLink:
     """A rigid piece in the plane: ``h`` in its own axes, J about its place; the velocities in the fixed axes."""
 
     axes: Axes
-    place: Place
+    place: PlaceMotion
     m: int
     h: Vector
     J: int

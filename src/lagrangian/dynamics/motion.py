@@ -2,7 +2,7 @@
 
 In space every vector stands in the axes it is known in, so that a turn about a fixed axis costs four products; in the
 plane all vectors stand in the fixed axes and a turn is its angle. Both speak the same language: `Axes` turn against
-their parent, a `Place` is offset from its parent in some axes.
+their parent, a `PlaceMotion` is offset from its parent in some axes.
 
     ω = Rᵀ ω_parent + w           α = Rᵀ α_parent + (Rᵀ ω_parent) × w + ẇ
     v = v_parent + ω × r + ṙ      a = a_parent + α × r + ω × (ω × r) + 2 ω × ṙ + r̈
@@ -15,7 +15,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from lagrangian.dynamics.axes import Accelerations, Axes, Place
+from lagrangian.dynamics.axes import Accelerations, Axes, PlaceMotion
 from lagrangian.dynamics.rotations import swing
 from lagrangian.dynamics.vectors import (
     Matrix,
@@ -60,9 +60,9 @@ class Motion:
         spin = 1 if dimension == 2 else 3
         self.root = Axes(None, identity(graph, dimension), zeros(graph, spin), None, zeros(graph, spin), 0, True)
         none = zeros(graph, dimension)
-        self.ground = Place(None, self.root, none, none, none, None, none)
+        self.ground = PlaceMotion(None, self.root, none, none, none, None, none)
         self.axes: list[Axes] = [self.root]
-        self.places: list[Place] = [self.ground]
+        self.places: list[PlaceMotion] = [self.ground]
         self._rotation: dict[Axes, Matrix] = {self.root: self.root.turn}
 
     # -- rates --------------------------------------------------------------------------------------------------
@@ -105,18 +105,18 @@ class Motion:
         self.axes.append(made)
         return made
 
-    def place(self, parent: Place, axes: Axes, offset: Sequence[int]) -> Place:
+    def place(self, parent: PlaceMotion, axes: Axes, offset: Sequence[int]) -> PlaceMotion:
         """The place at ``offset``, in ``axes``, from ``parent``."""
         g = self.graph
         if self.dimension == 2:
             step = times(g, axes.turn, offset)
             change = self.rate(step)
-            made = Place(parent, self.root, step, change, plus(g, parent.velocity, change))
+            made = PlaceMotion(parent, self.root, step, change, plus(g, parent.velocity, change))
             made.given = (axes, list(offset)) if axes is not self.root else self._carried(step)
         else:
             change = self.rate(offset)
             carried = plus(g, self.turned(parent.velocity, parent.axes, axes), cross(g, axes.omega, offset))
-            made = Place(parent, axes, list(offset), change, plus(g, carried, change))
+            made = PlaceMotion(parent, axes, list(offset), change, plus(g, carried, change))
         self.places.append(made)
         return made
 
@@ -135,10 +135,10 @@ class Motion:
             self._swings[c, s] = made
         return self._swings[c, s], [found.length, g.zero]
 
-    def floating(self, position: Sequence[int], axes: Axes, velocity: Sequence[int]) -> Place:
+    def floating(self, position: Sequence[int], axes: Axes, velocity: Sequence[int]) -> PlaceMotion:
         """A place at ``position`` (fixed axes) whose velocity has the components ``velocity`` in ``axes``."""
         none = zeros(self.graph, self.dimension)
-        made = Place(self.ground, axes, none, none, list(velocity), list(velocity), list(position))
+        made = PlaceMotion(self.ground, axes, none, none, list(velocity), list(velocity), list(position))
         self.places.append(made)
         return made
 
@@ -178,9 +178,9 @@ class Motion:
             self._rotation[below] = product(self.graph, self._rotation[below.parent], below.turn)
         return self._rotation[axes]
 
-    def position(self, place: Place) -> Vector:
+    def position(self, place: PlaceMotion) -> Vector:
         """r of a place from the origin, in the fixed axes."""
-        chain: list[Place] = []
+        chain: list[PlaceMotion] = []
         at = place
         while at.position is None:
             chain.append(at)
@@ -192,17 +192,17 @@ class Motion:
         assert place.position is not None
         return place.position
 
-    def _step(self, place: Place) -> Vector:
+    def _step(self, place: PlaceMotion) -> Vector:
         """The offset of a place in the fixed axes."""
         if place.slide is not None:
             assert place.position is not None
             return place.position
         return times(self.graph, self.rotation(place.axes), place.offset)
 
-    def between(self, start: Place, end: Place) -> Vector:
+    def between(self, start: PlaceMotion, end: PlaceMotion) -> Vector:
         """r_end − r_start in the fixed axes; what both share cancels before anything is computed."""
-        above: set[Place] = set()
-        at: Place | None = start
+        above: set[PlaceMotion] = set()
+        at: PlaceMotion | None = start
         while at is not None:
             above.add(at)
             at = at.parent
@@ -212,7 +212,7 @@ class Motion:
             common = common.parent
         return minus(self.graph, self._from(common, end), self._from(common, start))
 
-    def _from(self, common: Place, place: Place) -> Vector:
+    def _from(self, common: PlaceMotion, place: PlaceMotion) -> Vector:
         total = zeros(self.graph, self.dimension)
         while place is not common:
             total = plus(self.graph, self._step(place), total)
@@ -295,7 +295,7 @@ class Motion:
             total = plus(g, carried, gyro)
             found.alpha[axes] = self._settled(total, axes.own, changes[3 * n : 3 * n + 3], found, free)
 
-    def _acceleration(self, place: Place, found: Accelerations) -> Vector:
+    def _acceleration(self, place: PlaceMotion, found: Accelerations) -> Vector:
         """a_parent + A r + 2 ω × ṙ (r̈ is to come),  A = [α]× + [ω]×²; of a floating place  a_ground + ω × v."""
         g = self.graph
         axes, parent = place.axes, place.parent
@@ -348,7 +348,7 @@ class Motion:
             axes = axes.parent
         return axes, turn
 
-    def anchor(self, place: Place, axes: Axes) -> tuple[Place, Vector]:
+    def anchor(self, place: PlaceMotion, axes: Axes) -> tuple[PlaceMotion, Vector]:
         """The farthest place above that is at rest against ``place`` in ``axes``, and r from there, in ``axes``.
 
         In space ``axes`` must be a `base`.

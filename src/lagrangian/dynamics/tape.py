@@ -20,7 +20,7 @@ Form = dict[int, int]
 
 
 @dataclass
-class Tape:
+class EliminationTape:
     """``order``: rates and nodes, parents first. ``forms``: node → its linear form in earlier entries.
 
     ``exchanged``: node t → (rate, ±1 node) where t = … ± rate is the rate's only user. ``turned``: second node of a
@@ -97,7 +97,9 @@ def moving_nodes(graph: Graph, ends: Iterable[int], rates: Iterable[int]) -> lis
     return sorted(i for i, moves in state.items() if moves)
 
 
-def make_tape(graph: Graph, seeds: Sequence[int], rates: Sequence[int], held: Container[int] | None = None) -> Tape:
+def make_tape(
+    graph: Graph, seeds: Sequence[int], rates: Sequence[int], held: Container[int] | None = None
+) -> EliminationTape:
     """The tape from ``rates`` to the nodes in ``seeds``.
 
     Products and signs are folded into coefficients; a sum stays a node where several use it or where it is a seed.
@@ -115,7 +117,7 @@ def make_tape(graph: Graph, seeds: Sequence[int], rates: Sequence[int], held: Co
             for _, a in terms[i]:
                 users[a] = users.get(a, 0) + 1
     forms = _forms(graph, active, terms, users, seeded)
-    tape = Tape()
+    tape = EliminationTape()
     _place(graph, tape, forms, seeds, leaves)
     idle = leaves.difference(tape.order)
     tape.order[:0] = [r for r in rates if r in idle]
@@ -151,7 +153,7 @@ def _forms(
     return kept
 
 
-def _place(graph: Graph, tape: Tape, forms: dict[int, Form], seeds: Sequence[int], leaves: set[int]) -> None:
+def _place(graph: Graph, tape: EliminationTape, forms: dict[int, Form], seeds: Sequence[int], leaves: set[int]) -> None:
     """Order the nodes depth first from the seeds: parents first, the two of a rotated pair side by side."""
     mates = _mates(graph, forms)
     tape.forms = forms
@@ -210,7 +212,7 @@ def _unit(graph: Graph, c: int, s: int) -> bool:
     return {bare[0][0], bare[1][0]} == {"sin", "cos"} and bare[0][1] == bare[1][1]
 
 
-def _mark_exchanges(tape: Tape, graph: Graph, held: Container[int], leaves: set[int]) -> None:
+def _mark_exchanges(tape: EliminationTape, graph: Graph, held: Container[int], leaves: set[int]) -> None:
     users: dict[int, list[int]] = {}
     for i, form in tape.forms.items():
         for k in form:

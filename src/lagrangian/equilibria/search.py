@@ -24,7 +24,7 @@ from lagrangian.equilibria.roots import EXACT, Forces, Search, distinct, starts
 from lagrangian.errors import RunError
 from lagrangian.graph import Graph, Output, Program
 from lagrangian.linear.echelon import null_space, reduced
-from lagrangian.linear.jacobians import Quick, values
+from lagrangian.linear.jacobians import QuickValues, values
 from lagrangian.linear.linearize import TIMES, Linearizer
 from lagrangian.linear.rest import point_words
 from lagrangian.linear.stability import Stability
@@ -76,7 +76,7 @@ def equilibria(
     found, hits, count, sure = _sought(task, samples)
     isolated, families = split(task.search, found, task.box.low, task.box.high)
     if len(isolated) > MANY:
-        task = replace(task, linearizer=Linearizer(model, Quick()))
+        task = replace(task, linearizer=Linearizer(model, QuickValues()))
     proper = [q for q in isolated if not task.is_singular(q)]
     _log.info("equilibria: the stability of %d", len(proper) + len(families))
     listed = [task.equilibrium(q, hits) for q in proper]

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.codegen.arguments import Group, numbers
+from lagrangian.codegen.arguments import InputGroup, numbers
 from lagrangian.errors import RunError
 from lagrangian.graph import Program, reached
 
@@ -36,7 +36,7 @@ def finite(array: Array, what: str, names: Sequence[str] = ()) -> Array:
     return np.ascontiguousarray(array)
 
 
-def rows(group: Group, given: Any, what: str) -> Array:
+def rows(group: InputGroup, given: Any, what: str) -> Array:
     """One row for all runs, or one a run: (n,) or (N, n)."""
     array = group.array(given)
     if array.ndim > 2:

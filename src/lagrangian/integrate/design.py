@@ -81,7 +81,7 @@ class Drawn:
 
 
 @dataclass(frozen=True)
-class Column:
+class DesignColumn:
     """Entry ``index`` of a group ("x", "u", "p") and where its values come from: an array, or draws."""
 
     group: str
@@ -112,7 +112,7 @@ class Design:
     dims: tuple[str, ...]
     shape: tuple[int, ...]
     base: Mapping[str, Array]
-    columns: Sequence[Column] = ()
+    columns: Sequence[DesignColumn] = ()
     count: int = field(init=False)
 
     def __post_init__(self) -> None:
@@ -143,7 +143,7 @@ class Design:
             at = f" at {tuple(int(k) for k in where)}" if values.ndim else ""
             raise RunError(f"'{name}' is {values[tuple(where)]}{at}", code="E502", fix="give finite numbers")
 
-    def values(self, column: Column, start: int, stop: int) -> Array:
+    def values(self, column: DesignColumn, start: int, stop: int) -> Array:
         """What a column holds in runs start … stop − 1."""
         index: Any = np.unravel_index(np.arange(start, stop), self.shape) if self.shape else ()
         if isinstance(column.source, Drawn):

@@ -15,7 +15,7 @@ from lagrangian.codegen import Build, Options, aligned, native
 from lagrangian.codegen.buffers import address
 from lagrangian.codegen.build import fingerprint
 
-from .methods.loop import Loop, Variant
+from .methods.loop import IntegratorVariant, Loop
 from .methods.memory_layout import PLACES
 from .methods.method import Method
 
@@ -41,7 +41,7 @@ def _printer_version() -> str:
 class Machine:
     """An integrator in memory: what is called, and how much work space it wants."""
 
-    def __init__(self, build: Build, method: Method, variant: Variant, events: Events | None = None) -> None:
+    def __init__(self, build: Build, method: Method, variant: IntegratorVariant, events: Events | None = None) -> None:
         def printer(module: Module, build: Build) -> None:
             Loop(module, build.program, method, variant, events).print()
 

@@ -36,7 +36,7 @@ MAX_NOT_FINITE = 1000
 
 
 @dataclass(frozen=True)
-class Leg:
+class Interval:
     """A stretch of time up to ``end`` on which the inputs u(t, x) are linear in time, but for those ``asked``."""
 
     end: float
@@ -122,7 +122,7 @@ def integrate_scipy(
     rhs: Any,
     x0: Array,
     times: Array,
-    legs: Sequence[Leg],
+    legs: Sequence[Interval],
     p: Array,
     *,
     jacobian: Any = None,
@@ -182,7 +182,7 @@ class _March:
         self.pace = Pace(self.t)
         self.sticking: Sticking | None = None
 
-    def over(self, leg: Leg) -> bool:
+    def over(self, leg: Interval) -> bool:
         """March over a leg; return whether to go on after it."""
         self.f.u, self.f.last = leg.u, max(leg.end - MARGIN * abs(leg.end), self.t)
         while self.t < leg.end:
@@ -216,7 +216,7 @@ class _March:
             self.status = -6
         return self.status == 0
 
-    def sticks(self, leg: Leg, *, last: bool = False) -> bool:
+    def sticks(self, leg: Interval, *, last: bool = False) -> bool:
         """Whether the run sticks where ẋ jumps and gets on no more: looked at now and then, and at the ``last``."""
         if not last and (self.steps == 0 or self.steps % (2 * LEAST)):
             return False
@@ -236,7 +236,7 @@ class _March:
         self.status = -2 if broken else -1
         self.reason = self.f.why if broken else (words or "").strip().rstrip(".")
 
-    def _advance(self, solver: Any, leg: Leg) -> bool:
+    def _advance(self, solver: Any, leg: Interval) -> bool:
         """Take in one step up to its end, or to an event that stops or changes the state; return whether it did."""
         dense, end = solver.dense_output(), solver.t
         hits = [] if self.crossings is None else self.crossings.between(self.t, end, dense, leg.u, leg.asked)

@@ -39,7 +39,7 @@ Marks = NDArray[np.uint64]
 
 
 @dataclass(frozen=True)
-class Document:
+class StoreDocument:
     """The checked root document of a store: ``kept`` is what its maker wrote, ``arrays`` the metadata of its arrays."""
 
     path: Path
@@ -117,7 +117,7 @@ def finished(marks: Marks) -> NDArray[np.bool_]:
     return np.asarray(marks.all(axis=1))
 
 
-def open_document(path: Path) -> Document:
+def open_document(path: Path) -> StoreDocument:
     """Read and check the root document of a store; raises `Error` where there is none, and `RunError` for damage."""
     if not path.exists():
         raise Error(f"there is no '{path}'", fix=Advice("start without ", RESUME), code="E801")
@@ -142,7 +142,9 @@ def open_document(path: Path) -> Document:
             fix=Advice("undo the change, ", AGAIN),
             code="E804",
         )
-    return Document(path, kept, {name: _at(root, "consolidated_metadata", "metadata", name) for name in _members(kept)})
+    return StoreDocument(
+        path, kept, {name: _at(root, "consolidated_metadata", "metadata", name) for name in _members(kept)}
+    )
 
 
 def seal(root: Mapping[str, Any]) -> dict[str, str]:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from lagrangian.codegen import native, workers
-from lagrangian.codegen.arguments import Group
+from lagrangian.codegen.arguments import InputGroup
 from lagrangian.codegen.buffers import address
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.graph import reached
@@ -22,7 +22,7 @@ from .chattering import NEAR, Pace, Sticking
 from .machine import Machine, build_of
 from .methods import METHODS, memory_layout
 from .methods.events import ROUNDS
-from .methods.loop import Variant
+from .methods.loop import IntegratorVariant
 from .observe import signals_at
 from .problem import Events, Signals
 from .solution import Solution
@@ -99,9 +99,11 @@ class Solver:
         self.events = None if events is None else events.checked(program)
         self.threads, self._lanes = threads, lanes
         self._keep = keep
-        self._machines: dict[tuple[Variant, int], Machine] = {}
+        self._machines: dict[tuple[IntegratorVariant, int], Machine] = {}
         self._groups = {
-            name: Group(name, tuple(entries), tuple(program.defaults.get(e) if name == "p" else None for e in entries))
+            name: InputGroup(
+                name, tuple(entries), tuple(program.defaults.get(e) if name == "p" else None for e in entries)
+            )
             for name, entries in {**{"u": (), "p": ()}, **program.inputs}.items()
         }
 
@@ -147,7 +149,7 @@ class Solver:
         """The machine code for so many runs."""
         method = self.method.suited(tolerance)
         lanes = 1 if count == 1 else self._lanes or self._side_by_side(count)
-        variant = Variant(lanes, own or lanes == 1, signals, self.events is not None)
+        variant = IntegratorVariant(lanes, own or lanes == 1, signals, self.events is not None)
         found = self._machines.get((variant, method.order))
         if found is None:
             found = Machine(build_of(self.program, lanes, self._keep), method, variant, self.events)

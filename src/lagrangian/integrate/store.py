@@ -36,7 +36,7 @@ from lagrangian.integrate.seal import (
     OVERWRITE,
     RESUME,
     ROOT,
-    Document,
+    StoreDocument,
     finished,
     found,
     open_document,
@@ -57,7 +57,7 @@ class Variable:
 
 
 @dataclass(frozen=True)
-class Plan:
+class ChunkPlan:
     """What a store will hold.
 
     ``results``: arrays whose first axes are the ensemble's; ``coordinates``: other arrays with their values, given as
@@ -78,7 +78,7 @@ class Store:
     ``done`` (chunks,): which chunks are there. ``notices``: what was damaged and is made good.
     """
 
-    def __init__(self, document: Document) -> None:
+    def __init__(self, document: StoreDocument) -> None:
         self.path, self.document, self.portions = document.path, document, document.portions
         self.notices: list[str] = []
         self._file = _alone(document.marks_file)
@@ -119,7 +119,7 @@ class Store:
         os.lseek(self._file, index * self.marks[index].nbytes, os.SEEK_SET)
         os.write(self._file, self.marks[index].astype("<u8").tobytes())
 
-    def mend(self, plan: Plan) -> None:
+    def mend(self, plan: ChunkPlan) -> None:
         """Find all that is damaged: chunks are taken as not done, coordinates and metadata written again."""
         with explained(self.path, "repair"):
             self._mend_metadata()
@@ -161,7 +161,7 @@ class Store:
         return Advice(f"{safe} runs are safely there: make room, then go on with ", RESUME)
 
 
-def create(path: Path, plan: Plan, *, overwrite: bool = False) -> Store:
+def create(path: Path, plan: ChunkPlan, *, overwrite: bool = False) -> Store:
     """Make a store at ``path``, whole or not at all; an existing one is replaced only with ``overwrite``.
 
     Raises `Error` where something else than a store stands there: that is never removed.
@@ -193,7 +193,7 @@ def create(path: Path, plan: Plan, *, overwrite: bool = False) -> Store:
     return Store(open_document(path))
 
 
-def _fill(path: Path, plan: Plan) -> None:
+def _fill(path: Path, plan: ChunkPlan) -> None:
     """Write a new store: empty results, coordinates, no marks; then its seal."""
     zarr = library()
     said = {"format": FORMAT, "block": list(plan.portions.block), "results": list(plan.results), "task": plan.task}
@@ -250,7 +250,7 @@ def _chunks(shape: tuple[int, ...]) -> tuple[int, ...]:
     return (max(1, min(shape[0], 1 << 20)), *shape[1:]) if shape else ()
 
 
-def resume(path: Path, plan: Plan) -> Store:
+def resume(path: Path, plan: ChunkPlan) -> Store:
     """Open the store at ``path`` to go on with the same task; there must be one, of this task.
 
     All of it is checked: damaged chunks are not ``done``, and ``notices`` says how many there are. Raises `RunError`

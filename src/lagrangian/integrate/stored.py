@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from lagrangian.advice import Advice
 from lagrangian.errors import Error, MissingExtra, RunError
-from lagrangian.integrate.seal import AGAIN, DONE, RESUME, Document, finished, open_document
+from lagrangian.integrate.seal import AGAIN, DONE, RESUME, StoreDocument, finished, open_document
 
 NOT_RUN = -128
 """Status of a run that nobody has done yet."""
@@ -58,7 +58,7 @@ def fill(dtype: str, name: str) -> float | int:
     return np.nan if dtype.startswith("float") else NOT_RUN if name == "status" else -1
 
 
-def opened(document: Document, mode: str) -> dict[str, Any]:
+def opened(document: StoreDocument, mode: str) -> dict[str, Any]:
     """The arrays of a store. Chunks are written even where they hold the fill value: a missing one is a lost one."""
     zarr = library()
     with explained(document.path, "open"), zarr.config.set({"array.write_empty_chunks": True}):
@@ -66,7 +66,7 @@ def opened(document: Document, mode: str) -> dict[str, Any]:
         return {name: group[name] for name in document.arrays if name != DONE}
 
 
-def lost_chunks(document: Document, lost: Mapping[int, str]) -> str:
+def lost_chunks(document: StoreDocument, lost: Mapping[int, str]) -> str:
     """Say how many chunks of a store are damaged, and which."""
     ranges = map(document.portions.range, lost)
     runs = sum(stop - start for start, stop in ranges)
@@ -85,7 +85,7 @@ def whole(array: Any, right: str) -> NDArray[Any] | None:
 
 
 @dataclass(frozen=True, eq=False)
-class Result:
+class StoredResult:
     """One result in a store, read whole with ``[...]``: its fill value where a run is not done or is lost."""
 
     stored: Stored
@@ -146,9 +146,9 @@ class Stored:
         self.done[list(self.lost)] = False
 
     @property
-    def results(self) -> dict[str, Result]:
+    def results(self) -> dict[str, StoredResult]:
         """The results, read when they are asked for."""
-        return {name: Result(self, name, self.arrays[name]) for name in self.document.results}
+        return {name: StoredResult(self, name, self.arrays[name]) for name in self.document.results}
 
     def said(self) -> str:
         """In words, what is damaged."""

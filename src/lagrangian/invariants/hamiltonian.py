@@ -20,7 +20,7 @@ from lagrangian.derive.sample import Sampler
 from lagrangian.errors import RunError
 from lagrangian.invariants.canonical_forms import Hamiltonian
 from lagrangian.invariants.lagrangian_form import LagrangianForm
-from lagrangian.invariants.squares import Piece, half_square, summed
+from lagrangian.invariants.squares import SquarePiece, half_square, summed
 from lagrangian.model import Model
 from lagrangian.model.names import moving_symbol
 from lagrangian.page.formula import Check, text
@@ -96,7 +96,7 @@ def split(system: LagrangianForm) -> tuple[list[Form], Form]:
     return b, -system.at(system.lagrangian, still)
 
 
-def _pieces(system: LagrangianForm, letters: Sequence[sp.Symbol]) -> tuple[list[Piece], Form]:
+def _pieces(system: LagrangianForm, letters: Sequence[sp.Symbol]) -> tuple[list[SquarePiece], Form]:
     """½ (p − b)ᵀ M⁻¹ (p − b) in pieces, and V − T₀."""
     b, potential = split(system)
     w = [system.algebra.form(s) - x for s, x in zip(letters, b, strict=True)]

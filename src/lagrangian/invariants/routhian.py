@@ -22,7 +22,7 @@ from lagrangian.errors import RunError, did_you_mean
 from lagrangian.invariants.canonical_forms import Routhian
 from lagrangian.invariants.hamiltonian import STATES, TOLERANCE, momentum_names, split
 from lagrangian.invariants.lagrangian_form import LagrangianForm
-from lagrangian.invariants.squares import Piece, half_square, summed
+from lagrangian.invariants.squares import SquarePiece, half_square, summed
 from lagrangian.model import Model, time
 from lagrangian.page.formula import Check, text
 from lagrangian.page.plain import plain
@@ -112,7 +112,7 @@ def _chosen(system: LagrangianForm, asked: Sequence[Any] | None) -> list[int]:
     return sorted(set(found))
 
 
-def _equation(system: LagrangianForm, r: int, polynomial: Form, pieces: Sequence[Piece]) -> sp.Eq:
+def _equation(system: LagrangianForm, r: int, polynomial: Form, pieces: Sequence[SquarePiece]) -> sp.Eq:
     """d/dt ∂R/∂ξ̇_r − ∂R/∂ξ_r = Ξ_r."""
     momentum = polynomial.diff(system.v[r])
     left = (momentum.total_derivative() - polynomial.diff(system.q[r])).expr()

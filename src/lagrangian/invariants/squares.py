@@ -23,7 +23,7 @@ from lagrangian.errors import RunError
 
 
 @dataclass(frozen=True, eq=False)
-class Piece:
+class SquarePiece:
     """coefficient · Π form^exponent, kept factored."""
 
     coefficient: Fraction
@@ -34,7 +34,7 @@ class Piece:
         number = sp.Rational(self.coefficient.numerator, self.coefficient.denominator)
         return cast("sp.Expr", sp.Mul(number, *(form.expr() ** e for form, e in self.factors)))
 
-    def diff(self, symbol: Any) -> list[Piece]:
+    def diff(self, symbol: Any) -> list[SquarePiece]:
         """The derivative, a piece for every factor that changes."""
         found = []
         for k, (form, e) in enumerate(self.factors):
@@ -42,16 +42,16 @@ class Piece:
             if slope.parts:
                 rest = [f for i, f in enumerate(self.factors) if i != k]
                 kept = [(form, e - 1)] if e != 1 else []
-                found.append(Piece(self.coefficient * e, (*rest, *kept, (slope, 1))))
+                found.append(SquarePiece(self.coefficient * e, (*rest, *kept, (slope, 1))))
         return found
 
 
-def half_square(matrix: Sequence[Sequence[Form]], w: Sequence[Form], algebra: Algebra) -> list[Piece]:
+def half_square(matrix: Sequence[Sequence[Form]], w: Sequence[Form], algebra: Algebra) -> list[SquarePiece]:
     """½ wᵀ M⁻¹ w.
 
     Raises `OutOfReach` where too many rows with moving pivots hang together, `RunError` where M is singular.
     """
-    pieces: list[Piece] = []
+    pieces: list[SquarePiece] = []
     for block in blocks(matrix):
         part = {i: {j: matrix[i][j] for j in block} for i in block}
         left = {i: w[i] for i in block}
@@ -67,7 +67,7 @@ def half_square(matrix: Sequence[Sequence[Form]], w: Sequence[Form], algebra: Al
                     fix="give every coordinate a mass or an inertia that it moves",
                     code="E203",
                 )
-            pieces.append(Piece(Fraction(1, 2), ((left[k], 2), (d, -1))))
+            pieces.append(SquarePiece(Fraction(1, 2), ((left[k], 2), (d, -1))))
             inverse = algebra.form(1 / d.expr())
             others = [i for i in left if i != k]
             ratio = {i: part[i][k] * inverse for i in others}
@@ -90,19 +90,19 @@ def _is_fraction(form: Form) -> bool:
     return bool(sp.fraction(bounded.together(form.expr()))[1].has(sp.Add))
 
 
-def _cleared(part: dict[int, dict[int, Form]], left: dict[int, Form], k: int, i: int) -> Piece:
+def _cleared(part: dict[int, dict[int, Form]], left: dict[int, Form], k: int, i: int) -> SquarePiece:
     """The last square with what stands below the line in it cleared: (d w_i − m w_k)² / (2 d (d M_ii − m²))."""
     d, m = part[k][k], part[i][k]
-    return Piece(Fraction(1, 2), ((d * left[i] - m * left[k], 2), (d, -1), (d * part[i][i] - m * m, -1)))
+    return SquarePiece(Fraction(1, 2), ((d * left[i] - m * left[k], 2), (d, -1), (d * part[i][i] - m * m, -1)))
 
 
-def _rest(part: dict[int, dict[int, Form]], left: dict[int, Form], algebra: Algebra) -> list[Piece]:
+def _rest(part: dict[int, dict[int, Form]], left: dict[int, Form], algebra: Algebra) -> list[SquarePiece]:
     """What has moving pivots: one square, or the quotient of adjugate and determinant."""
     rows = list(left)
     if not rows:
         return []
     if len(rows) == 1:
-        return [Piece(Fraction(1, 2), ((left[rows[0]], 2), (part[rows[0]][rows[0]], -1)))]
+        return [SquarePiece(Fraction(1, 2), ((left[rows[0]], 2), (part[rows[0]][rows[0]], -1)))]
     if len(rows) > LARGEST:
         raise OutOfReach(f"the inverse of a mass matrix with {len(rows)} coupled rows is too long to write out")
     matrix = [[part[i][j] for j in rows] for i in rows]
@@ -114,7 +114,7 @@ def _rest(part: dict[int, dict[int, Form]], left: dict[int, Form], algebra: Alge
             terms.append(term if (a + b) % 2 == 0 else -term)
     over = algebra.total(terms)
     _bounded([over])
-    return [Piece(Fraction(1, 2), ((over, 1), (determinant(matrix, algebra), -1)))]
+    return [SquarePiece(Fraction(1, 2), ((over, 1), (determinant(matrix, algebra), -1)))]
 
 
 def _moves(form: Form) -> bool:
@@ -128,6 +128,6 @@ def _bounded(forms: Sequence[Form]) -> None:
         raise OutOfReach(f"a sum of {largest} terms is too long to write out")
 
 
-def summed(pieces: Sequence[Piece]) -> sp.Expr:
+def summed(pieces: Sequence[SquarePiece]) -> sp.Expr:
     """The sum of pieces, each as written."""
     return cast("sp.Expr", sp.Add(*(p.expr() for p in pieces)))

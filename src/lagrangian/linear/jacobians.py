@@ -65,7 +65,7 @@ def may_kink(program: Program, output: str) -> bool:
     return any(nodes[i][0] in KINKED for i in reached(program.graph, program.outputs[output].ids))
 
 
-class Quick:
+class QuickValues:
     """`values` in machine code: for many points of the same programs."""
 
     def __init__(self) -> None:

@@ -15,7 +15,7 @@ import sympy as sp
 
 from lagrangian import derive
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach
-from lagrangian.derive.algebra.ratios import Ratio, inverse, written
+from lagrangian.derive.algebra.ratios import FormRatio, inverse, written
 from lagrangian.errors import RunError
 from lagrangian.linear.linear_model import LinearModel
 from lagrangian.model import Model, time
@@ -115,7 +115,7 @@ def _made(model: Model, raw: dict[str, sp.Matrix], point: dict[Any, Any], n: int
     )
 
 
-def _entry(row: list[Ratio], column: list[Form], sign: int) -> sp.Expr:
+def _entry(row: list[FormRatio], column: list[Form], sign: int) -> sp.Expr:
     """Σ_k (M⁻¹)_ik column_k, a single fraction."""
     terms = [
         sign * (ratio.over * x).expr() / ratio.under.expr()

@@ -1,7 +1,7 @@
 """What a unit's name means: its factor to SI, its dimension, and what it is called in SI.
 
 One table holds every unit that is read: those of a mechanics book. A name that is not in it is refused, so that a slip
-of the pen ("gr", "Kg", "c") never becomes another unit; `lagrangian.quantities.unit_hints` says what was probably meant.
+of the pen ("gr", "Kg", "c") never becomes another unit; `unit_hints` says what was probably meant.
 """
 
 from __future__ import annotations

@@ -83,13 +83,13 @@ def parse_expression(
 def read_source(source: Source, scope: Mapping[str, sp.Basic]) -> sp.Expr:
     """Return the SymPy expression of a text that knows its place."""
     names = scope if isinstance(scope, Scope) else Scope(scope)
-    value = Reader(source, names).value(parse(source))
+    value = ExpressionReader(source, names).value(parse(source))
     if value.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
         raise source.error("its value is not finite", 0, fix="look for a division by zero", code="E705")
     return value
 
 
-class Reader:
+class ExpressionReader:
     """Walks a syntax tree; every method takes a node and returns what it means."""
 
     def __init__(self, source: Source, scope: Scope) -> None:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from lagrangian.read.file_reading import Reading
 
 
-class Floating:
+class FloatingFrames:
     """The floating frames of one file, each waiting for the coordinate, or the frame, that it comes ``after``."""
 
     def __init__(self, loader: Reading, geometry: Geometry) -> None:

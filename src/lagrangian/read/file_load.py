@@ -16,7 +16,7 @@ from lagrangian.quantities.quantity import Quantity, parse_unit, read_quantity, 
 from lagrangian.quantities.source import shown
 from lagrangian.read import file_schema as schema
 from lagrangian.read.file_elements import KINDS, add_element
-from lagrangian.read.file_floating import Floating
+from lagrangian.read.file_floating import FloatingFrames
 from lagrangian.read.file_geometry import Geometry
 from lagrangian.read.file_reading import Reading
 from lagrangian.read.letters import normal, spelled, twin
@@ -75,7 +75,7 @@ class Loader(Reading):
 
     def _coordinates(self) -> None:
         """Declare the coordinates, those of floating frames where they belong among them."""
-        floating = Floating(self, self.geometry)
+        floating = FloatingFrames(self, self.geometry)
         floating.declare(None)
         for name, value in self.file.coordinates.items():
             path, place = ("coordinates", name), self.index.of_key(("coordinates", name))

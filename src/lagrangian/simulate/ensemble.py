@@ -17,7 +17,7 @@ from lagrangian.integrate import STATUS
 from lagrangian.integrate.stored import LOST, NOT_RUN, Stored
 from lagrangian.simulate.plot import check_no_file
 from lagrangian.simulate.variation import SAMPLE, TIME
-from lagrangian.view.many import Along, Result, draw_many
+from lagrangian.view.many import SweptAxis, SweptResult, draw_many
 from lagrangian.viewed import Entries, cut
 from lagrangian.write.files import write_with
 from lagrangian.write.tables import check_target, needed
@@ -246,8 +246,8 @@ class Ensemble(Mapping[str, NDArray[Any]]):
         axes = [d for d in self.dims if d != SAMPLE]
         return draw_many(
             f"{self.name}: {self.count} runs",
-            tuple(Along(*self._shown(d, self._along(d))) for d in axes),
-            tuple(Result(*self._shown(n, self._over(n))) for n in drawn),
+            tuple(SweptAxis(*self._shown(d, self._along(d))) for d in axes),
+            tuple(SweptResult(*self._shown(n, self._over(n))) for n in drawn),
             failed=self._failed(),
             shown=shown,
         )

@@ -21,7 +21,7 @@ from lagrangian import read
 from lagrangian.advice import Advice, Argument
 from lagrangian.codegen.arguments import numbers
 from lagrangian.errors import ModelError, ParseError, RunError, did_you_mean
-from lagrangian.integrate.scipy_methods import Leg
+from lagrangian.integrate.scipy_methods import Interval
 from lagrangian.model import Input, Model
 from lagrangian.values.dimensions import Dim
 from lagrangian.values.values import key_name, number
@@ -37,7 +37,7 @@ MAX_KNOTS = 1_000_000
 
 
 @dataclass(frozen=True, eq=False)
-class Table:
+class SampledInput:
     """A signal by its values at times: held until the next (``hold``), or joined by straight lines."""
 
     times: Array
@@ -52,7 +52,7 @@ class Table:
         return self.values[np.clip(place, 0, len(self.values) - 1)]
 
 
-Source = float | Table | Callable[[float, Array], float]
+Source = float | SampledInput | Callable[[float, Array], float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,7 +81,7 @@ class Driving:
 
     def knots(self, start: float, end: float) -> Array:
         """``start``, then the times before ``end`` at which a table bends or jumps, or a condition in time switches."""
-        listed = [self.stops, *(s.times for s in self.sources if isinstance(s, Table))]
+        listed = [self.stops, *(s.times for s in self.sources if isinstance(s, SampledInput))]
         inside = [times[(times > start) & (times < end)] for times in listed]
         return np.concatenate([[start], np.unique(np.concatenate([*inside, np.empty(0)]))])
 
@@ -92,20 +92,20 @@ class Driving:
         ends = np.append(knots[1:], max(end, knots[-1]))
         wide = np.where(ends > knots, ends - knots, 1.0)
         for k, source in enumerate(self.sources):
-            if isinstance(source, Table):
+            if isinstance(source, SampledInput):
                 value[:, k] = source.at(knots)
                 slope[:, k] = 0.0 if source.hold else (source.at(ends, left=True) - value[:, k]) / wide
             elif not callable(source):
                 value[:, k] = source
         return knots, value, slope
 
-    def legs(self, start: float, end: float) -> list[Leg]:
+    def legs(self, start: float, end: float) -> list[Interval]:
         """The stretches between knots, each with u(t, x)."""
         knots, value, slope = self.pieces(start, end)
         ends = [*knots[1:], end]
         asked = tuple(k for k, s in enumerate(self.sources) if callable(s))
         return [
-            Leg(float(e), self._along(float(k), v, s), asked)
+            Interval(float(e), self._along(float(k), v, s), asked)
             for k, e, v, s in zip(knots, ends, value, slope, strict=True)
         ]
 
@@ -127,7 +127,7 @@ class Driving:
         """The free inputs at times (S,) and states (S, nx), shape (S, nu); after a jump where there is one."""
         found = np.zeros((len(t), len(self.free)))
         for k, source in enumerate(self.sources):
-            if isinstance(source, Table):
+            if isinstance(source, SampledInput):
                 found[:, k] = source.at(t)
             elif callable(source):
                 found[:, k] = [
@@ -239,7 +239,7 @@ def _function(what: str, given: Callable[..., Any]) -> Callable[[float, Array], 
     return given
 
 
-def _table(what: str, given: Sequence[Any]) -> Table:
+def _table(what: str, given: Sequence[Any]) -> SampledInput:
     """(times, values) or (times, values, "hold" | "linear")."""
     kind = given[2] if len(given) == 3 else LINEAR
     if len(given) not in (2, 3) or kind not in (HOLD, LINEAR):
@@ -266,13 +266,13 @@ def _table(what: str, given: Sequence[Any]) -> Table:
             fix="for a jump use 'hold'",
             code="E501",
         )
-    return Table(times, values, kind == HOLD)
+    return SampledInput(times, values, kind == HOLD)
 
 
 def check_covers(drive: Driving, start: float, end: float) -> None:
     """Refuse tables that do not reach over the run; the last value of a ``hold`` is kept."""
     for u, source in zip(drive.free, drive.sources, strict=True):
-        if isinstance(source, Table):
+        if isinstance(source, SampledInput):
             late = source.times[0] > start
             if late or (not source.hold and source.times[-1] < end):
                 raise RunError(

@@ -37,7 +37,7 @@ TIMES = 1001
 
 
 @dataclass(frozen=True)
-class Wanted:
+class RunSettings:
     """Everything about the runs but what varies; see `lagrangian.System.ensemble`."""
 
     duration: Any = None
@@ -57,7 +57,7 @@ class Wanted:
     event_times: int = 1
 
 
-def instants(model: Model, wanted: Wanted) -> Array:
+def instants(model: Model, wanted: RunSettings) -> Array:
     """The times of the samples, the start first."""
     begin = number(wanted.start, "start", SECOND)
     given = wanted.times
@@ -85,7 +85,7 @@ def instants(model: Model, wanted: Wanted) -> Array:
     return array
 
 
-def study_of(model: Model, wanted: Wanted, drive: Driving, times: Array) -> tuple[Study, dict[str, sp.Expr]]:
+def study_of(model: Model, wanted: RunSettings, drive: Driving, times: Array) -> tuple[Study, dict[str, sp.Expr]]:
     """What is done with every run, and the expressions observed by name.
 
     Raises `RunError` or `ModelError` for what is not known or does not fit.
@@ -119,7 +119,7 @@ def study_of(model: Model, wanted: Wanted, drive: Driving, times: Array) -> tupl
     return study, expressions
 
 
-def _accuracy(wanted: Wanted) -> dict[str, Any]:
+def _accuracy(wanted: RunSettings) -> dict[str, Any]:
     """What decides step lengths and ends of runs; tolerances mean what they mean for one run."""
     options: dict[str, Any] = {"max_steps": wanted.max_steps, "max_events": wanted.max_events}
     options["max_step"] = (
@@ -213,7 +213,7 @@ def _asked(model: Model, name: str | None, asked: Any) -> tuple[str | None, sp.E
     return own, expr, name or text
 
 
-def _events(model: Model, wanted: Wanted, drive: Driving) -> tuple[Events | None, tuple[EventsKept, ...]]:
+def _events(model: Model, wanted: RunSettings, drive: Driving) -> tuple[Events | None, tuple[EventsKept, ...]]:
     listed = listed_events(wanted.events)
     if not listed:
         return None, ()

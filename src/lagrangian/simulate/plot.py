@@ -21,7 +21,7 @@ from lagrangian.simulate.recorded import Recorded
 from lagrangian.values.dimensions import NONE, RATE, Dimensions, Mismatch, check_dimensions
 from lagrangian.view import Marks, Panel, Picture, Series, draw, joined
 from lagrangian.write.labels import Labels
-from lagrangian.write.tables import Column, Table
+from lagrangian.write.tables import Column, ColumnTable
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -120,7 +120,7 @@ def _alone(angle: sp.Expr, q: Any) -> bool:
 # -- columns ----------------------------------------------------------------------------------------------------
 
 
-def table(run: Recorded) -> Table:
+def table(run: Recorded) -> ColumnTable:
     """The states, the inputs, the energies and the named points over time."""
     model, units = run.model, Units(run.model)
     columns: list[Column] = []
@@ -141,7 +141,7 @@ def table(run: Recorded) -> Table:
     for name, path in run.points.items():
         for axis, values in zip("xyz", path.T, strict=False):
             columns.append(Column(f"{name}.{axis}", values, "m", f"{axis} of point {name}"))
-    return Table(Column("t", run.t, "s", "time"), tuple(columns), attributes(run))
+    return ColumnTable(Column("t", run.t, "s", "time"), tuple(columns), attributes(run))
 
 
 def extremes(values: NDArray[np.float64]) -> tuple[float, float, float, float]:

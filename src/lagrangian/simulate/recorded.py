@@ -203,16 +203,18 @@ class Recorded(Guided):
     @cached_property
     def points(self) -> Mapping[str, Array]:
         """Paths of the named points, (S, d) each, in the fixed axes [m]."""
-        return Named(self, "point", {p.name: partial(_same, p) for p in self.model.points if p.name})
+        return NamedQuantities(self, "point", {p.name: partial(_same, p) for p in self.model.points if p.name})
 
     @cached_property
     def powers(self) -> Mapping[str, Array]:
         """The power [W] that each force, damper, spring, … by its name gives to what moves, (S,) each."""
         acting = [e for e in self.model.elements if e.ledger != "T*"]
-        return Named(self, "element that gives power,", {e.name: partial(element_power, self.model, e) for e in acting})
+        return NamedQuantities(
+            self, "element that gives power,", {e.name: partial(element_power, self.model, e) for e in acting}
+        )
 
 
-class Named(Mapping[str, Array]):
+class NamedQuantities(Mapping[str, Array]):
     """Quantities of a run by name, worked out when asked for; ``what`` they are called in messages."""
 
     def __init__(self, run: Recorded, what: str, quantities: Mapping[str, Callable[[], Any]]) -> None:

@@ -23,14 +23,14 @@ from lagrangian.integrate.chunks import FEW, MEMORY, Portions, cut
 from lagrangian.integrate.design import Design
 from lagrangian.integrate.ensemble import Executor, Here, Memory, Progress, carry_out
 from lagrangian.integrate.observe import Kept, Study
-from lagrangian.integrate.store import Plan, Variable, create, resume
+from lagrangian.integrate.store import ChunkPlan, Variable, create, resume
 from lagrangian.model import Model
 from lagrangian.page.plain import plain
 from lagrangian.simulate.admission import check_masses, fitness
 from lagrangian.simulate.ensemble import Ensemble
 from lagrangian.simulate.inputs import Driving, check_covers, driving
 from lagrangian.simulate.integrating import remembered
-from lagrangian.simulate.per_run import Wanted, instants, study_of
+from lagrangian.simulate.per_run import RunSettings, instants, study_of
 from lagrangian.simulate.plot import Units
 from lagrangian.simulate.switching import with_stops_of_all
 from lagrangian.simulate.variation import EVENT, TIME, Varying, from_arrays, from_grid
@@ -50,7 +50,7 @@ MOST_MEMORY = 0.5
 
 
 @dataclass(frozen=True)
-class Way:
+class Execution:
     """How the runs are done and where results go."""
 
     memory: int = MEMORY
@@ -97,9 +97,12 @@ def sweep(
     return _done(model, varying, wanted, dict(inputs or {}), way)
 
 
-def _options(model: Model, options: Mapping[str, Any], duration: Any) -> tuple[Wanted, Way, dict[str, Any]]:
+def _options(model: Model, options: Mapping[str, Any], duration: Any) -> tuple[RunSettings, Execution, dict[str, Any]]:
     """Options of the runs, of the way they are done, and initial values given by name: ``theta1=0.2``."""
-    names = {"wanted": set(Wanted.__dataclass_fields__) - {"duration", "inputs"}, "way": set(Way.__dataclass_fields__)}
+    names = {
+        "wanted": set(RunSettings.__dataclass_fields__) - {"duration", "inputs"},
+        "way": set(Execution.__dataclass_fields__),
+    }
     known = names["wanted"] | names["way"]
     states = {s.name for s in (*model.coordinates, *model.velocities)}
     for name in options:
@@ -111,8 +114,8 @@ def _options(model: Model, options: Mapping[str, Any], duration: Any) -> tuple[W
                 fix=(own[0] if own else did_you_mean(name, known | states)) or f"options: {', '.join(sorted(known))}",
                 code="E402",
             )
-    wanted = Wanted(duration=duration, **{k: v for k, v in options.items() if k in names["wanted"]})
-    way = Way(**{k: v for k, v in options.items() if k in names["way"]})
+    wanted = RunSettings(duration=duration, **{k: v for k, v in options.items() if k in names["wanted"]})
+    way = Execution(**{k: v for k, v in options.items() if k in names["way"]})
     return wanted, way, {k: v for k, v in options.items() if k not in known}
 
 
@@ -128,7 +131,7 @@ def _split_inputs(inputs: Mapping[Any, Any] | None) -> tuple[dict[Any, Any], dic
 # -- what every run does ----------------------------------------------------------------------------------------
 
 
-def _done(model: Model, varying: Varying, wanted: Wanted, inputs: dict[Any, Any], way: Way) -> Ensemble:
+def _done(model: Model, varying: Varying, wanted: RunSettings, inputs: dict[Any, Any], way: Execution) -> Ensemble:
     """Do the runs, or what is missing of them."""
     drive = _drive(model, varying, inputs)
     times = instants(model, wanted)
@@ -164,7 +167,9 @@ def _done(model: Model, varying: Varying, wanted: Wanted, inputs: dict[Any, Any]
     return made
 
 
-def _in_memory(study: Study, design: Design, plan: Plan, executor: Executor, progress: Progress | None) -> Ensemble:
+def _in_memory(
+    study: Study, design: Design, plan: ChunkPlan, executor: Executor, progress: Progress | None
+) -> Ensemble:
     size = sum(np.dtype(v.dtype).itemsize * math.prod(v.shape) for v in plan.results.values())
     if size > MOST_MEMORY * _machine_memory():
         raise RunError(
@@ -197,7 +202,7 @@ def _bytes(memory: Any) -> int:
     return int(memory)
 
 
-def _executor(way: Way) -> tuple[Executor, dict[str, int]]:
+def _executor(way: Execution) -> tuple[Executor, dict[str, int]]:
     """Who computes, and what that asks of the chunks."""
     if way.scheduler is None:
         return Here(way.threads), {}
@@ -250,7 +255,7 @@ def _plan(
     expressions: Mapping[str, sp.Expr],
     portions: Portions,
     task: dict[str, Any],
-) -> Plan:
+) -> ChunkPlan:
     fields, units = study.fields(), Units(model)
     dims = varying.dims(fields)
     made_of = {k.name: (k, units.of(expressions[k.of])) for k in study.kept}
@@ -266,7 +271,7 @@ def _plan(
         name for name, (variable, _) in coordinates.items() if (name,) != variable.dims and " " not in name
     )
     words = {"title": model.name, **({"coordinates": beside} if beside else {})}
-    return Plan(portions, results, coordinates, task, words)
+    return ChunkPlan(portions, results, coordinates, task, words)
 
 
 def _words(made_of: Mapping[str, tuple[Kept, str]], name: str) -> dict[str, Any]:
@@ -282,7 +287,7 @@ def _words(made_of: Mapping[str, tuple[Kept, str]], name: str) -> dict[str, Any]
     return {"long_name": name, **({"units": "s"} if name.startswith("time ") else {})}
 
 
-def _task(model: Model, varying: Varying, wanted: Wanted, drive: Driving, study: Study) -> dict[str, Any]:
+def _task(model: Model, varying: Varying, wanted: RunSettings, drive: Driving, study: Study) -> dict[str, Any]:
     """What is done, as plain data: two tasks with equal data give the same bits."""
     times = study.times
     return {

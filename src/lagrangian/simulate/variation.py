@@ -14,7 +14,7 @@ from lagrangian import dynamics, read
 from lagrangian.advice import Advice, Argument
 from lagrangian.codegen.arguments import numbers
 from lagrangian.errors import RunError, did_you_mean
-from lagrangian.integrate.design import GROUPS, Column, Design, Drawn
+from lagrangian.integrate.design import GROUPS, Design, DesignColumn, Drawn
 from lagrangian.integrate.seal import DONE
 from lagrangian.integrate.store import Variable
 from lagrangian.model import Model
@@ -37,7 +37,7 @@ MAX_LISTED = 10_000_000
 
 
 @dataclass(frozen=True, eq=False)
-class Entries:
+class ListedEntries:
     """Every entry of a model that a run starts from, by group, with its value where nothing varies it."""
 
     model: Model
@@ -45,7 +45,7 @@ class Entries:
     base: dict[str, dict[str, float | None]]
 
     @classmethod
-    def of(cls, model: Model) -> Entries:
+    def of(cls, model: Model) -> ListedEntries:
         """Coordinates at rest where they start, inputs 0, parameters as declared, and what [simulate] says."""
         given = Given.of(model, remembered(model, "states", lambda: dynamics.rhs(model)))
         x: dict[str, float | None] = dict.fromkeys(given.states.names, 0.0)
@@ -97,14 +97,14 @@ class Varying:
     ``axes``: name → length. ``columns``: (group, name) → values that broadcast to the axes, or draws.
     """
 
-    entries: Entries
+    entries: ListedEntries
     axes: dict[str, int]
     columns: dict[tuple[str, str], Array | Drawn] = field(default_factory=dict)
 
     def design(self) -> Design:
         """The runs."""
         columns = [
-            Column(group, list(self.entries.base[group]).index(name), name, source)
+            DesignColumn(group, list(self.entries.base[group]).index(name), name, source)
             for (group, name), source in self.columns.items()
         ]
         shape = tuple(self.axes.values())
@@ -176,7 +176,7 @@ def from_arrays(model: Model, given: Mapping[str, Mapping[Any, Any] | None], dim
 
     Raises `RunError` for unknown names, and shapes that do not fit together.
     """
-    entries = Entries.of(model)
+    entries = ListedEntries.of(model)
     columns: dict[tuple[str, str], Array | Drawn] = {}
     for group, mapping in given.items():
         for key, value in _items(mapping, group):
@@ -215,7 +215,7 @@ def _items(given: Mapping[Any, Any] | None, group: str) -> list[tuple[Any, Any]]
     return list(given.items())
 
 
-def _entry(entries: Entries, group: str, name: str) -> tuple[str, str]:
+def _entry(entries: ListedEntries, group: str, name: str) -> tuple[str, str]:
     """The entry that ``name`` means in ``group``, in which it was given."""
     names = entries.group(group).names
     if name in names:
@@ -231,7 +231,7 @@ def _entry(entries: Entries, group: str, name: str) -> tuple[str, str]:
     raise RunError(f"there is no {noun} '{name[:64]}'", fix=hint, code="E402")
 
 
-def _take(entries: Entries, columns: dict[Any, Any], where: tuple[str, str], value: Any) -> None:
+def _take(entries: ListedEntries, columns: dict[Any, Any], where: tuple[str, str], value: Any) -> None:
     """Note a number as the value of all runs, or an array as a column."""
     group, name = where
     what = f"'{name}'"
@@ -275,7 +275,7 @@ def from_grid(
 
     ``grid``: name → values (an array, or text such as "10:100:50" and "normal(1, 0.1)"), or texts "k=10:100:50".
     """
-    entries = Entries.of(model)
+    entries = ListedEntries.of(model)
     spare: dict[tuple[str, str], Array | Drawn] = {}
     for group, mapping in fixed.items():
         for key, value in _items(mapping, group):

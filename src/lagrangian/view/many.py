@@ -28,7 +28,7 @@ MOST_PANELS = 12
 
 
 @dataclass(frozen=True, eq=False)
-class Along:
+class SweptAxis:
     """An axis: what varies along it, its unit, and the values."""
 
     label: str
@@ -37,7 +37,7 @@ class Along:
 
 
 @dataclass(frozen=True, eq=False)
-class Result:
+class SweptResult:
     """A result over the axes, and over samples as the last axis where there are any; NaN where a run failed."""
 
     label: str
@@ -46,7 +46,7 @@ class Result:
 
 
 def draw_many(
-    title: str, axes: tuple[Along, ...], results: tuple[Result, ...], *, failed: str = "", shown: bool = False
+    title: str, axes: tuple[SweptAxis, ...], results: tuple[SweptResult, ...], *, failed: str = "", shown: bool = False
 ) -> Figure:
     """The figure; at most `MOST_PANELS` results are drawn. ``failed`` says in words how many runs failed, if any.
 
@@ -68,7 +68,7 @@ def draw_many(
     return figure
 
 
-def _panel(figure: Any, place: Any, axes: tuple[Along, ...], result: Result) -> None:
+def _panel(figure: Any, place: Any, axes: tuple[SweptAxis, ...], result: SweptResult) -> None:
     for side in ("top", "right"):
         place.spines[side].set_visible(False)
     if not np.isfinite(result.values).any():
@@ -82,11 +82,11 @@ def _panel(figure: Any, place: Any, axes: tuple[Along, ...], result: Result) -> 
         _map(figure, place, axes[0], axes[1], result)
 
 
-def _named(thing: Along | Result) -> str:
+def _named(thing: SweptAxis | SweptResult) -> str:
     return _safe(thing.label) + (f" [{_raised(thing.unit)}]" if thing.unit not in ("", "1") else "")
 
 
-def _histogram(place: Any, result: Result) -> None:
+def _histogram(place: Any, result: SweptResult) -> None:
     values = result.values[np.isfinite(result.values)]
     bins = int(np.clip(np.sqrt(values.size), 5, 100))
     place.hist(values, bins=bins, color="C0", edgecolor="white", linewidth=0.4)
@@ -98,7 +98,7 @@ def _histogram(place: Any, result: Result) -> None:
     place.set_ylabel("runs")
 
 
-def _curve(place: Any, along: Along, result: Result) -> None:
+def _curve(place: Any, along: SweptAxis, result: SweptResult) -> None:
     order = np.argsort(along.values, kind="stable")
     x, y = along.values[order], result.values[order]
     style = "-" if len(x) > 30 else ".-" if len(x) > 1 else "o"
@@ -121,7 +121,7 @@ def _curve(place: Any, along: Along, result: Result) -> None:
     place.grid(True, color="0.9", linewidth=0.6)
 
 
-def _map(figure: Any, place: Any, across: Along, up: Along, result: Result) -> None:
+def _map(figure: Any, place: Any, across: SweptAxis, up: SweptAxis, result: SweptResult) -> None:
     values = result.values
     if values.ndim > 2:
         values = _quantiles(values.reshape(*values.shape[:2], -1), (0.5,))[0]

@@ -12,16 +12,16 @@ from lagrangian.page.formula import Check, EquationTerm
 from lagrangian.write.document import (
     Block,
     Boxed,
+    CheckLine,
+    CheckLines,
     Details,
     Display,
-    Heading,
+    HeadingBlock,
     Inline,
     Paragraph,
-    Table,
-    Verdict,
-    Verdicts,
+    TableBlock,
 )
-from lagrangian.write.expression_tree import Math, Number, Sum, Tagged
+from lagrangian.write.expression_tree import Addition, Math, Number, Tagged
 from lagrangian.write.numerals import figures
 from lagrangian.write.quantities import Notation, Quantities
 from lagrangian.write.unicode_math import unicode
@@ -79,10 +79,10 @@ class Items:
                 case data.Text():
                     yield Paragraph(self.inline(item))
                 case data.Heading():
-                    yield Heading(self.inline(item.text))
+                    yield HeadingBlock(self.inline(item.text))
                 case data.Table():
                     header = tuple(self.inline(h) for h in item.header)
-                    yield Table(header, tuple(tuple(self.inline(c) for c in row) for row in item.rows))
+                    yield TableBlock(header, tuple(tuple(self.inline(c) for c in row) for row in item.rows))
         if box:
             yield Boxed(tuple(box))
             yield from self.hidden_boxes(items)
@@ -95,11 +95,11 @@ class Items:
         """Words and mathematics in a line."""
         return self.write.inline(item, given=self.given)
 
-    def checks(self, checks: Sequence[Check]) -> Verdicts:
+    def checks(self, checks: Sequence[Check]) -> CheckLines:
         """The checks; on the checklist all that hold share one line."""
         if self.brief and all(c.holds for c in checks):
-            return Verdicts((Verdict((f"{len(checks)} checks hold",), True, ""),))
-        return Verdicts(tuple(Verdict(self.inline(c.what), c.holds, figures(c.figure)) for c in checks))
+            return CheckLines((CheckLine((f"{len(checks)} checks hold",), True, ""),))
+        return CheckLines(tuple(CheckLine(self.inline(c.what), c.holds, figures(c.figure)) for c in checks))
 
     # -- what is hidden, and where a term came from -------------------------------------------------------------------
 
@@ -127,7 +127,7 @@ class Items:
         made: list[Math] = []
         for side, shown in zip(item.sides, sides, strict=True):
             exprs = _terms(side) if self.write.full or not isinstance(side, data.Elided) else ()
-            pairs = shown.terms if isinstance(shown, Sum) else ((False, shown),)
+            pairs = shown.terms if isinstance(shown, Addition) else ((False, shown),)
             if len(pairs) != len(exprs) or shown == Number("0"):
                 made.append(shown)
                 continue
@@ -135,7 +135,7 @@ class Items:
                 (minus, Tagged(math, *origin[e]) if e in origin else math)
                 for (minus, math), e in zip(pairs, exprs, strict=True)
             )
-            made.append(Sum(tagged) if isinstance(shown, Sum) else tagged[0][1])
+            made.append(Addition(tagged) if isinstance(shown, Addition) else tagged[0][1])
         return tuple(made)
 
     def spoken(self, titles: Iterable[str]) -> tuple[str, ...]:

@@ -15,19 +15,19 @@ from itertools import pairwise
 from lagrangian.write.expression_tree import (
     GLUED,
     LOOSE,
+    Addition,
     Apply,
     Cases,
     Fence,
+    Glyph,
     Letter,
     Mark,
     Number,
     Power,
-    Ratio,
+    Quotient,
+    Radical,
     Relation,
-    Root,
-    Sum,
     Times,
-    Token,
     Word,
     fenced,
     in_parentheses,
@@ -41,20 +41,20 @@ WHOLE = 300
 STEP = 2
 """Columns by which a line inside one more pair of parentheses is set in."""
 
-Measure = Callable[[Token], int]
+Measure = Callable[[Glyph], int]
 
 
 @dataclass
-class Row:
+class BrokenRow:
     """A line of a formula; ``depth`` counts the parentheses around its beginning."""
 
-    tokens: list[Token] = field(default_factory=list)
+    tokens: list[Glyph] = field(default_factory=list)
     depth: int = 0
 
 
 def break_lines(
-    pieces: Sequence[Token], width: int, measure: Measure, *, first: int | None = None, flat: bool = True
-) -> list[Row]:
+    pieces: Sequence[Glyph], width: int, measure: Measure, *, first: int | None = None, flat: bool = True
+) -> list[BrokenRow]:
     """Cut tokens into lines of at most ``width`` columns (the first one ``first``).
 
     ``flat`` says that a fraction is written on one line, a/b; elsewhere it is set, a over b. A line is longer only
@@ -68,12 +68,12 @@ def break_lines(
 class _Breaker:
     def __init__(self, width: int, first: int, measure: Measure, flat: bool) -> None:
         self.width, self.measure, self.flat = width, measure, flat
-        self.rows = [Row()]
+        self.rows = [BrokenRow()]
         self.left = first
         self.whole = True
-        self._sizes: dict[int, tuple[Token, int]] = {}
+        self._sizes: dict[int, tuple[Glyph, int]] = {}
 
-    def put(self, pieces: list[Token]) -> None:
+    def put(self, pieces: list[Glyph]) -> None:
         """Add tokens to the line at hand and, where they do not fit, to lines after it."""
         if self._size(pieces) <= self.left:
             self._add(pieces)
@@ -96,30 +96,30 @@ class _Breaker:
             if (not product and not self.whole) or self._size(segment) > self.left:
                 self._next_line(segment[0])
                 if product:  # the gap after the dot is no second chance to cut
-                    segment = [Token("leaf", Word("·")), replace(segment[0], level=None), *segment[1:]]
+                    segment = [Glyph("leaf", Word("·")), replace(segment[0], level=None), *segment[1:]]
             start = len(self.rows)
             self.put(segment)
             self.whole = len(self.rows) == start
 
-    def _next_line(self, piece: Token) -> None:
+    def _next_line(self, piece: Glyph) -> None:
         depth = piece.depth + (piece.role == "gap")
-        self.rows.append(Row(depth=depth))
+        self.rows.append(BrokenRow(depth=depth))
         self.left = self.width - STEP * depth
         self.whole = True
 
-    def _add(self, pieces: list[Token]) -> None:
+    def _add(self, pieces: list[Glyph]) -> None:
         self.rows[-1].tokens += pieces
         self.left -= self._size(pieces)
 
-    def _size(self, pieces: Sequence[Token]) -> int:
+    def _size(self, pieces: Sequence[Glyph]) -> int:
         return sum(self._columns(p) for p in pieces)
 
-    def _columns(self, piece: Token) -> int:
+    def _columns(self, piece: Glyph) -> int:
         if id(piece) not in self._sizes:
             self._sizes[id(piece)] = (piece, self.measure(piece))
         return self._sizes[id(piece)][1]
 
-    def _segments(self, pieces: list[Token]) -> list[list[Token]]:
+    def _segments(self, pieces: list[Glyph]) -> list[list[Glyph]]:
         """The pieces cut at the best level: a product before its functions, where that is enough, else in its sums."""
         levels = [(p.level, p.depth, p.role) for p in pieces[1:] if p.level is not None]
         if not levels:
@@ -133,7 +133,7 @@ class _Breaker:
                 return cut
         return _cut(pieces, best)
 
-    def _opened(self, pieces: list[Token]) -> list[Token] | None:
+    def _opened(self, pieces: list[Glyph]) -> list[Glyph] | None:
         """The pieces with the longest one that can be opened taken apart; None where there is no long one."""
         for i in sorted(range(len(pieces)), key=lambda i: -self._columns(pieces[i])):
             if 2 * self._columns(pieces[i]) <= self.width:
@@ -143,7 +143,7 @@ class _Breaker:
                 return [*pieces[:i], *self.guarded(parts), *pieces[i + 1 :]]
         return None
 
-    def guarded(self, pieces: Sequence[Token]) -> list[Token]:
+    def guarded(self, pieces: Sequence[Glyph]) -> list[Glyph]:
         """The pieces with cuts in short parentheses made the worst."""
         made, open_at = list(pieces), []
         short = max(SMALL // 2, min(SMALL, self.width // 3))
@@ -159,52 +159,52 @@ class _Breaker:
         return made
 
 
-def _cut(pieces: list[Token], level: int) -> list[list[Token]]:
+def _cut(pieces: list[Glyph], level: int) -> list[list[Glyph]]:
     starts = [0, *(i for i, p in enumerate(pieces) if i and p.level == level), len(pieces)]
     return [pieces[a:b] for a, b in pairwise(starts)]
 
 
-def _parts(piece: Token, flat: bool) -> list[Token] | None:
+def _parts(piece: Glyph, flat: bool) -> list[Glyph] | None:
     """What a long fraction, root or function is made of, so that it can be cut inside; None for what has no inside."""
     math, depth = piece.math, piece.depth
     if piece.role != "leaf":
         return None
     match math:
-        case Ratio(Number(), Number()):
+        case Quotient(Number(), Number()):
             return None
-        case Ratio(over, under) if flat or over == Number("1"):
-            plain = isinstance(under, (Letter, Number, Word, Mark, Power, Root, Fence))
-            slash = Token("sign", text="/", level=LOOSE + depth, depth=depth + 1)
+        case Quotient(over, under) if flat or over == Number("1"):
+            plain = isinstance(under, (Letter, Number, Word, Mark, Power, Radical, Fence))
+            slash = Glyph("sign", text="/", level=LOOSE + depth, depth=depth + 1)
             bottom = under if plain else Fence(under)
-            return [*tokens(fenced(over, (Sum, Ratio, Relation)), depth), slash, *tokens(bottom, depth)]
-        case Ratio(over, under):
+            return [*tokens(fenced(over, (Addition, Quotient, Relation)), depth), slash, *tokens(bottom, depth)]
+        case Quotient(over, under):
             factors = over.factors if isinstance(over, Times) else (over,)
-            inverse = Token("leaf", Ratio(Number("1"), under), depth=depth)
-            return [inverse, Token("gap", level=GLUED + depth, depth=depth), *tokens(Times(factors), depth)]
-        case Root(of):
-            return [Token("leaf", Word("√"), depth=depth), *tokens(Fence(of), depth)]
+            inverse = Glyph("leaf", Quotient(Number("1"), under), depth=depth)
+            return [inverse, Glyph("gap", level=GLUED + depth, depth=depth), *tokens(Times(factors), depth)]
+        case Radical(of):
+            return [Glyph("leaf", Word("√"), depth=depth), *tokens(Fence(of), depth)]
         case Apply(name, args, power):
-            raised = [Token("exponent", power)] if power is not None else []
-            inner = [t for i, a in enumerate(args) for t in ((Token("sign", text=","),) if i else ()) + _in(a, depth)]
+            raised = [Glyph("exponent", power)] if power is not None else []
+            inner = [t for i, a in enumerate(args) for t in ((Glyph("sign", text=","),) if i else ()) + _in(a, depth)]
             if len(args) == 1 and in_parentheses(args[0]):
                 inner = list(_in(args[0].of, depth))  # type: ignore[union-attr]
-            fence = (Token("open", text="("), Token("close", text=")"))
-            return [Token("leaf", Word(name), depth=depth), *raised, fence[0], *inner, fence[1]]
+            fence = (Glyph("open", text="("), Glyph("close", text=")"))
+            return [Glyph("leaf", Word(name), depth=depth), *raised, fence[0], *inner, fence[1]]
         case Mark(sign, of):
-            return [Token("leaf", Word(sign), depth=depth), *tokens(of if in_parentheses(of) else Fence(of), depth)]
-        case Power(base, exponent) if isinstance(base, (Root, Apply)):
-            return [*tokens(Fence(base), depth), Token("exponent", exponent)]
+            return [Glyph("leaf", Word(sign), depth=depth), *tokens(of if in_parentheses(of) else Fence(of), depth)]
+        case Power(base, exponent) if isinstance(base, (Radical, Apply)):
+            return [*tokens(Fence(base), depth), Glyph("exponent", exponent)]
         case Cases(branches) if flat:
-            made = [Token("open", text="{")]
+            made = [Glyph("open", text="{")]
             for i, (value, condition) in enumerate(branches):
-                made += [Token("sign", text=";", level=1 + depth, depth=depth + 1)] if i else []
+                made += [Glyph("sign", text=";", level=1 + depth, depth=depth + 1)] if i else []
                 made += tokens(value, depth + 1)
-                made += [Token("leaf", Word(" otherwise" if condition is None else " if "))]
+                made += [Glyph("leaf", Word(" otherwise" if condition is None else " if "))]
                 made += [] if condition is None else tokens(condition, depth + 1)
-            return [*made, Token("close", text="}")]
+            return [*made, Glyph("close", text="}")]
         case _:
             return None
 
 
-def _in(math: object, depth: int) -> tuple[Token, ...]:
+def _in(math: object, depth: int) -> tuple[Glyph, ...]:
     return tuple(tokens(math, depth + 1))  # type: ignore[arg-type]

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 from lagrangian.model import Model
 from lagrangian.write.blocks import Items
-from lagrangian.write.document import Block, Display, Inline, Section, Table
+from lagrangian.write.document import Block, Display, Inline, Section, TableBlock
 from lagrangian.write.expression_tree import Math
 from lagrangian.write.numerals import measured, unit
 from lagrangian.write.quantities import Notation, Quantities
@@ -24,7 +24,7 @@ def described(items: Items, model: Model) -> Section:
         rows = [tuple((cell,) if cell else () for cell in row) for row in _symbols(model, items.write)]
         header: tuple[Inline, ...] = (("symbol",), ("what it is",), ("value",))
         kept = 3 if any(row[2] for row in rows) else 2
-        blocks.append(Table(header[:kept], tuple(row[:kept] for row in rows)))
+        blocks.append(TableBlock(header[:kept], tuple(row[:kept] for row in rows)))
     for i, d in enumerate(model.definitions, 1):
         sides = (items.write.expressions(d.symbol), items.write.expressions(d.expression))
         note: Inline = ("definition",) if i == 1 else ()

@@ -12,7 +12,7 @@ Inline: TypeAlias = tuple[str | Math, ...]
 
 
 @dataclass(frozen=True)
-class Heading:
+class HeadingBlock:
     """A heading inside a section."""
 
     text: Inline
@@ -44,7 +44,7 @@ class Boxed:
 
 
 @dataclass(frozen=True)
-class Table:
+class TableBlock:
     """A table with one header row."""
 
     header: tuple[Inline, ...]
@@ -52,7 +52,7 @@ class Table:
 
 
 @dataclass(frozen=True)
-class Verdict:
+class CheckLine:
     """Something that was verified: in words, whether it holds (None: not checked), and the figure."""
 
     what: Inline
@@ -71,10 +71,10 @@ class Verdict:
 
 
 @dataclass(frozen=True)
-class Verdicts:
+class CheckLines:
     """What was verified, in a list."""
 
-    verdicts: tuple[Verdict, ...]
+    verdicts: tuple[CheckLine, ...]
 
 
 @dataclass(frozen=True)
@@ -86,7 +86,7 @@ class Details:
     vast: bool = False
 
 
-Block: TypeAlias = Heading | Paragraph | Display | Boxed | Table | Verdicts | Details
+Block: TypeAlias = HeadingBlock | Paragraph | Display | Boxed | TableBlock | CheckLines | Details
 
 
 @dataclass(frozen=True)

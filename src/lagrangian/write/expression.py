@@ -15,6 +15,7 @@ from lagrangian.model import Model, time
 from lagrangian.page.plain import as_cases
 from lagrangian.write.expression_tree import (
     FUNCTIONS,
+    Addition,
     Apply,
     Cases,
     Fence,
@@ -23,10 +24,9 @@ from lagrangian.write.expression_tree import (
     Math,
     Number,
     Power,
-    Ratio,
+    Quotient,
+    Radical,
     Relation,
-    Root,
-    Sum,
     Times,
     Word,
     fenced,
@@ -105,7 +105,7 @@ class Expressions:
         laid = [self.term(t) for t in terms]
         if len(laid) == 1 and not laid[0][0]:
             return laid[0][1]
-        return Sum(tuple(laid)) if laid else Number("0")
+        return Addition(tuple(laid)) if laid else Number("0")
 
     def term(self, term: sp.Expr) -> tuple[bool, Math]:
         """Lay out a term as (is it negative?, its size)."""
@@ -113,7 +113,7 @@ class Expressions:
             return True, self(-term)
         if isinstance(term, sp.Mul):
             laid = self._product(term)
-            if isinstance(laid, Sum) and len(laid.terms) == 1:
+            if isinstance(laid, Addition) and len(laid.terms) == 1:
                 return laid.terms[0]
             return False, laid
         return False, self(term)
@@ -142,10 +142,10 @@ class Expressions:
             top, bottom = Fraction(number).limit_denominator(10**18).as_integer_ratio()
             if Fraction(top, bottom) != number:  # a decimal number stays in front of the fraction
                 over, top, bottom = [sp.Float(number), *over], 1, 1
-            shown: Math = Ratio(self._times(top, over), self._times(bottom, under))
+            shown: Math = Quotient(self._times(top, over), self._times(bottom, under))
         else:
             shown = self._times(number, over)
-        return Sum(((True, shown),)) if negative else shown
+        return Addition(((True, shown),)) if negative else shown
 
     def _split(self, expr: sp.Expr) -> tuple[Any, list[sp.Expr], list[sp.Expr]]:
         """The number, the factors above and the factors below the line."""
@@ -176,9 +176,9 @@ class Expressions:
     def _power(self, expr: sp.Pow) -> Math:
         base, exponent = expr.base, expr.exp
         if _negative(exponent):
-            return Ratio(Number("1"), self(sp.Pow(base, -exponent)))
+            return Quotient(Number("1"), self(sp.Pow(base, -exponent)))
         if exponent == sp.Rational(1, 2):
-            return Root(self(base))
+            return Radical(self(base))
         if isinstance(base, sp.Function) and not isinstance(base, AppliedUndef) and exponent.is_Integer:
             name = _FUNCTION_NAMES.get(base.func.__name__, base.func.__name__)
             if name in FUNCTIONS and not isinstance(base, sp.exp):
@@ -197,7 +197,7 @@ class Expressions:
         laid = self(base)
         if isinstance(laid, Apply) and laid.name != "atan2":
             return Fence(laid)
-        return fenced(laid, (Sum, Times, Ratio, Power, Mark, Relation, Cases, Root))
+        return fenced(laid, (Addition, Times, Quotient, Power, Mark, Relation, Cases, Radical))
 
     # -- the rest ---------------------------------------------------------------------------------------------------
 
@@ -215,16 +215,16 @@ class Expressions:
         if set(expr.variables) == {time}:
             order: Math = Number(str(count))
             sign: Math = Word("d") if count == 1 else Power(Word("d"), order)
-            return Times((Ratio(sign, Mark("d", Word("t") if count == 1 else Power(Word("t"), order))), Fence(laid)))
+            return Times((Quotient(sign, Mark("d", Word("t") if count == 1 else Power(Word("t"), order))), Fence(laid)))
         below = tuple(Mark("∂", self(v)) for v in expr.variables)
         above: Math = Word("∂") if count == 1 else Power(Word("∂"), Number(str(count)))
-        return Times((Ratio(above, below[0] if count == 1 else Times(below)), Fence(laid)))
+        return Times((Quotient(above, below[0] if count == 1 else Times(below)), Fence(laid)))
 
     def _number(self, expr: sp.Number) -> Math:
         if expr in _CONSTANTS:
             return Number(_CONSTANTS[expr])
         value: Any = Fraction(int(expr.p), int(expr.q)) if isinstance(expr, sp.Rational) else float(expr)
-        return Sum(((True, _numeral(-value)),)) if value < 0 else _numeral(value)
+        return Addition(((True, _numeral(-value)),)) if value < 0 else _numeral(value)
 
     def _function(self, expr: Any, power: Math | None) -> Math:
         name = expr.func.__name__
@@ -257,12 +257,12 @@ def _negative(expr: sp.Expr) -> bool:
 def _numeral(value: Any) -> Math:
     """A number that is not negative: 2, ½, 9.81, 1.5·10⁻⁶."""
     if isinstance(value, Fraction) and value.denominator != 1:
-        return Ratio(Number(str(value.numerator)), Number(str(value.denominator)))
+        return Quotient(Number(str(value.numerator)), Number(str(value.denominator)))
     if isinstance(value, (int, Fraction)):
         return Number(str(int(value)))
     digits, _, exponent = f"{value:.15g}".partition("e")
     if exponent:
         power = int(exponent)
-        raised: Math = Number(str(power)) if power >= 0 else Sum(((True, Number(str(-power))),))
+        raised: Math = Number(str(power)) if power >= 0 else Addition(((True, Number(str(-power))),))
         return Times((Number(digits), Word("·"), Power(Number("10"), raised)))
     return Number(digits)

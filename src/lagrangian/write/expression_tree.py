@@ -96,7 +96,7 @@ class Word:
 
 
 @dataclass(frozen=True)
-class Sum:
+class Addition:
     """Terms with their signs: (is it subtracted?, term)."""
 
     terms: tuple[tuple[bool, Math], ...]
@@ -118,7 +118,7 @@ class Power:
 
 
 @dataclass(frozen=True)
-class Ratio:
+class Quotient:
     """A fraction."""
 
     over: Math
@@ -126,7 +126,7 @@ class Ratio:
 
 
 @dataclass(frozen=True)
-class Root:
+class Radical:
     """A square root."""
 
     of: Math
@@ -142,7 +142,7 @@ class Apply:
 
 
 @dataclass(frozen=True)
-class Value:
+class Numeral:
     """A named quantity with what it depends on: M(q)."""
 
     of: Letter
@@ -202,13 +202,13 @@ Math: TypeAlias = (
     Letter
     | Number
     | Word
-    | Sum
+    | Addition
     | Times
     | Power
-    | Ratio
-    | Root
+    | Quotient
+    | Radical
     | Apply
-    | Value
+    | Numeral
     | Fence
     | Mark
     | Relation
@@ -225,7 +225,7 @@ GLUED = 200
 
 
 @dataclass(frozen=True)
-class Token:
+class Glyph:
     """A piece of a formula that is never cut.
 
     ``role``: "leaf" (``math`` is rendered), "plus", "minus" (between terms), "negative" (before the first term), "gap"
@@ -242,41 +242,41 @@ class Token:
     depth: int = 0
 
 
-def tokens(math: Math, depth: int = 0) -> Iterator[Token]:
+def tokens(math: Math, depth: int = 0) -> Iterator[Glyph]:
     """Cut a formula into tokens; ``depth`` counts the parentheses around it."""
-    if isinstance(math, Sum):
+    if isinstance(math, Addition):
         for i, (subtracted, term) in enumerate(math.terms):
             if i:
-                yield Token("minus" if subtracted else "plus", level=1 + depth, depth=depth)
+                yield Glyph("minus" if subtracted else "plus", level=1 + depth, depth=depth)
             elif subtracted:
-                yield Token("negative")
-            yield from tokens(fenced(term, Sum), depth)
+                yield Glyph("negative")
+            yield from tokens(fenced(term, Addition), depth)
         if not math.terms:
-            yield Token("leaf", Number("0"))
+            yield Glyph("leaf", Number("0"))
     elif isinstance(math, Times):
         factors = [_in_product(math.factors, i) for i in range(len(math.factors))]
         for i, factor in enumerate(factors):
             if i:
                 loose = _stands_apart(factors[i - 1], factor)
-                yield Token("gap", level=(LOOSE if loose else GLUED) + depth, depth=depth)
+                yield Glyph("gap", level=(LOOSE if loose else GLUED) + depth, depth=depth)
             yield from tokens(factor, depth)
     elif isinstance(math, Fence):
         tall = is_tall(math.of)
-        yield Token("open", text=math.left, tall=tall)
+        yield Glyph("open", text=math.left, tall=tall)
         yield from tokens(math.of, depth + 1)
-        yield Token("close", text=math.right, tall=tall)
+        yield Glyph("close", text=math.right, tall=tall)
     elif isinstance(math, Power) and isinstance(base := fenced(math.base, _Loose), Fence):
         yield from tokens(base, depth)
-        yield Token("exponent", math.exponent)
+        yield Glyph("exponent", math.exponent)
     elif isinstance(math, Relation):
         for i, side in enumerate(math.sides):
             if i:
-                yield Token("sign", text=math.sign, level=None if math.sign == "," else 0, depth=depth)
+                yield Glyph("sign", text=math.sign, level=None if math.sign == "," else 0, depth=depth)
             yield from tokens(side, depth)
     elif isinstance(math, Tagged):
         yield from tokens(math.of, depth)
     else:
-        yield Token("leaf", math, depth=depth)
+        yield Glyph("leaf", math, depth=depth)
 
 
 def _stands_apart(before: Math, factor: Math) -> bool:
@@ -286,7 +286,7 @@ def _stands_apart(before: Math, factor: Math) -> bool:
     return not any(isinstance(x, Fence) or _moves(x) or x in _SIGNS or _fences(x) for x in (before, factor))
 
 
-_SIGNS = (Word("·"), Ratio(Word("d"), Word("dt")))
+_SIGNS = (Word("·"), Quotient(Word("d"), Word("dt")))
 
 
 def _moves(math: Math) -> bool:
@@ -299,7 +299,7 @@ def _fences(math: Math) -> bool:
     return isinstance(math, Power) and isinstance(fenced(math.base, _Loose), Fence)
 
 
-_Loose = (Sum, Times, Ratio, Power, Mark, Relation, Cases)
+_Loose = (Addition, Times, Quotient, Power, Mark, Relation, Cases)
 
 
 def fenced(math: Math, kinds: type | tuple[type, ...]) -> Math:
@@ -310,7 +310,7 @@ def fenced(math: Math, kinds: type | tuple[type, ...]) -> Math:
 
 def _in_product(factors: tuple[Math, ...], i: int) -> Math:
     """Parentheses for sums among factors, and around a bare argument that the next factor would run into."""
-    factor = fenced(factors[i], (Sum, Relation))
+    factor = fenced(factors[i], (Addition, Relation))
     following = factors[i + 1] if i + 1 < len(factors) else None
     if isinstance(factor, Apply) and following is not None and not isinstance(following, Apply) and bare(factor):
         return Apply(factor.name, (Fence(factor.args[0]),), factor.power)
@@ -350,10 +350,10 @@ def product(front: Math, *rest: Math) -> Math:
     """Factors side by side; a fraction takes what follows it into its numerator."""
     if not rest:
         return front
-    if isinstance(front, Ratio) and not isinstance(front.over, Number):
-        return Ratio(product(front.over, *rest), front.under)
-    if isinstance(front, Ratio) and not isinstance(front.under, Number):
-        return Ratio(Times(rest) if front.over == Number("1") else Times((front.over, *rest)), front.under)
+    if isinstance(front, Quotient) and not isinstance(front.over, Number):
+        return Quotient(product(front.over, *rest), front.under)
+    if isinstance(front, Quotient) and not isinstance(front.under, Number):
+        return Quotient(Times(rest) if front.over == Number("1") else Times((front.over, *rest)), front.under)
     factors = front.factors if isinstance(front, Times) else () if front == Number("1") else (front,)
     made = (*factors, *rest)
     return made[0] if len(made) == 1 else Times(made)
@@ -362,11 +362,11 @@ def product(front: Math, *rest: Math) -> Math:
 def is_tall(math: Math | None) -> bool:
     """Whether it holds a fraction with letters in it or anything else that stands higher than a line."""
     match math:
-        case Ratio():
+        case Quotient():
             return not (isinstance(math.over, Number) and isinstance(math.under, Number))
         case Grid() | Cases():
             return True
-        case Sum():
+        case Addition():
             return any(is_tall(t) for _, t in math.terms)
         case Times():
             return any(is_tall(f) for f in math.factors)
@@ -376,7 +376,7 @@ def is_tall(math: Math | None) -> bool:
             return is_tall(math.base)
         case Apply():
             return any(is_tall(a) for a in math.args)
-        case Fence() | Mark() | Root() | Tagged():
+        case Fence() | Mark() | Radical() | Tagged():
             return is_tall(math.of)
         case _:
             return False

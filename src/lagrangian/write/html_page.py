@@ -13,17 +13,17 @@ from importlib.resources import files
 from lagrangian.write.document import (
     Block,
     Boxed,
+    CheckLines,
     Details,
     Display,
     Document,
-    Heading,
+    HeadingBlock,
     Inline,
     Paragraph,
     Section,
-    Table,
-    Verdicts,
+    TableBlock,
 )
-from lagrangian.write.expression_tree import Grid, Math, Number, Sum, Tagged, Token, tokens
+from lagrangian.write.expression_tree import Addition, Glyph, Grid, Math, Number, Tagged, tokens
 from lagrangian.write.lines import lines, set_columns
 from lagrangian.write.mathml import displayed, row, wide
 from lagrangian.write.text import clean
@@ -88,7 +88,7 @@ def inline(text: Inline) -> str:
 
 def _flowing(formula: Math) -> str:
     """A formula in a line of words; a long one in pieces, between which the line can end."""
-    pieces: list[list[Token]] = [[]]
+    pieces: list[list[Glyph]] = [[]]
     for token in tokens(formula):
         if token.level is not None and token.level <= 1 and sum(set_columns(t) for t in pieces[-1]) > SHORT:
             pieces.append([])
@@ -119,7 +119,7 @@ def _section(section: Section, *, brief: bool, anchors: bool = True) -> str:
 
 def _block(block: Block, anchors: bool) -> Iterator[str]:
     match block:
-        case Heading(text):
+        case HeadingBlock(text):
             yield f"<h3>{inline(text)}</h3>"
         case Paragraph(text, role):
             lead = '<span class="lead">Why:</span> ' if role == "why" else ""
@@ -128,9 +128,9 @@ def _block(block: Block, anchors: bool) -> Iterator[str]:
             yield _display(block, anchors)
         case Boxed(displays):
             yield from _boxed(displays, anchors)
-        case Table():
+        case TableBlock():
             yield _table(block)
-        case Verdicts(verdicts):
+        case CheckLines(verdicts):
             items = "".join(
                 f'<li class="{v.standing.replace(" ", "-")}"><span aria-hidden="true">{v.mark}</span> '
                 f'<span class="unseen">{v.standing}: </span>{inline(v.what)}'
@@ -199,7 +199,7 @@ def _kept(sides: list[str], equals: str) -> str:
 
 
 def _terms(side: Math, kinds: list[str]) -> str:
-    pairs = side.terms if isinstance(side, Sum) else ((False, side),)
+    pairs = side.terms if isinstance(side, Addition) else ((False, side),)
     out: list[str] = []
     for i, (minus, term) in enumerate(pairs or ((False, Number("0")),)):
         form = "infix" if i else "prefix"
@@ -218,7 +218,7 @@ def _terms(side: Math, kinds: list[str]) -> str:
     return " ".join(out) + " "
 
 
-def _table(table: Table) -> str:
+def _table(table: TableBlock) -> str:
     head = "".join(f'<th scope="col">{inline(h)}</th>' for h in table.header)
     rows = "".join(
         "<tr>"

@@ -7,14 +7,14 @@ from collections.abc import Iterable, Iterator
 from lagrangian.write.document import (
     Block,
     Boxed,
+    CheckLines,
     Details,
     Display,
     Document,
-    Heading,
+    HeadingBlock,
     Inline,
     Paragraph,
-    Table,
-    Verdicts,
+    TableBlock,
 )
 from lagrangian.write.expression_tree import tokens
 from lagrangian.write.lines import set_columns
@@ -123,7 +123,7 @@ def inline(text: Inline) -> str:
 
 def _block(block: Block) -> Iterator[str]:
     match block:
-        case Heading(text):
+        case HeadingBlock(text):
             yield rf"\subsubsection*{{{inline(text)}}}"
         case Paragraph(text, role):
             yield rf"\textit{{Why:}} {inline(text)}" if role == "why" else inline(text)
@@ -131,9 +131,9 @@ def _block(block: Block) -> Iterator[str]:
             yield from _displays([block])
         case Boxed(displays):
             yield _boxed(displays)
-        case Table():
+        case TableBlock():
             yield _table(block)
-        case Verdicts(verdicts):
+        case CheckLines(verdicts):
             items = [
                 rf"\item[{words(v.mark)}] {inline(v.what)}" + (f" ({words(v.figure)})" if v.figure else "")
                 for v in verdicts
@@ -152,7 +152,7 @@ def _boxed(displays: tuple[Display, ...]) -> str:
     return f"\\begin{{gather*}}\n\\boxed{{\\begin{{aligned}}\n{body}\n\\end{{aligned}}}}\n\\end{{gather*}}"
 
 
-def _table(table: Table) -> str:
+def _table(table: TableBlock) -> str:
     """A table; a long one runs over pages, its columns of fixed widths, so that the heads stand over them at once."""
     rows_of = (table.header, *table.rows)
     lengths = [max(_length(row[j]) for row in rows_of) for j in range(len(table.header))]

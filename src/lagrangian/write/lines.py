@@ -7,16 +7,16 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from lagrangian.write.breaking import Row, break_lines
+from lagrangian.write.breaking import BrokenRow, break_lines
 from lagrangian.write.expression_tree import (
+    Glyph,
     Grid,
     Letter,
     Math,
     Number,
-    Ratio,
-    Root,
-    Token,
-    Value,
+    Numeral,
+    Quotient,
+    Radical,
     Word,
     equality,
     tokens,
@@ -28,23 +28,23 @@ from lagrangian.write.unicode_math import columns, token, unicode
 class Line:
     """A line of a formula: what stands left of the alignment, the equals sign or not, what follows, how far set in."""
 
-    left: tuple[Token, ...]
+    left: tuple[Glyph, ...]
     equals: bool
-    right: tuple[Token, ...]
+    right: tuple[Glyph, ...]
     steps: int = 0
 
 
-def measure(piece: Token) -> int:
+def measure(piece: Glyph) -> int:
     """Columns of a token in a line of text."""
     return columns(token(piece))
 
 
-def set_columns(piece: Token) -> int:
+def set_columns(piece: Glyph) -> int:
     """Columns of a token where fractions are set, numerator over denominator."""
     match piece.math:
-        case Ratio(over, under) if piece.role == "leaf":
+        case Quotient(over, under) if piece.role == "leaf":
             return max(_set(over), _set(under))
-        case Root(of) if piece.role == "leaf":
+        case Radical(of) if piece.role == "leaf":
             return 1 + _set(of)
         case _:
             return measure(piece)
@@ -77,14 +77,14 @@ def chain(sides: tuple[Math, ...], width: int, *, aligned: bool = False) -> list
     for side in rest:
         last = lines[-1].right
         if sum(set_columns(t) for t in (*last, *tokens(side))) + 6 <= width:
-            lines[-1] = Line((), False, (*last, Token("sign", text="="), *tokens(side)), lines[-1].steps)
+            lines[-1] = Line((), False, (*last, Glyph("sign", text="="), *tokens(side)), lines[-1].steps)
             continue
         for k, row in enumerate(_rows(side, width - 3)):
             lines.append(Line((), k == 0, tuple(row.tokens), 1 + row.depth + (k > 0)))
     return lines
 
 
-def _rows(side: Math, width: int) -> list[Row]:
+def _rows(side: Math, width: int) -> list[BrokenRow]:
     return break_lines(list(tokens(side)), width, set_columns, flat=False)
 
 
@@ -140,7 +140,7 @@ def entries(grid: Grid) -> list[tuple[tuple[str, ...], Math]]:
 
 def entry(name: Math, index: str) -> Math:
     """The name of a matrix with an entry's index."""
-    if isinstance(name, Value):
+    if isinstance(name, Numeral):
         name = name.of
     if isinstance(name, Letter):
         return Letter(

@@ -8,14 +8,14 @@ from collections.abc import Iterator
 from lagrangian.write.document import (
     Block,
     Boxed,
+    CheckLines,
     Details,
     Display,
     Document,
-    Heading,
+    HeadingBlock,
     Inline,
     Paragraph,
-    Table,
-    Verdicts,
+    TableBlock,
 )
 from lagrangian.write.tex import WEB
 from lagrangian.write.tex_lines import boxed, displayed
@@ -48,7 +48,7 @@ def inline(text: Inline) -> str:
 
 def _block(block: Block) -> Iterator[str]:
     match block:
-        case Heading(text):
+        case HeadingBlock(text):
             yield f"### {inline(text)}"
         case Paragraph(text, role):
             yield f"*Why:* {inline(text)}" if role == "why" else _start(inline(text))
@@ -60,10 +60,10 @@ def _block(block: Block) -> Iterator[str]:
             lines = boxed(WEB, [(d.sides, d.number) for d in displays])
             body = " \\\\\n".join(lines)
             yield f"$$\n\\boxed{{\\begin{{aligned}}\n{body}\n\\end{{aligned}}}}\n$$"
-        case Table(header, rows):
+        case TableBlock(header, rows):
             lines = [_row(header), "|" + " --- |" * len(header), *[_row(row) for row in rows]]
             yield "\n".join(lines)
-        case Verdicts(verdicts):
+        case CheckLines(verdicts):
             yield "\n".join(
                 f"- {v.mark} {inline(v.what)}" + (f" ({escape(v.figure)})" if v.figure else "") for v in verdicts
             )

@@ -10,16 +10,16 @@ from lagrangian.write.expression_tree import (
     Apply,
     Cases,
     Fence,
+    Glyph,
     Grid,
     Letter,
     Mark,
     Math,
     Number,
+    Numeral,
     Power,
-    Ratio,
-    Root,
-    Token,
-    Value,
+    Quotient,
+    Radical,
     Word,
     bare,
     in_parentheses,
@@ -70,7 +70,7 @@ def _line(line: Line) -> str:
     return f"<mtr><mtd>{row(line.left)}</mtd>{right}</mtr>"
 
 
-def row(pieces: Iterable[Token]) -> str:
+def row(pieces: Iterable[Glyph]) -> str:
     """Return tokens as one row."""
     listed = list(pieces)
     out: list[str] = []
@@ -85,7 +85,7 @@ def row(pieces: Iterable[Token]) -> str:
     return f"<mrow>{''.join(out)}</mrow>"
 
 
-def _token(piece: Token, *, first: bool) -> str:
+def _token(piece: Glyph, *, first: bool) -> str:
     match piece.role:
         case "leaf":
             return _leaf(piece.math)  # type: ignore[arg-type]
@@ -120,17 +120,17 @@ def _leaf(math: Math) -> str:
             return f"<mo>{text}</mo>"
         case Word(text):
             return f"<mtext>{escape(text)}</mtext>"
-        case Ratio(Number(), Number()):
+        case Quotient(Number(), Number()):
             return f'<mfrac displaystyle="false">{_inner(math.over)}{_inner(math.under)}</mfrac>'
-        case Ratio(over, under):
+        case Quotient(over, under):
             return f"<mfrac>{_inner(over)}{_inner(under)}</mfrac>"
         case Power(base, exponent):
             return _power(base, exponent)
-        case Root(of):
+        case Radical(of):
             return f"<msqrt>{_inner(of)}</msqrt>"
         case Apply():
             return _apply(math)
-        case Value(of, args):
+        case Numeral(of, args):
             inner = '<mo separator="true">,</mo>'.join(_inner(a) for a in args)
             fences = [f'<mo form="{form}" stretchy="false">' for form in ("prefix", "postfix")]
             return f"<mrow>{_inner(of)}{_APPLY}{fences[0]}(</mo>{inner}{fences[1]})</mo></mrow>"

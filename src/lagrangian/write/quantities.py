@@ -39,17 +39,17 @@ from lagrangian.page.formula import (
 )
 from lagrangian.write.expression import Expressions
 from lagrangian.write.expression_tree import (
+    Addition,
     Fence,
     Grid,
     Letter,
     Mark,
     Math,
     Number,
+    Numeral,
     Power,
-    Ratio,
-    Sum,
+    Quotient,
     Times,
-    Value,
     Word,
     equality,
     fenced,
@@ -169,7 +169,7 @@ class Quantities:
             return self._vector(self._chosen["Xi"].base, name.dots)
         if name.base in _VECTORS:
             if name.base == "G" and self.notation == "robotics":
-                return Value(self._vector("g", 0), (self._vector("q", 0),))
+                return Numeral(self._vector("g", 0), (self._vector("q", 0),))
             return self._vector(_VECTORS[name.base], name.dots)
         if name.base in ("x", "y", "z"):
             return Letter(name.base, sub, name.dots)
@@ -213,15 +213,15 @@ class Quantities:
             case Name():
                 return self.name(item)
             case Partial(of, by):
-                return Ratio(Mark("∂", self(of)), Mark("∂", self(by)))
+                return Quotient(Mark("∂", self(of)), Mark("∂", self(by)))
             case Total(of):
-                return Times((Ratio(Word("d"), Word("dt")), Fence(self(of))))
+                return Times((Quotient(Word("d"), Word("dt")), Fence(self(of))))
             case Variation(of):
-                return Mark("δ", fenced(self(of), (Sum, Times, Ratio)))
+                return Mark("δ", fenced(self(of), (Addition, Times, Quotient)))
             case Terms(terms):
                 return self._terms(terms)
             case Minus(of):
-                return Sum(((True, fenced(self(of), Sum)),))
+                return Addition(((True, fenced(self(of), Addition)),))
             case Product(factors):
                 return self._product(factors)
             case Square(coefficient, of):
@@ -247,7 +247,7 @@ class Quantities:
                 laid.append((False, self(term)))
         if len(laid) == 1 and not laid[0][0]:
             return laid[0][1]
-        return Sum(tuple(laid)) if laid else Number("0")
+        return Addition(tuple(laid)) if laid else Number("0")
 
     def _product(self, factors: tuple[Left, ...]) -> Math:
         laid: list[Math] = []
@@ -255,7 +255,7 @@ class Quantities:
             made = self(factor)
             if self.notation == "robotics" and isinstance(factor, Name) and isinstance(made, Letter):
                 q, rate = self._vector("q", 0), self._vector("q", 1)
-                made = Value(made, {"M": (q,), "C": (q, rate)}[factor.base]) if factor.base in ("M", "C") else made
+                made = Numeral(made, {"M": (q,), "C": (q, rate)}[factor.base]) if factor.base in ("M", "C") else made
             laid += made.factors if isinstance(made, Times) else (made,)
         return product(laid[0], *laid[1:]) if laid else Number("1")
 
@@ -267,9 +267,9 @@ class Quantities:
         else:
             negative, front = self.expressions.term(coefficient)
         squares = [Power(fenced(self(a), _NOT_SQUARED), Number("2")) for a in of]
-        inner: Math = squares[0] if len(squares) == 1 else Sum(tuple((False, s) for s in squares))
+        inner: Math = squares[0] if len(squares) == 1 else Addition(tuple((False, s) for s in squares))
         made = product(front, inner)
-        return Sum(((True, made),)) if negative else made
+        return Addition(((True, made),)) if negative else made
 
     def formula(self, item: Formula) -> tuple[Math, ...]:
         """Lay out the sides of a chain of equalities; a side that looks like the one before it is left out."""
@@ -301,4 +301,4 @@ def _upper(rows: tuple[tuple[Math, ...], ...]) -> Grid:
 
 
 _LETTERS = re.compile(r"T\*|Ξᵢ|ξᵢ|Ξ|ξ(?!̇)|(?<![\w*'’])[VL](?![\w*'’(])")
-_NOT_SQUARED = (Sum, Times, Ratio, Power, Mark)
+_NOT_SQUARED = (Addition, Times, Quotient, Power, Mark)

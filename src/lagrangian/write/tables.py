@@ -40,7 +40,7 @@ class Column:
 
 
 @dataclass(frozen=True, eq=False)
-class Table:
+class ColumnTable:
     """Columns over one index column of the same length, and what is to be known of them all."""
 
     index: Column
@@ -73,7 +73,7 @@ def needed(module: str, extra: str = "data") -> Any:
         ) from None
 
 
-def to_xarray(table: Table) -> xarray.Dataset:
+def to_xarray(table: ColumnTable) -> xarray.Dataset:
     """An `xarray.Dataset` over the index, a variable a column, units and long names as attributes."""
     xr = needed("xarray")
     at = table.index.name
@@ -84,7 +84,7 @@ def to_xarray(table: Table) -> xarray.Dataset:
     )
 
 
-def to_pandas(table: Table) -> pandas.DataFrame:
+def to_pandas(table: ColumnTable) -> pandas.DataFrame:
     """A `pandas.DataFrame` indexed by the index; units and words stand in ``frame.attrs``."""
     pd = needed("pandas")
     index = pd.Index(table.index.values, name=table.index.name)
@@ -94,7 +94,7 @@ def to_pandas(table: Table) -> pandas.DataFrame:
     return frame
 
 
-def to_csv(table: Table) -> str:
+def to_csv(table: ColumnTable) -> str:
     """Text with a line of names and a line a sample; numbers with all their digits."""
     out = io.StringIO()
     listed = (table.index, *table.columns)
@@ -104,11 +104,11 @@ def to_csv(table: Table) -> str:
     return out.getvalue()
 
 
-def _csv(path: Path, table: Table) -> None:
+def _csv(path: Path, table: ColumnTable) -> None:
     write_file(path, to_csv(table))
 
 
-def _netcdf(path: Path, table: Table) -> None:
+def _netcdf(path: Path, table: ColumnTable) -> None:
     """NetCDF 4 through h5netcdf, made in memory: HDF5 does not take a full disk well."""
     netcdf = needed("h5netcdf")
     needed("h5py")
@@ -125,7 +125,7 @@ def _bytes(path: Path, memory: io.BytesIO) -> None:
     write_with(path, lambda beside: beside.write_bytes(memory.getbuffer()))
 
 
-def _parquet(path: Path, table: Table) -> None:
+def _parquet(path: Path, table: ColumnTable) -> None:
     pa, pq = needed("pyarrow"), needed("pyarrow.parquet")
     listed = (table.index, *table.columns)
     fields = [pa.field(c.name, pa.float64(), metadata=c.attributes) for c in listed]
@@ -136,7 +136,7 @@ def _parquet(path: Path, table: Table) -> None:
     _bytes(path, memory)
 
 
-def _npz(path: Path, table: Table) -> None:
+def _npz(path: Path, table: ColumnTable) -> None:
     arrays: dict[str, Any] = {c.name: c.values for c in (table.index, *table.columns)}
     arrays["attributes"] = _json(dict(table.plain_attributes))
     arrays["units"] = _json({c.name: c.unit for c in (table.index, *table.columns)})
@@ -145,7 +145,7 @@ def _npz(path: Path, table: Table) -> None:
     _bytes(path, memory)
 
 
-ENDINGS: Mapping[str, Callable[[Path, Table], None]] = {
+ENDINGS: Mapping[str, Callable[[Path, ColumnTable], None]] = {
     ".csv": _csv,
     ".nc": _netcdf,
     ".parquet": _parquet,
@@ -162,7 +162,7 @@ def check_target(path: Path, endings: Sequence[str], *, overwrite: bool) -> None
     check_free(path, overwrite=overwrite)
 
 
-def save(table: Table, path: str | Path, *, overwrite: bool = False) -> Path:
+def save(table: ColumnTable, path: str | Path, *, overwrite: bool = False) -> Path:
     """Write a table to a file of the kind its name ends with, whole or not at all; return the path.
 
     Raises `Error` where a file is there already (unless ``overwrite``), or nothing can be written there.

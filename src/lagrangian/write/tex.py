@@ -10,16 +10,16 @@ from lagrangian.write.expression_tree import (
     Apply,
     Cases,
     Fence,
+    Glyph,
     Grid,
     Letter,
     Mark,
     Math,
     Number,
+    Numeral,
     Power,
-    Ratio,
-    Root,
-    Token,
-    Value,
+    Quotient,
+    Radical,
     Word,
     bare,
     in_parentheses,
@@ -60,7 +60,7 @@ class Tex:
         """Return the formula as LaTeX mathematics."""
         return self.join(tokens(math))
 
-    def join(self, pieces: Iterable[Token]) -> str:
+    def join(self, pieces: Iterable[Glyph]) -> str:
         """Return tokens as LaTeX."""
         listed = list(pieces)
         text = ""
@@ -73,7 +73,7 @@ class Tex:
             text += made
         return text.strip()
 
-    def token(self, piece: Token) -> str:
+    def token(self, piece: Glyph) -> str:
         """Return one token as LaTeX."""
         match piece.role:
             case "leaf":
@@ -101,17 +101,17 @@ class Tex:
                 if text in _WORDS or text in _KNOWN:
                     return _WORDS.get(text, rf"\{text}")
                 return rf"\text{{{self.words(text)}}}" if text else ""
-            case Ratio(Number(over), Number(under)):
+            case Quotient(Number(over), Number(under)):
                 return rf"\tfrac{{{over}}}{{{under}}}"
-            case Ratio(over, under):
+            case Quotient(over, under):
                 return rf"\frac{{{self.latex(over)}}}{{{self.latex(under)}}}"
             case Power(base, exponent):
                 return f"{self._grouped(base)}^{{{self.latex(exponent)}}}"
-            case Root(of):
+            case Radical(of):
                 return rf"\sqrt{{{self.latex(of)}}}"
             case Apply():
                 return self._apply(math)
-            case Value(of, args):
+            case Numeral(of, args):
                 return f"{self.latex(of)}({', '.join(self.latex(a) for a in args)})"
             case Mark(sign, of):
                 inner = self.latex(of)

@@ -9,17 +9,17 @@ from lagrangian.write.breaking import STEP, break_lines
 from lagrangian.write.document import (
     Block,
     Boxed,
+    CheckLines,
     Details,
     Display,
     Document,
-    Heading,
+    HeadingBlock,
     Inline,
     Paragraph,
     Section,
-    Table,
-    Verdicts,
+    TableBlock,
 )
-from lagrangian.write.expression_tree import Grid, Math, Token, Word, equality, tokens
+from lagrangian.write.expression_tree import Glyph, Grid, Math, Word, equality, tokens
 from lagrangian.write.lines import chains, measure
 from lagrangian.write.unicode_math import columns, join, unicode
 
@@ -78,7 +78,7 @@ def _tight(block: Block) -> bool:
 
 def _block(block: Block, width: int) -> Iterator[str]:
     match block:
-        case Heading(text):
+        case HeadingBlock(text):
             yield from map(Title, wrap((*text,), width))
         case Paragraph(text, role):
             lead: Inline = ("Why: ",) if role == "why" else ()
@@ -88,9 +88,9 @@ def _block(block: Block, width: int) -> Iterator[str]:
                 yield "    " + line
         case Boxed(displays):
             yield from _box(displays, width)
-        case Table():
+        case TableBlock():
             yield from _table(block, width)
-        case Verdicts(verdicts):
+        case CheckLines(verdicts):
             for verdict in verdicts:
                 figure = f" ({verdict.figure})" if verdict.figure else ""
                 yield from wrap((f"{verdict.mark} ", *verdict.what, clean(figure)), width, hang=2)
@@ -120,7 +120,7 @@ def wrap(text: Inline, width: int, hang: int = 0) -> list[str]:
         if line.strip() and (columns(shown) <= width - hang or len(word) == 1):
             lines.append(line.rstrip())
             line = ""
-        pieces = [t for x in word for t in ([Token("leaf", Word(x))] if isinstance(x, str) else tokens(x))]
+        pieces = [t for x in word for t in ([Glyph("leaf", Word(x))] if isinstance(x, str) else tokens(x))]
         room = width - columns(line) - 1 if line.strip() else width - (hang if lines else 0)
         rows = [join(row.tokens) for row in break_lines(pieces, width - hang, measure, first=room)]
         rows[0] = f"{line} {rows[0]}" if line.strip() else rows[0]
@@ -255,7 +255,7 @@ def _box(displays: tuple[Display, ...], width: int) -> Iterator[str]:
 # -- tables ---------------------------------------------------------------------------------------------------------
 
 
-def _table(table: Table, width: int) -> Iterator[str]:
+def _table(table: TableBlock, width: int) -> Iterator[str]:
     count = len(table.header)
     if count == 0:
         return
@@ -280,7 +280,7 @@ def _table(table: Table, width: int) -> Iterator[str]:
             yield (" " * GAP).join("─" * w for w in widths)
 
 
-def _listed(table: Table, width: int) -> Iterator[str]:
+def _listed(table: TableBlock, width: int) -> Iterator[str]:
     """A table too wide for the page, row by row: its first cell, below it the others with their heads."""
     for i, row in enumerate(table.rows):
         if i:

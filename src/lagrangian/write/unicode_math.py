@@ -10,17 +10,17 @@ from lagrangian.write.expression_tree import (
     Apply,
     Cases,
     Fence,
+    Glyph,
     Grid,
     Letter,
     Mark,
     Math,
     Number,
+    Numeral,
     Power,
-    Ratio,
-    Root,
+    Quotient,
+    Radical,
     Times,
-    Token,
-    Value,
     Word,
     bare,
     in_parentheses,
@@ -51,13 +51,13 @@ def unicode(math: Math) -> str:
     return join(tokens(math))
 
 
-def join(pieces: Iterable[Token]) -> str:
+def join(pieces: Iterable[Glyph]) -> str:
     """Return tokens as one line; a sign at its beginning stands close."""
     text = "".join(token(p) for p in pieces)
     return unicodedata.normalize("NFC", text.removeprefix(" "))
 
 
-def token(piece: Token) -> str:
+def token(piece: Glyph) -> str:
     """Return one token as Unicode text."""
     match piece.role:
         case "leaf":
@@ -78,16 +78,16 @@ def _leaf(math: Math) -> str:
             return _letter(math)
         case Number(text) | Word(text):
             return text
-        case Ratio(over, under):
+        case Quotient(over, under):
             return _ratio(over, under)
         case Power(base, exponent):
             return unicode(base) + _raised(exponent)
-        case Root(of):
+        case Radical(of):
             inner = unicode(of)
             return f"√{inner}" if isinstance(of, (Letter, Number)) else f"√({inner})"
         case Apply():
             return _apply(math)
-        case Value(of, args):
+        case Numeral(of, args):
             return f"{unicode(of)}({', '.join(unicode(a) for a in args)})"
         case Mark(sign, of):
             return sign + (unicode(of) if isinstance(of, (Letter, Word, Power, Fence)) else f"({unicode(of)})")
@@ -171,9 +171,9 @@ def _ratio(over: Math, under: Math) -> str:
             return _VULGAR.get(pair, f"({over.text}/{under.text})")
         return f"({over.text}/{under.text})"
     above, below = unicode(_closed(over)), unicode(under)
-    flat = (Letter, Number, Word, Mark, Power, Root, Apply, Fence)
+    flat = (Letter, Number, Word, Mark, Power, Radical, Apply, Fence)
     top = above if isinstance(over, (*flat, Times)) else f"({above})"
-    bottom = below if isinstance(under, (Letter, Number, Word, Mark, Power, Root, Fence)) else f"({below})"
+    bottom = below if isinstance(under, (Letter, Number, Word, Mark, Power, Radical, Fence)) else f"({below})"
     return f"{top}/{bottom}"
 
 

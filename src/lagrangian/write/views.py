@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from lagrangian.write import html_page
 from lagrangian.write.described import system_section
-from lagrangian.write.document import Document, Inline, Paragraph, Section, Table
+from lagrangian.write.document import Document, Inline, Paragraph, Section, TableBlock
 
 if TYPE_CHECKING:
     from lagrangian.model import Model
@@ -32,8 +32,8 @@ def table_view(title: str, words: Sequence[str], header: Sequence[str], rows: It
     return html_page.fragment(Document(title, (Section("table", (), blocks),)))
 
 
-def _table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> Table:
+def _table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> TableBlock:
     def cells(row: Sequence[str]) -> tuple[Inline, ...]:
         return tuple((cell,) if cell else () for cell in row)
 
-    return Table(cells(header), tuple(cells(row) for row in rows))
+    return TableBlock(cells(header), tuple(cells(row) for row in rows))

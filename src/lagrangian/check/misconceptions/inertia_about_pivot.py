@@ -9,7 +9,7 @@ import numpy as np
 import sympy as sp
 
 from lagrangian.check.misconceptions.base import Ingredients, Variant, put
-from lagrangian.derive.sampling import Compiled, States
+from lagrangian.derive.sampling import CompiledExpressions, States
 from lagrangian.model import time
 from lagrangian.page.formula import text
 
@@ -45,5 +45,5 @@ def _arms(s: Ingredients, body: object) -> list[sp.Expr]:
 
 def _constant(s: Ingredients, expr: sp.Expr) -> sp.Expr | None:
     """The expression at one place, where it is the same everywhere; None where it is not."""
-    slope = Compiled([sp.diff(expr, time)]).at(States(s.model, 2))
+    slope = CompiledExpressions([sp.diff(expr, time)]).at(States(s.model, 2))
     return put(expr, dict.fromkeys(s.q, sp.S.Zero)) if np.abs(slope).max() < 1e-9 else None

@@ -13,7 +13,7 @@ from lark import Tree
 
 from lagrangian.check.reading.latex_fractions import CLOSING, LatexFractions
 from lagrangian.check.reading.nodes import Node, inside, leaf, matrix, name, node, number, wrapped
-from lagrangian.check.reading.parser import Token
+from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.errors import ParseError
 from lagrangian.model.names import FUNCTIONS
 from lagrangian.quantities.source import Source, shown
@@ -164,10 +164,10 @@ class LatexParser(LatexFractions):
         raise self.stopped(True)
 
     @staticmethod
-    def _fraction(token: Token) -> Tree:
+    def _fraction(token: AnswerToken) -> Tree:
         return node("number", token.start, leaf("FRACTION", token.text, token.start))
 
-    def _absolute(self, token: Token) -> Tree:
+    def _absolute(self, token: AnswerToken) -> Tree:
         if token.kind == "abs(":
             inner = self._closed(")abs")
         else:
@@ -242,7 +242,7 @@ class LatexParser(LatexFractions):
 
     # -- functions and fractions -------------------------------------------------------------------------------------
 
-    def _function(self, token: Token) -> Tree:
+    def _function(self, token: AnswerToken) -> Tree:
         """A function with its power and its argument, in brackets or not."""
         exponent: Node = None
         called = token.text
@@ -263,7 +263,7 @@ class LatexParser(LatexFractions):
         texts = [str(x) for x in exponent.scan_values(lambda x: True)]
         return [x for x in texts if x != "None"] == ["-", "1"]
 
-    def _arguments(self, token: Token) -> list[Tree]:
+    def _arguments(self, token: AnswerToken) -> list[Tree]:
         if self.next.kind == "(" and token.text in ("atan2", "min", "max"):
             start = self.take().start
             self.deeper(start)
@@ -282,7 +282,7 @@ class LatexParser(LatexFractions):
             )
         return [self._bare_argument(token)]
 
-    def _bare_argument(self, token: Token) -> Tree:
+    def _bare_argument(self, token: AnswerToken) -> Tree:
         """Numbers, then one factor; a constant and t are one factor."""
         start = self.next.start
         children: list[Node] = []
@@ -304,7 +304,7 @@ class LatexParser(LatexFractions):
             break
         return node("product", start, *children)
 
-    def _root(self, token: Token) -> Tree:
+    def _root(self, token: AnswerToken) -> Tree:
         degree = None
         if self.next.kind == "[":
             degree = self._closed("]")
@@ -314,7 +314,7 @@ class LatexParser(LatexFractions):
         inverse = node("product", token.start, number("1", token.start), leaf("OPERATOR", "/", token.start), degree)
         return node("power", token.start, argument, leaf("POWER", "^", token.start), None, inverse)
 
-    def _matrix(self, token: Token) -> Tree:
+    def _matrix(self, token: AnswerToken) -> Tree:
         self.deeper(token.start)
         symmetric = self._says_symmetric()
         rows: list[list[Tree | None]] = [[self._entry(symmetric)]]
@@ -348,7 +348,7 @@ class LatexParser(LatexFractions):
             return None
         return self.sum()
 
-    def _mirrored(self, rows: list[list[Tree | None]], i: int, j: int, token: Token) -> Tree:
+    def _mirrored(self, rows: list[list[Tree | None]], i: int, j: int, token: AnswerToken) -> Tree:
         """The entry in row i and column j, or for an empty one that on the other side of the diagonal."""
         entry = rows[i][j]
         if entry is None and j < i and i < len(rows[j]):

@@ -9,7 +9,7 @@ from lark import Tree
 
 from lagrangian.check.reading.latex_symbols import LatexSymbols
 from lagrangian.check.reading.nodes import inside, leaf, node
-from lagrangian.check.reading.parser import Token
+from lagrangian.check.reading.parser import AnswerToken
 
 _ENERGIES = frozenset("TVLDℒ")
 CLOSING = {"(": ")", "[": "]", "{": "}"}
@@ -31,7 +31,7 @@ class LatexFractions(LatexSymbols):
     def _closed(self, closing: str) -> Tree:
         """Read a bracket and what closes it."""
 
-    def _frac(self, token: Token) -> Tree:
+    def _frac(self, token: AnswerToken) -> Tree:
         """A fraction; d/dt, d²x/dt² and ∂L/∂ẋ are written as ones."""
         top, bottom = self._parts()
         order = _differential_of_time(bottom)
@@ -50,9 +50,9 @@ class LatexFractions(LatexSymbols):
             self.tokens[self.i : self.i + 1] = [first, replace(whole, text=whole.text[1:], start=whole.start + 1)]
         return self._argument()
 
-    def _parts(self) -> tuple[list[Token], list[Token]]:
+    def _parts(self) -> tuple[list[AnswerToken], list[AnswerToken]]:
         """The tokens of numerator and denominator, without going past them."""
-        found: list[list[Token]] = []
+        found: list[list[AnswerToken]] = []
         at = self.i
         for _ in range(2):
             if self.tokens[at].kind != "{":
@@ -77,7 +77,7 @@ class LatexFractions(LatexSymbols):
             if depth <= 0 or kind == "end":
                 return
 
-    def _rate_fraction(self, token: Token, top: list[Token], order: int) -> Tree:
+    def _rate_fraction(self, token: AnswerToken, top: list[AnswerToken], order: int) -> Tree:
         rest = [x for x in top[1:] if x.kind not in ("^", "{", "}") and not (x.kind == "number" and x is top[-1])]
         if len(top[0].text) == 1 and (len(top) == 1 or (top[1].kind == "^" and not rest)):
             self._skip_part()
@@ -107,14 +107,14 @@ class LatexFractions(LatexSymbols):
         self.opened.pop()
         return made
 
-    def _is_partial(self, top: list[Token], bottom: list[Token]) -> bool:
+    def _is_partial(self, top: list[AnswerToken], bottom: list[AnswerToken]) -> bool:
         """Whether a fraction is ∂L/∂ẋ, or dL/dẋ of an energy."""
         if top[0].kind == bottom[0].kind == "partial":
             return True
         over, under = ("".join(x.text for x in part if x.kind not in "{}") for part in (top, bottom))
         return over[:1] == under[:1] == "d" and over[1:] in _ENERGIES and len(under) > 1 and not self.known(over)
 
-    def _partial_fraction(self, token: Token) -> Tree:
+    def _partial_fraction(self, token: AnswerToken) -> Tree:
         energy = self._after_d()
         by = self._after_d()
         return node("partial", token.start, leaf("NAME", _energy(energy), token.start), by)
@@ -136,7 +136,7 @@ class LatexFractions(LatexSymbols):
             return inside(self._closed(CLOSING[self.next.kind]))
         return self._symbol()
 
-    def _partial_inline(self, token: Token) -> Tree:
+    def _partial_inline(self, token: AnswerToken) -> Tree:
         """∂L/∂ẋ on one line."""
         energy = self._symbol()
         if not (self.accept("over") and self.accept("partial")):
@@ -151,11 +151,11 @@ def _energy(tree: Tree) -> str:
     return str(inside(tree).children[0])
 
 
-def _begins_with_d(part: list[Token]) -> bool:
+def _begins_with_d(part: list[AnswerToken]) -> bool:
     return bool(part) and part[0].kind in ("letters", "upright") and part[0].text.startswith("d")
 
 
-def _differential_of_time(part: list[Token]) -> int:
+def _differential_of_time(part: list[AnswerToken]) -> int:
     """1 for dt, 2 for dt², 0 for anything else."""
     text = "".join(x.text for x in part if x.kind not in ("{", "}"))
     return {"dt": 1, "dt^2": 2, "dt²": 2}.get(text, 0)

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from lagrangian.check.reading.latex_tokens import MATRICES, SYMMETRIC
-from lagrangian.check.reading.rows import MAX_STATEMENTS, Row, blank, incomplete, plain_words
+from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, blank, incomplete, plain_words
 
 _COMMENT = re.compile(r"(?<!\\)%.*")
 _DISPLAYS = [
@@ -53,13 +53,13 @@ _MINUS = re.compile(rf"{_SPACE}[-−–]")
 _CUT = re.compile(r"[,;](?!\w)|\\q?quad(?![A-Za-z])|\x00")
 
 
-def latex_rows(text: str) -> list[Row]:
+def latex_rows(text: str) -> list[AnswerRow]:
     """Return the statements of an answer in LaTeX; words around the mathematics are left out."""
     text = _COMMENT.sub(lambda m: " " * len(m.group()), text)
     found = list(_mathematics(text))
     if not found:
         return _statements(text, 0, lines=True)
-    rows: list[Row] = []
+    rows: list[AnswerRow] = []
     for start, inside in [x for x in found if "=" in x[1]] or found:
         if len(rows) > MAX_STATEMENTS:
             break
@@ -81,22 +81,22 @@ def _mathematics(text: str) -> Iterator[tuple[int, str]]:
             at = end + len(closing)
 
 
-def _statements(text: str, start: int, *, lines: bool) -> list[Row]:
+def _statements(text: str, start: int, *, lines: bool) -> list[AnswerRow]:
     """The statements of one piece of mathematics; ``lines``: a line's end may end a statement."""
     text = _SYSTEM.sub(lambda m: m["rows"].rjust(m.end("rows") - m.start()).ljust(len(m.group())), text)
     for form in (_WRAPPER, _NOTE):
         text = form.sub(lambda m: " " * len(m.group()), text)
     text = _without_words(_unboxed(text))
-    rows: list[Row] = []
+    rows: list[AnswerRow] = []
     for at, piece, hard in _cut(text, lines):
         kept = _labels(piece)
         if not _content(kept):
             continue
         if rows and (previous := rows[-1]) and _continues(previous.text, piece, hard):
             gap = at + start - previous.start - len(previous.text)
-            rows[-1] = Row(previous.start, previous.text + " " * gap + kept)
+            rows[-1] = AnswerRow(previous.start, previous.text + " " * gap + kept)
         elif "\\" in kept or not plain_words(kept):
-            rows.append(Row(at + start, kept))
+            rows.append(AnswerRow(at + start, kept))
     return [part for row in rows for part in _parts(_tidy(row))]
 
 
@@ -186,13 +186,13 @@ def _continues(before: str, piece: str, hard: bool) -> bool:
     return bool(_MINUS.match(piece)) and (("=" in before) != ("=" in piece))
 
 
-def _tidy(row: Row) -> Row:
+def _tidy(row: AnswerRow) -> AnswerRow:
     text = row.text.replace("&", " ") if not any(f"{{{m}}}" in row.text for m in MATRICES) else _outer(row.text)
     end = _content_end(text)
     while end and text[end - 1] in ".,;":
         end -= 2 if text[end - 2 : end - 1] == "\\" else 1
         end = _content_end(text[:end])
-    return Row(row.start, text[:end])
+    return AnswerRow(row.start, text[:end])
 
 
 def _outer(text: str) -> str:
@@ -207,7 +207,7 @@ def _outer(text: str) -> str:
     return "".join(letters)
 
 
-def _parts(row: Row) -> list[Row]:
+def _parts(row: AnswerRow) -> list[AnswerRow]:
     """Split a row at commas, wide spaces and words outside brackets, where every piece states something."""
     if any("\x00" in side and not _content(side) for side in row.text.split("=")):
         return []  # one side is words: a remark
@@ -224,5 +224,5 @@ def _parts(row: Row) -> list[Row]:
     pieces = [(a[1], row.text[a[1] : b[0]]) for a, b in pairwise(cuts)]
     pieces = [(at, piece) for at, piece in pieces if _content(piece)]
     if all("=" in piece for _, piece in pieces):
-        return [Row(row.start + at, piece) for at, piece in pieces]
-    return [Row(row.start, row.text.replace("\x00", " "))]
+        return [AnswerRow(row.start + at, piece) for at, piece in pieces]
+    return [AnswerRow(row.start, row.text.replace("\x00", " "))]

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from lagrangian.check.reading.latex_tokens import tokenize
-from lagrangian.check.reading.parser import Parser, Token
+from lagrangian.check.reading.parser import AnswerToken, Parser
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import normal
 
@@ -52,14 +52,14 @@ class LatexSymbols(Parser):
             return token.text + self.take().text, 0, token.start
         return token.text, 0, token.start
 
-    def _digits_belong(self, token: Token) -> bool:
+    def _digits_belong(self, token: AnswerToken) -> bool:
         """Whether the number right behind a letter is part of its name: x1."""
         behind = self.next
         if behind.kind != "number" or behind.start != token.end or not behind.text.isdigit():
             return False
         return self.known(token.text + behind.text) or not self.known(token.text)
 
-    def _first_name(self, token: Token) -> int:
+    def _first_name(self, token: AnswerToken) -> int:
         """How many letters of a run are its first name: the longest that is known with what follows it, else one."""
         run = token.text
         ending = ""

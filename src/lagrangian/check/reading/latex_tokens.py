@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from lagrangian.check.reading.parser import Token
+from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.errors import did_you_mean
 from lagrangian.model.names import FUNCTIONS
 from lagrangian.quantities.source import Source, shown
@@ -66,9 +66,9 @@ _PAIRS |= {"frac": "frac", "dfrac": "frac", "tfrac": "frac", "cfrac": "frac", "s
 _PAIRS |= {"intercal": "top"}
 
 
-def tokenize(source: Source) -> list[Token]:
+def tokenize(source: Source) -> list[AnswerToken]:
     """Return the tokens of a statement in LaTeX; kinds are those of `PlainParser` where they mean the same."""
-    tokens: list[Token] = []
+    tokens: list[AnswerToken] = []
     for match in _TOKEN.finditer(source.text):
         kind, start, end = str(match.lastgroup), match.start(), match.end()
         text = match[kind]
@@ -95,8 +95,8 @@ def tokenize(source: Source) -> list[Token]:
                 f"found {shown(text)}", start, fix="write LaTeX's mathematics: \\frac{a}{b}, \\ddot{x}, x_1"
             )
         if kind not in ("space", "delimiter", "skipped"):
-            tokens.append(Token(kind, text, start, end))
-    tokens.append(Token("end", "", len(source.text), len(source.text)))
+            tokens.append(AnswerToken(kind, text, start, end))
+    tokens.append(AnswerToken("end", "", len(source.text), len(source.text)))
     return tokens
 
 

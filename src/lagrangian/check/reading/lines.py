@@ -12,7 +12,7 @@ from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.answer import AnswerLine, Kind
-from lagrangian.check.reading.meaning import Budget, Meaning
+from lagrangian.check.reading.meaning import Meaning, ReadingBudget
 from lagrangian.check.reading.names import Names, Value, spelled_rates
 from lagrangian.check.reading.nodes import Node, inside, only_name, squared_name, start_of
 from lagrangian.check.reading.placeholders import ENERGIES, generalized_force, is_force, is_placeholder, is_vector
@@ -51,7 +51,7 @@ class Lines:
         self.model = model
         self.names = Names(model)
         self.names.later = self._look_ahead
-        self.budget = Budget()
+        self.budget = ReadingBudget()
         self._waiting: dict[str, int] = {}
         self._statements: Sequence[Statement] = ()
         self._made: dict[int, list[AnswerLine]] = {}

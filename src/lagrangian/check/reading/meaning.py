@@ -14,7 +14,7 @@ from lagrangian.check.reading.nodes import Node, only_name
 from lagrangian.check.reading.placeholders import ENERGIES, is_vector, variation
 from lagrangian.model.names import time
 from lagrangian.quantities.source import Source
-from lagrangian.read.expression import MAX_ORDER, Reader
+from lagrangian.read.expression import MAX_ORDER, ExpressionReader
 from lagrangian.read.letters import key, undotted
 
 MAX_SIZE = 20_000
@@ -27,10 +27,10 @@ MAX_ENTRIES = 400
 """Most entries of a matrix."""
 
 
-class Meaning(Reader):
+class Meaning(ExpressionReader):
     """Reads the trees of one statement; ``budget`` is shared by the whole answer."""
 
-    def __init__(self, source: Source, names: Names, budget: Budget) -> None:
+    def __init__(self, source: Source, names: Names, budget: ReadingBudget) -> None:
         super().__init__(source, names.scope)
         self.names, self.budget = names, budget
         self._done: dict[int, Value] = {}
@@ -208,7 +208,7 @@ class Meaning(Reader):
         return super()._call(node)
 
 
-class Budget:
+class ReadingBudget:
     """Counts the nodes of expressions as trees, shared parts as often as they stand there."""
 
     def __init__(self, size: int = MAX_SIZE) -> None:

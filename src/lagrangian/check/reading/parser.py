@@ -16,7 +16,7 @@ from lagrangian.quantities.source import Source
 
 
 @dataclass(frozen=True, slots=True)
-class Token:
+class AnswerToken:
     """A piece of the text: its kind, itself, where it begins and ends."""
 
     kind: str
@@ -28,7 +28,7 @@ class Token:
 class Parser(ABC):
     """Reads one statement. ``tokens`` ends with one of kind ``end``."""
 
-    def __init__(self, source: Source, tokens: list[Token]) -> None:
+    def __init__(self, source: Source, tokens: list[AnswerToken]) -> None:
         self.source, self.tokens = source, tokens
         self.i = 0
         self.opened: list[int] = []
@@ -50,21 +50,21 @@ class Parser(ABC):
     # -- tokens ----------------------------------------------------------------------------------------------------
 
     @property
-    def next(self) -> Token:
+    def next(self) -> AnswerToken:
         """The token that comes next."""
         return self.tokens[self.i]
 
-    def ahead(self, count: int = 1) -> Token:
+    def ahead(self, count: int = 1) -> AnswerToken:
         """The token after the next one."""
         return self.tokens[min(self.i + count, len(self.tokens) - 1)]
 
-    def take(self) -> Token:
+    def take(self) -> AnswerToken:
         """Return the next token and go past it."""
         token = self.next
         self.i = min(self.i + 1, len(self.tokens) - 1)
         return token
 
-    def accept(self, *kinds: str) -> Token | None:
+    def accept(self, *kinds: str) -> AnswerToken | None:
         """Go past the next token where it is of these kinds."""
         return self.take() if self.next.kind in kinds else None
 

@@ -12,7 +12,7 @@ from collections.abc import Callable
 from lark import Tree
 
 from lagrangian.check.reading.nodes import Node, leaf, matrix, name, node, number, only_name
-from lagrangian.check.reading.parser import Parser, Token
+from lagrangian.check.reading.parser import AnswerToken, Parser
 from lagrangian.errors import ParseError
 from lagrangian.model.names import FUNCTIONS
 from lagrangian.quantities.source import Source
@@ -55,18 +55,18 @@ _DIFFERENTIATE = frozenset(["diff", "Derivative", "D"])
 _DOTS = {"dot": 1, "ddot": 2}
 
 
-def tokenize(text: str) -> list[Token]:
+def tokenize(text: str) -> list[AnswerToken]:
     """Return the tokens of a statement."""
-    tokens: list[Token] = []
+    tokens: list[AnswerToken] = []
     for match in _TOKEN.finditer(text):
         kind = "=" if match.lastgroup == "eq" else str(match.lastgroup)
         if kind == "star":  # the kinetic co-energy T*, not a product
-            tokens.append(Token("name", "T", match.start(), match.end()))
+            tokens.append(AnswerToken("name", "T", match.start(), match.end()))
         elif kind != "space":
             tokens.append(
-                Token(match.group() if kind == "bracket" else kind, match.group(), match.start(), match.end())
+                AnswerToken(match.group() if kind == "bracket" else kind, match.group(), match.start(), match.end())
             )
-    tokens.append(Token("end", "", len(text), len(text)))
+    tokens.append(AnswerToken("end", "", len(text), len(text)))
     return tokens
 
 
@@ -124,7 +124,7 @@ class PlainParser(Parser):
         """Whether (t) comes next: x1''(t) is x1''."""
         return [x.text for x in self.tokens[self.i : self.i + 3]] == ["(", "t", ")"]
 
-    def _primed(self, made: Tree, primes: Token) -> Tree:
+    def _primed(self, made: Tree, primes: AnswerToken) -> Tree:
         order = sum(_ORDERS[c] for c in primes.text)
         if made.data == "name" and made.children[1] is None:
             token: Node = made.children[0]
@@ -217,7 +217,7 @@ class PlainParser(Parser):
             return self._call(token)
         return name(token.text, token.start)
 
-    def _call(self, token: Token) -> Tree:
+    def _call(self, token: AnswerToken) -> Tree:
         arguments = self._arguments()
         if len(arguments) == 1 and only_name(arguments[0]) == ("t", 0):  # x1(t)
             return name(token.text, token.start)
@@ -292,7 +292,7 @@ class PlainParser(Parser):
         self.take()
         return node("comparison", token.start, left, leaf("RELATION", relation.text, relation.start), self.sum())
 
-    def _powered_call(self, token: Token) -> Tree:
+    def _powered_call(self, token: AnswerToken) -> Tree:
         """sin^2(x), sin²(x)."""
         at = self.i
         raised = self.take()
@@ -315,7 +315,7 @@ class PlainParser(Parser):
         power = leaf("POWER", "^", raised.start)
         return node("power", token.start, call, power, None, number(exponent, raised.start))
 
-    def _d_of_bracket(self, token: Token) -> Tree | None:
+    def _d_of_bracket(self, token: AnswerToken) -> Tree | None:
         """d(…)/dt; None where no /dt follows."""
         at = self.i
         inner = self._bracket()
@@ -326,7 +326,7 @@ class PlainParser(Parser):
         self.i = at
         return None
 
-    def _differentiated(self, token: Token) -> Tree:
+    def _differentiated(self, token: AnswerToken) -> Tree:
         """diff(x, t), diff(x, t, 2), diff(x, t, t), Derivative(x(t), (t, 2)), diff(L, x')."""
         start = self.take().start
         self.deeper(start)
@@ -368,7 +368,7 @@ class PlainParser(Parser):
             )
         return int(token.text)
 
-    def _energy(self, made: Tree, token: Token) -> Node:
+    def _energy(self, made: Tree, token: AnswerToken) -> Node:
         which = only_name(made)
         if which is None or which[1] or which[0] not in ("T", "V", "L", "D", "ℒ"):
             raise self.source.error(

@@ -12,7 +12,7 @@ from lagrangian.check.reading.latex_rows import latex_rows
 from lagrangian.check.reading.lines import Lines, Statement
 from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain import PlainParser
-from lagrangian.check.reading.rows import MAX_STATEMENTS, Row, plain_rows
+from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, plain_rows
 from lagrangian.errors import Place
 from lagrangian.model import Model
 from lagrangian.quantities.source import Source
@@ -47,7 +47,7 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
     return Answer(lines.read(statements), "latex" if latex else "text", tuple(lines.names.unknown.values()))
 
 
-def _parsed(source: Source, row: Row, parser: Callable[[Source], Parser]) -> Statement:
+def _parsed(source: Source, row: AnswerRow, parser: Callable[[Source], Parser]) -> Statement:
     """Parse one statement; its places are those of the whole answer."""
     start = row.start + len(row.text) - len(row.text.lstrip())
     own = Source(row.text.strip(), source.what, source.place, lambda offset: source.at(start + offset))

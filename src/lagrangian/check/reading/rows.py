@@ -13,7 +13,7 @@ MAX_STATEMENTS = 500
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class AnswerRow:
     """A statement: ``text`` begins at ``start`` of the answer, with comments and labels blanked out."""
 
     start: int
@@ -56,11 +56,11 @@ def blank(text: str, start: int, end: int) -> str:
     return text[:start] + " " * (end - start) + text[end:]
 
 
-def plain_rows(text: str) -> list[Row]:
+def plain_rows(text: str) -> list[AnswerRow]:
     """Return the statements of an answer in plain text."""
-    rows: list[Row] = []
+    rows: list[AnswerRow] = []
     offset = 0
-    open_row: Row | None = None
+    open_row: AnswerRow | None = None
     for line in re.split(r"(?<=\n)", text):
         bare = _COMMENT.sub(lambda m: " " * len(m.group()), line.rstrip("\r\n"))
         if not bare.strip():
@@ -71,9 +71,9 @@ def plain_rows(text: str) -> list[Row]:
             if (repeated := _PLUS_END.search(head)) is not None and _PLUS_START.match(bare):
                 head = blank(head, repeated.start(), len(head))  # "a + …" goes on with "… + b"
             gap = offset - open_row.start - len(head)
-            rows[-1] = open_row = Row(open_row.start, head + " " * gap + _after(bare))
+            rows[-1] = open_row = AnswerRow(open_row.start, head + " " * gap + _after(bare))
         elif (stripped := _before(bare)).strip() and not plain_words(stripped):
-            open_row = Row(offset, _after(stripped))
+            open_row = AnswerRow(offset, _after(stripped))
             rows.append(open_row)
         offset += len(line)
     split = [piece for row in rows for part in pieces(row, ";", always=True) for piece in pieces(part, ",")]
@@ -88,12 +88,12 @@ def _before(line: str) -> str:
     return line
 
 
-def _without_lead(row: Row) -> Row:
+def _without_lead(row: AnswerRow) -> AnswerRow:
     """Blank out English words in front: "the kinetic energy is T = …"."""
     if (match := _LEADING.match(row.text)) is None:
         return row
     words = [w for w in re.finditer(r"[^\W\d_]+", match.group()) if w.group().lower() in _ENGLISH]
-    return Row(row.start, blank(row.text, 0, words[-1].end() + 1)) if words else row
+    return AnswerRow(row.start, blank(row.text, 0, words[-1].end() + 1)) if words else row
 
 
 def _after(line: str) -> str:
@@ -129,7 +129,7 @@ def incomplete(text: str) -> bool:
     return bool(_OPEN_END.search(text)) or sum((c in "([") - (c in ")]") for c in text) > 0
 
 
-def pieces(row: Row, separators: str, *, always: bool = False) -> list[Row]:
+def pieces(row: AnswerRow, separators: str, *, always: bool = False) -> list[AnswerRow]:
     """Split a row at separators outside brackets, unless ``always`` only where every piece has an =."""
     cuts, depth = [-1], 0
     for i, c in enumerate(row.text):
@@ -146,4 +146,4 @@ def pieces(row: Row, separators: str, *, always: bool = False) -> list[Row]:
         and sum("=" in part for _, part in parts) < sum(bool(part.strip()) for _, part in parts)
     ):
         return [row]
-    return [Row(row.start + at, part) for at, part in parts if part.strip()]
+    return [AnswerRow(row.start + at, part) for at, part in parts if part.strip()]

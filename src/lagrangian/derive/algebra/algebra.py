@@ -13,7 +13,7 @@ from lagrangian.derive.algebra.form import LARGEST_FORM, Form, Harmonic, OutOfRe
 from lagrangian.derive.algebra.generators import WRITING, Generators, Symbolic
 from lagrangian.derive.algebra.monomials import Packed, Poly, digits, unit
 from lagrangian.derive.algebra.readable import Writer
-from lagrangian.derive.algebra.reading import Reader
+from lagrangian.derive.algebra.reading import FormReader
 
 WORK = 5_000_000
 """Terms that may be multiplied, added and differentiated for one system; what a book holds takes a hundredth."""
@@ -31,7 +31,7 @@ def _spent(limit: int) -> OutOfReach:
     )
 
 
-class Described(Protocol):
+class HasCoordinates(Protocol):
     """What the algebra needs of a model: its coordinates, in order, each with a ``symbol``."""
 
     @property
@@ -56,10 +56,10 @@ class Algebra:
     shape of later results does not depend on who asks first.
     """
 
-    def __init__(self, model: Described, expressions: Iterable[sp.Expr] = ()) -> None:
+    def __init__(self, model: HasCoordinates, expressions: Iterable[sp.Expr] = ()) -> None:
         self.work = Budget(WORK, _spent)
         self.generators = Generators(self, [c.symbol for c in model.coordinates])
-        self.reader = Reader(self)
+        self.reader = FormReader(self)
         self.writer = Writer(self.generators)
         for expr in expressions:
             self.writer.learn(self.form(expr))

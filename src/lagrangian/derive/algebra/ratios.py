@@ -20,7 +20,7 @@ TERMS = 3000
 
 
 @dataclass(frozen=True, eq=False)
-class Ratio:
+class FormRatio:
     """over / under, in normal form."""
 
     over: Form
@@ -75,14 +75,14 @@ def determinant(matrix: Sequence[Sequence[Form]], algebra: Algebra) -> Form:
     return total
 
 
-def inverse(matrix: Sequence[Sequence[Form]], algebra: Algebra) -> list[list[Ratio]]:
+def inverse(matrix: Sequence[Sequence[Form]], algebra: Algebra) -> list[list[FormRatio]]:
     """The inverse of a symmetric matrix, block by block: adjugate over determinant.
 
     Raises `OutOfReach` where a block has more than `LARGEST` rows or its determinant too many terms.
     """
     n = len(matrix)
     one, zero = algebra.number(1), algebra.number(0)
-    result = [[Ratio(zero, one) for _ in range(n)] for _ in range(n)]
+    result = [[FormRatio(zero, one) for _ in range(n)] for _ in range(n)]
     for block in blocks(matrix):
         if len(block) > LARGEST:
             raise OutOfReach(f"the inverse of a mass matrix with {len(block)} coupled rows is too long to write out")
@@ -93,5 +93,5 @@ def inverse(matrix: Sequence[Sequence[Form]], algebra: Algebra) -> list[list[Rat
                 if a <= b:
                     minor = [[x for k, x in enumerate(row) if k != b] for m, row in enumerate(part) if m != a]
                     over = determinant(minor, algebra)
-                    result[i][j] = result[j][i] = Ratio(over if (a + b) % 2 == 0 else -over, under)
+                    result[i][j] = result[j][i] = FormRatio(over if (a + b) % 2 == 0 else -over, under)
     return result

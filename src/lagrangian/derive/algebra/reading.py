@@ -28,7 +28,7 @@ LARGEST_PRODUCT = 10_000
 """A product of sums that would take more products of their terms is left as it is."""
 
 
-class Reader:
+class FormReader:
     """Reads expressions into an algebra; what has been read is remembered."""
 
     def __init__(self, algebra: Ring) -> None:

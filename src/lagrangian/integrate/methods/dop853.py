@@ -7,7 +7,7 @@ Differential Equations I, 2nd ed., section II.5 (estimates: II.10, values inside
 from lagrangian.codegen.ir import Value
 
 from .explicit import Explicit, Tableau
-from .method import Step
+from .method import MethodStep
 
 C = (
     0.0, 0.05260015195876773, 0.0789002279381516, 0.1183503419072274, 0.2816496580927726, 0.3333333333333333, 0.25,
@@ -114,7 +114,7 @@ DENSE = (
 class Dop853(Explicit):
     """The method with its own measure of error."""
 
-    def error(self, s: Step) -> Value:
+    def error(self, s: MethodStep) -> Value:
         """``h |e5|² / √((|e5|² + |e3|²/100) n)``: of order 8, and careful where the two estimates disagree.
 
         The norms are those of the errors divided by the tolerance of each entry.

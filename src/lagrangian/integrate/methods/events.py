@@ -24,7 +24,7 @@ from lagrangian.graph import Program
 from . import memory_layout as at
 from .evaluate import Tapes
 from .memory_layout import Lanes
-from .method import Method, Step
+from .method import Method, MethodStep
 from .pieces import Pieces
 from .printer import Printer, Vec
 
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
     from lagrangian.integrate.problem import Events
 
-    from .lane_scheduler import Service
+    from .lane_scheduler import LaneScheduler
 
 ROUNDS = 128
 """Times of events in one step after which the step is cut."""
@@ -64,11 +64,11 @@ def parts(events: Events) -> tuple[Program, Program | None]:
     return made[0], made[1] if any(events.reset) else None
 
 
-class Watch:
+class EventDetector:
     """Prints what looks for events; ``count`` of them."""
 
     def __init__(
-        self, p: Printer, lanes: Lanes, method: Method, service: Service, events: Events, *, own: bool
+        self, p: Printer, lanes: Lanes, method: Method, service: LaneScheduler, events: Events, *, own: bool
     ) -> None:
         self.p, self.f, self.lanes, self.method, self.service = p, p.f, lanes, method, service
         self.events, self.count = events, len(events.direction)
@@ -198,7 +198,9 @@ class Watch:
 
     # A step ------------------------------------------------------------------------------------------------------
 
-    def find(self, s: Step, coefficients: list[Vec], inputs: Callable[[Value], Vec], good: str, new_t: Value) -> None:
+    def find(
+        self, s: MethodStep, coefficients: list[Vec], inputs: Callable[[Value], Vec], good: str, new_t: Value
+    ) -> None:
         """Print the search through a step. Events are logged. Where ``self.cut`` is not 0 afterwards, a lane leaves the
         step at the time in ``lanes.end`` with the state in ``self.kept``.
         """
@@ -251,7 +253,7 @@ class Watch:
             p.store(f.select(f.logic("and", clear, f.compare("une", g, 0.0)), g, armed), self.armed, k)
         p.store(f.select(clear, p.load(self.high), p.load(self.low)), self.low)
 
-    def _locate(self, s: Step, values_at: Callable[[Value], tuple[Value, ...]]) -> None:
+    def _locate(self, s: MethodStep, values_at: Callable[[Value], tuple[Value, ...]]) -> None:
         """Halve the piece in which something happened, in busy lanes, until no time lies between its ends."""
         p, f = self.p, self.f
         with p.forever() as found:

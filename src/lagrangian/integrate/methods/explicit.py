@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 from lagrangian.codegen.ir import Value
 
-from .method import Method, Step
+from .method import Method, MethodStep
 from .printer import Printer, Vec
 
 Row = tuple[float, ...]
@@ -63,7 +63,7 @@ class Explicit(Method):
         """The order of the values between the ends of a step."""
         return self._dense_order
 
-    def trial(self, s: Step) -> Value | None:
+    def trial(self, s: MethodStep) -> Value | None:
         """Print the stages and the new state; see :meth:`Method.trial`."""
         p, table = s.p, self.table
         stages = [s.k if self.follows else s.rate(s.t, s.x, s.k)]
@@ -79,7 +79,7 @@ class Explicit(Method):
         stages.append(s.new_k)
         return self.error(s)
 
-    def _stage(self, s: Step, c: float, row: Row, stages: Sequence[Vec]) -> Vec:
+    def _stage(self, s: MethodStep, c: float, row: Row, stages: Sequence[Vec]) -> Vec:
         p = s.p
         used = [(a, k) for a, k in zip(row, stages, strict=True) if a]
         if len(used) == 1:
@@ -89,7 +89,7 @@ class Explicit(Method):
             (at,) = p.map(lambda x, *ks: p.f.fma(s.h, _sum(p, used, ks), x), s.x, *(k for _, k in used), into=s.inlet)
         return s.rate(s.t + s.h * c if c != 1.0 else s.t + s.h, at)
 
-    def error(self, s: Step) -> Value:
+    def error(self, s: MethodStep) -> Value:
         """The root mean square over the entries of the error divided by its tolerance."""
         f = s.p.f
         weights = self.table.errors[0]
@@ -102,7 +102,7 @@ class Explicit(Method):
         (total,) = s.p.fold(add, [0.0], s.x, s.new_x, s.atol, *(k for _, k in used))
         return f.intrinsic("fabs", s.h) * f.intrinsic("sqrt", total * (1.0 / s.p.size))
 
-    def interpolant(self, s: Step) -> list[Vec]:
+    def interpolant(self, s: MethodStep) -> list[Vec]:
         """Hermite's coefficients, then those of the table; see :meth:`Method.interpolant`."""
         table, stages = self.table, list(s.stages)
         coefficients = super().interpolant(s)

@@ -14,7 +14,7 @@ import math
 
 from lagrangian.codegen.ir import Value
 
-from .method import Method, Step
+from .method import Method, MethodStep
 from .printer import Vec
 
 ROOT = math.sqrt(3.0)
@@ -45,7 +45,7 @@ class Gauss(Method):
         """Some ten iterations."""
         return 20
 
-    def trial(self, s: Step) -> Value:
+    def trial(self, s: MethodStep) -> Value:
         """Iterate the stages; 1 in lanes where they do not converge, else 0."""
         p, f = s.p, s.p.f
         first, second = s.memory
@@ -98,12 +98,12 @@ class Gauss(Method):
         fine = f.compare("ole", left, scale * CLOSE**2 + 1e-290)
         return f.select(fine, 0.0, 1.0)
 
-    def interpolant(self, s: Step) -> list[Vec]:
+    def interpolant(self, s: MethodStep) -> list[Vec]:
         """Hermite's cubic."""
         s.k = s.rate(s.t, s.x, s.k)
         return super().interpolant(s)
 
-    def _stage(self, s: Step, i: int) -> Vec:
+    def _stage(self, s: MethodStep, i: int) -> Vec:
         p, f = s.p, s.p.f
         first, second = s.memory
         near, far = A[i]

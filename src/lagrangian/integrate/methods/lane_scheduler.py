@@ -28,7 +28,7 @@ class Watching(Protocol):
         ...
 
 
-class Service:
+class LaneScheduler:
     """Prints the part of the loop that looks after single lanes."""
 
     def __init__(self, p: Printer, lanes: Lanes, method: Method, *, size: int, inputs: int, signals: bool) -> None:

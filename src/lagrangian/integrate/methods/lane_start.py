@@ -7,7 +7,7 @@ from typing import Protocol
 from lagrangian.codegen.ir import Function, Value
 
 from . import memory_layout as at
-from .events import Watch
+from .events import EventDetector
 from .memory_layout import Lanes
 from .method import Method, rough_power
 from .printer import Printer, Vec
@@ -20,7 +20,7 @@ class Around(Protocol):
     f: Function
     lanes: Lanes
     method: Method
-    watch: Watch | None
+    watch: EventDetector | None
     new_k: Vec
     own_blocks: tuple[Vec, ...]
     inlet: tuple[Vec, ...]
@@ -41,7 +41,7 @@ class Around(Protocol):
         ...
 
 
-class Begin:
+class LaneStart:
     """Prints the part of the loop that follows the service."""
 
     def __init__(self, loop: Around) -> None:

@@ -19,12 +19,12 @@ from lagrangian.codegen.ir import Module, Value
 from . import events
 from . import memory_layout as at
 from .evaluate import Tapes
-from .events import Watch
+from .events import EventDetector
 from .jets import Jets
-from .lane_scheduler import Service
-from .lane_start import Begin
+from .lane_scheduler import LaneScheduler
+from .lane_start import LaneStart
 from .memory_layout import Lanes
-from .method import Method, Step, rough_power
+from .method import Method, MethodStep, rough_power
 from .printer import Printer, Vec
 
 if TYPE_CHECKING:
@@ -38,7 +38,7 @@ RESOLVED = 2.0**-51
 
 
 @dataclass(frozen=True)
-class Variant:
+class IntegratorVariant:
     """What, beside program and method, decides the machine code of an integrator."""
 
     lanes: int
@@ -51,7 +51,12 @@ class Loop:
     """Prints the function ``run(ptr table, ptr work, i64 budget)`` and ``facts(ptr)``, what Python must know."""
 
     def __init__(
-        self, module: Module, program: Program, method: Method, variant: Variant, watched: Events | None = None
+        self,
+        module: Module,
+        program: Program,
+        method: Method,
+        variant: IntegratorVariant,
+        watched: Events | None = None,
     ) -> None:
         size = len(program.inputs["x"])
         self.p = p = Printer(module, variant.lanes, size)
@@ -66,10 +71,10 @@ class Loop:
         self.own_blocks = tuple(p.block() for _ in range(method.blocks))
         self.own_slots = tuple(p.reserve(1) for _ in range(method.slots))
         self.inlet: tuple[Vec, ...] = () if p.unrolled else (Vec(slot=self.tapes.start("body", "x")),)
-        self.service = Service(p, self.lanes, method, size=size, inputs=self.inputs, signals=self.signals)
-        self.watch: Watch | None = None
+        self.service = LaneScheduler(p, self.lanes, method, size=size, inputs=self.inputs, signals=self.signals)
+        self.watch: EventDetector | None = None
         if watched is not None:
-            self.watch = Watch(p, self.lanes, method, self.service, watched, own=own)
+            self.watch = EventDetector(p, self.lanes, method, self.service, watched, own=own)
 
     def print(self) -> None:
         """Print both functions."""
@@ -86,7 +91,7 @@ class Loop:
         f.do("br label %service")
         self._head()
         self.service.print(self.tapes, self.watch)
-        Begin(self).print()
+        LaneStart(self).print()
         widest = f.module.target.lanes
         width = widest if self.method.expands else min(p.lanes, widest)  # expansions of one run are packed
         f.finish("run", "i64", "ptr %table, ptr %work, i64 %budget", attributes(width))
@@ -150,9 +155,9 @@ class Loop:
         else:
             self._fixed(t, stop, running)
 
-    def _step(self, t: Value, h: Value, running: str) -> Step:
+    def _step(self, t: Value, h: Value, running: str) -> MethodStep:
         lanes = self.lanes
-        return Step(
+        return MethodStep(
             self.p, t, h, lanes.x, lanes.lost, lanes.k, self.rate, self.rtol, self.atol,
             self.new_x, self.new_lost, self.new_k, self.inlet, running, self.spend, self.own_blocks, self.own_slots,
         )  # fmt: skip
@@ -282,7 +287,7 @@ class Loop:
     def _constant(self, x: int) -> str:
         return self.f.integer(x)
 
-    def _inspect(self, s: Step, good: str, new_t: Value) -> None:
+    def _inspect(self, s: MethodStep, good: str, new_t: Value) -> None:
         """Requested times and events inside the step."""
         p, f, lanes, watch = self.p, self.f, self.lanes, self.watch
         if watch is None and not self.method.adaptive:
@@ -303,7 +308,7 @@ class Loop:
                     p.store(f.select(free, -float("inf"), p.load(lanes.end)), lanes.end)
             self._samples(s, good, coefficients)
 
-    def _commit(self, s: Step, good: str, new_t: Value) -> None:
+    def _commit(self, s: MethodStep, good: str, new_t: Value) -> None:
         """The new state where the step is good."""
         p, f, lanes, watch = self.p, self.f, self.lanes, self.watch
         if watch is not None:
@@ -369,7 +374,7 @@ class Loop:
 
     # Requested times ---------------------------------------------------------------------------------------------
 
-    def _samples(self, s: Step, good: str, coefficients: list[Vec]) -> None:
+    def _samples(self, s: MethodStep, good: str, coefficients: list[Vec]) -> None:
         """Write the states at the requested times in the step, up to ``lanes.end``."""
         p, f, lanes, method = self.p, self.f, self.lanes, self.method
         p.store_whole(f.put(f"zext {f.flag} {good} to {f.whole}"), lanes.good)

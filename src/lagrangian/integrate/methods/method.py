@@ -22,7 +22,7 @@ Rate = Callable[..., Vec]  # (t, x, into) → f(t, x)
 
 
 @dataclass
-class Step:
+class MethodStep:
     """One step in every lane: from ``x`` at ``t``, where the derivative is ``k``, over ``h``.
 
     ``lost`` is what the sums so far have lost to rounding (Kahan); ``atol`` holds one number an entry, ``rtol`` is one.
@@ -102,7 +102,7 @@ class Method(ABC):
         """The order of the values between the ends of a step."""
         return 3
 
-    def expand(self, s: Step, jets: Callable[[list[list[Value]]], Jets]) -> Value:
+    def expand(self, s: MethodStep, jets: Callable[[list[list[Value]]], Jets]) -> Value:
         """Print the expansion at the start of a step; return the length of the step to take."""
         raise TypeError(f"{self.name} does not expand")
 
@@ -111,7 +111,7 @@ class Method(ABC):
         return self
 
     @abstractmethod
-    def trial(self, s: Step) -> Value | None:
+    def trial(self, s: MethodStep) -> Value | None:
         """Print a step; return the size of its error, 1 being the tolerance.
 
         For fixed steps: nothing, or a number that is not 0 where stages do not converge.
@@ -119,7 +119,7 @@ class Method(ABC):
         Sets ``s.new_x``, ``s.new_lost`` and, if the method ``follows``, ``s.new_k``.
         """
 
-    def interpolant(self, s: Step) -> list[Vec]:
+    def interpolant(self, s: MethodStep) -> list[Vec]:
         """Print what the polynomial inside the step needs, after a trial; return its coefficients.
 
         The value at t + θ h is ``x + θ (F0 + (1 − θ)(F1 + θ (F2 + (1 − θ)(F3 + …))))``. The first three are Hermite's
@@ -134,7 +134,7 @@ class Method(ABC):
 
         return list(s.p.map(hermite, s.x, s.new_x, s.k, s.new_k))
 
-    def between(self, s: Step, coefficients: list[Vec], theta: Value) -> Callable[..., Value]:
+    def between(self, s: MethodStep, coefficients: list[Vec], theta: Value) -> Callable[..., Value]:
         """The value at θ of an entry, from x and its coefficients."""
         rest = 1.0 - theta
 
@@ -151,7 +151,7 @@ class Method(ABC):
     origin: float = 0.5
     """Where in the step, in θ, the powers of :meth:`powers` are 0."""
 
-    def powers(self, s: Step, coefficients: list[Vec], entry: int) -> list[Value]:
+    def powers(self, s: MethodStep, coefficients: list[Vec], entry: int) -> list[Value]:
         """An entry inside the step as a polynomial: its coefficients of (θ − origin)⁰, (θ − origin)¹, …"""
         p = s.p
         given = [p.read(c, entry) for c in coefficients]

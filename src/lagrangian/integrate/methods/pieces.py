@@ -16,13 +16,13 @@ from lagrangian.graph import Program, bounds, states_read
 from . import memory_layout as at
 from .evaluate import Tapes
 from .memory_layout import Lanes
-from .method import Method, Step
+from .method import Method, MethodStep
 from .printer import Printer, Vec
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from .lane_scheduler import Service
+    from .lane_scheduler import LaneScheduler
 
 FINEST = 2.0**-24
 """The shortest piece: two crossings in one are not seen."""
@@ -38,7 +38,7 @@ class Pieces:
     """Prints how the pieces of a step follow each other."""
 
     def __init__(
-        self, p: Printer, lanes: Lanes, method: Method, service: Service, guard: Program, *, own: bool
+        self, p: Printer, lanes: Lanes, method: Method, service: LaneScheduler, guard: Program, *, own: bool
     ) -> None:
         self.p, self.f, self.lanes, self.method, self.service = p, p.f, lanes, method, service
         self.read = states_read(guard)
@@ -50,7 +50,7 @@ class Pieces:
         """Print, at the start of the function, what is read from the table."""
         self.shared = self.p.entry(at.TABLE.index("bounds_shared"), "ptr")
 
-    def begin(self, s: Step, coefficients: list[Vec]) -> None:
+    def begin(self, s: MethodStep, coefficients: list[Vec]) -> None:
         """Print what a step starts with: the polynomials of the states that are read, and one piece."""
         p = self.p
         self.terms = []
@@ -68,7 +68,7 @@ class Pieces:
         p = self.p
         p.store(self.f.select(busy, 0.0, p.load(self.count)), self.count)
 
-    def judged(self, s: Step, inputs: Callable[[Value], Vec], low: Value, busy: str) -> tuple[str, Value]:
+    def judged(self, s: MethodStep, inputs: Callable[[Value], Vec], low: Value, busy: str) -> tuple[str, Value]:
         """Look at the next piece of busy lanes: where it is settled, and its end. What comes next is noted."""
         p, f = self.p, self.f
         span, count = p.load(self.span), p.load(self.count)
@@ -84,7 +84,7 @@ class Pieces:
         p.store(f.select(busy, count + 1.0, count), self.count)
         return f.logic("and", busy, settled), high
 
-    def _proved(self, s: Step, inputs: Callable[[Value], Vec], low: Value, high: Value) -> str:
+    def _proved(self, s: MethodStep, inputs: Callable[[Value], Vec], low: Value, high: Value) -> str:
         """Where no function can cross zero twice between two places of the step."""
         p, f = self.p, self.f
         centre, r = (low + high) * 0.5, (high - low) * 0.5

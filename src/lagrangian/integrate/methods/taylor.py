@@ -15,7 +15,7 @@ from collections.abc import Callable
 from lagrangian.codegen.ir import Value
 
 from .jets import Jets, order_for
-from .method import Method, Step, rough_power
+from .method import Method, MethodStep, rough_power
 from .printer import Vec
 
 CAUTION = 0.88
@@ -51,7 +51,7 @@ class Taylor(Method):
         """The order of the values between the ends of a step."""
         return self.order
 
-    def expand(self, s: Step, jets: Callable[[list[list[Value]]], Jets]) -> Value:
+    def expand(self, s: MethodStep, jets: Callable[[list[list[Value]]], Jets]) -> Value:
         """Print the coefficients for time in units of ``s.h``; return the length of the step to take."""
         p, f = s.p, s.p.f
         assert s.x.slot is not None
@@ -73,7 +73,7 @@ class Taylor(Method):
         assert shortest is not None
         return s.h * (shortest * CAUTION)
 
-    def _size(self, s: Step, term: Vec) -> Value:
+    def _size(self, s: MethodStep, term: Vec) -> Value:
         """The greatest of an order's coefficients, in tolerances."""
         f = s.p.f
 
@@ -83,30 +83,30 @@ class Taylor(Method):
 
         return s.p.fold(add, [1e-300], s.x, s.atol, term)[0]
 
-    def trial(self, s: Step) -> None:
+    def trial(self, s: MethodStep) -> None:
         """Sum the series at ``s.h``, in units of ``s.unit``."""
         assert s.unit is not None
         tau = s.h / s.unit
         s.advance(lambda *c: self._horner(s, c, tau), *s.stages)
 
     @staticmethod
-    def _horner(s: Step, coefficients: tuple[Value, ...], tau: Value) -> Value:
+    def _horner(s: MethodStep, coefficients: tuple[Value, ...], tau: Value) -> Value:
         total = coefficients[-1]
         for c in reversed(coefficients[:-1]):
             total = s.p.f.fma(total, tau, c)
         return total * tau
 
-    def interpolant(self, s: Step) -> list[Vec]:
+    def interpolant(self, s: MethodStep) -> list[Vec]:
         """The series' coefficients."""
         return s.stages
 
-    def between(self, s: Step, coefficients: list[Vec], theta: Value) -> Callable[..., Value]:
+    def between(self, s: MethodStep, coefficients: list[Vec], theta: Value) -> Callable[..., Value]:
         """The value at θ of an entry, from x and its coefficients."""
         assert s.unit is not None
         tau = theta * (s.h / s.unit)
         return lambda x, *c: x + self._horner(s, c, tau)
 
-    def powers(self, s: Step, coefficients: list[Vec], entry: int) -> list[Value]:
+    def powers(self, s: MethodStep, coefficients: list[Vec], entry: int) -> list[Value]:
         """The series of an entry in θ: the coefficients times powers of h over the unit of time."""
         assert s.unit is not None
         ratio = s.h / s.unit
