@@ -42,7 +42,7 @@ def sweep(path: str, runs: int, method: str, scheduler: str | None = None) -> lg
     return system.sweep(
         DURATION,
         [f"theta=0.1:3.1:{runs // SAMPLES}", "m~normal(0.2,0.02)", "l~uniform(0.2,0.4)"],
-        samples=SAMPLES,
+        draws=SAMPLES,
         seed=1,
         outputs=["max theta", "final x", "mean b*x'"],
         method=method,

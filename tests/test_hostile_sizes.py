@@ -79,7 +79,7 @@ def test_a_derivation_ends_when_its_products_are_spent(monkeypatch: pytest.Monke
 def test_a_system_without_finite_forces_is_told_so() -> None:
     steep = HEAD + '[[particle]]\nmass = "m"\nat = ["(q+1/3)^100*(w+124999998860937500)^100", "w"]\n'
     with pytest.raises(ModelError, match="no finite value"):
-        lg.loads(steep).conserved()
+        lg.loads(steep).conserved_quantities()
 
 
 @pytest.mark.slow

@@ -36,7 +36,7 @@ def results() -> dict[str, Any]:
         "answer": derivation.check("T = 0"),
         "verified": pendulum.verify(states=1),
         "compiled": cart.compile(),
-        "conserved": top.conserved(),
+        "conserved": top.conserved_quantities(),
         "Hamilton": top.hamiltonian(),
         "Routh": top.routhian(),
         "equilibria": cart.equilibria(),

@@ -171,7 +171,7 @@ def _runs(system: Any) -> Iterator[str]:
         bits = _bits(lambda method=method, fixed=fixed: system.simulate(0.5, method=method, **fixed).y[:, -1])
         yield f"{method}: {bits}"
     first = system.compile().coordinates[0]
-    yield f"ensemble: {_bits(lambda: _all(system.ensemble(0.5, initial={first: [0.1, 0.2, 0.3]}, samples=3)))}"
+    yield f"ensemble: {_bits(lambda: _all(system.ensemble(0.5, initial={first: [0.1, 0.2, 0.3]}, times=3)))}"
 
 
 def _all(ensemble: Any) -> np.ndarray:

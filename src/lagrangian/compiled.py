@@ -66,7 +66,7 @@ class Compiled(Looking):
         return f"<Compiled {self._model.name!r}: q = {', '.join(self.coordinates)}>"
 
     def program(self, name: str) -> Program:
-        """Return the `Program` behind a method: "forward", "inverse", "mass_matrix", "bias", "gravity", …"""
+        """Return the `Program` behind a method: "forward", "inverse", "mass_matrix", "bias", "potential_force", …"""
         if not isinstance(name, str) or name not in _PROGRAMS:
             raise RunError(f"there is no program {name!r}", fix=f"use one of {', '.join(_PROGRAMS)}", code="E402")
         return _PROGRAMS[name](self._model)
@@ -135,9 +135,11 @@ class Compiled(Looking):
             )
         return self._called(self._kernel("coriolis"), (q, v, None, p, t))
 
-    def gravity(self, q: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0) -> NDArray[np.float64]:
+    def potential_force(
+        self, q: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
+    ) -> NDArray[np.float64]:
         """Return ∂V/∂q, shape ``(..., n)``: weights, springs and potentials (Nᵀ ∂V/∂q where q̇ = N v)."""
-        return self._called(self._kernel("gravity"), (q, None, u, p, t))
+        return self._called(self._kernel("potential_force"), (q, None, u, p, t))
 
     def energy(
         self, q: ArrayLike, v: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
@@ -239,13 +241,13 @@ _PROGRAMS: dict[str, Callable[[Model], Program]] = {
     "inverse": dynamics.inverse,
     "mass_matrix": dynamics.mass_matrix,
     "bias": dynamics.bias,
-    "gravity": dynamics.gravity,
+    "potential_force": dynamics.potential_force,
     "coriolis": dynamics.coriolis,
     "energy": dynamics.energy,
     "rhs": dynamics.rhs,
     "rates": dynamics.rates,
 }
-_STILL = ("mass_matrix", "gravity")
+_STILL = ("mass_matrix", "potential_force")
 _SOLVING = ("forward", "rhs")
 
 EXPORTED = ("forward", "inverse", "mass_matrix", "energy")

@@ -94,14 +94,14 @@ class System(Described):
         check_dimensions(self.model)
         return Compiled(self.model, lanes=lanes, threads=threads)
 
-    def conserved(self, *, params: Mapping[Any, Any] | None = None) -> ConservedQuantities:
+    def conserved_quantities(self, *, params: Mapping[Any, Any] | None = None) -> ConservedQuantities:
         """Return what every motion keeps: momenta of ignorable coordinates, total momenta, energy, each verified.
 
         A parameter given as 0 vanishes.
         """
-        from lagrangian.invariants.conserved import conserved
+        from lagrangian.invariants.conserved import conserved_quantities
 
-        return conserved(self.model, params=params)
+        return conserved_quantities(self.model, params=params)
 
     def hamiltonian(self) -> Hamiltonian:
         """Return momenta, H(q, p, t) and the canonical equations."""
@@ -121,12 +121,12 @@ class System(Described):
         inputs: Mapping[Any, Any] | None = None,
         params: Mapping[Any, Any] | None = None,
         box: Mapping[Any, Any] | None = None,
-        samples: int | None = None,
+        starts: int | None = None,
     ) -> Equilibria:
-        """Return where the system can stay at rest: all equilibria found in a ``box`` of {name: (low, high)}."""
+        """Return where the system can stay at rest: all found in a ``box`` of {name: (low, high)} from ``starts``."""
         from lagrangian.equilibria.search import equilibria
 
-        return equilibria(self.model, inputs=inputs, params=params, box=box, samples=samples)
+        return equilibria(self.model, inputs=inputs, params=params, box=box, starts=starts)
 
     def linearize(
         self,
@@ -184,8 +184,7 @@ class System(Described):
     ) -> Trajectory:
         """Run the system for ``duration`` [s] and return a `lagrangian.Trajectory`.
 
-        >>> from lagrangian import examples
-        >>> run = loads(examples.text("pendulum")).simulate(2.0, theta=0.5, params={"b": 0.0})
+        >>> run = example("pendulum").simulate(2.0, theta=0.5, params={"b": 0.0})
         >>> run.success, float(run.audit) < 1e-9
         (True, True)
 
@@ -236,8 +235,7 @@ class System(Described):
     ) -> Ensemble:
         """Run the system once for every entry of arrays that broadcast together; return a `lagrangian.Ensemble`.
 
-        >>> from lagrangian import examples
-        >>> runs = loads(examples.text("pendulum")).ensemble(2.0, theta=[0.1, 0.2, 0.3], method="rk4", step=0.01)
+        >>> runs = example("pendulum").ensemble(2.0, theta=[0.1, 0.2, 0.3], method="rk4", step=0.01)
         >>> runs["final theta"].shape
         (3,)
 
@@ -261,24 +259,24 @@ class System(Described):
         initial: Mapping[Any, Any] | None = None,
         params: Mapping[Any, Any] | None = None,
         inputs: Mapping[Any, Any] | None = None,
-        samples: int | None = None,
+        draws: int | None = None,
         seed: int = 0,
         **options: Any,
     ) -> Ensemble:
-        """Run the system for every combination of values, each for every sample of what is drawn.
+        """Run the system for every combination of values, each for every draw of what is random.
 
-        >>> from lagrangian import examples
-        >>> pendulum = loads(examples.text("pendulum"))
-        >>> runs = pendulum.sweep(2.0, ["L=0.5:2:4", "theta~normal(0, 0.1)"], samples=5, method="rk4", step=0.01)
+        >>> pendulum = example("pendulum")
+        >>> runs = pendulum.sweep(2.0, ["L=0.5:2:4", "theta~normal(0, 0.1)"], draws=5, method="rk4", step=0.01)
         >>> runs.dims, runs.shape
         (('L', 'sample'), (4, 5))
 
         ``grid``: texts as here, or name or symbol → values, an array or text: parameters, coordinates and rates at the
-        start, inputs. The same ``seed`` draws the same samples. Everything else as in `ensemble`.
+        start, inputs. ``draws`` is the number of random draws; the same ``seed`` gives the same ones. Everything else
+        as in `ensemble`.
         """
         from lagrangian.simulate.sweeping import sweep
 
-        return sweep(self.model, duration, grid, initial, params, inputs, samples, seed, options)
+        return sweep(self.model, duration, grid, initial, params, inputs, draws, seed, options)
 
     def in_coordinates(self, change: Mapping[Any, Any], *, name: str | None = None) -> System:
         """Return the same system in other coordinates: ``{x2: x1 + x2r}`` says what the old x2 is in kept and new ones.

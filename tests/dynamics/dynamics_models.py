@@ -167,7 +167,7 @@ def euler_lagrange(model, at):
     return np.array(rows)
 
 
-PROGRAMS = ("forward", "inverse", "mass_matrix", "bias", "gravity", "coriolis", "energy", "loss")
+PROGRAMS = ("forward", "inverse", "mass_matrix", "bias", "potential_force", "coriolis", "energy", "loss")
 
 
 def all_programs(model):

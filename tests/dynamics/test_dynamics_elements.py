@@ -201,7 +201,7 @@ def test_gravity_is_the_slope_of_the_potential():
     model = space()
     made = all_programs(model)
     at = state(model, 6)
-    G = run(made["gravity"], at)["G"]
+    G = run(made["potential_force"], at)["G"]
     step = 1e-6
     for i in range(len(G)):
         V = []

@@ -171,7 +171,9 @@ def test_energies_from_a_book_compile_to_the_dynamics_of_the_bodies(name: str) -
         (two.inverse(q, v, a, p=p, t=0.7), one.inverse(q, v, a, p=p, t=0.7)),
         (two.bias(q, v, p=p, t=0.7), one.bias(q, v, p=p, t=0.7)),
         (two.coriolis_matrix(q, v, p=p, t=0.7), one.coriolis_matrix(q, v, p=p, t=0.7)),
-        (two.gravity(q, p=p) - one.gravity(q, p=p), 0 * q) if name != "bead on a turning hoop" else (q, q),
+        (two.potential_force(q, p=p) - one.potential_force(q, p=p), 0 * q)
+        if name != "bead on a turning hoop"
+        else (q, q),
     ]:
         assert np.abs(got - expected).max() < 1e-11 * max(1.0, np.abs(expected).max())
 

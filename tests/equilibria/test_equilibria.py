@@ -163,9 +163,9 @@ def test_bad_boxes_are_named(box: Any, message: str) -> None:
         built_in("pendulum").equilibria(box=box)
 
 
-def test_bad_samples_are_named() -> None:
-    with pytest.raises(RunError, match="samples"):
-        built_in("pendulum").equilibria(samples=0)
+def test_bad_starts_are_named() -> None:
+    with pytest.raises(RunError, match="starts"):
+        built_in("pendulum").equilibria(starts=0)
 
 
 def test_the_command_writes_text_and_data(capsys: pytest.CaptureFixture[str]) -> None:
@@ -179,9 +179,9 @@ def test_the_command_writes_text_and_data(capsys: pytest.CaptureFixture[str]) ->
 
 
 def test_starts_fill_the_box_evenly() -> None:
-    from lagrangian.equilibria.roots import starts
+    from lagrangian.equilibria.roots import starting_points
 
-    points = starts(4096, np.zeros(3), np.ones(3))
+    points = starting_points(4096, np.zeros(3), np.ones(3))
     assert np.abs(points.mean(axis=0) - 0.5).max() < 0.01
     counts, _ = np.histogramdd(points, bins=(4, 4, 4), range=[(0, 1)] * 3)
     assert counts.min() > 40

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Callable
 
 import jsonschema
 import pytest
@@ -58,10 +59,17 @@ def test_descriptions_differ() -> None:
     assert len({examples.describe(name) for name in examples.names()}) == len(examples.names())
 
 
-def test_a_misspelled_name_is_answered_with_the_nearest() -> None:
+@pytest.mark.parametrize("asked", [examples.text, lg.example])
+def test_a_misspelled_name_is_answered_with_the_nearest(asked: Callable[[str], object]) -> None:
     with pytest.raises(ModelError, match="double-pendulun") as caught:
-        examples.text("double-pendulun")
+        asked("double-pendulun")
     assert "Did you mean 'double-pendulum'?" in str(caught.value)
+
+
+def test_an_example_is_a_system_of_its_own() -> None:
+    first, second = lg.example("cart-pole"), lg.example("cart-pole")
+    assert isinstance(first, lg.System) and first is not second
+    assert first.to_toml() == lg.loads(examples.text("cart-pole")).to_toml()
 
 
 @pytest.mark.parametrize("name", ["", "../errors", "/etc/passwd", "x" * 10_000, "__init__.py", "pendulum.toml\0"])

@@ -20,7 +20,7 @@ def built_in(name: str) -> lg.System:
 
 
 def named(system: lg.System) -> dict[str, sp.Expr]:
-    return {c.name: c.expression for c in system.conserved()}
+    return {c.name: c.expression for c in system.conserved_quantities()}
 
 
 def same(a: Any, b: Any) -> bool:
@@ -49,17 +49,17 @@ def test_a_parameter_given_as_0_vanishes() -> None:
     system.particle(m, at=system.origin + (L * sp.sin(theta), -L * sp.cos(theta)))
     system.gravity(direction=(0, -1))
     system.damper(c, deflection=theta)
-    assert not len(system.conserved()) and not len(system.conserved(params={"c": 0.25}))
-    (energy,) = system.conserved(params={"c": 0.0})
+    assert not len(system.conserved_quantities()) and not len(system.conserved_quantities(params={"c": 0.25}))
+    (energy,) = system.conserved_quantities(params={"c": 0.0})
     assert energy.kind == "energy" and energy.drift is not None and energy.drift < 1e-10
-    free = system.conserved(params={c: 0, "g": "0 m/s^2"})
+    free = system.conserved_quantities(params={c: 0, "g": "0 m/s^2"})
     assert {found.kind for found in free} == {"energy", "momentum"} and free.vanishing == ("c", "g")
     assert "conserved quantities where c = g = 0" in free.to_text()
     with pytest.raises(lg.ModelError, match="coordinate 'theta' moves no mass where m = 0"):
-        system.conserved(params={"m": 0.0})
+        system.conserved_quantities(params={"m": 0.0})
     system.spring(1 / c, deflection=theta)
     with pytest.raises(lg.ModelError, match="have no value where c = 0"):
-        system.conserved(params={"c": 0.0})
+        system.conserved_quantities(params={"c": 0.0})
 
 
 def test_keplers_area_law_in_polar_coordinates() -> None:
@@ -74,7 +74,7 @@ def test_keplers_area_law_in_polar_coordinates() -> None:
 def test_keplers_area_law_hides_in_cartesian_coordinates_and_is_found() -> None:
     system = kepler(polar=False)
     x, y, m = (system[n] for n in ("x", "y", "m"))
-    found = system.conserved()
+    found = system.conserved_quantities()
     (turn,) = [c for c in found if c.kind == "turn"]
     assert turn.name == "angular momentum of x and y"
     area = m * (x * y.diff() - y * x.diff())
@@ -113,7 +113,7 @@ def test_the_tops_two_momenta_are_goldsteins() -> None:
 
 def test_carts_keep_their_total_momentum_under_a_force_between_them_and_energy_only_without() -> None:
     system = built_in("lecture-3a")
-    found = system.conserved()
+    found = system.conserved_quantities()
     assert [(c.kind, c.while_zero) for c in found] == [("total momentum", ()), ("energy", ("F",))]
     x1, x2, m1, m2 = (system[n] for n in ("x1", "x2", "m1", "m2"))
     assert same(found[0].expression, m1 * x1.diff() + m2 * x2.diff())
@@ -124,14 +124,14 @@ def test_energy_is_not_t_plus_v_where_a_motion_is_prescribed() -> None:
     """Goldstein (3rd ed.), § 2.7: h = T₂ − T₀ + V is kept on the turning hoop, T + V is not."""
     system = built_in("bead-on-hoop")
     theta, m, R, W, g = (system[n] for n in ("theta", "m", "R", "Omega", "g"))
-    (h,) = system.conserved()
+    (h,) = system.conserved_quantities()
     assert h.name.startswith("h = ")
     wanted = m * R**2 * theta.diff() ** 2 / 2 - m * R**2 * W**2 * sp.sin(theta) ** 2 / 2 - m * g * R * sp.cos(theta)
     assert same(sp.diff(h.expression - wanted, theta), 0) and same(sp.diff(h.expression - wanted, theta.diff()), 0)
 
 
 def test_what_friction_and_forces_take_is_said() -> None:
-    found = built_in("cart-pole").conserved()
+    found = built_in("cart-pole").conserved_quantities()
     assert len(found) == 0
     words = [str(why) for why in found.missed]
     assert any("does not hold x" in w and "F" in w for w in words)
@@ -144,7 +144,7 @@ CONSERVATIVE = ["lecture-3a", "double-pendulum", "elastic-pendulum", "spherical-
 @pytest.mark.parametrize("name", [*CONSERVATIVE, "two-carts", "bead-on-hoop"])
 def test_rates_vanish_by_the_forward_dynamics_and_runs_keep_them(name: str) -> None:
     system = built_in(name)
-    model, found = system.model, system.conserved()
+    model, found = system.model, system.conserved_quantities()
     assert len(found) > 0 and found.run is not None
     program = dynamics.rhs(model)
     n, source = len(model.coordinates), np.random.default_rng(2)
@@ -167,14 +167,14 @@ def test_without_values_nothing_is_run_and_all_is_still_proved() -> None:
     system = lg.System("free")
     x = system.coordinates("x")
     system.particle(system.parameters("m"), at=system.origin + (x, 0))
-    found = system.conserved()
+    found = system.conserved_quantities()
     assert found.run is None and [c.drift for c in found] == [None, None]
-    assert [c.drift is not None for c in system.conserved(params={"m": 2})] == [True, True]
+    assert [c.drift is not None for c in system.conserved_quantities(params={"m": 2})] == [True, True]
 
 
 def test_a_wrong_parameter_is_named() -> None:
     with pytest.raises(RunError, match="Did you mean 'm1'"):
-        built_in("lecture-3a").conserved(params={"m11": 2})
+        built_in("lecture-3a").conserved_quantities(params={"m11": 2})
 
 
 def test_the_command_writes_text_and_data(capsys: pytest.CaptureFixture[str]) -> None:
@@ -194,7 +194,7 @@ def test_a_rack_and_its_pinion_shift_together() -> None:
     system.particle(m, at=system.origin + (x, 0))
     system.kinetic(J * phi.diff() ** 2 / 2)
     system.spring(k, deflection=x - R * phi)
-    first = system.conserved()[0]
+    first = system.conserved_quantities()[0]
     assert first.kind == "total momentum"
     assert same(first.expression, R * m * x.diff() + J * phi.diff())
 
@@ -207,7 +207,7 @@ def test_jacobis_integral_of_a_turning_trough() -> None:
     system.particle(m, at=system.origin + (x, y))
     across = x * sp.cos(W * time) + y * sp.sin(W * time)
     system.potential(k * across**2 / 2)
-    (found,) = system.conserved()
+    (found,) = system.conserved_quantities()
     assert found.kind == "mixed" and found.drift is not None and found.drift < 1e-9
     energy = m * (x.diff() ** 2 + y.diff() ** 2) / 2 + k * across**2 / 2
     assert same(found.expression, energy - W * m * (x * y.diff() - y * x.diff()))
@@ -230,7 +230,7 @@ def quarter_car(damping: Any) -> tuple[lg.System, dict[str, Any]]:
 def test_a_road_in_the_tyres_energy_must_stand_still_for_the_energy_to_be_kept() -> None:
     """By hand: m1 ä = −k1 (a − b), m2 b̈ = k1 (a − b) − k2 (b − z), so d(T + V)/dt = −k2 (b − z) ż."""
     system, s = quarter_car(0)
-    (energy,) = system.conserved()
+    (energy,) = system.conserved_quantities()
     assert energy.while_zero == () and energy.while_constant == ("z",)
     assert str(energy).endswith("while z is constant")
     a, b, z, k1, k2 = (s[x] for x in ("a", "b", "z", "k1", "k2"))
@@ -240,8 +240,9 @@ def test_a_road_in_the_tyres_energy_must_stand_still_for_the_energy_to_be_kept()
     }
     changes: Any = sp.diff(energy.expression, time)
     assert same(changes.subs(by_hand), -k2 * (b - z) * sp.Derivative(z, time))
-    assert "with constant z" in str(system.conserved()) and "any motion is" not in str(system.conserved())
-    assert system.conserved().to_dict()["conserved"][0]["while_constant"] == ["z"]
+    kept = system.conserved_quantities()
+    assert "with constant z" in str(kept) and "any motion is" not in str(kept)
+    assert kept.to_dict()["conserved"][0]["while_constant"] == ["z"]
     found = system.hamiltonian()
     assert not found.is_constant and found.while_constant == ("z",)
     assert "every motion" not in str(found) and "while z is constant" in str(found)
@@ -249,8 +250,8 @@ def test_a_road_in_the_tyres_energy_must_stand_still_for_the_energy_to_be_kept()
 
 def test_what_a_road_gives_is_named_beside_what_a_damper_takes() -> None:
     system, s = quarter_car(1500)
-    assert len(system.conserved()) == 0
-    (why,) = system.conserved().missed
+    assert len(system.conserved_quantities()) == 0
+    (why,) = system.conserved_quantities().missed
     taken, given, road = (part for part in why.parts if isinstance(part, sp.Basic))
     assert same(taken, -1500 * (s["a"].diff() - s["b"].diff()) ** 2)
     assert same(given, -s["k2"] * (s["b"] - s["z"])) and road == s["z"]
@@ -260,6 +261,6 @@ def test_a_force_that_is_0_and_a_road_that_stands_are_both_asked_for() -> None:
     system, s = quarter_car(0)
     F = system.input("F", "force", unit="N")
     system.force(F, deflection=s["a"])
-    (energy,) = system.conserved()
+    (energy,) = system.conserved_quantities()
     assert (energy.while_zero, energy.while_constant) == (("F",), ("z",))
     assert str(energy).endswith("while F is 0 and z is constant")

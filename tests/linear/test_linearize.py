@@ -157,7 +157,7 @@ def test_a_drone_hovers_with_its_quaternion() -> None:
     with pytest.raises(RunError, match="floating frame"):
         system.equilibria()
     with pytest.raises(ModelError, match="floating frame"):
-        system.conserved()
+        system.conserved_quantities()
 
 
 def test_a_command_writes_text_and_data(capsys: pytest.CaptureFixture[str]) -> None:

@@ -248,7 +248,7 @@ for name in examples.names():
     try:
         rests = system.equilibria()
         print(name, rests.to_text(), *(system.linearize(e).to_text() for e in rests[:3]))
-        print(name, system.linearize().to_text(), system.conserved().to_text())
+        print(name, system.linearize().to_text(), system.conserved_quantities().to_text())
     except lg.Error as trouble:
         print(name, trouble)
 """

@@ -53,7 +53,7 @@ def check(case: Case, seed: int, *, derived: bool = False, further: bool = False
     rates = dyn.rates(state, v)
     close(dyn.rhs(t, np.concatenate([state, v]), u=u), np.concatenate([rates, got]))
     close(dyn.energies(state, v, u=u, t=t), [T, V], [T, V])
-    close(dyn.gravity(state, u=u, t=t), G, bias)
+    close(dyn.potential_force(state, u=u, t=t), G, bias)
     if derived:
         close(derived_residual(case, q, v, a, u, t), residual, *terms)
     if further:

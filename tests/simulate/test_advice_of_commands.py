@@ -28,7 +28,7 @@ at = ["x", "0"]
         (["sweep", "FILE", "x=0:1:3", "-d", "1"], "Fix: give --set m=…"),
         (["sweep", "FILE", "m=1:2:3"], "Fix: --duration 10"),
         (["sweep", "FILE", "-d", "1", "--set", "m=1"], "its values: k=10:100:50"),
-        (["sweep", "FILE", "m~normal(1,0.1)", "-d", "1"], "Fix: --samples 1000"),
+        (["sweep", "FILE", "m~normal(1,0.1)", "-d", "1"], "Fix: --draws 1000"),
         (["simulate", "FILE", "-d", "1", "--set", "m=1", "--step", "1"], "Fix: give --rtol and --atol, or --max-step"),
         (
             ["simulate", "FILE", "-d", "9", "--set", "m=1", "--max-steps", "3"],

@@ -45,7 +45,7 @@ def test_a_summary_on_the_terminal(folder: pathlib.Path, capsys: pytest.CaptureF
 
 @pytest.mark.parametrize("name", ["a.csv", "a.nc", "a.parquet", "a.zarr"])
 def test_files(folder: pathlib.Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
-    given = ("arm.toml", "m2~normal(1,0.1)", "--samples", "20", "--seed", "4", "--output-of", "max theta1", *FAST)
+    given = ("arm.toml", "m2~normal(1,0.1)", "--draws", "20", "--seed", "4", "--output-of", "max theta1", *FAST)
     assert run(*given, "-o", name) == 0
     assert capsys.readouterr().out == ""
     assert run(*given, "-o", name) == 2
@@ -126,7 +126,7 @@ def test_failures_are_told_and_counted(folder: pathlib.Path, capsys: pytest.Capt
 def test_an_interrupt_on_a_terminal_loses_nothing(folder: pathlib.Path) -> None:
     pty = pytest.importorskip("pty")
     ours, theirs = pty.openpty()
-    grid = ["theta1=0.1:3:200", "m2~normal(1,0.1)", "--samples", "500", "-o", "a.zarr", "--output-of", "max theta1"]
+    grid = ["theta1=0.1:3:200", "m2~normal(1,0.1)", "--draws", "500", "-o", "a.zarr", "--output-of", "max theta1"]
     command = [sys.executable, "-m", "lagrangian", "sweep", "arm.toml", *grid, *FAST, "--duration", "60"]
     # as a terminal starts it: tests that run in the background pass on that interrupts are ignored
     heard = partial(signal.signal, signal.SIGINT, signal.SIG_DFL)

@@ -19,7 +19,7 @@ pytestmark = pytest.mark.filterwarnings("default")  # of the scheduler's own mak
 
 GRID = ["theta1=0.1:3:40", "m1~normal(1,0.1)"]
 HOW: dict[str, Any] = {
-    "samples": 200,
+    "draws": 200,
     "method": "rk4",
     "step": 0.01,
     "outputs": ["max theta1", "final theta2'"],

@@ -23,7 +23,7 @@ lg.loads(examples.text("double-pendulum")).sweep(20.0, GRID, **HOW, store="a.zar
 """
 GRID = ["theta1=0.1:3:50", "m1~normal(1,0.1)"]
 HOW = {
-    "samples": 200,
+    "draws": 200,
     "method": "rk4",
     "step": 0.01,
     "outputs": ["max theta1", "final theta2'"],

@@ -39,10 +39,10 @@ def test_two_axes_are_a_map_and_logarithmic_values_a_logarithmic_axis(system: lg
 
 
 def test_samples_are_a_histogram_or_a_band(system: lg.System) -> None:
-    runs = system.sweep(1.0, ["m1~normal(1, 0.1)"], samples=40, **FAST)
+    runs = system.sweep(1.0, ["m1~normal(1, 0.1)"], draws=40, **FAST)
     panel = runs.plot("reach").axes[0]
     assert sum(bar.get_height() for bar in panel.containers[0]) == 40
-    runs = system.sweep(1.0, ["theta1=0.5:1:4", "m1~normal(1, 0.1)"], samples=40, **FAST)
+    runs = system.sweep(1.0, ["theta1=0.5:1:4", "m1~normal(1, 0.1)"], draws=40, **FAST)
     panel = runs.plot("reach").axes[0]
     np.testing.assert_allclose(panel.lines[0].get_ydata(), np.median(runs["reach"], axis=1))
 

@@ -81,7 +81,7 @@ def test_a_sweep_is_every_combination_and_every_sample(oscillator: lg.System) ->
     runs = oscillator.sweep(
         2.0,
         ["k=1 N/m:4N/m:4", "m=1,2", "x~uniform(0.1, 1)"],
-        samples=50,
+        draws=50,
         seed=7,
         outputs=["x", "max x"],
         inputs={"F": 0.0},
@@ -96,9 +96,9 @@ def test_a_sweep_is_every_combination_and_every_sample(oscillator: lg.System) ->
     w = np.sqrt(k[:, None] / m[None, :])[..., None]
     np.testing.assert_allclose(runs["final x"], x0 * np.cos(2 * w), atol=1e-8)
     np.testing.assert_allclose(runs["max x"], np.broadcast_to(x0, runs.shape), atol=1e-8)
-    again = oscillator.sweep(2.0, {"x": "uniform(0.1, 1)", oscillator["m"]: [1, 2]}, samples=50, seed=7, **FINE)
+    again = oscillator.sweep(2.0, {"x": "uniform(0.1, 1)", oscillator["m"]: [1, 2]}, draws=50, seed=7, **FINE)
     assert again.coordinates["x"][1].tolist() == x0.tolist()
-    other = oscillator.sweep(2.0, {"x": "uniform(0.1, 1)"}, samples=50, seed=8, **FINE)
+    other = oscillator.sweep(2.0, {"x": "uniform(0.1, 1)"}, draws=50, seed=8, **FINE)
     assert other.coordinates["x"][1].tolist() != x0.tolist()
 
 
@@ -109,7 +109,7 @@ def test_the_same_bits_whatever_the_chunks_and_threads() -> None:
         runs = system.sweep(
             1.0,
             ["theta1=0.1:3:13", "m1~normal(1,0.1)"],
-            samples=11,
+            draws=11,
             times=11,
             outputs=["max theta1", "rms theta2'", "final theta1''"],
             memory=memory,
@@ -198,10 +198,10 @@ def test_what_is_observed_may_not_be_finite(oscillator: lg.System) -> None:
         (lambda s: s.sweep(1.0, []), "no varied quantity is given"),
         (lambda s: s.sweep(1.0, ["kay=1:2:3"]), "no parameter, coordinate, rate or input 'kay'"),
         (lambda s: s.sweep(1.0, ["k=1 kg:2 kg:3"]), "is given in kg"),
-        (lambda s: s.sweep(1.0, ["k~normal(1,0.1)"]), "the number of samples"),
-        (lambda s: s.sweep(1.0, ["k=1:2:3"], samples=10), "no quantity is drawn"),
-        (lambda s: s.sweep(1.0, ["k~normal(1,0.1)"], samples=-1), "samples must be"),
-        (lambda s: s.sweep(1.0, ["k~normal(1,0.1)"], samples=3, seed=-1), "a seed is"),
+        (lambda s: s.sweep(1.0, ["k~normal(1,0.1)"]), "the number of draws"),
+        (lambda s: s.sweep(1.0, ["k=1:2:3"], draws=10), "no quantity is drawn"),
+        (lambda s: s.sweep(1.0, ["k~normal(1,0.1)"], draws=-1), "draws must be"),
+        (lambda s: s.sweep(1.0, ["k~normal(1,0.1)"], draws=3, seed=-1), "a seed is"),
         (lambda s: s.sweep(1.0, {"k": np.ones((2, 2))}), "one row"),
         (lambda s: s.sweep(1.0, {"k": [1.0]}, inputs={"G": 1.0}), "no input 'G'"),
         (lambda s: s.sweep(1.0, ["k=1:2:10000000", "m=1:2:10000000"]), "too many"),
@@ -225,7 +225,7 @@ def test_values_missing_are_listed_unless_they_vary() -> None:
 
 
 def test_tables_for_others(oscillator: lg.System) -> None:
-    runs = oscillator.sweep(1.0, ["k=1:4:4", "m~normal(1,0.01)"], samples=3, x=1.0, outputs=["x", "max x"], **FINE)
+    runs = oscillator.sweep(1.0, ["k=1:4:4", "m~normal(1,0.01)"], draws=3, x=1.0, outputs=["x", "max x"], **FINE)
     data = runs.to_xarray()
     assert data["final x"].dims == ("k", "sample")
     assert data["k"].attrs["units"] == "N/m"
@@ -244,7 +244,7 @@ def test_files(oscillator: lg.System, tmp_path) -> None:
     import pandas
     import xarray
 
-    runs = oscillator.sweep(1.0, ["k=1:4:4", "m~normal(1,0.01)"], samples=3, x=1.0, outputs=["x", "max x'"], **FINE)
+    runs = oscillator.sweep(1.0, ["k=1:4:4", "m~normal(1,0.01)"], draws=3, x=1.0, outputs=["x", "max x'"], **FINE)
     for ending in (".csv", ".nc", ".parquet"):
         path = runs.save(tmp_path / f"a{ending}")
         with pytest.raises(lg.Error, match="exists"):
@@ -359,7 +359,7 @@ def test_xarray_reads_a_store_as_it_is(oscillator: lg.System, tmp_path) -> None:
     import xarray
 
     given = (1.0, ["k=1:4:4", "m~normal(1,0.01)"])
-    how = {"samples": 3, "x": 1.0, "outputs": ["max x'", "x"], **FINE}
+    how = {"draws": 3, "x": 1.0, "outputs": ["max x'", "x"], **FINE}
     runs = oscillator.sweep(*given, store=tmp_path / "a.zarr", **how)
     data = xarray.open_zarr(tmp_path / "a.zarr").load()
     assert set(data.coords) == {"k", "m"}

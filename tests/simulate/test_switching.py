@@ -106,8 +106,8 @@ def test_runs_of_an_ensemble_switch_at_their_own_times() -> None:
 def test_too_many_different_switches_ask_for_a_longest_step() -> None:
     s, force = pushed(), "piecewise(t<t1, 0, t<t1+0.5, 30*sin(2*pi*(t-t1))^2, 0)"
     with pytest.raises(RunError, match="max_step"):
-        s.sweep(10.0, ["t1~uniform(1, 8)"], samples=2000, inputs={"F": force})
-    runs = s.sweep(10.0, ["t1~uniform(1, 8)"], samples=2000, inputs={"F": force}, max_step=0.2, rtol=1e-6)
+        s.sweep(10.0, ["t1~uniform(1, 8)"], draws=2000, inputs={"F": force})
+    runs = s.sweep(10.0, ["t1~uniform(1, 8)"], draws=2000, inputs={"F": force}, max_step=0.2, rtol=1e-6)
     np.testing.assert_allclose(runs["x'"], 3.75, rtol=1e-4)
 
 

@@ -169,7 +169,7 @@ def test_a_wrong_number_is_noticed_however_small_the_masses_are(monkeypatch: pyt
 
 @pytest.mark.usefixtures("functions_alone")
 @pytest.mark.parametrize(
-    "name", ["forward", "inverse", "mass_matrix", "bias", "gravity", "coriolis_matrix", "rates", "rhs"]
+    "name", ["forward", "inverse", "mass_matrix", "bias", "potential_force", "coriolis_matrix", "rates", "rhs"]
 )
 def test_a_compiled_function_with_a_wrong_number_is_noticed(
     name: str, sound: tuple[Check, ...], monkeypatch: pytest.MonkeyPatch

@@ -82,7 +82,7 @@ def test_data_come_back_as_they_were(hostile: lg.System) -> None:
 def test_reports_hold_no_control_characters(hostile: lg.System, kind: str) -> None:
     made = {
         "linearize": hostile.linearize,
-        "conserved": hostile.conserved,
+        "conserved": hostile.conserved_quantities,
         "equilibria": hostile.equilibria,
         "compare": lambda: hostile.compare(hostile),
     }[kind]()

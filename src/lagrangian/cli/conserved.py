@@ -37,5 +37,5 @@ def conserved(
       lagrangian conserved carts.toml --set k=80 -o kept.html
     """
     wanted = chosen(format, json, output, force)
-    found = open_system(file, example).conserved(params=assignments(values, "--set"))
+    found = open_system(file, example).conserved_quantities(params=assignments(values, "--set"))
     put_report(found.report(), wanted, width, output)

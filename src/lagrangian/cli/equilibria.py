@@ -35,7 +35,7 @@ def equilibria(
     ] = None,
     values: Parameters = None,
     inputs: ConstantInputs = None,
-    samples: Annotated[
+    starts: Annotated[
         int | None,
         typer.Option(metavar="N", help="Number of starting points of the search. By default, as many as are needed."),
     ] = None,
@@ -58,7 +58,7 @@ def equilibria(
         inputs=assignments(inputs, "--input"),
         params=assignments(values, "--set"),
         box={name: _ends(name, side) for name, side in assignments(box, "--box").items()},
-        samples=samples,
+        starts=starts,
     )
     put_report(found.report(), wanted, width, output)
 

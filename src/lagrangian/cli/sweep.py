@@ -70,7 +70,7 @@ def sweep(
         list[str] | None,
         typer.Option("--input", "-i", metavar="NAME=VALUE", help='An input: "tau=3*sin(t)". Repeatable.'),
     ] = None,
-    samples: Annotated[
+    draws: Annotated[
         int | None, typer.Option(metavar="N", help="Number of random draws, if anything is drawn.", show_default=False)
     ] = None,
     seed: Annotated[int, typer.Option(metavar="N", help="Seed of the random draws.")] = 0,
@@ -129,7 +129,7 @@ def sweep(
     \b
     Examples:
       lagrangian sweep carts.toml k=10:100:50 m2=1:3:20 -d 10 -o sweep.nc
-      lagrangian sweep cart.toml 'm~normal(0.2, 0.02)' --samples 1000 --output-of "max x" -o sweep.zarr
+      lagrangian sweep cart.toml 'm~normal(0.2, 0.02)' --draws 1000 --output-of "max x" -o sweep.zarr
       lagrangian sweep carts.toml k=10:100:50 -d 10 --json
     """
     if example is None and "=" in given[0]:
@@ -162,7 +162,7 @@ def sweep(
         initial=assignments(initial, "--init"),
         params=assignments(values, "--set"),
         inputs=assignments(inputs, "--input"),
-        samples=samples,
+        draws=draws,
         seed=seed,
         outputs=_outputs(outputs),
         memory=memory * 2**20,

@@ -120,11 +120,11 @@ def open_system(file: str | None, example: str | None = None) -> System:
     if (file is None) == (example is None):
         what = "there is no model to work on" if file is None else "a file and --example are given: one is worked on"
         raise Error(what, fix="name a model file, or a built-in example with --example NAME", code="E401")
-    from lagrangian import examples
+    from lagrangian.system import example as built_in
     from lagrangian.system import load, loads
 
     if example is not None:
-        return loads(examples.text(example), name=f"<example {example}>")
+        return built_in(example)
     assert file is not None
     if file == "-":
         return loads(standard_input(), name="<standard input>")

@@ -220,7 +220,7 @@ class Mechanics:
         """The power that dampers take."""
         return self._sum(self.losses)
 
-    def gravity(self) -> list[int]:
+    def potential_force(self) -> list[int]:
         """G = ∂V/∂q, on the velocities."""
         g = self.graph
         return vjp(g, list(self.motion.rates), gradient(g, self.potential(), self.q), list(self.v))

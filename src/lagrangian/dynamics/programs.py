@@ -6,7 +6,7 @@
     rates          q̇ = N(q) v
     mass_matrix    M(q, p, t)
     bias           r at a = 0
-    gravity        G = ∂V/∂q
+    potential_force  G = ∂V/∂q
     coriolis       C(q, v, p, t) by Christoffel, so that Ṁ − 2C is skew
     energy         T and V
     loss           the power that dampers take [W]
@@ -109,10 +109,10 @@ def bias(model: Model) -> Program:
     return _program(model, "bias", graph, {"h": _vector(m.bias())})
 
 
-def gravity(model: Model) -> Program:
+def potential_force(model: Model) -> Program:
     """q, v, u, p, t → G = ∂V/∂q, shape (n,): weights, springs and raw potentials."""
     graph, _, m = _start(model)
-    return _program(model, "gravity", graph, {"G": _vector(m.gravity())})
+    return _program(model, "potential_force", graph, {"G": _vector(m.potential_force())})
 
 
 def coriolis(model: Model) -> Program:

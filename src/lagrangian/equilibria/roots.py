@@ -27,7 +27,7 @@ SAME = 1e-8
 """Distance, in widths of the box, of two roots that are one."""
 
 
-def starts(count: int, low: Array, high: Array, skip: int = 0) -> Array:
+def starting_points(count: int, low: Array, high: Array, skip: int = 0) -> Array:
     """``count`` points that fill the box evenly, the centre first: shape (count, n)."""
     n = len(low)
     ratio = 2.0

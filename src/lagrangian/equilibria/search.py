@@ -20,7 +20,7 @@ from lagrangian import dynamics
 from lagrangian.equilibria.box import Box, make_box
 from lagrangian.equilibria.families import Family, split
 from lagrangian.equilibria.points import Equilibria, Equilibrium
-from lagrangian.equilibria.roots import EXACT, Forces, Search, distinct, starts
+from lagrangian.equilibria.roots import EXACT, Forces, Search, distinct, starting_points
 from lagrangian.errors import RunError
 from lagrangian.graph import Graph, Output, Program
 from lagrangian.linear.echelon import null_space, reduced
@@ -60,20 +60,20 @@ def equilibria(
     inputs: Named | None = None,
     params: Named | None = None,
     box: Mapping[Any, Any] | None = None,
-    samples: int | None = None,
+    starts: int | None = None,
 ) -> Equilibria:
     """Return the rests of a model at constant inputs, all that can be found from starts in a box.
 
     ``box``: coordinate → (low, high), numbers or text with units. Angles take (−π, π] unless given, lengths a few times
-    the largest length among the parameters; rests beyond a side that was not given are kept. ``samples``: how many
+    the largest length among the parameters; rests beyond a side that was not given are kept. ``starts``: how many
     starts; as many as it takes unless given. Where forces depend on time, only what rests at all times is kept.
     Raises `RunError` for values and names that do not fit.
     """
-    if samples is not None and (type(samples) is not int or not 1 <= samples <= 1_000_000):
-        raise RunError(f"samples must be a whole number from 1 (got {samples!r})", code="E501")
+    if starts is not None and (type(starts) is not int or not 1 <= starts <= 1_000_000):
+        raise RunError(f"starts must be a whole number from 1 (got {starts!r})", code="E501")
     task = _prepared(model, inputs, params, box)
     _log.info("equilibria: searching the box")
-    found, hits, count, sure = _sought(task, samples)
+    found, hits, count, sure = _sought(task, starts)
     isolated, families = split(task.search, found, task.box.low, task.box.high)
     if len(isolated) > MANY:
         task = replace(task, linearizer=Linearizer(model, QuickValues()))
@@ -171,7 +171,7 @@ def _prepared(model: Model, inputs: Named | None, params: Named | None, asked: M
         )
     forces = _kernel(program, u, p)
     box = make_box(given, program.inputs["q"], asked, _turning(linearizer, u, p))
-    h, K = forces(starts(64, box.low, box.high))
+    h, K = forces(starting_points(64, box.low, box.high))
     scale, width = _scale(h), box.high - box.low
     good = K[(K != 0).any(axis=(1, 2)) & (np.abs(h) < LARGE).all(axis=1)]
     directions, held = reduced(null_space((good / scale[:, None] * width).reshape(-1, len(width))) * width)
@@ -203,22 +203,22 @@ def _all_forces(linearizer: Linearizer, q: Array, u: Array, p: Array) -> Array:
     return np.concatenate([got["h"], got["K"].ravel(), values(linearizer.mass, **groups)["M"].ravel()])
 
 
-def _sought(task: _Task, samples: int | None) -> tuple[Array, dict[bytes, int], int, bool]:
+def _sought(task: _Task, asked: int | None) -> tuple[Array, dict[bytes, int], int, bool]:
     """Distinct roots, how many starts led to each, how many starts there were, and whether that is enough."""
     search, box = task.search, task.box
     found = np.empty((0, len(search.base)))
     before, count, sure = -1, 0, False
     roots, hits = distinct(search, found)
-    for _ in range(ROUNDS if samples is None else 1):
-        many = ROUND if samples is None else samples
-        q = starts(many, box.low, box.high, skip=count)
+    for _ in range(ROUNDS if asked is None else 1):
+        many = ROUND if asked is None else asked
+        q = starting_points(many, box.low, box.high, skip=count)
         if count == 0:
             q = np.concatenate([q, _corners(task)])
         q[:, task.held] = search.base[task.held]
         found = np.concatenate([found, search.roots(q)])
         count += len(q)
         roots, hits = distinct(search, found)
-        settled = samples is not None or len(roots) == before
+        settled = asked is not None or len(roots) == before
         sure = settled and (not len(hits) or int(hits.min()) >= ENOUGH)
         if sure or len(roots) > MOST or (count >= 4 * ROUND and _is_family(search, roots, count)):
             break
@@ -262,12 +262,12 @@ def _notes(
         why = "or do not rest at other times" if task.linearizer.rests_change else "that was given"
         listed.append(f"{outside} more lie outside the box {why}")
     if not found:
-        h, _ = task.search.forces(starts(256, task.box.low, task.box.high))
+        h, _ = task.search.forces(starting_points(256, task.box.low, task.box.high))
         one_sided = [n for n, row in zip(task.box.names, h.T, strict=True) if (row > 0).all() or (row < 0).all()]
         why = f": the force on {one_sided[0]} has one sign everywhere, nothing balances it" if one_sided else ""
         listed.append(f"there is no {'other ' if left_out else ''}rest in the box{why}")
     elif not sure and not any(e.dimension for e in found):
-        listed.append("some were met by few starts: there may be more; raise samples, or narrow the box")
+        listed.append("some were met by few starts: there may be more; raise starts, or narrow the box")
     return tuple(listed)
 
 

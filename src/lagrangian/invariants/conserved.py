@@ -33,7 +33,7 @@ TRIES = 5
 """Random starts until a run comes to its end."""
 
 
-def conserved(model: Model, *, params: Named | None = None, seed: int = 1) -> ConservedQuantities:
+def conserved_quantities(model: Model, *, params: Named | None = None, seed: int = 1) -> ConservedQuantities:
     """Return the conserved quantities of a model.
 
     Each is proved: the normal form of its rate along any motion is 0. Where all parameters have values it is also

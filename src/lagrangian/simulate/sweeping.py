@@ -86,14 +86,14 @@ def sweep(
     initial: Mapping[Any, Any] | None,
     params: Mapping[Any, Any] | None,
     inputs: Mapping[Any, Any] | None,
-    samples: int | None,
+    draws: int | None,
     seed: int,
     options: Mapping[str, Any],
 ) -> Ensemble:
     """Every combination of values; see `lagrangian.System.sweep`."""
     wanted, way, more = _options(model, options, duration)
     initial = {**(initial or {}), **more}
-    varying = from_grid(model, grid, {"x": initial, "p": params}, samples, seed)
+    varying = from_grid(model, grid, {"x": initial, "p": params}, draws, seed)
     return _done(model, varying, wanted, dict(inputs or {}), way)
 
 

@@ -268,10 +268,10 @@ def from_grid(
     model: Model,
     grid: Mapping[Any, Any] | Iterable[str] | str,
     fixed: Mapping[str, Mapping[Any, Any] | None],
-    samples: int | None,
+    draws: int | None,
     seed: int,
 ) -> Varying:
-    """An ensemble over every combination of the values in ``grid``, each for every sample of what is drawn.
+    """An ensemble over every combination of the values in ``grid``, each for every draw of what is random.
 
     ``grid``: name → values (an array, or text such as "10:100:50" and "normal(1, 0.1)"), or texts "k=10:100:50".
     """
@@ -305,11 +305,11 @@ def from_grid(
         raise RunError("no varied quantity is given", fix="give at least one with its values: k=10:100:50", code="E401")
     sizes = {name: len(values) for name, values in axes.items()}
     if drawn:
-        sizes[SAMPLE] = _samples(samples)
-    elif samples is not None:
+        sizes[SAMPLE] = _draws(draws)
+    elif draws is not None:
         raise RunError(
-            "samples is given, but no quantity is drawn at random",
-            fix="draw a quantity, such as b~normal(1, 0.1), or leave samples out",
+            "draws is given, but no quantity is drawn at random",
+            fix="draw a quantity, such as b~normal(1, 0.1), or leave draws out",
             code="E501",
         )
     columns: dict[tuple[str, str], Array | Drawn] = {}
@@ -374,12 +374,12 @@ def _axis(values: Any, name: str) -> Array:
     return array
 
 
-def _samples(samples: int | None) -> int:
-    if samples is None:
-        raise RunError("the number of samples is not given", fix=Advice(Argument("samples", "1000")), code="E401")
-    if isinstance(samples, bool) or not isinstance(samples, (int, np.integer)) or samples < 1:
-        raise RunError(f"samples must be a whole number, at least 1 (got {samples!r:.30})", code="E501")
-    return int(samples)
+def _draws(draws: int | None) -> int:
+    if draws is None:
+        raise RunError("the number of draws is not given", fix=Advice(Argument("draws", "1000")), code="E401")
+    if isinstance(draws, bool) or not isinstance(draws, (int, np.integer)) or draws < 1:
+        raise RunError(f"draws must be a whole number, at least 1 (got {draws!r:.30})", code="E501")
+    return int(draws)
 
 
 def _seed(seed: int) -> int:

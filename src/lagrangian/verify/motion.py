@@ -90,7 +90,8 @@ def verify_motion(model: Model, *, states: int = 50, seed: int = 1) -> tuple[Che
 
 def _measured(model: Model, states: int, seed: int) -> _Worst:
     forward, inverse = dynamics.forward(model), dynamics.inverse(model)
-    second, gravity, bias = dynamics.inverse_from_lagrangian(model), dynamics.gravity(model), dynamics.bias(model)
+    second, bias = dynamics.inverse_from_lagrangian(model), dynamics.bias(model)
+    potential_force = dynamics.potential_force(model)
     matrices, balance, rhs = _matrices(model), _balance(model), dynamics.rhs(model)
     worst = _Worst()
     for state in random_states(model, forward, states, seed):
@@ -98,7 +99,7 @@ def _measured(model: Model, states: int, seed: int) -> _Worst:
         got = {name: np.array(x) for name, x in evaluated(matrices, state).items()}
         n = len(model.velocities)
         M, Mdot, C = (got[k].reshape(n, n) for k in ("M", "Mdot", "C"))
-        v, G = np.array(state["v"]), np.array(evaluated(gravity, state)["G"])
+        v, G = np.array(state["v"]), np.array(evaluated(potential_force, state)["G"])
         size = max(1.0, float(np.abs(M * np.array(state["a"])).max()), float(np.abs(G).max()))
         worst.note("routes", float(np.abs(by_work - by_energy).max()) / size)
         worst.note("asymmetry", float(np.abs(M - M.T).max() / np.abs(M).max()))

@@ -59,7 +59,7 @@ class Functions(Protocol):
     @property
     def bias(self) -> Function: ...  # noqa: D102
     @property
-    def gravity(self) -> Function: ...  # noqa: D102
+    def potential_force(self) -> Function: ...  # noqa: D102
     @property
     def coriolis_matrix(self) -> Function: ...  # noqa: D102
     @property
@@ -152,7 +152,7 @@ def _calls(functions: Functions, at: Mapping[str, Array]) -> dict[str, Array]:
         "inverse": functions.inverse(q, v, a, u=u, p=p, t=t),
         "mass_matrix": functions.mass_matrix(q, p=p, t=t, v=v),
         "bias": functions.bias(q, v, u=u, p=p, t=t),
-        "gravity": functions.gravity(q, u=u, p=p, t=t),
+        "potential_force": functions.potential_force(q, u=u, p=p, t=t),
         "rates": functions.rates(q, v),
         "rhs": functions.rhs(t, np.concatenate([q, v], axis=-1), u=u, p=p),
         "T": np.asarray(T),

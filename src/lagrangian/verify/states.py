@@ -32,7 +32,7 @@ def cancelling(name: str, state: State, M: Any) -> Any:
     a, v = np.array(state["a"]), np.array(state["v"])
     if name in ("forward", "rhs"):
         return a
-    if name in ("inverse", "bias", "gravity"):
+    if name in ("inverse", "bias", "potential_force"):
         return M * a
     if name in ("energy", "T", "V"):
         return v @ M @ v
