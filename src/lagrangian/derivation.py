@@ -12,8 +12,6 @@ from lagrangian.derive import pages
 from lagrangian.model import Model
 from lagrangian.values.dimensions import check_dimensions
 from lagrangian.verify.equations import verify
-from lagrangian.verify.motion import verify_motion
-from lagrangian.verify.products import verify_products
 from lagrangian.viewed import Viewed
 
 if TYPE_CHECKING:
@@ -84,12 +82,15 @@ class Derivation(Guided, derive.Derived):
 def verify_compiled(model: Model, *, states: int, seed: int) -> tuple[Check, ...]:
     """Check what is compiled, exported and linearized from a model."""
     from lagrangian.compiled import Compiled, sources
+    from lagrangian.verify.products import verify_products  # deriving waits for none of these
 
     return verify_products(model, Compiled(model), partial(sources, model), states=states, seed=seed)
 
 
 def verify_floating(model: Model, *, states: int, seed: int) -> tuple[Check, ...]:
     """Check a model whose frames float: its programs against each other, then what is made of them."""
+    from lagrangian.verify.motion import verify_motion
+
     found = verify_motion(model, states=states, seed=seed)
     return (*found, *verify_compiled(model, states=states, seed=seed))
 
