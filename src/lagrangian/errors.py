@@ -16,6 +16,8 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import TYPE_CHECKING
 
+from lagrangian.codes import Code, CodeText
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
@@ -60,7 +62,7 @@ class Error(Exception):
     """Base of every deliberate error: what is wrong, where, and what would be right.
 
     ``what`` is one sentence; ``element`` names the piece of the model (``"spring 'k1'"``); ``place`` is the position
-    in a file; ``fix`` says what would be right; ``code`` is a stable short identifier (``"E102"``).
+    in a file; ``fix`` says what would be right; ``code`` is a stable short identifier (``"E102"``), a `Code`.
     """
 
     def __init__(
@@ -70,9 +72,10 @@ class Error(Exception):
         element: str | None = None,
         place: Place | None = None,
         fix: str | None = None,
-        code: str | None = None,
+        code: CodeText | Code | None = None,
     ) -> None:
-        self.what, self.element, self.place, self.fix, self.code = what, element, place, fix, code
+        self.what, self.element, self.place, self.fix = what, element, place, fix
+        self.code = Code(code) if code else None
         super().__init__(what)
 
     def __str__(self) -> str:
@@ -108,7 +111,7 @@ class Notice:
     ``where`` names the piece of the model, with file and line where these are known.
     """
 
-    code: str
+    code: Code
     where: str
     text: str
 

@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian.codes import Code
 from lagrangian.dynamics.programs import mass_matrix
 from lagrangian.errors import ModelError, Notice
 from lagrangian.graph import Program, evaluate
@@ -54,14 +55,16 @@ def _weightless(model: Model) -> Iterator[Notice]:
     used = {s for e in model.elements for use in e.uses() for s in model.expand(use.expr, constants=True).free_symbols}
     if any(p.name == "g" and p.symbol not in used for p in model.parameters):
         yield Notice(
-            "E107", where, "the parameter g is declared, and no gravity uses it: add gravity if bodies have weight"
+            Code.E107, where, "the parameter g is declared, and no gravity uses it: add gravity if bodies have weight"
         )
         return
     if model.dimension != 2 or any(e.ledger != "T*" for e in model.elements):
         return
     heights = [model.expand(model.position(body.at)[1]) for body in model.bodies]
     if any(h.has(sp.sin, sp.cos) and h.has(AppliedUndef) for h in heights):
-        yield Notice("E107", where, "bodies swing in the plane and nothing acts on them: add gravity if y is upwards")
+        yield Notice(
+            Code.E107, where, "bodies swing in the plane and nothing acts on them: add gravity if y is upwards"
+        )
 
 
 def _where(body: RigidBody) -> str:

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Any, cast
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian.codes import Code, CodeText
 from lagrangian.errors import ModelError
 from lagrangian.model.elements.rigid_body import RigidBody
 from lagrangian.model.model import written_out
@@ -62,13 +63,13 @@ class Doubt:
     """An inertia that fits no body: which law it breaks (E105 or E106), and in words how."""
 
     body: RigidBody
-    code: str
+    code: Code
     what: str
 
     @property
     def negative(self) -> bool:
         """Whether the body's own energy can be negative."""
-        return self.code == "E106"
+        return self.code is Code.E106
 
 
 def check_body(numbers: Numbers, body: Any) -> None:
@@ -76,7 +77,7 @@ def check_body(numbers: Numbers, body: Any) -> None:
     mass = numbers.of(body.mass)
     shown = f"mass {body.mass} = {mass:g} kg" if mass is not None and body.mass.free_symbols else f"mass = {mass} kg"
 
-    def error(what: str, fix: str, code: str) -> ModelError:
+    def error(what: str, fix: str, code: CodeText) -> ModelError:
         return ModelError(what, element=body.title, place=body.place, fix=fix, code=code)
 
     if mass is not None:
@@ -100,18 +101,18 @@ def doubt(numbers: Numbers, body: Any) -> Doubt | None:
     size = body.inertia.rows
     if any(x is None for x in entries):
         known = [x for x in entries[:: size + 1] if x is not None and x < 0]
-        return Doubt(body, "E106", f"its moment of inertia {known[0]:.6g} kg m² is negative") if known else None
+        return Doubt(body, Code.E106, f"its moment of inertia {known[0]:.6g} kg m² is negative") if known else None
     if size == 1:
         J = cast("float", entries[0])
-        return Doubt(body, "E106", f"its inertia {J:.6g} kg m² is negative") if J < 0 else None
+        return Doubt(body, Code.E106, f"its inertia {J:.6g} kg m² is negative") if J < 0 else None
     import numpy as np  # here, as describing a system waits for SymPy alone
 
     moments = np.linalg.eigvalsh(np.array(entries, float).reshape(size, size)).tolist()
     listed = ", ".join(f"{x:.6g}" for x in moments)
     slack = RELATIVE_TOLERANCE * max(abs(moments[2]), 1e-300)
     if moments[0] < -slack:
-        return Doubt(body, "E106", f"its inertia is not positive semidefinite (principal moments {listed} kg m²)")
+        return Doubt(body, Code.E106, f"its inertia is not positive semidefinite (principal moments {listed} kg m²)")
     if moments[2] > moments[0] + moments[1] + slack:
         sums = f"{moments[0]:.6g} + {moments[1]:.6g} ≥ {moments[2]:.6g}"
-        return Doubt(body, "E105", f"its inertia fits no body: principal moments {listed} kg m² violate {sums}")
+        return Doubt(body, Code.E105, f"its inertia fits no body: principal moments {listed} kg m² violate {sums}")
     return None

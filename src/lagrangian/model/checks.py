@@ -9,6 +9,7 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian.codes import CodeText
 from lagrangian.errors import ModelError, Place, did_you_mean
 from lagrangian.model.elements.base import Element, Level, Use
 from lagrangian.model.elements.raw import GeneralizedForce
@@ -26,7 +27,7 @@ def check_use(
     ``inputs`` and ``velocities`` (quasi-velocities) are symbols with their names.
     """
 
-    def error(what: str, fix: str, code: str) -> ModelError:
+    def error(what: str, fix: str, code: CodeText) -> ModelError:
         return ModelError(what, element=element.title, place=element.place, fix=fix, code=code)
 
     for d in sorted(full.atoms(sp.Derivative), key=str):

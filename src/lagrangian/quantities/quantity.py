@@ -17,6 +17,7 @@ from functools import lru_cache
 from typing import NoReturn
 
 from lagrangian.advice import Advice, Verb
+from lagrangian.codes import CodeText
 from lagrangian.errors import ParseError, Place
 from lagrangian.quantities.source import Source, character, shown
 from lagrangian.quantities.unit_hints import refusal, similar
@@ -176,7 +177,7 @@ class _Reader:
         self.at += 1
         return token
 
-    def fail(self, message: str, offset: int, fix: str | None = None, code: str = "E406") -> NoReturn:
+    def fail(self, message: str, offset: int, fix: str | None = None, code: CodeText = "E406") -> NoReturn:
         raise self.source.error(message, offset, fix=fix, code=code)
 
     # -- the number ---------------------------------------------------------------------------------------------

@@ -6,6 +6,7 @@ import unicodedata
 from collections.abc import Callable
 from dataclasses import dataclass
 
+from lagrangian.codes import CodeText
 from lagrangian.errors import ParseError, Place
 
 
@@ -53,7 +54,7 @@ class Source:
             return Place(start.file, start.line, start.column + offset, printable(start.text))
         return Place(start.file, (start.line or 1) + row, offset - first + 1, printable(line))
 
-    def error(self, message: str, offset: int, *, fix: str | None = None, code: str = "E701") -> ParseError:
+    def error(self, message: str, offset: int, *, fix: str | None = None, code: CodeText = "E701") -> ParseError:
         """Return a `ParseError` that points at ``offset``."""
         return ParseError(message, element=self.what or None, place=self.at(offset), fix=fix, code=code)
 

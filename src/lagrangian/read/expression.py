@@ -15,6 +15,7 @@ from sympy.core.function import AppliedUndef
 from sympy.logic.boolalg import Boolean
 
 from lagrangian import bounded
+from lagrangian.codes import CodeText
 from lagrangian.errors import Place, did_you_mean
 from lagrangian.model.names import FUNCTIONS as FUNCTION_NAMES
 from lagrangian.model.names import time
@@ -96,7 +97,7 @@ class ExpressionReader:
         self.source, self.scope = source, scope
         self.roots = 0
 
-    def fail(self, message: str, node: Node, *, fix: str | None = None, code: str = "E701") -> NoReturn:
+    def fail(self, message: str, node: Node, *, fix: str | None = None, code: CodeText = "E701") -> NoReturn:
         """Raise the error that points at a node."""
         raise self.source.error(message, _start(node), fix=fix, code=code)
 

@@ -10,6 +10,7 @@ from typing import Any, NoReturn
 
 import sympy as sp
 
+from lagrangian.codes import CodeText
 from lagrangian.errors import ModelError, ParseError, Place, did_you_mean
 from lagrangian.model import Builder
 from lagrangian.quantities.quantity import Quantity, parse_unit, read_quantity, unit_and_words
@@ -286,7 +287,7 @@ class Loader(Reading):
             return read_quantity(self.index.source(path, value, what))
         return read_quantity(self.index.source(path, repr(value), what))
 
-    def _refuse(self, path: Path, message: str, fix: str, code: str) -> NoReturn:
+    def _refuse(self, path: Path, message: str, fix: str, code: CodeText) -> NoReturn:
         place = self.index.of_key(path) if code == "E402" else self.index.of_value(path)
         raise ParseError(message, element="[simulate]", place=place, fix=fix, code=code)
 

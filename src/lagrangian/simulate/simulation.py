@@ -15,6 +15,7 @@ from lagrangian import codegen as machine
 from lagrangian import dynamics
 from lagrangian.advice import Advice, Argument
 from lagrangian.codegen.arguments import numbers
+from lagrangian.codes import Code
 from lagrangian.errors import Notice, RunError, did_you_mean
 from lagrangian.graph import Graph, Program
 from lagrangian.integrate import METHODS
@@ -133,7 +134,7 @@ def _undecided(task: Task) -> tuple[Notice, ...]:
     ):
         return ()
     said = f"the mass matrix is singular there: {moved}, so that nothing decides the accelerations"
-    return (Notice("E203", "start of the run", said),)
+    return (Notice(Code.E203, "start of the run", said),)
 
 
 def _judged(made: Trajectory) -> Trajectory:

@@ -11,6 +11,7 @@ from typing import Any, ClassVar, Literal, Protocol, Self, TypeAlias
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.codes import CodeText
 from lagrangian.errors import ModelError, Place
 from lagrangian.model.geometry import Frame, Point
 from lagrangian.model.names import time
@@ -168,7 +169,7 @@ class Element(Brief):
         """Rayleigh's function D [W], with Ξ_i = −∂D/∂ξ̇_i, or None where the element has none."""
         return None
 
-    def _error(self, what: str, *, fix: str | None = None, code: str | None = None) -> ModelError:
+    def _error(self, what: str, *, fix: str | None = None, code: CodeText | None = None) -> ModelError:
         return ModelError(what, element=self.title, place=self.place, fix=fix, code=code)
 
     def _set(self, **values: object) -> None:
