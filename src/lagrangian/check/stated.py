@@ -15,7 +15,7 @@ from lagrangian.check.rows import CLOSE, zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Finding, Status
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.graph import jvp, vjp
-from lagrangian.model import Damper, Dissipation, time
+from lagrangian.model import time
 from lagrangian.page.formula import Name, Text, text
 
 
@@ -140,7 +140,7 @@ def driving(truth: Reference, i: int) -> sp.Expr:
     """Ξ_i without the dampers."""
     total: sp.Expr = sp.S.Zero
     for element in truth.model.elements:
-        if element.ledger == "Ξ" and not isinstance(element, (Damper, Dissipation)):
+        if element.ledger == "Ξ" and not element.resists:
             rate = truth.model.coordinates[i].rate
             total += truth.expand(sp.Add(*[a.effort * sp.diff(a.rate, rate) for a in element.works(truth.model)]))
     return total

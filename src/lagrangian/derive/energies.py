@@ -12,7 +12,7 @@ from lagrangian import bounded
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import Context, fit, fit_terms
 from lagrangian.derive.derivation import Step
-from lagrangian.model import Element, Gravity, Model, Particle, RigidBody, Spring, time
+from lagrangian.model import Element, Gravity, Model, RigidBody, Spring, time
 from lagrangian.page.formula import Formula, Heading, Item, Left, Minus, Name, Product, Square, Terms, formula, text
 
 AXES = ("x", "y", "z")
@@ -69,7 +69,7 @@ def _pieces(
     if isinstance(element, RigidBody):
         translation, rotation = element.kinetic_parts(model)
         yield Name("T*", index[element]), translation + rotation, None
-    elif isinstance(element, Particle):
+    elif element.is_body:
         yield Name("T*", index[element]), element.kinetic(model), None
     elif isinstance(element, Gravity):
         for body, _, energy in element.shares(model):
@@ -91,13 +91,13 @@ def kinetic(context: Context, pieces: tuple[Share, ...]) -> Step:
     items: list[Item] = []
     for share in mine:
         body = share.element
-        if isinstance(body, (Particle, RigidBody)):
+        if body.is_body:
             items.append(Heading(text(_capital(body.title))))
             items += _motion(context, body, index)
             items += _rotation(context, body, index) if isinstance(body, RigidBody) else []
             items.append(_energy(context, body, share, index))
         else:
-            items.append(formula(share.name, fit(context.readable(share.expr)), note=text("as given")))
+            items.append(_plain(context, share))
     total = _sum(mine, "T*")
     readable = context.algebra.total([s.form for s in mine]).expr()
     if isinstance(last := items[-1] if items else None, Formula) and total == Name("T*") and last.sides[0] == total:
@@ -117,6 +117,12 @@ def kinetic(context: Context, pieces: tuple[Share, ...]) -> Step:
         {"T": readable},
         reasons,
     )
+
+
+def _plain(context: Context, share: Share) -> Formula:
+    """An energy without a derivation of its own, with what its kind says of that."""
+    note = text(share.element.note) if share.element.note else None
+    return formula(share.name, fit(context.readable(share.expr)), note=note)
 
 
 def _capital(words: str) -> str:
@@ -234,7 +240,7 @@ def potential(context: Context, pieces: tuple[Share, ...]) -> Step:
         elif isinstance(element, Gravity):
             items += _gravity(context, element, own)
         else:
-            items.append(formula(own[0].name, fit(context.readable(own[0].expr)), note=text("as given")))
+            items += [_plain(context, share) for share in own]
     whole = context.algebra.total([s.form for s in mine])
     readable = whole.expr() if mine else sp.S.Zero
     if mine:
@@ -263,7 +269,7 @@ def potential(context: Context, pieces: tuple[Share, ...]) -> Step:
 def _stored(share: Share) -> str:
     if share.body is not None:
         return f"pulls on {share.body.title}: mgh"
-    return "stores energy by its deflection" if isinstance(share.element, Spring) else "is an energy of position"
+    return share.element.stored
 
 
 def _spring(context: Context, spring: Spring, share: Share) -> list[Item]:

@@ -13,7 +13,7 @@ from lagrangian.derive.context import Context, big_xi, fit
 from lagrangian.derive.coordinates import chain_of
 from lagrangian.derive.derivation import Step
 from lagrangian.derive.ends import find_ends
-from lagrangian.model import DEFLECTION, Action, Damper, Dissipation, Element, Words, time
+from lagrangian.model import DEFLECTION, Action, Damper, Element, Words, time
 from lagrangian.page.formula import (
     Check,
     Heading,
@@ -50,7 +50,7 @@ class Contribution:
     @property
     def resists(self) -> bool:
         """Whether it is damping, which the final equation carries on the left."""
-        return isinstance(self.element, (Damper, Dissipation))
+        return self.element.resists
 
 
 def contributions(context: Context) -> tuple[Contribution, ...]:

@@ -12,7 +12,7 @@ from lagrangian.derive.context import READABLE, Context, fit_terms
 from lagrangian.derive.derivation import LedgerRow, Origin
 from lagrangian.derive.forces import Contribution
 from lagrangian.derive.lagrange import LeftSide
-from lagrangian.model import Damper, Dissipation, Element, Gravity, Model, Particle, RigidBody, Spring
+from lagrangian.model import Model
 from lagrangian.page.formula import (
     Elided,
     EquationTerm,
@@ -185,23 +185,8 @@ def ledger(model: Model, context: Context) -> tuple[LedgerRow, ...]:
             expr = context.readable(element.kinetic(model))
         elif element.ledger == "V":
             expr = context.readable(element.potential(model))
-        rows.append(LedgerRow(element.title, element.ledger, expr, text(*_reason(element))))
+        rows.append(LedgerRow(element.title, element.ledger, expr, text(*element.because)))
     return tuple(rows)
-
-
-def _reason(element: Element) -> tuple[str | Left, ...]:
-    T, V, Xi = Name("T*"), Name("V"), Name("Xi")
-    if isinstance(element, (Particle, RigidBody)):
-        return "it has mass and moves: its energy of motion is in ", T
-    if isinstance(element, Spring):
-        return "its force depends on its deflection alone: conservative, stored in ", V, ", so not in ", Xi
-    if isinstance(element, Gravity):
-        return "weight depends on height alone: conservative, stored in ", V, ", so not in ", Xi
-    if isinstance(element, (Damper, Dissipation)):
-        return "it takes energy out and stores none: no potential, so it is in ", Xi
-    if element.ledger == "Ξ":
-        return "it acts from outside and may do work: no potential, so it is in ", Xi
-    return ("given as an energy",)
 
 
 def ledger_items(rows: tuple[LedgerRow, ...]) -> tuple[Item, ...]:

@@ -353,7 +353,10 @@ def _any(d: Description, m: Mechanics, e: Any) -> None:
     if potential != 0:
         _store(d, m, d.node(potential))
     for action in e.works(d.model):
-        m.efforts.append((d.node(action.rate), d.node(action.effort)))
+        rate, effort = d.node(action.rate), d.node(action.effort)
+        m.efforts.append((rate, effort))
+        if e.resists:
+            m.losses.append(d.graph.neg(d.graph.mul(effort, rate)))
 
 
 ELEMENTS: dict[str, Callable[[Description, Mechanics, Any], None]] = {

@@ -13,7 +13,7 @@ from lagrangian.errors import ModelError, NoSuchEntry, Place, did_you_mean
 from lagrangian.model.body_checks import Numbers, check_body
 from lagrangian.model.checks import check_acted_on, check_kind, check_position, check_use, checked_number
 from lagrangian.model.effect import check_effect
-from lagrangian.model.elements import Element, GeneralizedForce, Particle, RigidBody
+from lagrangian.model.elements import Element, FieldKind
 from lagrangian.model.floating import Floating
 from lagrangian.model.geometry import Frame, Point, as_expr, as_vector
 from lagrangian.model.model import Model, written_out
@@ -334,19 +334,19 @@ class Builder:
             self._check_point(point, f"the point in '{key}' of {element.title}", element.place)
         for key, frame in element.frames():
             self._check_frame(frame, f"the frame in '{key}' of {element.title}", element.place)
-        for key in ("direction", "value"):
-            vector = getattr(element, key, None)
-            if isinstance(vector, tuple):
-                self._fit(len(vector), f"the {key} of {element.title}", element.place)
-        if isinstance(element, GeneralizedForce):
-            floats = [f.floating for f in self._frames.values() if f.floating is not None]
-            check_acted_on(element, (*self.coordinates, *self._velocities.values()), floats)
+        for key, entry in element.entries.items():
+            value: Any = getattr(element, key)
+            if entry.kind is FieldKind.COORDINATE:
+                floats = [f.floating for f in self._frames.values() if f.floating is not None]
+                check_acted_on(element, value, (*self.coordinates, *self._velocities.values()), floats)
+            elif entry.kind in (FieldKind.VECTOR, FieldKind.EXPRESSION_OR_VECTOR) and isinstance(value, tuple):
+                self._fit(len(value), f"the {key} of {element.title}", element.place)
         for use in element.uses():
             self._check_known(use.expr, f"the {use.what} of {element.title}", element.place, use.local)
             inputs = {i.symbol: i.name for i in self._inputs.values()}
             velocities = {v.symbol: v.name for v in self._velocities.values()}
             check_use(element, use, self._written_out(use.expr), inputs, velocities)
-        if isinstance(element, (Particle, RigidBody)):
+        if element.is_body:
             check_body(self._numbers, element)
         self._elements.append(element)
         self._element_names[element.name] = element

@@ -12,7 +12,6 @@ from sympy.core.function import AppliedUndef
 from lagrangian.codes import CodeText
 from lagrangian.errors import ModelError, Place, did_you_mean
 from lagrangian.model.elements.base import Element, Level, Use
-from lagrangian.model.elements.raw import GeneralizedForce
 from lagrangian.model.floating import Floating
 from lagrangian.model.names import time
 from lagrangian.model.symbols import Coordinate, Velocity
@@ -119,12 +118,12 @@ def check_position(
 
 
 def check_acted_on(
-    element: GeneralizedForce, known: Sequence[Coordinate | Velocity], floats: Sequence[Floating]
+    element: Element, coordinate: sp.Expr, known: Sequence[Coordinate | Velocity], floats: Sequence[Floating]
 ) -> None:
-    """Refuse a generalized force on what is neither coordinate nor velocity, or on an entry of a quaternion."""
-    name = plain(element.coordinate)
+    """Refuse an element that acts on what is neither coordinate nor velocity, or on an entry of a quaternion."""
+    name = plain(coordinate)
     for floating in floats:
-        if element.coordinate in floating.quaternion:
+        if coordinate in floating.quaternion:
             raise ModelError(
                 f"'{name}' is an entry of a quaternion: no force acts along it alone",
                 element=element.title,
@@ -132,7 +131,7 @@ def check_acted_on(
                 fix=f"act on {' or '.join(v.name for v in floating.velocities[3:])}, moments about its own axes",
                 code="E402",
             )
-    if element.coordinate not in [x.symbol for x in known]:
+    if coordinate not in [x.symbol for x in known]:
         raise ModelError(
             f"'{name}' is not a coordinate",
             element=element.title,

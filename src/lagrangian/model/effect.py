@@ -12,52 +12,17 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian.errors import ModelError
-from lagrangian.model.elements import Damper, Element, Force, Spring, Torque
 from lagrangian.model.geometry import Frame, Point
 from lagrangian.model.model import Model
 
 
 def check_effect(model: Model) -> None:
-    """Refuse springs, dampers, forces and torques that act on nothing that a coordinate moves."""
+    """Refuse elements that act on nothing that a coordinate moves."""
     moving = _Moving(model)
     for element in model.elements:
-        if not isinstance(element, (Spring, Damper, Force, Torque)) or _acts(moving, element):
-            continue
-        what, fix = _words(element)
-        raise ModelError(what, element=element.title, place=element.place, fix=fix, code="E410")
-
-
-def _acts(moving: _Moving, element: Spring | Damper | Force | Torque) -> bool:
-    if isinstance(element, Torque):
-        targets = [t for t in (element.on, element.reaction) if t is not None]
-        return any(moving.frame(t) if isinstance(t, Frame) else moving.expr(t) for t in targets)
-    if element.between:
-        return moving.apart(*element.between)
-    if isinstance(element, Force) and element.is_vector:
-        return any(moving.point(p) for p in (element.at, element.reaction) if p is not None)
-    return moving.expr(element.deflection)
-
-
-def _words(element: Element) -> tuple[str, str]:
-    if isinstance(element, Torque):
-        return (
-            "it does nothing: no coordinate turns what it acts on",
-            "on=an angle that moves, such as theta1 + theta2, or on=the frame of a body",
-        )
-    if isinstance(element, Force) and element.is_vector:
-        return (
-            "it does nothing: no coordinate moves the point it acts at",
-            "at=the point that the force moves; to hold a fixed point takes no force in these equations",
-        )
-    if getattr(element, "between", None):
-        return (
-            "it does nothing: no coordinate moves its two ends apart",
-            "between=(P, Q) with at least one of them moved by a coordinate that does not carry the other along",
-        )
-    return (
-        "it does nothing: no coordinate changes its deflection",
-        "write the deflection with coordinates, such as x2 - x1",
-    )
+        acts_on = element.acts_on()
+        if acts_on is not None and not any(moving.target(x) for x in acts_on.targets):
+            raise ModelError(acts_on.idle, element=element.title, place=element.place, fix=acts_on.fix, code="E410")
 
 
 class _Moving:
@@ -69,6 +34,14 @@ class _Moving:
             if self.expr(d.expression):
                 self._live.add(d.symbol)
         self._known: dict[int, bool] = {}
+
+    def target(self, target: Point | Frame | sp.Expr | tuple[Point, Point]) -> bool:
+        """Whether a coordinate moves it; of a pair, moves the two apart."""
+        if isinstance(target, tuple):
+            return self.apart(*target)
+        if isinstance(target, Point):
+            return self.point(target)
+        return self.frame(target) if isinstance(target, Frame) else self.expr(target)
 
     def expr(self, expr: sp.Expr) -> bool:
         """Whether a coordinate stands in it."""

@@ -11,7 +11,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.model.elements import Element, Particle, RigidBody, Words
+from lagrangian.model.elements import Element, Words
 from lagrangian.model.geometry import Frame, Point
 from lagrangian.model.names import time
 from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, Velocity
@@ -55,7 +55,7 @@ class Model(Brief):
     def bodies(self) -> tuple[Any, ...]:
         """Particles and rigid bodies, in order."""
         if "bodies" not in self._memo:
-            self._memo["bodies"] = tuple(e for e in self.elements if isinstance(e, (Particle, RigidBody)))
+            self._memo["bodies"] = tuple(e for e in self.elements if e.is_body)
         return self._memo["bodies"]
 
     @cached_property

@@ -19,12 +19,9 @@ from lagrangian.derive import Derived
 from lagrangian.model import (
     Action,
     Coordinate,
-    Damper,
-    Dissipation,
     Element,
     Gravity,
     Model,
-    Particle,
     RigidBody,
     Spring,
     time,
@@ -157,7 +154,7 @@ class Ingredients:
 
     def kinetic(self, element: Element) -> sp.Expr:
         """An element's share of T*."""
-        if isinstance(element, (Particle, RigidBody)):
+        if element.is_body:
             return self.translation(element) + self.rotation(element)
         return self.expand(element.kinetic(self.model))
 
@@ -196,7 +193,7 @@ class Ingredients:
         for element in self.acting:
             shares = self.shares(element).values()
             drag = bool(shares) and all(x.has(*self.v) and not x.has(*inputs) for x in shares)
-            if isinstance(element, (Damper, Dissipation)) or drag:
+            if element.resists or drag:
                 found.append(element)
         return tuple(found)
 

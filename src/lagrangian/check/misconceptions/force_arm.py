@@ -8,7 +8,6 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.misconceptions.base import Ingredients, Variant, letters
-from lagrangian.model import Damper, Dissipation
 from lagrangian.page.formula import text
 
 STEP = 6
@@ -18,7 +17,7 @@ WHY = text("Ξ = F·∂r/∂ξ: for an angle, that is the force times its arm, a
 def wrong(s: Ingredients) -> Iterator[Variant]:
     """Every share of a force as the force itself; without its angle; without each length."""
     for element in s.acting:
-        if isinstance(element, (Damper, Dissipation)):
+        if element.resists:
             continue
         shares = s.shares(element)
         efforts = list(dict.fromkeys(s.expand(a.effort) for a in s.actions(element)))

@@ -4,6 +4,7 @@ A new element is one new file, one line in `REGISTRY` and its tests. Each elemen
 energy or force is booked (``ledger``) and with what expression.
 """
 
+from lagrangian.model.elements.answers import ActsOn, Entry, FieldKind, Measure
 from lagrangian.model.elements.base import DEFLECTION, Action, Element, Level, Use, Words, deflection_between
 from lagrangian.model.elements.damper import Damper
 from lagrangian.model.elements.force import Force
@@ -33,14 +34,18 @@ __all__ = [
     "DEFLECTION",
     "REGISTRY",
     "Action",
+    "ActsOn",
     "Damper",
     "Dissipation",
     "Element",
+    "Entry",
+    "FieldKind",
     "Force",
     "GeneralizedForce",
     "Gravity",
     "Kinetic",
     "Level",
+    "Measure",
     "Particle",
     "Potential",
     "RigidBody",

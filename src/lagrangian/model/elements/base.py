@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass, field
 from enum import IntEnum
@@ -13,9 +13,11 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.codes import CodeText
 from lagrangian.errors import ModelError, Place
+from lagrangian.model.elements.answers import ActsOn, Entry, Measure
 from lagrangian.model.geometry import Frame, Point
 from lagrangian.model.names import time
 from lagrangian.model.symbols import Coordinate
+from lagrangian.page.formula import Name
 from lagrangian.viewed import Brief
 
 Words: TypeAlias = "tuple[str | sp.Expr, ...]"
@@ -108,15 +110,54 @@ class Action:
     target: Point | Frame | None = None
 
 
+T, V, XI = Name("T*"), Name("V"), Name("Xi")
+
+QUESTIONS = ("kind", "plural", "about", "entries", "ledger", "because", "uses", "measures")
+"""What the house asks every kind of element."""
+
+QUESTIONS_OF = {
+    "T*": ("kinetic", "is_body", "note"),
+    "V": ("potential", "stored", "note", "acts_on"),
+    "Ξ": ("works", "resists", "acts_on"),
+}
+"""What it asks besides, by where the kind is booked."""
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Element(Brief):
-    """A piece of the system. ``name`` is unique in its system; ``place`` is where a file describes it."""
+    """A piece of the system. ``name`` is unique in its system; ``place`` is where a file describes it.
+
+    A subclass with a ``kind`` answers `QUESTIONS` and `QUESTIONS_OF` its ledger; one that does not is refused when it
+    is imported. ``plural``, ``about`` and ``entries`` describe its table in a file.
+    """
 
     name: str = ""
     place: Place | None = field(default=None, repr=False)
 
     kind: ClassVar[str] = "element"
+    plural: ClassVar[str]
+    about: ClassVar[str]
+    entries: ClassVar[Mapping[str, Entry]]
     ledger: ClassVar[Literal["T*", "V", "Ξ"]]
+    because: ClassVar[tuple[str | Name, ...]]
+    """Why it is booked there, in words."""
+    is_body: ClassVar[bool] = False
+    """Whether it has a ``mass`` at a point ``at``, which gravity pulls."""
+    stored: ClassVar[str] = ""
+    """What it does to hold a potential energy, in words."""
+    note: ClassVar[str] = ""
+    """What stands beside its energy where the page gives it without a derivation."""
+    resists: ClassVar[bool] = False
+    """Whether it takes energy out, so that the final equations carry it on the left."""
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        if "kind" not in vars(cls):
+            return
+        asked = (*QUESTIONS, *QUESTIONS_OF.get(getattr(cls, "ledger", ""), ()))
+        own = {name for base in cls.__mro__[: cls.__mro__.index(Element)] for name in vars(base)}
+        if missing := [question for question in asked if question not in own]:
+            raise TypeError(f"the kind of element {cls.__name__} does not answer: {', '.join(missing)}")
 
     @property
     def title(self) -> str:
@@ -139,7 +180,15 @@ class Element(Brief):
 
     def uses(self) -> Iterator[Use]:
         """Every expression in the element, with what may stand in it."""
-        raise TypeError(f"{type(self).__name__} does not say what it uses")
+        raise NotImplementedError
+
+    def measures(self, model: Surroundings) -> Iterator[Measure]:
+        """The units that its expressions must have; those of points and frames are asked of themselves."""
+        raise NotImplementedError
+
+    def acts_on(self) -> ActsOn | None:
+        """What it acts on, or None where that is everything or no place at all."""
+        return None
 
     def points(self) -> Iterator[tuple[str, Point]]:
         """Every point the element refers to, with the field it came from."""

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.model.elements.answers import ENERGY, ActsOn, Entry, FieldKind, Measure, deflected
 from lagrangian.model.elements.base import (
     DEFLECTION,
+    XI,
     Action,
     Element,
     Level,
@@ -42,7 +44,17 @@ class Damper(Element):
     law: Any = None
 
     kind: ClassVar[str] = "damper"
+    plural = "Dampers."
+    about = "A damper: D = ½ b δ̇², or by its law."
+    entries: ClassVar[Mapping[str, Entry]] = {
+        "b": Entry(FieldKind.EXPRESSION, "Its coefficient."),
+        "between": Entry(FieldKind.TWO_POINTS, "The two points it joins."),
+        "deflection": Entry(FieldKind.EXPRESSION, "Its deflection δ, instead of two points."),
+        "law": Entry(FieldKind.EXPRESSION, "Its pull as an expression in rate, instead of b.", local=(RATE,)),
+    }
     ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "Ξ"
+    because = ("it takes energy out and stores none: no potential, so it is in ", XI)
+    resists = True
 
     def __post_init__(self) -> None:
         given = [key for key in ("b", "law") if getattr(self, key) is not None]
@@ -70,6 +82,19 @@ class Damper(Element):
             yield Use("law", "law", self.law, Level.CONSTANT, local=(RATE,))
         if self.deflection is not None:
             yield Use("deflection", "deflection", self.deflection, Level.POSITION)
+
+    def measures(self, model: Surroundings) -> Iterator[Measure]:
+        """With the unit [δ]: law J/[δ] of a rate in [δ]/s, coefficient J s/[δ]²."""
+        along = None if self.between else self.deflection
+        if self.law is not None:
+            yield Measure("rate", RATE, (0, 0, -1), along, 1, local=True)
+            yield Measure("law", self.law, ENERGY, along, -1)
+        if self.b is not None:
+            yield Measure("damping coefficient", self.b, (1, 2, -1), along, -2)
+
+    def acts_on(self) -> ActsOn:
+        """Its ends or its deflection."""
+        return deflected(self.between, self.deflection)
 
     def points(self) -> Iterator[tuple[str, Point]]:
         """Its two ends, where it has them."""

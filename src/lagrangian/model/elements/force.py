@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.model.elements.answers import ENERGY, FORCE, REQUIRED, ActsOn, Entry, FieldKind, Measure, deflected
 from lagrangian.model.elements.base import (
     DEFLECTION,
+    XI,
     Action,
     Element,
     Level,
@@ -42,7 +44,21 @@ class Force(Element):
     deflection: Any = None
 
     kind: ClassVar[str] = "force"
+    plural = "Forces."
+    about = "A force: a vector at a point, or a scalar along a deflection."
+    entries: ClassVar[Mapping[str, Entry]] = {
+        "value": Entry(
+            FieldKind.EXPRESSION_OR_VECTOR, "A vector [Fx, Fy] at a point, or one value along a deflection.", REQUIRED
+        ),
+        "at": Entry(FieldKind.POINT, "The point a vector acts at."),
+        "reaction": Entry(FieldKind.POINT, "The point that feels its opposite."),
+        "axes": Entry(FieldKind.FRAME, "The frame whose axes the vector is given in."),
+        "between": Entry(FieldKind.TWO_POINTS, "Two points; a positive value pushes them apart."),
+        "deflection": Entry(FieldKind.EXPRESSION, "A deflection, instead of two points."),
+    }
     ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "Ξ"
+    because = ("it acts from outside and may do work: no potential, so it is in ", XI)
+    resists = False
 
     def __post_init__(self) -> None:
         what = f"the value of {self.title}"
@@ -118,6 +134,24 @@ class Force(Element):
             yield Use("value", "value", v, Level.VELOCITY, inputs=True)
         if self.deflection is not None:
             yield Use("deflection", "deflection", self.deflection, Level.POSITION)
+
+    def measures(self, model: Surroundings) -> Iterator[Measure]:
+        """Components in N; along a deflection J/[δ]."""
+        if self.is_vector:
+            for component in self.value:
+                yield Measure("value", component, FORCE)
+        else:
+            yield Measure("value", self.value, ENERGY, None if self.between else self.deflection, -1)
+
+    def acts_on(self) -> ActsOn:
+        """The points it acts and reacts at, its ends or its deflection."""
+        if not self.is_vector:
+            return deflected(self.between, self.deflection)
+        return ActsOn(
+            tuple(p for p in (self.at, self.reaction) if p is not None),
+            "it does nothing: no coordinate moves the point it acts at",
+            "at=the point that the force moves; to hold a fixed point takes no force in these equations",
+        )
 
     def points(self) -> Iterator[tuple[str, Point]]:
         """Where it acts."""

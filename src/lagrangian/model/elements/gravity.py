@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.model.elements.base import Element, Level, Surroundings, Use
+from lagrangian.model.elements.answers import ACCELERATION, REQUIRED, Entry, FieldKind, Measure
+from lagrangian.model.elements.base import XI, Element, Level, Surroundings, Use, V
 from lagrangian.model.geometry import Point, as_expr, as_vector
 
 
@@ -26,7 +27,17 @@ class Gravity(Element):
     datum: Any = None
 
     kind: ClassVar[str] = "gravity"
+    plural = "Gravity."
+    about = "Gravity: V = Σ m g h."
+    entries: ClassVar[Mapping[str, Entry]] = {
+        "direction": Entry(FieldKind.VECTOR, "Which way is down: [0, -1].", REQUIRED),
+        "g": Entry(FieldKind.STRENGTH_OF_GRAVITY, "Its strength; the parameter g, 9.81 m/s², if left out."),
+        "datum": Entry(FieldKind.POINT, "The point where h = 0; the origin if left out."),
+    }
     ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "V"
+    because = ("weight depends on height alone: conservative, stored in ", V, ", so not in ", XI)
+    stored = "pulls on every mass: mgh"
+    note = ""
 
     def __post_init__(self) -> None:
         direction = as_vector(self.direction, f"the direction of {self.title}", place=self.place)
@@ -48,6 +59,13 @@ class Gravity(Element):
         yield Use("g", "strength g", self.g, Level.CONSTANT)
         for d in self.direction:
             yield Use("direction", "direction", d, Level.CONSTANT)
+
+    def measures(self, model: Surroundings) -> Iterator[Measure]:
+        """An acceleration; the direction has no unit that counts."""
+        yield Measure("strength", self.g, ACCELERATION)
+
+    def acts_on(self) -> None:
+        """Every mass."""
 
     def points(self) -> Iterator[tuple[str, Point]]:
         """The datum, where one is given."""

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
 import sympy as sp
 
-from lagrangian.model.elements.base import Element, Level, Surroundings, Use
+from lagrangian.model.elements.answers import MASS, REQUIRED, Entry, FieldKind, Measure
+from lagrangian.model.elements.base import Element, Level, Surroundings, T, Use
 from lagrangian.model.geometry import Point, as_expr
 
 
@@ -20,7 +21,16 @@ class Particle(Element):
     at: Any
 
     kind: ClassVar[str] = "particle"
+    plural = "Point masses."
+    about = "A point mass: T* = ½ m v²."
+    entries: ClassVar[Mapping[str, Entry]] = {
+        "mass": Entry(FieldKind.EXPRESSION, "The mass, made of parameters.", REQUIRED),
+        "at": Entry(FieldKind.POINT, "The point it is at.", REQUIRED),
+    }
     ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "T*"
+    because = ("it has mass and moves: its energy of motion is in ", T)
+    is_body = True
+    note = ""
 
     def __post_init__(self) -> None:
         if not isinstance(self.at, Point):
@@ -36,6 +46,10 @@ class Particle(Element):
     def uses(self) -> Iterator[Use]:
         """The mass, made of parameters."""
         yield Use("mass", "mass", self.mass, Level.CONSTANT)
+
+    def measures(self, model: Surroundings) -> Iterator[Measure]:
+        """A mass."""
+        yield Measure("mass", self.mass, MASS)
 
     def points(self) -> Iterator[tuple[str, Point]]:
         """Where it is."""

@@ -2,29 +2,51 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.model.elements.base import Action, Element, Level, Surroundings, Use
+from lagrangian.model.elements.answers import ENERGY, POWER, REQUIRED, Entry, FieldKind, Measure, Unit
+from lagrangian.model.elements.base import XI, Action, Element, Level, Surroundings, Use
 from lagrangian.model.geometry import as_expr
 from lagrangian.model.names import time
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Potential(Element):
-    """A potential energy V [J], an expression in coordinates and time."""
+class Energy(Element):
+    """An energy or power of the whole system, as an expression."""
 
     value: Any
 
-    kind: ClassVar[str] = "potential"
-    ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "V"
+    about = "An energy or power as an expression."
+    entries: ClassVar[Mapping[str, Entry]] = {"value": Entry(FieldKind.EXPRESSION, "The expression.", REQUIRED)}
+    because = ("given as an energy",)
+    unit: ClassVar[Unit] = ENERGY
 
     def __post_init__(self) -> None:
         self._set(value=as_expr(self.value, f"the value of {self.title}", place=self.place))
+
+    def measures(self, model: Surroundings) -> Iterator[Measure]:
+        """Every term is an energy, or a power."""
+        for term in sp.Add.make_args(self.value):
+            yield Measure("value", term, self.unit)
+
+    def acts_on(self) -> None:
+        """No place of its own."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Potential(Energy):
+    """A potential energy V [J], an expression in coordinates and time."""
+
+    kind: ClassVar[str] = "potential"
+    plural = "Potential energies."
+    ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "V"
+    stored = "is an energy of position"
+    note = "as given"
 
     def uses(self) -> Iterator[Use]:
         """An energy of position."""
@@ -36,16 +58,14 @@ class Potential(Element):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Kinetic(Element):
+class Kinetic(Energy):
     """A kinetic co-energy T* [J], an expression in coordinates, rates and time."""
 
-    value: Any
-
     kind: ClassVar[str] = "kinetic"
+    plural = "Kinetic co-energies."
     ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "T*"
-
-    def __post_init__(self) -> None:
-        self._set(value=as_expr(self.value, f"the value of {self.title}", place=self.place))
+    is_body = False
+    note = "as given"
 
     def uses(self) -> Iterator[Use]:
         """An energy of motion."""
@@ -57,16 +77,15 @@ class Kinetic(Element):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Dissipation(Element):
+class Dissipation(Energy):
     """Rayleigh's dissipation function D [W]: Ξ_i = −∂D/∂ξ̇_i."""
 
-    value: Any
-
     kind: ClassVar[str] = "dissipation"
+    plural = "Rayleigh's dissipation functions."
     ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "Ξ"
-
-    def __post_init__(self) -> None:
-        self._set(value=as_expr(self.value, f"the value of {self.title}", place=self.place))
+    because = ("it takes energy out and stores none: no potential, so it is in ", XI)
+    resists = True
+    unit = POWER
 
     def uses(self) -> Iterator[Use]:
         """A function of the rates."""
@@ -94,7 +113,15 @@ class GeneralizedForce(Element):
     value: Any
 
     kind: ClassVar[str] = "generalized_force"
+    plural = "Generalized forces."
+    about = "A generalized force Ξ on one coordinate."
+    entries: ClassVar[Mapping[str, Entry]] = {
+        "coordinate": Entry(FieldKind.COORDINATE, "The coordinate, or the velocity of a floating frame.", REQUIRED),
+        "value": Entry(FieldKind.EXPRESSION, "The force, as an expression.", REQUIRED),
+    }
     ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "Ξ"
+    because = ("it acts from outside and may do work: no potential, so it is in ", XI)
+    resists = False
 
     def __post_init__(self) -> None:
         self._set(
@@ -105,6 +132,14 @@ class GeneralizedForce(Element):
     def uses(self) -> Iterator[Use]:
         """The value may hold anything down to rates."""
         yield Use("value", "value", self.value, Level.VELOCITY, inputs=True)
+
+    def measures(self, model: Surroundings) -> Iterator[Measure]:
+        """J/[ξ] on a coordinate ξ, W/[v] on a velocity v: the product is an energy or a power."""
+        unit = ENERGY if any(self.coordinate == c.symbol for c in model.coordinates) else POWER
+        yield Measure("value", self.value, unit, self.coordinate, -1)
+
+    def acts_on(self) -> None:
+        """Its coordinate, which moves."""
 
     def works(self, model: Surroundings) -> tuple[Action, ...]:
         """The force on its coordinate."""

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
 import sympy as sp
 
-from lagrangian.model.elements.base import Element, Level, Surroundings, Use
+from lagrangian.model.elements.answers import INERTIA, MASS, REQUIRED, Entry, FieldKind, Measure
+from lagrangian.model.elements.base import Element, Level, Surroundings, T, Use
 from lagrangian.model.geometry import Frame, Point, as_expr
 
 
@@ -27,7 +28,22 @@ class RigidBody(Element):
     frame: Any
 
     kind: ClassVar[str] = "rigid_body"
+    plural = "Rigid bodies."
+    about = "A rigid body: T* = ½ m v² + ½ J ω²."
+    entries: ClassVar[Mapping[str, Entry]] = {
+        "mass": Entry(FieldKind.EXPRESSION, "The mass, made of parameters.", REQUIRED),
+        "inertia": Entry(
+            FieldKind.INERTIA,
+            "About the centre of mass: J in the plane; three principal moments or a 3×3 tensor in space.",
+            REQUIRED,
+        ),
+        "at": Entry(FieldKind.POINT, "Its centre of mass.", REQUIRED),
+        "frame": Entry(FieldKind.BODY_FRAME, "The frame that turns with it; in the plane an angle will do.", REQUIRED),
+    }
     ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "T*"
+    because = ("it has mass and moves: its energy of motion is in ", T)
+    is_body = True
+    note = ""
 
     def __post_init__(self) -> None:
         if not isinstance(self.at, Point):
@@ -88,6 +104,12 @@ class RigidBody(Element):
         yield Use("mass", "mass", self.mass, Level.CONSTANT)
         for entry in self.inertia:
             yield Use("inertia", "inertia", entry, Level.CONSTANT)
+
+    def measures(self, model: Surroundings) -> Iterator[Measure]:
+        """A mass and moments of inertia."""
+        yield Measure("mass", self.mass, MASS)
+        for entry in self.inertia:
+            yield Measure("inertia", entry, INERTIA)
 
     def points(self) -> Iterator[tuple[str, Point]]:
         """Its centre of mass."""

@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
 import sympy as sp
 
 from lagrangian.model.antiderivatives import antiderivative
-from lagrangian.model.elements.base import Element, Level, Surroundings, Use, called, check_ends, deflection_between
+from lagrangian.model.elements.answers import ANGLE, ENERGY, ActsOn, Entry, FieldKind, Measure, deflected
+from lagrangian.model.elements.base import (
+    XI,
+    Element,
+    Level,
+    Surroundings,
+    Use,
+    V,
+    called,
+    check_ends,
+    deflection_between,
+)
 from lagrangian.model.geometry import Point, as_expr
 from lagrangian.page.plain import plain
 
@@ -46,7 +57,25 @@ class Spring(Element):
     energy: Any = None
 
     kind: ClassVar[str] = "spring"
+    plural = "Springs."
+    about = "A spring: V = ½ k (δ − rest)², or by its law."
+    entries: ClassVar[Mapping[str, Entry]] = {
+        "k": Entry(FieldKind.EXPRESSION, "Its stiffness."),
+        "between": Entry(FieldKind.TWO_POINTS, "The two points it joins."),
+        "deflection": Entry(FieldKind.EXPRESSION, "Its deflection δ, instead of two points."),
+        "rest": Entry(FieldKind.EXPRESSION, "The deflection without force.", 0.0),
+        "law": Entry(FieldKind.EXPRESSION, "Its pull as an expression in delta, instead of k.", local=(DELTA,)),
+        "energy": Entry(
+            FieldKind.EXPRESSION,
+            "Its energy as an expression in delta, instead of k.",
+            local=(DELTA,),
+            made_from="law",
+        ),
+    }
     ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "V"
+    because = ("its force depends on its deflection alone: conservative, stored in ", V, ", so not in ", XI)
+    stored = "stores energy by its deflection"
+    note = ""
 
     def __post_init__(self) -> None:
         given = [key for key in ("k", "law", "energy") if getattr(self, key) is not None]
@@ -78,6 +107,22 @@ class Spring(Element):
         for key in ("law", "energy"):
             if getattr(self, key) is not None:
                 yield Use(key, key, getattr(self, key), Level.CONSTANT, local=(DELTA,))
+
+    def measures(self, model: Surroundings) -> Iterator[Measure]:
+        """With the unit [δ]: rest length [δ], stiffness J/[δ]², law J/[δ]."""
+        along = None if self.between else self.deflection
+        if self.rest != 0:
+            yield Measure("rest length", self.rest, ANGLE, along, 1)
+        if self.k is not None:
+            yield Measure("stiffness", self.k, ENERGY, along, -2)
+            return
+        yield Measure("extension", DELTA, ANGLE, along, 1, local=True)
+        if self.law is not None:
+            yield Measure("law", self.law, ENERGY, along, -1)
+
+    def acts_on(self) -> ActsOn:
+        """Its ends or its deflection."""
+        return deflected(self.between, self.deflection)
 
     def points(self) -> Iterator[tuple[str, Point]]:
         """Its two ends, where it has them."""

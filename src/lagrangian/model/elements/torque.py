@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.model.elements.base import Action, Element, Level, Surroundings, Use
+from lagrangian.model.elements.answers import ANGLE, ENERGY, REQUIRED, ActsOn, Entry, FieldKind, Measure
+from lagrangian.model.elements.base import XI, Action, Element, Level, Surroundings, Use
 from lagrangian.model.geometry import Frame, as_expr, as_vector
 from lagrangian.model.names import time
 
@@ -29,7 +30,19 @@ class Torque(Element):
     axes: Any = None
 
     kind: ClassVar[str] = "torque"
+    plural = "Torques."
+    about = "A torque on an angle or on a frame."
+    entries: ClassVar[Mapping[str, Entry]] = {
+        "value": Entry(
+            FieldKind.EXPRESSION_OR_VECTOR, "The torque; in space it may be a vector in the fixed axes.", REQUIRED
+        ),
+        "on": Entry(FieldKind.FRAME_OR_ANGLE, "The angle it turns, as an expression, or a frame.", REQUIRED),
+        "reaction": Entry(FieldKind.FRAME_OR_ANGLE, "The angle or frame that feels its opposite."),
+        "axes": Entry(FieldKind.FRAME, "The frame whose axes the three components are given in."),
+    }
     ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "Ξ"
+    because = ("it acts from outside and may do work: no potential, so it is in ", XI)
+    resists = False
 
     def __post_init__(self) -> None:
         if self.on is None:
@@ -89,6 +102,22 @@ class Torque(Element):
             angle = getattr(self, key)
             if angle is not None and not isinstance(angle, Frame):
                 yield Use(key, f"angle in {key}", angle, Level.POSITION)
+
+    def measures(self, model: Surroundings) -> Iterator[Measure]:
+        """Components in N m = J; angles."""
+        for value in self.value if isinstance(self.value, tuple) else (self.value,):
+            yield Measure("value", value, ENERGY)
+        for key in ("on", "reaction"):
+            if isinstance(angle := getattr(self, key), sp.Expr):
+                yield Measure(f"angle ({key})", angle, ANGLE)
+
+    def acts_on(self) -> ActsOn:
+        """What it turns, and what feels its opposite."""
+        return ActsOn(
+            tuple(target for target in (self.on, self.reaction) if target is not None),
+            "it does nothing: no coordinate turns what it acts on",
+            "on=an angle that moves, such as theta1 + theta2, or on=the frame of a body",
+        )
 
     def frames(self) -> Iterator[tuple[str, Frame]]:
         """What it turns, and whose axes it is given in."""

@@ -1,0 +1,99 @@
+"""What a kind of element answers about its fields and about what it acts on: data that other rooms read."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum, auto
+from typing import Any, TypeAlias
+
+import sympy as sp
+
+from lagrangian.model.geometry import Frame, Point
+
+Unit: TypeAlias = "tuple[int, int, int]"
+"""The exponents of kg, m and s."""
+
+ANGLE: Unit = (0, 0, 0)
+MASS: Unit = (1, 0, 0)
+INERTIA: Unit = (1, 2, 0)
+ACCELERATION: Unit = (0, 1, -2)
+FORCE: Unit = (1, 1, -2)
+ENERGY: Unit = (1, 2, -2)
+POWER: Unit = (1, 2, -3)
+
+
+class FieldKind(Enum):
+    """How a field is written in a file; the schema, the reader and the writer of files go by it."""
+
+    EXPRESSION = auto()
+    VECTOR = auto()
+    EXPRESSION_OR_VECTOR = auto()
+    POINT = auto()
+    TWO_POINTS = auto()
+    FRAME = auto()
+    FRAME_OR_ANGLE = auto()
+    BODY_FRAME = auto()
+    """A frame, or in the plane the angle of one that is made for it."""
+    INERTIA = auto()
+    COORDINATE = auto()
+    STRENGTH_OF_GRAVITY = auto()
+    """An expression; the parameter g where it is left out."""
+
+
+REQUIRED: Any = ...
+"""The default of a field that must be given."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A field of an element: how it is written, what it is, and its default in a file.
+
+    ``local`` are symbols that mean something in this expression alone; ``made_from`` is the field that this one follows
+    from where that one is given, so that it is not written.
+    """
+
+    kind: FieldKind
+    about: str
+    default: Any = None
+    local: tuple[sp.Symbol, ...] = ()
+    made_from: str = ""
+
+
+@dataclass(frozen=True)
+class Measure:
+    """The unit that an expression of an element must have: ``unit`` · [along]^power.
+
+    ``along`` is the deflection or coordinate that the element acts along, a length where it is None. With ``local`` the
+    expression is a symbol that has this unit in the measures that follow.
+    """
+
+    what: str
+    expr: sp.Expr
+    unit: Unit
+    along: sp.Expr | None = None
+    power: int = 0
+    local: bool = False
+
+
+@dataclass(frozen=True)
+class ActsOn:
+    """What an element acts on, and what to say where no coordinate moves any of it; a pair is two ends moved apart."""
+
+    targets: tuple[Point | Frame | sp.Expr | tuple[Point, Point], ...]
+    idle: str
+    fix: str
+
+
+def deflected(between: tuple[Point, Point] | None, deflection: sp.Expr) -> ActsOn:
+    """What acts along the distance of two points or along a deflection."""
+    if between:
+        return ActsOn(
+            (between,),
+            "it does nothing: no coordinate moves its two ends apart",
+            "between=(P, Q) with at least one of them moved by a coordinate that does not carry the other along",
+        )
+    return ActsOn(
+        (deflection,),
+        "it does nothing: no coordinate changes its deflection",
+        "write the deflection with coordinates, such as x2 - x1",
+    )
