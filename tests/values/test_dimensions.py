@@ -125,3 +125,15 @@ def test_a_bare_number_for_a_length_is_refused_only_where_units_were_given(mass)
     else:
         with pytest.raises(lg.ModelError, match="a number has no unit: multiply by a parameter"):
             system.derive()
+
+
+@pytest.mark.parametrize("kind", ["spring", "damper", "force"])
+def test_a_deflection_of_terms_that_do_not_fit_is_refused_with_the_element(kind: str) -> None:
+    s = lg.System("stretched")
+    x = s.coordinates("x")
+    m, k = s.parameters("m k", m="1 kg", k="1 N/m")
+    s.particle(m, s.origin + (x, 0))
+    getattr(s, kind)(k, deflection=x + m * x)
+    with pytest.raises(ModelError, match=rf"{kind} 'k': the units inside its deflection, .* do not fit") as caught:
+        check_dimensions(s.model)
+    assert caught.value.code == "E408"

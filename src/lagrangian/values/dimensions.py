@@ -9,7 +9,7 @@ is no error, and then the equations' terms are not compared.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import Any, cast
@@ -19,27 +19,11 @@ from sympy.core.function import AppliedUndef
 from sympy.functions.elementary.miscellaneous import MinMaxBase
 
 from lagrangian.errors import ModelError, Place
-from lagrangian.model import (
-    Damper,
-    Dissipation,
-    Force,
-    GeneralizedForce,
-    Gravity,
-    Kinetic,
-    Model,
-    Parameter,
-    Particle,
-    Point,
-    Potential,
-    RigidBody,
-    Spring,
-    Torque,
-    time,
-)
+from lagrangian.model import Model, Parameter, Point, time
+from lagrangian.model.elements import Measure, answers
 from lagrangian.page.plain import plain
 from lagrangian.quantities.quantity import parse_quantity, unit_dimension
 
-DELTA, RATE_SYMBOL = sp.Symbol("delta"), sp.Symbol("rate")
 Exponents = tuple[Fraction, Fraction, Fraction]
 
 
@@ -79,8 +63,7 @@ def _dim(mass: int, length: int, seconds: int) -> Dim:
     return Dim((Fraction(mass), Fraction(length), Fraction(seconds)))
 
 
-NONE, MASS, LENGTH, SECOND = _dim(0, 0, 0), _dim(1, 0, 0), _dim(0, 1, 0), _dim(0, 0, 1)
-FORCE, ENERGY, POWER, INERTIA = _dim(1, 1, -2), _dim(1, 2, -2), _dim(1, 2, -3), _dim(1, 2, 0)
+NONE, LENGTH, SECOND, ENERGY = _dim(0, 0, 0), _dim(0, 1, 0), _dim(0, 0, 1), _dim(*answers.ENERGY)
 RATE = NONE.times(SECOND, Fraction(-1))
 
 
@@ -235,7 +218,7 @@ def _checked(model: Model) -> Dimensions | None:
         _settle(dims, definition.symbol, definition.expression, f"definition '{definition.name}'", definition.place)
     for element in model.elements:
         for what, expr, wanted in _claims(model, element, dims):
-            _claim(dims, element.title, element.place, what, expr, wanted)
+            _claim(dims, element, what, expr, wanted)
     return dims
 
 
@@ -253,17 +236,22 @@ def _settle(dims: Dimensions, symbol: Any, expr: sp.Expr, where: str, place: Pla
         ) from None
 
 
-def _claim(dims: Dimensions, title: str, place: Place | None, what: str, expr: sp.Expr, wanted: Dim) -> None:
+def _inside(dims: Dimensions, element: Any, what: str, expr: sp.Expr) -> Dim | None:
+    """The dimension of an expression of an element, whose own terms and functions must fit each other."""
     try:
-        found = dims.of(expr)
+        return dims.of(expr)
     except Mismatch as wrong:
         raise ModelError(
             f"the units inside its {what}, {plain(expr)}, do not fit: {wrong.found} where {wrong.wanted} is needed",
-            element=title,
-            place=place,
+            element=element.title,
+            place=element.place,
             fix="give the terms of a sum the same unit, and functions an angle or a plain number",
             code="E408",
         ) from None
+
+
+def _claim(dims: Dimensions, element: Any, what: str, expr: sp.Expr, wanted: Dim) -> None:
+    found = _inside(dims, element, what, expr)
     if found is None:
         dims.loose = dims.loose or expr != 0
         return
@@ -277,8 +265,8 @@ def _claim(dims: Dimensions, title: str, place: Place | None, what: str, expr: s
         bare = f"a number has no unit: multiply by a parameter that has one, or check the units of {names}"
         raise ModelError(
             f"its {what} {plain(expr)} has the unit {wrong.found}, but {wrong.wanted} is needed",
-            element=title,
-            place=place,
+            element=element.title,
+            place=element.place,
             fix=bare if found == NONE else f"check the units of {names}",
             code="E408",
         ) from None
@@ -307,93 +295,19 @@ def _claims(model: Model, element: Any, dims: Dimensions) -> Iterator[Claim]:
             at = at.parent
     for key, frame in element.frames():
         yield f"angle ({key})", frame.angle, NONE
-    yield from _CLAIMS[type(element)](model, element, dims)
+    for measure in element.measures(model):
+        if measure.local:  # its meaning in this element's law, and in no other's
+            dims.solved[measure.expr] = _unit(dims, element, measure)
+        else:
+            yield measure.what, measure.expr, _unit(dims, element, measure)
 
 
-def _body(model: Model, body: Any, dims: Dimensions) -> Iterator[Claim]:
-    yield "mass", body.mass, MASS
-    for entry in getattr(body, "inertia", ()):
-        yield "inertia", entry, INERTIA
-
-
-def _gravity(model: Model, gravity: Gravity, dims: Dimensions) -> Iterator[Claim]:
-    yield "strength", gravity.g, LENGTH.times(SECOND, Fraction(-2))
-
-
-def _deflection(element: Any, dims: Dimensions) -> Dim:
-    """The dimension of what an element acts along: a length between points, else its deflection's own."""
-    if element.between:
-        return LENGTH
-    found = dims.of(element.deflection)
-    return LENGTH if found is None else found
-
-
-def _spring(model: Model, spring: Spring, dims: Dimensions) -> Iterator[Claim]:
-    delta = _deflection(spring, dims)
-    if spring.rest != 0:
-        yield "rest length", spring.rest, delta
-    if spring.k is not None:
-        yield "stiffness", spring.k, ENERGY.times(delta, Fraction(-2))
-    else:
-        dims.solved[DELTA] = delta  # in this spring's law, and in no other's
-    if spring.law is not None:
-        yield "law", spring.law, ENERGY.times(delta, Fraction(-1))
-
-
-def _damper(model: Model, damper: Damper, dims: Dimensions) -> Iterator[Claim]:
-    rate = _deflection(damper, dims).times(RATE)
-    if damper.law is not None:
-        dims.solved[RATE_SYMBOL] = rate
-        yield "law", damper.law, POWER.times(rate, Fraction(-1))
-    if damper.b is not None:
-        yield "damping coefficient", damper.b, POWER.times(rate, Fraction(-2))
-
-
-def _force(model: Model, force: Force, dims: Dimensions) -> Iterator[Claim]:
-    if force.is_vector:
-        for f in force.value:
-            yield "value", f, FORCE
-    else:
-        yield "value", force.value, ENERGY.times(_deflection(force, dims), Fraction(-1))
-
-
-def _torque(model: Model, torque: Torque, dims: Dimensions) -> Iterator[Claim]:
-    for value in torque.value if isinstance(torque.value, tuple) else (torque.value,):
-        yield "value", value, ENERGY
-    for key, angle in (("on", torque.on), ("reaction", torque.reaction)):
-        if isinstance(angle, sp.Expr):
-            yield f"angle ({key})", angle, NONE
-
-
-def _energy(model: Model, element: Any, dims: Dimensions) -> Iterator[Claim]:
-    for term in sp.Add.make_args(element.value):
-        yield "value", term, ENERGY
-
-
-def _dissipation(model: Model, element: Any, dims: Dimensions) -> Iterator[Claim]:
-    for term in sp.Add.make_args(element.value):
-        yield "value", term, POWER
-
-
-def _generalized(model: Model, element: Any, dims: Dimensions) -> Iterator[Claim]:
-    along = dims.of(element.coordinate)
-    rate = any(element.coordinate == v.symbol for v in model.velocities)  # then their product is a power
-    yield "value", element.value, (POWER if rate else ENERGY).times(along or NONE, Fraction(-1))
-
-
-_CLAIMS: dict[type, Callable[[Model, Any, Dimensions], Iterator[Claim]]] = {
-    Particle: _body,
-    RigidBody: _body,
-    Gravity: _gravity,
-    Spring: _spring,
-    Damper: _damper,
-    Force: _force,
-    Torque: _torque,
-    Potential: _energy,
-    Kinetic: _energy,
-    Dissipation: _dissipation,
-    GeneralizedForce: _generalized,
-}
+def _unit(dims: Dimensions, element: Any, measure: Measure) -> Dim:
+    unit = _dim(*measure.unit)
+    if not measure.power:
+        return unit
+    along = None if measure.along is None else _inside(dims, element, "deflection", measure.along)
+    return unit.times(LENGTH if along is None else along, Fraction(measure.power))
 
 
 def check_terms(dims: Dimensions, terms: tuple[sp.Expr, ...], coordinate: sp.Expr) -> int:
