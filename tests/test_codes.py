@@ -11,6 +11,7 @@ import pytest
 
 from lagrangian.codes import Code, CodeText
 from lagrangian.errors import ModelError, Notice
+from lagrangian.integrate.status import RunStatus
 
 ROOT = pathlib.Path(__file__).parent.parent
 PAGE = ROOT / "docs" / "errors.md"
@@ -42,6 +43,12 @@ def test_every_code_is_used_and_no_other() -> None:
 def test_the_manual_names_known_codes() -> None:
     named = {code for file in MANUAL for code in re.findall(r"\bE\d{3}\b", file.read_text(encoding="utf-8"))}
     assert named <= set(Code)
+
+
+def test_the_manual_names_known_statuses() -> None:
+    named = [n for file in MANUAL for n in re.findall(r"status ([−-]?\d+)", file.read_text(encoding="utf-8"))]
+    assert len(named) > 4
+    assert {int(n.replace("−", "-")) for n in named} <= set(RunStatus)
 
 
 @pytest.mark.parametrize("code", Code)

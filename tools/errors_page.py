@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from lagrangian.codes import Code
+from lagrangian.integrate.status import RunStatus
 
 PAGE = Path(__file__).parent.parent / "docs" / "errors.md"
 
@@ -21,7 +22,14 @@ def codes() -> Iterator[str]:
         yield f"| {code} | {code.what} | {code.explanation} |"
 
 
-TABLES = {"codes": codes}
+def statuses() -> Iterator[str]:
+    yield "| status | how the run ended |"
+    yield "|---|---|"
+    for status in RunStatus:
+        yield f"| {status.value:d} | {status.message} |".replace("| -", "| −")
+
+
+TABLES = {"codes": codes, "statuses": statuses}
 
 
 def made(page: str) -> str:

@@ -17,7 +17,7 @@ from simulate_problems import (
     start,
 )
 
-from lagrangian.integrate import METHODS, STATUS, Solver
+from lagrangian.integrate import METHODS, RunStatus, Solver
 from lagrangian.integrate.methods.taylor import Taylor
 from size import rest_slow
 
@@ -195,6 +195,7 @@ def test_compensated_sums_lose_nothing_over_a_million_steps():
 
 
 def test_every_status_has_words():
-    assert set(STATUS) == {0, 1, -1, -2, -3, -4, -5, -6, -7, -8, -9, -10}
+    assert set(RunStatus) == {*range(1, -11, -1), -127, -128}
+    assert len({status.message for status in RunStatus}) == len(RunStatus)
     for name, method in METHODS.items():
         assert method.name == name and method.title and method.source

@@ -11,8 +11,9 @@ import pytest
 from lagrangian.errors import Error, MissingExtra, RunError
 from lagrangian.integrate import store
 from lagrangian.integrate.chunks import Portions
+from lagrangian.integrate.status import RunStatus
 from lagrangian.integrate.store import ChunkPlan, Variable
-from lagrangian.integrate.stored import NOT_RUN, Stored
+from lagrangian.integrate.stored import Stored
 
 PORTIONS = Portions((3, 10), (1, 4))
 
@@ -71,7 +72,7 @@ def test_to_other_readers_a_run_that_is_not_done_says_so(tmp_path: pathlib.Path)
     data = xarray.open_zarr(path, chunks=None, consolidated=False)
     there = np.zeros((3, 10), bool)
     there[PORTIONS.box(0)] = True
-    assert (data["status"].values == np.where(there, 0, NOT_RUN)).all()
+    assert (data["status"].values == np.where(there, 0, RunStatus.NOT_RUN)).all()
     there[PORTIONS.box(1)] = True
     assert (data["count up"].values == np.where(there, 2, -1)).all()
     assert (np.isnan(data["max x"].values) == ~there).all()
@@ -88,7 +89,7 @@ def test_xarray_opens_it(tmp_path: pathlib.Path) -> None:
     assert data["max x"].attrs["units"] == "m"
     assert data["max x"].sel(k=1.0).values[:4].tolist() == [0, 1, 2, 3]
     assert np.isnan(data["max x"].values).sum() == 26
-    assert (data["status"].values == NOT_RUN).sum() == 26
+    assert (data["status"].values == RunStatus.NOT_RUN).sum() == 26
 
 
 def test_an_unfinished_store_knows_what_is_missing(tmp_path: pathlib.Path) -> None:

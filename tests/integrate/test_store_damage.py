@@ -14,8 +14,9 @@ import lagrangian as lg
 from lagrangian.errors import Error
 from lagrangian.integrate import store
 from lagrangian.integrate.chunks import Portions
+from lagrangian.integrate.status import RunStatus
 from lagrangian.integrate.store import ChunkPlan, Variable
-from lagrangian.integrate.stored import LOST, NOT_RUN, Stored
+from lagrangian.integrate.stored import Stored
 
 PORTIONS = Portions((2, 3), (1, 3))
 RESULTS = {
@@ -142,7 +143,7 @@ def marked_as_lost(path: pathlib.Path, right: dict[str, np.ndarray]) -> None:
         assert trouble.code in ("E803", "E804")
         return
     good = there["status"] == 0
-    assert set(there["status"][~good].tolist()) <= {LOST, NOT_RUN}
+    assert set(there["status"][~good].tolist()) <= {RunStatus.LOST, RunStatus.NOT_RUN}
     for name in RESULTS:
         np.testing.assert_array_equal(there[name][good], right[name][good])
     assert np.isnan(there["x"][~good]).all()
@@ -244,7 +245,7 @@ def test_a_chunk_written_in_part_is_not_done(
             sink.write(1, PORTIONS.box(1), values(1, 5.0))
     (path / "x" / "c" / "1" / "0" / "0").write_bytes(b"half")
     there = contents(path)
-    assert (there["status"] == NOT_RUN).sum() == 3
+    assert (there["status"] == RunStatus.NOT_RUN).sum() == 3
     assert np.isnan(there["x"]).all(axis=2).sum() == 3
     with store.resume(path, plan()) as sink:
         assert np.flatnonzero(~sink.done).tolist() == [1]

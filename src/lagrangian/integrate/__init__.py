@@ -7,12 +7,19 @@ from lagrangian.lazily import lazily
 if TYPE_CHECKING:
     from .methods import METHODS
     from .problem import Events, Signals
-    from .solution import STATUS, Solution
+    from .solution import Solution
     from .solver import Solver
+    from .status import RunStatus
 else:
     __getattr__ = lazily(
         __name__,
-        {"methods": "METHODS", "problem": "Events Signals", "solution": "STATUS Solution", "solver": "Solver"},
+        {
+            "methods": "METHODS",
+            "problem": "Events Signals",
+            "solution": "Solution",
+            "solver": "Solver",
+            "status": "RunStatus",
+        },
     )
 
-__all__ = ["METHODS", "STATUS", "Events", "Signals", "Solution", "Solver"]
+__all__ = ["METHODS", "Events", "RunStatus", "Signals", "Solution", "Solver"]

@@ -20,7 +20,7 @@ from lagrangian.codegen.workers import over
 from lagrangian.errors import RunError
 from lagrangian.integrate.design import Rows
 from lagrangian.integrate.fitness import Fitness
-from lagrangian.integrate.methods.memory_layout import UNFIT, ZENO
+from lagrangian.integrate.status import RunStatus
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program
@@ -171,7 +171,7 @@ class Study:
         made: Values = {}
         for name, (dtype, shape) in self.fields().items():
             made[name] = np.full((len(rows), *shape), np.nan if dtype == "float64" else 0, dtype)
-        made["status"][:], made["reached"][:] = UNFIT, self.times[0]
+        made["status"][:], made["reached"][:] = RunStatus.UNFIT, self.times[0]
         fit = ~unfit
         if fit.any():
             u, p = (a if a.ndim == 1 else a[fit] for a in (rows.u, rows.p))
@@ -294,7 +294,7 @@ class Study:
 
 def _lost(status: NDArray[Any]) -> NDArray[np.bool_]:
     """Which runs keep nothing: those that failed, but for those whose events accumulate, whose motion is over."""
-    return (status < 0) & (status != ZENO)
+    return (status < 0) & (status != RunStatus.ZENO)
 
 
 def signals_at(signals: Any, times: Array) -> Array:

@@ -20,7 +20,8 @@ from numpy.typing import NDArray
 from lagrangian.errors import RunError
 from lagrangian.integrate.chattering import LEAST, NEAR, Pace, Sticking
 from lagrangian.integrate.crossings import Crossings, Hit
-from lagrangian.integrate.methods.memory_layout import BLIND, CHATTERS, CROWDED, MARGIN, TOO_MANY, UNDERFLOW, ZENO
+from lagrangian.integrate.methods.memory_layout import MARGIN
+from lagrangian.integrate.status import RunStatus
 
 Array = NDArray[np.float64]
 Control = Callable[[float, Array], Array]
@@ -48,13 +49,13 @@ class Interval:
 class Outcome:
     """A run as far as it went: states (S, nx) at ``times`` (S,), and how it ended.
 
-    ``status`` as in `lagrangian.integrate.STATUS`; ``reached`` and ``final`` are the last time and state; ``hits`` are
-    the events; ``reason`` says more where there is more to say.
+    ``reached`` and ``final`` are the last time and state; ``hits`` are the events; ``reason`` says more where there is
+    more to say.
     """
 
     times: Array
     states: Array
-    status: int
+    status: RunStatus
     reached: float
     final: Array
     steps: int = 0
@@ -142,13 +143,13 @@ def integrate_scipy(
         try:
             for leg in legs:
                 if not march.over(leg):
-                    if march.status in (TOO_MANY, UNDERFLOW):
+                    if march.status in (RunStatus.TOO_MANY, RunStatus.UNDERFLOW):
                         march.sticks(leg, last=True)
                     break
             else:
-                march.status = 0
+                march.status = RunStatus.REACHED
         except _NotFiniteError:
-            march.status, march.reason = -2, march.f.why
+            march.status, march.reason = RunStatus.NOT_FINITE, march.f.why
     return march.outcome()
 
 
@@ -176,7 +177,7 @@ class _March:
         self.t, self.x = float(times[0]), np.array(x0, float)
         self.times, self.states = times, np.empty((len(times), len(x0)))
         self.states[0], self.stored = self.x, 1
-        self.status, self.reason, self.steps = 0, "", 0
+        self.status, self.reason, self.steps = RunStatus.REACHED, "", 0
         self.deadline = math.inf if bounds.seconds is None else clock.monotonic() + bounds.seconds
         self.hits: list[Hit] = []
         self.pace = Pace(self.t)
@@ -189,7 +190,7 @@ class _March:
             if self.crossings is not None:
                 self.crossings.start(self.t, self.x, leg.u, self.f)
                 if self.crossings.blind is not None:
-                    self.status = BLIND
+                    self.status = RunStatus.BLIND
                     return False
             solver = self.make(self.f, self.t, self.x, leg.end, **self.options)
             jumped = False
@@ -202,19 +203,19 @@ class _March:
                     self._failed(words)
                     return False
                 if not np.all(np.isfinite(solver.y)):
-                    self.status, self.reason = -2, "the state is not finite after this step"
+                    self.status, self.reason = RunStatus.NOT_FINITE, "the state is not finite after this step"
                     return False
                 jumped = self._advance(solver, leg)
-                if self.status != 0:
+                if self.status != RunStatus.REACHED:
                     return False
         return True
 
     def _within_bounds(self) -> bool:
         if self.steps >= self.bounds.max_steps:
-            self.status = -3
+            self.status = RunStatus.TOO_MANY
         elif clock.monotonic() > self.deadline:
-            self.status = -6
-        return self.status == 0
+            self.status = RunStatus.LATE
+        return self.status == RunStatus.REACHED
 
     def sticks(self, leg: Interval, *, last: bool = False) -> bool:
         """Whether the run sticks where ẋ jumps and gets on no more: looked at now and then, and at the ``last``."""
@@ -228,12 +229,12 @@ class _March:
             return False
         u = leg.u(self.t, self.x)
         if self.sticking.at(self.x, u, self.f.p, self.t, NEAR * (end - start)):
-            self.status, self.reason = CHATTERS, ""
-        return self.status == CHATTERS
+            self.status, self.reason = RunStatus.CHATTERS, ""
+        return self.status == RunStatus.CHATTERS
 
     def _failed(self, words: str | None) -> None:
         broken = self.f.trouble > 0
-        self.status = -2 if broken else -1
+        self.status = RunStatus.NOT_FINITE if broken else RunStatus.UNDERFLOW
         self.reason = self.f.why if broken else (words or "").strip().rstrip(".")
 
     def _advance(self, solver: Any, leg: Interval) -> bool:
@@ -248,19 +249,20 @@ class _March:
                 stuck = hit.after is not None and hit.time <= self.t and self.steps > 1  # the first may be at the start
                 self.t, self.x = hit.time, hit.before if hit.after is None else hit.after
                 if hit.terminal:
-                    self.status = 1
+                    self.status = RunStatus.TERMINAL
                 elif not np.all(np.isfinite(self.x)):
-                    self.status, self.reason, self.x = -2, "the state after an event is not finite", hit.before
+                    self.status, self.x = RunStatus.NOT_FINITE, hit.before
+                    self.reason = "the state after an event is not finite"
                 elif stuck:
-                    self.status = ZENO
+                    self.status = RunStatus.ZENO
                 elif crowded:
-                    self.status = CROWDED if hit.after is None else ZENO
+                    self.status = RunStatus.CROWDED if hit.after is None else RunStatus.ZENO
                 return True
         if self.crossings is not None and self.crossings.settled is not None:
-            self.status = ZENO
+            self.status = RunStatus.ZENO
             return True
         if self.crossings is not None and self.crossings.blind is not None:
-            self.status, end = BLIND, self.crossings.blind
+            self.status, end = RunStatus.BLIND, self.crossings.blind
             self._store(dense, end)
             self.t, self.x = end, np.array(dense(end)) if end > self.t else self.x
             return True

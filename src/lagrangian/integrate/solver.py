@@ -16,6 +16,7 @@ from lagrangian.codegen.arguments import InputGroup
 from lagrangian.codegen.buffers import address
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.graph import reached
+from lagrangian.integrate.status import RunStatus
 
 from . import check
 from .chattering import NEAR, Pace, Sticking
@@ -139,7 +140,7 @@ class Solver:
         knots of the inputs) are met exactly by equal steps between them. ``max_steps``, ``max_events``: a run ends
         there. ``deadline`` [s]: all runs end after that time of computing. ``store=False``: only final states.
 
-        Raises `RunError` where something does not fit; what fails on the way ends a run with a status (`STATUS`).
+        Raises `RunError` where something does not fit; what fails on the way ends a run with a status (`RunStatus`).
         """
         task = _Task(self, x0, times, u, p, store, rtol)
         task.accuracy(rtol, atol, step, max_steps, max_step, max_events)
@@ -195,7 +196,7 @@ class _Task:
         self.final = np.array(np.broadcast_to(x0, (count, size)), order="C")
         if store and count:
             self.states[:, 0] = x0
-        self.status = np.full(count, memory_layout.LATE)
+        self.status = np.full(count, RunStatus.LATE)
         self.reached = np.full(count, self.times[0])
         self.counts = {n: np.zeros(count, np.int64) for n in ("steps", "rejected", "evaluations", "event_count")}
         self.shared = self.machine.shared(parameters) if parameters.ndim == 1 else {}
@@ -296,7 +297,7 @@ class _Task:
             if not sticking.hopeless(pace, float(space[t]), int(words[steps] + words[rejected]), end, most):
                 continue
             if self._sticks(here, space[x : x + lanes * self.final.shape[1] : lanes], float(space[t])):
-                words[state], words[code] = memory_layout.ENDED, memory_layout.CHATTERS
+                words[state], words[code] = memory_layout.ENDED, RunStatus.CHATTERS
 
     def _sticks(self, run: int, x: Array, t: float) -> bool:
         """Whether a run sticks in a state; `lagrangian.integrate.chattering`."""
@@ -313,14 +314,14 @@ class _Task:
     def _stuck_at_last(self) -> None:
         """Of the runs that gave up, those that stick where they stopped have that status."""
         for run in np.flatnonzero(
-            np.isin(self.status, (memory_layout.TOO_MANY, memory_layout.UNDERFLOW, memory_layout.NO_CONVERGENCE))
+            np.isin(self.status, (RunStatus.TOO_MANY, RunStatus.UNDERFLOW, RunStatus.NO_CONVERGENCE))
         ):
             if self._sticks(int(run), self.final[run], float(self.reached[run])):
-                self.status[run] = memory_layout.CHATTERS
+                self.status[run] = RunStatus.CHATTERS
 
     def _stuck_on_the_way(self) -> None:
         """Steps of one length get through where others stick: such runs end at the first sample that sticks."""
-        for run in np.flatnonzero(self.status != memory_layout.CHATTERS).tolist():
+        for run in np.flatnonzero(self.status != RunStatus.CHATTERS).tolist():
             x, t = self.final[run : run + 1], self.reached[run : run + 1]
             if self.states.shape[1]:
                 went = int((self.times <= t[0]).sum())
@@ -330,7 +331,7 @@ class _Task:
                 found = np.flatnonzero(self._stuck(run, x[part], t[part]))
                 if len(found):
                     k = start + int(found[0])
-                    self.status[run], self.reached[run], self.final[run] = memory_layout.CHATTERS, t[k], x[k]
+                    self.status[run], self.reached[run], self.final[run] = RunStatus.CHATTERS, t[k], x[k]
                     self.states[run, k + 1 :] = math.nan
                     break
 

@@ -20,11 +20,8 @@ from numpy.typing import NDArray
 from lagrangian.advice import Advice
 from lagrangian.errors import Error, MissingExtra, RunError
 from lagrangian.integrate.seal import AGAIN, DONE, RESUME, StoreDocument, finished, open_document
+from lagrangian.integrate.status import RunStatus
 
-NOT_RUN = -128
-"""Status of a run that nobody has done yet."""
-LOST = -127
-"""Status of a run whose results are damaged."""
 LISTED = 3
 """Damaged chunks that are listed."""
 
@@ -55,7 +52,7 @@ def explained(path: Path, verb: str, kept: Callable[[], str] | None = None) -> I
 
 def fill(dtype: str, name: str) -> float | int:
     """What stands where a run has no result."""
-    return np.nan if dtype.startswith("float") else NOT_RUN if name == "status" else -1
+    return np.nan if dtype.startswith("float") else int(RunStatus.NOT_RUN) if name == "status" else -1
 
 
 def opened(document: StoreDocument, mode: str) -> dict[str, Any]:
@@ -120,7 +117,7 @@ class StoredResult:
             raise
         if self.name == "status":
             for index in self.stored.lost:
-                values[document.portions.box(index)] = LOST
+                values[document.portions.box(index)] = RunStatus.LOST
         return values
 
 

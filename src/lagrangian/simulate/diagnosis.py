@@ -9,9 +9,8 @@ from lagrangian import dynamics
 from lagrangian.advice import Advice, Argument
 from lagrangian.errors import RunError
 from lagrangian.graph import evaluate
-from lagrangian.integrate import STATUS
-from lagrangian.integrate.methods import memory_layout as at
 from lagrangian.integrate.scipy_methods import IMPLICIT, SCIPY, Outcome
+from lagrangian.integrate.status import RunStatus
 from lagrangian.page.plain import plain
 from lagrangian.simulate import sticking
 from lagrangian.simulate.integrating import Task, right_hand_side
@@ -38,9 +37,9 @@ def message(task: Task, outcome: Outcome) -> Advice:
         if task.drive.calls_python
         else ""
     )
-    if outcome.status == 0:
+    if outcome.status == RunStatus.REACHED:
         return Advice(f"the end of the interval was reached, t = {outcome.reached:g} s{slow}")
-    if outcome.status == 1:
+    if outcome.status == RunStatus.TERMINAL:
         name = task.events[outcome.hits[-1].index].title
         return Advice(f"event '{name}' ended the run at t = {outcome.reached:.9g} s{slow}")
     reason, fix = _reason(task, outcome)
@@ -48,9 +47,9 @@ def message(task: Task, outcome: Outcome) -> Advice:
 
 
 def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
-    said = outcome.reason or STATUS.get(outcome.status, "")
+    said = outcome.reason or outcome.status.message
     match outcome.status:
-        case at.UNDERFLOW | at.NOT_FINITE:
+        case RunStatus.UNDERFLOW | RunStatus.NOT_FINITE:
             singular = _singular(task, outcome)
             if singular:
                 return (
@@ -63,30 +62,30 @@ def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
             if said.startswith("["):  # the solver kept what an evaluation said
                 return said, "a finite value everywhere the run may get to"
             return f"[E504] {said}", _gentler(task, outcome)
-        case at.TOO_MANY:
+        case RunStatus.TOO_MANY:
             return (
                 f"[E505] gave up after {task.bounds.max_steps} steps",
                 Advice("a shorter run, a larger ", Argument("max_steps"), ", or ", RADAU),
             )
-        case at.ZENO:
+        case RunStatus.ZENO:
             return (
                 f"[E505] event '{_last_event(task, outcome)}' repeats itself without end: {len(outcome.hits)} events, "
                 "each changes the state",
                 Advice("let what touches come to rest with a terminal event, or raise ", Argument("max_events")),
             )
-        case at.CROWDED:
+        case RunStatus.CROWDED:
             return (
                 f"[E505] gave up after {len(outcome.hits)} events, the last of them '{_last_event(task, outcome)}'",
                 Advice("a shorter run, or a larger ", Argument("max_events")),
             )
-        case at.CHATTERS:
+        case RunStatus.CHATTERS:
             return sticking.stuck(task, outcome)
-        case at.BLIND:
+        case RunStatus.BLIND:
             return _blind(task, outcome), (
                 "a condition with a value wherever the run gets to, such as sqrt(max(x, 0)) for sqrt(x), or a terminal "
                 "event where it has none any more"
             )
-        case at.LATE:
+        case RunStatus.LATE:
             over = f"[E505] the time allowed for computing was over after {outcome.steps} steps"
             return over, Advice("a larger ", Argument("timeout"))
         case _:
@@ -147,7 +146,7 @@ def _blind(task: Task, outcome: Outcome) -> str:
             e, where = dark[0], "a moment later" if h else "there"
             condition = "" if e.title == plain(e.expression) else f", {plain(e.expression)},"
             return f"[E503] the condition of event '{e.title}'{condition} is not a number {where}"
-    return f"[E503] {STATUS[at.BLIND]}"
+    return f"[E503] {RunStatus.BLIND.message}"
 
 
 def _gentler(task: Task, outcome: Outcome) -> str:

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.errors import NoSuchEntry, RunError, did_you_mean
-from lagrangian.integrate import STATUS
-from lagrangian.integrate.stored import LOST, NOT_RUN, Stored
+from lagrangian.integrate.status import RunStatus
+from lagrangian.integrate.stored import Stored
 from lagrangian.simulate.plot import check_no_file
 from lagrangian.simulate.variation import SAMPLE, TIME
 from lagrangian.view.many import SweptAxis, SweptResult, draw_many
@@ -31,7 +31,7 @@ SHOWN = 20
 ROWS = 1 << 15
 """Rows that are written together."""
 
-UNDONE = {NOT_RUN: "not run yet", LOST: "its results are damaged"}
+UNDONE = (RunStatus.NOT_RUN, RunStatus.LOST)
 """Statuses of runs that have no results."""
 
 
@@ -151,7 +151,7 @@ class Ensemble(Mapping[str, NDArray[Any]]):
     def failures(self, most: int = SHOWN) -> list[Failure]:
         """The first runs that failed, with what varied there and why they ended."""
         status = self.status
-        places = np.flatnonzero((status < 0) & ~np.isin(status, list(UNDONE)))[:most]
+        places = np.flatnonzero((status < 0) & ~np.isin(status, UNDONE))[:most]
         reached = self["reached"]
         found = []
         for place in places:
@@ -255,7 +255,7 @@ class Ensemble(Mapping[str, NDArray[Any]]):
     def _failed(self) -> str:
         """How many runs failed and how, in words; nothing where none did."""
         status = self.status
-        lost = status[(status < 0) & (status != NOT_RUN)]
+        lost = status[(status < 0) & (status != RunStatus.NOT_RUN)]
         ways = ", ".join(_reason(int(s)) for s in np.unique(lost)[:3])
         return f"{lost.size} of {self.count} runs FAILED: {ways}" if lost.size else ""
 
@@ -351,4 +351,7 @@ ENDINGS: Mapping[str, Callable[[Ensemble, Path], None]] = {".csv": _csv, ".nc": 
 
 
 def _reason(status: int) -> str:
-    return UNDONE.get(status) or STATUS.get(status, f"status {status}")
+    try:
+        return RunStatus(status).message
+    except ValueError:  # from a store of a later version
+        return f"status {status}"

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from lagrangian import codegen as machine
 from lagrangian import dynamics
 from lagrangian.graph import Output, Program, jacobian
-from lagrangian.integrate import STATUS, Events, Signals, Solver
+from lagrangian.integrate import Events, RunStatus, Signals, Solver
 from lagrangian.integrate.crossings import Crossings, Hit
 from lagrangian.integrate.scipy_methods import IMPLICIT, SCIPY, Bounds, Outcome, integrate_scipy
 from lagrangian.model import Model
@@ -82,7 +82,7 @@ def remembered(model: Model, key: Any, make: Callable[[], Any]) -> Any:
 def run(task: Task) -> Outcome:
     """Integrate; the outcome's states are [q; v] and, where something supplies energy, what was supplied."""
     if len(task.times) == 1:
-        return Outcome(task.times, task.x0[np.newaxis], 0, float(task.times[0]), task.x0)
+        return Outcome(task.times, task.x0[np.newaxis], RunStatus.REACHED, float(task.times[0]), task.x0)
     if task.method in SCIPY:
         _log.info("integrating by %s of SciPy", task.method)
         return _by_scipy(task)
@@ -156,17 +156,18 @@ def _by_machine(task: Task) -> Outcome:
     states = found.states[0]
     whole = np.isfinite(states).all(axis=1)
     kept = len(whole) if whole.all() else int(np.argmin(whole))
+    status = RunStatus(int(found.status[0]))
     outcome = Outcome(
         times[:kept],
         states[:kept],
-        int(found.status[0]),
+        status,
         float(found.reached[0]),
         found.final[0],
         int(found.steps[0]),
         int(found.rejected[0]),
         int(found.evaluations[0]),
         _hits(task, found),
-        "" if found.status[0] >= 0 else STATUS[int(found.status[0])],
+        "" if status >= 0 else status.message,
     )
     return resets.ended(outcome, task.states, [e.title for e in task.events])
 

@@ -16,6 +16,7 @@ from lagrangian import dynamics, read
 from lagrangian.advice import Advice, Argument
 from lagrangian.calls import TRAJECTORY, Guided
 from lagrangian.errors import ModelError, NoSuchEntry, Notice, did_you_mean
+from lagrangian.integrate.status import RunStatus
 from lagrangian.model import Element, Model, Point, as_expr
 from lagrangian.simulate.integrating import remembered
 from lagrangian.viewed import Brief, Entries
@@ -87,7 +88,7 @@ class Recorded(Guided):
     model: Model = field(repr=False)
     t: Array
     y: Array
-    status: int
+    status: RunStatus
     success: bool
     message: str
     method: str

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.errors import RunError
-from lagrangian.integrate.methods.memory_layout import NOT_FINITE
 from lagrangian.integrate.scipy_methods import Outcome
+from lagrangian.integrate.status import RunStatus
 
 if TYPE_CHECKING:
     from lagrangian.codegen import Kernel
@@ -56,7 +56,7 @@ def ended(outcome: Outcome, states: Sequence[str], titles: Sequence[str]) -> Out
             outcome,
             times=outcome.times[:kept],
             states=outcome.states[:kept],
-            status=NOT_FINITE,
+            status=RunStatus.NOT_FINITE,
             reached=hit.time,
             final=hit.before,
             hits=[*outcome.hits[:k], replace(hit, after=None)],

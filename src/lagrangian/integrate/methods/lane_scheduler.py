@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from lagrangian.integrate.status import RunStatus
+
 from . import memory_layout as at
 from .evaluate import Tapes
 from .memory_layout import Lanes
@@ -129,7 +131,7 @@ class LaneScheduler:
         with p.repeat(p.lanes) as lane:
             late = self.compare("eq", p.get(lanes.state, lane, "i64"), str(at.RUNNING))
             with p.when(f.put(f"and i1 {late}, {quit_now}")):
-                self._end(lane, at.LATE)
+                self._end(lane, RunStatus.LATE)
             stopped = self.compare("eq", p.get(lanes.state, lane, "i64"), str(at.STOPPED))
             with p.when(stopped):
                 self._stop(lane, at.BENT if self.signals else at.RUNNING)
@@ -174,7 +176,7 @@ class LaneScheduler:
                 self.write_sample(lane, lanes.x.slot)
         over = self.compare("oge", t, self._last_time(), "double")
         with p.when(over):
-            self._end(lane, at.REACHED)
+            self._end(lane, RunStatus.REACHED)
         with p.when(f.put(f"xor i1 {over}, true")):
             self.next_stop(lane)
 

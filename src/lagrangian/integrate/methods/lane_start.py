@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Protocol
 
 from lagrangian.codegen.ir import Function, Value
+from lagrangian.integrate.status import RunStatus
 
 from . import memory_layout as at
 from .events import EventDetector
@@ -75,9 +76,9 @@ class LaneStart:
             self.loop.spend(fresh, 1)
             for block in self.loop.own_blocks:
                 p.map(lambda a, b: f.select(fresh, a, b), k, block, into=(block,))
-        broken, code = f.compare("une", trouble, 0.0), f.integer(at.NOT_FINITE)
+        broken, code = f.compare("une", trouble, 0.0), f.integer(RunStatus.NOT_FINITE)
         if self.loop.watch is not None:
-            code = p.whole_select(broken, code, f.integer(at.BLIND))
+            code = p.whole_select(broken, code, f.integer(RunStatus.BLIND))
             broken = f.logic("or", broken, self.loop.watch.arm(self.loop.inputs_at, self.loop.rate, new))
         broken = f.logic("and", fresh, broken)
         p.store_whole(p.whole_select(fresh, f.integer(at.RUNNING), state), lanes.state)

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING
 
 from lagrangian.codegen.emit import attributes
 from lagrangian.codegen.ir import Module, Value
+from lagrangian.integrate.status import RunStatus
 
 from . import events
 from . import memory_layout as at
@@ -185,7 +186,7 @@ class Loop:
         p.store(f.select(good, left, p.load(lanes.left)), lanes.left)
         arrived = f.logic("and", good, f.compare("ole", left, 0.0))
         broken = f.logic("and", running, f.opposite(fine))
-        code = p.whole_select(finite, self._constant(at.NO_CONVERGENCE), self._constant(at.NOT_FINITE))
+        code = p.whole_select(finite, self._constant(RunStatus.NO_CONVERGENCE), self._constant(RunStatus.NOT_FINITE))
         self._attend(running, arrived, broken, code)
 
     def _adaptive(self, t: Value, stop: Value, running: str) -> None:
@@ -211,7 +212,7 @@ class Loop:
         rejected = p.load_whole(lanes.rejected)
         one = f.put(f"zext {f.flag} {bad} to {f.whole}")
         p.store_whole(f.put(f"add {f.whole} {rejected}, {one}"), lanes.rejected)
-        code = p.whole_select(finite, self._constant(at.UNDERFLOW), self._constant(at.NOT_FINITE))
+        code = p.whole_select(finite, self._constant(RunStatus.UNDERFLOW), self._constant(RunStatus.NOT_FINITE))
         self._attend(running, f.logic("and", good, last), stuck, code)
 
     def _expanding(self, t: Value, stop: Value, running: str) -> None:
@@ -237,7 +238,7 @@ class Loop:
         p.store(f.select(f.logic("and", good, f.compare("ogt", wanted, 0.0)), wanted, unit), lanes.h)
         self._commit(s, good, new_t)
         broken = f.logic("or", stuck, f.logic("and", running, f.opposite(fine)))
-        code = p.whole_select(fine, self._constant(at.UNDERFLOW), self._constant(at.NOT_FINITE))
+        code = p.whole_select(fine, self._constant(RunStatus.UNDERFLOW), self._constant(RunStatus.NOT_FINITE))
         arrived = f.logic("and", f.logic("and", good, last), f.opposite(broken))
         self._attend(running, arrived, broken, code)
 
@@ -346,16 +347,16 @@ class Loop:
         f.do(f"br i1 {p.any(any_flag)}, label %mark, label %head")
         f.label("mark")
         state, codes = p.load_whole(lanes.state), p.load_whole(lanes.code)
-        code = p.whole_select(broken, code, self._constant(at.TOO_MANY))
+        code = p.whole_select(broken, code, self._constant(RunStatus.TOO_MANY))
         changes = [(arrived, at.STOPPED, ""), (over, at.ENDED, code)]
         if watch is not None:
             held = p.load_whole(watch.cut)
             for why, becomes, how in (
                 (events.RESET, at.CUT, ""),
-                (events.ENDS, at.ENDED, self._constant(at.TERMINAL)),
-                (events.HEAPS, at.ENDED, self._constant(at.ZENO)),
-                (events.CROWDS, at.ENDED, self._constant(at.CROWDED)),
-                (events.BLIND, at.ENDED, self._constant(at.BLIND)),
+                (events.ENDS, at.ENDED, self._constant(RunStatus.TERMINAL)),
+                (events.HEAPS, at.ENDED, self._constant(RunStatus.ZENO)),
+                (events.CROWDS, at.ENDED, self._constant(RunStatus.CROWDED)),
+                (events.BLIND, at.ENDED, self._constant(RunStatus.BLIND)),
             ):
                 changes.append((p.whole_is(held, why), becomes, how))
         for flag, becomes, how in changes:

@@ -22,21 +22,6 @@ EMPTY, NEW, BENT, RUNNING, ENDED, STOPPED, CUT = range(7)
 """What a lane does: nothing; begins; goes on after the right-hand side changed; runs; is over; reached a stop point;
 left a step at an event."""
 
-REACHED, TERMINAL, UNDERFLOW, NOT_FINITE, TOO_MANY, ZENO, NO_CONVERGENCE, LATE = 0, 1, -1, -2, -3, -4, -5, -6
-"""How a run ended."""
-
-UNFIT = -7
-"""A run that was not begun."""
-
-CHATTERS = -8
-"""A run that sticks where its right-hand side jumps."""
-
-CROWDED = -9
-"""A run with more events than it may have, which change nothing: its motion is not over."""
-
-BLIND = -10
-"""A run that came to where the condition of an event is not a number: whether it crosses zero there has no answer."""
-
 DONE, PAUSED, FULL = 0, 1, 2
 """Why the machine code came back: all runs of the range are over, the budget is spent, the log of events is full."""
 

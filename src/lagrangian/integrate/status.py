@@ -1,0 +1,36 @@
+"""How runs end."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+
+
+class RunStatus(IntEnum):
+    """How a run ended, with a ``message`` in words; negative numbers are failures, or runs without results.
+
+    >>> RunStatus(-3).message
+    'the limit on the number of steps was reached'
+    """
+
+    message: str
+
+    def __new__(cls, value: int, message: str) -> RunStatus:
+        """Make the member, which is the number."""
+        made = int.__new__(cls, value)
+        made._value_, made.message = value, message
+        return made
+
+    TERMINAL = 1, "a terminal event ended the run"
+    REACHED = 0, "the end was reached"
+    UNDERFLOW = -1, "the step size fell below the resolution of time"
+    NOT_FINITE = -2, "the derivative or the state is not finite"
+    TOO_MANY = -3, "the limit on the number of steps was reached"
+    ZENO = -4, "events accumulate: too many change the state, or no time passes between them"
+    NO_CONVERGENCE = -5, "the implicit stages do not converge"
+    LATE = -6, "the time allowed for computing was over"
+    UNFIT = -7, "a mass is not above 0, or a moment of inertia is below"
+    CHATTERS = -8, "the motion sticks where a force jumps: steps get ever shorter, or jump to and fro"
+    CROWDED = -9, "the limit on the number of events was reached"
+    BLIND = -10, "the condition of an event is not a number"
+    LOST = -127, "its results are damaged"
+    NOT_RUN = -128, "not run yet"
