@@ -128,16 +128,14 @@ def test_a_wrong_type_is_one_readable_error(misuse):
         misuse(system, x)
 
 
-COMMAND = [sys.executable, "-m", "lagrangian", "derive"]
 shell = pytest.mark.skipif(not Path("/dev/full").is_char_device(), reason="no /dev/full here")
 
 
 @shell
 def test_a_full_disk_is_one_message():
     with Path("/dev/full").open("wb") as full:
-        done = subprocess.run(
-            [*COMMAND, "-e", "lecture-1"], stdout=full, stderr=subprocess.PIPE, text=True, check=False
-        )
+        command = [sys.executable, "-m", "lagrangian", "schema"]
+        done = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
     assert done.returncode == 2
     assert "no space left" in done.stderr
     assert "Traceback" not in done.stderr

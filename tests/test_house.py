@@ -6,6 +6,7 @@ import re
 import shutil
 import subprocess
 import sys
+from functools import cache
 
 import pytest
 
@@ -14,6 +15,12 @@ import lagrangian
 ROOT = pathlib.Path(__file__).parent.parent
 SOURCE = ROOT / "src" / "lagrangian"
 FILES = sorted(SOURCE.rglob("*.py"))
+
+
+@cache
+def nodes(file: pathlib.Path) -> list[ast.AST]:
+    """Everything in a source file, parsed once."""
+    return list(ast.walk(ast.parse(file.read_text(encoding="utf-8"))))
 
 
 def run(*command: str) -> subprocess.CompletedProcess[str]:
@@ -55,7 +62,7 @@ def test_all_is_the_sorted_public_names() -> None:
 def test_text_is_never_run(file: pathlib.Path) -> None:
     called = {
         node.func.id if isinstance(node.func, ast.Name) else node.func.attr
-        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+        for node in nodes(file)
         if isinstance(node, ast.Call) and isinstance(node.func, (ast.Name, ast.Attribute))
     }
     assert not called & {"eval", "exec", "parse_expr", "lambdify"}, called
@@ -83,8 +90,7 @@ def _reads_a_clock(node: ast.AST) -> bool:
 @pytest.mark.parametrize("file", TESTS, ids=lambda f: str(f.relative_to(ROOT / "tests")))
 def test_no_test_measures_time(file: pathlib.Path) -> None:
     """A busy machine is slow, and a slow one is no fault: tests count calls and steps, ``bench/`` measures."""
-    nodes = ast.walk(ast.parse(file.read_text(encoding="utf-8")))
-    assert not [node.lineno for node in nodes if _reads_a_clock(node)]  # type: ignore[attr-defined]
+    assert not [node.lineno for node in nodes(file) if _reads_a_clock(node)]  # type: ignore[attr-defined]
 
 
 def test_no_room_without_a_purpose() -> None:
@@ -116,7 +122,7 @@ def test_a_class_name_occurs_once() -> None:
     """Whoever searches for a class finds one; private ones, of one file alone, may repeat."""
     found: dict[str, list[str]] = {}
     for file in FILES:
-        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        for node in nodes(file):
             if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
                 found.setdefault(node.name, []).append(str(file.relative_to(SOURCE)))
     assert not {name: files for name, files in found.items() if len(files) > 1}

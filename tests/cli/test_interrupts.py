@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import io
 import logging
 import os
@@ -11,6 +12,7 @@ import sys
 from functools import partial
 from importlib import import_module
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -23,29 +25,54 @@ if os.name != "posix":
 HEARD = partial(signal.signal, signal.SIGINT, signal.default_int_handler)
 """As a terminal starts a command: tests that run in the background pass on that interrupts are ignored."""
 
+IMPORTED = ["typer", "lagrangian.cli.simulate", "numpy", "sympy", "lagrangian.dynamics", "lagrangian.codegen.native"]
+
 AS_IT_IMPORTS = """
-import sys, signal
+import os, signal, sys, tempfile
+from lagrangian.interrupts import interrupts
+wanted = set({names!r})
 class Interrupt:
     def find_spec(self, name, path=None, target=None):
-        if name == {name!r}:
-            sys.meta_path.remove(self)
-            signal.raise_signal(signal.SIGINT)
+        if name not in wanted:
+            return
+        wanted.remove(name)
+        with tempfile.TemporaryFile() as said:
+            child = os.fork()
+            if not child:  # the command as it is now, with a watching thread of its own
+                os.dup2(said.fileno(), 1), os.dup2(said.fileno(), 2)
+                signal.set_wakeup_fd(-1)
+                signal.signal(signal.SIGINT, signal.default_int_handler)
+                interrupts.listen()
+                sys.meta_path.remove(self)
+                signal.raise_signal(signal.SIGINT)
+                return
+            code = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+            said.seek(0)
+            print((name, code, said.read().decode()), flush=True)
+        if not wanted:
+            os._exit(0)
 signal.signal(signal.SIGINT, signal.default_int_handler)
 sys.meta_path.insert(0, Interrupt())
-sys.argv = ["lagrangian", *{line}]
+sys.argv = ["lagrangian", "simulate", "-e", "pendulum", "-d", "1"]
 from lagrangian.cli import run
 run()
 """
 
 
-@pytest.mark.parametrize(
-    "name",
-    ["typer", "lagrangian.cli.simulate", "numpy", "sympy", "lagrangian.dynamics", "lagrangian.codegen.native"],
-)
-def test_an_interrupt_while_something_is_imported_is_one_line(name: str) -> None:
-    code = AS_IT_IMPORTS.format(name=name, line=["simulate", "-e", "pendulum", "-d", "1"])
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stdout, done.stderr) == (130, "", "interrupted\n")
+@pytest.fixture(scope="module")
+def interrupted() -> dict[str, tuple[int, str]]:
+    """The exit code of a command, and all it wrote, by the module whose import was interrupted.
+
+    One command imports them all; where each begins, a copy of the process is interrupted.
+    """
+    command = [sys.executable, "-W", "ignore", "-c", AS_IT_IMPORTS.format(names=IMPORTED)]
+    done = subprocess.run(command, capture_output=True, text=True, check=True)
+    return {name: (code, said) for name, code, said in map(ast.literal_eval, done.stdout.splitlines())}
+
+
+@pytest.mark.parametrize("name", IMPORTED)
+def test_an_interrupt_while_something_is_imported_is_one_line(interrupted: Any, name: str) -> None:
+    assert interrupted[name] == (130, "interrupted\n")
 
 
 SWALLOWED = """
@@ -80,9 +107,22 @@ def test_an_interrupt_that_a_library_swallows_ends_the_command_all_the_same(work
     assert (done.returncode, done.stdout, done.stderr) == (130, "", "interrupted\n")
 
 
+IGNORED = """
+import signal, sys
+class Interrupt:
+    def find_spec(self, name, path=None, target=None):
+        if name == "typer":
+            signal.raise_signal(signal.SIGINT)
+signal.signal(signal.SIGINT, signal.SIG_IGN)
+sys.meta_path.insert(0, Interrupt())
+sys.argv = ["lagrangian", "examples"]
+from lagrangian.cli import run
+run()
+"""
+
+
 def test_an_interrupt_that_is_ignored_stays_ignored() -> None:
-    code = AS_IT_IMPORTS.format(name="typer", line=["examples"]).replace("signal.default_int_handler", "signal.SIG_IGN")
-    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False)
+    done = subprocess.run([sys.executable, "-c", IGNORED], capture_output=True, text=True, check=False)
     assert done.returncode == 0 and "pendulum" in done.stdout
 
 
