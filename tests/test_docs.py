@@ -10,6 +10,7 @@ from typing import Any
 import pytest
 import typer
 
+import lagrangian as lg
 from lagrangian.cli.app import app
 
 ROOT = pathlib.Path(__file__).parent.parent
@@ -36,6 +37,12 @@ def test_links_between_the_papers_lead_somewhere(path: str) -> None:
     here = ROOT / path
     for target in re.findall(r"\]\(([^)#]+)\)", here.read_text(encoding="utf-8")):
         assert "://" in target or (here.parent / target).exists(), f"{path}: {target}"
+
+
+def test_the_reference_has_every_public_name_once() -> None:
+    text = (ROOT / "docs" / "reference.md").read_text(encoding="utf-8")
+    listed = re.findall(r"^\.\. auto(?:class|function):: lagrangian\.(\w+)$", text, flags=re.M)
+    assert sorted(listed) == sorted(lg.__all__)
 
 
 COMMANDS = [

@@ -1,0 +1,45 @@
+"""Formulas of the manual as MathML: browsers set it themselves, so no page needs a script or a network."""
+
+import re
+from typing import Any
+
+from docutils import nodes
+from latex2mathml.converter import convert
+
+BOXED = re.compile(r"\\boxed\{(.*)\}", re.S)
+FUNCTION = re.compile(r"<m[io]>(sin|cos|tan|cot|exp|ln|log|arctan)</m[io]>")
+ALIGNED = re.compile(r"\\begin\{aligned\}(.*?)\\end\{aligned\}", re.S)
+
+
+def columns(aligned: re.Match[str]) -> str:
+    """An ``aligned``, which the converter does not know, as an array of equations and their numbers."""
+    rows = [row.replace("&&", r"& \quad").strip().removeprefix("&") for row in aligned[1].split(r"\\")]
+    return r"\begin{array}{ll}" + r" \\ ".join(rows) + r"\end{array}"
+
+
+def mathml(latex: str, display: str) -> str:
+    """The MathML of a formula."""
+    latex = ALIGNED.sub(columns, latex.strip()).replace(r"\#", "#")
+    found = convert(latex, display=display).replace("<mover>", '<mover accent="true">')
+    return FUNCTION.sub(r'<mo lspace="0.17em" rspace="0.17em">\1</mo>', found)
+
+
+def inline(writer: Any, node: nodes.math) -> None:
+    """Write a formula within a line."""
+    writer.body.append(mathml(node.astext(), "inline"))
+    raise nodes.SkipNode
+
+
+def block(writer: Any, node: nodes.math_block) -> None:
+    """Write a formula on lines of its own, in a frame where it is a result."""
+    latex = node.astext().strip()
+    boxed = BOXED.fullmatch(latex)
+    css = "formula result" if boxed else "formula"
+    writer.body.append(f'<div class="{css}">{mathml(boxed[1] if boxed else latex, "block")}</div>\n')
+    raise nodes.SkipNode
+
+
+def setup(app: Any) -> dict[str, bool]:
+    """Register the renderer."""
+    app.add_html_math_renderer("mathml", inline_renderers=(inline, None), block_renderers=(block, None))
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
