@@ -6,6 +6,7 @@ from typing import Any, ClassVar
 import pytest
 
 from lagrangian.model import REGISTRY, Element
+from lagrangian.model.elements import FieldKind
 from lagrangian.model.elements.base import QUESTIONS, QUESTIONS_OF
 
 PAIRS = [(kind, q) for kind, made in REGISTRY.items() for q in (*QUESTIONS, *QUESTIONS_OF[made.ledger])]
@@ -43,3 +44,17 @@ def test_what_belongs_to_another_column_is_not_asked() -> None:
 
     assert "acts_on" not in QUESTIONS_OF["T*"] and "stored" not in QUESTIONS_OF["Ξ"]
     assert issubclass(Half, Element)
+
+
+def test_every_way_to_write_a_field_has_a_schema_and_a_reader() -> None:
+    from lagrangian.read import file_elements, file_schema
+
+    assert set(file_schema._TYPES) == set(file_elements._FIELDS) == set(FieldKind)
+
+
+def test_the_file_has_an_array_of_tables_for_every_kind_with_every_field() -> None:
+    from lagrangian.read.file_schema import TABLES, ModelFile
+
+    assert list(TABLES) == list(REGISTRY) and set(REGISTRY) <= set(ModelFile.model_fields)
+    for kind, made in REGISTRY.items():
+        assert list(TABLES[kind].model_fields) == ["name", *made.entries]

@@ -12,11 +12,11 @@ import sympy as sp
 
 from lagrangian.codes import CodeText
 from lagrangian.errors import ModelError, ParseError, Place, did_you_mean
-from lagrangian.model import Builder
+from lagrangian.model import REGISTRY, Builder
 from lagrangian.quantities.quantity import Quantity, parse_unit, read_quantity, unit_and_words
 from lagrangian.quantities.source import shown
 from lagrangian.read import file_schema as schema
-from lagrangian.read.file_elements import KINDS, add_element
+from lagrangian.read.file_elements import add_element
 from lagrangian.read.file_floating import FloatingFrames
 from lagrangian.read.file_geometry import Geometry
 from lagrangian.read.file_reading import Reading
@@ -219,7 +219,7 @@ class Loader(Reading):
     def _elements(self) -> None:
         """Add the elements in the order of the file, whatever their kinds."""
         found: list[tuple[int, Path, Callable[[], None]]] = []
-        for kind in KINDS:
+        for kind in REGISTRY:
             for number, table in enumerate(getattr(self.file, kind)):
                 path = (kind, number)
                 add = partial(add_element, self, self.geometry, kind, table, path)
@@ -238,12 +238,14 @@ class Loader(Reading):
         if key == "Xi":
             for coordinate, value in table.Xi.items():
                 path = ("energies", "Xi", coordinate)
-                made = schema.GeneralizedForceTable(name=f"Xi_{coordinate}", coordinate=coordinate, value=value)
+                given = {"name": f"Xi_{coordinate}", "coordinate": coordinate, "value": value}
+                made = schema.TABLES["generalized_force"](**given)
                 add_element(self, self.geometry, "generalized_force", made, path, path)
             return
         kind, name = {"T": ("kinetic", "T*"), "V": ("potential", "V"), "D": ("dissipation", "D")}[key]
         path = ("energies", key)
-        add_element(self, self.geometry, kind, schema.EnergyTable(name=name, value=getattr(table, key)), path, path)
+        made = schema.TABLES[kind](**{"name": name, "value": getattr(table, key)})
+        add_element(self, self.geometry, kind, made, path, path)
 
     # -- simulation ---------------------------------------------------------------------------------------------
 

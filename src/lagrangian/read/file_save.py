@@ -9,7 +9,6 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable
-from dataclasses import fields
 from fractions import Fraction
 from typing import Any
 
@@ -18,8 +17,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.errors import ModelError, ParseError
 from lagrangian.model import Coordinate, Element, Floating, Frame, Model, Parameter, Point
-from lagrangian.model.elements.damper import RATE
-from lagrangian.model.elements.spring import DELTA
+from lagrangian.model.elements.answers import REQUIRED
 from lagrangian.page.plain import plain
 from lagrangian.quantities.quantity import parse_quantity, parse_unit, unit_and_words
 from lagrangian.read.expression import parse_expression
@@ -27,7 +25,6 @@ from lagrangian.read.scope import Scope
 
 _BARE = re.compile(r"[A-Za-z0-9_-]+\Z")
 _ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\t": "\\t", "\r": "\\r", "\b": "\\b", "\f": "\\f"}
-_LOCAL = {"law": (DELTA, RATE), "energy": (DELTA,)}
 
 
 def dumps(model: Model) -> str:
@@ -228,14 +225,11 @@ class _Writer:
     def _element(self, element: Element) -> None:
         """Write an element: its fields in their order, those that were not given left out."""
         rows = [("name", _text(element.name))]
-        for key in (f.name for f in fields(element)):
+        for key, entry in element.entries.items():
             value = getattr(element, key)
-            if key in ("name", "place") or value is None:
-                continue
-            derived = key == "energy" and getattr(element, "law", None) is not None
-            if derived or (key == "rest" and value == 0):
-                continue
-            rows.append((key, self._field(element, key, value)))
+            made = entry.made_from and getattr(element, entry.made_from) is not None
+            if not made and (entry.default is REQUIRED or value != entry.default):
+                rows.append((key, self._field(element, key, value)))
         self.lines += ["", f"[[{element.kind}]]", *(f"{key} = {value}" for key, value in rows)]
 
     def _field(self, element: Element, key: str, value: Any) -> str:
@@ -254,7 +248,7 @@ class _Writer:
             if isinstance(value[0], Point):
                 return "[" + ", ".join(self.point(p, what) for p in value) + "]"
             return self.vector(value, what)
-        return self.expression(value, what, _LOCAL.get(key, ()))
+        return self.expression(value, what, element.entries[key].local)
 
     def _settings(self) -> None:
         if self.model.settings:

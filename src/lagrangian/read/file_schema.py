@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, Any, TypeAlias
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, create_model
+
+from lagrangian.model import REGISTRY, Element
+from lagrangian.model.elements import FieldKind
 
 
 def _form(value: object) -> str | None:
@@ -117,83 +120,44 @@ class ElementTable(_Table):
     name: str = Field("", description="The element's name, its own in the system.")
 
 
-class ParticleTable(ElementTable):
-    """A point mass: T* = ½ m v²."""
+_TYPES: dict[FieldKind, Any] = {
+    FieldKind.EXPRESSION: Expression,
+    FieldKind.VECTOR: Vector,
+    FieldKind.EXPRESSION_OR_VECTOR: ExpressionOrVector,
+    FieldKind.POINT: PointReference,
+    FieldKind.TWO_POINTS: Between,
+    FieldKind.FRAME: str,
+    FieldKind.FRAME_OR_ANGLE: Expression,
+    FieldKind.BODY_FRAME: Expression,
+    FieldKind.INERTIA: Inertia,
+    FieldKind.COORDINATE: str,
+    FieldKind.STRENGTH_OF_GRAVITY: Expression,
+}
 
-    mass: Expression = Field(description="The mass, made of parameters.")
-    at: PointReference = Field(description="The point it is at.")
 
-
-class RigidBodyTable(ElementTable):
-    """A rigid body: T* = ½ m v² + ½ J ω²."""
-
-    mass: Expression = Field(description="The mass, made of parameters.")
-    inertia: Inertia = Field(
-        description="About the centre of mass: J in the plane; three principal moments or a 3×3 tensor in space."
+def _table(owner: type[Element]) -> type[ElementTable]:
+    """The table of a kind of element, or of a family of kinds that share their fields."""
+    given: dict[str, Any] = {}
+    for key, entry in owner.entries.items():
+        form = _TYPES[entry.kind] if entry.default is not None else _TYPES[entry.kind] | None
+        default = float(entry.default) if isinstance(entry.default, int) else entry.default
+        given[key] = (form, Field(default, description=entry.about))
+    return create_model(
+        f"{owner.__name__}Table", __base__=ElementTable, __doc__=owner.about, __module__=__name__, **given
     )
-    at: PointReference = Field(description="Its centre of mass.")
-    frame: Expression = Field(description="The frame that turns with it; in the plane an angle will do.")
 
 
-class GravityTable(ElementTable):
-    """Gravity: V = Σ m g h."""
-
-    direction: Vector = Field(description="Which way is down: [0, -1].")
-    g: Expression | None = Field(None, description="Its strength; the parameter g, 9.81 m/s², if left out.")
-    datum: PointReference | None = Field(None, description="The point where h = 0; the origin if left out.")
-
-
-class SpringTable(ElementTable):
-    """A spring: V = ½ k (δ − rest)², or by its law."""
-
-    k: Expression | None = Field(None, description="Its stiffness.")
-    between: Between | None = Field(None, description="The two points it joins.")
-    deflection: Expression | None = Field(None, description="Its deflection δ, instead of two points.")
-    rest: Expression = Field(0.0, description="The deflection without force.")
-    law: Expression | None = Field(None, description="Its pull as an expression in delta, instead of k.")
-    energy: Expression | None = Field(None, description="Its energy as an expression in delta, instead of k.")
+def _tables() -> dict[str, type[ElementTable]]:
+    made: dict[type[Element], type[ElementTable]] = {}
+    found: dict[str, type[ElementTable]] = {}
+    for kind, element in REGISTRY.items():
+        owner = next(c for c in element.__mro__ if "entries" in vars(c))
+        found[kind] = made.setdefault(owner, made[owner] if owner in made else _table(owner))
+    return found
 
 
-class DamperTable(ElementTable):
-    """A damper: D = ½ b δ̇², or by its law."""
-
-    b: Expression | None = Field(None, description="Its coefficient.")
-    between: Between | None = Field(None, description="The two points it joins.")
-    deflection: Expression | None = Field(None, description="Its deflection δ, instead of two points.")
-    law: Expression | None = Field(None, description="Its pull as an expression in rate, instead of b.")
-
-
-class ForceTable(ElementTable):
-    """A force: a vector at a point, or a scalar along a deflection."""
-
-    value: ExpressionOrVector = Field(description="A vector [Fx, Fy] at a point, or one value along a deflection.")
-    at: PointReference | None = Field(None, description="The point a vector acts at.")
-    reaction: PointReference | None = Field(None, description="The point that feels its opposite.")
-    axes: str | None = Field(None, description="The frame whose axes the vector is given in.")
-    between: Between | None = Field(None, description="Two points; a positive value pushes them apart.")
-    deflection: Expression | None = Field(None, description="A deflection, instead of two points.")
-
-
-class TorqueTable(ElementTable):
-    """A torque on an angle or on a frame."""
-
-    value: ExpressionOrVector = Field(description="The torque; in space it may be a vector in the fixed axes.")
-    on: Expression = Field(description="The angle it turns, as an expression, or a frame.")
-    reaction: Expression | None = Field(None, description="The angle or frame that feels its opposite.")
-    axes: str | None = Field(None, description="The frame whose axes the three components are given in.")
-
-
-class EnergyTable(ElementTable):
-    """An energy or power as an expression."""
-
-    value: Expression = Field(description="The expression.")
-
-
-class GeneralizedForceTable(ElementTable):
-    """A generalized force Ξ on one coordinate."""
-
-    coordinate: str = Field(description="The coordinate, or the velocity of a floating frame.")
-    value: Expression = Field(description="The force, as an expression.")
+TABLES = _tables()
+"""The table of every kind of element, by the name of the kind."""
 
 
 class EnergiesTable(_Table):
@@ -220,8 +184,8 @@ Parameter: TypeAlias = Annotated[_Text | _Number | Annotated[ParameterTable, Tag
 Input: TypeAlias = Annotated[_Text | Annotated[InputTable, Tag("table")], _ByForm]
 
 
-class ModelFile(_Table):
-    """A mechanical system as a TOML file of the package `lagrangian`."""
+class _Described(_Table):
+    """What stands before the elements."""
 
     name: str = Field(description="The system's name.")
     coordinates: dict[str, Coordinate] = Field(
@@ -234,17 +198,18 @@ class ModelFile(_Table):
     define: dict[str, Expression] = Field(default_factory=dict, description="Named expressions, in order.")
     points: dict[str, PointValue] = Field(default_factory=dict, description="Named points.")
     frame: list[FrameTable] = Field(default_factory=list, description="Frames.")
-    particle: list[ParticleTable] = Field(default_factory=list, description="Point masses.")
-    rigid_body: list[RigidBodyTable] = Field(default_factory=list, description="Rigid bodies.")
-    gravity: list[GravityTable] = Field(default_factory=list, description="Gravity.")
-    spring: list[SpringTable] = Field(default_factory=list, description="Springs.")
-    damper: list[DamperTable] = Field(default_factory=list, description="Dampers.")
-    force: list[ForceTable] = Field(default_factory=list, description="Forces.")
-    torque: list[TorqueTable] = Field(default_factory=list, description="Torques.")
-    potential: list[EnergyTable] = Field(default_factory=list, description="Potential energies.")
-    kinetic: list[EnergyTable] = Field(default_factory=list, description="Kinetic co-energies.")
-    dissipation: list[EnergyTable] = Field(default_factory=list, description="Rayleigh's dissipation functions.")
-    generalized_force: list[GeneralizedForceTable] = Field(default_factory=list, description="Generalized forces.")
+
+
+_ARRAYS: dict[str, Any] = {
+    kind: (list[table], Field(default_factory=list, description=REGISTRY[kind].plural))
+    for kind, table in TABLES.items()
+}
+_WithElements = create_model("_WithElements", __base__=_Described, **_ARRAYS)
+
+
+class ModelFile(_WithElements):
+    """A mechanical system as a TOML file of the package `lagrangian`."""
+
     energies: EnergiesTable | None = Field(None, description="Energies of the whole system.")
     simulate: SimulateTable | None = Field(None, description="What to simulate.")
 

@@ -302,18 +302,11 @@ def _table_of(path: Path, data: dict[str, Any]) -> type[BaseModel]:
         "energies": schema.EnergiesTable,
         "simulate": schema.SimulateTable,
         "frame": schema.FrameTable,
-        "particle": schema.ParticleTable,
-        "rigid_body": schema.RigidBodyTable,
-        "gravity": schema.GravityTable,
-        "spring": schema.SpringTable,
-        "damper": schema.DamperTable,
-        "force": schema.ForceTable,
-        "torque": schema.TorqueTable,
-        "generalized_force": schema.GeneralizedForceTable,
+        **schema.TABLES,
     }
     if len(path) >= 3:  # a table inside an element can only be a point
         return schema.PointTable
-    return tables.get(section, schema.EnergyTable)
+    return tables[section]
 
 
 def _description(path: Path, data: dict[str, Any]) -> str:

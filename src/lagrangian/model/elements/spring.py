@@ -63,7 +63,7 @@ class Spring(Element):
         "k": Entry(FieldKind.EXPRESSION, "Its stiffness."),
         "between": Entry(FieldKind.TWO_POINTS, "The two points it joins."),
         "deflection": Entry(FieldKind.EXPRESSION, "Its deflection δ, instead of two points."),
-        "rest": Entry(FieldKind.EXPRESSION, "The deflection without force.", 0.0),
+        "rest": Entry(FieldKind.EXPRESSION, "The deflection without force.", 0),
         "law": Entry(FieldKind.EXPRESSION, "Its pull as an expression in delta, instead of k.", local=(DELTA,)),
         "energy": Entry(
             FieldKind.EXPRESSION,
