@@ -12,9 +12,15 @@ ALIGNED = re.compile(r"\\begin\{aligned\}(.*?)\\end\{aligned\}", re.S)
 
 
 def columns(aligned: re.Match[str]) -> str:
-    """An ``aligned``, which the converter does not know, as an array of equations and their numbers."""
-    rows = [row.replace("&&", r"& \quad").strip().removeprefix("&") for row in aligned[1].split(r"\\")]
-    return r"\begin{array}{ll}" + r" \\ ".join(rows) + r"\end{array}"
+    """An ``aligned``, which the converter does not know, as a column of lines and one of the equations' numbers."""
+    return r"\begin{array}{ll}" + r" \\ ".join(map(row, aligned[1].split(r"\\"))) + r"\end{array}"
+
+
+def row(latex: str) -> str:
+    """One line; what goes on with an = is set in."""
+    line, _, number = latex.strip().partition("&&")
+    line = re.sub(r"^& *=", r"\\quad =", line).replace("&", "", 1)
+    return f"{line} & {number}"
 
 
 def mathml(latex: str, display: str) -> str:

@@ -111,6 +111,7 @@ def test_a_script_can_be_run(path: pathlib.Path) -> None:
 def test_the_papers_name_the_version() -> None:
     citation = read(ROOT / "CITATION.cff")
     assert citation["version"] == PROJECT["version"]
+    assert f"version = {{{PROJECT['version']}}}" in " ".join((ROOT / "docs" / "citing.md").read_text("utf-8").split())
     assert citation["license"] == PROJECT["license"]
     assert citation["keywords"] == PROJECT["keywords"]
     assert citation["abstract"] == PROJECT["description"]
