@@ -275,6 +275,10 @@ class Described(Guided):
         """Add a generalized force Ξ on one coordinate, or on one velocity of a floating frame."""
         return self._builder.add(GeneralizedForce(coordinate=coordinate, value=value, name=name))
 
+    def add(self, element: Element) -> Element:
+        """Add an element that was made from its class, as of a kind of your own."""
+        return self._builder.add(element)
+
     @property
     def elements(self) -> tuple[Element, ...]:
         """What was added so far, in order."""
