@@ -12,6 +12,8 @@ import pytest
 from lagrangian.codes import Code, CodeText
 from lagrangian.errors import ModelError, Notice
 from lagrangian.integrate.status import RunStatus
+from lagrangian.page.formula import TermKind
+from lagrangian.write import html_page
 
 ROOT = pathlib.Path(__file__).parent.parent
 PAGE = ROOT / "docs" / "errors.md"
@@ -49,6 +51,10 @@ def test_the_manual_names_known_statuses() -> None:
     named = [n for file in MANUAL for n in re.findall(r"status ([−-]?\d+)", file.read_text(encoding="utf-8"))]
     assert len(named) > 4
     assert {int(n.replace("−", "-")) for n in named} <= set(RunStatus)
+
+
+def test_the_legend_names_every_kind_of_term() -> None:
+    assert set(html_page.KINDS) == set(typing.get_args(TermKind))
 
 
 @pytest.mark.parametrize("code", Code)

@@ -2,11 +2,19 @@
 
 from __future__ import annotations
 
+import ast
+import pathlib
 from typing import Any
 
 import pytest
+import typer
 
+import lagrangian
+from lagrangian.advice import Advice, Argument, Verb
 from lagrangian.cli import main
+from lagrangian.cli.app import app
+from lagrangian.cli.verbs import VERBS
+from lagrangian.cli.wording import in_options
 
 BARE = """name = "bare"
 [coordinates]
@@ -55,3 +63,26 @@ def test_a_mass_and_a_missed_balance_are_said(tmp_path: Any, capsys: pytest.Capt
     said = capsys.readouterr()
     assert "energy balance missed by" in said.err
     assert "energy balance missed by" in said.out
+
+
+def test_what_advice_names_is_there() -> None:
+    """Every argument named in advice anywhere is an option of some verb, and every verb is one of the command."""
+    group: Any = typer.main.get_command(app)
+    options = {o for name in VERBS for p in group.get_command(None, name).verb.params for o in p.opts}
+    calls = [
+        node
+        for file in pathlib.Path(lagrangian.__file__).parent.rglob("*.py")
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8")))
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in ("Argument", "Verb")
+    ]
+    named = {(c.func.id, *(a.value for a in c.args[:1] if isinstance(a, ast.Constant))) for c in calls}  # type: ignore[attr-defined]
+    assert len(named) > 20 and all(len(n) == 2 for n in named)
+    assert {name for kind, name in named if kind == "Verb"} <= set(VERBS)
+    said = {in_options(Advice(Argument(name))) for kind, name in named if kind == "Argument" and name != "grid"}
+    assert said <= options
+
+
+def test_the_same_advice_is_python_or_options() -> None:
+    advice = Advice("use ", Verb("simulate"), " with ", Argument("step", "0.01"), " and ", Argument("params", "2", "k"))
+    assert advice == "use system.simulate() with step=0.01 and params={'k': 2}"
+    assert in_options(advice) == "use `lagrangian simulate` with --step 0.01 and --set k=2"

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from lagrangian import check
+from lagrangian.advice import Advice, Argument
 from lagrangian.check.reading import Answer, parse_answer
 from lagrangian.derive import Derived
 from lagrangian.errors import Error, ModelError
@@ -43,7 +44,7 @@ def check_answer(derivation: Derived, answer: Any, *, hint: int = 3, name: str |
     ``name`` is the answer's file, for messages. Raises `ParseError` for a text that cannot be read, with its place.
     """
     if isinstance(hint, bool) or hint not in (0, 1, 2, 3):
-        raise ModelError(f"a hint has a level from 0 to 3 (got {hint})", fix="hint=2", code="E406")
+        raise ModelError(f"a hint has a level from 0 to 3 (got {hint})", fix=Advice(Argument("hint", "2")), code="E406")
     if isinstance(answer, str):
         answer = parse_answer(answer, derivation.model, name=name)
     lines = check.lines_of(answer) if isinstance(answer, Answer) else check.lines_from(answer)

@@ -7,7 +7,7 @@ meaning ("T*", "Xi"), and the writer chooses the letter of the notation that was
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 import sympy as sp
 
@@ -222,16 +222,17 @@ class Check(Brief):
         return cut(f"<Check: {self.what}: {verdict}{', ' if self.figure else ''}{self.figure}>")
 
 
+TermKind: TypeAlias = Literal["inertia", "velocity", "damping", "stiffness", "gravity", "other", "input"]
+"""The kinds of the terms of an equation, in the order in which they are written: "inertia" with an acceleration,
+"velocity" with products of rates."""
+
+
 @dataclass(frozen=True)
 class EquationTerm(Brief):
-    """A readable term of an equation of motion: its kind and the elements that make it.
-
-    Kinds: "inertia" (with an acceleration), "velocity" (products of rates), "damping", "stiffness", "gravity", "input",
-    "other".
-    """
+    """A readable term of an equation of motion: its kind and the elements that make it."""
 
     expr: sp.Expr
-    kind: str
+    kind: TermKind
     elements: tuple[str, ...]
 
 

@@ -302,7 +302,8 @@ def from_grid(
         else:
             axes[name] = _listed(values, dim) if isinstance(values, Spread) else _axis(values, name)
     if not groups:
-        raise RunError("no varied quantity is given", fix="give at least one with its values: k=10:100:50", code="E401")
+        fix = Advice("give at least one with its values: ", Argument("grid", "np.linspace(10, 100, 50)", "k"))
+        raise RunError("no varied quantity is given", fix=fix, code="E401")
     sizes = {name: len(values) for name, values in axes.items()}
     if drawn:
         sizes[SAMPLE] = _draws(draws)

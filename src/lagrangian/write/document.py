@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 from lagrangian.write.expression_tree import Math
 
@@ -23,7 +23,7 @@ class Paragraph:
     """A paragraph; its role is "", "what" (what a step did), "why" (the reason) or "note" (small print)."""
 
     text: Inline
-    role: str = ""
+    role: Literal["", "what", "why", "note"] = ""
 
 
 @dataclass(frozen=True)

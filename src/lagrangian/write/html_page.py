@@ -6,10 +6,11 @@ Every step can be folded away; on paper all of them are open. A formula that is 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from html import escape as _escape
 from importlib.resources import files
 
+from lagrangian.page.formula import TermKind
 from lagrangian.write.document import (
     Block,
     Boxed,
@@ -37,7 +38,7 @@ SHORT = 24
 
 EQUALS = '<span class="sign"><math><mo>=</mo></math></span>&#xa0;'
 
-KINDS = {
+KINDS: Mapping[TermKind, str] = {
     "inertia": "inertia: with an acceleration",
     "velocity": "velocity: products of rates",
     "damping": "damping",

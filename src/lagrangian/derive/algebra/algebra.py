@@ -8,6 +8,7 @@ from typing import Protocol
 
 import sympy as sp
 
+from lagrangian.advice import Advice, Verb
 from lagrangian.bounded import Budget
 from lagrangian.derive.algebra.form import LARGEST_FORM, Form, Harmonic, OutOfReach
 from lagrangian.derive.algebra.generators import WRITING, Generators, Symbolic
@@ -24,9 +25,10 @@ LETTERS = 128
 
 
 def _spent(limit: int) -> OutOfReach:
+    verbs = Verb("simulate"), ", ", Verb("linearize"), " or ", Verb("export")
     return OutOfReach(
         f"writing the equations out takes more than {limit} products of terms",
-        fix="use compile(), simulate(), linearize() or export(), which do not need the written equations",
+        fix=Advice("use ", *verbs, ", which do not need the written equations"),
         code="E601",
     )
 

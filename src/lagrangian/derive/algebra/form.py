@@ -29,6 +29,7 @@ from lagrangian.derive.algebra.monomials import (
     product,
     unit,
 )
+from lagrangian.page.formula import TermKind
 
 LARGEST_FORM = 1_000_000
 """Terms above which a product is refused: such an expression is beyond reading and beyond memory."""
@@ -53,7 +54,7 @@ class Term:
     """
 
     expr: sp.Expr
-    kind: str
+    kind: TermKind
 
 
 class Ring(Protocol):

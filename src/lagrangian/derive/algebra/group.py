@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from lagrangian.derive.algebra.factor import Flat, Shortener, Tree, lead, order, ordered, primitive
 from lagrangian.derive.algebra.generators import Sum, Symbolic, Trig
 from lagrangian.derive.algebra.monomials import digits, packed
+from lagrangian.page.formula import TermKind
 
 if TYPE_CHECKING:
     from lagrangian.derive.algebra.generators import Generators
@@ -62,7 +63,7 @@ class Grouper:
     def __init__(self, generators: Generators, shortener: Shortener) -> None:
         self.generators, self.shortener = generators, shortener
 
-    def grouped(self, kind: str, poly: Flat, long: bool) -> Way:
+    def grouped(self, kind: TermKind, poly: Flat, long: bool) -> Way:
         """Return the terms of one class in the best of the groupings that fit it; of equals, the first."""
         if len(poly) == 1:
             return [self.shortener.short(poly)]
@@ -135,7 +136,7 @@ class Grouper:
 
     # -- judging ----------------------------------------------------------------------------------------------------
 
-    def _best(self, ways: Iterable[Way], kind: str) -> Way:
+    def _best(self, ways: Iterable[Way], kind: TermKind) -> Way:
         """The way of the lowest cost: operations, and what nesting and scattering are worth."""
 
         def cost(way: Way) -> int:
@@ -149,7 +150,7 @@ class Grouper:
 
         return min(ways, key=cost)
 
-    def _cost(self, tree: Tree, kind: str) -> int:
+    def _cost(self, tree: Tree, kind: TermKind) -> int:
         deep = self._depth(tree)
         shallow = SHALLOW * max(0, deep - 1) if kind in ("velocity", "damping") else 0
         return tree.cost + NESTED * max(0, deep - DEEP) + shallow
@@ -203,7 +204,7 @@ class Grouper:
         for m, c in poly.items():
             by_carried.setdefault(carries(m), {}).setdefault(harmonic(m), {})[m - carries(m)] = c
         way: Way = []
-        kind = "inertia" if role == "acceleration" else "damping"
+        kind: TermKind = "inertia" if role == "acceleration" else "damping"
         for carried, groups in by_carried.items():
             order_of = sorted(groups.items(), key=lambda x: (x[0] != 0, lead(x[1])))
             entry = self.shortener.summed(self.shortener.short(g) for _, g in order_of)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from typing import Literal, get_args
 
 import sympy as sp
 
@@ -18,11 +19,12 @@ from lagrangian.derive.algebra.group import LONG, Grouper, letters, role_of
 from lagrangian.derive.algebra.monomials import digits, unit
 from lagrangian.derive.algebra.sums import MOST, sums_in, with_sums
 from lagrangian.derive.algebra.trig import displayed
+from lagrangian.page.formula import TermKind
 
 WRITTEN = 50
 """What a term costs that is written in SymPy, in products of terms in normal form."""
 
-KINDS = ("inertia", "velocity", "damping", "stiffness", "gravity", "other", "input")
+KINDS: tuple[TermKind, ...] = get_args(TermKind)
 """The kinds of terms, in the order in which they are written."""
 
 
@@ -96,7 +98,7 @@ class Writer:
 
     # -- classes ----------------------------------------------------------------------------------------------------
 
-    def _classes(self, flat: Flat) -> list[tuple[str, Tree]]:
+    def _classes(self, flat: Flat) -> list[tuple[TermKind, Tree]]:
         """Every class made readable; constants go with the stiffness or the gravity, where they make it shorter."""
         classes: dict[str, Flat] = {}
         for m, c in flat.items():
@@ -105,7 +107,7 @@ class Writer:
         _merge_inputs(classes, self._bare)
         long = sum(len(p) for p in classes.values()) > LONG
         homes = [kind for kind in ("stiffness", "gravity") if kind in classes] or ["gravity"]
-        ways: list[list[tuple[str, Tree]]] = []
+        ways: list[list[tuple[TermKind, Tree]]] = []
         for home in homes if constant else homes[:1]:
             dealt = {**classes, home: {**classes.get(home, {}), **constant}}
             ways.append(
@@ -117,11 +119,12 @@ class Writer:
                 ]
             )
         best = min(ways, key=lambda way: sum(t.cost + 1 for _, t in way))
+        listed: list[tuple[TermKind, TermKind, Tree]]
         listed = [(kind, self._kind_of(tree, kind), tree) for kind, tree in best]
         listed.sort(key=lambda x: KINDS.index(x[0] if x[0] == "damping" and x[1] == "velocity" else x[1]))
         return [(kind, tree) for _, kind, tree in listed]
 
-    def _kind_of(self, tree: Tree, kind: str) -> str:
+    def _kind_of(self, tree: Tree, kind: TermKind) -> TermKind:
         """The kind of a finished term: a constant or an input alone is not stiffness, though it was dealt with it."""
         if kind not in ("stiffness", "damping"):
             return kind
@@ -132,14 +135,14 @@ class Writer:
             return kind
         return "input" if "input" in roles else "gravity"
 
-    def _bare(self, monomial: int) -> str:
+    def _bare(self, monomial: int) -> Literal["", "damping", "stiffness"]:
         """Where an input stands alone with parameters: beside "stiffness", its rate beside "damping"; else nowhere."""
         moving = [(i, e) for i, e in digits(monomial) if self.role(i) != "parameter"]
         if len(moving) != 1:
             return ""
         return "damping" if isinstance(self.generators.power(moving[0][0], 1), sp.Derivative) else "stiffness"
 
-    def kind(self, monomial: int) -> str:
+    def kind(self, monomial: int) -> TermKind | Literal["constant"]:
         """Classify a displayed monomial; what is linear in the rates is dealt with as damping, whatever else moves."""
         rates = moving = 0
         trig = place = False
