@@ -26,6 +26,7 @@ if _typing.TYPE_CHECKING:
     from lagrangian.simulate.ensemble import Ensemble
     from lagrangian.simulate.events import Event, event
     from lagrangian.simulate.recorded import Audit
+    from lagrangian.simulate.settings import Execution, RunSettings
     from lagrangian.simulate.trajectory import Trajectory
     from lagrangian.system import System, example, load, loads
 else:
@@ -52,6 +53,7 @@ else:
             "simulate.ensemble": "Ensemble",
             "simulate.events": "Event event",
             "simulate.recorded": "Audit",
+            "simulate.settings": "Execution RunSettings",
             "simulate.trajectory": "Trajectory",
             "system": "System example load loads",
         },
@@ -72,6 +74,7 @@ __all__ = [
     "Equilibrium",
     "Error",
     "Event",
+    "Execution",
     "Hamiltonian",
     "LedgerRow",
     "Linearization",
@@ -87,6 +90,7 @@ __all__ = [
     "Report",
     "Routhian",
     "RunError",
+    "RunSettings",
     "Stability",
     "Step",
     "SymbolicLinearization",

@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from lagrangian import read
 from lagrangian.calls import worded
-from lagrangian.describing import Described
 from lagrangian.errors import ModelError, Place
+from lagrangian.simulated import Simulated
 from lagrangian.viewed import cut
 from lagrangian.write import check_free, write_file
 
 if TYPE_CHECKING:  # every verb imports what it needs: describing a system waits for none of them
-    from numpy.typing import ArrayLike
-
     from lagrangian.check.verb import CheckedAnswer
     from lagrangian.compare import Comparison
     from lagrangian.compiled import Compiled
@@ -28,13 +25,10 @@ if TYPE_CHECKING:  # every verb imports what it needs: describing a system waits
     from lagrangian.linear.along import LinearizationAlong
     from lagrangian.linear.linearization import Linearization
     from lagrangian.page.formula import Check
-    from lagrangian.simulate.ensemble import Ensemble
-    from lagrangian.simulate.events import Event
-    from lagrangian.simulate.trajectory import Trajectory
 
 
 @worded
-class System(Described):
+class System(Simulated):
     """A mechanical system: coordinates, parameters, points and elements, in the order they are described.
 
     >>> from sympy import cos, sin
@@ -160,123 +154,6 @@ class System(Described):
         from lagrangian.linear.along import linearize_along
 
         return linearize_along(self.model, trajectory, inputs=inputs, params=params, outputs=outputs)
-
-    def simulate(
-        self,
-        duration: float | str | None = None,
-        *,
-        initial: Mapping[Any, Any] | Sequence[float] | None = None,
-        params: Mapping[Any, Any] | None = None,
-        inputs: Mapping[Any, Any] | None = None,
-        times: ArrayLike | None = None,
-        samples: int | None = None,
-        start: float | str = 0.0,
-        method: str | None = None,
-        step: float | str | None = None,
-        rtol: float = 1e-9,
-        atol: float = 1e-12,
-        events: Sequence[Event] | Event = (),
-        max_step: float | str = math.inf,
-        max_steps: int = 10_000_000,
-        max_events: int = 100_000,
-        timeout: float | None = None,
-        **initial_by_name: Any,
-    ) -> Trajectory:
-        """Run the system for ``duration`` [s] and return a `lagrangian.Trajectory`.
-
-        >>> run = example("pendulum").simulate(2.0, theta=0.5, params={"b": 0.0})
-        >>> run.success, float(run.audit) < 1e-9
-        (True, True)
-
-        Initial values by name, ``theta1=0.2``, or in ``initial={"theta1'": 0.1, theta2: "12 deg"}``; what a model file
-        says under [simulate], and else 0, where not given. ``params`` and ``inputs`` are mappings by name or symbol;
-        an input is a number, text, an expression of time and state (compiled in), a table
-        ``(times, values[, "hold"])`` or a Python function f(t, x), which is slow. The run is kept at ``samples``
-        times (1001), or at ``times``. ``method`` is one of ours in machine code (dop853, the default; taylor; tsit5;
-        rk4 and gauss4, which need ``step``) or one of SciPy's (Radau, BDF, LSODA, RK45, DOP853). ``rtol`` and ``atol``
-        are aimed at for the whole run; for SciPy's methods they are those of a step. ``events`` come from
-        `lagrangian.event`. ``max_steps``, ``max_events`` and ``timeout`` [s] bound the run.
-
-        Raises `RunError` or `ModelError` for what is wrong before the run; a run that fails on its way is returned as
-        far as it went, with the reason in its ``message``.
-        """
-        from lagrangian.simulate.simulation import simulate
-
-        return simulate(
-            self.model,
-            duration,
-            initial=initial,
-            params=params,
-            inputs=inputs,
-            times=times,
-            samples=samples,
-            start=start,
-            method=method,
-            step=step,
-            rtol=rtol,
-            atol=atol,
-            events=events,
-            max_step=max_step,
-            max_steps=max_steps,
-            max_events=max_events,
-            timeout=timeout,
-            **initial_by_name,
-        )
-
-    def ensemble(
-        self,
-        duration: Any = None,
-        *,
-        initial: Mapping[Any, Any] | None = None,
-        params: Mapping[Any, Any] | None = None,
-        inputs: Mapping[Any, Any] | None = None,
-        dims: Sequence[str] | None = None,
-        **options: Any,
-    ) -> Ensemble:
-        """Run the system once for every entry of arrays that broadcast together; return a `lagrangian.Ensemble`.
-
-        >>> runs = example("pendulum").ensemble(2.0, theta=[0.1, 0.2, 0.3], method="rk4", step=0.01)
-        >>> runs["final theta"].shape
-        (3,)
-
-        ``initial``, ``params``, ``inputs``: name or symbol → number, text with a unit, or array; ``dims`` names the
-        axes. ``outputs``: expressions, by name or alone, ("theta1", "max theta1"); ``reduce``: what is kept of each
-        over time (`lagrangian.integrate.observe.REDUCTIONS`), None for samples at ``times`` (a number of them, or the
-        times). ``method``, ``rtol``, ``atol``, ``step``, ``events`` as in `simulate`; ``memory`` [bytes] bounds what is
-        held at a time, ``threads`` the cores; ``progress(done, all)`` is called on the way. ``store="name.zarr"`` keeps
-        results on disk as they come, ``resume=True`` goes on after an end of any kind; ``scheduler`` is the address of
-        a Dask scheduler. A run that fails is NaN, with a status, and counted. Raises `RunError` for what does not fit.
-        """
-        from lagrangian.simulate.sweeping import ensemble
-
-        return ensemble(self.model, duration, initial, params, inputs, dims, options)
-
-    def sweep(
-        self,
-        duration: Any = None,
-        grid: Mapping[Any, Any] | Iterable[str] | str = (),
-        *,
-        initial: Mapping[Any, Any] | None = None,
-        params: Mapping[Any, Any] | None = None,
-        inputs: Mapping[Any, Any] | None = None,
-        draws: int | None = None,
-        seed: int = 0,
-        **options: Any,
-    ) -> Ensemble:
-        """Run the system for every combination of values, each for every draw of what is random.
-
-        >>> pendulum = example("pendulum")
-        >>> runs = pendulum.sweep(2.0, ["L=0.5:2:4", "theta~normal(0, 0.1)"], draws=5, method="rk4", step=0.01)
-        >>> runs.dims, runs.shape
-        (('L', 'sample'), (4, 5))
-
-        ``grid``: texts as here, or name or symbol → values, an array or text: parameters, coordinates and rates at the
-        start, inputs. ``draws`` is the number of random draws; the same ``seed`` gives the same ones. Everything else
-        as in `ensemble`.
-        """
-        from lagrangian.simulate.sweeping import sweep
-
-        return sweep(self.model, duration, grid, initial, params, inputs, draws, seed, options)
 
     def in_coordinates(self, change: Mapping[Any, Any], *, name: str | None = None) -> System:
         """Return the same system in other coordinates: ``{x2: x1 + x2r}`` says what the old x2 is in kept and new ones.

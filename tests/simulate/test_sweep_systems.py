@@ -13,7 +13,8 @@ import lagrangian as lg
 from lagrangian import examples
 from lagrangian.integrate import Solver
 from lagrangian.simulate.inputs import driving
-from lagrangian.simulate.per_run import RunSettings, study_of
+from lagrangian.simulate.per_run import Recording, study_of
+from lagrangian.simulate.settings import RunSettings
 from size import sized
 
 
@@ -169,12 +170,13 @@ def test_what_is_observed_may_not_be_finite(oscillator: lg.System) -> None:
         (lambda s: s.ensemble(1.0, x=[1.0, np.nan]), "'x' is nan at"),
         (lambda s: s.ensemble(1.0, params={"kk": [1.0]}), "no parameter 'kk'"),
         (lambda s: s.ensemble(1.0, initial={"y": [1.0]}), "no coordinate or rate 'y'"),
-        (lambda s: s.ensemble(1.0, y=[1.0]), "no option or coordinate 'y'"),
+        (lambda s: s.ensemble(1.0, y=[1.0]), "no option or state 'y'"),
         (lambda s: s.ensemble(1.0, x=[]), "'run' is empty"),
-        (lambda s: s.ensemble(-1.0, x=[1.0]), "duration must be above 0"),
+        (lambda s: s.ensemble(-1.0, x=[1.0]), "duration is negative"),
+        (lambda s: s.ensemble(0.0, x=[1.0]), "needs a duration above 0"),
         (lambda s: s.ensemble(x=[1.0]), "no duration is given"),
         (lambda s: s.ensemble(1.0, x=[1.0], method="rk5"), "no method 'rk5'"),
-        (lambda s: s.ensemble(1.0, x=[1.0], method="rk4"), "needs a step"),
+        (lambda s: s.ensemble(1.0, x=[1.0], method="rk4"), "uses a constant step size"),
         (lambda s: s.ensemble(1.0, x=[1.0], rtol=0.0, method="dop853"), "rtol"),
         (lambda s: s.ensemble(1.0, x=[1.0], outputs="maxi x", **FINE), "no reduction 'maxi'"),
         (lambda s: s.ensemble(1.0, x=[1.0], outputs="y", **FINE), "unknown"),
@@ -190,7 +192,7 @@ def test_what_is_observed_may_not_be_finite(oscillator: lg.System) -> None:
             "varies along",
         ),
         (lambda s: s.ensemble(1.0, x=[1.0], inputs={"F": lambda t, x: 0.0}, **FINE), "cannot be a Python function"),
-        (lambda s: s.ensemble(times=[0, 2, 1], x=[1.0], **FINE), "must increase"),
+        (lambda s: s.ensemble(times=[0, 2, 1], x=[1.0], **FINE), "out of order"),
         (lambda s: s.ensemble(1.0, x=[1.0], memory=0, **FINE), "memory"),
         (lambda s: s.ensemble(1.0, x=[1.0], resume=True, **FINE), "apply only to a store"),
         (lambda s: s.ensemble(1.0, x=[1.0], store="a.txt", **FINE), "must end in .zarr"),
@@ -386,8 +388,8 @@ def test_memory_is_left_for_the_events_of_a_chunk() -> None:
     system.particle(system.parameter("m", 1.0), at=system.origin + (0, y))
     system.gravity()
     bounce = lg.event(y, direction=-1, reset={y.diff(): -y.diff()}, name="bounce")
-    wanted = RunSettings(duration=100.0, events=bounce, max_events=50, outputs=["y"])
-    study, _ = study_of(system.model, wanted, driving(system.model, None, {}), np.array([0.0, 100.0]))
+    settings, recording = RunSettings(duration=100.0, events=bounce, max_events=50), Recording(outputs=["y"])
+    study, _ = study_of(system.model, settings, recording, driving(system.model, None, {}), np.array([0.0, 100.0]))
     x0 = np.column_stack([np.linspace(0.5, 1.0, 20), np.zeros(20)])
     found = Solver(study.program, study.method, events=study.events).solve(
         x0, study.times, p=[1.0, 9.81], store=study.whole, **study.options

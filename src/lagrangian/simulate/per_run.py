@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
@@ -18,13 +17,11 @@ from lagrangian.integrate import METHODS, Events, Signals
 from lagrangian.integrate.observe import REDUCTIONS, EventsKept, Kept, Study
 from lagrangian.model import Model
 from lagrangian.page.plain import plain
-from lagrangian.simulate.events import Event, listed_events
+from lagrangian.simulate.events import listed_events
 from lagrangian.simulate.inputs import Driving
 from lagrangian.simulate.integrating import SYMPLECTIC, remembered
-from lagrangian.simulate.simulation import FINEST, NO_DURATION, SHARE
+from lagrangian.simulate.settings import DEFAULT, RunSettings
 from lagrangian.simulate.variation import TAKEN
-from lagrangian.values.dimensions import SECOND
-from lagrangian.values.values import number
 
 Array: TypeAlias = NDArray[np.float64]
 Outputs: TypeAlias = Mapping[str, Any] | Iterable[Any] | str | sp.Expr | None
@@ -32,75 +29,44 @@ Outputs: TypeAlias = Mapping[str, Any] | Iterable[Any] | str | sp.Expr | None
 MOST_CHARACTERS = 200
 """Longest name of a result, which is the name of a folder in a store."""
 
-TIMES = 1001
-"""Times at which each run is sampled unless told otherwise."""
 
+@dataclass(frozen=True, kw_only=True)
+class Recording:
+    """What is kept of each run; see `lagrangian.System.ensemble`."""
 
-@dataclass(frozen=True)
-class RunSettings:
-    """Everything about the runs but what varies; see `lagrangian.System.ensemble`."""
-
-    duration: Any = None
-    inputs: Mapping[Any, Any] | None = None
     outputs: Outputs = None
     reduce: str | Sequence[str] | None = ("final",)
-    times: Any = TIMES
-    start: Any = 0.0
-    method: str = "dop853"
-    rtol: float = 1e-9
-    atol: float = 1e-12
-    step: Any = None
-    max_step: Any = math.inf
-    max_steps: int = 10_000_000
-    max_events: int = 10_000
-    events: Sequence[Event] | Event = ()
     event_times: int = 1
 
 
-def instants(model: Model, wanted: RunSettings) -> Array:
-    """The times of the samples, the start first."""
-    begin = number(wanted.start, "start", SECOND)
-    given = wanted.times
-    duration = model.settings.get("duration") if wanted.duration is None else wanted.duration
-    if np.ndim(given) == 0:
-        if isinstance(given, bool) or not isinstance(given, (int, np.integer)) or not 2 <= given <= 10**8:
-            raise RunError(
-                f"times must be a number of times, at least 2, or the times themselves (got {given!r:.30})",
-                code="E501",
-            )
-        if duration is None:
-            raise RunError("no duration is given", fix=NO_DURATION, code="E401")
-        length = number(duration, "duration", SECOND)
-        if not (length > 0 and begin + length > begin):
-            raise RunError(
-                f"the duration must be above 0 (got {length:g} s)", fix=Advice(Argument("duration", "10")), code="E501"
-            )
-        return np.linspace(begin, begin + length, int(given))
-    if wanted.duration is not None:
-        raise RunError("both times and a duration are given", code="E501")
-    array = np.array([number(t, "a time", SECOND) for t in given])
-    array = array if array.size and array[0] == begin else np.concatenate([[begin], array])
-    if array.size < 2 or np.any(np.diff(array) <= 0):
-        raise RunError("times must increase from the start on", fix="sort them and give each only once", code="E501")
-    return array
+def instants(model: Model, settings: RunSettings) -> Array:
+    """The times of the samples, the start first, at least two."""
+    times = settings.instants(model, len(model.coordinates) + len(model.velocities))
+    if len(times) < 2:
+        fix = Advice(Argument("duration", "10"))
+        raise RunError("an ensemble needs a duration above 0, or times after the start", fix=fix, code="E501")
+    return times
 
 
-def study_of(model: Model, wanted: RunSettings, drive: Driving, times: Array) -> tuple[Study, dict[str, sp.Expr]]:
+def study_of(
+    model: Model, settings: RunSettings, recording: Recording, drive: Driving, times: Array
+) -> tuple[Study, dict[str, sp.Expr]]:
     """What is done with every run, and the expressions observed by name.
 
     Raises `RunError` or `ModelError` for what is not known or does not fit.
     """
-    if wanted.method not in METHODS:
-        fix = did_you_mean(str(wanted.method), METHODS) or f"use one of {', '.join(METHODS)}"
-        raise RunError(f"there is no method {wanted.method!r:.40} for ensembles", fix=fix, code="E402")
-    expressions, kept = _kept(model, wanted.outputs, wanted.reduce)
-    events, events_kept = _events(model, wanted, drive)
+    method = settings.method or DEFAULT
+    if method not in METHODS:
+        fix = f"use one of {', '.join(METHODS)}, or run one at a time with simulate"
+        raise RunError(f"method '{method}' is one of SciPy's, which are not for ensembles", fix=fix, code="E402")
+    expressions, kept = _kept(model, recording.outputs, recording.reduce)
+    events, events_kept = _events(model, settings, recording, drive)
     signals = None if drive.constant else Signals(*drive.pieces(float(times[0]), float(times[-1])))
-    canonical, feedback = wanted.method in SYMPLECTIC, frozenset(drive.feedback.items())
+    canonical, feedback = method in SYMPLECTIC, frozenset(drive.feedback.items())
     make = dynamics.canonical if canonical else dynamics.closed
     study = Study(
         program=remembered(model, ("runs", canonical, feedback), lambda: make(model, drive.feedback)),
-        method=wanted.method,
+        method=method,
         times=times,
         outputs=remembered(
             model,
@@ -114,24 +80,18 @@ def study_of(model: Model, wanted: RunSettings, drive: Driving, times: Array) ->
         canonical=remembered(model, "canonical", lambda: (dynamics.momenta(model), dynamics.velocities(model)))
         if canonical
         else None,
-        options=_accuracy(wanted),
+        options=_accuracy(settings, method),
     )
     return study, expressions
 
 
-def _accuracy(wanted: RunSettings) -> dict[str, Any]:
+def _accuracy(settings: RunSettings, method: str) -> dict[str, Any]:
     """What decides step lengths and ends of runs; tolerances mean what they mean for one run."""
-    options: dict[str, Any] = {"max_steps": wanted.max_steps, "max_events": wanted.max_events}
-    options["max_step"] = (
-        wanted.max_step if wanted.max_step == math.inf else number(wanted.max_step, "max_step", SECOND)
-    )
-    if METHODS[wanted.method].adaptive:
-        rtol, atol = (number(x, what) for x, what in ((wanted.rtol, "rtol"), (wanted.atol, "atol")))
-        if not (rtol > 0 and atol > 0):
-            raise RunError(f"rtol and atol must be above 0 (got {rtol:g}, {atol:g})", fix="such as 1e-9", code="E501")
-        options |= {"rtol": max(rtol * SHARE, FINEST), "atol": atol * SHARE}
-    if wanted.step is not None:
-        options["step"] = number(wanted.step, "step", SECOND)
+    options: dict[str, Any] = {name: getattr(settings, name) for name in ("max_steps", "max_events", "max_step")}
+    if METHODS[method].adaptive:
+        options["rtol"], options["atol"] = settings.of_a_step()
+    if settings.step is not None:
+        options["step"] = settings.step
     return options
 
 
@@ -213,17 +173,19 @@ def _asked(model: Model, name: str | None, asked: Any) -> tuple[str | None, sp.E
     return own, expr, name or text
 
 
-def _events(model: Model, wanted: RunSettings, drive: Driving) -> tuple[Events | None, tuple[EventsKept, ...]]:
-    listed = listed_events(wanted.events)
+def _events(
+    model: Model, settings: RunSettings, recording: Recording, drive: Driving
+) -> tuple[Events | None, tuple[EventsKept, ...]]:
+    listed = listed_events(settings.events)
     if not listed:
         return None, ()
     titles = [e.title for e in listed]
     for title in titles:
         _check_result(f"count {title}")
-    times = wanted.event_times
+    times = recording.event_times
     if isinstance(times, bool) or not isinstance(times, int) or not 1 <= times <= 10_000:
         raise RunError(f"event_times, the number of times to keep, must be at least 1 (got {times!r:.30})", code="E501")
-    make = dynamics.canonical_impacts if wanted.method in SYMPLECTIC else dynamics.impacts
+    make = dynamics.canonical_impacts if settings.method in SYMPLECTIC else dynamics.impacts
     program = make(model, [(e.title, e.expression, e.reset) for e in listed], drive.feedback)
     directions, terminal = tuple(e.direction for e in listed), tuple(e.terminal for e in listed)
     made = Events(program, directions, terminal, tuple(bool(e.reset) for e in listed))

@@ -7,7 +7,7 @@ import importlib.metadata
 import math
 import os
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -16,10 +16,10 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from lagrangian.advice import Advice, Argument
-from lagrangian.errors import RunError, did_you_mean
+from lagrangian.advice import Advice
+from lagrangian.errors import RunError
 from lagrangian.graph import Program
-from lagrangian.integrate.chunks import FEW, MEMORY, Portions, cut
+from lagrangian.integrate.chunks import FEW, Portions, cut
 from lagrangian.integrate.design import Design
 from lagrangian.integrate.ensemble import Executor, Here, Memory, Progress, carry_out
 from lagrangian.integrate.observe import Kept, Study
@@ -30,17 +30,21 @@ from lagrangian.simulate.admission import check_masses, fitness
 from lagrangian.simulate.ensemble import Ensemble
 from lagrangian.simulate.inputs import Driving, check_covers, driving
 from lagrangian.simulate.integrating import remembered
-from lagrangian.simulate.per_run import RunSettings, instants, study_of
+from lagrangian.simulate.per_run import Recording, instants, study_of
 from lagrangian.simulate.plot import Units
+from lagrangian.simulate.settings import STORE, Execution, RunSettings, check_names, names_of, picked, whole
 from lagrangian.simulate.switching import with_stops_of_all
 from lagrangian.simulate.variation import EVENT, TIME, Varying, from_arrays, from_grid
-from lagrangian.values.dimensions import SECOND
-from lagrangian.values.values import key_name, number
+from lagrangian.values.values import key_name
 
 Array: TypeAlias = NDArray[np.float64]
 
-STORE = Argument("store", '"sweep.zarr"')
-"""What keeps results on disk."""
+OPTIONS = tuple(
+    name
+    for name in ("initial", "params", "inputs", *names_of(RunSettings, Recording, Execution))
+    if name not in ("samples", "timeout")
+)
+"""What an ensemble takes by name beside initial values."""
 
 LARGEST = 2**30
 """Bytes of a chunk on disk at most: compressors take no more than 2 GiB at a time."""
@@ -49,74 +53,51 @@ MOST_MEMORY = 0.5
 """Part of the machine's memory that results without a store may take."""
 
 
-@dataclass(frozen=True)
-class Execution:
-    """How the runs are done and where results go."""
-
-    memory: int = MEMORY
-    threads: int | None = None
-    progress: Progress | None = None
-    store: str | Path | None = None
-    resume: bool = False
-    overwrite: bool = False
-    scheduler: Any = None
+def chosen(given: Mapping[str, Any]) -> tuple[RunSettings, Recording, Execution]:
+    """Return the options among everything that a verb was called with; a number of times is one of samples."""
+    times = given["times"]
+    counted = np.ndim(times) == 0
+    sampled = {"samples": whole(times, "times", least=2), "times": None} if counted else {"times": times}
+    return picked(RunSettings, {**given, **sampled}), picked(Recording, given), picked(Execution, given)
 
 
 def ensemble(
     model: Model,
-    duration: Any,
+    settings: RunSettings,
+    recording: Recording,
+    execution: Execution,
+    *,
     initial: Mapping[Any, Any] | None,
     params: Mapping[Any, Any] | None,
     inputs: Mapping[Any, Any] | None,
     dims: Sequence[str] | None,
-    options: Mapping[str, Any],
+    by_name: Mapping[str, Any],
 ) -> Ensemble:
-    """Many runs from arrays; see `lagrangian.System.ensemble`."""
-    wanted, way, more = _options(model, options, duration)
+    """Many runs from arrays; see `lagrangian.System.ensemble`. ``by_name``: initial values, ``theta1=[0.1, 0.2]``."""
+    check_names(model, by_name, (*OPTIONS, "dims"))
     varied, driven = _split_inputs(inputs)
-    initial = {**(initial or {}), **more}
-    varying = from_arrays(model, {"x": initial, "p": params, "u": varied}, dims)
-    return _done(model, varying, wanted, driven, way)
+    varying = from_arrays(model, {"x": {**(initial or {}), **by_name}, "p": params, "u": varied}, dims)
+    return _done(model, varying, settings, recording, driven, execution)
 
 
 def sweep(
     model: Model,
-    duration: Any,
     grid: Mapping[Any, Any] | Iterable[str] | str,
+    settings: RunSettings,
+    recording: Recording,
+    execution: Execution,
+    *,
     initial: Mapping[Any, Any] | None,
     params: Mapping[Any, Any] | None,
     inputs: Mapping[Any, Any] | None,
     draws: int | None,
     seed: int,
-    options: Mapping[str, Any],
+    by_name: Mapping[str, Any],
 ) -> Ensemble:
     """Every combination of values; see `lagrangian.System.sweep`."""
-    wanted, way, more = _options(model, options, duration)
-    initial = {**(initial or {}), **more}
-    varying = from_grid(model, grid, {"x": initial, "p": params}, draws, seed)
-    return _done(model, varying, wanted, dict(inputs or {}), way)
-
-
-def _options(model: Model, options: Mapping[str, Any], duration: Any) -> tuple[RunSettings, Execution, dict[str, Any]]:
-    """Options of the runs, of the way they are done, and initial values given by name: ``theta1=0.2``."""
-    names = {
-        "wanted": set(RunSettings.__dataclass_fields__) - {"duration", "inputs"},
-        "way": set(Execution.__dataclass_fields__),
-    }
-    known = names["wanted"] | names["way"]
-    states = {s.name for s in (*model.coordinates, *model.velocities)}
-    for name in options:
-        if name not in known | states:
-            owners = (("params", model.parameters), ("inputs", model.inputs))
-            own = [f"{word}={{'{name}': …}}" for word, xs in owners if any(x.name == name for x in xs)]
-            raise RunError(
-                f"there is no option or coordinate '{name[:64]}'",
-                fix=(own[0] if own else did_you_mean(name, known | states)) or f"options: {', '.join(sorted(known))}",
-                code="E402",
-            )
-    wanted = RunSettings(duration=duration, **{k: v for k, v in options.items() if k in names["wanted"]})
-    way = Execution(**{k: v for k, v in options.items() if k in names["way"]})
-    return wanted, way, {k: v for k, v in options.items() if k not in known}
+    check_names(model, by_name, (*OPTIONS, "grid", "draws", "seed"))
+    varying = from_grid(model, grid, {"x": {**(initial or {}), **by_name}, "p": params}, draws, seed)
+    return _done(model, varying, settings, recording, dict(inputs or {}), execution)
 
 
 def _split_inputs(inputs: Mapping[Any, Any] | None) -> tuple[dict[Any, Any], dict[Any, Any]]:
@@ -131,37 +112,38 @@ def _split_inputs(inputs: Mapping[Any, Any] | None) -> tuple[dict[Any, Any], dic
 # -- what every run does ----------------------------------------------------------------------------------------
 
 
-def _done(model: Model, varying: Varying, wanted: RunSettings, inputs: dict[Any, Any], way: Execution) -> Ensemble:
+def _done(
+    model: Model,
+    varying: Varying,
+    settings: RunSettings,
+    recording: Recording,
+    inputs: dict[Any, Any],
+    execution: Execution,
+) -> Ensemble:
     """Do the runs, or what is missing of them."""
     drive = _drive(model, varying, inputs)
-    times = instants(model, wanted)
+    times = instants(model, settings)
     check_covers(drive, float(times[0]), float(times[-1]))
     design = varying.design()
-    longest = math.inf if wanted.max_step == math.inf else number(wanted.max_step, "max_step", SECOND)
-    drive, said = with_stops_of_all(model, drive, design, times, longest)
+    drive, said = with_stops_of_all(model, drive, design, times, float(settings.max_step))
     varied = [name for group, name in varying.columns if group == "p"]
     check_masses(model, design.base["p"], varied)
-    study, expressions = study_of(model, wanted, drive, times)
+    study, expressions = study_of(model, settings, recording, drive, times)
     (fit,) = remembered(model, ("fitness", *varied), lambda: (fitness(model, varied),))
     study = replace(study, fitness=fit)
-    task = _task(model, varying, wanted, drive, study)
-    executor, cutting = _executor(way)
-    memory = _bytes(way.memory)
-    if way.store is not None:
-        memory = min(memory, LARGEST)
+    task = _task(model, varying, drive, study)
+    executor, cutting = _executor(execution)
+    memory = execution.memory if execution.store is None else min(execution.memory, LARGEST)
     portions = cut(design.shape, study.bytes_per_run, memory=memory, **cutting)
     plan = _plan(model, varying, study, expressions, portions, task)
-    if way.store is None:
-        if way.resume or way.overwrite:
-            raise RunError("resume and overwrite apply only to a store", fix=Advice(STORE), code="E501")
-        made = _in_memory(study, design, plan, executor, way.progress)
+    if execution.store is None:
+        made = _in_memory(study, design, plan, executor, execution.progress)
         made.notices = said
         return made
-    path = Path(way.store)
-    if path.suffix != ".zarr":
-        raise RunError(f"the store '{path.name}' must end in .zarr", fix=Advice(STORE), code="E801")
-    with resume(path, plan) if way.resume and path.exists() else create(path, plan, overwrite=way.overwrite) as sink:
-        carry_out(study, design, sink.portions, sink, executor=executor, progress=way.progress)
+    path = Path(execution.store)
+    again = execution.resume and path.exists()
+    with resume(path, plan) if again else create(path, plan, overwrite=execution.overwrite) as sink:
+        carry_out(study, design, sink.portions, sink, executor=executor, progress=execution.progress)
     made = Ensemble.of_store(path)
     made.notices = (*said, *sink.notices)
     return made
@@ -196,19 +178,13 @@ def _machine_memory() -> float:
         return 4.0 * 2**30
 
 
-def _bytes(memory: Any) -> int:
-    if isinstance(memory, bool) or not isinstance(memory, (int, np.integer)) or memory < 1:
-        raise RunError(f"memory must be a number of bytes (got {memory!r:.30})", fix="256 * 2**20", code="E501")
-    return int(memory)
-
-
-def _executor(way: Execution) -> tuple[Executor, dict[str, int]]:
+def _executor(execution: Execution) -> tuple[Executor, dict[str, int]]:
     """Who computes, and what that asks of the chunks."""
-    if way.scheduler is None:
-        return Here(way.threads), {}
+    if execution.scheduler is None:
+        return Here(execution.threads), {}
     from lagrangian.integrate.remote import Dask
 
-    dask = Dask(way.scheduler)
+    dask = Dask(execution.scheduler)
     return dask, {"held": dask.held, "few": max(FEW, 8 * dask.threads)}
 
 
@@ -287,7 +263,7 @@ def _words(made_of: Mapping[str, tuple[Kept, str]], name: str) -> dict[str, Any]
     return {"long_name": name, **({"units": "s"} if name.startswith("time ") else {})}
 
 
-def _task(model: Model, varying: Varying, wanted: RunSettings, drive: Driving, study: Study) -> dict[str, Any]:
+def _task(model: Model, varying: Varying, drive: Driving, study: Study) -> dict[str, Any]:
     """What is done, as plain data: two tasks with equal data give the same bits."""
     times = study.times
     return {

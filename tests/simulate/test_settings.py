@@ -1,0 +1,121 @@
+"""Options of runs: one definition, checked once, in one wording for one run and for many."""
+
+from __future__ import annotations
+
+import dataclasses
+import inspect
+import math
+from typing import Any
+
+import pytest
+
+import lagrangian as lg
+from lagrangian.simulate.per_run import Recording
+
+OF_ONE, OF_MANY = {"samples", "timeout"}, {"samples", "timeout", "times", "max_events"}
+
+
+def defaults(*kinds: type) -> dict[str, Any]:
+    return {f.name: f.default for kind in kinds for f in dataclasses.fields(kind)}
+
+
+def taken(verb: Any) -> dict[str, Any]:
+    return {name: p.default for name, p in inspect.signature(verb).parameters.items()}
+
+
+@pytest.mark.parametrize("verb", [lg.System.ensemble, lg.System.sweep])
+def test_many_runs_take_the_settings_with_their_defaults(verb: Any) -> None:
+    listed, known = taken(verb), defaults(lg.RunSettings, Recording, lg.Execution)
+    assert not (set(known) - OF_ONE) - set(listed)
+    assert {name: listed[name] for name in known if name not in OF_MANY} == {
+        name: known[name] for name in known if name not in OF_MANY
+    }
+
+
+def test_one_run_takes_the_settings_with_their_defaults() -> None:
+    listed = taken(lg.System.simulate)
+    assert {name: listed[name] for name in defaults(lg.RunSettings)} == defaults(lg.RunSettings)
+
+
+WRONG: list[dict[str, Any]] = [
+    {"method": "rk5"},
+    {"method": "rk4"},
+    {"step": 0.1},
+    {"method": "rk4", "step": -0.1},
+    {"rtol": 0.0},
+    {"atol": "small"},
+    {"max_step": "3 kg"},
+    {"max_step": 0.0},
+    {"max_steps": 0},
+    {"max_events": True},
+    {"start": "1 m"},
+    {"events": ["bounce"]},
+    {"times": [0.0, 2.0, 1.0]},
+    {"times": [[0.0, 1.0]]},
+    {"times": [0.0, math.nan]},
+    {"duration": -1.0},
+    {"duration": (0.0, 1.0)},
+    {"duration": 1.0, "rotl": 1e-6},
+    {"duration": 1.0, "times": [0.0, 1.0]},
+    {"duration": 1.0, "k1": 1.0},
+    {"duration": 1.0, "m": 1.0},
+]
+
+
+@pytest.mark.parametrize("options", WRONG, ids=str)
+def test_one_run_and_many_say_the_same(options: dict[str, Any]) -> None:
+    system = lg.example("cart-pole")
+    if not {"duration", "times"} & set(options):
+        options = {"duration": 1.0, **options}
+    said = []
+    for call in (
+        lambda: system.simulate(theta=0.1, **options),
+        lambda: system.ensemble(theta=[0.1, 0.2], **options),
+        lambda: system.sweep(grid=["theta=0.1:0.2:2"], **options),
+    ):
+        with pytest.raises(lg.Error) as caught:
+            call()
+        said.append(str(caught.value))
+    assert len(set(said)) == 1, said
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"memory": 0}, "memory must be a whole number, at least 1"),
+        ({"threads": 1.5}, "threads must be a whole number, at least 1"),
+        ({"progress": "bar"}, "progress must be a function"),
+        ({"resume": True}, "apply only to a store"),
+        ({"store": 3}, "a store must be text or a Path"),
+        ({"store": "runs.nc"}, "must end in .zarr"),
+    ],
+)
+def test_the_way_runs_are_done_is_checked(options: dict[str, Any], words: str) -> None:
+    with pytest.raises(lg.RunError, match=words):
+        lg.Execution(**options)
+    with pytest.raises(lg.RunError, match=words):
+        lg.example("cart-pole").ensemble(1.0, theta=[0.1, 0.2], **options)
+
+
+def test_settings_are_values_that_stay() -> None:
+    settings = lg.RunSettings(times=["0 s", "10 ms"], max_step="2 ms", start="0 s")
+    assert (settings.times, settings.max_step, settings.start) == ((0.0, 0.01), 0.002, 0.0)
+    assert settings == lg.RunSettings(times=(0.0, 0.01), max_step=0.002)
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        settings.rtol = 1.0  # type: ignore[misc]
+
+
+@pytest.mark.parametrize(
+    ("call", "fix"),
+    [
+        (lambda s: s.ensemble(1.0, theta=[0.1], treads=2), "Did you mean 'threads'?"),
+        (lambda s: s.ensemble(1.0, theta=[0.1], timeout=2), "max_steps=100000 bounds each run"),
+        (lambda s: s.sweep(1.0, ["theta=1:2:3"], samples=2), "draws=1000 that of the draws"),
+        (lambda s: s.simulate(1.0, sample=2), "Did you mean 'samples'?"),
+        (lambda s: s.simulate(1.0, M=2), "params={'M': …}"),
+    ],
+)
+def test_an_option_that_is_not_there_is_answered(call: Any, fix: str) -> None:
+    with pytest.raises(lg.RunError, match="there is no option or state") as caught:
+        call(lg.example("cart-pole"))
+    assert fix in str(caught.value)
