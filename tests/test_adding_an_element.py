@@ -8,6 +8,8 @@ from test_docs import blocks
 
 CHECKS = """
 import sympy as sp
+from lagrangian.dynamics.programs import loss
+from lagrangian.graph.evaluate import evaluate
 from lagrangian.read.file_schema import schema
 
 row = next(r for r in derivation.ledger if r.element.startswith("drag"))
@@ -17,6 +19,8 @@ assert sp.simplify(derivation.Xi[x] + c * sp.sqrt(vx**2 + vy**2) * vx) == 0
 assert "Drag 'drag 1'" in derivation.to_text() and "box: it counts" in derivation.to_text()
 assert checks and all(check.holds for check in checks), checks
 assert run.energy[-1] < 0.9 * run.energy[0] and abs(run.imbalance).max() < 1e-6 * run.energy[0]
+power = evaluate(loss(system.model), {"q": [0, 0], "v": [3, 4], "u": [], "p": [0.2, 0.01, 9.81], "t": [0]})["P"]
+assert abs(power - 0.01 * 5**3) < 1e-15, power
 assert "[[drag]]" in again.to_toml() and again.to_toml() == system.to_toml()
 assert schema()["properties"]["drag"]["description"] == "Drags of air."
 for changed, message in (("0.01 kg", "coefficient c has the unit kg, but kg/m is needed"), ("1", None)):

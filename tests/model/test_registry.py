@@ -58,3 +58,10 @@ def test_the_file_has_an_array_of_tables_for_every_kind_with_every_field() -> No
     assert list(TABLES) == list(REGISTRY) and set(REGISTRY) <= set(ModelFile.model_fields)
     for kind, made in REGISTRY.items():
         assert list(TABLES[kind].model_fields) == ["name", *made.entries]
+
+
+def test_every_kind_with_mass_is_a_body_to_the_second_route() -> None:
+    """Gravity there pulls the bodies that were added; a kind taken by its energies alone would have no weight."""
+    from lagrangian.dynamics.describe import ELEMENTS
+
+    assert {kind for kind, made in REGISTRY.items() if made.is_body} <= set(ELEMENTS)

@@ -346,7 +346,9 @@ def _generalized_force(d: Description, m: Mechanics, e: Any) -> None:
 
 
 def _any(d: Description, m: Mechanics, e: Any) -> None:
-    """An element by what it says of itself."""
+    """An element by what it says of itself; gravity finds bodies where they were added, so they need their own way."""
+    if e.is_body:
+        raise TypeError(f"the kind '{e.kind}' has mass: it needs a function in ELEMENTS, so that gravity pulls it")
     kinetic, potential = e.kinetic(d.model), e.potential(d.model)
     if kinetic != 0:
         m.kinetics.append(d.node(kinetic))
