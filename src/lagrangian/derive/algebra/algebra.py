@@ -25,10 +25,10 @@ LETTERS = 128
 
 
 def _spent(limit: int) -> OutOfReach:
-    verbs = Verb("simulate"), ", ", Verb("linearize"), " or ", Verb("export")
+    verbs = Verb("simulate"), ", ", Verb("linearize"), ", ", Verb("export")
     return OutOfReach(
         f"writing the equations out takes more than {limit} products of terms",
-        fix=Advice("use ", *verbs, ", which do not need the written equations"),
+        fix=Advice("use ", *verbs, " or, in Python, compile(), which do not need the written equations"),
         code="E601",
     )
 
