@@ -1,5 +1,6 @@
 """Formulas of the manual as MathML: browsers set it themselves, so no page needs a script or a network."""
 
+import html
 import re
 from typing import Any
 
@@ -7,6 +8,7 @@ from docutils import nodes
 from latex2mathml.converter import convert
 
 BOXED = re.compile(r"\\boxed\{(.*)\}", re.S)
+TAG = re.compile(r"<[^>]*>")
 FUNCTION = re.compile(r"<m[io]>(sin|cos|tan|cot|exp|ln|log|arctan)</m[io]>")
 ALIGNED = re.compile(r"\\begin\{aligned\}(.*?)\\end\{aligned\}", re.S)
 
@@ -20,13 +22,20 @@ def row(latex: str) -> str:
     """One line; what goes on with an = is set in."""
     line, _, number = latex.strip().partition("&&")
     line = re.sub(r"^& *=", r"\\quad =", line).replace("&", "", 1)
-    return f"{line} & {number}"
+    return f"{line} & {number}" if number else line
+
+
+def signs(text: str) -> list[str]:
+    """The digits, brackets and signs of a formula, which a conversion keeps."""
+    return sorted(c.replace("−", "-") for c in text if c in "0123456789+-−=()")
 
 
 def mathml(latex: str, display: str) -> str:
     """The MathML of a formula."""
     latex = ALIGNED.sub(columns, latex.strip()).replace(r"\#", "#")
     found = convert(latex, display=display).replace("<mover>", '<mover accent="true">')
+    if signs(latex) != signs(html.unescape(TAG.sub("", found))):
+        raise ValueError(f"the converter lost a part of the formula {latex}")
     return FUNCTION.sub(r'<mo lspace="0.17em" rspace="0.17em">\1</mo>', found)
 
 
