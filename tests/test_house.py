@@ -128,6 +128,18 @@ def test_a_class_name_occurs_once() -> None:
     assert not {name: files for name, files in found.items() if len(files) > 1}
 
 
+MAX_FILE, MAX_FUNCTION = 400, 60
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda f: str(f.relative_to(SOURCE)))
+def test_files_and_functions_are_short(file: pathlib.Path) -> None:
+    """What outgrows a page or two has parts with names of their own; parameters document, and do not count."""
+    assert len(file.read_text(encoding="utf-8").splitlines()) <= MAX_FILE
+    functions = [node for node in nodes(file) if isinstance(node, (ast.FunctionDef, ast.AsyncFunctionDef))]
+    lengths = {node.name: (node.end_lineno or 0) - node.body[0].lineno + 1 for node in functions}
+    assert not {name: length for name, length in lengths.items() if length > MAX_FUNCTION}
+
+
 def test_no_module_is_named_like_one_of_the_standard_library() -> None:
     names = {p.stem for p in FILES} | {p.name for p in SOURCE.rglob("*") if p.is_dir()}
     assert not (names & sys.stdlib_module_names) - {"__init__", "__main__", "__pycache__"}

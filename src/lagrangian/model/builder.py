@@ -2,51 +2,45 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from typing import Any, TypeVar
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.errors import ModelError, NoSuchEntry, Place, did_you_mean
-from lagrangian.model.body_checks import Numbers, check_body
-from lagrangian.model.checks import check_acted_on, check_kind, check_position, check_use, checked_number
+from lagrangian.errors import ModelError, NoSuchEntry, Place
+from lagrangian.model.body_checks import check_body
+from lagrangian.model.checks import check_acted_on, check_kind, check_position, check_use
+from lagrangian.model.declarations import Declarations
 from lagrangian.model.effect import check_effect
 from lagrangian.model.elements import Element, FieldKind
 from lagrangian.model.floating import Floating
 from lagrangian.model.geometry import Frame, Point, as_expr, as_vector
-from lagrangian.model.model import Model, written_out
-from lagrangian.model.names import check_name, moving_symbol, time
-from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, Velocity
+from lagrangian.model.model import Model
+from lagrangian.model.names import check_name, time
+from lagrangian.model.symbols import Coordinate, Velocity
 
 E = TypeVar("E", bound=Element)
 MAX_ELEMENTS = 100_000
 
 
-class Builder:
+class Builder(Declarations):
     """The description while it grows. Every method checks what it is given and raises `ModelError`."""
 
     def __init__(self, name: str) -> None:
         if not isinstance(name, str) or not name.strip():
             raise ModelError("a system needs a name", fix='System("two-link arm")', code="E401")
+        super().__init__()
         self.name = name.strip()
         self.origin = Point("origin", None, (), None, self)
         self.settings: dict[str, Any] = {}
-        self._coordinates: dict[str, Coordinate] = {}
-        self._velocities: dict[str, Velocity] = {}  # quasi-velocities; rates of coordinates need no declaration
-        self._parameters: dict[str, Parameter] = {}
-        self._values: dict[Any, float] = {}  # of the parameters that have one
-        self._inputs: dict[str, Input] = {}
-        self._definitions: dict[str, Definition] = {}
         self._points: dict[str, Point] = {"origin": self.origin}
         self._frames: dict[str, Frame] = {}
         self._elements: list[Element] = []
         self._element_names: dict[str, Element] = {}
         self._dimension: tuple[int, str] | None = None
-        self._symbols: set[Any] = {time}
         self._checked: dict[int, Point | Frame] = {}  # once found right, a point and all it hangs on stay right
-        self._frozen: Model | None = None
 
     def __getstate__(self) -> dict[str, Any]:
         """What a copy is made of: points and frames checked are told by identity, which a copy does not share."""
@@ -54,114 +48,6 @@ class Builder:
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state, _checked={id(thing): thing for thing in state["_checked"]})
-
-    # -- symbols ------------------------------------------------------------------------------------------------
-
-    def _claim(self, name: str, what: str, place: Place | None) -> str:
-        self._frozen = None
-        name = check_name(name, what, place=place)
-        tables: tuple[tuple[str, Mapping[str, Any]], ...] = (
-            ("coordinate", self._coordinates),
-            ("velocity", self._velocities),
-            ("parameter", self._parameters),
-            ("input", self._inputs),
-            ("definition", self._definitions),
-        )
-        for kind, table in tables:
-            if name in table:
-                before = table[name].place
-                also = f" (line {before.line})" if before is not None and before.line is not None else ""
-                raise ModelError(
-                    f"'{name}' is defined twice: as a {kind}{also} and as a {what}",
-                    place=place,
-                    fix="give every coordinate, parameter, input and definition a name of its own",
-                    code="E404",
-                )
-        return name
-
-    def coordinate(
-        self,
-        name: str,
-        *,
-        description: str = "",
-        unit: str | None = None,
-        positive: bool = False,
-        place: Place | None = None,
-    ) -> Coordinate:
-        """Add a generalized coordinate; ``positive`` where it is a distance that is known to be above 0."""
-        name = self._claim(name, "coordinate", place)
-        if not isinstance(positive, bool):
-            raise ModelError(
-                f"positive must be True or False for coordinate '{name}' (got {positive!r:.40})",
-                place=place,
-                code="E406",
-            )
-        made = Coordinate(name, moving_symbol(name, positive=positive), description, unit, place, positive=positive)
-        self._coordinates[name] = made
-        self._symbols.add(made.symbol)
-        return made
-
-    def parameter(
-        self,
-        name: str,
-        value: float | None = None,
-        *,
-        unit: str | None = None,
-        description: str = "",
-        place: Place | None = None,
-    ) -> Parameter:
-        """Add a constant, with its value in SI units where it has one."""
-        name = self._claim(name, "parameter", place)
-        made = Parameter(name, sp.Symbol(name), checked_number(name, value, place), unit, description, place)
-        self._parameters[name] = made
-        if made.value is not None:
-            self._values[made.symbol] = made.value
-        self._symbols.add(made.symbol)
-        return made
-
-    def input(self, name: str, *, description: str = "", unit: str | None = None, place: Place | None = None) -> Input:
-        """Add a signal from outside."""
-        name = self._claim(name, "input", place)
-        made = Input(name, moving_symbol(name), description, unit, place)
-        self._inputs[name] = made
-        self._symbols.add(made.symbol)
-        return made
-
-    def define(self, name: str, expression: object, *, place: Place | None = None) -> Definition:
-        """Give an expression a name; it stays named. It may use what was declared before it."""
-        expr = as_expr(expression, f"the definition of '{name}'", place=place)
-        name = self._claim(name, "definition", place)
-        self._check_known(expr, f"definition '{name}'", place)
-        moving = expr.has(AppliedUndef, time, sp.Derivative)
-        symbol = moving_symbol(name) if moving else sp.Symbol(name)
-        made = Definition(name, symbol, expr, place)
-        self._definitions[name] = made
-        self._symbols.add(made.symbol)
-        return made
-
-    def _check_known(self, expr: sp.Expr, where: str, place: Place | None, local: Iterable[sp.Symbol] = ()) -> None:
-        """Refuse a symbol that was not declared, with the nearest name."""
-        known = self._symbols
-        atoms = {*expr.free_symbols, *expr.atoms(AppliedUndef)}
-        for atom in sorted(atoms - known - {*local}, key=str):
-            name = getattr(atom, "name", str(atom.func))
-            kind = "moving symbol" if isinstance(atom, AppliedUndef) else "symbol"
-            names = [getattr(k, "name", str(getattr(k, "func", k))) for k in known]
-            if name in names:
-                raise ModelError(
-                    f"'{name}' in {where} is not the symbol that was declared under that name",
-                    place=place,
-                    fix=f'use the symbol that the declaration returned, or system["{name}"]',
-                    code="E402",
-                )
-            hint = did_you_mean(name, names)
-            fix = hint or f'declare it: coordinates("{name}"), parameters("{name}") or input("{name}")'
-            raise ModelError(f"unknown {kind} '{name}' in {where}", place=place, fix=fix, code="E402")
-
-    @property
-    def _numbers(self) -> Numbers:
-        """The values of constant expressions, as declared so far."""
-        return Numbers(self._values, {d.symbol: d.expression for d in self._definitions.values()})
 
     # -- geometry -----------------------------------------------------------------------------------------------
 
@@ -319,9 +205,6 @@ class Builder:
         velocities = {v.symbol: v.name for v in self._velocities.values()}
         check_position(self._written_out(expr), where, inputs, velocities, place)
 
-    def _written_out(self, expr: sp.Expr) -> sp.Expr:
-        return written_out(expr, {d.symbol: d.expression for d in self._definitions.values()})
-
     # -- elements -----------------------------------------------------------------------------------------------
 
     def add(self, element: E) -> E:
@@ -383,11 +266,6 @@ class Builder:
         return f"{base} {number}"
 
     @property
-    def coordinates(self) -> tuple[Coordinate, ...]:
-        """What was declared so far, in order."""
-        return tuple(self._coordinates.values())
-
-    @property
     def floating(self) -> tuple[Coordinate | Velocity, ...]:
         """The coordinates and velocities of floating frames, in order."""
         frames = [f.floating for f in self._frames.values() if f.floating is not None]
@@ -397,20 +275,6 @@ class Builder:
     def elements(self) -> tuple[Element, ...]:
         """What was added so far, in order."""
         return tuple(self._elements)
-
-    def standard_gravity(self, value: float) -> sp.Expr:
-        """Return the parameter g, declared with ``value`` [m/s²] unless the person declared one."""
-        if "g" in self._parameters:
-            return self._parameters["g"].symbol
-        if "g" in self._definitions:
-            return self._definitions["g"].symbol
-        if "g" in self._coordinates or "g" in self._inputs:
-            raise ModelError(
-                "the name 'g' is already in use, so gravity needs a symbol for its strength",
-                fix="gravity(..., g=another symbol)",
-                code="E404",
-            )
-        return self.parameter("g", value, unit="m/s^2").symbol
 
     def lookup(self, name: str) -> Any:
         """Return the symbol of that name, or else the point, frame or element."""

@@ -1,0 +1,159 @@
+"""What a person declares: coordinates, parameters, inputs and definitions, each name once."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian.errors import ModelError, Place, did_you_mean
+from lagrangian.model.body_checks import Numbers
+from lagrangian.model.checks import checked_number
+from lagrangian.model.geometry import as_expr
+from lagrangian.model.model import Model, written_out
+from lagrangian.model.names import check_name, moving_symbol, time
+from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, Velocity
+
+
+class Declarations:
+    """The symbols of a description while it grows; a declaration that makes no sense raises `ModelError`."""
+
+    def __init__(self) -> None:
+        self._coordinates: dict[str, Coordinate] = {}
+        self._velocities: dict[str, Velocity] = {}  # quasi-velocities; rates of coordinates need no declaration
+        self._parameters: dict[str, Parameter] = {}
+        self._values: dict[Any, float] = {}  # of the parameters that have one
+        self._inputs: dict[str, Input] = {}
+        self._definitions: dict[str, Definition] = {}
+        self._symbols: set[Any] = {time}
+        self._frozen: Model | None = None
+
+    @property
+    def coordinates(self) -> tuple[Coordinate, ...]:
+        """What was declared so far, in order."""
+        return tuple(self._coordinates.values())
+
+    def _claim(self, name: str, what: str, place: Place | None) -> str:
+        self._frozen = None
+        name = check_name(name, what, place=place)
+        tables: tuple[tuple[str, Mapping[str, Any]], ...] = (
+            ("coordinate", self._coordinates),
+            ("velocity", self._velocities),
+            ("parameter", self._parameters),
+            ("input", self._inputs),
+            ("definition", self._definitions),
+        )
+        for kind, table in tables:
+            if name in table:
+                before = table[name].place
+                also = f" (line {before.line})" if before is not None and before.line is not None else ""
+                raise ModelError(
+                    f"'{name}' is defined twice: as a {kind}{also} and as a {what}",
+                    place=place,
+                    fix="give every coordinate, parameter, input and definition a name of its own",
+                    code="E404",
+                )
+        return name
+
+    def coordinate(
+        self,
+        name: str,
+        *,
+        description: str = "",
+        unit: str | None = None,
+        positive: bool = False,
+        place: Place | None = None,
+    ) -> Coordinate:
+        """Add a generalized coordinate; ``positive`` where it is a distance that is known to be above 0."""
+        name = self._claim(name, "coordinate", place)
+        if not isinstance(positive, bool):
+            raise ModelError(
+                f"positive must be True or False for coordinate '{name}' (got {positive!r:.40})",
+                place=place,
+                code="E406",
+            )
+        made = Coordinate(name, moving_symbol(name, positive=positive), description, unit, place, positive=positive)
+        self._coordinates[name] = made
+        self._symbols.add(made.symbol)
+        return made
+
+    def parameter(
+        self,
+        name: str,
+        value: float | None = None,
+        *,
+        unit: str | None = None,
+        description: str = "",
+        place: Place | None = None,
+    ) -> Parameter:
+        """Add a constant, with its value in SI units where it has one."""
+        name = self._claim(name, "parameter", place)
+        made = Parameter(name, sp.Symbol(name), checked_number(name, value, place), unit, description, place)
+        self._parameters[name] = made
+        if made.value is not None:
+            self._values[made.symbol] = made.value
+        self._symbols.add(made.symbol)
+        return made
+
+    def input(self, name: str, *, description: str = "", unit: str | None = None, place: Place | None = None) -> Input:
+        """Add a signal from outside."""
+        name = self._claim(name, "input", place)
+        made = Input(name, moving_symbol(name), description, unit, place)
+        self._inputs[name] = made
+        self._symbols.add(made.symbol)
+        return made
+
+    def define(self, name: str, expression: object, *, place: Place | None = None) -> Definition:
+        """Give an expression a name; it stays named. It may use what was declared before it."""
+        expr = as_expr(expression, f"the definition of '{name}'", place=place)
+        name = self._claim(name, "definition", place)
+        self._check_known(expr, f"definition '{name}'", place)
+        moving = expr.has(AppliedUndef, time, sp.Derivative)
+        symbol = moving_symbol(name) if moving else sp.Symbol(name)
+        made = Definition(name, symbol, expr, place)
+        self._definitions[name] = made
+        self._symbols.add(made.symbol)
+        return made
+
+    def _check_known(self, expr: sp.Expr, where: str, place: Place | None, local: Iterable[sp.Symbol] = ()) -> None:
+        """Refuse a symbol that was not declared, with the nearest name."""
+        known = self._symbols
+        atoms = {*expr.free_symbols, *expr.atoms(AppliedUndef)}
+        for atom in sorted(atoms - known - {*local}, key=str):
+            name = getattr(atom, "name", str(atom.func))
+            kind = "moving symbol" if isinstance(atom, AppliedUndef) else "symbol"
+            names = [getattr(k, "name", str(getattr(k, "func", k))) for k in known]
+            if name in names:
+                raise ModelError(
+                    f"'{name}' in {where} is not the symbol that was declared under that name",
+                    place=place,
+                    fix=f'use the symbol that the declaration returned, or system["{name}"]',
+                    code="E402",
+                )
+            hint = did_you_mean(name, names)
+            fix = hint or f'declare it: coordinates("{name}"), parameters("{name}") or input("{name}")'
+            raise ModelError(f"unknown {kind} '{name}' in {where}", place=place, fix=fix, code="E402")
+
+    @property
+    def _numbers(self) -> Numbers:
+        """The values of constant expressions, as declared so far."""
+        return Numbers(self._values, {d.symbol: d.expression for d in self._definitions.values()})
+
+    def _written_out(self, expr: sp.Expr) -> sp.Expr:
+        return written_out(expr, {d.symbol: d.expression for d in self._definitions.values()})
+
+    def standard_gravity(self, value: float) -> sp.Expr:
+        """Return the parameter g, declared with ``value`` [m/s²] unless the person declared one."""
+        if "g" in self._parameters:
+            return self._parameters["g"].symbol
+        if "g" in self._definitions:
+            return self._definitions["g"].symbol
+        if "g" in self._coordinates or "g" in self._inputs:
+            raise ModelError(
+                "the name 'g' is already in use, so gravity needs a symbol for its strength",
+                fix="gravity(..., g=another symbol)",
+                code="E404",
+            )
+        return self.parameter("g", value, unit="m/s^2").symbol
