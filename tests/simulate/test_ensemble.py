@@ -10,7 +10,7 @@ from lagrangian.errors import RunError
 from lagrangian.graph import Graph, Output, Program
 from lagrangian.integrate import ensemble
 from lagrangian.integrate.chunks import Portions, cut
-from lagrangian.integrate.design import Design, DesignColumn, Drawn
+from lagrangian.integrate.design import Design, DesignColumn, RandomColumn
 from lagrangian.integrate.ensemble import Memory, carry_out
 from lagrangian.integrate.observe import Kept, Study
 
@@ -115,12 +115,12 @@ def test_a_million_runs_are_cut_into_about_a_hundred_chunks() -> None:
 
 
 def test_draws_are_the_same_in_any_portion_and_follow_their_law() -> None:
-    drawn = Drawn("b", "normal", 1.0, 0.1, 3)
+    drawn = RandomColumn("b", "normal", 1.0, 0.1, 3)
     whole = drawn.sample(np.arange(100_000))
     assert drawn.sample(np.arange(777, 1234)).tolist() == whole[777:1234].tolist()
     assert drawn.sample(np.array([5])).tolist() == [whole[5]]
-    assert Drawn("b", "normal", 1.0, 0.1, 4).sample(np.arange(3)).tolist() != whole[:3].tolist()
-    assert Drawn("c", "normal", 1.0, 0.1, 3).sample(np.arange(3)).tolist() != whole[:3].tolist()
+    assert RandomColumn("b", "normal", 1.0, 0.1, 4).sample(np.arange(3)).tolist() != whole[:3].tolist()
+    assert RandomColumn("c", "normal", 1.0, 0.1, 3).sample(np.arange(3)).tolist() != whole[:3].tolist()
     from scipy import stats
 
     laws = {
@@ -130,7 +130,7 @@ def test_draws_are_the_same_in_any_portion_and_follow_their_law() -> None:
     }
     given = {"normal": (1.0, 0.1), "uniform": (2.0, 5.0), "lognormal": (0.2, 0.5)}
     for name, law in laws.items():
-        sample = Drawn("b", name, *given[name], 3).sample(np.arange(20_000))
+        sample = RandomColumn("b", name, *given[name], 3).sample(np.arange(20_000))
         assert stats.kstest(sample, law.cdf).pvalue > 1e-3
 
 

@@ -53,7 +53,7 @@ Their two numbers mean what they mean in NumPy.
 
 
 @dataclass(frozen=True)
-class Drawn:
+class RandomColumn:
     """Draws of one entry: sample k of seed s is the same number in whatever order and portions samples are asked for.
 
     Philox counts through the samples (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", 2011), keyed by the
@@ -87,7 +87,7 @@ class DesignColumn:
     group: str
     index: int
     name: str
-    source: Array | Drawn
+    source: Array | RandomColumn
 
 
 @dataclass(frozen=True)
@@ -126,7 +126,7 @@ class Design:
                 f"{self.count} runs are too many ({sizes})", code="E501", fix=f"at most {MOST_RUNS}: take fewer values"
             )
         for column in self.columns:
-            if not isinstance(column.source, Drawn):
+            if not isinstance(column.source, RandomColumn):
                 self._check(column.name, column.source)
 
     def _check(self, name: str, values: Array) -> None:
@@ -146,7 +146,7 @@ class Design:
     def values(self, column: DesignColumn, start: int, stop: int) -> Array:
         """What a column holds in runs start … stop − 1."""
         index: Any = np.unravel_index(np.arange(start, stop), self.shape) if self.shape else ()
-        if isinstance(column.source, Drawn):
+        if isinstance(column.source, RandomColumn):
             drawn = column.source.sample(index[-1])
             if not np.isfinite(drawn).all():
                 raise RunError(

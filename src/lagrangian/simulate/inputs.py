@@ -56,7 +56,7 @@ Source = float | SampledInput | Callable[[float, Array], float]
 
 
 @dataclass(frozen=True, eq=False)
-class Driving:
+class InputSignals:
     """Every input of a model: ``feedback`` by symbol; the rest, in order, are ``free`` with a source each.
 
     ``size`` is the number of states [q; v], which Python functions are given a copy of. ``stops`` are times at which
@@ -160,7 +160,7 @@ def driving(
     given: Mapping[Any, Any] | None,
     fallback: Mapping[str, Any],
     dims: Mapping[str, Dim | None] | None = None,
-) -> Driving:
+) -> InputSignals:
     """The inputs of a run from what was given by name or symbol; ``fallback`` is what the model's file says; else 0.
 
     ``dims`` are the dimensions of the inputs, by name, that a value with a unit must have.
@@ -184,7 +184,7 @@ def driving(
         else:
             free.append(u)
             sources.append(source)
-    return Driving(feedback, tuple(free), tuple(sources), len(model.coordinates) + len(model.velocities))
+    return InputSignals(feedback, tuple(free), tuple(sources), len(model.coordinates) + len(model.velocities))
 
 
 def _items(given: Mapping[Any, Any] | None) -> list[tuple[Any, Any]]:
@@ -269,7 +269,7 @@ def _table(what: str, given: Sequence[Any]) -> SampledInput:
     return SampledInput(times, values, kind == HOLD)
 
 
-def check_covers(drive: Driving, start: float, end: float) -> None:
+def check_covers(drive: InputSignals, start: float, end: float) -> None:
     """Refuse tables that do not reach over the run; the last value of a ``hold`` is kept."""
     for u, source in zip(drive.free, drive.sources, strict=True):
         if isinstance(source, SampledInput):

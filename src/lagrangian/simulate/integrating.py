@@ -23,7 +23,7 @@ from lagrangian.integrate.scipy_methods import IMPLICIT, SCIPY, Bounds, Outcome,
 from lagrangian.model import Model
 from lagrangian.simulate import resets
 from lagrangian.simulate.events import Event
-from lagrangian.simulate.inputs import Driving
+from lagrangian.simulate.inputs import InputSignals
 
 _log = logging.getLogger(__name__)
 Array = NDArray[np.float64]
@@ -40,7 +40,7 @@ class Task:
     """Everything a run needs, understood and checked; ``rtol`` and ``atol`` are those of one step."""
 
     model: Model
-    drive: Driving
+    drive: InputSignals
     times: Array
     x0: Array
     p: Array
@@ -93,7 +93,7 @@ def run(task: Task) -> Outcome:
 # -- programs ---------------------------------------------------------------------------------------------------
 
 
-def right_hand_side(model: Model, drive: Driving, *, canonical: bool = False) -> Program:
+def right_hand_side(model: Model, drive: InputSignals, *, canonical: bool = False) -> Program:
     """ẋ with the feedback compiled in and the energy supplied as a last state, if any can be."""
     key = ("rhs", canonical, frozenset(drive.feedback.items()))
     make = dynamics.canonical if canonical else dynamics.closed

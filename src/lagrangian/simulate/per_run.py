@@ -18,7 +18,7 @@ from lagrangian.integrate.observe import REDUCTIONS, EventsKept, Kept, Study
 from lagrangian.model import Model
 from lagrangian.page.plain import plain
 from lagrangian.simulate.events import listed_events
-from lagrangian.simulate.inputs import Driving
+from lagrangian.simulate.inputs import InputSignals
 from lagrangian.simulate.integrating import SYMPLECTIC, remembered
 from lagrangian.simulate.settings import DEFAULT, RunSettings
 from lagrangian.simulate.variation import TAKEN
@@ -49,7 +49,7 @@ def instants(model: Model, settings: RunSettings) -> Array:
 
 
 def study_of(
-    model: Model, settings: RunSettings, recording: Recording, drive: Driving, times: Array
+    model: Model, settings: RunSettings, recording: Recording, drive: InputSignals, times: Array
 ) -> tuple[Study, dict[str, sp.Expr]]:
     """What is done with every run, and the expressions observed by name.
 
@@ -174,7 +174,7 @@ def _asked(model: Model, name: str | None, asked: Any) -> tuple[str | None, sp.E
 
 
 def _events(
-    model: Model, settings: RunSettings, recording: Recording, drive: Driving
+    model: Model, settings: RunSettings, recording: Recording, drive: InputSignals
 ) -> tuple[Events | None, tuple[EventsKept, ...]]:
     listed = listed_events(settings.events)
     if not listed:

@@ -17,7 +17,7 @@ from lagrangian import codegen as machine
 from lagrangian.graph import Output, Program, bends, operands, reached
 from lagrangian.graph.graph import UNARY
 from lagrangian.model import Model
-from lagrangian.simulate.inputs import Driving
+from lagrangian.simulate.inputs import InputSignals
 from lagrangian.simulate.integrating import remembered, right_hand_side
 
 Array = NDArray[np.float64]
@@ -55,7 +55,7 @@ def curved(program: Program, *, inputs: bool) -> list[int]:
 class Pulses:
     """The narrow functions of time alone of a model that is driven so."""
 
-    def __init__(self, model: Model, drive: Driving) -> None:
+    def __init__(self, model: Model, drive: InputSignals) -> None:
         self.program, self._model = right_hand_side(model, drive), model
         self._key = ("pulses", drive.constant, frozenset(drive.feedback.items()))
         self.nodes = remembered(model, (*self._key, "nodes"), lambda: curved(self.program, inputs=drive.constant))

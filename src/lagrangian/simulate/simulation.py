@@ -23,7 +23,7 @@ from lagrangian.simulate.admission import check_masses
 from lagrangian.simulate.diagnosis import message
 from lagrangian.simulate.disagreement import disagreement
 from lagrangian.simulate.events import listed_events
-from lagrangian.simulate.inputs import Driving, check_covers, driving
+from lagrangian.simulate.inputs import InputSignals, check_covers, driving
 from lagrangian.simulate.integrating import Task, remembered, right_hand_side, run
 from lagrangian.simulate.recorded import Occurrences
 from lagrangian.simulate.settings import DEFAULT, RunSettings, check_names, names_of
@@ -147,7 +147,7 @@ def _initial(
     return np.array([*values.values(), *[0.0] * extra])
 
 
-def _method(method: str | None, drive: Driving) -> str:
+def _method(method: str | None, drive: InputSignals) -> str:
     """The method that will run, or a `RunError` where it cannot call an input."""
     if method is None:
         return IN_PYTHON if drive.calls_python else DEFAULT

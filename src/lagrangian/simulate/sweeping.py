@@ -28,7 +28,7 @@ from lagrangian.model import Model
 from lagrangian.page.plain import plain
 from lagrangian.simulate.admission import check_masses, fitness
 from lagrangian.simulate.ensemble import Ensemble
-from lagrangian.simulate.inputs import Driving, check_covers, driving
+from lagrangian.simulate.inputs import InputSignals, check_covers, driving
 from lagrangian.simulate.integrating import remembered
 from lagrangian.simulate.per_run import Recording, instants, study_of
 from lagrangian.simulate.plot import Units
@@ -188,7 +188,7 @@ def _executor(execution: Execution) -> tuple[Executor, dict[str, int]]:
     return dask, {"held": dask.held, "few": max(FEW, 8 * dask.threads)}
 
 
-def _drive(model: Model, varying: Varying, inputs: dict[Any, Any]) -> Driving:
+def _drive(model: Model, varying: Varying, inputs: dict[Any, Any]) -> InputSignals:
     """The inputs that do not vary; one given twice is refused."""
     varied = {name for group, name in varying.columns if group == "u"}
     for key in inputs:
@@ -263,7 +263,7 @@ def _words(made_of: Mapping[str, tuple[Kept, str]], name: str) -> dict[str, Any]
     return {"long_name": name, **({"units": "s"} if name.startswith("time ") else {})}
 
 
-def _task(model: Model, varying: Varying, drive: Driving, study: Study) -> dict[str, Any]:
+def _task(model: Model, varying: Varying, drive: InputSignals, study: Study) -> dict[str, Any]:
     """What is done, as plain data: two tasks with equal data give the same bits."""
     times = study.times
     return {

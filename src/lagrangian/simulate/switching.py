@@ -21,7 +21,7 @@ from lagrangian.graph import Graph, Output, Program, operands, reached
 from lagrangian.integrate.design import Design
 from lagrangian.integrate.methods.memory_layout import MARGIN
 from lagrangian.model import Model
-from lagrangian.simulate.inputs import MAX_KNOTS, Driving
+from lagrangian.simulate.inputs import MAX_KNOTS, InputSignals
 from lagrangian.simulate.integrating import remembered, right_hand_side
 from lagrangian.simulate.pulses import Pulses
 
@@ -84,7 +84,7 @@ def parameters_read(program: Program, found: list[tuple[int, int]]) -> set[int]:
 class Switches:
     """The conditions in time alone of a model that is driven so."""
 
-    def __init__(self, model: Model, drive: Driving) -> None:
+    def __init__(self, model: Model, drive: InputSignals) -> None:
         self.program, self._model = right_hand_side(model, drive), model
         self._key = ("switches", drive.constant, frozenset(drive.feedback.items()))
         self.pairs = remembered(model, (*self._key, "pairs"), lambda: pairs(self.program, inputs=drive.constant))
@@ -159,7 +159,7 @@ def merged(times: Array, start: float, end: float) -> Array:
     return ordered[np.append(apart, True)] if len(ordered) else ordered
 
 
-def with_stops(model: Model, drive: Driving, p: Array, times: Array) -> Driving:
+def with_stops(model: Model, drive: InputSignals, p: Array, times: Array) -> InputSignals:
     """The same driving with the times at which conditions in time switch in a run over ``times``."""
     if len(times) < 2:
         return drive
@@ -171,8 +171,8 @@ def with_stops(model: Model, drive: Driving, p: Array, times: Array) -> Driving:
 
 
 def with_stops_of_all(
-    model: Model, drive: Driving, design: Design, times: Array, max_step: float
-) -> tuple[Driving, tuple[Advice, ...]]:
+    model: Model, drive: InputSignals, design: Design, times: Array, max_step: float
+) -> tuple[InputSignals, tuple[Advice, ...]]:
     """The same driving with the times at which conditions in time switch in any run of an ensemble, and of pulses.
 
     Where these differ from run to run, every run's steps end at all of them. Raises `RunError` where conditions switch
@@ -196,12 +196,12 @@ def with_stops_of_all(
     return drive, said
 
 
-def _constants(drive: Driving, times: Array) -> Array:
+def _constants(drive: InputSignals, times: Array) -> Array:
     """The inputs where all are constant, else zeros."""
     return drive.at(times[:1], np.zeros((1, drive.size)))[0] if drive.constant else np.zeros(len(drive.free))
 
 
-def _pulses_of_all(model: Model, drive: Driving, design: Design, times: Array) -> list[Array] | None:
+def _pulses_of_all(model: Model, drive: InputSignals, design: Design, times: Array) -> list[Array] | None:
     """The times of narrow functions of time in the runs of an ensemble; None where there are too many."""
     pulses = Pulses(model, drive)
     if not pulses:
@@ -225,7 +225,7 @@ def _pulses_of_all(model: Model, drive: Driving, design: Design, times: Array) -
     return found
 
 
-def _switches_of_all(model: Model, drive: Driving, design: Design, times: Array, max_step: float) -> list[Array]:
+def _switches_of_all(model: Model, drive: InputSignals, design: Design, times: Array, max_step: float) -> list[Array]:
     """The times at which conditions in time switch in the runs of an ensemble."""
     switches = Switches(model, drive)
     if not switches:

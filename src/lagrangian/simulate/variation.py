@@ -14,7 +14,7 @@ from lagrangian import dynamics, read
 from lagrangian.advice import Advice, Argument
 from lagrangian.codegen.arguments import numbers
 from lagrangian.errors import RunError, did_you_mean
-from lagrangian.integrate.design import GROUPS, Design, DesignColumn, Drawn
+from lagrangian.integrate.design import GROUPS, Design, DesignColumn, RandomColumn
 from lagrangian.integrate.seal import DONE
 from lagrangian.integrate.store import Variable
 from lagrangian.model import Model
@@ -99,7 +99,7 @@ class Varying:
 
     entries: ListedEntries
     axes: dict[str, int]
-    columns: dict[tuple[str, str], Array | Drawn] = field(default_factory=dict)
+    columns: dict[tuple[str, str], Array | RandomColumn] = field(default_factory=dict)
 
     def design(self) -> Design:
         """The runs."""
@@ -116,8 +116,11 @@ class Varying:
         taken = {*TAKEN, *names}
         for (group, name), source in self.columns.items():
             title = _title(group, name, taken)
-            words = {**self._words(group, name, units), "varied": "drawn" if isinstance(source, Drawn) else "given"}
-            if isinstance(source, Drawn):
+            words = {
+                **self._words(group, name, units),
+                "varied": "drawn" if isinstance(source, RandomColumn) else "given",
+            }
+            if isinstance(source, RandomColumn):
                 count = self.axes[SAMPLE]
                 portions = (source.sample(np.arange(k, min(count, k + PORTION))) for k in range(0, count, PORTION))
                 words["distribution"] = f"{source.law}({source.a:g}, {source.b:g})"
@@ -160,8 +163,8 @@ def _title(group: str, name: str, taken: set[str]) -> str:
     return f"{name}(0)" if group == "x" else f"{'parameter' if group == 'p' else 'input'} {name}"
 
 
-def _said(source: Array | Drawn) -> str:
-    if isinstance(source, Drawn):
+def _said(source: Array | RandomColumn) -> str:
+    if isinstance(source, RandomColumn):
         return f"{source.law}({source.a!r}, {source.b!r}) seed {source.seed}"
     ends = f"{source.flat[0]:.17g} … {source.flat[-1]:.17g}" if source.size else "nothing"
     digest = hashlib.blake2b(np.ascontiguousarray(source).tobytes(), digest_size=8).hexdigest()
@@ -177,12 +180,12 @@ def from_arrays(model: Model, given: Mapping[str, Mapping[Any, Any] | None], dim
     Raises `RunError` for unknown names, and shapes that do not fit together.
     """
     entries = ListedEntries.of(model)
-    columns: dict[tuple[str, str], Array | Drawn] = {}
+    columns: dict[tuple[str, str], Array | RandomColumn] = {}
     for group, mapping in given.items():
         for key, value in _items(mapping, group):
             where = _entry(entries, group, key_name(key))
             _take(entries, columns, where, value)
-    shapes = {name: source.shape for (_, name), source in columns.items() if not isinstance(source, Drawn)}
+    shapes = {name: source.shape for (_, name), source in columns.items() if not isinstance(source, RandomColumn)}
     try:
         shape = np.broadcast_shapes(*shapes.values())
     except ValueError:
@@ -276,7 +279,7 @@ def from_grid(
     ``grid``: name → values (an array, or text such as "10:100:50" and "normal(1, 0.1)"), or texts "k=10:100:50".
     """
     entries = ListedEntries.of(model)
-    spare: dict[tuple[str, str], Array | Drawn] = {}
+    spare: dict[tuple[str, str], Array | RandomColumn] = {}
     for group, mapping in fixed.items():
         for key, value in _items(mapping, group):
             _take(entries, spare, _entry(entries, group, key_name(key)), value)
@@ -288,7 +291,7 @@ def from_grid(
             code="E501",
         )
     axes: dict[str, Array] = {}
-    drawn: dict[tuple[str, str], Drawn] = {}
+    drawn: dict[tuple[str, str], RandomColumn] = {}
     groups: dict[str, str] = {}
     for written, values in _grid_items(grid):
         group, name = entries.found(written)
@@ -298,7 +301,7 @@ def from_grid(
         dim = entries.group(group).dims[list(entries.base[group]).index(name)]
         if isinstance(values, Spread) and values.drawn:
             a, b = (_checked(values, q, dim) for q in values.numbers)
-            drawn[group, name] = Drawn(name, values.kind, a, b, _seed(seed))
+            drawn[group, name] = RandomColumn(name, values.kind, a, b, _seed(seed))
         else:
             axes[name] = _listed(values, dim) if isinstance(values, Spread) else _axis(values, name)
     if not groups:
@@ -313,7 +316,7 @@ def from_grid(
             fix="draw a quantity, such as b~normal(1, 0.1), or leave draws out",
             code="E501",
         )
-    columns: dict[tuple[str, str], Array | Drawn] = {}
+    columns: dict[tuple[str, str], Array | RandomColumn] = {}
     for k, (name, values) in enumerate(axes.items()):
         columns[groups[name], name] = values.reshape([-1 if i == k else 1 for i in range(len(sizes))])
     return Varying(entries, sizes, {**columns, **drawn})
