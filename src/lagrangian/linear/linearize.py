@@ -23,7 +23,7 @@ from lagrangian.linear.jacobians import Arrays, forces, may_kink, rates, reads, 
 from lagrangian.linear.linearization import Linearization
 from lagrangian.linear.modes import EPSILON, SLACK
 from lagrangian.linear.outputs import Measured, measured
-from lagrangian.linear.rest import TIMES, Rest, rest
+from lagrangian.linear.rest import TIMES, OperatingPoint, rest
 from lagrangian.linear.stability import has_minimum, loses_power, loses_power_beyond_potential
 from lagrangian.model import Model
 from lagrangian.values.values import Given, Named
@@ -116,9 +116,9 @@ class Linearizer:
 
     def at_rest(self, x: Array, u: Array, p: Array) -> Linearization:
         """The linearization about what is known to be a rest."""
-        return self.about(Rest(self.rates.inputs["x"], x, u, p, "rest", 0.0), 0.0, None)
+        return self.about(OperatingPoint(self.rates.inputs["x"], x, u, p, "rest", 0.0), 0.0, None)
 
-    def about(self, here: Rest, t: float, outputs: Any) -> Linearization:
+    def about(self, here: OperatingPoint, t: float, outputs: Any) -> Linearization:
         """The linearization about a point of known kind."""
         program = self.rates
         found = _finite(self.values(program, x=here.x, u=here.u, p=here.p, t=t), here)
@@ -157,7 +157,7 @@ class Linearizer:
             noise=noise,
         )
 
-    def _proper(self, here: Rest, t: float, found: Arrays) -> None:
+    def _proper(self, here: OperatingPoint, t: float, found: Arrays) -> None:
         """Refuse a mass matrix that is not positive, and a point where the motion has no slope."""
         n = len(self.forces.inputs["q"])
         M = self.values(self.mass, q=here.x[:n], v=here.x[n:], u=here.u, p=here.p, t=t)["M"]
@@ -171,7 +171,7 @@ class Linearizer:
         if self._may_kink:
             self._sloped(self.rates, "xdot", found["A"], here, t, "the motion")
 
-    def _sloped(self, program: Program, output: str, slope: Array, here: Rest, t: float, what: str) -> None:
+    def _sloped(self, program: Program, output: str, slope: Array, here: OperatingPoint, t: float, what: str) -> None:
         """Refuse a point where an output does not follow its slope to either side."""
         source = np.random.default_rng(6)
         size = max(1.0, _largest(slope))
@@ -186,7 +186,7 @@ class Linearizer:
                     code="E525",
                 )
 
-    def _second_order(self, here: Rest, t: float) -> Arrays | None:
+    def _second_order(self, here: OperatingPoint, t: float) -> Arrays | None:
         """M, D, K, S about a rest, where velocities are the rates of the coordinates."""
         n = len(self.forces.inputs["q"])
         if n != len(self.forces.inputs["v"]):
@@ -194,7 +194,9 @@ class Linearizer:
         point = {"q": here.x[:n], "v": here.x[n:], "u": here.u, "p": here.p, "t": t}
         return self.values(self.forces, **point) | self.values(self.mass, **point)
 
-    def _noise(self, here: Rest, t: float, found: Arrays, second: Arrays | None) -> tuple[tuple[float, float], float]:
+    def _noise(
+        self, here: OperatingPoint, t: float, found: Arrays, second: Arrays | None
+    ) -> tuple[tuple[float, float], float]:
         """The rounding errors in A and M⁻¹K, and in K: how they change when all digits behind the twelfth do.
 
         Where terms cancel, as at a bifurcation, they are much larger than ε times what is left.
@@ -213,7 +215,7 @@ class Linearizer:
         digits = SLACK * EPSILON / PERTURBED
         return (dA * digits, dMK * digits), dK * digits
 
-    def _minimum(self, second: Arrays, here: Rest, noise: float) -> bool:
+    def _minimum(self, second: Arrays, here: OperatingPoint, noise: float) -> bool:
         n = len(second["K"])
         if not has_minimum(second["M"], second["K"], noise):
             return False
@@ -222,7 +224,7 @@ class Linearizer:
             self.values, self.power_slopes, *point
         )
 
-    def _changes(self, here: Rest) -> bool:
+    def _changes(self, here: OperatingPoint) -> bool:
         """Whether A or B differs between a few times."""
         if not self._reads_time:
             return False
@@ -234,7 +236,7 @@ class Linearizer:
         )
 
 
-def _finite(found: Arrays, here: Rest) -> Arrays:
+def _finite(found: Arrays, here: OperatingPoint) -> Arrays:
     for name, array in found.items():
         if not np.isfinite(array).all():
             raise RunError(

@@ -33,7 +33,7 @@ TIMES = (0.0, 0.37, 1.91, 7.13)
 
 
 @dataclass(frozen=True, eq=False)
-class Rest:
+class OperatingPoint:
     """A point x, u, p with what moves there.
 
     ``kind``: "rest", "steady motion" or "operating point"; ``residual`` the largest |q̈|; ``free`` the coordinates that
@@ -70,7 +70,7 @@ def rest(
     params: Named | None,
     t: float,
     any_point: bool,
-) -> Rest:
+) -> OperatingPoint:
     """The point that was asked for. Raises `RunError` where it is no rest and ``any_point`` is not set."""
     states = program.inputs["x"]
     if at is not None and not isinstance(at, Mapping) and hasattr(at, "at"):  # an Equilibrium brings its own
@@ -80,7 +80,7 @@ def rest(
     start = dict.fromkeys(states, 0.0) | {c.name: c.start for c in model.coordinates}
     x = np.array(list((start | given.states.values(at)).values()))
     u, p = given.input_values(inputs), given.parameter_values(params)
-    here = Rest(states, x, u, p, "operating point", 0.0)
+    here = OperatingPoint(states, x, u, p, "operating point", 0.0)
     q = x[: len(model.coordinates)]
     if moved := dynamics.loose(model, q.tolist(), u.tolist(), p.tolist(), t):
         raise RunError(
@@ -105,7 +105,7 @@ def rest(
     )
 
 
-def _values(program: Program, here: Rest, t: float) -> Arrays:
+def _values(program: Program, here: OperatingPoint, t: float) -> Arrays:
     found = values(program, x=here.x, u=here.u, p=here.p, t=t)
     if np.isfinite(found["xdot"]).all() and not all(np.isfinite(a).all() for a in found.values()):
         raise RunError(
@@ -122,7 +122,7 @@ def _values(program: Program, here: Rest, t: float) -> Arrays:
     return found
 
 
-def _moved_later(program: Program, here: Rest, t: float) -> float | None:
+def _moved_later(program: Program, here: OperatingPoint, t: float) -> float | None:
     """A time at which ẋ is another there than at t; None where it never is."""
     if not reads(program, "xdot", "t"):
         return None
@@ -136,7 +136,7 @@ def _largest(a: Array) -> float:
     return float(np.abs(a).max(initial=0.0))
 
 
-def free_coordinates(program: Program, here: Rest, n: int, t: float) -> tuple[str, ...]:
+def free_coordinates(program: Program, here: OperatingPoint, n: int, t: float) -> tuple[str, ...]:
     """The coordinates that ẋ does not depend on, there and at random states."""
     source = np.random.default_rng(2)
     constant = np.ones(n, bool)
@@ -150,7 +150,7 @@ def free_coordinates(program: Program, here: Rest, n: int, t: float) -> tuple[st
     return tuple(name for name, c in zip(here.names, constant, strict=False) if c)
 
 
-def _classified(here: Rest, found: Arrays, n: int) -> Rest:
+def _classified(here: OperatingPoint, found: Arrays, n: int) -> OperatingPoint:
     """Which kind of point it is as it stands."""
     bound = ROUNDING * max(1.0, _largest(found["A"]))
     if here.residual > bound:
@@ -164,7 +164,7 @@ def _classified(here: Rest, found: Arrays, n: int) -> Rest:
     return here
 
 
-def _settled(model: Model, program: Program, here: Rest, found: Arrays, n: int, t: float) -> Rest:
+def _settled(model: Model, program: Program, here: OperatingPoint, found: Arrays, n: int, t: float) -> OperatingPoint:
     """The rest that the point is, or is within rounding of; else the error that teaches."""
     start = here.x
     moved = 0.0
@@ -187,7 +187,7 @@ def _settled(model: Model, program: Program, here: Rest, found: Arrays, n: int, 
     return settled
 
 
-def _newton(here: Rest, found: Arrays, n: int) -> Array:
+def _newton(here: OperatingPoint, found: Arrays, n: int) -> Array:
     """The shortest change of the coordinates that is not free which makes q̈ vanish, rates kept."""
     A, a = found["A"][n:, :n], found["xdot"][n:]
     step = np.zeros(len(here.x))
@@ -195,7 +195,7 @@ def _newton(here: Rest, found: Arrays, n: int) -> Array:
     return step
 
 
-def _refused(model: Model, here: Rest, program: Program, n: int, t: float) -> RunError:
+def _refused(model: Model, here: OperatingPoint, program: Program, n: int, t: float) -> RunError:
     found = _values(program, here, t)
     worst = int(np.argmax(np.abs(found["xdot"][n:])))
     bound = ROUNDING * max(1.0, _largest(found["A"]))
