@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from lagrangian.check.candidates import too_long
-from lagrangian.check.coordinates import Glance, ProposedChange, candidates, in_these, likeliest, new_names
+from lagrangian.check.coordinates import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
 from lagrangian.check.difference import differences, likeness, paired
 from lagrangian.check.lines import filled
 from lagrangian.check.mistakes import mistakes
@@ -208,7 +208,7 @@ def _note(truth: Reference, row: ReferenceRow) -> Text | None:
 
 def _elsewhere(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdict | None:
     """The verdict in other coordinates, where the answer is right in some; a mistake goes before an unspoken change."""
-    glance = Glance(truth, spelling.lines)
+    glance = QuickTest(truth, spelling.lines)
     for change in candidates(truth, spelling.lines):
         if not glance.may_be(change):
             continue

@@ -247,7 +247,7 @@ def _static(truth: Reference) -> list[tuple[sp.Expr, sp.Expr]]:
 # -- a quick look -----------------------------------------------------------------------------------------------------
 
 
-class Glance:
+class QuickTest:
     """Tells quickly whether a change may make an answer right: by its equations in doubles, else by an energy."""
 
     def __init__(self, truth: Reference, lines: Sequence[AnsweredLine]) -> None:
@@ -309,7 +309,7 @@ def _motion(psi: sp.Expr) -> CompiledExpressions:
 
 def likeliest(truth: Reference, lines: Sequence[AnsweredLine]) -> ProposedChange | None:
     """The change that makes most equations of a wrong answer true; None where none makes any."""
-    glance = Glance(truth, lines)
+    glance = QuickTest(truth, lines)
     tried = [(glance.true_lines(change), -k, change) for k, change in enumerate(candidates(truth, lines))]
     best = max(tried, key=lambda x: x[:2], default=None)
     if best is None:
