@@ -139,7 +139,8 @@ class Arithmetic:
         nodes = self.nodes
         if a > b:
             a, b = b, a
-        na, nb = nodes[a], nodes[b]
+        na: Node = nodes[a]
+        nb: Node = nodes[b]
         if nb[0] == "const":
             a, b, na, nb = b, a, nb, na
         oa, ob = na[0], nb[0]
@@ -155,8 +156,10 @@ class Arithmetic:
                 return self._folded(c * nb[1], ("mul", a, b))
             if c < 0.0:
                 return self.neg(self.mul(self.const(-c), b))
-            if ob == "mul" and nodes[nb[1]][0] == "const":
-                return self.mul(self._folded(c * nodes[nb[1]][1], ("mul", a, nb[1])), nb[2])
+            if ob == "mul":
+                first: int = nb[1]
+                if nodes[first][0] == "const":
+                    return self.mul(self._folded(c * nodes[first][1], ("mul", a, first)), nb[2])
         elif oa == "neg":
             return self.neg(self.mul(na[1], b))
         if ob == "neg":

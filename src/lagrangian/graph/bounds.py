@@ -176,7 +176,8 @@ class _Walk:
                 return self._extreme(a[0], a[1], op)
             case "atan2":
                 return self._angle(a[0], a[1])
-        raise KeyError(f"operation {op!r} has no bounds")
+            case _:
+                raise KeyError(f"operation {op!r} has no bounds")
 
     def _input(self, group: str, index: int) -> Along:
         g = self.g
@@ -226,11 +227,11 @@ class _Walk:
     def _function(self, a: Along, f: Slopes) -> Along:
         g = self.g
         K = g.add(g.mul(f.second, g.mul(a.S, a.S)), g.mul(f.first, a.K))
-        R = g.mul(f.first, a.R) if a.free else None
+        least = g.mul(f.first, a.R) if a.free else None
         if f.within is not None:
             span = g.add(g.abs(f.v), g.const(f.within))
-            R = span if R is None else g.min(R, span)
-        return self.smooth(f.v, g.mul(f.slope, a.d), K, R=R, S=g.mul(f.first, a.S) if a.free else None)
+            least = span if least is None else g.min(least, span)
+        return self.smooth(f.v, g.mul(f.slope, a.d), K, R=least, S=g.mul(f.first, a.S) if a.free else None)
 
     def _power(self, a: Along, n: int, whole: int | None) -> Slopes:
         """a^n; |a|^(n−1) is greatest at one of the ends."""

@@ -4,6 +4,10 @@ In double precision every operation is IEEE's: what divides by zero or leaves a 
 never an exception. In mpmath precision the same walk is done with as many decimal digits as asked.
 """
 
+# mpmath has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false, reportUnknownLambdaType=false
+
 from __future__ import annotations
 
 import math

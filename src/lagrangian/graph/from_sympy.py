@@ -5,6 +5,9 @@ is looked up whole; a sum is added term by term, and a product is one quotient: 
 below the line.
 """
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownArgumentType=false
+
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, MutableMapping

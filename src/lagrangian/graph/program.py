@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Container, Iterable, Mapping
 from dataclasses import dataclass, field
 from math import prod
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 from lagrangian.graph.graph import LEAVES, Graph, operands
 
@@ -36,8 +36,8 @@ class Program:
     graph: Graph
     inputs: Mapping[str, tuple[str, ...]]
     outputs: Mapping[str, Output]
-    defaults: Mapping[str, float | None] = field(default_factory=dict)
-    _memo: dict[Any, Any] = field(default_factory=dict, init=False, repr=False, compare=False)
+    defaults: Mapping[str, float | None] = field(default_factory=dict[str, float | None])
+    _memo: dict[Any, Any] = field(default_factory=dict[Any, Any], init=False, repr=False, compare=False)
 
     def remembered(self, key: Any, make: Callable[[], T]) -> T:
         """Return what was made of this program under a key, made at the first asking; kept as long as the program."""
@@ -58,7 +58,7 @@ def reached(graph: Graph, ids: Iterable[int], stop: Iterable[int] = ()) -> list[
     """The nodes that ``ids`` need, in increasing order; nothing behind the nodes in ``stop`` is followed."""
     nodes = graph.nodes
     seen: set[int] = set()
-    halt = stop if isinstance(stop, (set, frozenset, Mapping)) else set(stop)
+    halt = cast("Container[int]", stop) if isinstance(stop, (set, frozenset, Mapping)) else set(stop)
     stack = list(ids)
     while stack:
         i = stack.pop()

@@ -1,5 +1,8 @@
 """Numbers of an analysis as they stand in its report: six digits, complex ones with i."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
+
 from __future__ import annotations
 
 from collections.abc import Iterable

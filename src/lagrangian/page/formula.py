@@ -4,6 +4,9 @@ These are data without any markup. `write` lays them out; ``str()`` gives a plai
 meaning ("T*", "Xi"), and the writer chooses the letter of the notation that was asked for (T*, T or K; Ξ, Q or τ).
 """
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
+
 from __future__ import annotations
 
 from dataclasses import dataclass

@@ -1,5 +1,9 @@
 """Expressions as plain text in the grammar of model files: ``m*L^2*theta1'' + g*sin(theta1)``."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false
+
 from __future__ import annotations
 
 from typing import Any, cast

@@ -32,4 +32,4 @@ class Report(Brief, Generic[M]):
     title: str
     model: M
     parts: tuple[Part, ...]
-    data: Mapping[str, Any] = field(default_factory=dict, repr=False)
+    data: Mapping[str, Any] = field(default_factory=dict[str, Any], repr=False)
