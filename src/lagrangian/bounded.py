@@ -2,9 +2,9 @@
 
 What is written out as a sum may be exponentially longer than what a person wrote: (a + b + c)^50, sixty definitions
 that use each other twice, a chain of frames in space. So the size of a result is predicted from the structure of an
-expression, and past `LARGEST` it is left as it is (`expand`) or refused (`diff`, `written_out`). A search for a closed
-form or a common factor has no size that could be predicted: `searched` counts the calls it makes and gives up past
-`CALLS`. Both are counts of operations: the answer does not depend on how fast or how busy a machine is.
+expression, and past `MAX_OPERATIONS` it is left as it is (`expand`) or refused (`diff`, `written_out`). A search for a
+closed form or a common factor has no size that could be predicted: `searched` counts the calls it makes and gives up
+past `CALLS`. Both are counts of operations: the answer does not depend on how fast or how busy a machine is.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from lagrangian.errors import ModelError
 
 T = TypeVar("T")
 
-LARGEST = 20_000
+MAX_OPERATIONS = 20_000
 """Operations that an expression may have once it is written out."""
 
 SLOPES = 1_000_000
@@ -159,12 +159,12 @@ def expand(expr: sp.Expr) -> sp.Expr:
 
     Maxima and cases stay as they are: SymPy would prove them anew.
     """
-    return expr if terms(expr) > TERMS or size(expr) > LARGEST else _unbent(sp.expand, expr)
+    return expr if terms(expr) > TERMS or size(expr) > MAX_OPERATIONS else _unbent(sp.expand, expr)
 
 
 def expand_angles(expr: sp.Expr) -> sp.Expr:
     """Return the sum of products with sines and cosines of single angles, or the expression where that is too long."""
-    if terms(expr, angles=True) > TERMS or size(expr) > LARGEST:
+    if terms(expr, angles=True) > TERMS or size(expr) > MAX_OPERATIONS:
         return expr
     return _unbent(lambda straight: sp.expand(sp.expand_trig(straight)), expr)
 
@@ -179,12 +179,13 @@ def _unbent(routine: Callable[[sp.Expr], Any], expr: sp.Expr) -> sp.Expr:
 
 
 def check_size(count: int, what: str) -> None:
-    """Refuse what is longer than `LARGEST`; ``what`` is the subject of the sentence."""
-    if count > LARGEST:
+    """Refuse what is longer than `MAX_OPERATIONS`; ``what`` is the subject of the sentence."""
+    if count > MAX_OPERATIONS:
         many = f"{float(count):.0e}" if count < BEYOND else "more than 1e30"
         raise TooLarge(
             f"{what} has {many} operations once it is written out",
-            fix=f"at most {LARGEST}: refer to each definition fewer times, or describe the system by points and frames",
+            fix=f"at most {MAX_OPERATIONS}: refer to each definition fewer times, or describe the system by points and "
+            "frames",
             code="E601",
         )
 
@@ -192,7 +193,7 @@ def check_size(count: int, what: str) -> None:
 def written_out(expr: sp.Expr, table: Mapping[Any, Any]) -> sp.Expr:
     """Return ``expr`` with symbols replaced by their expressions, derivatives by time of those worked out.
 
-    Raises `TooLarge` where it would have more than `LARGEST` operations.
+    Raises `TooLarge` where it would have more than `MAX_OPERATIONS` operations.
     """
     while used := [node for node in _each(expr) if (node.expr if isinstance(node, sp.Derivative) else node) in table]:
         lengths: dict[Any, int] = {}
@@ -373,7 +374,7 @@ def trigsimp(expr: sp.Expr) -> sp.Expr:
 def _found(routine: Callable[[Any], Any], expr: sp.Expr) -> sp.Expr:
     if not expr.args:
         return expr
-    if terms(expr) > TERMS or size(expr) > LARGEST:
+    if terms(expr) > TERMS or size(expr) > MAX_OPERATIONS:
         return expr
     answer = searched(routine, expr)
     return expr if answer is None else cast("sp.Expr", answer)

@@ -18,7 +18,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.check.reference import Reference
-from lagrangian.check.rows import CLOSE
+from lagrangian.check.rows import DOUBLE_TOLERANCE
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.coordinates import changed
 from lagrangian.derive import derive
@@ -29,7 +29,7 @@ from lagrangian.page.formula import Text, text
 from lagrangian.page.plain import plain
 from lagrangian.viewed import Brief
 
-MOST = 200
+MAX_CHANGES = 200
 """Changes that are tried."""
 
 
@@ -88,7 +88,7 @@ class ProposedChange(Brief):
 def candidates(truth: Reference, lines: Sequence[AnsweredLine]) -> Iterator[ProposedChange]:
     """The changes worth trying for an answer: for its own names where it has any, else of the system's coordinates."""
     new = new_names(truth, lines)
-    yield from islice(_renamed(truth, new, lines) if new else _reused(truth), MOST)
+    yield from islice(_renamed(truth, new, lines) if new else _reused(truth), MAX_CHANGES)
 
 
 def new_names(truth: Reference, lines: Sequence[AnsweredLine]) -> list[sp.Expr]:
@@ -272,7 +272,7 @@ class QuickTest:
         off = self._compiled.at(states, self._values(change, truly=False))
         good = np.isfinite(truly) & np.isfinite(off)
         scale = np.where(good, np.abs(off), 0).max(axis=1)
-        small = np.where(good, np.abs(truly), 0).max(axis=1) <= CLOSE * scale
+        small = np.where(good, np.abs(truly), 0).max(axis=1) <= DOUBLE_TOLERANCE * scale
         return np.logical_and(good.any(axis=1), small)
 
     def may_be(self, change: ProposedChange) -> bool:

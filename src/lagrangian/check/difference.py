@@ -15,7 +15,7 @@ from lagrangian.derive.algebra import Form
 from lagrangian.derive.algebra.form import Key
 from lagrangian.model import time
 
-MOST = 12
+MAX_DIFFERENCES = 12
 """Differences that are told; an answer with more of them is another answer."""
 
 
@@ -86,7 +86,7 @@ def differences(
                 kind, term = "extra", written
         as_written, written_so = (_scaled(x, factor) for x in (term, written))
         found.append(TermDifference(kind, as_written, written_so, name, _origins(truth, term, index)))
-        if len(found) == MOST:
+        if len(found) == MAX_DIFFERENCES:
             break
     return tuple(found)
 

@@ -15,7 +15,7 @@ import sympy as sp
 from lagrangian.check.candidates import Effects, Wrong, effects_of
 from lagrangian.check.difference import likeness
 from lagrangian.check.reference import Reference
-from lagrangian.check.rows import CLOSE
+from lagrangian.check.rows import DOUBLE_TOLERANCE
 from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
 
 
@@ -77,9 +77,9 @@ def _spanned(P: Array, W: Array) -> tuple[Array, Array]:
     unit = W / np.where(scale > 0, scale, 1.0)
     A = np.einsum("ks,vsn->vkn", P, np.linalg.pinv(unit, rcond=1e-10))
     left = np.abs(P[None] - np.einsum("vkn,vns->vks", A, unit)).max(axis=2)
-    fits = (left <= CLOSE * np.abs(P).max(axis=1)[None]).all(axis=1)
+    fits = (left <= DOUBLE_TOLERANCE * np.abs(P).max(axis=1)[None]).all(axis=1)
     A = A / np.where(scale > 0, scale, 1.0).transpose(0, 2, 1)
-    big = np.abs(A * scale.transpose(0, 2, 1)) > CLOSE * np.abs(P).max(axis=1)[None, :, None]
+    big = np.abs(A * scale.transpose(0, 2, 1)) > DOUBLE_TOLERANCE * np.abs(P).max(axis=1)[None, :, None]
     mixed = (big.sum(axis=2) > 1).any(axis=1)
     ones = np.where(big, np.abs(A - 1), 0).max(axis=(1, 2)) < 1e-6
     return fits, np.where(mixed, 2, np.where(ones, 0, 1))
@@ -103,7 +103,7 @@ def _together(truth: Reference, effects: Effects, P: Array) -> list[Explanation]
         near = np.searchsorted(sums[order], target - sums - 1e-6 * scale)
         for i, start in enumerate(near):
             for k in order[start : start + 8]:
-                if k > i and np.abs(dW[i] + dW[k] - D).max() <= CLOSE * scale:
+                if k > i and np.abs(dW[i] + dW[k] - D).max() <= DOUBLE_TOLERANCE * scale:
                     pair = sorted((effects.wrongs[usable[i]], effects.wrongs[usable[k]]), key=lambda w: w.rank)
                     found.append(Explanation(tuple(pair), 0))
     return sorted(found, key=lambda e: sum(w.rank for w in e.wrongs))

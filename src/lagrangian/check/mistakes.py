@@ -11,7 +11,7 @@ from lagrangian.check.candidates import Effects, Wrong, effects_of
 from lagrangian.check.explain import Explanation, explain_rows
 from lagrangian.check.own_terms import wrong_term
 from lagrangian.check.reference import Reference
-from lagrangian.check.rows import CLOSE
+from lagrangian.check.rows import DOUBLE_TOLERANCE
 from lagrangian.check.stated import dissipation, index_of
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
 from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
@@ -120,7 +120,7 @@ def _explain_line(truth: Reference, line: AnsweredLine) -> list[Wrong]:
     if line.kind in ("V", "L"):
         rest, change = _without_constant(rest), _without_constant(change)
     scale = max(float(np.abs(rest).max()), 1e-300)
-    fits = np.logical_and(effects.usable, np.abs(change - rest).max(axis=1) <= CLOSE * scale)
+    fits = np.logical_and(effects.usable, np.abs(change - rest).max(axis=1) <= DOUBLE_TOLERANCE * scale)
     found = [effects.wrongs[k] for k in np.flatnonzero(fits)]
     return sorted(found, key=lambda w: (w.general, w.variant.doubt, w.rank))
 
@@ -133,7 +133,7 @@ def _explain_dissipation(truth: Reference, line: AnsweredLine) -> list[Wrong]:
     if not np.isfinite(change).all():
         return []
     scale = max(float(np.abs(change).max()), 1e-300)
-    fits = np.logical_and(effects.usable, np.abs(effects.Xi - change).max(axis=(1, 2)) <= CLOSE * scale)
+    fits = np.logical_and(effects.usable, np.abs(effects.Xi - change).max(axis=(1, 2)) <= DOUBLE_TOLERANCE * scale)
     found = [effects.wrongs[k] for k in np.flatnonzero(fits)]
     return sorted(found, key=lambda w: (w.general, w.variant.doubt, w.rank))
 

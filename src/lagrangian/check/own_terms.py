@@ -17,7 +17,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.check.reference import Reference, terms
-from lagrangian.check.rows import CLOSE
+from lagrangian.check.rows import DOUBLE_TOLERANCE
 from lagrangian.check.verdict import Mistake
 from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
 from lagrangian.page.formula import text
@@ -82,7 +82,7 @@ def _times(whole: Array, part: Array) -> sp.Expr | None:
     if not np.isfinite(part).all() or size <= 1e-20:
         return None
     c = float(whole @ part) / size
-    if np.abs(whole - c * part).max() > CLOSE * np.abs(whole).max():
+    if np.abs(whole - c * part).max() > DOUBLE_TOLERANCE * np.abs(whole).max():
         return None
     found: Any = sp.Rational(Fraction(c).limit_denominator(64))
     return found if abs(float(found) - c) < 1e-7 * max(1.0, abs(c)) and found != 0 else None

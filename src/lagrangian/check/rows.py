@@ -22,10 +22,10 @@ from lagrangian.check.reference import Reference
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.sampling import DIGITS, PLACES, SETS, Array, CompiledExpressions, States
 
-CLOSE = 1e-8
+DOUBLE_TOLERANCE = 1e-8
 """Relative size below which a double may be zero; what is decided by it is decided again exactly."""
 EXACTLY = mpmath.mpf(10) ** -30
-SURE = 4
+EXACT_STATES = 4
 """States at which 50 digits are compared."""
 
 
@@ -79,7 +79,7 @@ def compare(
 
 def small(values: Array, scale: Array | float) -> bool:
     """Whether every value is finite and next to nothing beside the scale."""
-    return bool(np.isfinite(values).all() and (np.abs(values) <= CLOSE * np.maximum(scale, 1e-300)).all())
+    return bool(np.isfinite(values).all() and (np.abs(values) <= DOUBLE_TOLERANCE * np.maximum(scale, 1e-300)).all())
 
 
 def zero_everywhere(truth: Reference, expr: sp.Expr) -> bool:
@@ -94,7 +94,7 @@ def zero_everywhere(truth: Reference, expr: sp.Expr) -> bool:
     form = truth.form(expr)
     if form is not None and (form.is_zero or not form.opaque()):
         return form.is_zero
-    step = max(1, truth.states.size // SURE)
+    step = max(1, truth.states.size // EXACT_STATES)
     found = [compiled.exactly(truth.states, i)[0] for i in range(0, truth.states.size, step)]
     far, indices = truth.wide([expr])
     found += [compiled.exactly(far, i)[0] for i in indices]
@@ -116,7 +116,7 @@ def _factors(truth: Reference, P: Array) -> tuple[Array, Array]:
         a = np.linalg.lstsq(w.T, p.T, rcond=None)[0].T
         found.append(a)
         scale = np.abs(p).max(axis=1)
-        holds &= np.abs(p - a @ w).max(axis=1) <= CLOSE * np.maximum(scale, 1e-300)
+        holds &= np.abs(p - a @ w).max(axis=1) <= DOUBLE_TOLERANCE * np.maximum(scale, 1e-300)
     return np.array(found), holds
 
 
@@ -142,7 +142,7 @@ def _rank(truth: Reference, compiled: CompiledExpressions, true: list[bool]) -> 
     found = slopes.at(truth.states, truth.accelerations).reshape(len(true), truth.n, truth.states.size)[np.array(true)]
     off = slopes.at(truth.states).reshape(len(true), truth.n, truth.states.size)[np.array(true)]
     scale = np.abs(np.where(np.isfinite(off), off, 0)).max(axis=(1, 2), keepdims=True)
-    found = np.where(np.abs(found) > CLOSE * scale, found, 0)
+    found = np.where(np.abs(found) > DOUBLE_TOLERANCE * scale, found, 0)
     ranks = [0]
     for s in range(0, truth.states.size, truth.states.motions):
         if np.isfinite(found[:, :, s]).all():
@@ -180,7 +180,7 @@ def _row(
         return ReferenceRow(Kind.CONSEQUENCE)
     if factors is not None:
         return _named(factors, truth)
-    used = [i for i in range(truth.n) if np.abs(A[:, i]).max() > CLOSE * np.abs(A).max()]
+    used = [i for i in range(truth.n) if np.abs(A[:, i]).max() > DOUBLE_TOLERANCE * np.abs(A).max()]
     if len(used) == 1:
         return ReferenceRow(Kind.SCALED, None, used[0])
     return ReferenceRow(Kind.TURNED)
@@ -212,7 +212,7 @@ def _exact(truth: Reference, form: Form | None, factors: Sequence[sp.Expr]) -> b
 
 def _surely(truth: Reference, compiled: CompiledExpressions, j: int, expr: sp.Expr) -> bool:
     """Whether expression j vanishes along the true motion, with 50 digits, at states near and far."""
-    step = max(1, truth.states.size // SURE)
+    step = max(1, truth.states.size // EXACT_STATES)
     near = [_vanishes(truth, compiled, j, truth.states, i) for i in range(0, truth.states.size, step)]
     far_out, indices = truth.wide([expr])
     far = [_vanishes(truth, compiled, j, far_out, i) for i in indices]
@@ -240,16 +240,16 @@ def _vanishes(truth: Reference, compiled: CompiledExpressions, j: int, states: S
 def _symbolic(truth: Reference, expr: sp.Expr, form: Form | None, A: Array) -> tuple[sp.Expr, ...] | None:
     """The factors of one row as expressions, found from their values in every place; None where they are not."""
     size = np.abs(A).max()
-    used = [i for i in range(truth.n) if np.abs(A[:, i]).max() > CLOSE * size]
+    used = [i for i in range(truth.n) if np.abs(A[:, i]).max() > DOUBLE_TOLERANCE * size]
     factors: list[sp.Expr] = [sp.S.Zero] * truth.n
     if len(used) == 1 and (right := truth.forms[used[0]]) is not None and form is not None:
         found = ratio(form, right)
         if found is not None and _exact(truth, form, _only(truth, used[0], found[0])):
             return _only(truth, used[0], found[0])
-    if np.abs(A - A[0]).max() <= CLOSE * size:
+    if np.abs(A - A[0]).max() <= DOUBLE_TOLERANCE * size:
         for i in used:
             number = Fraction(float(A[0, i])).limit_denominator(10_000)
-            if abs(float(number) - A[0, i]) > CLOSE * size:
+            if abs(float(number) - A[0, i]) > DOUBLE_TOLERANCE * size:
                 return None
             factors[i] = sp.Rational(number.numerator, number.denominator)
         return tuple(factors)
@@ -315,7 +315,7 @@ def _quotient(truth: Reference, expr: sp.Expr, i: int) -> tuple[sp.Expr, ...] | 
 def _solved(truth: Reference, expr: sp.Expr, A: Array) -> tuple[sp.Expr, ...] | None:
     """The factors from A M = ∂P/∂ξ̈, where they do not depend on the place."""
     by_set = A.reshape(SETS, PLACES, -1)
-    if np.abs(by_set - by_set[:, :1]).max() > CLOSE * np.abs(A).max():
+    if np.abs(by_set - by_set[:, :1]).max() > DOUBLE_TOLERANCE * np.abs(A).max():
         return None
     M = truth.derivation.mass_matrix
     slope = sp.Matrix([[expr.diff(c.acceleration) for c in truth.model.coordinates]])

@@ -12,7 +12,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian.check.reference import Reference
-from lagrangian.check.rows import CLOSE
+from lagrangian.check.rows import DOUBLE_TOLERANCE
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.derive.sampling import CompiledExpressions
 from lagrangian.errors import did_you_mean
@@ -20,7 +20,7 @@ from lagrangian.model import time
 from lagrangian.page.formula import Text, text
 from lagrangian.page.plain import plain
 
-MOST = 120
+MAX_READINGS = 120
 """Ways to read unknown names that are tried."""
 
 
@@ -78,7 +78,7 @@ def _read(written: sp.Basic, meant: sp.Basic) -> Text:
 def _readings(unknown: Sequence[sp.Basic], free: Sequence[sp.Expr]) -> list[dict[sp.Basic, sp.Expr]]:
     if len(unknown) > 3 or len(free) < len(unknown):
         return []
-    picked = islice(permutations(free, len(unknown)), MOST)
+    picked = islice(permutations(free, len(unknown)), MAX_READINGS)
     return [dict(zip(unknown, p, strict=True)) for p in picked]
 
 
@@ -103,7 +103,7 @@ def _may_be_right(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
             compiled = CompiledExpressions([line.expr])
             truly = compiled.at(truth.states, truth.accelerations)
             scale = np.abs(compiled.at(truth.states)).max()
-            if not np.isfinite(truly).all() or np.abs(truly).max() > CLOSE * scale:
+            if not np.isfinite(truly).all() or np.abs(truly).max() > DOUBLE_TOLERANCE * scale:
                 return False
         elif line.kind in ("T", "V", "L"):
             right = {"T": truth.T, "V": truth.V, "L": truth.L}[line.kind]

@@ -11,7 +11,7 @@ import sympy as sp
 
 from lagrangian.check.difference import differences
 from lagrangian.check.reference import Reference
-from lagrangian.check.rows import CLOSE, zero_everywhere
+from lagrangian.check.rows import DOUBLE_TOLERANCE, zero_everywhere
 from lagrangian.check.verdict import AnsweredLine, Finding, Status
 from lagrangian.derive.sampling import Array, CompiledExpressions
 from lagrangian.graph import jvp, vjp
@@ -181,7 +181,7 @@ def spanned(P: Array, W: Array) -> bool:
     scale = np.abs(W).max(axis=1, keepdims=True)
     unit = W / np.where(scale > 0, scale, 1.0)
     left = np.abs(P - P @ np.linalg.pinv(unit, rcond=1e-10) @ unit).max(axis=1)
-    return bool((left <= CLOSE * np.abs(P).max(axis=1)).all())
+    return bool((left <= DOUBLE_TOLERANCE * np.abs(P).max(axis=1)).all())
 
 
 def equations_follow(truth: Reference, exprs: Sequence[sp.Expr], above: StatedQuantity) -> list[bool]:

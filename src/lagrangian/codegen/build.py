@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from lagrangian.graph import Program
 
 _log = logging.getLogger(__name__)
-SHORT = 125  # operations per lane up to which a body is printed into the batch's loop …
+MAX_INLINE_OPERATIONS = 125  # operations per lane up to which a body is printed into the batch's loop …
 SIDE_BY_SIDE = 2  # … for so many blocks of states at once: while one waits for a result, another computes
 LEVEL = 2  # LLVM's code generation effort; straight-line code gains nothing measurable above it
 
@@ -148,7 +148,7 @@ class Build:
     def short(self) -> PackedLoop | None:
         """The body, where it is short enough for the batch's own loop."""
         body, lanes = self.lowered.body, self.options.lanes
-        fits = lanes > 1 and sum(self.sizes.groups) and body.operations <= SHORT * lanes
+        fits = lanes > 1 and sum(self.sizes.groups) and body.operations <= MAX_INLINE_OPERATIONS * lanes
         return PackedLoop(body, SIDE_BY_SIDE) if fits else None
 
     def emit_tapes(self, module: Module, lanes: int, *, own_shared: bool = False) -> None:

@@ -20,8 +20,8 @@ from .tape import FLAGS, LEAVES, Op, Tape, operands
 
 WHOLE = 2000  # operations that still go into one function: what a value costs to hand on is saved
 CHUNK = 1000  # operations in each of several functions …
-LONG = 10_000  # … up to this length; beyond it
-SHORT = 300  # gives a few per cent of speed for a third of LLVM's time
+MAX_SHARED_LENGTH = 10_000  # … up to this length; beyond it
+MIN_SHARED_LENGTH = 300  # gives a few per cent of speed for a third of LLVM's time
 
 COMPANY = 64  # angles whose sines and cosines are computed in a row in vector code
 
@@ -53,7 +53,7 @@ def plan(tape: Tape, chunk: int | None = None) -> Plan:
     """Cut a tape into chunks of equal length; a scratch slot is used again once its last reader's chunk is over."""
     computed = [i for i, op in enumerate(tape.ops) if op[0] not in LEAVES]
     if chunk is None:
-        chunk = WHOLE if len(computed) <= WHOLE else CHUNK if len(computed) <= LONG else SHORT
+        chunk = WHOLE if len(computed) <= WHOLE else CHUNK if len(computed) <= MAX_SHARED_LENGTH else MIN_SHARED_LENGTH
     count = max(1, -(-len(computed) // chunk))
     size = -(-len(computed) // count) if computed else 1
     chunks = [Chunk(computed[k * size : (k + 1) * size]) for k in range(count)]

@@ -32,7 +32,7 @@ _BATCH = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctype
 _SINGLE_SHORT = ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)
 _SINGLE_LONG = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)
 
-LONG = 20_000  # nodes from which one state is long
+LONG_KERNEL_NODES = 20_000  # nodes from which one state is long
 REMEMBERED = 64  # parameter sets whose shared block is kept
 
 
@@ -64,13 +64,13 @@ class Kernel:
         )
         self._outputs = {name: tuple(o.shape) for name, o in program.outputs.items()}
         hoist = build.options.hoist
-        self._late = [k for k, g in enumerate(self._groups) if g.name not in hoist]
-        self._early = [k for k, g in enumerate(self._groups) if g.name in hoist]
-        self._quick = Quick(self._groups, self._late, self._early, self._outputs, threads, build)
+        self._state_groups = [k for k, g in enumerate(self._groups) if g.name not in hoist]
+        self._hoisted_groups = [k for k, g in enumerate(self._groups) if g.name in hoist]
+        self._quick = Quick(self._groups, self._state_groups, self._hoisted_groups, self._outputs, threads, build)
         self._blocks: OrderedDict[bytes, Array] = OrderedDict()  # shared blocks by the bytes of their parameters
         self._engines = self._quick.engines
         self._lock = threading.Lock()
-        self.quick: Callable[[Sequence[Any]], Any] = self._quick.__call__ if len(self._early) < 2 else _never
+        self.quick: Callable[[Sequence[Any]], Any] = self._quick.__call__ if len(self._hoisted_groups) < 2 else _never
         """One thing a group, or None → the answer, or None where a closer look is due: calling the kernel takes it."""
 
     def __reduce__(self) -> Any:
@@ -135,20 +135,20 @@ class Kernel:
         """Check, convert, broadcast, and run."""
         arrays, lead, shared = self._understood(slots)
         if lead == () and shared is not None and out is None:
-            return self._one([arrays[k] for k in self._late], shared)
+            return self._one([arrays[k] for k in self._state_groups], shared)
         return self._many(arrays, lead, shared, out)()
 
     def _understood(self, slots: list[Any]) -> tuple[list[Array], tuple[int, ...], Array | None]:
         """Arrays by group, their common leading shape, and the shared block if all states have the same parameters."""
         arrays = [group.array(given) for group, given in zip(self._groups, slots, strict=True)]
-        early = [arrays[k] for k in self._early]
+        early = [arrays[k] for k in self._hoisted_groups]
         if any(a.size != a.shape[-1] for a in early):
             if self.admit is not None:
                 self.admit(early[0])
             return arrays, self._lead(arrays), None
-        lead = self._lead([arrays[k] for k in self._late] + [a[..., :0] for a in early])
+        lead = self._lead([arrays[k] for k in self._state_groups] + [a[..., :0] for a in early])
         shared = self._shared_block([a.reshape(-1) for a in early])
-        if all(slots[k] is None for k in self._early):
+        if all(slots[k] is None for k in self._hoisted_groups):
             self._quick.standard = shared
         return arrays, lead, shared
 
@@ -171,7 +171,7 @@ class Kernel:
         found = self._blocks.get(key)
         if found is not None:
             return found
-        for k, a in zip(self._early, early, strict=True):
+        for k, a in zip(self._hoisted_groups, early, strict=True):
             if trouble := not_finite_input(self._groups[k], a, ""):
                 raise trouble
         if self.admit is not None:
@@ -199,7 +199,7 @@ class Kernel:
 
     def _entry(self, kind: str, name: str) -> Entry:
         """A function of a module of that kind, to be called with the table of a stage."""
-        long = len(self.program.graph.nodes) > LONG
+        long = len(self.program.graph.nodes) > LONG_KERNEL_NODES
         return (_SINGLE_LONG if long else _SINGLE_SHORT)(self.build.loaded(kind).address(name))
 
     def _one(self, late: list[Array], shared: Array) -> Any:
@@ -215,7 +215,7 @@ class Kernel:
         answer = quick.answer(stage)
         quick.stages.append(stage)
         if not fine:
-            inputs, groups = [a.reshape(-1) for a in late], [self._groups[k] for k in self._late]
+            inputs, groups = [a.reshape(-1) for a in late], [self._groups[k] for k in self._state_groups]
             results = [np.ravel(x) for x in (answer.values() if len(self._outputs) != 1 else [answer])]
             raise trouble(groups, inputs, self._outputs, results, "") or RunError("a result is not finite", code="E503")
         return answer
@@ -226,7 +226,7 @@ class Kernel:
             engine = Engine(lambda *_: -1, (), self._outputs, self.lanes, 0, 0, None)
         else:
             engine = self._engine("batch" if shared is not None else "sweep")
-        order = self._late if shared is not None else self._late + self._early
+        order = self._state_groups if shared is not None else self._state_groups + self._hoisted_groups
         given = [arrays[k] for k in order]
         return Batch(engine, given, lead, shared=shared, out=out, threads=self.threads)
 
@@ -234,7 +234,7 @@ class Kernel:
         """The machine code for many states that share a parameter set (``batch``) or have one each (``sweep``)."""
         found = self._engines.get(kind)
         if found is None:
-            order = self._late if kind == "batch" else self._late + self._early
+            order = self._state_groups if kind == "batch" else self._state_groups + self._hoisted_groups
             found = self._engines[kind] = Engine(
                 call=_BATCH(self.build.loaded(kind).address("batch")),
                 owner=self.build.loaded(kind),
@@ -257,7 +257,11 @@ class Kernel:
         slots = self._assigned(given, named)
         arrays, lead, shared = self._understood(slots)
         batch = self._many(arrays, lead, shared, out)
-        for k, row in zip(self._late if shared is not None else self._late + self._early, batch.inputs, strict=True):
+        for k, row in zip(
+            self._state_groups if shared is not None else self._state_groups + self._hoisted_groups,
+            batch.inputs,
+            strict=True,
+        ):
             given_array = slots[k] if isinstance(slots[k], ndarray) and slots[k].size else None
             if given_array is not None and not (batch.direct and np.may_share_memory(given_array, row)):
                 raise RunError(
@@ -292,8 +296,8 @@ class Kernel:
 
     def shared(self, *early: Any) -> Array:
         """The shared block of a parameter set (of values for the hoisted groups), for :meth:`raw` functions."""
-        given = [*early, *[None] * (len(self._early) - len(early))]
-        rows = [self._groups[k].array(x).reshape(-1) for k, x in zip(self._early, given, strict=True)]
+        given = [*early, *[None] * (len(self._hoisted_groups) - len(early))]
+        rows = [self._groups[k].array(x).reshape(-1) for k, x in zip(self._hoisted_groups, given, strict=True)]
         block = self._shared_block(rows).view()
         block.flags.writeable = False
         return block

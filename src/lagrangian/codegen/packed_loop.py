@@ -18,12 +18,12 @@ if TYPE_CHECKING:
     from .sizes import Array, Sizes
     from .tape import Tape
 
-FEW = 4  # entries up to which whole vectors are sorted; beyond, rows are transposed tile by tile
+MAX_SORTED_ENTRIES = 4  # entries up to which whole vectors are sorted; beyond, rows are transposed tile by tile
 
 
 def load(f: Function, base: str, n: int) -> list[Value]:
     """``n`` entries of W rows that lie one after the other at ``base``: one vector an entry."""
-    if n > FEW:
+    if n > MAX_SORTED_ENTRIES:
         mover = Transposer(f, _rows(f, base, n), gather=True)
         found: dict[int, str] = {}
         for start, width in mover.pieces(n):
@@ -38,7 +38,7 @@ def load(f: Function, base: str, n: int) -> list[Value]:
 def store(f: Function, base: str, values: Sequence[Value]) -> None:
     """The reverse of `load`."""
     n = len(values)
-    if n > FEW:
+    if n > MAX_SORTED_ENTRIES:
         mover = Transposer(f, _rows(f, base, n), gather=False)
         for start, width in mover.pieces(n):
             mover.dropped(str(start), width, [v.name for v in values[start : start + width]])

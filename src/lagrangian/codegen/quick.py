@@ -56,9 +56,9 @@ class Quick:
         self.standard: Array | None = None  # the shared block of the default parameters, once used
         self.admit: Callable[[Array], Look | None] | None = None  # looks at hoisted values before their use; may raise
         self._threads, self._owner = threads, owner
-        self._early = Slot(early[0], groups[early[0]]) if early else None
-        self._late = [Slot(k, groups[k]) for k in late]
-        self._lead_at = next((slot.place for slot in self._late if not slot.scalar), None)
+        self._hoisted_groups = Slot(early[0], groups[early[0]]) if early else None
+        self._state_groups = [Slot(k, groups[k]) for k in late]
+        self._lead_at = next((slot.place for slot in self._state_groups if not slot.scalar), None)
         self._outputs = outputs
         self._alone = len(outputs) == 1
         self._sizes = [(shape, _WORD * math.prod(shape)) for shape in outputs.values()]
@@ -94,7 +94,7 @@ class Quick:
                         break
                     part[...] = array
             else:
-                early = None if self._early is None else given[self._early.place]
+                early = None if self._hoisted_groups is None else given[self._hoisted_groups.place]
                 if early is not None:
                     bad = self._own(stage, early, self.single, self.both)
                 elif self.standard is not None:
@@ -116,7 +116,7 @@ class Quick:
 
         ``known`` is called if that is what the block is made of, ``new``, which makes it, if not.
         """
-        slot = self._early
+        slot = self._hoisted_groups
         assert slot is not None
         if type(early) is ndarray:
             if early.shape != slot.shape or (early.dtype is not FLOAT and early.dtype != FLOAT):
@@ -152,7 +152,7 @@ class Quick:
             return self.stages.pop()
         except IndexError:
             assert self.sizes is not None
-            return Stage(self.sizes, self._late, tuple(self._outputs.values()))
+            return Stage(self.sizes, self._state_groups, tuple(self._outputs.values()))
 
     def answer(self, stage: Stage) -> Any:
         """The outputs of a stage, copied."""
@@ -165,7 +165,7 @@ class Quick:
 
     def _many(self, stage: Stage, given: Sequence[Any], lead: tuple[int, ...]) -> Any:
         """Many states in arrays of one leading shape, or with one row for all of them, which the stage then holds."""
-        slot, rows, engine = self._early, stage.rows, self.engines.get("batch")
+        slot, rows, engine = self._hoisted_groups, stage.rows, self.engines.get("batch")
         early = None if slot is None else given[slot.place]
         if slot is None or early is None:
             if self.standard is None:

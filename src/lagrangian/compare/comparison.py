@@ -20,9 +20,9 @@ from lagrangian.page.report import Part, Report
 from lagrangian.viewed import cut
 from lagrangian.write.written import Written
 
-LARGEST = 8
+MAX_JACOBIAN_SIZE = 8
 """Coordinates up to which J is written out."""
-SHORT = 30
+MAX_TABLE_OPERATIONS = 30
 """Operations up to which everything of a kind stands in a table, side by side."""
 
 
@@ -171,7 +171,7 @@ class _Shown:
         for i in range(max(map(len, forces))):
             cells = [self.expr(s, x[i]) if i < len(x) else None for s, x in zip(sides, forces, strict=True)]
             rows.append((Name("Xi", str(i + 1)), cells))
-        if max(int(sp.count_ops(x)) for _, cells in rows for x in cells if x is not None) <= SHORT:
+        if max(int(sp.count_ops(x)) for _, cells in rows for x in cells if x is not None) <= MAX_TABLE_OPERATIONS:
             table = [(text("coordinates"), *(text(*self.listed(s)) for s in sides))]
             table += [(text(n), *(text("none") if x is None else text(x) for x in cells)) for n, cells in rows]
             return [Table((text(""), text("(A)"), text("(B)")), tuple(table))]
@@ -202,7 +202,7 @@ class _Shown:
                 if c.symbol != change.table[c.symbol]
                 else text(self.expr(into, c.symbol), " is the same in both.")
             )
-        if len(change.old) <= LARGEST:
+        if len(change.old) <= MAX_JACOBIAN_SIZE:
             rows = tuple(tuple(self.expr(into, x) for x in found.J.row(i)) for i in range(found.J.rows))
             items.append(text(f"One row for each coordinate of ({source.tag}), one column for each of ({into.tag}):"))
             items.append(formula(Name("J"), Matrix(rows)))

@@ -15,7 +15,7 @@ from lagrangian.model import Element, Model
 Quantity = Literal["T*", "V", "Xi"]
 STEPS: dict[Quantity, int] = {"T*": 2, "V": 3, "Xi": 6}
 LEDGER: dict[Quantity, str] = {"T*": "T*", "V": "V", "Xi": "Ξ"}
-CLOSE = 1e-12
+VALUE_TOLERANCE = 1e-12
 
 
 def parameter_differences(a: Model, b: Model) -> tuple[ParameterDifference, ...]:
@@ -33,7 +33,7 @@ def parameter_differences(a: Model, b: Model) -> tuple[ParameterDifference, ...]
 
 
 def _apart(x: float, y: float) -> bool:
-    return abs(x - y) > CLOSE * max(abs(x), abs(y))
+    return abs(x - y) > VALUE_TOLERANCE * max(abs(x), abs(y))
 
 
 def unmatched(a: Model, b: Model) -> tuple[Difference, ...]:

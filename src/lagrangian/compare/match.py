@@ -22,10 +22,10 @@ from lagrangian.coordinates import Change
 from lagrangian.derive.sample import Sampler
 from lagrangian.model import Frame, Model, Point, RigidBody, time
 
-LARGEST = 200
+MAX_OPERATIONS = 200
 """Operations up to which a component of a position is looked into."""
-CLOSE = 1e-9
-MOST = 12
+POSITION_TOLERANCE = 1e-9
+MAX_PROPOSALS = 12
 """Proposals that are looked at."""
 Vector = tuple[sp.Expr, ...]
 Table = dict[Any, sp.Expr]
@@ -111,7 +111,7 @@ def agreement(a: Model, change: Change, pairs: Places) -> float:
     for gap in gaps:
         part = values[at : at + len(gap)]
         at += len(gap)
-        equal += all(not math.isnan(v) and v < CLOSE for v in part)
+        equal += all(not math.isnan(v) and v < POSITION_TOLERANCE for v in part)
     return equal / len(gaps)
 
 
@@ -126,7 +126,7 @@ def solved(a: Model, b: Model, pairs: Places) -> Iterator[dict[AppliedUndef, sp.
     vectors += [((x,), (y,)) for p, q in vectors if len(p) > 1 for x, y in zip(p, q, strict=True)]
     theirs = {c.name: c.symbol for c in b.coordinates}
     same: Table = {dummy: theirs[s.func.__name__] for s, dummy in old.items() if s.func.__name__ in theirs}
-    for table in islice(_deduced(vectors, old.values(), set(theirs.values()), same, {}), MOST):
+    for table in islice(_deduced(vectors, old.values(), set(theirs.values()), same, {}), MAX_PROPOSALS):
         yield {symbol: table[dummy] for symbol, dummy in old.items()}
 
 
@@ -170,7 +170,7 @@ def _linear(p: Vector, q: Vector, unknown: set[Any]) -> list[sp.Expr]:
     found = []
     for x, y in zip(p, q, strict=True):
         mine = x.free_symbols & unknown
-        if not mine or sp.count_ops(x) > LARGEST:
+        if not mine or sp.count_ops(x) > MAX_OPERATIONS:
             continue
         slopes = [sp.diff(x, u) for u in mine]
         if any(s.free_symbols & unknown for s in slopes):
@@ -187,7 +187,7 @@ def _linear(p: Vector, q: Vector, unknown: set[Any]) -> list[sp.Expr]:
 
 def _turned(p: Vector, q: Vector, unknown: set[Any], moving: set[Any]) -> list[sp.Expr]:
     """α = ±β + k π/2 where what is unknown stands in sines and cosines of one angle α only."""
-    if any(sp.count_ops(x) > LARGEST for x in (*p, *q)):
+    if any(sp.count_ops(x) > MAX_OPERATIONS for x in (*p, *q)):
         return []
     angles = {_upright(f.args[0]) for x in p for f in x.atoms(sp.sin, sp.cos) if f.free_symbols & unknown}
     if len(angles) != 1:

@@ -32,7 +32,7 @@ MOST_SETS = 500
 """Sets of coordinates that are tried for what a change given the other way round replaces."""
 STATES = 3
 """Random places at which the rank of J is taken; the largest counts."""
-SMALLEST = 1e-9
+MIN_SINGULAR_VALUE = 1e-9
 """Relative singular value below which J is singular at a place."""
 
 
@@ -286,7 +286,7 @@ def _checked(model: Model, change: Change) -> Change:
 def check_regular(model: Model, change: Change) -> None:
     """Refuse a change whose J = ∂(old)/∂(new) has not full rank anywhere."""
     size, weakest = _smallest(model, change)
-    if size < SMALLEST:
+    if size < MIN_SINGULAR_VALUE:
         names = [c.name for c, w in zip(change.new, weakest, strict=True) if abs(w) > 1e-6]
         raise ModelError(
             f"the change is singular: {' and '.join(names)} can wiggle without moving an old coordinate",
@@ -297,7 +297,7 @@ def check_regular(model: Model, change: Change) -> None:
 
 def is_regular(model: Model, change: Change) -> bool:
     """Whether J = ∂(old)/∂(new) has full rank somewhere."""
-    return _smallest(model, change)[0] >= SMALLEST
+    return _smallest(model, change)[0] >= MIN_SINGULAR_VALUE
 
 
 def _smallest(model: Model, change: Change) -> tuple[float, NDArray[np.float64]]:

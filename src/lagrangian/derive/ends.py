@@ -12,7 +12,7 @@ from lagrangian import bounded
 from lagrangian.model import DEFLECTION, Action, Element, Model, Words, time
 
 GROUND: Words = ("the ground",)
-MOST = 200
+MAX_QUANTITIES = 200
 """Quantities above which no search is made: the pairs grow with the square."""
 
 
@@ -27,7 +27,7 @@ def find_ends(model: Model, element: Element) -> tuple[Action, ...]:
         return ends
     whole = ends[0]
     quantities = list(_quantities(model))
-    if len(quantities) > MOST:
+    if len(quantities) > MAX_QUANTITIES:
         return ends
     ground = [(group, GROUND, sp.S.Zero) for group in dict.fromkeys(g for g, _, _ in quantities)]
     for group_b, on_b, b in quantities:

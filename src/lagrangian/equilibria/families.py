@@ -25,7 +25,7 @@ DEGENERATE = 1e-3
 STRIDE = 0.01
 """Length of a step along a family, in widths of the box."""
 
-MOST = 1500
+MAX_ROOTS = 1500
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,7 +97,7 @@ def _curve(search: Search, root: Array, direction: Array, low: Array, high: Arra
     sides: list[list[Array]] = []
     for sign in (1.0, -1.0):
         here, along, path = root, sign * direction, [root]
-        while len(path) < MOST:
+        while len(path) < MAX_ROOTS:
             found = _next(search, here, along, STRIDE)
             if found is None or not _inside(found, low, high, search):
                 break

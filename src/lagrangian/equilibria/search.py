@@ -41,7 +41,7 @@ ROUNDS = 16
 ENOUGH = 5
 """Times that every root should be met."""
 
-MOST = 1000
+MAX_EQUILIBRIA = 1000
 """Rests above which the search ends: so many are no list to read."""
 
 MANY = 8
@@ -220,7 +220,7 @@ def _sought(task: _Task, asked: int | None) -> tuple[Array, dict[bytes, int], in
         roots, hits = distinct(search, found)
         settled = asked is not None or len(roots) == before
         sure = settled and (not len(hits) or int(hits.min()) >= ENOUGH)
-        if sure or len(roots) > MOST or (count >= 4 * ROUND and _is_family(search, roots, count)):
+        if sure or len(roots) > MAX_EQUILIBRIA or (count >= 4 * ROUND and _is_family(search, roots, count)):
             break
         before = len(roots)
     return roots, {r.tobytes(): int(n) for r, n in zip(roots, hits, strict=True)}, count, sure

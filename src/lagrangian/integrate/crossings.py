@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from lagrangian.codegen import compile
 from lagrangian.graph import Program, bounds, reached, states_read
 
-from .methods.pieces import COARSE, FINEST, MOST
+from .methods.pieces import COARSE, MAX_FINE_PIECES, MIN_PIECE
 
 Array = NDArray[np.float64]
 Control = Callable[[float, Array], Array]
@@ -156,14 +156,14 @@ class Crossings:
         low, high, count = np.array([-1.0]), np.array([1.0]), 0
         while len(low) and count + len(low) <= self.most:
             count += len(low)
-            settled = self._proved(low, high, powers, (middle, half), inputs) | (high - low <= 2 * FINEST)
+            settled = self._proved(low, high, powers, (middle, half), inputs) | (high - low <= 2 * MIN_PIECE)
             ends.append(high[settled])
             low, high = low[~settled], high[~settled]
             cut = (low + high) / 2
             low, high = np.concatenate([low, cut]), np.concatenate([cut, high])
         if len(low):
             ends.append(np.unique(2 * COARSE * np.ceil(high / (2 * COARSE))))
-            self.most = max(MOST, self.most // 2)  # it may be so in every step
+            self.most = max(MAX_FINE_PIECES, self.most // 2)  # it may be so in every step
         if self.driven & set(asked):
             ends.append(np.linspace(-1, 1, ASKED + 1)[1:])
         return np.unique(np.concatenate(ends)) / 2 + 0.5

@@ -21,10 +21,10 @@ NOT_FINITE = "E503"
 ROUNDING = 1e-9
 """Share of the largest eigenvalue below which a smallest one that is negative counts as 0."""
 
-FEW = 4
+MAX_SETS_IN_PYTHON = 4
 """Parameter sets up to which no machine code is made."""
 
-MOST = 100
+MAX_NUMBERS_ONE_BY_ONE = 100
 """Numbers up to which it is quicker to look at them one by one."""
 
 
@@ -43,7 +43,7 @@ class Fitness:
 
     def unfit(self, p: Array) -> NDArray[np.bool_]:
         """Which of the parameter sets (k, n_p) cannot be run."""
-        values = _few(self.bodies, p) if len(p) <= FEW else _computed(self._bodies, {"p": p}, len(p))
+        values = _few(self.bodies, p) if len(p) <= MAX_SETS_IN_PYTHON else _computed(self._bodies, {"p": p}, len(p))
         bad, doubtful = np.zeros(len(p), bool), np.zeros(len(p), bool)
         for name, value in values.items():
             finite = np.asarray(np.isfinite(value).all(axis=tuple(range(1, value.ndim))))
@@ -98,7 +98,7 @@ class Fitness:
                 last = g.sub(g.mul(b, e), g.mul(c, d))
                 whole = g.add(g.mul(f, minor), g.sub(g.mul(c, last), g.mul(e, g.sub(g.mul(a, e), g.mul(b, c)))))
                 above += [a, minor, whole]
-        if len(above) + len(rest) > MOST:
+        if len(above) + len(rest) > MAX_NUMBERS_ONE_BY_ONE:
             return None
         outputs = {"numbers": Output((*above, *rest), (len(above) + len(rest),))}
         program = Program("fit", g, self.bodies.inputs, outputs, self.bodies.defaults)

@@ -43,7 +43,7 @@ OFTEN = 16
 ROWS = 4096
 """Samples of a run with fixed steps that are looked at together."""
 
-SHORT = 300
+MAX_PAIRED_NODES = 300
 """Nodes of the longest program of which two vectors of runs are computed together."""
 
 GROUPS = frozenset({"x", "u", "p", "t"})
@@ -160,7 +160,7 @@ class Solver:
     def _side_by_side(self, count: int) -> int:
         """How many runs are computed together: of short programs two vectors full, whose operations overlap."""
         lanes, program = native.host().lanes, self.program
-        short = len(reached(program.graph, program.ids)) <= SHORT and len(program.inputs["x"]) <= 8
+        short = len(reached(program.graph, program.ids)) <= MAX_PAIRED_NODES and len(program.inputs["x"]) <= 8
         return 2 * lanes if short and count >= 2 * lanes and not self.method.expands else lanes
 
 

@@ -18,7 +18,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach
-from lagrangian.derive.algebra.ratios import LARGEST, TERMS, blocks, determinant
+from lagrangian.derive.algebra.ratios import MAX_INVERSE_ROWS, TERMS, blocks, determinant
 from lagrangian.errors import RunError
 
 
@@ -103,7 +103,7 @@ def _rest(part: dict[int, dict[int, Form]], left: dict[int, Form], algebra: Alge
         return []
     if len(rows) == 1:
         return [SquarePiece(Fraction(1, 2), ((left[rows[0]], 2), (part[rows[0]][rows[0]], -1)))]
-    if len(rows) > LARGEST:
+    if len(rows) > MAX_INVERSE_ROWS:
         raise OutOfReach(f"the inverse of a mass matrix with {len(rows)} coupled rows is too long to write out")
     matrix = [[part[i][j] for j in rows] for i in rows]
     terms = []

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-DUST = 1e-8
+ZERO_TOLERANCE = 1e-8
 
 
 def null_space(matrix: Array, tolerance: float = 1e-11) -> Array:
@@ -30,7 +30,7 @@ def reduced(rows: NDArray[Any]) -> tuple[NDArray[Any], list[int]]:
         if r == len(rows):
             break
         best = r + int(np.argmax(np.abs(rows[r:, k])))
-        if abs(rows[best, k]) <= DUST * float(np.abs(rows[r:]).max()):
+        if abs(rows[best, k]) <= ZERO_TOLERANCE * float(np.abs(rows[r:]).max()):
             continue
         rows[[r, best]] = rows[[best, r]]
         rows[r] /= rows[r, k]
@@ -38,4 +38,4 @@ def reduced(rows: NDArray[Any]) -> tuple[NDArray[Any], list[int]]:
         rows[others] -= rows[others, k : k + 1] * rows[r]
         leading.append(k)
     size = np.abs(rows).max(axis=1, initial=0.0, keepdims=True)
-    return np.where(np.abs(rows) <= DUST * size, 0.0, rows), leading
+    return np.where(np.abs(rows) <= ZERO_TOLERANCE * size, 0.0, rows), leading

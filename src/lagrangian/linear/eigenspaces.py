@@ -28,7 +28,7 @@ SLACK = 100.0
 EQUAL = float(np.sqrt(EPSILON))
 """Difference of two poles, over their size, up to which they are one."""
 
-LARGEST = 6
+MAX_JORDAN_BLOCK = 6
 """Rows of the largest Jordan block that is looked for."""
 
 ILL = 1e-2
@@ -65,7 +65,7 @@ def eigenspaces(A: Array, noise: float = 0.0) -> list[Eigenspace]:
 def _groups(A: Array, poles: Complex, cosine: Array, errors: Array, error: float) -> list[list[int]]:
     """The indices of poles that are one."""
     left, found = list(range(len(poles))), []
-    for m in range(min(LARGEST, len(poles)), 1, -1):
+    for m in range(min(MAX_JORDAN_BLOCK, len(poles)), 1, -1):
         for k in list(left):
             near = sorted(left, key=lambda i: abs(poles[i] - poles[k]))[:m]
             if k in left and len(near) == m and _is_block(A, poles[near], cosine[near], error):

@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 SYMMETRIC = 1e-10
 """Relative difference up to which K counts as symmetric and D as zero."""
 
-DUST = 1e-9
+ZERO_SHAPE_TOLERANCE = 1e-9
 """Share of a shape, over the largest, that is shown as zero."""
 
 
@@ -147,7 +147,7 @@ def slowest_first(poles: NDArray[np.complex128]) -> NDArray[np.int64]:
     """The order of poles: by size, those of one size by real part, of a pair the one above the real axis first."""
     size = np.abs(poles)
     rising = np.sort(size)
-    steps = np.concatenate([[0], np.cumsum(np.diff(rising) > DUST * rising[1:])])
+    steps = np.concatenate([[0], np.cumsum(np.diff(rising) > ZERO_SHAPE_TOLERANCE * rising[1:])])
     return np.lexsort((-poles.imag, poles.real, steps[np.searchsorted(rising, size)]))
 
 
@@ -177,6 +177,6 @@ def _shape(vector: NDArray[np.complex128], names: tuple[str, ...]) -> dict[str, 
         return dict.fromkeys(names, 0j)
     lead = int(np.argmax(sizes >= (1 - 1e-9) * sizes.max()))
     scaled = vector / vector[lead]
-    real = np.where(np.abs(scaled.real) < DUST, 0.0, scaled.real)
-    imag = np.where(np.abs(scaled.imag) < DUST, 0.0, scaled.imag)
+    real = np.where(np.abs(scaled.real) < ZERO_SHAPE_TOLERANCE, 0.0, scaled.real)
+    imag = np.where(np.abs(scaled.imag) < ZERO_SHAPE_TOLERANCE, 0.0, scaled.imag)
     return {name: complex(a, b) for name, a, b in zip(names, real, imag, strict=True)}

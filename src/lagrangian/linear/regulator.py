@@ -19,7 +19,7 @@ from lagrangian.write.written import Written
 
 Array = NDArray[np.float64]
 
-DUST = 1e-11
+ZERO_GAIN_TOLERANCE = 1e-11
 """Share of an entry, over the largest of its row, that is shown as zero."""
 
 
@@ -81,7 +81,7 @@ def regulator_report(found: Regulator) -> Report[Model]:
 def _swept(found: Array, unit: Array) -> Array:
     """What rounding left of zeros is zero: entries far below the others of their row, columns in units of S's own."""
     sized = np.abs(found) / np.where(unit > 0, unit, 1.0)
-    return np.where(sized > DUST * sized.max(axis=1, initial=0.0, keepdims=True), found, 0.0)
+    return np.where(sized > ZERO_GAIN_TOLERANCE * sized.max(axis=1, initial=0.0, keepdims=True), found, 0.0)
 
 
 def _symbol(found: Regulator, name: str) -> Text:

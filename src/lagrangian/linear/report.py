@@ -20,7 +20,7 @@ from lagrangian.page.report import Part, Report
 ROUNDING = 1e-12
 """Acceleration left over, over the largest entry of A, that is rounding's."""
 
-LARGEST = 16
+MAX_SHOWN_COLUMNS = 16
 """Columns up to which a matrix is written out."""
 
 
@@ -42,7 +42,7 @@ def symbol(model: Model, name: str) -> Any:
 def linear_report(linear: LinearModel, symbols: SymbolicLinearization | None = None) -> Report:
     """Return the report of a linearization, with its matrices in symbols where they are given."""
     parts = [_point(linear), _matrices(linear)]
-    if linear.mass is not None and len(linear.mass) <= LARGEST:
+    if linear.mass is not None and len(linear.mass) <= MAX_SHOWN_COLUMNS:
         parts.append(_second_order(linear))
     parts.append(_modes(linear))
     parts.append(_reach(linear))
@@ -97,10 +97,10 @@ def _matrices(linear: LinearModel) -> Part:
     if drift:
         shown.append((f, linear.drift.reshape(-1, 1)))
     for name, found in shown:
-        if found.shape[1] and found.shape[1] <= LARGEST:
+        if found.shape[1] and found.shape[1] <= MAX_SHOWN_COLUMNS:
             items.append(formula(name, matrix(found)))
-    if len(linear.states) > LARGEST:
-        items.append(text(f"Matrices of more than {LARGEST} columns are in the data, not here."))
+    if len(linear.states) > MAX_SHOWN_COLUMNS:
+        items.append(text(f"Matrices of more than {MAX_SHOWN_COLUMNS} columns are in the data, not here."))
     return Part(text("The linear system"), tuple(items))
 
 

@@ -22,10 +22,10 @@ from lagrangian.model import Model, time
 from lagrangian.page.plain import plain
 from lagrangian.viewed import Brief
 
-MOST = 6
+MAX_SYMBOLIC_COORDINATES = 6
 """Coordinates up to which a linearization is written in symbols."""
 
-CLOSE = 1e-12
+EXACT_TOLERANCE = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +56,7 @@ def symbolic(linear: LinearModel) -> SymbolicLinearization:
             fix="use A and B, which hold the numbers",
             code="E523",
         )
-    if n > MOST:
+    if n > MAX_SYMBOLIC_COORDINATES:
         raise _too_long(f"{n} coordinates")
     made = derive.derive(model)
     point = _point(linear)
@@ -161,6 +161,6 @@ def _exact(value: float) -> sp.Expr | None:
     if value == 0:
         return sp.S.Zero
     part = Fraction(value / np.pi).limit_denominator(12)
-    if part and abs(value - float(part) * np.pi) <= CLOSE * max(1.0, abs(value)):
+    if part and abs(value - float(part) * np.pi) <= EXACT_TOLERANCE * max(1.0, abs(value)):
         return sp.Rational(part.numerator, part.denominator) * sp.pi
     return None

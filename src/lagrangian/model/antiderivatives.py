@@ -35,7 +35,7 @@ def _smooth(law: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
     polynomial = _polynomial(law, x)
     if polynomial is not None:
         return sp.Add(*[c * x ** (n + 1) / (n + 1) for n, c in enumerate(polynomial)])
-    if bounded.size(law) > bounded.LARGEST:
+    if bounded.size(law) > bounded.MAX_OPERATIONS:
         return None
     primitive = bounded.searched(manualintegrate, law, x)
     if primitive is None or primitive.has(sp.Integral):

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from lagrangian import dynamics
 from lagrangian.codegen import Look
 from lagrangian.errors import Notice
-from lagrangian.integrate.fitness import FEW, Fitness
+from lagrangian.integrate.fitness import MAX_SETS_IN_PYTHON, Fitness
 from lagrangian.model import Model
 from lagrangian.model.body_checks import Numbers, check_body
 
@@ -56,7 +56,7 @@ class Admission:
         """
         rows, look = np.ascontiguousarray(p.reshape(-1, p.shape[-1])), None
         self._seen += len(rows)
-        if self._seen > FEW and len(rows):
+        if self._seen > MAX_SETS_IN_PYTHON and len(rows):
             look = self._fitness.look
             if look is not None and look(rows) == 0:
                 return look

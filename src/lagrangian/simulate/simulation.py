@@ -38,7 +38,7 @@ Array = NDArray[np.float64]
 IN_PYTHON = "DOP853"
 """The method taken unless told for inputs that are Python functions."""
 
-FEW = 12
+MAX_CHECKED_COORDINATES = 12
 """Coordinates up to which M is looked at before a run."""
 
 OPTIONS = ("initial", "params", "inputs", *names_of(RunSettings))
@@ -90,7 +90,7 @@ def simulate(
 def _undecided(task: Task) -> tuple[Notice, ...]:
     """A notice where M is singular at the start of a run of a few coordinates."""
     model, n = task.model, len(task.model.coordinates)
-    if n > FEW or not (
+    if n > MAX_CHECKED_COORDINATES or not (
         moved := dynamics.loose(
             model, task.x0[:n].tolist(), [0.0] * len(model.inputs), task.p.tolist(), float(task.times[0])
         )

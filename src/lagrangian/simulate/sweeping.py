@@ -46,7 +46,7 @@ OPTIONS = tuple(
 )
 """What an ensemble takes by name beside initial values."""
 
-LARGEST = 2**30
+MAX_CHUNK_BYTES = 2**30
 """Bytes of a chunk on disk at most: compressors take no more than 2 GiB at a time."""
 
 MOST_MEMORY = 0.5
@@ -133,7 +133,7 @@ def _done(
     study = replace(study, fitness=fit)
     task = _task(model, varying, drive, study)
     executor, cutting = _executor(execution)
-    memory = execution.memory if execution.store is None else min(execution.memory, LARGEST)
+    memory = execution.memory if execution.store is None else min(execution.memory, MAX_CHUNK_BYTES)
     portions = cut(design.shape, study.bytes_per_run, memory=memory, **cutting)
     plan = _plan(model, varying, study, expressions, portions, task)
     if execution.store is None:

@@ -33,7 +33,7 @@ from lagrangian.write.text import display as text_lines
 WIDTH = 96
 """Columns of Unicode text that fit the width of the page's text."""
 
-SHORT = 24
+UNBROKEN_COLUMNS = 24
 """Columns up to which a formula among words is kept in one piece."""
 
 EQUALS = '<span class="sign"><math><mo>=</mo></math></span>&#xa0;'
@@ -91,7 +91,7 @@ def _flowing(formula: Math) -> str:
     """A formula in a line of words; a long one in pieces, between which the line can end."""
     pieces: list[list[Glyph]] = [[]]
     for token in tokens(formula):
-        if token.level is not None and token.level <= 1 and sum(set_columns(t) for t in pieces[-1]) > SHORT:
+        if token.level is not None and token.level <= 1 and sum(set_columns(t) for t in pieces[-1]) > UNBROKEN_COLUMNS:
             pieces.append([])
         pieces[-1].append(token)
     return "<wbr>".join(f"<math>{row(piece)}</math>" for piece in pieces)

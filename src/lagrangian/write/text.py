@@ -30,7 +30,7 @@ MOST_LINES = 5
 """Lines that a cell of a table may take, about."""
 LONG_WORD = 16
 """Columns of a word that may be cut in a table."""
-SHORT = 6
+SHORT_COLUMNS = 6
 """Columns of a left-hand side beside which a formula always has room."""
 
 
@@ -180,7 +180,7 @@ def _chain(sides: tuple[Math, ...], width: int) -> list[str]:
         return [whole]
     head, *rest = sides
     left = unicode(head)
-    if rest and columns(left) <= max(width // 4, SHORT):
+    if rest and columns(left) <= max(width // 4, SHORT_COLUMNS):
         hang = columns(left) + 3
         lines: list[str] = []
         for i, side in enumerate(rest):

@@ -29,7 +29,7 @@ SCATTERED = 2
 """Operations that each place of an acceleration is worth."""
 REPEATED = 2
 """Operations that each further term with the same rate, outside a sum, is worth in momenta."""
-LONG = 12
+MIN_HARMONIC_TERMS = 12
 """Terms above which inertia is also read by harmonics."""
 VERY_LONG = 150
 """Terms above which only the groupings that need no search are tried."""

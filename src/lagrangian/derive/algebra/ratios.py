@@ -12,7 +12,7 @@ from lagrangian import bounded
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach
 from lagrangian.derive.algebra.form import Ring
 
-LARGEST = 4
+MAX_INVERSE_ROWS = 4
 """Rows of a block of M up to which its inverse is written out."""
 
 TERMS = 3000
@@ -78,13 +78,13 @@ def determinant(matrix: Sequence[Sequence[Form]], algebra: Algebra) -> Form:
 def inverse(matrix: Sequence[Sequence[Form]], algebra: Algebra) -> list[list[FormRatio]]:
     """The inverse of a symmetric matrix, block by block: adjugate over determinant.
 
-    Raises `OutOfReach` where a block has more than `LARGEST` rows or its determinant too many terms.
+    Raises `OutOfReach` where a block has more than `MAX_INVERSE_ROWS` rows or its determinant too many terms.
     """
     n = len(matrix)
     one, zero = algebra.number(1), algebra.number(0)
     result = [[FormRatio(zero, one) for _ in range(n)] for _ in range(n)]
     for block in blocks(matrix):
-        if len(block) > LARGEST:
+        if len(block) > MAX_INVERSE_ROWS:
             raise OutOfReach(f"the inverse of a mass matrix with {len(block)} coupled rows is too long to write out")
         part = [[matrix[i][j] for j in block] for i in block]
         under = determinant(part, algebra)

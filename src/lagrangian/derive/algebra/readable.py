@@ -15,9 +15,9 @@ import sympy as sp
 from lagrangian.derive.algebra.factor import FACTOR_TERMS, SEARCH, Flat, Shortener, Tree, order
 from lagrangian.derive.algebra.form import Form, Term
 from lagrangian.derive.algebra.generators import Generators, Root
-from lagrangian.derive.algebra.group import LONG, Grouper, letters, role_of
+from lagrangian.derive.algebra.group import MIN_HARMONIC_TERMS, Grouper, letters, role_of
 from lagrangian.derive.algebra.monomials import digits, unit
-from lagrangian.derive.algebra.sums import MOST, sums_in, with_sums
+from lagrangian.derive.algebra.sums import MAX_SUMS, sums_in, with_sums
 from lagrangian.derive.algebra.trig import displayed
 from lagrangian.page.formula import TermKind
 
@@ -61,7 +61,7 @@ class Writer:
 
     def learn(self, form: Form) -> None:
         """Remember the sums of parameters that a given energy is written with; other forms may be shorter in them."""
-        self.sums += [s for s in sums_in(form, self.generators) if s not in self.sums][: MOST - len(self.sums)]
+        self.sums += [s for s in sums_in(form, self.generators) if s not in self.sums][: MAX_SUMS - len(self.sums)]
 
     def expr(self, form: Form) -> sp.Expr:
         """Return the whole as one expression: by classes, or as one factored product where that is shorter."""
@@ -105,7 +105,7 @@ class Writer:
             classes.setdefault(self.kind(m), {})[m] = c
         constant = classes.pop("constant", {})
         _merge_inputs(classes, self._bare)
-        long = sum(len(p) for p in classes.values()) > LONG
+        long = sum(len(p) for p in classes.values()) > MIN_HARMONIC_TERMS
         homes = [kind for kind in ("stiffness", "gravity") if kind in classes] or ["gravity"]
         ways: list[list[tuple[TermKind, Tree]]] = []
         for home in homes if constant else homes[:1]:

@@ -19,9 +19,9 @@ from lagrangian.derive.algebra.trig import plain_cost
 if TYPE_CHECKING:
     from lagrangian.derive.algebra.form import Form
 
-LARGEST = 4
+MAX_LETTERS = 4
 """Letters that a sum may have."""
-MOST = 12
+MAX_SUMS = 12
 """Sums that are kept; those met first."""
 LARGEST_FLAT = 1500
 """Terms above which a form is left as it is."""
@@ -49,9 +49,9 @@ def _base(poly: Flat, generators: Generators) -> Flat | None:
     """The polynomial if it is Σ ±a_i, or Σ ±a_i where the polynomial is its square; None where it is neither."""
     single = {m: c for m, c in poly.items() if _letter(m, generators) is not None}
     if len(single) == len(poly):
-        return poly if 1 < len(poly) <= LARGEST and all(abs(c) == 1 for c in poly.values()) else None
+        return poly if 1 < len(poly) <= MAX_LETTERS and all(abs(c) == 1 for c in poly.values()) else None
     roots = [i for m in sorted(poly, key=order) for i, e in digits(m) if poly[m] == 1 and e == 2 and m == 2 * unit(i)]
-    if not 1 < len(roots) <= LARGEST or len(poly) != len(roots) * (len(roots) + 1) // 2:
+    if not 1 < len(roots) <= MAX_LETTERS or len(poly) != len(roots) * (len(roots) + 1) // 2:
         return None
     first = unit(roots[0])
     base = {first: Fraction(1)} | {unit(i): poly.get(first + unit(i), Fraction(0)) / 2 for i in roots[1:]}

@@ -41,14 +41,14 @@ ROUNDS = 128
 SOON = 2.0**-46
 """Part of t within which two resets count as one time."""
 
-GLANCE = 2.0**-10
+LOOKAHEAD = 2.0**-10
 """Part of a step by which one looks ahead for the side that g turns to from 0."""
 
 START, ZERO, TURNED, FIRST = -1.0, 1.0, 2.0, 3.0
-"""Moods of an event: its run begins; g is 0 where a run goes on; its reset was done just now; g is 0 where its run
+"""Phases of an event: its run begins; g is 0 where a run goes on; its reset was done just now; g is 0 where its run
 begins."""
 
-RESET, ENDS, HEAPS, CROWDS, BLIND = 1, 2, 3, 4, 5
+RESET, ENDS, ACCUMULATING, CROWDS, BLIND = 1, 2, 3, 4, 5
 """Why a lane leaves a step: to go on from another state, because a terminal event happened, because changes of the
 state accumulate, because there are more events than a run may have, because some g is not a number."""
 
@@ -77,7 +77,7 @@ class EventDetector:
         self.guard = Tapes(p, guard, "guard", own=own, copies=5)
         self.after = None if after is None else Tapes(p, after, "after", own=own, copies=5)
         self.pieces = Pieces(p, lanes, method, service, guard, own=own)
-        self.armed, self.mood, self.fresh, self.fired = (p.reserve(self.count) for _ in range(4))
+        self.armed, self.phase, self.fresh, self.fired = (p.reserve(self.count) for _ in range(4))
         self.low, self.high, self.busy, self.settled, self.cut, self.rounds = (p.reserve(1) for _ in range(6))
         self.latest, self.same, self.when, self.past, self.blind = (p.reserve(1) for _ in range(5))
         self.there, self.beyond, self.kept, self.states = (
@@ -120,16 +120,16 @@ class EventDetector:
         doubt = ""
         now = self.value(inputs, t, lanes.x)
         for k, g in enumerate(now):
-            mood, old = p.load(self.mood, k), p.load(self.armed, k)
-            usual = f.logic("and", new, f.compare("ole", mood, 0.0))
+            phase, old = p.load(self.phase, k), p.load(self.armed, k)
+            usual = f.logic("and", new, f.compare("ole", phase, 0.0))
             p.store(f.select(usual, g, old), self.armed, k)
             zero = f.logic("and", usual, f.compare("oeq", g, 0.0))
-            mood = f.select(zero, f.select(f.compare("olt", mood, 0.0), FIRST, ZERO), mood)
-            p.store(mood, self.mood, k)
-            unclear = f.logic("and", new, f.compare("ogt", mood, 0.0))
+            phase = f.select(zero, f.select(f.compare("olt", phase, 0.0), FIRST, ZERO), phase)
+            p.store(phase, self.phase, k)
+            unclear = f.logic("and", new, f.compare("ogt", phase, 0.0))
             doubt = f.logic("or", doubt, unclear) if doubt else unclear
         with p.when(p.any(doubt)):
-            little = p.load(lanes.h) * GLANCE
+            little = p.load(lanes.h) * LOOKAHEAD
             k = lanes.k if self.method.follows else rate(t, lanes.x)
             (ahead,) = p.map(lambda x, k: f.fma(little, k, x), lanes.x, k, into=(self.there,))
             thens = self.value(inputs, t + little, ahead)
@@ -139,9 +139,9 @@ class EventDetector:
             for k, (here, then, later) in enumerate(zip(now, thens, laters, strict=True)):
                 p.store(self._side(k, here, then, later), self.armed, k)
         for k in range(self.count):
-            turned = f.compare("oeq", p.load(self.mood, k), TURNED)
+            turned = f.compare("oeq", p.load(self.phase, k), TURNED)
             p.store(f.select(f.logic("and", new, turned), 1.0, 0.0), self.fresh, k)
-            p.store(f.select(new, 0.0, p.load(self.mood, k)), self.mood, k)
+            p.store(f.select(new, 0.0, p.load(self.phase, k)), self.phase, k)
         return self.dark(now)
 
     def _side(self, k: int, here: Value, then: Value, later: Value) -> Value:
@@ -150,26 +150,26 @@ class EventDetector:
         An event with a direction in which g moves through 0 where its run begins happens there.
         """
         p, f = self.p, self.f
-        mood, old = p.load(self.mood, k), p.load(self.armed, k)
+        phase, old = p.load(self.phase, k), p.load(self.armed, k)
         turn = then - here
         back = f.compare("oge", f.intrinsic("copysign", 1.0, old) * turn, 0.0)
         clear = f.compare("ogt", f.intrinsic("copysign", 1.0, here) * then, 0.0)
         clear = f.logic("and", clear, f.compare("one", here, 0.0))
         reset = f.select(clear, here, f.select(back, old, 0.0))
-        started = f.select(f.compare("oeq", mood, ZERO), turn, old)
+        started = f.select(f.compare("oeq", phase, ZERO), turn, old)
         if direction := self.events.direction[k]:
             turn = f.select(f.compare("oeq", turn, 0.0), later - here, turn)
             opposed = f.select(f.compare("ogt", turn * float(direction), 0.0), turn * -1.0, turn)
         else:
             opposed = turn
-        started = f.select(f.compare("oeq", mood, FIRST), opposed, started)
-        return f.select(f.compare("oeq", mood, TURNED), reset, started)
+        started = f.select(f.compare("oeq", phase, FIRST), opposed, started)
+        return f.select(f.compare("oeq", phase, TURNED), reset, started)
 
     def forget(self, lane: str) -> None:
         """Print what a lane that takes a new run starts from."""
         p = self.p
         for k in range(self.count):
-            p.set(f"{START}", self.mood + k, lane)
+            p.set(f"{START}", self.phase + k, lane)
             p.set("0.0", self.fresh + k, lane)
         p.set("0xFFF0000000000000", self.latest, lane)
         p.set("0", self.same, lane, "i64")
@@ -312,13 +312,13 @@ class EventDetector:
             return
         with p.when(service.compare("eq", p.get(self.cut, lane, "i64"), "0")):  # else another reset comes first
             self._write(k, lane, self.there.slot)
-            p.set(f"{TURNED}", self.mood + k, lane)
+            p.set(f"{TURNED}", self.phase + k, lane)
             self._keep(self.states + k * p.size, self.kept.slot, lane)
             p.set(str(ENDS if self.events.terminal[k] else RESET), self.cut, lane, "i64")
             never = service.compare("oeq", p.get(self.low, lane), "0.0", "double")
             fresh = service.compare("one", p.get(self.fresh + k, lane), "0.0", "double")
             with p.when(self.f.put(f"and i1 {never}, {fresh}")):
-                p.set(str(HEAPS), self.cut, lane, "i64")
+                p.set(str(ACCUMULATING), self.cut, lane, "i64")
 
     def _keep(self, source: int | None, target: int | None, lane: str) -> None:
         """Copy a lane of a vector to another vector."""
@@ -356,7 +356,7 @@ class EventDetector:
             p.set(more, self.same, lane, "i64")
             p.set(t, self.latest, lane)
             with p.when(service.compare("sgt", more, str(self.count + 2))):
-                p.set(str(HEAPS), self.cut, lane, "i64")
+                p.set(str(ACCUMULATING), self.cut, lane, "i64")
         rounds = service.add(p.get(self.rounds, lane, "i64"), 1)
         p.set(rounds, self.rounds, lane, "i64")
         many = service.compare("sge", rounds, str(ROUNDS))
@@ -370,7 +370,7 @@ class EventDetector:
         with p.when(f.put(f"and i1 {over}, {f.put(f'xor i1 {ended}, true')}")):
             with p.when(service.compare("eq", p.get(self.cut, lane, "i64"), "0")):
                 self._keep(self.there.slot, self.kept.slot, lane)
-            p.set(f.put(f"select i1 {free}, i64 {CROWDS}, i64 {HEAPS}"), self.cut, lane, "i64")
+            p.set(f.put(f"select i1 {free}, i64 {CROWDS}, i64 {ACCUMULATING}"), self.cut, lane, "i64")
         free = service.compare("eq", p.get(self.cut, lane, "i64"), "0")
         blind = service.compare("ne", p.get(self.blind, lane, "i64"), "0")
         with p.when(f.put(f"and i1 {blind}, {free}")):

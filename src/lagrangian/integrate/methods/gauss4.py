@@ -24,7 +24,7 @@ A = ((0.25, 0.25 - ROOT / 6), (0.25 + ROOT / 6, 0.25))
 ROUNDS = 100
 """Iterations after which the stages are given up."""
 
-CLOSE = 1e-9
+STAGE_TOLERANCE = 1e-9
 """Part of the state that the last change of a stage may be where iterations no longer come closer."""
 
 
@@ -95,7 +95,7 @@ class Gauss(Method):
 
         (scale,) = p.fold(measure, [0.0], s.x, first, second)
         left = -p.load(last) * s.h * s.h
-        fine = f.compare("ole", left, scale * CLOSE**2 + 1e-290)
+        fine = f.compare("ole", left, scale * STAGE_TOLERANCE**2 + 1e-290)
         return f.select(fine, 0.0, 1.0)
 
     def interpolant(self, s: MethodStep) -> list[Vec]:

@@ -134,9 +134,9 @@ class LaneScheduler:
                 self._end(lane, RunStatus.LATE)
             stopped = self.compare("eq", p.get(lanes.state, lane, "i64"), str(at.STOPPED))
             with p.when(stopped):
-                self._stop(lane, at.BENT if self.signals else at.RUNNING)
+                self._stop(lane, at.RESTARTED if self.signals else at.RUNNING)
             if watch is not None:
-                with p.when(self.compare("eq", p.get(lanes.state, lane, "i64"), str(at.CUT))):
+                with p.when(self.compare("eq", p.get(lanes.state, lane, "i64"), str(at.AT_EVENT))):
                     self._stop(lane, at.NEW)
             ended = self.compare("eq", p.get(lanes.state, lane, "i64"), str(at.ENDED))
             with p.when(ended):
@@ -154,7 +154,7 @@ class LaneScheduler:
                 if watch is not None:
                     watch.prologues()
         state = p.load_whole(lanes.state)
-        fresh = f.logic("or", p.whole_is(state, at.NEW), p.whole_is(state, at.BENT))
+        fresh = f.logic("or", p.whole_is(state, at.NEW), p.whole_is(state, at.RESTARTED))
         f.do(f"br i1 {p.any(f.opposite(p.whole_is(state, at.EMPTY)))}, label %some, label %none")
         f.label("none")
         f.do(f"ret i64 {at.DONE}")

@@ -54,7 +54,7 @@ class LaneStart:
         f.label("begin")
         state = p.load_whole(lanes.state)
         new = p.whole_is(state, at.NEW)
-        fresh = f.logic("or", new, p.whole_is(state, at.BENT))
+        fresh = f.logic("or", new, p.whole_is(state, at.RESTARTED))
         trouble = Value(f, f.constant(0.0))
         if method.follows:
             t = p.load(lanes.t)

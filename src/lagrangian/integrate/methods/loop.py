@@ -352,9 +352,9 @@ class Loop:
         if watch is not None:
             held = p.load_whole(watch.cut)
             for why, becomes, how in (
-                (events.RESET, at.CUT, ""),
+                (events.RESET, at.AT_EVENT, ""),
                 (events.ENDS, at.ENDED, self._constant(RunStatus.TERMINAL)),
-                (events.HEAPS, at.ENDED, self._constant(RunStatus.ZENO)),
+                (events.ACCUMULATING, at.ENDED, self._constant(RunStatus.ZENO)),
                 (events.CROWDS, at.ENDED, self._constant(RunStatus.CROWDED)),
                 (events.BLIND, at.ENDED, self._constant(RunStatus.BLIND)),
             ):

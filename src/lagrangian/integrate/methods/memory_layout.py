@@ -18,7 +18,7 @@ CURSOR, LAST, LOGGED, BUDGET, QUIT, LOG, ROOM = range(7)
 """Words of the work space's head: next run, end of the range, events logged, steps left, whether to give up,
 address of the log and how many events it has room for."""
 
-EMPTY, NEW, BENT, RUNNING, ENDED, STOPPED, CUT = range(7)
+EMPTY, NEW, RESTARTED, RUNNING, ENDED, STOPPED, AT_EVENT = range(7)
 """What a lane does: nothing; begins; goes on after the right-hand side changed; runs; is over; reached a stop point;
 left a step at an event."""
 

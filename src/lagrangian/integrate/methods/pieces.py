@@ -2,8 +2,8 @@
 
 A piece is settled where, for every function g, bounds of g along the polynomial inside the step (`graph.bounds`) leave
 no zero in it, or bounds of g′ no turning point; else its first half comes first. Behind a piece that was proved the
-next one is twice as long. Pieces are no shorter than `FINEST`; where `MOST` of them, counted from the last event,
-did not get through, no shorter than `COARSE`. All lengths are parts of the step.
+next one is twice as long. Pieces are no shorter than `MIN_PIECE`; where `MAX_FINE_PIECES` of them, counted from the
+last event, did not get through, no shorter than `COARSE`. All lengths are parts of the step.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ if TYPE_CHECKING:
 
     from .lane_scheduler import LaneScheduler
 
-FINEST = 2.0**-24
+MIN_PIECE = 2.0**-24
 """The shortest piece: two crossings in one are not seen."""
 
 COARSE = 2.0**-8
 """The shortest piece once there have been too many."""
 
-MOST = 512
+MAX_FINE_PIECES = 512
 """Pieces after the last event from which on none is shorter than `COARSE`."""
 
 
@@ -75,7 +75,7 @@ class Pieces:
         high = low + span
         high = f.select(f.compare("olt", high, 1.0), high, 1.0)
         proved = self._proved(s, inputs, low, high)
-        least = f.select(f.compare("ogt", count, float(MOST)), COARSE, FINEST)
+        least = f.select(f.compare("ogt", count, float(MAX_FINE_PIECES)), COARSE, MIN_PIECE)
         length = high - low
         settled = f.logic("or", proved, f.compare("ole", length, least))
         longer = f.select(proved, span + span, f.select(f.compare("olt", span, least), least, span))
