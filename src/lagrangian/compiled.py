@@ -14,8 +14,8 @@ from lagrangian import codegen as machine
 from lagrangian import dynamics
 from lagrangian.errors import ModelError, RunError
 from lagrangian.graph import reached
-from lagrangian.looking import Looking
-from lagrangian.looking import by_name as _named
+from lagrangian.queries import Looking
+from lagrangian.queries import by_name as _named
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program

@@ -3,8 +3,8 @@
 `derive` is the whole: 0 holonomic?, 1 coordinates, 2 T*, 3 V, 4 L, 5 left-hand sides, 6 Ξ, then the equations.
 """
 
-from lagrangian.derive.derivation import Derived, LedgerRow, Origin, Step
 from lagrangian.derive.derive import derive
+from lagrangian.derive.derived import Derived, LedgerRow, Origin, Step
 from lagrangian.derive.lagrange import Detail
 
 __all__ = ["Derived", "Detail", "LedgerRow", "Origin", "Step", "derive"]

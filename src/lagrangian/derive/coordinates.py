@@ -10,7 +10,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.derive.context import Context, xi
-from lagrangian.derive.derivation import Step
+from lagrangian.derive.derived import Step
 from lagrangian.derive.wiggle import depends
 from lagrangian.model import Coordinate, Element, Frame, Model, Point
 from lagrangian.page.formula import Check, Formula, Item, Left, Table, Text, formula, text

@@ -31,7 +31,7 @@ from typing import Any
 
 import sympy as sp
 
-from lagrangian.derive.derivation import Derived
+from lagrangian.derive.derived import Derived
 from lagrangian.page import formula as data
 from lagrangian.page.formula import Check
 from lagrangian.page.plain import plain

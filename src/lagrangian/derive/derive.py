@@ -11,7 +11,7 @@ import sympy as sp
 from lagrangian.derive.algebra import Algebra
 from lagrangian.derive.context import Context, fit
 from lagrangian.derive.coordinates import coordinates
-from lagrangian.derive.derivation import Derived
+from lagrangian.derive.derived import Derived
 from lagrangian.derive.energies import kinetic, lagrangian, potential, shares
 from lagrangian.derive.forces import contributions, forces
 from lagrangian.derive.holonomy import holonomic

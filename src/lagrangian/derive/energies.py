@@ -11,7 +11,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import Context, fit, fit_terms
-from lagrangian.derive.derivation import Step
+from lagrangian.derive.derived import Step
 from lagrangian.model import Element, Gravity, Model, RigidBody, Spring, time
 from lagrangian.page.formula import Formula, Heading, Item, Left, Minus, Name, Product, Square, Terms, formula, text
 

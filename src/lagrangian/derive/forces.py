@@ -11,7 +11,7 @@ from lagrangian import bounded
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import Context, big_xi, fit
 from lagrangian.derive.coordinates import chain_of
-from lagrangian.derive.derivation import Step
+from lagrangian.derive.derived import Step
 from lagrangian.derive.ends import find_ends
 from lagrangian.model import DEFLECTION, Action, Damper, Element, Words, time
 from lagrangian.page.formula import (

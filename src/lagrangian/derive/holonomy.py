@@ -7,7 +7,7 @@ from typing import Any, cast
 import sympy as sp
 
 from lagrangian.derive.context import Context
-from lagrangian.derive.derivation import Step
+from lagrangian.derive.derived import Step
 from lagrangian.model import Model, time
 from lagrangian.page.formula import Item, Left, Name, formula, text
 

@@ -11,7 +11,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import Context, fit
-from lagrangian.derive.derivation import Step
+from lagrangian.derive.derived import Step
 from lagrangian.derive.energies import Share
 from lagrangian.model import Coordinate, time
 from lagrangian.page.formula import Heading, Item, Minus, Name, Partial, Terms, Total, formula, text

@@ -9,7 +9,7 @@ import json
 from collections.abc import Callable, Iterator, Mapping
 
 from lagrangian.derive.data import to_dict
-from lagrangian.derive.derivation import Derived, Step
+from lagrangian.derive.derived import Derived, Step
 from lagrangian.page import formula as data
 from lagrangian.write import html_page, latex, markdown, text
 from lagrangian.write.blocks import Items

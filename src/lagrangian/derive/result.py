@@ -9,7 +9,7 @@ import sympy as sp
 
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import READABLE, Context, fit_terms
-from lagrangian.derive.derivation import LedgerRow, Origin
+from lagrangian.derive.derived import LedgerRow, Origin
 from lagrangian.derive.forces import Contribution
 from lagrangian.derive.lagrange import LeftSide
 from lagrangian.model import Model

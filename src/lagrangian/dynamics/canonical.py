@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 from functools import cached_property
 
-from lagrangian.dynamics.eliminate import solve
+from lagrangian.dynamics.accelerations import solve
 from lagrangian.dynamics.feedback import SUPPLY, Feedback, with_feedback
 from lagrangian.dynamics.impacts import Impact, impact_outputs
 from lagrangian.dynamics.observe import Observed

@@ -14,9 +14,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
+from lagrangian.dynamics.accelerations import Quadratic, condensed, solve
 from lagrangian.dynamics.axes import Accelerations
 from lagrangian.dynamics.bodies import Bodies
-from lagrangian.dynamics.eliminate import Quadratic, condensed, solve
 from lagrangian.dynamics.floating import Float, bracket, transported
 from lagrangian.dynamics.inertia import AnyLink
 from lagrangian.dynamics.motion import Motion

@@ -1,7 +1,7 @@
 """Results of an ensemble written to disk, chunk by chunk, so that a kill loses at most the chunks under way.
 
 A Zarr group (format 3) with one array a result over the ensemble's shape, coordinates beside them, and the array
-``done`` of marks (`lagrangian.integrate.seal`), plain and uncompressed. A chunk's results are written first, each file
+``done`` of marks (`checksums`), plain and uncompressed. A chunk's results are written first, each file
 beside its place and renamed into it, its marks last: a chunk is done or it is not. The group's attributes hold what the
 task is; another task is never carried on in the same store. To go on with a store, all of it is checked first: what is
 damaged is done again.
@@ -26,9 +26,7 @@ from numpy.typing import NDArray
 
 from lagrangian.advice import Advice
 from lagrangian.errors import Error, RunError
-from lagrangian.integrate.chunks import Portions
-from lagrangian.integrate.observe import Values
-from lagrangian.integrate.seal import (
+from lagrangian.integrate.checksums import (
     AGAIN,
     DONE,
     FORMAT,
@@ -43,6 +41,8 @@ from lagrangian.integrate.seal import (
     parsed,
     seal,
 )
+from lagrangian.integrate.chunks import Portions
+from lagrangian.integrate.observe import Values
 from lagrangian.integrate.stored import explained, fill, library, lost_chunks, opened, whole
 
 

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from lagrangian.advice import Advice
 from lagrangian.errors import Error, MissingExtra, RunError
-from lagrangian.integrate.seal import AGAIN, DONE, RESUME, StoreDocument, finished, open_document
+from lagrangian.integrate.checksums import AGAIN, DONE, RESUME, StoreDocument, finished, open_document
 from lagrangian.integrate.status import RunStatus
 
 LISTED = 3

@@ -14,8 +14,8 @@ from lagrangian import dynamics, read
 from lagrangian.advice import Advice, Argument
 from lagrangian.codegen.arguments import numbers
 from lagrangian.errors import RunError, did_you_mean
+from lagrangian.integrate.checksums import DONE
 from lagrangian.integrate.design import GROUPS, Design, DesignColumn, RandomColumn
-from lagrangian.integrate.seal import DONE
 from lagrangian.integrate.store import Variable
 from lagrangian.model import Model
 from lagrangian.quantities.quantity import Quantity

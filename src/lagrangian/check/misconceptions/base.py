@@ -16,16 +16,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.derive import Derived
-from lagrangian.model import (
-    Action,
-    Coordinate,
-    Element,
-    Gravity,
-    Model,
-    RigidBody,
-    Spring,
-    time,
-)
+from lagrangian.model import Action, Coordinate, Element, Gravity, Model, RigidBody, Spring, time
 from lagrangian.page.formula import Text
 
 MOST_PIECES = 120
