@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -99,7 +99,7 @@ def derive_and_verify(model: Model, *, detail: derive.Detail = "usual") -> Deriv
     """Derive, and end with what was verified; ``detail="full"`` writes d/dt out term by term."""
     check_dimensions(model)
     data = derive.derive(model, detail=detail)
-    made = Derivation(**{f.name: getattr(data, f.name) for f in fields(data)})
+    made = Derivation(**vars(data))
     made = replace(made, notices=dynamics.notices(model), verified=verify(made, states=10, seed=1))
     steps = tuple(replace(step, view=partial(_section, made, f"step-{step.number}")) for step in made.steps)
     return replace(made, steps=steps, ledger=Viewed(made.ledger, partial(_ledger, made)))

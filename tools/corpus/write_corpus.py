@@ -1,4 +1,4 @@
-"""Writes the corpus of answers: ``python tests/answers/write_corpus.py [system …]``.
+"""Writes the corpus of answers: ``python tools/corpus/write_corpus.py [system …]``.
 
 Right answers come from SymPy's LagrangesMethod (`write_systems`), are proved against Kane's equations at random states,
 and are disguised; wrong ones carry one mistake (`write_mistakes`). What mistakes give the very same equations are noted
@@ -18,8 +18,8 @@ from write_mistakes import MISTAKES, Wrong
 from write_systems import SYSTEMS, System, t
 from write_words import FORMS, SIDES, STYLES, latex, matrix_form, newton_form, plain, two_sides, written
 
-HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE.parent / "examples"))
+TESTS = Path(__file__).parents[2] / "tests"
+sys.path.insert(0, str(TESTS / "examples"))  # the oracle by Kane's equations
 MOST_WRONG = 14
 """Wrong answers per system."""
 
@@ -238,7 +238,7 @@ def main() -> None:
         s = make()
         prove(s)
         answers = [*right(s, at), *wrong(s, at, Numbers(s))]
-        (HERE / "corpus" / f"{name}.toml").write_text(file_of(s, answers), encoding="utf-8")
+        (TESTS / "check" / "corpus" / f"{name}.toml").write_text(file_of(s, answers), encoding="utf-8")
         print(f"{name}: {len(answers)} answers")
 
 

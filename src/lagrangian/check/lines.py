@@ -12,9 +12,6 @@ from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import AnsweredLine
 from lagrangian.errors import ModelError
 
-STATED = ("T", "V", "L", "D", "Xi", "p", "p-rate", "slope")
-"""Kinds of lines that give one quantity."""
-
 
 def lines_of(answer: Answer) -> tuple[AnsweredLine, ...]:
     """The lines of an answer that was read, numbered as in its text."""

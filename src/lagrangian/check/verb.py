@@ -6,7 +6,7 @@ import csv
 import io
 import json
 from collections import Counter
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +24,7 @@ from lagrangian.write.written import Written
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class CheckedAnswer(Written, check.Verdict):
-    """Whether an answer is right, in which shape, or where it is wrong and why; see `analyze.check.Verdict`."""
+    """Whether an answer is right, in which shape, or where it is wrong and why; see `lagrangian.check.Verdict`."""
 
     model: Model
 
@@ -48,9 +48,7 @@ def check_answer(derivation: Derived, answer: Any, *, hint: int = 3, name: str |
     if isinstance(answer, str):
         answer = parse_answer(answer, derivation.model, name=name)
     lines = check.lines_of(answer) if isinstance(answer, Answer) else check.lines_from(answer)
-    verdict = check.check(derivation, lines, hint=hint)
-    values = {f.name: getattr(verdict, f.name) for f in fields(verdict)}
-    return CheckedAnswer(**values, model=derivation.model)
+    return CheckedAnswer(**vars(check.check(derivation, lines, hint=hint)), model=derivation.model)
 
 
 @dataclass(frozen=True)

@@ -13,9 +13,6 @@ STEP = 5
 WHY = text("Go through ∂L/∂ξ̇, its d/dt and ∂L/∂ξ once more, term by term.")
 
 
-SHARES = ((sp.Integer(-1), "is missing"), (sp.Integer(1), "comes twice"), (-sp.S.Half, "comes half"))
-
-
 def wrong(s: Ingredients) -> Iterator[Variant]:
     """Every readable term of every equation: gone, halved, doubled."""
     for p in pieces(s):

@@ -72,8 +72,6 @@ WRITING = 15_000
 """Terms that may be looked at while shorter ways of writing are sought for one system."""
 
 Generator = Symbolic | Root | Opaque | Trig | Sum
-Slope = "int | Form | None"
-"""A derivative: a monomial, a form, or None for zero."""
 
 
 class Generators:

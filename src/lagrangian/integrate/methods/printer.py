@@ -1,4 +1,4 @@
-"""Structured LLVM IR for integrators: vectors of states, loops, conditions and work space over :mod:`compile.ir`.
+"""Structured LLVM IR for integrators: vectors of states, loops, conditions and work space over `lagrangian.codegen.ir`.
 
 An integrator works on ``lanes`` runs side by side. Its memory is one block, ``%work``, of slots of ``lanes`` doubles;
 entry i of a vector is slot ``base + i``. A short vector lives in registers, entry by entry (``Vec.values``); a long one
