@@ -20,6 +20,7 @@ from lagrangian.dynamics.bodies import Bodies
 from lagrangian.dynamics.floating import Float, bracket, transported
 from lagrangian.dynamics.inertia import AnyLink
 from lagrangian.dynamics.motion import Motion
+from lagrangian.dynamics.rows import ConstraintRow
 from lagrangian.dynamics.tape import is_linear, make_tape, moving_nodes
 from lagrangian.dynamics.vectors import dot, minus, plus, zeros
 from lagrangian.graph import Graph, count_operations, gradient, hessian, jvp, operands, vjp
@@ -41,7 +42,7 @@ class Mechanics:
     quasi-velocities. ``down`` is the acceleration of gravity in the
     fixed axes. ``efforts`` are (rate, effort) pairs: their power is Σ rate · effort and Ξ_i = Σ effort · ∂rate/∂v_i.
     ``stores`` are the (rate, effort) pairs of what is kept in ``potentials``. ``kinetics`` are raw kinetic co-energies,
-    ``losses`` the powers taken by dampers.
+    ``losses`` the powers taken by dampers. ``rows`` are the rows of constraints.
     """
 
     graph: Graph
@@ -54,6 +55,7 @@ class Mechanics:
     potentials: list[int] = field(default_factory=list)
     kinetics: list[int] = field(default_factory=list)
     losses: list[int] = field(default_factory=list)
+    rows: list[ConstraintRow] = field(default_factory=list)
     floats: tuple[Float, ...] = ()
 
     @property
