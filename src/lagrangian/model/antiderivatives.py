@@ -5,6 +5,9 @@ the signs of its parameters (Euler's theorem): k δ |δ|, δ² sign δ, max(k δ
 L = a δ + b beside a polynomial p is integrated from the kink: ∫ p sign L = |L| R with R = (P − P(−b/a))/L, P' = p.
 """
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownVariableType=false
+
 from __future__ import annotations
 
 from typing import Any, cast
@@ -37,10 +40,10 @@ def _smooth(law: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
         return sp.Add(*[c * x ** (n + 1) / (n + 1) for n, c in enumerate(polynomial)])
     if bounded.size(law) > bounded.MAX_OPERATIONS:
         return None
-    primitive = bounded.searched(manualintegrate, law, x)
+    primitive = bounded.searched(lambda: cast("sp.Expr", manualintegrate(law, x)))
     if primitive is None or primitive.has(sp.Integral):
         return None
-    at_zero = bounded.searched(primitive.subs, x, 0)
+    at_zero = bounded.searched(lambda: primitive.subs(x, 0))
     return None if at_zero is None or at_zero.has(sp.nan, sp.zoo, sp.oo, -sp.oo) else primitive - at_zero
 
 
@@ -51,8 +54,8 @@ def _bent(law: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
     """The integral of a law with kinks, term by term; of one that bends on a line a x + b alone, from there."""
     whole = bounded.expand(_split(law, x))
     found = _by_terms(law, whole, x)
-    lines = {a.args[0] for a in whole.atoms(sp.Abs, sp.sign) if a.has(x)} if found is None else set()
-    slopes = _polynomial(cast("sp.Expr", next(iter(lines))), x) if len(lines) == 1 else None
+    lines: set[Any] = {a.args[0] for a in whole.atoms(sp.Abs, sp.sign) if found is None and a.has(x)}
+    slopes = _polynomial(lines.pop(), x) if len(lines) == 1 else None
     if slopes is None or len(slopes) != 2 or slopes[0] == 0:
         return found
     start = slopes[0] / slopes[1]
@@ -115,10 +118,10 @@ def _degree(expr: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
     if expr == x:
         return sp.S.One
     if isinstance(expr, sp.Mul):
-        degrees = [_degree(cast("sp.Expr", a), x) for a in expr.args]
+        degrees = [_degree(a, x) for a in expr.args]
         return None if any(d is None for d in degrees) else sp.Add(*cast("list[sp.Expr]", degrees))
     if isinstance(expr, sp.Pow) and isinstance(expr.exp, sp.Rational):
-        below = _degree(cast("sp.Expr", expr.base), x)
+        below = _degree(expr.base, x)
         return None if below is None else below * expr.exp
     if isinstance(expr, (sp.Add, sp.Max, sp.Min, sp.Abs)):
         return _one({_degree(cast("sp.Expr", a), x) for a in expr.args if a != 0})
@@ -197,7 +200,7 @@ def _cases(cases: sp.Piecewise, rest: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
         edges.append(bound)
     if _pairs(cases)[-1][1] != sp.true:
         return None
-    primitives = [antiderivative(bounded.expand(cast("sp.Expr", value * rest)), x) for value, _ in _pairs(cases)]
+    primitives = [antiderivative(bounded.expand(value * rest), x) for value, _ in _pairs(cases)]
     if any(p is None for p in primitives):
         return None
     whole = cast("list[sp.Expr]", primitives)
@@ -238,5 +241,5 @@ def _polynomial(expr: sp.Expr, x: sp.Symbol) -> list[sp.Expr] | None:
         base, exponent = power.as_base_exp() if power != 1 else (x, sp.S.Zero)
         if base != x or not isinstance(exponent, sp.Integer) or exponent > bounded.TERMS:
             return None
-        found.setdefault(int(exponent), []).append(cast("sp.Expr", factor))
+        found.setdefault(int(exponent), []).append(factor)
     return [sp.Add(*found.get(n, [])) for n in range(max(found, default=0) + 1)]

@@ -8,6 +8,9 @@ Where the first fails T* is positive all the same, and published data of robots 
 error. Where the second fails the mass matrix decides (`lagrangian.dynamics.notices`).
 """
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
 from __future__ import annotations
 
 import math

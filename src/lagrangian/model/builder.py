@@ -1,5 +1,8 @@
 """Collects what a person describes, checks every piece as it comes, and freezes it as a `Model`."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
@@ -16,9 +19,9 @@ from lagrangian.model.declarations import Declarations
 from lagrangian.model.effect import check_effect
 from lagrangian.model.elements import Element, FieldKind
 from lagrangian.model.floating import Floating
-from lagrangian.model.geometry import Frame, Point, as_expr, as_vector
+from lagrangian.model.geometry import Frame, Point, as_expr, as_vector, is_listed
 from lagrangian.model.model import Model
-from lagrangian.model.names import check_name, time
+from lagrangian.model.names import check_name, is_text, time
 from lagrangian.model.symbols import Coordinate, Velocity
 
 E = TypeVar("E", bound=Element)
@@ -29,7 +32,7 @@ class Builder(Declarations):
     """The description while it grows. Every method checks what it is given and raises `ModelError`."""
 
     def __init__(self, name: str) -> None:
-        if not isinstance(name, str) or not name.strip():
+        if not is_text(name) or not name.strip():
             raise ModelError("a system needs a name", fix='System("two-link arm")', code="E401")
         super().__init__()
         self.name = name.strip()
@@ -222,7 +225,7 @@ class Builder(Declarations):
             if entry.kind is FieldKind.COORDINATE:
                 floats = [f.floating for f in self._frames.values() if f.floating is not None]
                 check_acted_on(element, value, (*self.coordinates, *self._velocities.values()), floats)
-            elif entry.kind in (FieldKind.VECTOR, FieldKind.EXPRESSION_OR_VECTOR) and isinstance(value, tuple):
+            elif entry.kind in (FieldKind.VECTOR, FieldKind.EXPRESSION_OR_VECTOR) and is_listed(value):
                 self._fit(len(value), f"the {key} of {element.title}", element.place)
         for use in element.uses():
             self._check_known(use.expr, f"the {use.what} of {element.title}", element.place, use.local)
@@ -236,8 +239,8 @@ class Builder(Declarations):
         return element
 
     def _element_name(self, element: Element) -> str:
-        if not isinstance(element.name, str) or element.name:
-            if not isinstance(element.name, str) or len(element.name) > 200 or not element.name.isprintable():
+        if not is_text(element.name) or element.name:
+            if not is_text(element.name) or len(element.name) > 200 or not element.name.isprintable():
                 raise ModelError(
                     f"the name of a {element.kind} must be printable text of at most 200 characters",
                     place=element.place,
@@ -278,7 +281,7 @@ class Builder(Declarations):
 
     def lookup(self, name: str) -> Any:
         """Return the symbol of that name, or else the point, frame or element."""
-        if not isinstance(name, str):
+        if not is_text(name):
             raise ModelError(f"system[…] takes a name (got {type(name).__name__})", fix='system["theta"]', code="E402")
         if (found := self.find(name)) is None:
             known = [known for table in self._tables for known in table]

@@ -1,5 +1,8 @@
 """What may stand where: rates inside energies, positions that bend, forces on what is not a coordinate."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
 from __future__ import annotations
 
 import math

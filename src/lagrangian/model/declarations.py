@@ -1,5 +1,8 @@
 """What a person declares: coordinates, parameters, inputs and definitions, each name once."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
@@ -68,7 +71,7 @@ class Declarations:
     ) -> Coordinate:
         """Add a generalized coordinate; ``positive`` where it is a distance that is known to be above 0."""
         name = self._claim(name, "coordinate", place)
-        if not isinstance(positive, bool):
+        if positive is not True and positive is not False:
             raise ModelError(
                 f"positive must be True or False for coordinate '{name}' (got {positive!r:.40})",
                 place=place,

@@ -4,6 +4,9 @@ A virtual displacement moves a point only where a coordinate stands in its offse
 hangs on time alone moves, but not virtually, so that no force on it does virtual work.
 """
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
+
 from __future__ import annotations
 
 from collections.abc import Iterator

@@ -7,6 +7,9 @@ the fixed axes; any length but 0 will do. Velocity of the origin and angular vel
 frame's own axes. Pinocchio's free-flyer has the same order and axes.
 """
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -69,4 +72,6 @@ class Floating:
         """R of the quaternion e:  R = 1 + 2/|e|² (w [r]× + [r]×²),  r = (x, y, z)."""
         x, y, z, w = self.quaternion
         hat = sp.Matrix([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-        return sp.ImmutableMatrix(sp.eye(3) + 2 / (x**2 + y**2 + z**2 + w**2) * (w * hat + hat * hat))
+        return sp.ImmutableMatrix(
+            sp.Matrix([[1, 0, 0], [0, 1, 0], [0, 0, 1]]) + 2 / (x**2 + y**2 + z**2 + w**2) * (w * hat + hat * hat)
+        )

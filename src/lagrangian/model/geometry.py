@@ -8,6 +8,9 @@ In the plane R(angle) = [[cos, −sin], [sin, cos]], counter-clockwise positive.
 parent's axes and R is Rodrigues' rotation  R = 1 + sin φ [n]× + (1 − cos φ) [n]×².
 """
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
 from __future__ import annotations
 
 from collections.abc import Sequence
@@ -16,7 +19,7 @@ from functools import cached_property
 from itertools import count
 from math import isfinite
 from numbers import Rational, Real
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any, TypeGuard, cast
 
 import sympy as sp
 
@@ -32,6 +35,7 @@ if TYPE_CHECKING:
 
 Scalar: TypeAlias = "sp.Expr | int | float"
 _serial = count(1)
+NOT_REAL: tuple[sp.Expr, ...] = (sp.sqrt(-1), sp.nan, sp.oo, sp.zoo, -sp.oo)
 MAX_BITS = 1100  # of a numerator or denominator: 5e-324, the least double, has 1077
 
 
@@ -54,7 +58,7 @@ def as_expr(value: object, what: str, *, place: Place | None = None) -> sp.Expr:
         raise ModelError(f"{what} must be a finite number (got {value})", place=place, code="E101")
     else:
         expr = sp.Rational(str(value))
-    if expr.has(sp.I, sp.nan, sp.oo, sp.zoo, -sp.oo):
+    if expr.has(*NOT_REAL):
         raise ModelError(f"{what} must be real and finite (got {expr})", place=place, code="E101")
     if any(max(abs(r.p), r.q).bit_length() > MAX_BITS for r in expr.atoms(sp.Rational)):
         raise ModelError(
@@ -74,10 +78,25 @@ def as_expr(value: object, what: str, *, place: Place | None = None) -> sp.Expr:
     return expr
 
 
+def is_listed(value: object) -> TypeGuard[Sequence[object]]:
+    """Whether it is a tuple, a list or a matrix, not one value."""
+    return isinstance(value, (tuple, list, sp.MatrixBase))
+
+
+def turned(matrix: sp.MatrixBase, components: Sequence[sp.Expr]) -> tuple[sp.Expr, ...]:
+    """The components of a vector after a rotation: matrix · components."""
+    return entries(cast("sp.MatrixBase", matrix * sp.Matrix(components)))
+
+
+def entries(matrix: sp.MatrixBase) -> tuple[sp.Expr, ...]:
+    """The entries of a matrix, row by row."""
+    return tuple(cast("list[sp.Expr]", matrix.flat()))
+
+
 def as_vector(values: object, what: str, *, place: Place | None = None) -> tuple[sp.Expr, ...]:
     """Return a tuple of two or three expressions."""
     if isinstance(values, sp.MatrixBase):
-        values = tuple(values.flat())
+        values = entries(values)
     if isinstance(values, str) or not isinstance(values, Sequence):
         fix = "such as (x, y) with SymPy expressions"
         if isinstance(values, Point):
@@ -87,14 +106,15 @@ def as_vector(values: object, what: str, *, place: Place | None = None) -> tuple
         raise ModelError(
             f"{what} must be a pair or a triple (got {type(values).__name__})", place=place, fix=fix, code="E414"
         )
-    if len(values) not in (2, 3):
+    components = cast("Sequence[object]", values)
+    if len(components) not in (2, 3):
         raise ModelError(
-            f"{what} has {len(values)} component{'s' if len(values) != 1 else ''}",
+            f"{what} has {len(components)} component{'s' if len(components) != 1 else ''}",
             place=place,
             fix="give two in the plane, three in space",
             code="E414",
         )
-    return tuple(as_expr(v, f"component {i} of {what}", place=place) for i, v in enumerate(values, 1))
+    return tuple(as_expr(v, f"component {i} of {what}", place=place) for i, v in enumerate(components, 1))
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,7 +167,7 @@ class Point(Brief):
             return ()
         step: Sequence[sp.Expr] = self.offset
         if self.frame is not None:
-            step = tuple(self.frame.rotation * sp.Matrix(self.offset))
+            step = self.frame.in_fixed_axes(self.offset)
         before = self.parent.position or (sp.S.Zero,) * len(self.offset)
         return tuple(a + b for a, b in zip(before, step, strict=True))
 
@@ -175,13 +195,14 @@ class Frame(Brief):
         """2 in the plane, 3 in space."""
         return 2 if self.axis is None and self.floating is None else 3
 
-    def point(self, *offset: Any, at: Point | None = None, name: str | None = None) -> Point:
+    def point(self, *offset: object, at: Point | None = None, name: str | None = None) -> Point:
         """Return the point whose components are ``offset`` in this frame's axes, from its origin or from ``at``.
 
         With a ``name`` it is one of the system's named points, which files, runs and results know.
         """
-        values = offset[0] if len(offset) == 1 and isinstance(offset[0], (tuple, list)) else offset
-        components = as_vector(values, "the offset of a point")
+        components = as_vector(
+            offset[0] if len(offset) == 1 and is_listed(offset[0]) else offset, "the offset of a point"
+        )
         if len(components) != self.dimension:
             raise ModelError(
                 f"a point with {len(components)} components was given in a frame with {self.dimension}",
@@ -201,10 +222,13 @@ class Frame(Brief):
         if self.axis is None:
             return sp.ImmutableMatrix([[c, -s], [s, c]])
         x, y, z = self.axis
-        cross = sp.Matrix([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+        cross = ((0, -z, y), (z, 0, -x), (-y, x, 0))
         # R = 1 + sin φ [n]× + (1 − cos φ) [n]×², with [n]×² = n nᵀ − 1 for a unit axis
-        outer = sp.Matrix(3, 3, lambda i, j: self.axis[i] * self.axis[j])  # type: ignore[index]
-        return sp.ImmutableMatrix(c * (sp.eye(3) - outer) + outer + s * cross)
+        rows = [
+            [c * (int(i == j) - a * b) + a * b + s * cross[i][j] for j, b in enumerate(self.axis)]
+            for i, a in enumerate(self.axis)
+        ]
+        return sp.ImmutableMatrix(rows)
 
     @cached_property
     def rotation(self) -> sp.ImmutableMatrix:
@@ -215,6 +239,10 @@ class Frame(Brief):
             c, s = sp.cos(self.total_angle), sp.sin(self.total_angle)
             return sp.ImmutableMatrix([[c, -s], [s, c]])
         return sp.ImmutableMatrix(self.parent.rotation * self.local_rotation)
+
+    def in_fixed_axes(self, components: Sequence[sp.Expr]) -> tuple[sp.Expr, ...]:
+        """The components in the fixed axes of a vector given in this frame's axes."""
+        return turned(self.rotation, components)
 
     @cached_property
     def total_angle(self) -> sp.Expr:
@@ -235,7 +263,8 @@ class Frame(Brief):
         rate = bounded.diff(self.angle, time)
         if self.axis is None:
             return (bounded.diff(self.total_angle, time),)
-        own = sp.Matrix([n * rate for n in self.axis])
+        own = tuple(n * rate for n in self.axis)
         if self.parent is None:
-            return tuple(own.flat())
-        return tuple((self.local_rotation.T * sp.Matrix(self.parent.angular_velocity) + own).flat())
+            return own
+        before = turned(cast("sp.MatrixBase", self.local_rotation.T), self.parent.angular_velocity)
+        return tuple(x + y for x, y in zip(before, own, strict=True))

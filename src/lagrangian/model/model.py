@@ -1,5 +1,8 @@
 """The frozen description of a mechanical system."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
 from __future__ import annotations
 
 from collections.abc import Mapping
@@ -44,8 +47,8 @@ class Model(Brief):
     points: tuple[Point, ...]
     frames: tuple[Frame, ...]
     elements: tuple[Element, ...]
-    settings: Mapping[str, Any] = field(default_factory=dict, repr=False)
-    _memo: dict[Any, Any] = field(default_factory=dict, repr=False)
+    settings: Mapping[str, Any] = field(default_factory=dict[str, Any], repr=False)
+    _memo: dict[Any, Any] = field(default_factory=dict[Any, Any], repr=False)
 
     def __repr__(self) -> str:
         counts = ("coordinates", "parameters", "inputs", "elements")

@@ -1,10 +1,13 @@
 """Names of symbols: which are allowed, and the one symbol of time."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
+
 from __future__ import annotations
 
 import re
 import unicodedata
-from typing import cast
+from typing import TypeGuard, cast
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -56,13 +59,18 @@ MAX_LENGTH = 64
 _IDENTIFIER = re.compile(r"[^\W\d]\w*\Z")
 
 
+def is_text(value: object) -> TypeGuard[str]:
+    """Whether it is text, as its annotation says; people pass other things."""
+    return isinstance(value, str)
+
+
 def check_name(name: str, what: str, *, place: Place | None = None) -> str:
     """Return ``name`` in its normal form (NFKC) or raise `ModelError`.
 
     A name is a letter (any script) or underscore, then letters, digits and underscores, at most 64 characters.
     ``what`` says what it names (``"parameter"``).
     """
-    if not isinstance(name, str):
+    if not is_text(name):
         raise ModelError(f"the name of a {what} must be text (got {type(name).__name__})", place=place, code="E702")
     shown = name if len(name) <= MAX_LENGTH else name[: MAX_LENGTH - 1] + "…"
     if len(name) > MAX_LENGTH:

@@ -1,5 +1,8 @@
 """The named symbols of a system: coordinates, velocities, parameters, inputs, definitions."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
+
 from __future__ import annotations
 
 from dataclasses import dataclass, field

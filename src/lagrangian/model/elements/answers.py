@@ -1,5 +1,8 @@
 """What a kind of element answers about its fields and about what it acts on: data that other rooms read."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
+
 from __future__ import annotations
 
 from dataclasses import dataclass

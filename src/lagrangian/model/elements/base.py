@@ -1,12 +1,15 @@
 """What every element has, and what an element says of its expressions and of its actions."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import Any, ClassVar, Literal, Protocol, Self, TypeAlias
+from typing import Any, ClassVar, Literal, Protocol, Self, TypeAlias, cast
 
 import sympy as sp
 
@@ -14,8 +17,8 @@ from lagrangian import bounded
 from lagrangian.codes import CodeText
 from lagrangian.errors import ModelError, Place
 from lagrangian.model.elements.answers import ActsOn, Entry, Measure
-from lagrangian.model.geometry import Frame, Point
-from lagrangian.model.names import time
+from lagrangian.model.geometry import Frame, Point, is_listed
+from lagrangian.model.names import is_text, time
 from lagrangian.model.symbols import Coordinate
 from lagrangian.page.formula import Name
 from lagrangian.viewed import Brief
@@ -162,11 +165,8 @@ class Element(Brief):
     @property
     def title(self) -> str:
         """The element in words, such as ``spring 'k'``."""
-        return (
-            f"{self.kind.replace('_', ' ')} '{self.name}'"
-            if isinstance(self.name, str) and self.name
-            else self.kind.replace("_", " ")
-        )
+        kind = self.kind.replace("_", " ")
+        return f"{kind} '{self.name}'" if is_text(self.name) and self.name else kind
 
     def named(self, name: str) -> Self:
         """Return the same element under another name."""
@@ -219,12 +219,33 @@ class Element(Brief):
         return None
 
     def _error(self, what: str, *, fix: str | None = None, code: CodeText | None = None) -> ModelError:
-        return ModelError(what, element=self.title, place=self.place, fix=fix, code=code)
+        return error_of(self, what, fix=fix, code=code)
 
     def _set(self, **values: object) -> None:
         """Fill in normalised fields while the frozen object is being made."""
         for key, value in values.items():
             object.__setattr__(self, key, value)
+
+
+def error_of(element: Element, what: str, *, fix: str | None = None, code: CodeText | None = None) -> ModelError:
+    """An error that names the element and where it is described."""
+    return ModelError(what, element=element.title, place=element.place, fix=fix, code=code)
+
+
+def entries_of(value: Any) -> tuple[sp.Expr, ...]:
+    """The entries of a checked value: the components of a vector, or the one value."""
+    return cast("tuple[sp.Expr, ...]", value) if isinstance(value, tuple) else (value,)
+
+
+def main_symbol(value: sp.Expr) -> str:
+    """The name of the symbol that a value is, or is the negative of; empty where it is neither."""
+    main = -value if value.could_extract_minus_sign() else value
+    return getattr(main, "name", "") if main.is_Symbol or main.is_Function else ""
+
+
+def norm(components: Iterable[sp.Expr]) -> sp.Expr:
+    """√(x² + y² + z²)."""
+    return sp.sqrt(sp.Add(*(x**2 for x in components)))
 
 
 def difference(model: Surroundings, start: Point, end: Point) -> tuple[sp.Expr, ...]:
@@ -249,7 +270,7 @@ def _from(base: Point, point: Point, dimension: int) -> list[sp.Expr]:
     total: list[sp.Expr] = [sp.S.Zero] * dimension
     at = point
     while at is not base:
-        step = at.offset if at.frame is None else tuple(at.frame.rotation * sp.Matrix(at.offset))
+        step = at.offset if at.frame is None else at.frame.in_fixed_axes(at.offset)
         total = [x + y for x, y in zip(total, step, strict=True)]
         assert at.parent is not None
         at = at.parent
@@ -258,7 +279,7 @@ def _from(base: Point, point: Point, dimension: int) -> list[sp.Expr]:
 
 def deflection_between(model: Surroundings, start: Point, end: Point) -> sp.Expr:
     """The distance |r_end − r_start| = √(Δx² + Δy² + Δz²) [m]."""
-    return sp.sqrt(sum(d**2 for d in difference(model, start, end)))
+    return norm(difference(model, start, end))
 
 
 def pair_ends(model: Surroundings, start: Point, end: Point, effort: sp.Expr) -> tuple[Action, Action]:
@@ -267,7 +288,7 @@ def pair_ends(model: Surroundings, start: Point, end: Point, effort: sp.Expr) ->
     e = (r_end − r_start)/|r_end − r_start|; the rate of an end is its velocity along e.
     """
     delta = difference(model, start, end)
-    length = sp.sqrt(sum(d**2 for d in delta))
+    length = norm(delta)
 
     def along(point: Point) -> sp.Expr:
         velocity = [bounded.diff(model.expand(x), time) for x in model.position(point)]
@@ -284,7 +305,8 @@ def called(element: Element, key: str, law: Callable[[sp.Symbol], object], argum
     try:
         return law(argument)
     except Exception as cause:
-        raise element._error(
+        raise error_of(
+            element,
             f"the function given as {key} cannot take a symbol ({type(cause).__name__}: {cause})",
             fix=f"{key}=lambda {argument}: an expression in {argument}, made of SymPy functions",
             code="E406",
@@ -295,20 +317,22 @@ def check_ends(element: Element, between: object, deflection: object) -> tuple[P
     """Return the two points of ``between``, or None for a deflection; exactly one of both must be given."""
     if (between is None) == (deflection is None):
         found = "both" if between is not None else "neither"
-        raise element._error(
+        raise error_of(
+            element,
             f"give either two points or a deflection (got {found})",
             fix="write between=(P, Q) for the distance of two points, or deflection=expression in the coordinates",
             code="E412",
         )
     if between is None:
         return None
-    if not isinstance(between, (tuple, list)) or len(between) != 2 or not all(isinstance(p, Point) for p in between):
-        raise element._error(
-            "between must be two points", fix="write between=(P, Q) with points of this system", code="E412"
+    start, end = between if is_listed(between) and len(between) == 2 else (None, None)
+    if not isinstance(start, Point) or not isinstance(end, Point):
+        raise error_of(
+            element, "between must be two points", fix="write between=(P, Q) with points of this system", code="E412"
         )
-    start, end = between
     if start is end:
-        raise element._error(
+        raise error_of(
+            element,
             "both ends are the same point, so it has no length and no direction",
             fix="name two different points in between",
             code="E410",

@@ -1,5 +1,8 @@
 """A damper: linear or by a law, translational or torsional, between points or on a deflection."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
@@ -21,6 +24,7 @@ from lagrangian.model.elements.base import (
     called,
     check_ends,
     difference,
+    norm,
     pair_ends,
 )
 from lagrangian.model.geometry import Point, as_expr
@@ -109,7 +113,7 @@ class Damper(Element):
         moving = [d for d in delta if d != 0]
         if len(moving) == 1 and (self.law is None):
             return moving[0]
-        return sp.sqrt(sum(d**2 for d in delta))
+        return norm(delta)
 
     def rate(self, model: Surroundings) -> sp.Expr:
         """δ̇ [m/s or rad/s]."""
@@ -129,7 +133,7 @@ class Damper(Element):
         if not self.between:
             return self.works(model)
         delta = difference(model, *self.between)
-        length = sp.sqrt(sum(d**2 for d in delta))
+        length = norm(delta)
         rate = sum((d * bounded.diff(d, time) for d in delta), sp.S.Zero) / length
         pull = self.b * rate if self.b is not None else self.law.subs(RATE, rate)
         return pair_ends(model, self.between[0], self.between[1], -pull)

@@ -1,5 +1,8 @@
 """A force: a vector at a point, with or without reaction, or a scalar along a deflection."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
@@ -21,9 +24,11 @@ from lagrangian.model.elements.base import (
     check_ends,
     deflection_between,
     difference,
+    entries_of,
+    main_symbol,
     pair_ends,
 )
-from lagrangian.model.geometry import Frame, Point, as_expr, as_vector
+from lagrangian.model.geometry import Frame, Point, as_expr, as_vector, is_listed
 from lagrangian.model.names import time
 
 
@@ -71,7 +76,7 @@ class Force(Element):
                 fix="give a vector with at=P, or a scalar with between=(P, Q) or deflection=expression",
                 code="E412",
             )
-        if not isinstance(self.value, (tuple, list, sp.MatrixBase)):
+        if not is_listed(self.value):
             raise self._error(
                 "a force at a point is a vector (got one value)",
                 fix="write force((Fx, Fy), at=P); a scalar needs between=(P, Q) or deflection=expression",
@@ -92,7 +97,7 @@ class Force(Element):
         self._set(value=as_vector(self.value, what, place=self.place))
 
     def _scalar(self, what: str) -> None:
-        if isinstance(self.value, (tuple, list, sp.MatrixBase)):
+        if is_listed(self.value):
             raise self._error(
                 "a vector force needs the point it acts at", fix="write force((Fx, Fy), at=P)", code="E412"
             )
@@ -121,16 +126,12 @@ class Force(Element):
 
     def suggested_name(self) -> str:
         """The symbol of its value."""
-        values = self.value if isinstance(self.value, tuple) else (self.value,)
-        heads = [v for v in values if v != 0]
-        if len(heads) != 1:
-            return ""
-        main = -heads[0] if heads[0].could_extract_minus_sign() else heads[0]
-        return getattr(main, "name", "") if main.is_Symbol or main.is_Function else ""
+        heads = [v for v in entries_of(self.value) if v != 0]
+        return main_symbol(heads[0]) if len(heads) == 1 else ""
 
     def uses(self) -> Iterator[Use]:
         """The value may hold anything down to rates; a deflection holds coordinates and time."""
-        for v in self.value if isinstance(self.value, tuple) else (self.value,):
+        for v in entries_of(self.value):
             yield Use("value", "value", v, Level.VELOCITY, inputs=True)
         if self.deflection is not None:
             yield Use("deflection", "deflection", self.deflection, Level.POSITION)
@@ -168,7 +169,7 @@ class Force(Element):
 
     def components(self, model: Surroundings) -> tuple[sp.Expr, ...]:
         """The vector in the fixed axes."""
-        vector = self.value if self.axes is None else tuple(self.axes.rotation * sp.Matrix(self.value))
+        vector = self.value if self.axes is None else self.axes.in_fixed_axes(self.value)
         return tuple(model.expand(v) for v in vector)
 
     def works(self, model: Surroundings) -> tuple[Action, ...]:
@@ -191,7 +192,7 @@ class Force(Element):
             return pair_ends(model, self.between[0], self.between[1], model.expand(self.value))
         if not self.is_vector:
             return self.works(model)
-        actions = []
+        actions: list[Action] = []
         for sign, point in ((1, self.at), (-1, self.reaction)):
             if point is None:
                 continue

@@ -1,5 +1,8 @@
 """Uniform gravity on every mass."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
@@ -10,7 +13,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.model.elements.answers import ACCELERATION, REQUIRED, Entry, FieldKind, Measure
-from lagrangian.model.elements.base import XI, Element, Level, Surroundings, Use, V
+from lagrangian.model.elements.base import XI, Element, Level, Surroundings, Use, V, norm
 from lagrangian.model.geometry import Point, as_expr, as_vector
 
 
@@ -41,11 +44,11 @@ class Gravity(Element):
 
     def __post_init__(self) -> None:
         direction = as_vector(self.direction, f"the direction of {self.title}", place=self.place)
-        norm = sp.sqrt(sum(d**2 for d in direction))
-        if norm == 0:
+        length = norm(direction)
+        if length == 0:
             raise self._error("its direction is zero", fix="give a direction such as (0, -1)", code="E409")
-        if norm != 1 and not bounded.is_one(norm**2):
-            direction = tuple(d / norm for d in direction)
+        if length != 1 and not bounded.is_one(length**2):
+            direction = tuple(d / length for d in direction)
         self._set(direction=direction, g=as_expr(self.g, f"the strength of {self.title}", place=self.place))
         if self.datum is not None and not isinstance(self.datum, Point):
             raise self._error("its datum must be a point", fix="write datum=system.origin + (0, h0)", code="E412")

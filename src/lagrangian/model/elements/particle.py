@@ -1,5 +1,8 @@
 """A point mass."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
+
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping

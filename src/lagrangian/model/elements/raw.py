@@ -1,5 +1,8 @@
 """Raw energies and generalized forces, for those who have them already."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
+
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping

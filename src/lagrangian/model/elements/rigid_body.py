@@ -1,16 +1,19 @@
 """A rigid body: a mass at its centre of mass, and an inertia about it."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, cast
 
 import sympy as sp
 
 from lagrangian.model.elements.answers import INERTIA, MASS, REQUIRED, Entry, FieldKind, Measure
 from lagrangian.model.elements.base import Element, Level, Surroundings, T, Use
-from lagrangian.model.geometry import Frame, Point, as_expr
+from lagrangian.model.geometry import Frame, Point, as_expr, entries, is_listed, turned
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -60,12 +63,11 @@ class RigidBody(Element):
     def _tensor(self, given: object) -> sp.ImmutableMatrix:
         """Return the inertia as a 1×1 matrix in the plane, 3×3 in space."""
         what = f"the inertia of {self.title}"
+        rows: Sequence[object] | None = None
         if isinstance(given, sp.MatrixBase):
-            rows: Any = given.tolist() if given.rows > 1 and given.cols > 1 else given.flat()
-        elif isinstance(given, (tuple, list)):
-            rows = list(given)
-        else:
-            rows = None
+            rows = cast("list[object]", given.tolist()) if given.rows > 1 and given.cols > 1 else entries(given)
+        elif is_listed(given):
+            rows = given
         if self.frame.dimension == 2:
             if rows is not None:
                 raise self._error(
@@ -78,11 +80,13 @@ class RigidBody(Element):
                 fix="write inertia=(A, B, C) or inertia=[[Ixx, Ixy, Ixz], [Ixy, Iyy, Iyz], [Ixz, Iyz, Izz]]",
                 code="E106",
             )
-        if not isinstance(rows[0], (tuple, list)):
-            return sp.ImmutableMatrix(sp.diag(*[as_expr(v, what, place=self.place) for v in rows]))
-        if any(not isinstance(row, (tuple, list)) or len(row) != 3 for row in rows):
+        if not is_listed(rows[0]):
+            A, B, C = (as_expr(v, what, place=self.place) for v in rows)
+            return sp.ImmutableMatrix([[A, 0, 0], [0, B, 0], [0, 0, C]])
+        if any(not is_listed(row) or len(row) != 3 for row in rows):
             raise self._error("the inertia matrix is not 3×3", fix="give three rows of three entries", code="E106")
-        tensor = sp.ImmutableMatrix([[as_expr(v, what, place=self.place) for v in row] for row in rows])
+        listed = cast("Sequence[Sequence[object]]", rows)
+        tensor = sp.ImmutableMatrix([[as_expr(v, what, place=self.place) for v in row] for row in listed])
         for i, j in ((0, 1), (0, 2), (1, 2)):
             if tensor[i, j] != tensor[j, i]:
                 raise self._error(
@@ -125,9 +129,10 @@ class RigidBody(Element):
 
     def kinetic_parts(self, model: Surroundings) -> tuple[sp.Expr, sp.Expr]:
         """½ m v² of the centre of mass, and ½ ωᵀ I ω."""
-        omega = sp.Matrix(self.angular_velocity(model))
+        omega = self.angular_velocity(model)
         translation = self.mass / 2 * sum((v**2 for v in model.velocity(self.at)), sp.S.Zero)
-        return translation, (omega.T * self.inertia * omega)[0] / 2
+        momentum = turned(self.inertia, omega)
+        return translation, sp.Add(*(w * h for w, h in zip(omega, momentum, strict=True))) / 2
 
     def kinetic(self, model: Surroundings) -> sp.Expr:
         """½ m v² + ½ ωᵀ I ω."""

@@ -1,5 +1,8 @@
 """A spring: linear or by a law, translational or torsional, between points or on a deflection."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
+
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
@@ -20,6 +23,7 @@ from lagrangian.model.elements.base import (
     called,
     check_ends,
     deflection_between,
+    error_of,
 )
 from lagrangian.model.geometry import Point, as_expr
 from lagrangian.page.plain import plain
@@ -32,7 +36,8 @@ def stored(element: Element, law: sp.Expr) -> sp.Expr:
     """∫₀^δ law, in closed form, or `ModelError` where none was found."""
     energy = antiderivative(law, DELTA)
     if energy is None:
-        raise element._error(
+        raise error_of(
+            element,
             f"no closed form was found for the integral of its law {plain(law)[:200]} from 0",
             fix="give energy, an expression in delta, instead",
             code="E415",

@@ -1,5 +1,8 @@
 """A torque on an angle or on a frame, with or without reaction."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
@@ -10,8 +13,8 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.model.elements.answers import ANGLE, ENERGY, REQUIRED, ActsOn, Entry, FieldKind, Measure
-from lagrangian.model.elements.base import XI, Action, Element, Level, Surroundings, Use
-from lagrangian.model.geometry import Frame, as_expr, as_vector
+from lagrangian.model.elements.base import XI, Action, Element, Level, Surroundings, Use, entries_of, main_symbol
+from lagrangian.model.geometry import Frame, as_expr, as_vector, is_listed
 from lagrangian.model.names import time
 
 
@@ -61,7 +64,7 @@ class Torque(Element):
                 fix="leave reaction out, or name another angle",
                 code="E410",
             )
-        if isinstance(self.value, (tuple, list, sp.MatrixBase)):
+        if is_listed(self.value):
             self._vector()
         elif isinstance(self.on, Frame) and self.on.floating is not None:
             raise self._error(
@@ -89,14 +92,11 @@ class Torque(Element):
 
     def suggested_name(self) -> str:
         """The symbol of its value."""
-        if not isinstance(self.value, sp.Expr):
-            return ""
-        main = -self.value if self.value.could_extract_minus_sign() else self.value
-        return getattr(main, "name", "") if main.is_Symbol or main.is_Function else ""
+        return main_symbol(self.value) if isinstance(self.value, sp.Expr) else ""
 
     def uses(self) -> Iterator[Use]:
         """The value may hold anything down to rates; angles hold coordinates and time."""
-        for v in self.value if isinstance(self.value, tuple) else (self.value,):
+        for v in entries_of(self.value):
             yield Use("value", "value", v, Level.VELOCITY, inputs=True)
         for key in ("on", "reaction"):
             angle = getattr(self, key)
@@ -105,7 +105,7 @@ class Torque(Element):
 
     def measures(self, model: Surroundings) -> Iterator[Measure]:
         """Components in N m = J; angles."""
-        for value in self.value if isinstance(self.value, tuple) else (self.value,):
+        for value in entries_of(self.value):
             yield Measure("value", value, ENERGY)
         for key in ("on", "reaction"):
             if isinstance(angle := getattr(self, key), sp.Expr):
@@ -145,14 +145,13 @@ class Torque(Element):
             return
         if isinstance(self.value, tuple):
             # components of ω in the fixed axes: R ω_body
-            omega = tuple(target.rotation * sp.Matrix(target.angular_velocity))
-            efforts = self.value if self.axes is None else tuple(self.axes.rotation * sp.Matrix(self.value))
+            omega = target.in_fixed_axes(target.angular_velocity)
+            efforts = entries_of(self.value if self.axes is None else self.axes.in_fixed_axes(self.value))
         else:
             # about the axis of the frame that is acted on: n·ω, both turned into the fixed axes
             assert self.on.axis is not None
-            axis = self.on.rotation * sp.Matrix(self.on.axis)
-            spin = target.rotation * sp.Matrix(target.angular_velocity)
-            omega, efforts = ((axis.T * spin)[0],), (self.value,)
+            axis, spin = self.on.in_fixed_axes(self.on.axis), target.in_fixed_axes(target.angular_velocity)
+            omega, efforts = (sp.Add(*(n * w for n, w in zip(axis, spin, strict=True))),), (self.value,)
         for effort, rate in zip(efforts, omega, strict=True):
             if effort != 0:
                 yield Action(sign * model.expand(effort), model.expand(rate), on, None, target)
