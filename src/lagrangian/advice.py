@@ -1,6 +1,6 @@
-"""Advice that names arguments, which everyone writes in his own way: ``step=0.01`` in Python, else ``--step 0.01``.
+"""Advice that names arguments, which is written ``step=0.01`` in Python and ``--step 0.01`` on the command line.
 
-Advice is text, the Python way of writing it; the arguments in it are kept beside it as data.
+Advice is text in the form for Python; the arguments in it are stored as data, so that it can be rewritten.
 """
 
 from __future__ import annotations
@@ -11,14 +11,14 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Argument:
-    """An argument of a method: its name, a value as an example, and the key of a mapping: ``params={'k': 80}``."""
+    """An argument of a method: its name, an example of a value, and for a mapping the key: ``params={'k': 80}``."""
 
     name: str
     value: str | None = None
     key: str | None = None
 
     def __str__(self) -> str:
-        """Read as it is written in Python."""
+        """Return the argument as it is written in Python."""
         if self.value is None:
             return self.name
         return f"{self.name}={self.value}" if self.key is None else f"{self.name}={{'{self.key}': {self.value}}}"
@@ -31,12 +31,12 @@ class Verb:
     name: str
 
     def __str__(self) -> str:
-        """Read as it is written in Python."""
+        """Return the verb as it is written in Python."""
         return f"system.{self.name}()"
 
 
 class Advice(str):
-    """Words with arguments and verbs among them.
+    """Text that contains arguments and verbs.
 
     >>> Advice("give ", Argument("step", "0.01"))
     'give step=0.01'
@@ -46,7 +46,7 @@ class Advice(str):
     pieces: tuple[str | Argument | Verb, ...]
 
     def __new__(cls, *pieces: str | Argument | Verb) -> Advice:
-        """Join the pieces; advice among them is taken apart."""
+        """Join the pieces; pieces that are advice themselves are split into theirs."""
         made = super().__new__(cls, "".join(map(str, pieces)))
         made.pieces = tuple(_flat(pieces))
         return made
@@ -55,7 +55,7 @@ class Advice(str):
         return self.pieces
 
     def spelled(self, spell: Callable[[Argument | Verb], str]) -> str:
-        """The words with the arguments and verbs written another way."""
+        """Return the text with arguments and verbs written by another function."""
         return "".join(x if isinstance(x, str) else spell(x) for x in self.pieces)
 
 

@@ -1,10 +1,10 @@
-"""SymPy's general routines within bounds: sizes are predicted before anything is written out, searches are counted.
+"""SymPy's general routines within bounds: sizes are predicted before anything is expanded, and searches are counted.
 
-What is written out as a sum may be exponentially longer than what a person wrote: (a + b + c)^50, sixty definitions
-that use each other twice, a chain of frames in space. So the size of a result is predicted from the structure of an
-expression, and past `MAX_OPERATIONS` it is left as it is (`expand`) or refused (`diff`, `written_out`). A search for a
-closed form or a common factor has no size that could be predicted: `searched` counts the calls it makes and gives up
-past `CALLS`. Both are counts of operations: the answer does not depend on how fast or how busy a machine is.
+Expanded, an expression may be exponentially longer than it was when written: (a + b + c)^50, sixty definitions that
+each use another twice, a chain of frames in space. So the size of a result is predicted from the structure of an
+expression. Beyond `MAX_OPERATIONS` the expression is left as it is (`expand`) or refused (`diff`, `written_out`). The
+cost of a search for a closed form or a common factor cannot be predicted: `searched` counts the calls that it makes and
+gives up after `CALLS`. Both count operations, so the answer does not depend on how fast or how busy a machine is.
 """
 
 from __future__ import annotations
@@ -24,43 +24,43 @@ from lagrangian.errors import ModelError
 T = TypeVar("T")
 
 MAX_OPERATIONS = 20_000
-"""Operations that an expression may have once it is written out."""
+"""The largest number of operations of an expanded expression."""
 
 SLOPES = 1_000_000
-"""Operations that the product rule may make of an expression, most of which are zero."""
+"""The largest number of operations that the product rule may make, most of which are zero."""
 
 TERMS = 3_000
-"""Terms that an expansion may have."""
+"""The largest number of terms of an expansion."""
 
 CALLS = 300_000
-"""Calls inside a search of SymPy after which it is given up; what a book holds takes less than a tenth."""
+"""The number of calls after which a search of SymPy is abandoned; textbook examples need less than a tenth."""
 
 INSIDE = 50
-"""Operations in an absolute value or a sign above which SymPy is not asked whether they are real."""
+"""If an absolute value or a sign has more operations, SymPy is not asked whether its argument is real."""
 
 PROOFS = 10_000
-"""Calls after which the sign of an argument is left open; x² + 1 takes a hundredth."""
+"""The number of calls after which the sign of an argument is left undecided; x² + 1 takes a hundredth of it."""
 
 HIGH = 8
-"""A higher power of a sum is not multiplied out where only a common factor is looked for."""
+"""A higher power of a sum is not multiplied out in a search for a common factor."""
 
 BEYOND = 10**30
-"""Where predictions stop to count: far beyond every limit."""
+"""Where predictions stop counting: far above every limit."""
 
 
 class TooLarge(ModelError):
-    """Something is too long to be written out."""
+    """An expression would be too long when expanded."""
 
 
 class Budget:
-    """Operations that may still be made; a count, so that what is given up does not depend on the machine."""
+    """A number of operations that may still be made; it is a count, so that results do not depend on the machine."""
 
     def __init__(self, limit: int, error: Callable[[int], BaseException]) -> None:
         self.limit = self.left = limit
         self._error = error
 
     def spend(self, operations: int) -> None:
-        """Count operations; raise where none are left."""
+        """Subtract operations; raise an error if none are left."""
         self.left -= operations
         if self.left < 0:
             raise self._error(self.limit)
@@ -70,7 +70,7 @@ class Budget:
 
 
 def _each(expr: sp.Basic) -> Iterator[sp.Basic]:
-    """Every part of an expression once, its own parts before it; what is shared is met once."""
+    """Yield every part of an expression once, its own parts before it; shared parts are visited once."""
     done: set[int] = set()
     stack: list[tuple[sp.Basic, bool]] = [(expr, False)]
     while stack:
@@ -88,7 +88,7 @@ def _each(expr: sp.Basic) -> Iterator[sp.Basic]:
 def size(expr: sp.Basic, names: Mapping[Any, int] | None = None) -> int:
     """Return how many operands and operations an expression has when written out.
 
-    What is shared counts as often as it stands. ``names`` says how long what stands for a symbol is.
+    A shared part counts as often as it occurs. ``names`` maps symbols to the size of what they stand for.
     """
     found: dict[int, int] = {}
     for node in _each(expr):
@@ -96,7 +96,7 @@ def size(expr: sp.Basic, names: Mapping[Any, int] | None = None) -> int:
             found[id(node)] = names[node]
         elif isinstance(node, sp.Derivative):
             own = names.get(node.expr, 1) if names else 1
-            found[id(node)] = own if own == 1 else min(own * (own + 1), BEYOND)  # the product rule: a term a factor
+            found[id(node)] = own if own == 1 else min(own * (own + 1), BEYOND)  # the product rule: one term per factor
         elif not node.args or isinstance(node, AppliedUndef):
             found[id(node)] = 1
         else:
@@ -105,15 +105,15 @@ def size(expr: sp.Basic, names: Mapping[Any, int] | None = None) -> int:
 
 
 def names(expr: sp.Basic) -> set[sp.Basic]:
-    """Return the symbols, functions of time and derivatives in an expression; what is shared is met once."""
+    """Return the symbols, functions of time and derivatives in an expression; shared parts are visited once."""
     found = {node for node in _each(expr) if isinstance(node, (sp.Symbol, AppliedUndef, sp.Derivative))}
     return found | {node.expr for node in found if isinstance(node, sp.Derivative)}
 
 
 def terms(expr: sp.Basic, *, angles: bool = False) -> int:
-    """Return a bound on the terms of the longest sum that expanding an expression makes.
+    """Return an upper bound on the number of terms in the longest sum that expanding an expression makes.
 
-    With ``angles``, sines and cosines of sums and multiples are written out as well: cos(a − 2b) has up to 2·3 terms.
+    With ``angles``, sines and cosines of sums and multiples are expanded, too: cos(a − 2b) has up to 2·3 terms.
     """
     found: dict[int, int] = {}
     longest = 1
@@ -128,7 +128,7 @@ def terms(expr: sp.Basic, *, angles: bool = False) -> int:
         elif isinstance(node, sp.Pow) and isinstance(node.exp, sp.Integer):
             power = abs(int(node.exp))
             raised = inner[0] if inner[0] == 1 else min(comb(min(inner[0], 10**6) + power - 1, power), BEYOND)
-            count, longest = (raised, longest) if node.exp > 0 else (1, max(longest, raised))  # a denominator expands
+            count, longest = (raised, longest) if node.exp > 0 else (1, max(longest, raised))  # so does a denominator
         elif angles and isinstance(node, (sp.sin, sp.cos)):
             for addend in sp.Add.make_args(cast("sp.Expr", node.args[0])):
                 count = min(count * (1 + abs(int(addend.as_coeff_Mul()[0]))), BEYOND)
@@ -138,7 +138,7 @@ def terms(expr: sp.Basic, *, angles: bool = False) -> int:
 
 
 def _slopes(expr: sp.Basic) -> int:
-    """Return a bound on the size of an expression's derivative."""
+    """Return an upper bound on the size of the derivative of an expression."""
     sizes: dict[int, int] = {}
     found: dict[int, int] = {}
     for node in _each(expr):
@@ -155,22 +155,22 @@ def _slopes(expr: sp.Basic) -> int:
 
 
 def expand(expr: sp.Expr) -> sp.Expr:
-    """Return the sum of products that an expression is, or the expression as it is where that would be too long.
+    """Return the sum of products that an expression equals, or the expression unchanged if that would be too long.
 
-    Maxima and cases stay as they are: SymPy would prove them anew.
+    Maxima and cases stay as they are, as SymPy would try to prove their conditions.
     """
     return expr if terms(expr) > TERMS or size(expr) > MAX_OPERATIONS else _unbent(sp.expand, expr)
 
 
 def expand_angles(expr: sp.Expr) -> sp.Expr:
-    """Return the sum of products with sines and cosines of single angles, or the expression where that is too long."""
+    """Return the sum of products with sines and cosines of single angles, or ``expr`` unchanged if that is too long."""
     if terms(expr, angles=True) > TERMS or size(expr) > MAX_OPERATIONS:
         return expr
     return _unbent(lambda straight: sp.expand(sp.expand_trig(straight)), expr)
 
 
 def _unbent(routine: Callable[[sp.Expr], Any], expr: sp.Expr) -> sp.Expr:
-    """What a routine makes of an expression in which letters stand for the maxima and cases."""
+    """Apply a routine to an expression in which symbols replace maxima and cases."""
     letters = {node: sp.Dummy(f"bent{k}", real=True) for k, node in enumerate(_bent(expr))}
     if not letters:
         return cast("sp.Expr", routine(expr))
@@ -179,7 +179,7 @@ def _unbent(routine: Callable[[sp.Expr], Any], expr: sp.Expr) -> sp.Expr:
 
 
 def check_size(count: int, what: str) -> None:
-    """Refuse what is longer than `MAX_OPERATIONS`; ``what`` is the subject of the sentence."""
+    """Raise an error if an expression is longer than `MAX_OPERATIONS`; ``what`` is the subject of the sentence."""
     if count > MAX_OPERATIONS:
         many = f"{float(count):.0e}" if count < BEYOND else "more than 1e30"
         raise TooLarge(
@@ -191,13 +191,13 @@ def check_size(count: int, what: str) -> None:
 
 
 def written_out(expr: sp.Expr, table: Mapping[Any, Any]) -> sp.Expr:
-    """Return ``expr`` with symbols replaced by their expressions, derivatives by time of those worked out.
+    """Return ``expr`` with symbols replaced by their expressions and derivatives by time carried out.
 
-    Raises `TooLarge` where it would have more than `MAX_OPERATIONS` operations.
+    Raises `TooLarge` if the result would have more than `MAX_OPERATIONS` operations.
     """
     while used := [node for node in _each(expr) if (node.expr if isinstance(node, sp.Derivative) else node) in table]:
         lengths: dict[Any, int] = {}
-        for symbol, value in table.items():  # what a definition uses stands before it
+        for symbol, value in table.items():  # definitions come after those that they use
             lengths[symbol] = size(value, lengths)
         symbols = [node.expr if isinstance(node, sp.Derivative) else node for node in used]
         longest = str(max(symbols, key=lambda symbol: lengths[symbol])).removesuffix("(t)")
@@ -215,10 +215,9 @@ def _rates(node: sp.Derivative, table: Mapping[Any, Any]) -> sp.Expr:
 
 
 def diff(expr: sp.Expr, *symbols: Any) -> sp.Expr:
-    """Return the derivative by symbols, coordinates, rates or time in turn; raise `TooLarge` where it gets too long.
+    """Return the derivative by symbols, coordinates, rates or time in turn; raise `TooLarge` if it gets too long.
 
-    A maximum has the derivative of the argument that it is, a piecewise expression that of its case; nothing is proved
-    about their conditions.
+    A maximum has the derivative of its larger argument, a piecewise expression that of its case; conditions stay.
     """
     for symbol in symbols:
         if (count := _slopes(expr)) > SLOPES:
@@ -262,7 +261,8 @@ def _bent(expr: sp.Basic) -> list[sp.Expr]:
 
 
 def _case(node: sp.Expr, symbol: Any) -> sp.Expr:
-    """The derivative of a maximum, a minimum or cases: that of what holds; d|u| = sign(u) du, a sign's is 0."""
+    """The derivative of a maximum, a minimum or cases is that of the active branch; d|u| = sign(u) du, d sign(u) =
+    0."""
     if isinstance(node, (sp.Abs, sp.sign)):
         inner = _diff(cast("sp.Expr", node.args[0]), symbol) if isinstance(node, sp.Abs) else sp.S.Zero
         return inner if inner == 0 else inner * sp.sign(node.args[0], evaluate=False)
@@ -272,7 +272,7 @@ def _case(node: sp.Expr, symbol: Any) -> sp.Expr:
         is_it, beyond = (
             (sp.GreaterThan, sp.StrictGreaterThan) if isinstance(node, sp.Max) else (sp.LessThan, sp.StrictLessThan)
         )
-        if len(node.args) == 2:  # where both are one the first counts, as in the graph
+        if len(node.args) == 2:  # if both arguments are equal the first counts, as in the graph
             a, b = cast("list[sp.Expr]", sorted(node.args, key=sp.default_sort_key))
             first = sp.Piecewise((1, is_it(a, b, evaluate=False)), (0, True), evaluate=False)
             second = sp.Piecewise((1, beyond(b, a, evaluate=False)), (0, True), evaluate=False)
@@ -286,7 +286,7 @@ def _case(node: sp.Expr, symbol: Any) -> sp.Expr:
 
 
 def replaced(expr: sp.Basic, table: Mapping[Any, Any]) -> sp.Basic:
-    """Return an expression with other parts; what holds none of them stays, and no condition is proved anew."""
+    """Return an expression with parts replaced; parts without any of these stay, and no condition is proved again."""
     made: dict[int, sp.Basic] = {}
     for node in _each(expr):
         if node in table:
@@ -312,18 +312,18 @@ def rebuilt(node: sp.Basic, arguments: list[Any]) -> sp.Basic:
 
 
 class _SpentError(BaseException):
-    """The calls are spent; not an `Exception`, so that no routine on the way takes it for an answer of its own."""
+    """All calls are spent. Not an `Exception`, so that no routine on the way catches it."""
 
 
 def searched(routine: Callable[..., T], *arguments: Any, calls: int = CALLS) -> T | None:
-    """Return what one of SymPy's routines answers, or None where it makes more than ``calls`` calls."""
+    """Return the result of one of SymPy's routines, or None if it makes more than ``calls`` calls."""
     left = calls
 
     def count(frame: Any, event: str, argument: Any) -> None:
         nonlocal left
         if event == "call":
             left -= 1
-            # what is raised while a generator is thrown away is lost, and Python would stop to count
+            # an exception raised while a generator is closed is lost, and Python would stop counting
             if left < 0 and not frame.f_code.co_flags & CO_GENERATOR:
                 raise _SpentError
 
@@ -332,42 +332,42 @@ def searched(routine: Callable[..., T], *arguments: Any, calls: int = CALLS) -> 
     try:
         return routine(*arguments)
     except _SpentError:
-        clear_cache()  # answers that were only begun must not be taken for answers
+        clear_cache()  # unfinished results in SymPy's cache must not be used later
         return None
     except RecursionError:
         return None
     finally:
         if before is None or callable(before):
             sys.setprofile(before)
-        else:  # the standard library's profiler is no function and starts itself again
+        else:  # the standard library's profiler is not a function, and starts itself again
             sys.setprofile(None)
             before.enable()
 
 
 def absolute(function: Callable[..., Any], argument: sp.Expr) -> sp.Expr:
-    """Return abs or sign of a real number, as it is where SymPy would split it into real and imaginary parts."""
+    """Return abs or sign of a real number, unevaluated if SymPy would split it into real and imaginary parts."""
     value = searched(function, argument, calls=PROOFS)
     split = value is None or value.has(sp.re, sp.im, sp.arg, sp.conjugate)
     return cast("sp.Expr", function(argument, evaluate=False) if split else value)
 
 
 def cancel(expr: sp.Expr) -> sp.Expr:
-    """Return a quotient without common factors, or the expression as it is where looking for them takes too long."""
+    """Return a quotient without common factors, or the expression unchanged if the search takes too long."""
     return _found(sp.cancel, expr)
 
 
 def together(expr: sp.Expr) -> sp.Expr:
-    """Return an expression over one denominator, or as it is where that takes too long."""
+    """Return an expression over one denominator, or unchanged if that takes too long."""
     return _found(sp.together, expr)
 
 
 def simplify(expr: sp.Expr) -> sp.Expr:
-    """Return what SymPy finds simpler, or the expression as it is where it looks too long."""
+    """Return the expression as SymPy simplifies it, or unchanged if that takes too long."""
     return _found(sp.simplify, expr)
 
 
 def trigsimp(expr: sp.Expr) -> sp.Expr:
-    """Return an expression with fewer sines and cosines, or as it is where SymPy looks too long for them."""
+    """Return an expression with fewer sines and cosines, or unchanged if SymPy searches too long."""
     return _found(sp.trigsimp, expr)
 
 
@@ -381,7 +381,7 @@ def _found(routine: Callable[[Any], Any], expr: sp.Expr) -> sp.Expr:
 
 
 def is_one(expr: sp.Expr) -> bool:
-    """Whether an expression is 1 by arithmetic and sin² + cos² = 1, as the square of a unit vector is."""
+    """Whether an expression equals 1 by arithmetic and sin² + cos² = 1, as the square of a unit vector does."""
     whole = expr = expand(expr)
     for angle in sorted({c.args[0] for c in expr.atoms(sp.cos)}, key=sp.default_sort_key):
         if expr == 1:

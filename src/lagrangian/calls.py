@@ -1,4 +1,5 @@
-"""Calls and names that do not fit, in words: what a method takes, and what is meant by a name that is not there."""
+"""Errors for wrong arguments and unknown names that say which arguments a method takes and which name was probably
+meant."""
 
 from __future__ import annotations
 
@@ -27,7 +28,7 @@ MEANT: Mapping[str, str] = {
     **dict.fromkeys(("orientation", "axes"), "frame"),
     **dict.fromkeys(("gravity", "strength"), "g"),
 }
-"""What arguments are often called elsewhere, and what they are called here."""
+"""Names of arguments that are common in other programs, and what they are called here."""
 
 
 class CallError(ModelError, TypeError):
@@ -35,13 +36,14 @@ class CallError(ModelError, TypeError):
 
 
 class NoSuchName(Error, AttributeError):
-    """An object was asked for something that it does not have."""
+    """An object does not have an attribute of that name."""
 
 
 def worded(cls: C) -> C:
-    """Make the public methods of a class refuse arguments that do not fit with `CallError`, which says what they take.
+    """Decorate a class: its public methods answer wrong arguments with a `CallError` that says which arguments they
+    take.
 
-    A call that fits costs nothing more.
+    A correct call costs no extra time.
     """
     for name, method in list(vars(cls).items()):
         if isinstance(method, FunctionType) and (not name.startswith("_") or name == "__init__"):
@@ -62,7 +64,7 @@ def _worded(method: Callable[..., Any]) -> Callable[..., Any]:
                 signature.bind(*given, **named)
             except TypeError as trouble:
                 raise _misfit(signature, called, given, named, str(trouble)) from None
-            raise  # it was called rightly, and something in it failed
+            raise  # the arguments were right; the error came from inside the method
 
     return call
 
@@ -70,7 +72,7 @@ def _worded(method: Callable[..., Any]) -> Callable[..., Any]:
 def _misfit(
     signature: inspect.Signature, called: str, given: tuple[Any, ...], named: Mapping[str, Any], trouble: str
 ) -> CallError:
-    """The error for arguments that a signature does not take."""
+    """The error for arguments that a signature does not accept."""
     taken = [p for p in signature.parameters.values() if p.name != "self" and not p.name.startswith("_")]
     known = [p.name for p in taken]
     usage = f"{called}({', '.join(_shown(taken))})"
@@ -96,7 +98,7 @@ def _misfit(
 
 
 def _shown(parameters: list[inspect.Parameter]) -> list[str]:
-    """The parameters as one writes a call: names, defaults, and * before those that are given by name."""
+    """The parameters as they are written in a call: names, defaults, and * before those that are passed by name."""
     shown, starred = [], False
     for p in parameters:
         if p.kind is p.VAR_KEYWORD:
@@ -110,15 +112,15 @@ def _shown(parameters: list[inspect.Parameter]) -> list[str]:
 
 
 class Guided:
-    """What says, when it is asked for a name that it does not have, what would be right.
+    """A class whose objects suggest the right name when an unknown attribute is requested.
 
-    ``_guide`` maps names that are asked for elsewhere to words.
+    ``_guide`` maps names that are common elsewhere to the advice.
     """
 
     _guide: Mapping[str, str] = {}
 
     def _own_name(self, name: str) -> str | None:
-        """What a name of this very object is asked for with, if it is one."""
+        """How to access a symbol of this object by its name, if the unknown attribute is one."""
         return None
 
     def __getattr__(self, name: str) -> Any:
@@ -166,7 +168,7 @@ SYSTEM: Mapping[str, str] = {
     "actuator": "torque(tau, on=angle) or force((F, 0), at=P)",
     "motor": "torque(tau, on=angle, reaction=other_angle)",
 }
-"""What a system is asked for that it does not have."""
+"""Common names that a system does not have, with advice."""
 
 DERIVATION: Mapping[str, str] = {
     **dict.fromkeys(("eom", "eoms", "equations_of_motion"), "equations"),
@@ -179,7 +181,7 @@ DERIVATION: Mapping[str, str] = {
     "simulate": "system.simulate(10.0)",
     "save": 'pathlib.Path("arm.html").write_text(derivation.to_html(), encoding="utf-8")',
 }
-"""What a derivation is asked for that it does not have."""
+"""Common names that a derivation does not have, with advice."""
 
 TRAJECTORY: Mapping[str, str] = {
     **dict.fromkeys(("time", "times"), "t"),
@@ -187,7 +189,7 @@ TRAJECTORY: Mapping[str, str] = {
     **dict.fromkeys(("savefig", "show"), "plot().savefig(…), or plot() and plt.show()"),
     "parameters": "params",
 }
-"""What a run is asked for that it does not have."""
+"""Common names that a run does not have, with advice."""
 
 COMPILED: Mapping[str, str] = {
     **dict.fromkeys(("accelerations", "acceleration", "qdd", "forward_dynamics", "aba"), "forward(q, v, u)"),
@@ -197,4 +199,4 @@ COMPILED: Mapping[str, str] = {
     **dict.fromkeys(("simulate", "run", "solve"), "system.simulate(10.0)"),
     **dict.fromkeys(("C", "coriolis"), "coriolis_matrix(q, v)"),
 }
-"""What a compiled system is asked for that it does not have."""
+"""Common names that a compiled system does not have, with advice."""

@@ -1,4 +1,4 @@
-"""A system as machine code: what ``system.compile()`` returns."""
+"""The compiled system: the class that ``system.compile()`` returns."""
 
 from __future__ import annotations
 
@@ -23,29 +23,31 @@ if TYPE_CHECKING:
 
 _log = logging.getLogger(__name__)
 Values = ArrayLike | Mapping[Any, Any] | None
-"""Inputs or parameters: an array in declared order, a mapping by name or symbol, or None for what is declared."""
+"""Inputs or parameters: an array in declared order, a mapping by name or symbol, or None for the declared values."""
 
 SINGULAR = 1e12
 """Condition number of M above which a configuration is called singular."""
 
 NO_LENGTH = 1e-150
-"""Length of a quaternion below which its square is no number to divide by."""
+"""A quaternion shorter than this cannot be normalized: its square is too small to divide by."""
 
 NOT_FINITE = "E503"
-"""The code of results that are not finite."""
+"""The error code of results that are not finite."""
 
 
 class Compiled(Looking):
-    """The dynamics M(q) q̈ + C(q, q̇) q̇ + G(q) = Ξ of a system, as kernels of machine code.
+    """The dynamics M(q) q̈ + C(q, q̇) q̇ + G(q) = Ξ of a system, as functions in machine code.
 
-    Every method takes arrays of shape ``(..., n)``, any number of leading dimensions that broadcast together, in the
-    declared order of ``coordinates`` and ``velocities``, and answers in one call. These are as many, v the rates of q,
-    unless a frame floats: then q holds seven entries for it, a quaternion of any length but 0 among them, v six, and
-    accelerations, forces, M, C, G and J stand along v; `rates` gives q̇. ``u`` are the inputs, 0 unless given; ``p``
-    the parameters, as declared unless given; both by name (a mapping) or in declared order. ``t`` is time [s].
-    Code is made at the first call of each method and kept on disk between runs.
+    Every method takes arrays of shape ``(..., n)``, whose leading dimensions broadcast together, in the declared order
+    of ``coordinates`` and ``velocities``. v contains the rates of q and has as many entries, except for floating
+    frames: for each of these q has seven entries, among them a quaternion of any length but 0, and v has six.
+    Accelerations, forces, M, C, G and J correspond to the entries of v; `rates` returns q̇.
 
-    Raises `RunError` for a shape, a type, a name or a value that does not fit, and where M is singular.
+    ``u`` are the inputs, 0 unless given; ``p`` are the parameters, with their declared values unless given. Both may be
+    mappings by name or arrays in declared order. ``t`` is time [s]. Each method is compiled at its first call, and its
+    code is kept on disk.
+
+    Raises `RunError` for a shape, a type, a name or a value that does not fit, and if M is singular.
     """
 
     def __init__(self, model: Model, *, lanes: int | None = None, threads: int | None = None) -> None:
@@ -59,14 +61,14 @@ class Compiled(Looking):
         self.parameters = tuple(p.name for p in model.parameters)
         self.exported = exported(model)
         """The programs that a source file is written of."""
-        self._kernel("forward")  # a coordinate without mass is found now, not at the first call
+        self._kernel("forward")  # so that a coordinate without mass is found now, not at the first call
 
     def __repr__(self) -> str:
-        """Say what there is."""
+        """Name the system and its coordinates."""
         return f"<Compiled {self._model.name!r}: q = {', '.join(self.coordinates)}>"
 
     def program(self, name: str) -> Program:
-        """Return the `Program` behind a method: "forward", "inverse", "mass_matrix", "bias", "potential_force", …"""
+        """Return the `Program` of a method: "forward", "inverse", "mass_matrix", "bias", "potential_force", …"""
         if not isinstance(name, str) or name not in _PROGRAMS:
             raise RunError(f"there is no program {name!r}", fix=f"use one of {', '.join(_PROGRAMS)}", code="E402")
         return _PROGRAMS[name](self._model)
@@ -79,7 +81,7 @@ class Compiled(Looking):
                 optional["v"] = 0.0
             found = machine.compile(self.program(name), optional=optional, lanes=self._lanes, threads=self._threads)
             if name in _SOLVING and self.parameters:
-                # here, as exporting source makes no machine code
+                # imported here because exporting source code needs no machine code
                 from lagrangian.simulate.admission import Admission, fitness
 
                 fit = fitness(self._model, self.parameters)
@@ -91,13 +93,13 @@ class Compiled(Looking):
     def forward(
         self, q: ArrayLike, v: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
     ) -> NDArray[np.float64]:
-        """Return the accelerations q̈, shape ``(..., n)``, in the time of O(n) for chains and trees."""
+        """Return the accelerations q̈, shape ``(..., n)``; for chains and trees the time is O(n)."""
         return self._called(self._kernels["forward"], (q, v, u, p, t))
 
     def inverse(
         self, q: ArrayLike, v: ArrayLike, a: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
     ) -> NDArray[np.float64]:
-        """Return the generalized forces that the motion needs beyond those described: M a + C v + G − Ξ(u)."""
+        """Return the generalized forces that a motion needs in addition to those described: M a + C v + G − Ξ(u)."""
         return self._called(self._kernel("inverse"), (q, v, a, u, p, t))
 
     def mass_matrix(
@@ -105,7 +107,8 @@ class Compiled(Looking):
     ) -> NDArray[np.float64]:
         """Return M(q), shape ``(..., n, n)``.
 
-        Where T* is not quadratic in the rates M depends on them, and ``v`` must be given; `RunError` without it.
+        If T* is not quadratic in the rates, M depends on them, and ``v`` must be given; otherwise there is a
+        `RunError`.
         """
         if v is None and not self.quadratic:
             raise RunError(
@@ -118,14 +121,15 @@ class Compiled(Looking):
     def bias(
         self, q: ArrayLike, v: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
     ) -> NDArray[np.float64]:
-        """Return C v + G − Ξ(u): what `inverse` gives at a = 0."""
+        """Return C v + G − Ξ(u), which is `inverse` at a = 0."""
         return self._called(self._kernel("bias"), (q, v, u, p, t))
 
     def coriolis_matrix(self, q: ArrayLike, v: ArrayLike, p: Values = None, t: ArrayLike = 0.0) -> NDArray[np.float64]:
-        """Return C(q, v) by Christoffel's symbols, shape ``(..., n, n)``: Ṁ − 2C is skew-symmetric, C v is the bias.
+        """Return C(q, v), made of Christoffel symbols, shape ``(..., n, n)``: Ṁ − 2C is skew-symmetric.
 
-        Along the velocities of a floating frame the symbols are those of M's connection in these directions, whose
-        brackets do not vanish; both properties stay. Raises `RunError` where T* is not quadratic in the rates.
+        C v is the part of the bias that is quadratic in v. For the velocities of a floating frame, which are not rates
+        of coordinates, the symbols contain additional terms, so that both properties hold as well. Raises `RunError` if
+        T* is not quadratic in the rates.
         """
         if not self.quadratic:
             raise RunError(
@@ -138,7 +142,7 @@ class Compiled(Looking):
     def potential_force(
         self, q: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
     ) -> NDArray[np.float64]:
-        """Return ∂V/∂q, shape ``(..., n)``: weights, springs and potentials (Nᵀ ∂V/∂q where q̇ = N v)."""
+        """Return ∂V/∂q, shape ``(..., n)``, from gravity, springs and potentials (Nᵀ ∂V/∂q if q̇ = N v)."""
         return self._called(self._kernel("potential_force"), (q, None, u, p, t))
 
     def energy(
@@ -156,15 +160,17 @@ class Compiled(Looking):
         return both["T"], both["V"]
 
     def rates(self, q: ArrayLike, v: ArrayLike) -> NDArray[np.float64]:
-        """Return q̇ = N(q) v, shape ``(..., n_q)``: v itself, but for frames that float."""
+        """Return q̇ = N(q) v, shape ``(..., n_q)``, which equals v except for floating frames."""
         return self._called(self._kernel("rates"), (q, v, None, None, 0.0))
 
     def rhs(self, t: ArrayLike, x: ArrayLike, u: Values = None, p: Values = None) -> NDArray[np.float64]:
-        """Return ẋ of x = [q; v] in declared order, shape ``(..., n_q + n_v)``: the right-hand side solvers want."""
+        """Return ẋ of x = [q; v] in declared order, shape ``(..., n_q + n_v)``: the right-hand side that ODE solvers
+        need."""
         return self._called(self._kernel("rhs"), (x, u, p, t))
 
     def _called(self, kernel: machine.Kernel, given: tuple[Any, ...]) -> Any:
-        """Call a kernel with coordinates or states, …, inputs, parameters and t; where it cannot answer, say why."""
+        """Call a kernel with coordinates or states, …, inputs, parameters and t; if the result is not finite, explain
+        why."""
         answer = kernel.quick(given)
         if answer is not None:
             return answer
@@ -176,7 +182,7 @@ class Compiled(Looking):
 
     @property
     def quadratic(self) -> bool:
-        """Whether T* is quadratic in the rates, as that of bodies is: then M depends on q, and perhaps t, alone."""
+        """Whether T* is quadratic in the rates, as it is for bodies; then M depends only on q and perhaps t."""
         return self._quadratic
 
     @cached_property
@@ -186,13 +192,14 @@ class Compiled(Looking):
 
     @cached_property
     def operations(self) -> int:
-        """Operations of machine code that one q̈ takes."""
+        """The number of machine operations that one evaluation of q̈ takes."""
         return self._kernel("forward").operations
 
     def _explained(self, trouble: RunError, q: ArrayLike, p: Values, t: ArrayLike) -> RunError:
-        """Where an answer is not finite, look for a quaternion without length, and whether M is singular there.
+        """If a result is not finite, look for a quaternion of length 0 and for a singular M, and raise the error that
+        explains it.
 
-        ``q`` are coordinates, or states x, as a method was given them.
+        ``q`` are coordinates, or states x, as they were passed to the method.
         """
         if trouble.code != NOT_FINITE or not trouble.what.startswith("output"):
             return trouble
@@ -225,7 +232,7 @@ class Compiled(Looking):
         return trouble
 
     def _placed(self, given: Any) -> NDArray[np.float64]:
-        """The coordinates, (..., n), in coordinates or states that a kernel has taken."""
+        """The coordinates, (..., n), among the coordinates or states that were passed to a kernel."""
         if isinstance(given, Mapping):
             named = {str(name): np.asarray(value, float) for name, value in given.items()}
             return np.stack(np.broadcast_arrays(*(named[name] for name in self.coordinates)), axis=-1)
@@ -251,27 +258,27 @@ _STILL = ("mass_matrix", "potential_force")
 _SOLVING = ("forward", "rhs")
 
 EXPORTED = ("forward", "inverse", "mass_matrix", "energy")
-"""The programs that a source file is written of."""
+"""The programs that an exported source file contains."""
 
 
 def exported(model: Model) -> tuple[str, ...]:
-    """Return the names of the programs that a source file of this model is written of."""
+    """Return the names of the programs that an exported source file of this model contains."""
     return (*EXPORTED, "rates") if model.floating else EXPORTED
 
 
 LANGUAGES = {"c": ".c", "python": ".py"}
-"""The languages of source files, and how their names end."""
+"""The languages of exported source, and the endings of their files."""
 
 
 LONGEST_STEM = 200
-"""Most characters before the ending of a source file: with it the name must fit into a folder's entry."""
+"""The largest number of characters before the ending of a source file, so that file systems accept the name."""
 
 
 def sources(model: Model, language: str, stem: str) -> dict[str, str]:
     """Return source code as file name → text: C99 with its header, or Python with NumPy.
 
-    Each holds forward dynamics, inverse dynamics, mass matrix and energies as functions ``stem_forward``, …, and where
-    a frame floats the rates of its coordinates; nothing else of this package is needed to run them.
+    Each contains forward dynamics, inverse dynamics, mass matrix and energies as functions ``stem_forward``, …, and the
+    rates of the coordinates if there are floating frames. The code runs without this package.
     """
     if language not in LANGUAGES:
         raise ModelError(f"there is no export to '{language}'", fix=f"use one of {', '.join(LANGUAGES)}", code="E402")
@@ -300,6 +307,6 @@ def sources(model: Model, language: str, stem: str) -> dict[str, str]:
 
 
 def _renamed(module: str, name: str) -> str:
-    """The function of a module that holds one, under another name."""
+    """Rename the only function of a module."""
     body = module[module.index("\ndef ") + 1 :]
     return f"def {name}" + body[body.index("(") :]

@@ -1,4 +1,4 @@
-"""The derivation that people hold: the data of `derive`, with its ways of being written and verified."""
+"""The class `Derivation`: the data of `derive`, with methods that write and verify them."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Derivation(Guided, derive.Derived):
-    """The seven steps, their results as SymPy, and every way to write them out."""
+    """The seven steps of a derivation, its results in SymPy, and methods that write it in several formats."""
 
     _guide = DERIVATION
 
@@ -37,7 +37,7 @@ class Derivation(Guided, derive.Derived):
         return pages.to_markdown(self, notation=notation, brief=brief, full=full)
 
     def to_latex(self, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
-        """Return a LaTeX article that compiles as it is."""
+        """Return a complete LaTeX article."""
         return pages.to_latex(self, notation=notation, brief=brief, full=full)
 
     def to_html(self, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
@@ -45,27 +45,26 @@ class Derivation(Guided, derive.Derived):
         return pages.to_html(self, notation=notation, brief=brief, full=full)
 
     def to_dict(self, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> dict[str, Any]:
-        """Return plain data for JSON."""
+        """Return plain data that can be written as JSON."""
         return pages.to_dict(self, notation=notation, brief=brief, full=full)
 
     def verify(self, *, states: int = 50, seed: int = 1) -> tuple[Check, ...]:
-        """Check the equations, and all that is made of them, by independent routes at random states.
+        """Check the equations, and everything that is made of them, by independent routes at random states.
 
-        The equations against virtual work and against L differentiated by the machine; every function of
-        `lagrangian.Compiled` against its formulas and against those equations; the exported Python and C, run; the
-        linearization against difference quotients. Every check carries its figure. ``holds`` is None for what could
-        not be checked on this machine, such as C without a compiler. Raises `ModelError` for numbers of states that
-        are none.
+        The equations are compared with virtual work and with automatic differentiation of L; every function of
+        `lagrangian.Compiled` with its formulas and with those equations; the exported Python and C by running them; the
+        linearization with difference quotients. Every check has its figure. ``holds`` is None if something could not be
+        checked on this machine, such as C without a compiler. Raises `ModelError` if ``states`` is not a valid number.
         """
         found = verify(self, states=states, seed=seed)
         return (*found, *verify_compiled(self.model, states=states, seed=seed))
 
     def check(self, answer: Any, *, hint: int = 3) -> CheckedAnswer:
-        """Return whether an answer is right, in which shape, or where it is wrong and why.
+        """Return whether an answer is right, in what sense, or where it is wrong and why.
 
-        ``answer`` is plain text or LaTeX (equations, T = …, V = …, Ξ, whole hand derivations), a list of SymPy
-        equations, or energies by name. ``hint`` is how much the words give away: 0 right or not, 1 the line, 2 the
-        element and the step, 3 the term. Raises `ParseError` for a text that cannot be read.
+        ``answer`` is plain text or LaTeX (equations, T = …, V = …, Ξ, whole derivations by hand), a list of SymPy
+        equations, or energies by name. ``hint`` limits how much the result reveals: 0 right or wrong, 1 the line, 2 the
+        element and the step, 3 the term. Raises `ParseError` if a text cannot be read.
         """
         from lagrangian.check.verb import check_answer
 
@@ -75,20 +74,20 @@ class Derivation(Guided, derive.Derived):
         return pages.to_html_fragment(self)
 
     def __str__(self) -> str:
-        """Read as text."""
+        """Return the derivation as text."""
         return self.to_text()
 
 
 def verify_compiled(model: Model, *, states: int, seed: int) -> tuple[Check, ...]:
-    """Check what is compiled, exported and linearized from a model."""
+    """Check the compiled code, the exported code and the linearization of a model."""
     from lagrangian.compiled import Compiled, sources
-    from lagrangian.verify.products import verify_products  # deriving waits for none of these
+    from lagrangian.verify.products import verify_products  # imported here because deriving needs none of these
 
     return verify_products(model, Compiled(model), partial(sources, model), states=states, seed=seed)
 
 
 def verify_floating(model: Model, *, states: int, seed: int) -> tuple[Check, ...]:
-    """Check a model whose frames float: its programs against each other, then what is made of them."""
+    """Check a model with floating frames: compare its programs with each other, then check what is made of them."""
     from lagrangian.verify.motion import verify_motion
 
     found = verify_motion(model, states=states, seed=seed)
@@ -96,7 +95,7 @@ def verify_floating(model: Model, *, states: int, seed: int) -> tuple[Check, ...
 
 
 def derive_and_verify(model: Model, *, detail: derive.Detail = "usual") -> Derivation:
-    """Derive, and end with what was verified; ``detail="full"`` writes d/dt out term by term."""
+    """Derive a model and add the checks at the end; ``detail="full"`` writes d/dt out term by term."""
     check_dimensions(model)
     data = derive.derive(model, detail=detail)
     made = Derivation(**vars(data))

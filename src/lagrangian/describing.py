@@ -1,4 +1,4 @@
-"""Describing: the half of a system that collects coordinates, parameters, points and elements."""
+"""The part of a system that collects its description: coordinates, parameters, points and elements."""
 
 from __future__ import annotations
 
@@ -37,16 +37,16 @@ from lagrangian.page.plain import plain
 from lagrangian.quantities.quantity import parse_quantity
 
 STANDARD_GRAVITY = 9.81
-"""[m/s²] The value of the parameter g unless one is given."""
+"""The default value of the parameter g [m/s²]."""
 
 
 MOST_NAMES = 10_000
-"""Names that a range may stand for."""
+"""The largest number of names in a range such as ``q1:7``."""
 
 
 @worded
 class Described(Guided):
-    """What is described: symbols, geometry, elements. `lagrangian.System` adds the verbs."""
+    """The methods that describe a system: symbols, geometry, elements. `lagrangian.System` adds the verbs."""
 
     _guide = SYSTEM
 
@@ -54,7 +54,7 @@ class Described(Guided):
         self._builder = _builder if _builder is not None else Builder(name)
 
     def __copy__(self) -> Self:
-        """A system of its own: nothing that is described in one of the two reaches the other."""
+        """Return an independent copy: later additions to one system do not affect the other."""
         return type(self)(self.name, _builder=deepcopy(self._builder))
 
     # -- symbols ------------------------------------------------------------------------------------------------
@@ -71,13 +71,13 @@ class Described(Guided):
 
     @property
     def t(self) -> sp.Symbol:
-        """The symbol of time, for prescribed motions."""
+        """The symbol of time t, for prescribed motions."""
         return time
 
     @property
     def model(self) -> Model:
-        """The frozen description; raises `ModelError` where it is not complete, or no system can have its inertias."""
-        from lagrangian.dynamics import notices  # here, as describing needs no mechanics
+        """The description as a frozen `Model`; raises `ModelError` if it is incomplete or has impossible inertias."""
+        from lagrangian.dynamics import notices  # imported here because describing a system needs no mechanics
 
         model = self._builder.model()
         notices(model)
@@ -85,23 +85,23 @@ class Described(Guided):
 
     @property
     def notices(self) -> tuple[Notice, ...]:
-        """What is to be known of the system that need not stop the work, such as an inertia that no body has."""
+        """The notices: what you should know but is not an error, such as an inertia that no real body has."""
         from lagrangian.dynamics import notices
 
         return notices(self.model)
 
     @property
     def energy(self) -> sp.Expr:
-        """T* + V [J] as an expression, for runs and events; `derive` reads better."""
+        """T* + V [J] as an expression for runs and events; the form that `derive` gives is easier to read."""
         model = self.model
         return sp.Add(*(e.kinetic(model) + e.potential(model) for e in model.elements))
 
     def __getitem__(self, name: str) -> Any:
-        """Return the symbol, or else the point or frame, that carries ``name``."""
+        """Return the symbol, point or frame with this name; a symbol comes first."""
         return self._builder.lookup(name)
 
     def __contains__(self, name: object) -> bool:
-        """Whether ``name`` is that of a symbol, point, frame or element of the system, or one of these itself."""
+        """Whether ``name`` is the name of a symbol, point, frame or element of the system, or one of these itself."""
         if isinstance(name, str):
             return self._builder.find(name) is not None
         return any(name == thing for thing in self._builder.named())
@@ -109,16 +109,17 @@ class Described(Guided):
     def coordinate(
         self, name: str, description: str = "", *, unit: str | None = None, positive: bool = False
     ) -> AppliedUndef:
-        """Declare one generalized coordinate; return SymPy's dynamicsymbol, whose ``.diff()`` is the rate.
+        """Declare one generalized coordinate; return a SymPy dynamicsymbol, whose ``.diff()`` is the rate.
 
-        One that is ``positive`` is a distance known to be above 0: √(r²) is r.
+        ``positive`` declares that it is always greater than 0, as a distance is: then √(r²) simplifies to r.
         """
         return self._builder.coordinate(name, description=description, unit=_unit(unit), positive=positive).symbol
 
     def coordinates(self, names: str | Iterable[str], *, positive: bool = False) -> Any:
         """Declare coordinates: ``theta1, theta2 = system.coordinates("theta1 theta2")``; one name gives one symbol.
 
-        ``"q1:4"`` is short for ``"q1 q2 q3"``, as in SymPy. ``positive`` ones are distances known to be above 0.
+        ``"q1:4"`` is short for ``"q1 q2 q3"``, as in SymPy. ``positive`` declares that all of them are always greater
+        than 0.
         """
         return _many(names, lambda name: self.coordinate(name, positive=positive))
 
@@ -130,7 +131,7 @@ class Described(Guided):
         return self._builder.parameter(name, number, unit=stored, description=description).symbol
 
     def parameters(self, names: str | Iterable[str], **values: float | str) -> Any:
-        """Declare constants: ``m, L = system.parameters("m L", m="1 kg", L=0.5)``; ``"m1:4"`` is ``"m1 m2 m3"``."""
+        """Declare constants: ``m, L = system.parameters("m L", m="1 kg", L=0.5)``; ``"m1:4"`` means ``"m1 m2 m3"``."""
         listed = _split(names)
         unknown = [key for key in values if key not in listed]
         if unknown:
@@ -140,15 +141,15 @@ class Described(Guided):
         return _many(listed, lambda name: self.parameter(name, values.get(name)), single=_alone(names))
 
     def input(self, name: str, description: str = "", *, unit: str | None = None) -> AppliedUndef:
-        """Declare a force, torque or other signal from outside."""
+        """Declare an input: a force, torque or other signal that is known only when the system runs."""
         return self._builder.input(name, description=description, unit=_unit(unit)).symbol
 
     def inputs(self, names: str | Iterable[str]) -> Any:
-        """Declare several inputs; ``"tau1:4"`` is ``"tau1 tau2 tau3"``."""
+        """Declare several inputs; ``"tau1:4"`` is short for ``"tau1 tau2 tau3"``."""
         return _many(names, self.input)
 
     def define(self, name: str, expression: object) -> Any:
-        """Give an expression a name; use the returned symbol, and the derivation shows the name."""
+        """Give an expression a name. Use the returned symbol in its place, and the derivation shows the name."""
         return self._builder.define(name, expression).symbol
 
     # -- geometry -----------------------------------------------------------------------------------------------
@@ -156,7 +157,7 @@ class Described(Guided):
     def point(
         self, name: str, offset: object, *, relative_to: Point | None = None, frame: Frame | None = None
     ) -> Point:
-        """Return a named point, ``offset`` from ``relative_to`` (the origin unless given) in the axes of ``frame``."""
+        """Return a named point, ``offset`` from ``relative_to`` (default: the origin) along the axes of ``frame``."""
         return self._builder.point(name, offset, parent=relative_to, frame=frame)
 
     def frame(
@@ -168,15 +169,17 @@ class Described(Guided):
         origin: Point | None = None,
         name: str | None = None,
     ) -> Frame:
-        """Return axes turned by ``angle`` from ``parent``'s: in the plane, or about ``axis`` in space."""
+        """Return a frame turned by ``angle`` relative to ``parent``; in space, about ``axis``."""
         return self._builder.frame(name, angle, axis=axis, parent=parent, origin=origin)
 
     def floating_frame(self, name: str) -> Frame:
-        """Return axes that float in space: with ``base = floating_frame("base")`` its origin moves and it turns freely.
+        """Return a frame that moves and turns freely in space; ``base = floating_frame("base")`` also makes
+        ``base.origin``.
 
-        Coordinates base_x, base_y, base_z (origin, fixed axes) and the quaternion base_qx, base_qy, base_qz, base_qw;
-        velocities base_vx, base_vy, base_vz and base_wx, base_wy, base_wz (of the origin and of the turn, in the
-        frame's own axes). ``base.origin`` is the point base_origin. `compile` handles it; `derive` does not.
+        Its coordinates are base_x, base_y, base_z (the origin, in fixed axes) and the quaternion base_qx, base_qy,
+        base_qz, base_qw. Its velocities are base_vx, base_vy, base_vz (of the origin) and base_wx, base_wy, base_wz
+        (angular), both along the frame's own axes. ``base.origin`` is the point base_origin. `compile` can handle such
+        a frame; `derive` cannot.
         """
         return self._builder.floating_frame(name)
 
@@ -189,14 +192,14 @@ class Described(Guided):
     def rigid_body(
         self, mass: object, inertia: object, at: Point, frame: Frame | sp.Expr, *, name: str = ""
     ) -> RigidBody:
-        """Add a rigid body: ``inertia`` about its centre of mass ``at``; in the plane ``frame`` may be an angle."""
+        """Add a rigid body; ``inertia`` is about its centre of mass ``at``; in the plane ``frame`` may be an angle."""
         turned = frame if isinstance(frame, Frame) else self._builder.frame(None, frame)
         return self._builder.add(RigidBody(mass=mass, inertia=inertia, at=at, frame=turned, name=name))
 
     def gravity(
         self, direction: object = (0, -1), g: object = None, *, datum: Point | None = None, name: str = ""
     ) -> Gravity:
-        """Add gravity along ``direction`` (down). ``g`` is the parameter g, 9.81 m/s², unless given."""
+        """Add gravity along ``direction`` (down by default). By default ``g`` is a parameter g = 9.81 m/s²."""
         if isinstance(direction, (int, float)):
             raise ModelError(
                 f"the direction of gravity must be a pair or a triple (got {direction!r})",
@@ -217,7 +220,7 @@ class Described(Guided):
         energy: object = None,
         name: str = "",
     ) -> Spring:
-        """Add a spring: V = ½ k (δ − rest)². ``law`` may be ``lambda delta: k*delta + k3*delta**3``."""
+        """Add a spring: V = ½ k (δ − rest)². A ``law`` is a function: ``lambda delta: k*delta + k3*delta**3``."""
         return self._builder.add(
             Spring(k=k, between=between, deflection=deflection, rest=rest, law=law, energy=energy, name=name)
         )
@@ -231,7 +234,7 @@ class Described(Guided):
         law: object = None,
         name: str = "",
     ) -> Damper:
-        """Add a damper: D = ½ b δ̇². ``law`` may be ``lambda rate: b*rate*abs(rate)``."""
+        """Add a damper: D = ½ b δ̇². Instead of ``b``, give a ``law`` such as ``lambda rate: b*rate*abs(rate)``."""
         return self._builder.add(Damper(b=b, between=between, deflection=deflection, law=law, name=name))
 
     def force(
@@ -253,35 +256,35 @@ class Described(Guided):
     def torque(
         self, value: object, on: object = None, reaction: object = None, *, axes: Frame | None = None, name: str = ""
     ) -> Torque:
-        """Add a torque on an angle or a frame, its opposite on ``reaction`` (the ground when left out).
+        """Add a torque on an angle or a frame; the opposite torque acts on ``reaction`` (by default the ground).
 
-        Three components stand in the axes of the frame ``axes`` (the fixed axes when left out).
+        A torque with three components has them along the axes of the frame ``axes`` (by default the fixed axes).
         """
         return self._builder.add(Torque(value=value, on=on, reaction=reaction, axes=axes, name=name))
 
     def potential(self, V: object, *, name: str = "") -> Potential:
-        """Add a potential energy [J] you already have."""
+        """Add a potential energy V [J] that you already know."""
         return self._builder.add(Potential(value=V, name=name))
 
     def kinetic(self, T: object, *, name: str = "") -> Kinetic:
-        """Add a kinetic co-energy [J] you already have."""
+        """Add a kinetic co-energy T* [J] that you already know."""
         return self._builder.add(Kinetic(value=T, name=name))
 
     def dissipation(self, D: object, *, name: str = "") -> Dissipation:
-        """Add Rayleigh's dissipation function [W]: Ξ_i = −∂D/∂ξ̇_i."""
+        """Add a Rayleigh dissipation function D [W]: Ξ_i = −∂D/∂ξ̇_i."""
         return self._builder.add(Dissipation(value=D, name=name))
 
     def generalized_force(self, coordinate: object, value: object, *, name: str = "") -> GeneralizedForce:
-        """Add a generalized force Ξ on one coordinate, or on one velocity of a floating frame."""
+        """Add a generalized force Ξ to one coordinate, or to one velocity of a floating frame."""
         return self._builder.add(GeneralizedForce(coordinate=coordinate, value=value, name=name))
 
     def add(self, element: Element) -> Element:
-        """Add an element that was made from its class, as of a kind of your own."""
+        """Add an element that was made from its class, such as one of a kind that you wrote yourself."""
         return self._builder.add(element)
 
     @property
     def elements(self) -> tuple[Element, ...]:
-        """What was added so far, in order."""
+        """The elements added so far, in order."""
         return self._builder.elements
 
     @classmethod
@@ -295,7 +298,7 @@ class Described(Guided):
         Xi: Mapping[AppliedUndef, sp.Expr] | Sequence[sp.Expr] | None = None,
         name: str = "system from energies",
     ) -> Self:
-        """Return the system of given energies; other symbols in them become parameters, other functions of t inputs."""
+        """Return the system with given energies; other symbols become parameters, other functions of t inputs."""
         listed = [coordinates] if isinstance(coordinates, AppliedUndef) else _listed(coordinates, "coordinates")
         system = cls(name)
         for q in listed:
@@ -332,14 +335,14 @@ class Described(Guided):
 
 
 def _split(names: str | Iterable[str]) -> list[str]:
-    """The names in a text, ranges written out, or in a list."""
+    """The names in a list or a text, with ranges expanded."""
     if not isinstance(names, str):
         return _listed(names, "names")
     return [name for part in names.replace(",", " ").split() for name in _ranged(part)]
 
 
 def _ranged(text: str) -> list[str]:
-    """The names that a range such as ``q1:4`` or ``x_a:c`` stands for, as SymPy reads it; any other name by itself."""
+    """The names of a range such as ``q1:4`` or ``x_a:c``, as SymPy expands it; any other name by itself."""
     if ":" not in text:
         return [text]
     numbers = [(int(a or 0), int(b)) for a, b in re.findall(r"(\d*):(\d+)", text)]
@@ -357,19 +360,19 @@ def _ranged(text: str) -> list[str]:
 
 
 def _alone(names: object) -> bool:
-    """Whether text names one thing by itself, not in a range: it gives the symbol and no tuple."""
+    """Whether a text is a single name, not a range, so that one symbol is returned instead of a tuple."""
     return isinstance(names, str) and ":" not in names
 
 
 def _listed(things: object, what: str) -> list[Any]:
-    """The things of a list or tuple; anything that cannot be walked is refused."""
+    """The items of a list or tuple; anything else is an error."""
     if isinstance(things, Iterable) and not isinstance(things, str | bytes | Mapping):
         return list(things)
     raise ModelError(f"{what} must be a list (got {type(things).__name__})", fix="[first, second, …]", code="E406")
 
 
 def _many(names: str | Iterable[str], make: Any, *, single: bool | None = None) -> Any:
-    """Make one symbol a name; text with exactly one name gives the symbol itself, as SymPy's ``symbols`` does."""
+    """Make one symbol for each name; a text with exactly one name gives the symbol itself, as in SymPy."""
     listed = _split(names)
     if not listed:
         raise ModelError("no name is given", fix='give names, such as "theta1 theta2"', code="E401")
@@ -387,7 +390,7 @@ def _unit(unit: str | None) -> str | None:
 
 
 def _value(name: str, value: float | str | None, unit: str | None) -> tuple[Any, str | None]:
-    """Return a value in SI units and the unit it was given in."""
+    """Return a value in SI units, and the unit in which it was given."""
     if isinstance(value, str):
         quantity = parse_quantity(value, what=f"parameter '{name}'")
         return quantity.value, quantity.unit

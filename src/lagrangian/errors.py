@@ -1,13 +1,13 @@
 """Every deliberate error of the package.
 
-    Error                          base of them all; carries what, where and fix
+    Error                          base of them all; has what, where and fix
     ├── ModelError (ValueError)    the description of a system is wrong
     │   └── ParseError             a text cannot be read: file, line, column, caret
-    ├── RunError (ValueError)      what was handed to a compiled system is wrong
-    ├── NoSuchEntry (KeyError)     a result has nothing of that name; it is a ModelError and a RunError too
+    ├── RunError (ValueError)      a value passed to a compiled system is wrong
+    ├── NoSuchEntry (KeyError)     a result has no entry of that name; also a ModelError and a RunError
     └── MissingExtra (ImportError) an optional package is not installed
 
-A message reads: what is wrong, where it stands, what would be right. A `Notice` stops nothing; results carry it.
+A message says what is wrong, where, and how to fix it. A `Notice` is not an error; results list their notices.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """Where in a file, or in a text that was typed, something stands.
+    """A place in a file, or in a text that was typed.
 
     ``line`` and ``column`` count from 1; ``text`` is that line, for the caret. A missing number means "unknown".
     """
@@ -35,7 +35,7 @@ class Place:
     text: str | None = None
 
     def __str__(self) -> str:
-        """Read as ``file:line:column``, as far as known; without a file as ``line 2, column 5`` (``column 5``)."""
+        """Return ``file:line:column``, as far as known; without a file ``line 2, column 5`` or ``column 5``."""
         if self.file is None:
             said = [f"line {self.line}"] if self.line is not None and (self.line > 1 or self.column is None) else []
             return ", ".join(said + ([f"column {self.column}"] if self.column is not None else []))
@@ -43,11 +43,11 @@ class Place:
         return ":".join([self.file, *(str(x) for x in known if x is not None)])
 
     def excerpt(self) -> str:
-        """Return the line with a caret under the column, or an empty text when the line is unknown."""
+        """Return the line with a caret under the column, or an empty text if the line is unknown."""
         if self.text is None:
             return ""
         text, column = self.text, self.column
-        if len(text) > 100:  # keep the neighbourhood of the column of a very long line
+        if len(text) > 100:  # of a very long line, show only what surrounds the column
             start = max(0, (column or 1) - 50)
             text = ("…" if start else "") + text[start : start + 100] + "…"
             column = None if column is None else column - start + (1 if start else 0)
@@ -59,10 +59,10 @@ class Place:
 
 
 class Error(Exception):
-    """Base of every deliberate error: what is wrong, where, and what would be right.
+    """The base class of all errors of this package: what is wrong, where, and how to fix it.
 
-    ``what`` is one sentence; ``element`` names the piece of the model (``"spring 'k1'"``); ``place`` is the position
-    in a file; ``fix`` says what would be right; ``code`` is a stable short identifier (``"E102"``), a `Code`.
+    ``what`` is one sentence; ``element`` names the part of the model (``"spring 'k1'"``); ``place`` is the position in
+    a file; ``fix`` says how to put it right; ``code`` is a short stable identifier (``"E102"``), a `Code`.
     """
 
     def __init__(
@@ -81,7 +81,7 @@ class Error(Exception):
     def __str__(self) -> str:
         """Return the whole message: file and place, code, element, what, the line with a caret, the fix.
 
-        A text that was typed has no file; its place stands after the element, the argument that was typed.
+        Typed text has no file; then the place follows the element, which is the argument that was typed.
         """
         place = str(self.place) if self.place is not None else ""
         typed = self.place is not None and self.place.file is None
@@ -98,7 +98,7 @@ class Error(Exception):
         return "\n".join(lines)
 
     def at(self, place: Place | None) -> Error:
-        """Return this error with ``place`` filled in where it was still unknown."""
+        """Return this error with ``place`` filled in if it was unknown."""
         if self.place is None:
             self.place = place
         return self
@@ -106,9 +106,10 @@ class Error(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Notice:
-    """Something to know that need not stop the work: ``text`` in one sentence, about ``where``, with a stable ``code``.
+    """Something that you should know but that is not an error: ``text`` is one sentence about ``where``, with a stable
+    ``code``.
 
-    ``where`` names the piece of the model, with file and line where these are known.
+    ``where`` names the part of the model, with file and line if these are known.
     """
 
     code: Code
@@ -116,7 +117,7 @@ class Notice:
     text: str
 
     def __str__(self) -> str:
-        """Read as ``[E105] rigid body 'link 3': its inertia fits no body …``."""
+        """Return a line such as ``[E105] rigid body 'link 3': its inertia fits no body …``."""
         return f"[{self.code}] {self.where}: {self.text}"
 
 
@@ -129,25 +130,25 @@ class ParseError(ModelError):
 
 
 class RunError(Error, ValueError):
-    """What was handed to a compiled system is wrong: a shape, a name, a value that is not finite."""
+    """A value passed to a compiled system is wrong: a shape, a name, a number that is not finite."""
 
 
 class NoSuchEntry(ModelError, RunError, KeyError):
-    """A result was asked for a name that it does not have."""
+    """A result does not have an entry of that name."""
 
     @classmethod
     def among(cls, what: str, name: str, known: Iterable[str]) -> NoSuchEntry:
-        """Return the error that says ``what`` of ``name``, with the nearest of the names that are known, or all."""
+        """Return the error "``what`` ``name``", with the nearest of the known names, or with all of them."""
         listed = list(known)
         fix = did_you_mean(name, listed) or f"known: {', '.join(listed) or 'none'}"
         return cls(f"{what} '{name[:64]}'", fix=fix if len(fix) < 500 else fix[:500] + " …", code="E402")
 
 
 class MissingExtra(Error, ImportError):
-    """An optional package is needed and not installed; the message holds the line that installs it."""
+    """An optional package is needed but not installed; the message contains the command that installs it."""
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str | None:
-    """Return ``"Did you mean 'length'?"`` for a near miss among ``known``, else None."""
+    """Return ``"Did you mean 'length'?"`` if one of the ``known`` names is similar, otherwise None."""
     close = get_close_matches(name, list(known), n=1, cutoff=0.6)
     return f"Did you mean '{close[0]}'?" if close else None

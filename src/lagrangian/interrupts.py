@@ -1,8 +1,9 @@
-"""Ctrl-C: one line and exit code 130 at any moment, in imports and in machine code too, without a traceback.
+"""Ctrl-C ends the command at any moment, also during imports and in machine code: one line, exit code 130, no
+traceback.
 
-A signal raises `KeyboardInterrupt` in the main thread, so that files that were begun are cleared away. Python raises it
-only between its own instructions, and libraries sometimes catch it; a second thread therefore hears the signal too, and
-ends the process where it has not ended by itself in time.
+A signal raises `KeyboardInterrupt` in the main thread, so that unfinished files are removed. But Python raises it only
+between its own instructions, and libraries sometimes catch it. A second thread therefore receives the signal as well,
+and ends the process if it has not ended by itself in time.
 """
 
 from __future__ import annotations
@@ -20,17 +21,17 @@ if TYPE_CHECKING:
     Hook = Callable[[Any], object]
 
 CODE = 130
-"""The exit code of an interrupted command, 128 and the number of the signal."""
+"""The exit code of an interrupted command: 128 plus the number of the signal."""
 
 GRACE = 1.0
-"""Seconds that an interrupted command has to clear away what it began."""
+"""The time [s] that an interrupted command has to remove unfinished files."""
 
 _BACK = "\r\x1b[K"
-"""To the beginning of the terminal's line, which is emptied: ^C or what shows progress may stand there."""
+"""Moves to the beginning of the terminal's line and clears it: it may show ^C or the progress line."""
 
 
 class Interrupts:
-    """What one command knows of interrupts: whether one came, and what is said then."""
+    """The state of one command: whether it was interrupted, and what to print then."""
 
     def __init__(self) -> None:
         self.came = False
@@ -38,24 +39,25 @@ class Interrupts:
         self._said = False
 
     def listen(self) -> None:
-        """Hear Ctrl-C from now on; one that is ignored, as in a shell's background, stays ignored."""
+        """Listen for Ctrl-C from now on; a signal that is ignored, as in a background job of a shell, stays ignored."""
         if signal.getsignal(signal.SIGINT) is not signal.default_int_handler:
             return
         signal.signal(signal.SIGINT, self._heard)
         sys.unraisablehook = self._unraisable(sys.unraisablehook)
-        if os.name == "posix":  # elsewhere only sockets wake up, and they take long to import
+        if os.name == "posix":  # on other systems only sockets can wake the thread, and they take long to import
             ours, theirs = os.pipe()
             os.set_blocking(theirs, False)
             signal.set_wakeup_fd(theirs, warn_on_full_buffer=False)
             threading.Thread(target=self._watch, args=(ours,), daemon=True, name="interrupts").start()
 
     def finish(self) -> None:
-        """Let the system end the process from now on: nothing can be lost, and Python on its way out would complain."""
+        """Leave the signal to the operating system from now on: nothing can be lost any more, and Python would complain
+        at exit."""
         if signal.getsignal(signal.SIGINT) == self._heard:
             signal.signal(signal.SIGINT, signal.SIG_DFL)
 
     def say(self) -> int:
-        """Say once that the command was interrupted; return its exit code."""
+        """Print once that the command was interrupted; return its exit code."""
         if not self._said and sys.stderr is not None:
             self._said = True
             start = _BACK if sys.stderr.isatty() else ""
@@ -79,7 +81,8 @@ class Interrupts:
         os._exit(self.say())
 
     def _unraisable(self, before: Hook) -> Hook:
-        """A hook that is silent on an interrupt in a place that cannot raise; the watching thread ends the process."""
+        """Silence an interrupt that is raised where no exception can propagate; the watching thread ends the
+        process."""
 
         def hook(found: Any) -> None:
             if not (self.came and issubclass(found.exc_type, KeyboardInterrupt)):
@@ -89,4 +92,4 @@ class Interrupts:
 
 
 interrupts = Interrupts()
-"""Those of this process."""
+"""The one object of this process."""

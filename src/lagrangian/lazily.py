@@ -1,4 +1,4 @@
-"""Names of a package: imported when they are first used, so that nobody waits for what they do not use."""
+"""Lazy imports: the names of a package are imported when they are first used, so that nobody waits for unused ones."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from types import ModuleType
 
 
 def lazily(room: str, places: Mapping[str, str]) -> Callable[[str], object]:
-    """Return ``__getattr__`` for the package ``room``; ``places`` is file within it → names that come from there,
-    with spaces between.
+    """Return ``__getattr__`` for the package ``room``; ``places`` maps each file in it to the names that it defines,
+    separated by spaces.
 
-    The package tells the type checker of the same names under ``if TYPE_CHECKING``. No name may be that of a file of
-    the room: importing the file would put the file in the name's place.
+    The package lists the same names for type checkers under ``if TYPE_CHECKING``. No name may be that of a file in the
+    room, because importing the file would replace the name.
     """
     where = {name: f"{room}.{place}" for place, names in places.items() for name in names.split()}
 
@@ -28,7 +28,7 @@ def lazily(room: str, places: Mapping[str, str]) -> Callable[[str], object]:
 
 
 class _Closed(ModuleType):
-    """A package whose rooms are not names of it, though Python binds every room that is imported to its package."""
+    """A package that hides its subpackages, which Python would otherwise make attributes of it on import."""
 
     def __setattr__(self, name: str, value: object) -> None:
         if not isinstance(value, ModuleType):
@@ -36,9 +36,9 @@ class _Closed(ModuleType):
 
 
 def closed(package: str) -> None:
-    """Keep the rooms of a package out of its names: they are imported by their full names.
+    """Hide the subpackages of a package from its names: they are imported by their full names.
 
-    Otherwise ``lg.derive`` would be a room, and calling it would fail with a message about modules.
+    Otherwise ``lg.derive`` would be a module, and calling it would fail with a confusing message.
     """
     module = sys.modules[package]
     for name in [name for name, value in vars(module).items() if isinstance(value, ModuleType) and name[0] != "_"]:

@@ -1,4 +1,4 @@
-"""What a compiled system can be asked for at any state: points, frames, and expressions of its symbols."""
+"""Functions of a compiled system that return points, frames and expressions at any state."""
 
 from __future__ import annotations
 
@@ -21,11 +21,12 @@ if TYPE_CHECKING:
     from lagrangian.model import Model
 
 REMEMBERED = 64
-"""Points, frames and expressions whose code is kept, the latest."""
+"""The number of points, frames and expressions whose code is kept; the most recently used stay."""
 
 
 class Looking(Guided):
-    """The half of a compiled system that looks at its motion; `lagrangian.compiled.Compiled` has the equations."""
+    """The part of a compiled system that evaluates points, frames and expressions; `lagrangian.compiled.Compiled` adds
+    the equations."""
 
     _guide = COMPILED
     _model: Model
@@ -34,16 +35,16 @@ class Looking(Guided):
     _seen: dict[Any, machine.Kernel]
 
     def _called(self, kernel: machine.Kernel, given: tuple[Any, ...]) -> Any:
-        """Call a kernel with coordinates, …, inputs, parameters and t; where it cannot answer, say why."""
+        """Call a kernel with coordinates, …, inputs, parameters and t; if the result is not finite, explain why."""
         raise TypeError(f"{type(self).__name__} calls no kernel")
 
     def _made(self, key: Any, make: Callable[[], Program]) -> machine.Kernel:
-        """What was compiled under a key, made at the first asking."""
+        """Return what was compiled under a key; compile it at the first request."""
         found = self._seen.pop(key, None)
         if found is None:
             optional = {"u": 0.0, "t": 0.0, "v": 0.0}
             found = machine.compile(make(), optional=optional, lanes=self._lanes, threads=self._threads)
-        self._seen[key] = found  # the latest last
+        self._seen[key] = found  # the most recently used is last
         for oldest in list(self._seen)[:-REMEMBERED]:
             self._seen.pop(oldest, None)
         return found
@@ -51,10 +52,10 @@ class Looking(Guided):
     def point(
         self, point: str | Point, q: ArrayLike, v: ArrayLike | None = None, p: Any = None, t: ArrayLike = 0.0
     ) -> dict[str, NDArray[np.float64]]:
-        """Return position ``r`` and velocity ``v`` of a point, ``(..., d)``, and ``J`` = ∂v/∂q̇, ``(..., d, n)``.
+        """Return the position ``r`` and velocity ``v`` of a point, ``(..., d)``, and ``J`` = ∂v/∂q̇, ``(..., d, n)``.
 
-        ``point`` is a name, or any point of the system, named or not. In the fixed axes, d = 2 in the plane and 3 in
-        space; the rates are 0 unless given. Raises `ModelError` where there is no such point.
+        ``point`` is a name, or any point of the system, with or without a name. Components are along the fixed axes, d
+        = 2 in the plane and 3 in space. The rates are 0 unless given. Raises `ModelError` if there is no such point.
         """
         found = dynamics.named_place(self._model, point, Point)
         kernel = self._made(("point", found), lambda: dynamics.point_program(self._model, found))
@@ -63,11 +64,12 @@ class Looking(Guided):
     def frame(
         self, frame: str | Frame, q: ArrayLike, v: ArrayLike | None = None, p: Any = None, t: ArrayLike = 0.0
     ) -> dict[str, NDArray[np.float64]]:
-        """Return rotation ``R``, angular velocity ``omega`` [rad/s] of a frame, and ``J`` = ∂omega/∂q̇.
+        """Return the rotation matrix ``R`` and angular velocity ``omega`` [rad/s] of a frame, and ``J`` = ∂omega/∂q̇.
 
-        ``frame`` is a name, or any frame of the system. A vector x in the frame is R x in the fixed axes, where omega
-        and J stand too. R is ``(..., d, d)``; omega ``(..., 3)`` and J ``(..., 3, n)`` in space, ``(...)`` and
-        ``(..., n)`` in the plane, counter-clockwise positive. Raises `ModelError` where there is no such frame.
+        ``frame`` is a name, or any frame of the system. A vector with components x in the frame has components R x in
+        the fixed axes; omega and J are in the fixed axes, too. R is ``(..., d, d)``. In space omega is ``(..., 3)`` and
+        J ``(..., 3, n)``; in the plane they are ``(...)`` and ``(..., n)``, positive counter-clockwise. Raises
+        `ModelError` if there is no such frame.
         """
         found = dynamics.named_place(self._model, frame, Frame)
         kernel = self._made(("frame", found), lambda: dynamics.frame_program(self._model, found))
@@ -84,9 +86,9 @@ class Looking(Guided):
     ) -> NDArray[np.float64]:
         """Return the value of an expression, shape ``(...)``, in SI units.
 
-        ``expression`` is SymPy or text, made of coordinates, rates, accelerations (by the equations of motion), inputs,
-        parameters, definitions and t. A SymPy matrix, or a list, gives ``(..., *shape)``. Code is made at the first
-        call for each expression. Raises `ModelError` for a symbol that the system does not have.
+        ``expression`` is SymPy or text. It may contain coordinates, rates, accelerations (computed from the equations
+        of motion), inputs, parameters, definitions and t. A SymPy matrix, or a list, gives ``(..., *shape)``. Each
+        expression is compiled at its first call. Raises `ModelError` for a symbol that the system does not have.
         """
         flat, shape = self._flat(expression)
         kernel = self._made(("expressions", tuple(flat)), lambda: _observing(self._model, flat))
@@ -98,7 +100,7 @@ class Looking(Guided):
         return stacked.reshape(*stacked.shape[:-1], *shape)
 
     def _flat(self, expression: Any) -> tuple[list[sp.Expr], tuple[int, ...]]:
-        """The expressions in what is asked for, row after row, and their shape."""
+        """The entries of the requested expression, matrix or list, row after row, and its shape."""
         if isinstance(expression, sp.MatrixBase):
             if not expression.shape[0] * expression.shape[1]:
                 raise ModelError("a matrix to evaluate has no entries", fix="give it at least one", code="E501")
@@ -120,7 +122,7 @@ _TEXT = frozenset((str,))
 
 
 def by_name(given: Any) -> Any:
-    """A mapping by names, whether names or symbols are its keys; anything else as it is."""
+    """Return a mapping with names as keys, whether its keys were names or symbols; return anything else unchanged."""
     if given is None or type(given) is np.ndarray:
         return given
     if type(given) is dict and _TEXT.issuperset(map(type, given)):

@@ -1,4 +1,5 @@
-"""The verbs of a system that integrate: one run, an ensemble of arrays, a sweep over combinations."""
+"""The verbs of a system that integrate: simulate (one run), ensemble (arrays of values), sweep (combinations of
+values)."""
 
 from __future__ import annotations
 
@@ -10,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from lagrangian.calls import worded
 from lagrangian.describing import Described
 
-if TYPE_CHECKING:  # describing a system does not wait for what integrates it
+if TYPE_CHECKING:  # imported here only for types: describing a system does not have to wait for the integrators
     from numpy.typing import ArrayLike
 
     from lagrangian.simulate.ensemble import Ensemble
@@ -21,7 +22,7 @@ if TYPE_CHECKING:  # describing a system does not wait for what integrates it
 
 @worded
 class Simulated(Described):
-    """What can be run; options have the names and defaults of `lagrangian.RunSettings` and `lagrangian.Execution`."""
+    """The methods that run a system; their options are those of `lagrangian.RunSettings` and `lagrangian.Execution`."""
 
     def simulate(
         self,
@@ -44,24 +45,26 @@ class Simulated(Described):
         timeout: float | None = None,
         **initial_by_name: Any,
     ) -> Trajectory:
-        """Run the system for ``duration`` [s] and return a `lagrangian.Trajectory`.
+        """Simulate the system for ``duration`` [s] and return a `lagrangian.Trajectory`.
 
         >>> from lagrangian import example
         >>> run = example("pendulum").simulate(2.0, theta=0.5, params={"b": 0.0})
         >>> run.success, float(run.audit) < 1e-9
         (True, True)
 
-        Initial values by name, ``theta1=0.2``, or in ``initial={"theta1'": 0.1, theta2: "12 deg"}``; what a model file
-        says under [simulate], and else 0, where not given. ``params`` and ``inputs`` are mappings by name or symbol;
-        an input is a number, text, an expression of time and state (compiled in), a table
-        ``(times, values[, "hold"])`` or a Python function f(t, x), which is slow. The run is kept at ``samples``
-        times (1001), or at ``times``. ``method`` is one of ours in machine code (dop853, the default; taylor; tsit5;
-        rk4 and gauss4, which need ``step``) or one of SciPy's (Radau, BDF, LSODA, RK45, DOP853). ``rtol`` and ``atol``
-        are aimed at for the whole run; for SciPy's methods they are those of a step. ``events`` come from
-        `lagrangian.event`. ``max_steps``, ``max_events`` and ``timeout`` [s] bound the run.
+        Give initial values by name, ``theta1=0.2``, or in ``initial={"theta1'": 0.1, theta2: "12 deg"}``. Others are
+        taken from [simulate] in the model file, and are otherwise 0. ``params`` and ``inputs`` are mappings from names
+        or symbols. An input is a number, text, an expression of time and state (which is compiled), a table ``(times,
+        values[, "hold"])`` or a Python function f(t, x), which is slow.
 
-        Raises `RunError` or `ModelError` for what is wrong before the run; a run that fails on its way is returned as
-        far as it went, with the reason in its ``message``.
+        Results are stored at ``samples`` evenly spaced times (1001 by default), or at the given ``times``. ``method``
+        is one of our own in machine code (dop853, the default; taylor; tsit5; rk4 and gauss4, which need ``step``) or
+        one of SciPy's (Radau, BDF, LSODA, RK45, DOP853). ``rtol`` and ``atol`` apply to the error of the whole run, for
+        SciPy's methods to that of each step. ``events`` are made with `lagrangian.event`. ``max_steps``, ``max_events``
+        and ``timeout`` [s] limit the run.
+
+        Raises `RunError` or `ModelError` for mistakes that are found before the run. A run that fails later is returned
+        up to that time, with the reason in its ``message``.
         """
         given = locals()
         from lagrangian.simulate.settings import RunSettings, picked
@@ -100,20 +103,23 @@ class Simulated(Described):
         scheduler: Any = None,
         **initial_by_name: Any,
     ) -> Ensemble:
-        """Run the system once for every entry of arrays that broadcast together; return a `lagrangian.Ensemble`.
+        """Simulate the system once for every entry of arrays that broadcast together; return a `lagrangian.Ensemble`.
 
         >>> from lagrangian import example
         >>> runs = example("pendulum").ensemble(2.0, theta=[0.1, 0.2, 0.3], method="rk4", step=0.01)
         >>> runs["final theta"].shape
         (3,)
 
-        ``initial``, ``params``, ``inputs``: name or symbol → number, text with a unit, or array; ``dims`` names the
-        axes. ``outputs``: expressions, by name or alone, ("theta1", "max theta1"); ``reduce``: what is kept of each
-        over time (`lagrangian.integrate.observe.REDUCTIONS`), None for samples at ``times`` (a number of them, or the
-        times). ``method``, ``rtol``, ``atol``, ``step``, ``events`` as in `simulate`; ``memory`` [bytes] bounds what is
-        held at a time, ``threads`` the cores; ``progress(done, all)`` is called on the way. ``store="name.zarr"`` keeps
-        results on disk as they come, ``resume=True`` goes on after an end of any kind; ``scheduler`` is the address of
-        a Dask scheduler. A run that fails is NaN, with a status, and counted. Raises `RunError` for what does not fit.
+        ``initial``, ``params``, ``inputs`` map names or symbols to numbers, text with a unit, or arrays; ``dims`` names
+        the axes. ``outputs``: expressions, as a list or by name, ("theta1", "max theta1"). ``reduce`` says how each is
+        reduced over time (`lagrangian.integrate.observe.REDUCTIONS`); None returns samples at ``times``, which is a
+        number of times or an array of them. ``method``, ``rtol``, ``atol``, ``step``, ``events`` are those of
+        `simulate`.
+
+        ``memory`` [bytes] limits the memory in use at a time, ``threads`` the number of cores; ``progress(done, all)``
+        is called now and then. ``store="name.zarr"`` writes results to disk as they are computed, and ``resume=True``
+        continues an interrupted ensemble. ``scheduler`` is the address of a Dask scheduler. A run that fails has NaN
+        results and a negative status. Raises `RunError` for arguments that do not fit.
         """
         given = locals()
         from lagrangian.simulate.sweeping import chosen, ensemble
@@ -153,7 +159,7 @@ class Simulated(Described):
         scheduler: Any = None,
         **initial_by_name: Any,
     ) -> Ensemble:
-        """Run the system for every combination of values, each for every draw of what is random.
+        """Simulate the system for every combination of values, and for every random draw.
 
         >>> from lagrangian import example
         >>> pendulum = example("pendulum")
@@ -161,9 +167,9 @@ class Simulated(Described):
         >>> runs.dims, runs.shape
         (('L', 'sample'), (4, 5))
 
-        ``grid``: texts as here, or name or symbol → values, an array or text: parameters, coordinates and rates at the
-        start, inputs. ``draws`` is the number of random draws; the same ``seed`` gives the same ones. Everything else
-        as in `ensemble`.
+        ``grid``: texts as above, or a mapping from names or symbols to values, arrays or such texts. The names are
+        those of parameters, inputs, and initial values of coordinates and rates. ``draws`` is the number of random
+        draws; the same ``seed`` gives the same draws. All other arguments are those of `ensemble`.
         """
         given = locals()
         from lagrangian.simulate.sweeping import chosen, sweep

@@ -1,4 +1,4 @@
-"""The object people hold: describe a mechanical system, then derive."""
+"""The class `System`, with which users describe a mechanical system and then derive its equations."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from lagrangian.simulated import Simulated
 from lagrangian.viewed import cut
 from lagrangian.write import check_free, write_file
 
-if TYPE_CHECKING:  # every verb imports what it needs: describing a system waits for none of them
+if TYPE_CHECKING:  # every verb imports what it needs, so that describing a system does not wait for other imports
     from lagrangian.check.verb import CheckedAnswer
     from lagrangian.compare import Comparison
     from lagrangian.compiled import Compiled
@@ -42,10 +42,11 @@ class System(Simulated):
     """
 
     def derive(self, *, detail: Detail = "usual") -> Derivation:
-        """Return the derivation: the seven steps, the equations, and what was verified.
+        """Return the derivation: the seven steps, the equations, and the results of the checks.
 
-        ``detail="full"`` writes d/dt of every term out before it is gathered. Raises `ModelError` for a model whose
-        coordinates are dependent, incomplete or move nothing.
+        ``detail="full"`` writes d/dt out term by term before the terms are collected. Raises `ModelError` if a
+        coordinate depends on others or moves no mass, or if the coordinates do not determine the position of every
+        mass.
         """
         from lagrangian.derivation import derive_and_verify
 
@@ -54,7 +55,7 @@ class System(Simulated):
     def check(self, answer: Any, *, hint: int = 3) -> CheckedAnswer:
         """Return whether an answer (text, LaTeX, SymPy equations, energies by name) is right; see `Derivation.check`.
 
-        Derives anew each time: for many answers derive once, and check with the derivation.
+        Every call derives the system again: to check many answers, derive once and use the derivation's `check`.
         """
         from lagrangian.check.verb import check_answer
         from lagrangian.derive import derive
@@ -62,10 +63,10 @@ class System(Simulated):
         return check_answer(derive(self.model), answer, hint=hint)
 
     def verify(self, *, states: int = 50, seed: int = 1) -> tuple[Check, ...]:
-        """Check everything that can be taken from the system by independent routes at random states.
+        """Check everything that is computed from the system by independent routes, at random states.
 
-        The derived equations, the compiled functions, the exported sources, the linearization: see `Derivation.verify`.
-        Where a frame floats there are no derived equations; all else is checked.
+        This covers the derived equations, the compiled functions, the exported source and the linearization: see
+        `Derivation.verify`. A system with a floating frame has no derived equations; everything else is checked.
         """
         from lagrangian.values.values import check_sampling
 
@@ -77,10 +78,10 @@ class System(Simulated):
         return self.derive().verify(states=states, seed=seed)
 
     def compile(self, *, lanes: int | None = None, threads: int | None = None) -> Compiled:
-        """Return the system as machine code: `forward`, `inverse`, `mass_matrix`, `energy`, … on arrays of states.
+        """Return the system as machine code: `forward`, `inverse`, `mass_matrix`, `energy`, … of arrays of states.
 
-        ``lanes`` states are computed side by side (the machine's widest unless given), ``threads`` cores work on a
-        large batch (all unless given). No compiler is needed.
+        ``lanes`` is the number of states that are computed side by side (by default as many as the processor can),
+        ``threads`` the number of cores that work on a large batch (by default all). No compiler is needed.
         """
         from lagrangian.compiled import Compiled
         from lagrangian.values.dimensions import check_dimensions
@@ -89,22 +90,27 @@ class System(Simulated):
         return Compiled(self.model, lanes=lanes, threads=threads)
 
     def conserved_quantities(self, *, params: Mapping[Any, Any] | None = None) -> ConservedQuantities:
-        """Return what every motion keeps: momenta of ignorable coordinates, total momenta, energy, each verified.
+        """Return the quantities that are constant along every motion: momenta of ignorable coordinates, total momenta,
+        energy.
 
-        A parameter given as 0 vanishes.
+        Each is proved and checked numerically. A parameter whose value in ``params`` is 0 vanishes from the formulas.
         """
         from lagrangian.invariants.conserved import conserved_quantities
 
         return conserved_quantities(self.model, params=params)
 
     def hamiltonian(self) -> Hamiltonian:
-        """Return momenta, H(q, p, t) and the canonical equations."""
+        """Return Hamilton's form: the momenta p, H(q, p, t) and the canonical equations q̇ = ∂H/∂p, ṗ = −∂H/∂q + Ξ."""
         from lagrangian.invariants.hamiltonian import hamiltonian
 
         return hamiltonian(self.model)
 
     def routhian(self, ignorable: Sequence[Any] | None = None) -> Routhian:
-        """Return the Routhian: the Lagrangian of what is left once ignorable coordinates (all, or these) are gone."""
+        """Return the Routhian, which is the Lagrangian of the other coordinates after ignorable ones have been
+        eliminated.
+
+        ``ignorable`` lists the coordinates to eliminate; by default all ignorable coordinates are.
+        """
         from lagrangian.invariants.routhian import routhian
 
         return routhian(self.model, ignorable)
@@ -117,7 +123,11 @@ class System(Simulated):
         box: Mapping[Any, Any] | None = None,
         starts: int | None = None,
     ) -> Equilibria:
-        """Return where the system can stay at rest: all found in a ``box`` of {name: (low, high)} from ``starts``."""
+        """Return the equilibria that a search finds, each with its stability.
+
+        ``box`` limits the search: {name: (low, high)}. ``starts`` is the number of starting points; by default as many
+        as the search needs. See `Equilibria`.
+        """
         from lagrangian.equilibria.search import equilibria
 
         return equilibria(self.model, inputs=inputs, params=params, box=box, starts=starts)
@@ -132,10 +142,11 @@ class System(Simulated):
         time: Any = 0.0,
         operating_point: bool = False,
     ) -> Linearization:
-        """Return A, B, C, D about an equilibrium, with poles, modes and the verdict on stability.
+        """Return the linearization ẋ = A x + B u, y = C x + D u about an equilibrium, with poles, modes and stability.
 
-        ``at``: values of coordinates and rates by name or symbol (0 where not given), or an `Equilibrium`. ``outputs``:
-        expressions, listed or by name. ``operating_point`` takes a point that is no equilibrium as it is.
+        ``at``: values of coordinates and rates by name or symbol (0 unless given), or an `Equilibrium`. ``outputs``:
+        expressions, as a list or by name. With ``operating_point`` the point need not be an equilibrium; otherwise such
+        a point raises `RunError`.
         """
         from lagrangian.linear.linearize import linearize
 
@@ -150,16 +161,18 @@ class System(Simulated):
         params: Mapping[Any, Any] | None = None,
         outputs: Any = None,
     ) -> LinearizationAlong:
-        """Return A(t), B(t), C(t), D(t) along a run, or along (times, states)."""
+        """Return A(t), B(t), C(t), D(t) along a run, or along given ``(times, states)``."""
         from lagrangian.linear.along import linearize_along
 
         return linearize_along(self.model, trajectory, inputs=inputs, params=params, outputs=outputs)
 
     def in_coordinates(self, change: Mapping[Any, Any], *, name: str | None = None) -> System:
-        """Return the same system in other coordinates: ``{x2: x1 + x2r}`` says what the old x2 is in kept and new ones.
+        """Return the same system in other coordinates: ``{x2: x1 + x2r}`` expresses the old x2 in coordinates that stay
+        or are new.
 
-        Keys are coordinates or their names, values SymPy expressions or text; a coordinate that is not named is kept.
-        Given the other way round, ``{"x2r": "x2 - x1"}``, it is solved where it is linear.
+        Keys are coordinates or their names; values are SymPy expressions or text. Coordinates that are not mentioned
+        stay. The new coordinates may also be given in the old ones, ``{"x2r": "x2 - x1"}``, if these equations are
+        linear.
         """
         from lagrangian.coordinates import carried
 
@@ -167,18 +180,21 @@ class System(Simulated):
         return System(builder.name, _builder=builder)
 
     def compare(self, other: System, change: Mapping[Any, Any] | None = None) -> Comparison:
-        """Return this system and another side by side: are they one motion, row by row, and where do they differ?
+        """Return a comparison of this system with another: whether both describe the same motion, and where they
+        differ.
 
-        ``change`` says coordinates of one in those of the other; left out, it is found where positions tell it.
+        ``change`` expresses the coordinates of one system in those of the other; by default it is inferred from the
+        positions of the bodies.
         """
         from lagrangian.compare import compare
 
         return compare(self, other, change)
 
     def export(self, path: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
-        """Write source code of the dynamics: to ``name.c`` (and ``name.h``) or ``name.py``; return what was written.
+        """Write the dynamics as source code to ``name.c`` (with ``name.h``) or ``name.py``; return the paths of the
+        files.
 
-        Raises `Error` where a file is there already, unless ``overwrite``, or where it cannot be written.
+        Raises `Error` if a file exists, unless ``overwrite``, or if it cannot be written.
         """
         from lagrangian.compiled import LANGUAGES, sources
 
@@ -197,20 +213,20 @@ class System(Simulated):
         return tuple(write_file(file, text) for file, text in found.items())
 
     def to_toml(self) -> str:
-        """Return the system as the text of a model file."""
+        """Return the system as the text of a model file (TOML)."""
         return read.dumps(self.model)
 
     def save(self, path: str | Path, *, overwrite: bool = False) -> Path:
-        """Write the system to a model file, whole or not at all; return the path.
+        """Write the system to a model file, either completely or not at all; return the path.
 
-        Raises `Error` where the file is there already, unless ``overwrite``, or where it cannot be written.
+        Raises `Error` if the file exists, unless ``overwrite``, or if it cannot be written.
         """
         target = _path(path)
         check_free(target, overwrite=overwrite)
         return write_file(target, self.to_toml())
 
     def __repr__(self) -> str:
-        """Say what the system has so far."""
+        """Summarize what has been described so far."""
         return cut(f"<System {self.name!r}: {self._builder.summary()}{self._told()}>")
 
     def _repr_html_(self) -> str:
@@ -223,21 +239,22 @@ class System(Simulated):
             return words_view(self.name, [words])
 
     def _told(self) -> str:
-        """The notices of a system that is complete, for its short description."""
+        """The notices of a complete system, for its repr."""
         try:
             return "".join(f"; notice {n}" for n in self.notices)
-        except ModelError:  # not complete yet: a description must be seen all the same
+        except ModelError:  # not complete yet, but its repr must work all the same
             return ""
 
 
 def load(path: str | Path) -> System:
-    """Return the system that a model file describes."""
+    """Return the system that the model file at ``path`` describes."""
     builder = read.load(_path(path))
     return System(builder.name, _builder=builder)
 
 
 def loads(text: str, *, name: str | None = None) -> System:
-    """Return the system that the text of a model file describes; ``name`` stands for the file in messages."""
+    """Return the system described by ``text``, the content of a model file; messages use ``name`` as the name of the
+    file."""
     if not isinstance(text, str):
         raise ModelError(
             f"a model file is text (got {type(text).__name__})", fix="load(path) reads a file", code="E406"
@@ -253,9 +270,9 @@ def loads(text: str, *, name: str | None = None) -> System:
 
 
 def example(name: str) -> System:
-    """Return a built-in example, ``example("cart-pole")``; `lagrangian.examples.names` lists them.
+    """Return a built-in example such as ``example("cart-pole")``; `lagrangian.examples.names` lists them all.
 
-    Raises `ModelError` with the nearest name where there is no such example.
+    Raises `ModelError` if there is no such example; the message suggests the nearest name.
     """
     from lagrangian import examples
 
@@ -263,7 +280,7 @@ def example(name: str) -> System:
 
 
 def _path(path: object) -> Path:
-    """A path, if it is text or a path."""
+    """Return text or a path as a `Path`; anything else is an error."""
     if isinstance(path, str | Path):
         return Path(path)
     raise ModelError(

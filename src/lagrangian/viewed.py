@@ -1,6 +1,6 @@
-"""How results show themselves: short where Python prints them, tuples as tables where a notebook does.
+"""How results are displayed: short in Python's repr, and tuples as tables in notebooks.
 
-Their mappings are entered by name or symbol, and say which names there are.
+The mappings of results accept names or symbols as keys, and an error lists the names that exist.
 """
 
 from __future__ import annotations
@@ -14,14 +14,14 @@ from lagrangian.errors import NoSuchEntry
 T = TypeVar("T")
 
 LONGEST = 400
-"""Characters of a repr."""
+"""The largest number of characters of a repr."""
 
 FIELD = 60
-"""Characters of a field in a repr."""
+"""The largest number of characters of one field in a repr."""
 
 
 def cut(text: str, most: int = LONGEST) -> str:
-    """Return ``text`` in one line of at most ``most`` characters, its last one kept where it is a bracket."""
+    """Return ``text`` as one line of at most ``most`` characters; a closing bracket at its end stays."""
     line = " ".join(text.split())
     if len(line) <= most:
         return line
@@ -30,9 +30,10 @@ def cut(text: str, most: int = LONGEST) -> str:
 
 
 class Entries(dict[Any, Any]):
-    """A mapping of a result: its entries are found by symbol and by the symbol's name.
+    """A mapping of a result: its entries are found by symbol or by the name of the symbol.
 
-    ``what`` it is called; a key that is not there raises `NoSuchEntry`, a `KeyError` that lists the names.
+    ``what`` is the name of the mapping in messages. An unknown key raises `NoSuchEntry`, a `KeyError` that lists the
+    names.
     """
 
     def __init__(self, entries: dict[Any, Any], what: str) -> None:
@@ -40,7 +41,7 @@ class Entries(dict[Any, Any]):
         self.what = what
 
     def _meant(self, key: object) -> Any:
-        """The key of the same name, else None."""
+        """The key with the same name, or None."""
         name = _name(key)
         return next((k for k in self if _name(k) == name), None)
 
@@ -53,7 +54,7 @@ class Entries(dict[Any, Any]):
         return super().__contains__(key) or self._meant(key) is not None
 
     def get(self, key: Any, default: Any = None) -> Any:
-        """Return the entry, or ``default`` where there is none."""
+        """Return the entry, or ``default`` if there is none."""
         try:
             return self[key]
         except NoSuchEntry:
@@ -64,16 +65,16 @@ class Entries(dict[Any, Any]):
 
 
 def _name(key: object) -> str:
-    """What a symbol is called, a rate with its primes."""
+    """The name of a symbol; that of a rate ends in primes."""
     primes = getattr(key, "derivative_count", 0)
     of = getattr(key, "expr", key) if primes else key
     return str(of).removesuffix("(t)") + "'" * primes
 
 
 class Brief:
-    """A dataclass whose repr names its fields and stays short: long values are cut, defaults and None left out.
+    """A dataclass with a short repr that names its fields: long values are cut, defaults and None are omitted.
 
-    The mappings among its fields become `Entries`.
+    Mappings among its fields become `Entries`.
     """
 
     def __post_init__(self) -> None:
@@ -83,7 +84,7 @@ class Brief:
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
-        if "__repr__" not in vars(cls):  # or `dataclass` would write one
+        if "__repr__" not in vars(cls):  # otherwise `dataclass` would write one
             cls.__repr__ = super(cls, cls).__repr__  # type: ignore[method-assign]
 
     def __repr__(self) -> str:
@@ -93,14 +94,14 @@ class Brief:
 
 
 class Worded(Brief):
-    """A dataclass that is read as text, in its repr too."""
+    """A dataclass whose repr is its text."""
 
     def __repr__(self) -> str:
         return cut(f"<{type(self).__name__}: {self}>")
 
 
 class Viewed(tuple[T, ...], Generic[T]):
-    """A tuple with a piece of HTML for notebooks, made when it is asked for."""
+    """A tuple with HTML for notebooks, which is made when it is needed."""
 
     _view: Callable[[], str]
 
@@ -111,7 +112,7 @@ class Viewed(tuple[T, ...], Generic[T]):
         return made
 
     def __getnewargs__(self) -> tuple[tuple[T, ...], Callable[[], str]]:
-        """Return what a copy is made of."""
+        """Return the arguments from which a copy is made."""
         return tuple(self), self._view
 
     def _repr_html_(self) -> str:

@@ -124,7 +124,7 @@ def test_a_table_in_a_file_drives_the_run(capsys: pytest.CaptureFixture[str], tm
     code, _, err = said(capsys, "-e", "cart-pole", "-i", f"F=@{tmp_path / 'none.csv'}")
     assert code == 2 and "cannot read the table: no such file" in err
     code, _, err = said(capsys, "-e", "cart-pole", "-i", f"F=@{table} cubic")
-    assert code == 2 and "takes 'hold' or 'linear'" in err
+    assert code == 2 and "may be followed by 'hold' or 'linear'" in err
 
 
 @pytest.mark.parametrize(
@@ -136,7 +136,7 @@ def test_a_table_in_a_file_drives_the_run(capsys: pytest.CaptureFixture[str], tm
         (b"0,1,5\n0,1\n2,1\n", "'0,1,5' is not a time and a value"),
         (b"0;1\n0;1\n", "'0;1' is not a time and a value"),
         (b"0,1\n2," + b"1" * 200_000 + b"x\n", "is not a time and a value"),
-        (b"\0" * 1000, "the table holds no numbers"),
+        (b"\0" * 1000, "the table contains no numbers"),
         (b"\xff\xfe0", "it is not text"),
     ],
 )

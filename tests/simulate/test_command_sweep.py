@@ -141,7 +141,7 @@ def test_an_interrupt_on_a_terminal_loses_nothing(folder: pathlib.Path) -> None:
         said += chunk
     assert process.wait() == 130
     text = said.decode()
-    assert "go on with --resume" in text
+    assert "continue with --resume" in text
     assert "Traceback" not in text
     assert 1 < finished(marks).sum() < len(finished(marks))
 

@@ -1,6 +1,6 @@
-"""Where the installed command begins: data on standard output, talk on standard error, exit 0, 1 or 2.
+"""The entry point of the command: data on standard output, messages on standard error, exit code 0, 1 or 2.
 
-It imports nothing heavy, so that an interrupt is heard from the start.
+It imports nothing slow, so that Ctrl-C works from the start.
 """
 
 from __future__ import annotations
@@ -11,11 +11,12 @@ from typing import NoReturn
 from lagrangian.interrupts import CODE, interrupts
 
 CLOSED_PIPE = 141
-"""The exit code where the reader has seen enough, as in ``lagrangian … | head``: 128 and the number of SIGPIPE."""
+"""The exit code if the reader of the output closes it, as in ``lagrangian … | head``: 128 plus the number of
+SIGPIPE."""
 
 
 def run() -> NoReturn:
-    """Run the command and leave with its exit code: the entry point of the installed command."""
+    """Run the command and exit with its exit code: the entry point of the installed command."""
     interrupts.listen()
     try:
         code = main()
@@ -23,28 +24,28 @@ def run() -> NoReturn:
         if not interrupts.came:
             raise
         code = CODE
-    if interrupts.came:  # whatever a library made of it
+    if interrupts.came:  # whatever exception a library made of it
         code = interrupts.say()
     interrupts.finish()
     sys.exit(code)
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Run the command; return 0 when all is well, 1 when a check failed, 2 for a mistake in what was given."""
+    """Run the command; return 0 for success, 1 if a check failed, 2 for a mistake in the arguments or the model."""
     from lagrangian.cli import door
     from lagrangian.cli.app import invoked
     from lagrangian.cli.progress import status
     from lagrangian.cli.wording import in_options
     from lagrangian.errors import Error
 
-    if sys.stdout is None:  # closed by the shell, as in `lagrangian … >&-`
+    if sys.stdout is None:  # the shell closed it, as in `lagrangian … >&-`
         door.fail("[E801] standard output is closed")
         return 2
     door.prepare()
     try:
         with status.showing("starting"):
             code = invoked(sys.argv[1:] if arguments is None else arguments)
-        sys.stdout.flush()  # a full disk shows itself only here
+        sys.stdout.flush()  # a full disk may become apparent only here
     except BrokenPipeError:
         door.drop()
         return CLOSED_PIPE

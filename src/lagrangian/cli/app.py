@@ -1,4 +1,4 @@
-"""The Typer application: the group of all verbs, and how a line of arguments becomes a verb that runs."""
+"""The Typer application: the group of all verbs, and the function that runs a verb with its arguments."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from lagrangian.errors import Error
 NAME = "lagrangian"
 
 COMPLETING = "_LAGRANGIAN_COMPLETE"
-"""What a shell sets in the environment where it asks what a line could go on with."""
+"""The environment variable that a shell sets when it asks for completions."""
 
 app = typer.Typer(
     name=NAME,
@@ -51,7 +51,7 @@ def verbs(
 
 
 def invoked(arguments: list[str]) -> int:
-    """Run the verb that the arguments name; return the exit code."""
+    """Run the verb named by the arguments; return the exit code."""
     command = typer.main.get_command(app)
     if COMPLETING in os.environ:
         command.main(args=arguments, prog_name=NAME)
@@ -66,11 +66,11 @@ def invoked(arguments: list[str]) -> int:
 
 
 _MISUSE: type[Exception] = typer.BadParameter.__mro__[1]
-"""Typer's error of all mistakes in options and arguments, which it does not name itself."""
+"""Typer's base class of all errors in options and arguments, which has no public name."""
 
 
 def _said(wrong: Exception) -> Error:
-    """Typer's error as one of ours: what is wrong, and what would be right."""
+    """Convert an error of Typer to one of ours: what is wrong, and how to fix it."""
     what, context = str(getattr(wrong, "message", wrong)), getattr(wrong, "ctx", None)
     if isinstance(wrong, typer.BadParameter):
         what = wrong.format_message()

@@ -1,4 +1,4 @@
-"""Options of the form ``name=value``, given once each: ``--at x2=0 --at "theta=12 deg"``."""
+"""Options of the form ``name=value``, given once for each name: ``--at x2=0 --at "theta=12 deg"``."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from lagrangian.errors import Error
 
 
 def assignments(given: Sequence[str] | None, option: str) -> dict[str, str]:
-    """Return name → value as text. Raises `Error` for what is not ``name=value`` and for a name twice."""
+    """Return name → value as text. Raises `Error` if an item is not ``name=value`` or a name occurs twice."""
     found: dict[str, str] = {}
     for item in given or ():
         name, equals, value = (part.strip() for part in item.partition("="))

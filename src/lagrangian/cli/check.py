@@ -1,4 +1,4 @@
-"""``lagrangian check``: is an answer right? One, or a folder of them with a table of what went wrong how often."""
+"""``lagrangian check``: check one answer, or a folder of answers with statistics of the mistakes."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from lagrangian.system import System
 from lagrangian.write.tables import check_target
 
 SUMMARIES = [".csv", ".txt", ".json"]
-"""Endings of what is written of a folder."""
+"""The endings of files for the results of a folder."""
 
 
 def check(
@@ -95,7 +95,7 @@ def _check_folder(
     answers: Path | None,
     force: bool,
 ) -> None:
-    """Check every answer of a folder; write the counts and, where asked for, a line for each answer."""
+    """Check every answer in a folder; write the counts of mistakes and, if requested, a line for each answer."""
     json = json or format is Format.JSON
     if format not in (None, Format.TEXT, Format.JSON):
         raise Error(
@@ -118,14 +118,14 @@ def _check_folder(
 
 
 def _named(file: str, answer: str | None, example: str | None) -> tuple[str | None, str]:
-    """The model file, None where an example stands for it, and the answer's file or folder."""
+    """The path of the model file, None if an example is used, and the path of the answer or folder."""
     if example is not None:
         if answer is not None:
             raise Error("with --example, give only the answer", fix="leave the model file out", code="E404")
         return None, file
     if answer is None:
         fix = "name a model file and the answer: lagrangian check pendulum.toml answer.txt"
-        raise Error("there is no answer to check", fix=fix, code="E401")
+        raise Error("no answer was given to check", fix=fix, code="E401")
     if file == "-" and answer == "-":
         raise Error(
             "only one of the two arguments can be standard input (-)", fix="name a file for the other", code="E404"

@@ -1,4 +1,4 @@
-"""``lagrangian compare``: two systems side by side."""
+"""``lagrangian compare``: compare two systems."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``lagrangian conserved``: what every motion of a system keeps."""
+"""``lagrangian conserved``: the quantities that are constant along every motion of a system."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``lagrangian derive``: the seven steps, written out."""
+"""``lagrangian derive``: write out the seven steps."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from lagrangian.derive import pages
 
 
 class Detail(StrEnum):
-    """How much of the differentiation is written."""
+    """How many steps of the differentiation are written."""
 
     USUAL = "usual"
     FULL = "full"

@@ -1,6 +1,6 @@
-"""The one door to the terminal: whatever a command prints goes through here, cleaned.
+"""All output of the command goes through this module, which escapes control characters.
 
-A model's texts come from anywhere; what a terminal would obey rather than show is written out instead.
+The texts of a model may come from anywhere. Characters that would control the terminal are printed as escapes.
 """
 
 from __future__ import annotations
@@ -17,18 +17,19 @@ from typing import TextIO
 from lagrangian.cli.progress import status
 
 NARROWEST, WIDEST, USUAL = 40, 400, 80
-"""Columns of text: the fewest and the most, and those where no terminal says how many there are."""
+"""The smallest and the largest width of text in columns, and the default if there is no terminal."""
 
 _OBEYED = re.compile(
-    "[\x00-\x08\x0b-\x1f\x7f-\x9f"  # control characters but the tab and the end of a line
-    "\u2028\u2029\ufeff"  # other ends of lines, a byte order mark
-    "\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069"  # what turns the direction of writing
-    "\ud800-\udfff]"  # bytes of a file's name that are no character
+    "[\x00-\x08\x0b-\x1f\x7f-\x9f"  # control characters except tab and line feed
+    "\u2028\u2029\ufeff"  # other line separators, and the byte order mark
+    "\u061c\u200e\u200f\u202a-\u202e\u2066-\u2069"  # characters that change the direction of writing
+    "\ud800-\udfff]"  # bytes of a file name that are not valid characters
 )
 
 
 def put(text: str | Sequence[str], output: Path | None = None) -> None:
-    """Write text, or lines, to a file (whole or not at all) or to standard output; a terminal shows titles bold."""
+    """Write text, or lines, to a file (completely or not at all) or to standard output; on a terminal titles are
+    bold."""
     if output is None:
         _through(sys.stdout, text)
     else:
@@ -38,18 +39,18 @@ def put(text: str | Sequence[str], output: Path | None = None) -> None:
 
 
 def say(words: str) -> None:
-    """Talk: a line on standard error."""
-    if sys.stderr is not None:  # closed by the shell, as in `lagrangian … 2>&-`
+    """Write a message, one line, to standard error."""
+    if sys.stderr is not None:  # the shell closed it, as in `lagrangian … 2>&-`
         _through(sys.stderr, words)
 
 
 def fail(words: str) -> None:
-    """Say what is wrong, with the one word that every such message begins with."""
+    """Write an error message, which always begins with ``error:``."""
     say(f"error: {words}")
 
 
 class StandardOutput:
-    """Standard output for what writes into a file piece by piece; every piece is cleaned."""
+    """Standard output as a file object for writers that write in pieces; every piece is escaped."""
 
     def write(self, text: str, /) -> int:
         """Write a piece of text; return its length."""
@@ -77,15 +78,15 @@ def _whole(text: str | Sequence[str]) -> str:
 
 
 def visible(text: str) -> str:
-    """The text with control characters and those that turn the direction of writing written out, as JSON does."""
+    """Return the text with control characters, and those that change the direction of writing, escaped as in JSON."""
     return _OBEYED.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
 
 
-# -- the terminal that there is ---------------------------------------------------------------------------------------
+# -- the terminal ---------------------------------------------------------------------------------------------------
 
 
 def width(given: int | None = None, output: Path | None = None) -> int:
-    """Columns of a text: those given, else the terminal's or what COLUMNS says, else 80."""
+    """The width of the text in columns: the one given, else that of the terminal or of COLUMNS, else 80."""
     if given is not None:
         return given
     found = USUAL
@@ -95,19 +96,19 @@ def width(given: int | None = None, output: Path | None = None) -> int:
 
 
 def styled(stream: TextIO) -> bool:
-    """Whether a stream shows bold letters: a terminal that can, unless NO_COLOR is set."""
+    """Whether bold text is written to a stream: it is a terminal that can show it, and NO_COLOR is not set."""
     dumb = os.environ.get("TERM") == "dumb" or (os.name == "nt" and "WT_SESSION" not in os.environ)
     return stream.isatty() and not dumb and not os.environ.get("NO_COLOR")
 
 
 def prepare() -> None:
-    """Have both streams speak UTF-8, whatever the locale."""
+    """Make both streams use UTF-8, whatever the locale."""
     for stream in (sys.stdout, sys.stderr):
         if hasattr(stream, "reconfigure") and (stream.encoding or "").lower().replace("-", "") != "utf8":
             stream.reconfigure(encoding="utf-8", errors="replace")  # type: ignore[union-attr]
 
 
 def drop() -> None:
-    """Send what is left in the buffer nowhere, so that Python does not try again, and complain, on its way out."""
+    """Discard what is left in the buffer, so that Python does not try to write it at exit and complain."""
     with contextlib.suppress(OSError, ValueError):
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

@@ -1,4 +1,4 @@
-"""``lagrangian equilibria``: where a system can stay at rest."""
+"""``lagrangian equilibria``: find the equilibria of a system."""
 
 from __future__ import annotations
 

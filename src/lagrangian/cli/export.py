@@ -1,4 +1,4 @@
-"""``lagrangian export``: the dynamics as source code."""
+"""``lagrangian export``: write the dynamics as source code."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from lagrangian.errors import Error
 
 
 class Language(StrEnum):
-    """What source code is written in."""
+    """The language of the source code."""
 
     C = "c"
     PYTHON = "python"

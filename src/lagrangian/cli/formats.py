@@ -1,4 +1,4 @@
-"""What is written: the format that an option or the ending of a file says, and whether it may be written there."""
+"""The format of the output, which an option or the ending of the file determines, and whether a file may be written."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 
 class Format(StrEnum):
-    """What is written: text, markup, or data."""
+    """The format of the output: text, markup, or data."""
 
     TEXT = "text"
     MARKDOWN = "markdown"
@@ -30,7 +30,7 @@ class Format(StrEnum):
 
 
 class Notation(StrEnum):
-    """Whose letters: ξ, T*, Ξ of the lecture; q, T, Q of physics; M, C, g, τ of robotics."""
+    """The symbols used: ξ, T*, Ξ of the lecture; q, T, Q of physics; M, C, g, τ of robotics."""
 
     LECTURE = "lecture"
     PHYSICS = "physics"
@@ -45,7 +45,7 @@ ENDINGS = {
     ".htm": Format.HTML,
     ".json": Format.JSON,
 }
-"""What is written into a file, by the ending of its name."""
+"""The format for each ending of a file name."""
 
 FormatOption = Annotated[
     Format | None,
@@ -68,10 +68,10 @@ NotationOption = Annotated[
 
 
 def chosen(format: Format | None, as_data: bool, output: Path | None, force: bool) -> Format:
-    """Return what is to be written: what an option says, else what the ending of the file's name says, else text.
+    """Return the output format: the one of the option, else that of the ending of the file name, else text.
 
-    Raises `Error` for a file that is there already (unless ``force``), for an ending that says nothing where no option
-    does, and where two of them say different things.
+    Raises `Error` if the file exists (unless ``force``), if the ending is unknown and there is no option, or if the
+    option and the ending, or two options, contradict each other.
     """
     if as_data and format not in (None, Format.JSON):
         raise Error(f"--json and --format {format} contradict each other", fix="give only one of the two", code="E404")
@@ -92,7 +92,7 @@ def chosen(format: Format | None, as_data: bool, output: Path | None, force: boo
 
 
 def check_output(output: Path | None, force: bool, ending: str = "") -> None:
-    """Raise `Error` for a file that cannot be written, one that is there already unless ``force``, another ending."""
+    """Raise `Error` if a file cannot be written, has the wrong ending, or exists already (unless ``force``)."""
     if output is None:
         return
     from lagrangian.write.files import check_free
@@ -105,7 +105,7 @@ def check_output(output: Path | None, force: bool, ending: str = "") -> None:
 
 
 def as_json(data: Any) -> str:
-    """Return data as JSON text; a number that is not finite, which JSON does not know, becomes null."""
+    """Return data as JSON text; a number that is not finite becomes null, because JSON has no such numbers."""
     return json.dumps(_finite(data), ensure_ascii=False, indent=1, allow_nan=False)
 
 

@@ -1,4 +1,4 @@
-"""``lagrangian linearize``: A, B, C, D about a point, poles, modes and what they say of stability."""
+"""``lagrangian linearize``: A, B, C, D about a point, with poles, modes and stability."""
 
 from __future__ import annotations
 

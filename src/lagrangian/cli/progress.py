@@ -1,7 +1,7 @@
-"""What shows that long work goes on: a line on the terminal after two seconds, nothing in a pipe.
+"""The progress line: on a terminal, it appears after two seconds of work; in a pipe, nothing is written.
 
-The rooms below say what they do through the standard `logging` ("lagrangian", level INFO); the last that was said is
-shown.
+The packages below report what they do through the standard `logging` ("lagrangian", level INFO); the line shows the
+latest message.
 """
 
 from __future__ import annotations
@@ -15,17 +15,18 @@ import time
 from collections.abc import Callable, Iterator
 
 AFTER = 2.0
-"""Seconds of silence before the line appears."""
+"""The time [s] before the line appears."""
 
 EVERY = 0.1
-"""Seconds from one picture of the line to the next."""
+"""The time [s] between two updates of the line."""
 
 _TURNING = "⠋⠙⠹⠸⠼⠴⠦⠧⠇⠏"
 _EMPTY = "\r\x1b[K"
 
 
 class StatusLine(logging.Handler):
-    """A line on standard error that says what is being done, for how long, and turns; it goes as others write."""
+    """A line on standard error with the current task, the time it has taken, and a turning sign; other output hides
+    it."""
 
     def __init__(self) -> None:
         super().__init__(logging.INFO)
@@ -35,12 +36,12 @@ class StatusLine(logging.Handler):
         self._screen = threading.RLock()
 
     def emit(self, record: logging.LogRecord) -> None:
-        """Take what is being done from the log; a count says more than the parts it is made of."""
+        """Take the current task from a log record; a count is shown rather than the tasks that it consists of."""
         if not self._counting:
             self.words = record.getMessage()
 
     def line(self, elapsed: float, columns: int) -> str:
-        """The line after so many seconds, no longer than the terminal is wide."""
+        """Return the line after a number of seconds, cut to the width of the terminal."""
         sign = _TURNING[int(elapsed / EVERY) % len(_TURNING)]
         tail = f" … {elapsed:.0f} s"
         words = "".join(c if c.isprintable() else " " for c in self.words)
@@ -48,7 +49,7 @@ class StatusLine(logging.Handler):
 
     @contextlib.contextmanager
     def showing(self, words: str) -> Iterator[None]:
-        """Show what is being done within the block, where standard error is a terminal."""
+        """Show the progress line within a ``with`` block, if standard error is a terminal."""
         if sys.stderr is None or not sys.stderr.isatty():
             yield
             return
@@ -68,7 +69,7 @@ class StatusLine(logging.Handler):
             log.setLevel(level)
 
     def counted(self, things: str) -> Callable[[int, int], None]:
-        """A listener that shows how many of all things are done."""
+        """Return a callback ``progress(done, all)`` that shows how much is done."""
 
         def listen(done: int, count: int) -> None:
             self._counting = True
@@ -77,7 +78,7 @@ class StatusLine(logging.Handler):
         return listen
 
     def hide(self) -> None:
-        """Take the line away for good: what was worked for is written now."""
+        """Remove the line for good, because the result is about to be written."""
         with self._screen:
             self._over.set()
             if self._shown:
@@ -98,7 +99,7 @@ class StatusLine(logging.Handler):
 
 
 def _columns() -> int:
-    """Columns of the terminal that standard error is."""
+    """The width in columns of the terminal on standard error."""
     try:
         return os.get_terminal_size(sys.stderr.fileno()).columns or 80
     except (OSError, ValueError):
@@ -106,4 +107,4 @@ def _columns() -> int:
 
 
 status = StatusLine()
-"""That of this process."""
+"""The one progress line of this process."""

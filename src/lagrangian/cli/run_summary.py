@@ -1,4 +1,4 @@
-"""A run in a few lines: how it went, and where every state began, ended and stayed between."""
+"""A run in a few lines: how it went, and the initial, final, smallest and largest value of every state."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from lagrangian.write.tables import Column
 
 
 def summary(run: Trajectory) -> list[str]:
-    """A run on a screen; angles in degrees, with radians below."""
+    """Return the summary as text, with angles in degrees and, below, in radians."""
     lines = [
         Title(f"{run.model.name}: t = {run.t[0]:g} … {run.t[-1]:g} s, {len(run.t)} samples"),
         f"  {run.method}: {run.steps} steps, {run.rejected} rejected, {run.nfev} evaluations",
@@ -26,7 +26,7 @@ def summary(run: Trajectory) -> list[str]:
     rows: list[tuple[str, ...]] = [("", "start", "end", "least", "greatest", "")]
     for column in _columns(run):
         numbers = np.array(list(plot.extremes(column.values)))
-        if column.unit == "rad":  # people think in degrees; the SI values stand below
+        if column.unit == "rad":  # degrees are easier to read; the SI values follow below
             rows.append((column.name, *(f"{x:.6g}" for x in np.degrees(numbers)), "deg"))
             rows.append(("", *(f"({x:.4g})" for x in numbers), "(rad)"))
         else:
@@ -39,7 +39,7 @@ def summary(run: Trajectory) -> list[str]:
 
 
 def figures(run: Trajectory) -> dict[str, Any]:
-    """The same as data, in SI units."""
+    """Return the same as data, in SI units."""
     return {
         "name": run.model.name,
         "success": bool(run.success),

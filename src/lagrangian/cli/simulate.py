@@ -1,4 +1,4 @@
-"""``lagrangian simulate``: one run, its summary, its data, its picture."""
+"""``lagrangian simulate``: one run, with its summary, data and picture."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ from lagrangian.write.tables import ENDINGS, check_target
 PICTURES = (".png", ".pdf", ".svg", ".jpg")
 
 MAX_BYTES = 64 * MAX_KNOTS
-"""Bytes of a table's file: so many lines of two long numbers."""
+"""The largest size in bytes of a table: that many lines of two long numbers."""
 
 
 def simulate(
@@ -148,18 +148,18 @@ def simulate(
 
 
 def _signal(name: str, value: str) -> Any:
-    """An input as it is written, or the table in a file: ``@force.csv`` with a time and a value a line."""
+    """Return an input as given, or read the table of ``@force.csv``, which has a time and a value on each line."""
     if not value.startswith("@"):
         return value
     path, _, kind = value[1:].strip().partition(" ")
     if kind.strip() not in ("", "hold", "linear"):
-        what = f"--input {name}=@FILE takes 'hold' or 'linear' (got '{kind.strip()[:40]}')"
+        what = f"--input {name}=@FILE may be followed by 'hold' or 'linear' (got '{kind.strip()[:40]}')"
         raise Error(what, fix=f"--input '{name}=@{path} hold'", code="E406")
     return (*_columns(path), kind.strip() or "linear")
 
 
 def _columns(path: str) -> tuple[list[float], list[float]]:
-    """Times and values of a CSV file; a first line of names is passed over."""
+    """Return the times and values of a CSV file; a first line of names is skipped."""
     times: list[float] = []
     values: list[float] = []
     for number, line in enumerate(_table_text(path).splitlines(), 1):
@@ -179,7 +179,7 @@ def _columns(path: str) -> tuple[list[float], list[float]]:
             raise ModelError(f"more than {MAX_KNOTS} lines", place=Place(path, number), code="E703")
     if not times:
         raise ModelError(
-            "the table holds no numbers", place=Place(path), fix="write a time and a value on each line", code="E406"
+            "the table contains no numbers", place=Place(path), fix="write a time and a value on each line", code="E406"
         )
     return times, values
 
@@ -193,14 +193,14 @@ def _is_number(text: str) -> bool:
 
 
 def _table_text(path: str) -> str:
-    """The text of a table's file, no more of it than a table can have; a byte order mark is left out."""
+    """Return the text of a table, up to the largest allowed size, without a byte order mark."""
     try:
         with Path(path).open("rb") as file:
             data = file.read(MAX_BYTES + 1)
         text = data.decode("utf-8-sig")
     except (OSError, UnicodeDecodeError) as trouble:
         reason = getattr(trouble, "strerror", None) or "it is not text"
-        what, fix = f"cannot read the table: {reason.lower()}", "name a text file with a time and a value a line"
+        what, fix = f"cannot read the table: {reason.lower()}", "name a text file with a time and a value on each line"
         raise ModelError(what, place=Place(path), fix=fix, code="E702") from None
     if len(data) > MAX_BYTES:
         raise ModelError(f"the table has more than {MAX_BYTES} bytes", place=Place(path), code="E703")

@@ -1,4 +1,4 @@
-"""``lagrangian new``, ``examples``, ``schema``, ``version``: what to start from."""
+"""``lagrangian new``, ``examples``, ``schema``, ``version``: verbs to begin with."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``lagrangian sweep``: many runs, over every combination of values and over draws."""
+"""``lagrangian sweep``: simulate all combinations of values and random draws."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ from lagrangian.write.tables import check_target
 
 STORE = ".zarr"
 LISTED = 10
-"""Failures that are listed."""
+"""The number of failures that are listed."""
 
 
 def sweep(
@@ -155,7 +155,7 @@ def sweep(
     if max_step is not None:
         options["max_step"] = max_step
     if stored:
-        interrupts.advice = f"what is done stays in {output}: go on with --resume"
+        interrupts.advice = f"finished results stay in {output}: continue with --resume"
     runs = system.sweep(
         duration,
         grid,
@@ -181,7 +181,7 @@ def sweep(
 
 
 def _outputs(given: list[str] | None) -> dict[str, str] | None:
-    """Name → what is kept; what has no name is called after itself."""
+    """Name → expression and reduction; an output without a name is its own name."""
     if not given:
         return None
     found: dict[str, str] = {}

@@ -1,4 +1,4 @@
-"""What came of many runs, in a few lines: of each result the least, the mean and the greatest, and where."""
+"""A sweep in a few lines: the smallest, mean and largest value of each result, and the varied values at the largest."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from lagrangian.write import Title
 
 @dataclass(frozen=True)
 class _Result:
-    """What came of one result: numbers over all runs, and what varies at the greatest."""
+    """The statistics of one result over all runs, and the varied values at its maximum."""
 
     name: str
     least: float
@@ -24,7 +24,7 @@ class _Result:
 
 
 def summary(runs: Ensemble) -> list[str]:
-    """The runs on a screen."""
+    """Return the summary as text."""
     axes = " × ".join(f"{d} ({n})" for d, n in zip(runs.dims, runs.shape, strict=True))
     lines: list[str] = [Title(f"{runs.name}: {runs.count} runs, {axes}, {runs.settings['method']}")]
     lines += [f"  {n}: {words}" for words, n in runs.counts.items()]
@@ -40,7 +40,7 @@ def summary(runs: Ensemble) -> list[str]:
 
 
 def figures(runs: Ensemble) -> dict[str, Any]:
-    """The same as data."""
+    """Return the same as data."""
     return {
         "name": runs.name,
         "runs": int(runs.count),

@@ -1,4 +1,4 @@
-"""Options that commands share, and how a model is opened."""
+"""Options that several verbs share, and the function that opens a model."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ if TYPE_CHECKING:
 
 
 OUTPUT, INTEGRATION, COMPUTING = "Output", "Integration", "Computing"
-"""The groups of options in a verb's help, behind its own ones."""
+"""The groups of options in the help of a verb, after its own options."""
 
 
 def example_names(begun: str) -> list[str]:
-    """The names of the examples that begin so, for a shell to complete."""
+    """Return the names of examples that begin with the given letters, for completion by the shell."""
     from lagrangian import examples
 
     return [name for name in examples.names() if name.startswith(begun)]
@@ -74,7 +74,7 @@ ConstantInputs = Annotated[
     typer.Option("--input", "-i", metavar="NAME=VALUE", help="Constant value of an input: F=2. Repeatable."),
 ]
 
-# -- what `simulate` and `sweep` share --------------------------------------------------------------------------------
+# -- shared by `simulate` and `sweep` --------------------------------------------------------------------------------
 
 Duration = Annotated[
     str | None,
@@ -116,9 +116,10 @@ MaxSteps = Annotated[int, typer.Option(metavar="N", help="Stop a run after so ma
 
 
 def open_system(file: str | None, example: str | None = None) -> System:
-    """Return the system of a model file (``-`` is standard input) or of a built-in example; one of the two is given."""
+    """Return the system of a model file (``-`` is standard input) or of a built-in example; exactly one must be
+    given."""
     if (file is None) == (example is None):
-        what = "there is no model to work on" if file is None else "a file and --example are given: one is worked on"
+        what = "no model was given" if file is None else "both a file and --example were given"
         raise Error(what, fix="name a model file, or a built-in example with --example NAME", code="E401")
     from lagrangian.system import example as built_in
     from lagrangian.system import load, loads
@@ -132,9 +133,9 @@ def open_system(file: str | None, example: str | None = None) -> System:
 
 
 def standard_input() -> str:
-    """Return the text of standard input; raises `Error` where it is closed."""
+    """Return the text of standard input; raises `Error` if it is closed."""
     if sys.stdin is None:
-        raise Error("standard input is closed", fix="name a model file, or pipe one in", code="E702")
+        raise Error("standard input is closed", fix="name a model file, or pipe a model into the command", code="E702")
     from lagrangian import read
 
     data = sys.stdin.buffer.read(read.MAX_BYTES + 1)

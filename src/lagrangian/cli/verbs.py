@@ -1,4 +1,4 @@
-"""The verbs of the command: each with its line in the list, its file read only when the verb is used."""
+"""The verbs of the command, with a line of help for each; the file of a verb is imported only when the verb is used."""
 
 from __future__ import annotations
 
@@ -54,15 +54,15 @@ VERBS = {
     "schema": ("start", "schema", "Print the JSON Schema of model files, for editors."),
     "version": ("start", "version", "Print the version."),
 }
-"""Name → file, function, and the first line of its help."""
+"""Name → file, function, and the first line of the help."""
 
 
 _ENDING = re.compile(r"[;.] [Ee]xit \d")
-"""Where the line of a verb goes over to exit codes, which the list of verbs leaves out."""
+"""The text before the exit codes in the line of a verb, which the list of verbs omits."""
 
 
 class Grouped(typer.core.TyperCommand):
-    """A verb whose help lists its options by their groups, in the order in which these first appear."""
+    """A verb whose help lists its options by group, in the order in which the groups first appear."""
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
         """Write the arguments, then the options of every group."""
@@ -80,7 +80,7 @@ class Grouped(typer.core.TyperCommand):
 
 
 class Deferred(typer.core.TyperCommand):
-    """A verb that is known by its name and its line of help until it is used."""
+    """A verb of which only the name and the line of help are known until it is used."""
 
     def __init__(self, name: str, file: str, function: str, help: str) -> None:
         super().__init__(name, help=help, short_help=_ENDING.split(help)[0].rstrip(".") + ".")
@@ -88,17 +88,17 @@ class Deferred(typer.core.TyperCommand):
 
     @cached_property
     def verb(self) -> Any:
-        """The command itself, with its options."""
+        """The actual command with its options."""
         alone = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
         alone.command(self.name, cls=Grouped)(getattr(import_module(f"lagrangian.cli.{self._file}"), self._function))
         return typer.main.get_command(alone)
 
     def make_context(self, *arguments: Any, **options: Any) -> Any:
-        """Return the context of the command itself: from here on it is the one that runs."""
+        """Return the context of the actual command, which runs from here on."""
         return self.verb.make_context(*arguments, **options)
 
     def get_params(self, ctx: Any) -> list[Any]:
-        """Return the options and arguments of the command itself."""
+        """Return the options and arguments of the actual command."""
         return self.verb.get_params(ctx)
 
 

@@ -1,4 +1,4 @@
-"""``lagrangian verify``: the equations checked by independent routes."""
+"""``lagrangian verify``: check the equations and the code by independent routes."""
 
 from __future__ import annotations
 

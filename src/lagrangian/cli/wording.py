@@ -1,4 +1,4 @@
-"""Advice in the command's own words: what Python writes ``step=0.01`` is ``--step 0.01`` there."""
+"""Advice for users of the command: the argument that Python writes as ``step=0.01`` is ``--step 0.01`` there."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ _OPTIONS = {"params": "--set", "inputs": "--input", "initial": "--init", "overwr
 
 
 def in_options(text: str) -> str:
-    """Advice as the command gives it; other text as it is."""
+    """Return advice with arguments written as options; other text unchanged."""
     return text.spelled(_spelled) if isinstance(text, Advice) else text
 
 
