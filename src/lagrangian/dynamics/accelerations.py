@@ -10,7 +10,7 @@ the sparse LDLᵀ of the mass matrix. The articulated-body algorithm is the spec
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from lagrangian.dynamics.tape import EliminationTape, Form
@@ -52,6 +52,13 @@ class Quadratic:
             if k != i:
                 del self.rows[k][i]
         return row
+
+    def without(self, gone: Collection[int]) -> Quadratic:
+        """A copy without some rows and columns."""
+        other = self.copy()
+        for i in gone:
+            other.pop(i)
+        return other
 
     def copy(self) -> Quadratic:
         """An independent copy."""
@@ -122,8 +129,8 @@ class Elimination:
 
     def minimise(self, k: int, name: str) -> None:
         """Minimise v̇_k out: v̇_k = −(g_k + Σ_i h_ki v̇_i)/h_kk,  H_ij −= h_ik h_kj/h_kk,  g_i −= h_ik g_k/h_kk."""
-        g, H = self.graph, self.H
-        row = H.pop(k)
+        g = self.graph
+        row = self.H.pop(k)
         linear = self.g.pop(k, g.zero)
         pivot = row.pop(k, g.zero)
         if pivot == g.zero:
@@ -132,7 +139,11 @@ class Elimination:
                 fix=f"give mass or inertia to what '{name}' moves, or leave the coordinate out",
                 code="E201",
             )
-        inverse = g.div(g.one, pivot)
+        self.eliminate(k, row, linear, g.div(g.one, pivot))
+
+    def eliminate(self, k: int, row: Mapping[int, int], linear: int, inverse: int) -> None:
+        """Take v̇_k = −(linear + Σ_i row_i v̇_i) · inverse out of the form."""
+        g, H = self.graph, self.H
         weights = {i: g.mul(h, inverse) for i, h in row.items()}
         neighbours = list(row)
         for n, i in enumerate(neighbours):
@@ -143,6 +154,11 @@ class Elimination:
 
     def exchange(self, t: int, rate: int, sign: int) -> None:
         """Take t = p ± rate as the unknown in place of its rate, then rate = ±(t − p)."""
+        self.hand_over(t, rate, sign)
+        self.minimise(t, self.names.get(rate, "?"))
+
+    def hand_over(self, t: int, rate: int, sign: int) -> None:
+        """Hand what acts on a rate to t = p ± rate and to p."""
         g = self.graph
         form = {j: c for j, c in self.tape.forms[t].items() if j != rate}
         load = self.g.pop(rate, g.zero)
@@ -152,7 +168,6 @@ class Elimination:
             self.add_linear(j, g.neg(g.mul(c, turned)))
         back = {t: sign, **{j: g.neg(g.mul(sign, c)) for j, c in form.items()}}
         self.found.append((rate, g.zero, back))
-        self.minimise(t, self.names.get(rate, "?"))
 
     def run(self, *, minimise: bool = True) -> None:
         """Go backwards over the tape; without ``minimise`` the rates stay, and H over them is the mass matrix."""

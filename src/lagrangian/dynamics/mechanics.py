@@ -10,7 +10,7 @@ which is one reverse pass over the velocities with the forces as cotangents.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -20,15 +20,20 @@ from lagrangian.dynamics.bodies import Bodies
 from lagrangian.dynamics.floating import Float, bracket, transported
 from lagrangian.dynamics.inertia import AnyLink
 from lagrangian.dynamics.motion import Motion
+from lagrangian.dynamics.multipliers import AttachedRow, Problem, RowSolution
+from lagrangian.dynamics.ordering import cheapest_solution
 from lagrangian.dynamics.rows import ConstraintRow
-from lagrangian.dynamics.tape import is_linear, make_tape, moving_nodes
+from lagrangian.dynamics.tape import make_tape, maximal_linear_nodes, moving_nodes
 from lagrangian.dynamics.vectors import dot, minus, plus, zeros
-from lagrangian.graph import Graph, count_operations, gradient, hessian, jvp, operands, vjp
+from lagrangian.graph import Graph, count_operations, gradient, hessian, jvp, vjp
 
 Pairs = list[tuple[int, int]]
 
 SMALL = 12
 """Up to so many velocities the dense way is tried as well."""
+
+DENSE = 24
+"""Up to so many velocities the dense way is tried as well where there are rows."""
 
 MANY = 100
 """Up to so many velocities all ways along the tape are tried; beyond, the one that is best for long chains."""
@@ -275,6 +280,8 @@ class Mechanics:
 
     def forward(self) -> list[int]:
         """v̇, by the cheapest of the eliminations: along the tape or of the mass matrix, from either reference."""
+        if self.rows:
+            return self.constrained.vdot
         n = len(self.v)
         references = (True, False) if self.motion.free_rates() else (True,)
         found: list[list[int]] = []
@@ -301,13 +308,78 @@ class Mechanics:
 
     def by_mass_matrix(self, links: Sequence[AnyLink], *, free: bool) -> list[int]:
         """Solve M v̇ = −bias by LDLᵀ: the elimination with no tape between the rates and H."""
-        g, H = self.graph, Quadratic(self.graph)
-        for i, row in enumerate(self.mass_matrix()):
-            for k in range(i + 1):
-                H.add(self.v[i], self.v[k], row[k])
+        g, H = self.graph, self._dense
         acc = self.accelerations(zeros(g, len(self.v)), free=free)
         linear = dict(zip(self.v, self.gathered(self.missing(acc, links)), strict=True))
         return plus(g, acc.vdot, solve(g, make_tape(g, self.v, self.v), H, linear, self.v, self._named))
+
+    # -- with rows ----------------------------------------------------------------------------------------------
+
+    @cached_property
+    def constrained(self) -> RowSolution:
+        """v̇ and λ subject to the rows, by the cheapest elimination. Raises `DependentRow` by structure."""
+        return cheapest_solution(self._constrained_problems())
+
+    def _constrained_problems(self) -> Iterator[Problem]:
+        zero = zeros(self.graph, len(self.v))
+        for links in self.groupings if len(zero) <= DENSE else self.groupings[:1]:
+            for free in (False, True) if self.motion.free_rates() else (False,):
+                acc = self.accelerations(zero, free=free)
+                yield from self.problems(links, self.missing(acc, links), self.row_accelerations(acc), acc.vdot)
+
+    def row_accelerations(self, acc: Accelerations) -> list[tuple[ConstraintRow, int]]:
+        """Every row with its γ: how fast it changes at given accelerations."""
+        changes = self.motion.second_rate([row.rate for row in self.rows], acc.vdot)
+        return [
+            (row, change if row.acceleration is None else row.acceleration(acc))
+            for row, change in zip(self.rows, changes, strict=True)
+        ]
+
+    def problems(
+        self,
+        links: Sequence[AnyLink],
+        pairs: Pairs,
+        rows: Sequence[tuple[ConstraintRow, int]],
+        reference: Sequence[int],
+        fixed: Container[int] = (),
+        *,
+        strict: bool = True,
+    ) -> Iterator[Problem]:
+        """The eliminations worth trying: along the tape with and without exchanges, and of the mass matrix.
+
+        ``pairs`` are the forces missing at ``reference``, ``rows`` come with what they are to change by, times −1; the
+        velocities in ``fixed`` (numbers) stay as they are.
+        """
+        H = self.inertia(links)
+        ways = [(H, self._linear(pairs), True), (H, self._linear(pairs), False)]
+        if len(self.v) <= DENSE:
+            gathered = dict(zip(self.v, self.gathered(pairs), strict=True))
+            ways.append((self._dense, gathered, False))
+        attached: list[AttachedRow] = []
+        for row, value in rows:
+            node, negative = self._bare(row.rate)
+            attached.append(AttachedRow(row, node, self.graph.negative if negative else self.graph.one, value))
+        nodes = [a.node for a in attached]
+        rates = [v for i, v in enumerate(self.v) if i not in fixed]
+        for form, linear, exchange in ways:
+            seeds = list(dict.fromkeys((*form.rows, *linear, *nodes)))
+            tape = make_tape(self.graph, seeds, rates, {*form.rows, *nodes} if exchange else None)
+            moving = form if len(rates) == len(self.v) else form.without(set(form.rows).difference(tape.order))
+            yield Problem(
+                self.graph, tape, moving, linear, attached, self.v, reference, self._named, self._constant, strict
+            )
+
+    def _constant(self, node: int) -> bool:
+        return self.motion.constant([node])
+
+    @cached_property
+    def _dense(self) -> Quadratic:
+        """The mass matrix as a form over the rates."""
+        H = Quadratic(self.graph)
+        for i, row in enumerate(self.mass_matrix()):
+            for k in range(i + 1):
+                H.add(self.v[i], self.v[k], row[k])
+        return H
 
     def _linear(self, pairs: Pairs) -> dict[int, int]:
         """The linear term over velocity nodes, those that depend on v alone."""
@@ -319,21 +391,3 @@ class Mechanics:
                 node, negative = self._bare(rate)
                 linear[node] = g.add(linear.get(node, g.zero), g.neg(effort) if negative else effort)
         return linear
-
-
-def maximal_linear_nodes(g: Graph, energy: int, v: Sequence[int]) -> list[int]:
-    """The nodes linear in v that feed an operation of ``energy`` that is not."""
-    active = moving_nodes(g, [energy], v)
-    moves = set(active)
-    linear = set(v)
-    maximal: dict[int, None] = {}
-    for i in active:
-        if i in linear:
-            continue
-        node = g.nodes[i]
-        below = [k for k in operands(node) if k in moves]
-        if all(k in linear for k in below) and is_linear(node, moves):
-            linear.add(i)
-        else:
-            maximal.update((k, None) for k in below if k in linear)
-    return list(maximal) or [energy]

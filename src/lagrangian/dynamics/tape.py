@@ -12,7 +12,7 @@ from collections.abc import Container, Iterable, Sequence
 from dataclasses import dataclass, field
 
 from lagrangian.errors import ModelError
-from lagrangian.graph import Graph
+from lagrangian.graph import Graph, operands
 from lagrangian.graph.graph import Node
 
 Form = dict[int, int]
@@ -224,3 +224,21 @@ def _mark_exchanges(tape: EliminationTape, graph: Graph, held: Container[int], l
             c = tape.forms[t][rate]
             if c in (graph.one, graph.negative) and len(tape.forms[t]) > 1:
                 tape.exchanged[t] = (rate, c)
+
+
+def maximal_linear_nodes(g: Graph, energy: int, v: Sequence[int]) -> list[int]:
+    """The nodes linear in v that feed an operation of ``energy`` that is not."""
+    active = moving_nodes(g, [energy], v)
+    moves = set(active)
+    linear = set(v)
+    maximal: dict[int, None] = {}
+    for i in active:
+        if i in linear:
+            continue
+        node = g.nodes[i]
+        below = [k for k in operands(node) if k in moves]
+        if all(k in linear for k in below) and is_linear(node, moves):
+            linear.add(i)
+        else:
+            maximal.update((k, None) for k in below if k in linear)
+    return list(maximal) or [energy]

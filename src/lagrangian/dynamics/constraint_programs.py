@@ -1,0 +1,145 @@
+"""The programs of a model's constraints, beside those of `programs`; m rows in the order of `Mechanics.rows`.
+
+multipliers        λ of every row, and how well it is determined
+projection         what is added to a state x so that it satisfies its rows
+correction         the same for q and v apart, with some coordinates held: one step of an assembly
+residual           f of the rows on positions, and A v + a₀ of all
+constraint_matrix  A, a₀ and γ
+forward_dual       v̇ and λ by another route
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+
+from lagrangian.dynamics.constrained import (
+    drive,
+    dual,
+    gap,
+    kept_by_steps,
+    least,
+    matrix,
+    position_correction,
+    position_rows,
+    second_rates,
+    velocity_correction,
+)
+from lagrangian.dynamics.mechanics import Mechanics
+from lagrangian.dynamics.multipliers import RowSolution
+from lagrangian.dynamics.programs import _program, _start, _vector
+from lagrangian.dynamics.vectors import zeros
+from lagrangian.errors import NoSuchEntry
+from lagrangian.graph import Output, Program
+from lagrangian.model import Model
+
+
+def multipliers(model: Model, *, redundant: Collection[str] = ()) -> Program:
+    """q, v, u, p, t → ``lam`` (m,), the multipliers; ``margin``; and for every row ``margins``, ``skipped``, ``sizes``.
+
+    A margin is sin² of the angle between a row and the span of those taken before it, measured by M⁻¹, in parts of its
+    closure; ``margin`` is the least one, rows in ``redundant`` (names) aside. A row whose margin is rounding gets the
+    multiplier 0, and ``skipped`` is what it still asks for, in the unit of its second rate, to be compared with
+    ``sizes``, the sum of the magnitudes that cancel there.
+
+    Raises `DependentRow` for a row that depends on others in every position, and `ModelError` as `forward` does.
+    """
+    graph, _, m = _start(model)
+    found = m.constrained
+    counted = [x for row, x in zip(m.rows, found.margins, strict=True) if row.name not in redundant]
+    outputs = {
+        "lam": _vector(found.multipliers),
+        "margin": _number(least(graph, counted)),
+        "margins": _vector(found.margins),
+        "skipped": _vector(found.residuals),
+        "sizes": _vector(found.sizes),
+    }
+    return _program(model, "multipliers", graph, outputs)
+
+
+def divisors(model: Model) -> Program:
+    """q, v, u, p, t → parameters' terms that accelerations divide by, each named by its row: none may be 0."""
+    graph, _, m = _start(model)
+    named: dict[str, list[int]] = {}
+    for name, node in m.constrained.divisors if m.rows else ():
+        named.setdefault(name, []).append(node)
+    return _program(model, "divisors", graph, {name: _vector(ids) for name, ids in named.items()})
+
+
+def projection(model: Model) -> tuple[Program | None, Program | None]:
+    """x, u, p, t → ``dx`` to be added to x: (on positions, on velocities); `constrained` has the formulas.
+
+    ``gap`` is the largest |row| in parts of its scale before the correction, ``margin`` as in `multipliers`. The first
+    is None without rows on positions; both are None where every step of a run keeps the rows by itself.
+    """
+    found: list[Program | None] = []
+    for position in (True, False):
+        graph, _, m = _start(model, state=True)
+        step = None if kept_by_steps(m) else (position_correction if position else velocity_correction)(m)
+        if step is None:
+            found.append(None)
+            continue
+        change, solution = step
+        rest = zeros(graph, len(m.v) if position else len(m.q))
+        dx = [*change, *rest] if position else [*rest, *change]
+        outputs = {"dx": _vector(dx), **_judged(m, solution, position=position)}
+        name = "position_projection" if position else "velocity_projection"
+        found.append(_program(model, name, graph, outputs, groups=("x",)))
+    return found[0], found[1]
+
+
+def correction(model: Model, fixed: Collection[str] = (), *, position: bool = True) -> Program | None:
+    """q, v, u, p, t → ``dq`` (or ``dv``): the least step that satisfies the rows to first order; ``gap``, ``margin``.
+
+    The coordinates in ``fixed`` (names) stay as they are, or their rates do. A row that they leave nothing to move
+    is skipped, its margin 0. None without rows. Raises `NoSuchEntry` for an unknown name.
+    """
+    graph, _, m = _start(model)
+    names = [c.name for c in model.coordinates]
+    for name in fixed:
+        if name not in names:
+            raise NoSuchEntry.among("no coordinate", name, names)
+    held = [i for i, name in enumerate(names) if name in fixed]
+    step = (position_correction if position else velocity_correction)(m, held)
+    if step is None:
+        return None
+    outputs = {"dq" if position else "dv": _vector(step[0]), **_judged(m, step[1], position=position)}
+    return _program(model, "position_correction" if position else "velocity_correction", graph, outputs)
+
+
+def residual(model: Model) -> Program:
+    """q, v, u, p, t → ``f`` of the rows on positions, in their order, and ``Av`` = A v + a₀ of all rows."""
+    graph, _, m = _start(model)
+    f = [row.residual for row in m.rows if row.residual is not None]
+    return _program(model, "residual", graph, {"f": _vector(f), "Av": _vector([row.rate for row in m.rows])})
+
+
+def constraint_matrix(model: Model) -> Program:
+    """q, v, u, p, t → ``A`` (m, n), ``a0`` (m,) and ``gamma`` (m,):  A v + a₀ = 0  and  A v̇ + γ = 0."""
+    graph, _, m = _start(model)
+    outputs = {
+        "A": Output(tuple(x for row in matrix(m) for x in row), (len(m.rows), len(m.v))),
+        "a0": _vector(drive(m)),
+        "gamma": _vector(second_rates(m)),
+    }
+    return _program(model, "constraint_matrix", graph, outputs)
+
+
+def forward_dual(model: Model) -> Program:
+    """q, v, u, p, t → ``a`` and ``lam`` from dense matrices, the independent route to `forward` and `multipliers`."""
+    graph, _, m = _start(model)
+    a, lam = dual(m)
+    return _program(model, "forward_dual", graph, {"a": _vector(a), "lam": _vector(lam)})
+
+
+def _judged(m: Mechanics, solution: RowSolution, *, position: bool) -> Mapping[str, Output]:
+    """The gap that a correction closes, and its margin."""
+    rows = position_rows(m) if position else m.rows
+    values = [row.residual or m.graph.zero for row in rows] if position else [row.rate for row in rows]
+    return {
+        "gap": _number(gap(m, rows, values)),
+        "margin": _number(least(m.graph, solution.margins[: len(rows)])),
+    }
+
+
+def _number(node: int) -> Output:
+    return Output((node,), ())

@@ -1,0 +1,67 @@
+"""Pivots of multipliers, watched: a row that depends on those before it gets the multiplier 0.
+
+In a fixed order the pivot of a multiplier is −s sin² of the angle between its row and the span of the rows before it,
+measured by M⁻¹, where s is the row's own size a M⁻¹ aᵀ. For s stands the sum over the rows of one closure: near a
+position where a loop can move in more than one way a single row's own size goes to zero along with its pivot. A pivot
+that is nothing but rounding means that the row says again what others say. Dividing by it would turn an error of
+1e-9 in the state into one of 1e-3 in the accelerations; a multiplier of 0 is one valid choice, and v̇ is unique.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from lagrangian.graph import Graph
+
+LEAST_MARGIN = 1e-11
+"""Part of its closure's size below which the pivot of a row is nothing but rounding."""
+
+UNBOUNDED = 1e300
+"""What a pivot that is nothing but rounding is replaced by: its reciprocal acts on nothing, and has a derivative."""
+
+
+@dataclass
+class Guard:
+    """``closures``: multiplier → the group it is measured with. ``margins`` and ``skipped`` grow as rows are taken."""
+
+    graph: Graph
+    closures: Mapping[int, str]
+    sizes: dict[int, int] = field(default_factory=dict[int, int])
+    margins: dict[int, int] = field(default_factory=dict[int, int])
+    skipped: dict[int, int] = field(default_factory=dict[int, int])
+
+    def __post_init__(self) -> None:
+        """Gather the rows of every closure."""
+        self.groups: dict[str, list[int]] = {}
+        for row, closure in self.closures.items():
+            self.groups.setdefault(closure, []).append(row)
+
+    def gain(self, row: int, size: int) -> None:
+        """Add what one rate gives to a row's size, a_k²/h_kk."""
+        self.sizes[row] = self.graph.add(self.sizes.get(row, self.graph.zero), size)
+
+    def size(self, row: int) -> int:
+        """The size of a row's closure, as far as its rates are gone."""
+        total = self.graph.zero
+        for other in self.groups[self.closures[row]]:
+            total = self.graph.add(total, self.sizes.get(other, self.graph.zero))
+        return total
+
+    def reciprocal(self, row: int, pivot: int, residual: int) -> int:
+        """1/pivot, or nearly 0 where the pivot is rounding; there ``residual`` is what the row still asks for."""
+        g = self.graph
+        size, positive = self.size(row), g.neg(pivot)
+        least = g.zero if positive == size else g.mul(g.const(LEAST_MARGIN), size)
+        regular = g.lt(least, positive)
+        self.margins[row] = g.select(g.lt(g.zero, size), g.div(positive, size), g.zero)
+        self.skipped[row] = g.select(regular, g.zero, residual)
+        return g.neg(g.div(g.one, g.select(regular, positive, g.const(UNBOUNDED))))
+
+    def leave_out(self, row: int, residual: int) -> None:
+        """Take note of a row without any pivot."""
+        self.margins[row], self.skipped[row] = self.graph.zero, residual
+
+    def certain(self, row: int) -> None:
+        """Take note of a row whose pivot cannot vanish."""
+        self.margins[row], self.skipped[row] = self.graph.one, self.graph.zero

@@ -1,0 +1,288 @@
+"""Forward dynamics with rows: multipliers are unknowns of the same elimination.
+
+To the form of `accelerations` every row c_r adds  λ_r (ċ_r + γ_r):  H[c_r, λ_r] = 1 and g[λ_r] = γ_r. Substitution
+carries the entries of λ to the parents, and what cancels at a common ancestor is gone, so that loops stay local. Two
+rules say when a multiplier may be taken out:
+
+1. When all rates are gone that its row reaches, its *support*. The pivot is then −a M_KK⁻¹ aᵀ, negative wherever the
+   row is independent of those before it. Earlier it may vanish in ordinary configurations.
+2. Together with a rate k whose coefficient a_k in the row is made of numbers and parameters alone, while no rate of the
+   row is gone yet: v̇_k = −(γ + Σ a_j v̇_j)/a_k, and λ comes from the rate's own equation. The pair
+
+       | h_kk  a_k |
+       | a_k    0  |      has the determinant −a_k² and never fails, even where the rate has no inertia.
+
+The λ of this form is −λ of `rows`.
+"""
+
+from __future__ import annotations
+
+import heapq
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from lagrangian.dynamics.accelerations import Elimination, Quadratic
+from lagrangian.dynamics.guard import Guard
+from lagrangian.dynamics.rows import ConstraintRow
+from lagrangian.dynamics.tape import EliminationTape, Form
+from lagrangian.errors import ModelError
+from lagrangian.graph import Graph
+
+
+class DependentRow(ModelError):
+    """A row that others imply whatever the state: ``row``, and the node ``residual`` of what it still asks for.
+
+    Where the residual is zero the row says again what others say; where it is not, the rows contradict each other.
+    """
+
+    def __init__(self, row: ConstraintRow, residual: int) -> None:
+        self.row, self.residual = row, residual
+        super().__init__(
+            f"the constraint '{row.name}' depends on the other constraints in every position",
+            fix="leave it out",
+            code="E202",
+        )
+
+
+@dataclass(frozen=True)
+class AttachedRow:
+    """A row in an elimination: the ``node`` whose rate, times ``sign`` (±1 as a node), changes by −``value``."""
+
+    row: ConstraintRow
+    node: int
+    sign: int
+    value: int
+
+
+@dataclass(frozen=True)
+class Problem:
+    """What is to be eliminated: H and g along a tape, subject to rows. The result is added to ``reference``.
+
+    ``strict``: a row without pivot is an error, `DependentRow`, and so is a rate that moves nothing.
+    """
+
+    graph: Graph
+    tape: EliminationTape
+    H: Quadratic
+    linear: Mapping[int, int]
+    rows: Sequence[AttachedRow]
+    rates: Sequence[int]
+    reference: Sequence[int]
+    names: Mapping[int, str]
+    constant: Callable[[int], bool]
+    strict: bool = True
+
+
+@dataclass(frozen=True)
+class RowSolution:
+    """``vdot``, and a node a row of each: λ as `rows` has it, the margin, what a skipped row still asks for (else 0)
+    and the sum of the magnitudes that cancel in it. ``divisors`` are what was divided by unseen, with the rows' names.
+    """
+
+    vdot: list[int]
+    multipliers: list[int]
+    margins: list[int]
+    residuals: list[int]
+    sizes: list[int]
+    divisors: list[tuple[str, int]]
+
+
+@dataclass
+class RowElimination(Elimination):
+    """An elimination with rows; multiplier r has the key −1 − r beside the nodes."""
+
+    problem: Problem = field(kw_only=True)
+    support: dict[int, set[int]] = field(default_factory=dict[int, set[int]])
+    sizes: dict[int, int] = field(default_factory=dict[int, int])
+    divisors: list[tuple[str, int]] = field(default_factory=list[tuple[str, int]])
+    done: set[int] = field(default_factory=set[int])
+
+    @classmethod
+    def of(cls, problem: Problem) -> RowElimination:
+        """The elimination of a problem, nothing taken out yet."""
+        made = cls(problem.graph, problem.tape, problem.H.copy(), dict(problem.linear), problem.names, problem=problem)
+        made._attach()
+        return made
+
+    def __post_init__(self) -> None:
+        """Note who uses what, and which unknowns are minimised out: rates, and what stands for a rate."""
+        tape, rows = self.tape, self.problem.rows
+        self.place = {i: n for n, i in enumerate(tape.order)}
+        gone = {rate for rate, _ in tape.exchanged.values()}
+        self.leaves = {i for i in tape.order if (i not in tape.forms and i not in gone) or i in tape.exchanged}
+        self.users = dict.fromkeys(tape.order, 0)
+        for form in tape.forms.values():
+            for k in form:
+                self.users[k] += 1
+        self.freed = [i for i in tape.order if not self.users[i]]
+        self.guard = Guard(self.graph, {-1 - r: a.row.closure for r, a in enumerate(rows)})
+
+    def _attach(self) -> None:
+        for r, attached in enumerate(self.problem.rows):
+            key = -1 - r
+            self.add_linear(key, attached.value)
+            if attached.node in self.place:
+                self.H.add(attached.node, key, attached.sign)
+            self.support[key] = self._reached(attached.node)
+
+    def _reached(self, node: int) -> set[int]:
+        """The unknowns that a node comes from, but for those that cancel on the way."""
+        g, forms, place = self.graph, self.tape.forms, self.place
+        if node not in place:
+            return set()
+        weight = {node: g.one}
+        waiting, found = [-place[node]], set[int]()
+        while waiting:
+            i = self.tape.order[-heapq.heappop(waiting)]
+            c = weight.pop(i)
+            if c == g.zero:
+                continue
+            if i in self.leaves or i not in forms:
+                found.add(i)
+                continue
+            for k, inner in forms[i].items():
+                if k not in weight:
+                    weight[k] = g.zero
+                    heapq.heappush(waiting, -place[k])
+                weight[k] = g.add(weight[k], g.mul(c, inner))
+        return found
+
+    # -- questions ----------------------------------------------------------------------------------------------
+
+    def is_open(self, key: int) -> bool:
+        """Whether a multiplier is still an unknown."""
+        return key in self.support
+
+    def ready_rows(self) -> list[int]:
+        """The multipliers whose support is gone."""
+        return [key for key, support in self.support.items() if not support]
+
+    def paired(self, k: int) -> int | None:
+        """The multiplier that may be taken out together with the unknown k (rule 2), of the shortest row."""
+        rows = self.H.rows
+        found = [
+            key
+            for key, a in rows.get(k, {}).items()
+            if key < 0 and key not in rows[key] and self.problem.constant(a) and self.is_open(key)
+        ]
+        return min(found, key=lambda key: (len(rows[key]), -key), default=None)
+
+    # -- steps --------------------------------------------------------------------------------------------------
+
+    def add_linear(self, i: int, x: int) -> None:
+        """Add x to g_i; of rows the magnitudes are summed as well."""
+        super().add_linear(i, x)
+        if i < 0 and x != self.graph.zero:
+            self.sizes[i] = self.graph.add(self.sizes.get(i, self.graph.zero), self.graph.abs(x))
+
+    def take(self, i: int, *, pairs: bool) -> None:
+        """Take out the next entry of the tape, with what goes along with it."""
+        if i in self.leaves:
+            self._take_leaf(i, pairs=pairs)
+        elif i in self.tape.turned:
+            first, a, b, c, s = self.tape.turned[i]
+            self.substitute_pair(first, i, a, b, c, s)
+            self.found += [(x, self.graph.zero, self.tape.forms[x]) for x in (i, first)]
+            self._close(i, first)
+        else:
+            self.substitute(i, self.tape.forms[i])
+            self.found.append((i, self.graph.zero, self.tape.forms[i]))
+            self._close(i)
+
+    def _close(self, *nodes: int) -> None:
+        self.done.update(nodes)
+        for i in nodes:
+            for k in self.tape.forms.get(i, ()):
+                self.users[k] -= 1
+                if not self.users[k]:
+                    self.freed.append(k)
+
+    def _take_leaf(self, i: int, *, pairs: bool) -> None:
+        key = self.paired(i)
+        name = self.names.get(i, "?")
+        massless = i not in self.H.rows.get(i, {})
+        if i in self.tape.exchanged:
+            rate, sign = self.tape.exchanged[i]
+            self.hand_over(i, rate, sign)
+            self.done.add(rate)
+            name = self.names.get(rate, "?")
+        others: set[int] = set()
+        if key is not None and (pairs or massless):
+            others = self.support.pop(key) - self.done - {i}
+            self._take_pair(i, key)
+        elif massless and not self.problem.strict and not self.H.rows.get(i):
+            self.g.pop(i, None)
+            self.found.append((i, self.graph.zero, {}))
+        else:
+            self.minimise(i, name)
+        self._close(i)
+        for support in self.support.values():
+            if i in support:
+                support.discard(i)
+                support |= others
+
+    def minimise(self, k: int, name: str) -> None:
+        """Minimise v̇_k out, and note what it gives to the sizes of rows."""
+        g, row = self.graph, self.H.rows.get(k, {})
+        if k in row:
+            inverse = g.div(g.one, row[k])
+            for key, a in row.items():
+                if key < 0:
+                    self.guard.gain(key, g.mul(g.mul(a, inverse), a))
+        super().minimise(k, name)
+
+    def take_row(self, key: int) -> None:
+        """Take out a multiplier whose support is gone, its pivot watched."""
+        g = self.graph
+        row, linear = self.H.pop(key), self.g.pop(key, g.zero)
+        pivot = row.pop(key, g.zero)
+        del self.support[key]
+        if pivot != g.zero:
+            self.eliminate(key, row, linear, self.guard.reciprocal(key, pivot, linear))
+            return
+        if self.problem.strict:
+            raise DependentRow(self.problem.rows[-1 - key].row, linear)
+        self.guard.leave_out(key, linear)
+        self.found.append((key, g.zero, {}))
+
+    def _take_pair(self, k: int, key: int) -> None:
+        """v̇_k = −(γ + Σ a_j v̇_j)/a_k  and  λ = −(g_k + h_kk v̇_k + Σ h_kj v̇_j)/a_k."""
+        g, H = self.graph, self.H
+        own = dict(H.rows[k])
+        a, h = own.pop(key), own.get(k, g.zero)
+        row, value = H.pop(key), self.g.pop(key, g.zero)
+        del row[k]
+        if g.value(a) is None:
+            self.divisors.append((self.problem.rows[-1 - key].row.name, a))
+        if h != g.zero:  # what leaves the other rows with this rate still belongs to their size
+            inverse = g.div(g.one, h)
+            for other, x in own.items():
+                if other < 0:
+                    self.guard.gain(other, g.mul(g.mul(x, inverse), x))
+        self.guard.certain(key)
+        over = g.neg(g.div(g.one, a))
+        constant = g.mul(value, over)
+        form: Form = {j: g.mul(x, over) for j, x in row.items()}
+        load = self.g.get(k, g.zero)
+        self.found.append((key, g.mul(load, over), {j: g.mul(x, over) for j, x in own.items()}))
+        self.found.append((k, constant, form))
+        if constant != g.zero:
+            for j, x in own.items():
+                self.add_linear(j, g.mul(x, constant))
+        self.substitute(k, form)
+
+    # -- result -------------------------------------------------------------------------------------------------
+
+    def solution(self) -> RowSolution:
+        """What was asked for, once everything is taken out."""
+        g, problem, guard = self.graph, self.problem, self.guard
+        value = self.accelerations()
+        keys = [-1 - r for r in range(len(problem.rows))]
+        return RowSolution(
+            [g.add(x, value.get(v, g.zero)) for v, x in zip(problem.rates, problem.reference, strict=True)],
+            [g.neg(value[key]) for key in keys],
+            [guard.margins[key] for key in keys],
+            [guard.skipped[key] for key in keys],
+            [self.sizes.get(key, g.zero) for key in keys],
+            self.divisors,
+        )

@@ -1,0 +1,104 @@
+"""In what order the unknowns of an elimination with rows are taken out.
+
+Two orders are tried and counted: the tape backwards, which is linear in the length of chains of loops, and the cheapest
+of what may be taken next, which is better for small systems.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from lagrangian.dynamics.multipliers import Problem, RowElimination, RowSolution
+from lagrangian.graph import Graph, count_operations
+
+MOST_FREE = 60
+"""Up to so many rates the cheapest step is looked for at every step."""
+
+
+def tape_backwards(problem: Problem, *, pairs: bool) -> RowSolution:
+    """Go backwards over the tape; what the rules allow meanwhile is taken at once."""
+    e = RowElimination.of(problem)
+    _settle(e, pairs=pairs)
+    for i in reversed(problem.tape.order):
+        if i not in e.done:
+            e.take(i, pairs=pairs)
+            _settle(e, pairs=pairs)
+    return e.solution()
+
+
+def _settle(e: RowElimination, *, pairs: bool) -> None:
+    """Take out every multiplier that the rules allow."""
+    while True:
+        for key in e.ready_rows():
+            e.take_row(key)
+        freed, e.freed = e.freed, []
+        if pairs:
+            for i in freed:
+                if i in e.leaves and i not in e.done and e.paired(i) is not None:
+                    e.take(i, pairs=True)
+        if not e.freed and not e.ready_rows():
+            return
+
+
+def cheapest_first(problem: Problem, *, pairs: bool) -> RowSolution:
+    """Take what costs least next, of all that may be taken."""
+    e = RowElimination.of(problem)
+    ready: set[int] = set()
+    mates = {first: i for i, (first, *_) in problem.tape.turned.items()}
+    while True:
+        ready.update(mates.get(i, i) for i in e.freed)
+        e.freed = []
+        ready -= e.done
+        rows = e.ready_rows()
+        steps = [(_row_cost(e, key), -len(problem.tape.order) + key, key) for key in rows]
+        for i in ready:
+            turned = problem.tape.turned.get(i)
+            if turned is None or (not e.users[i] and not e.users[turned[0]]):
+                steps.append((_cost(e, i, pairs=pairs), -e.place[i], i))
+        if not steps:
+            return e.solution()
+        _, _, i = min(steps)
+        if i < 0:
+            e.take_row(i)
+        else:
+            e.take(i, pairs=pairs)
+
+
+def _row_cost(e: RowElimination, key: int) -> float:
+    return len(e.H.rows.get(key, ())) ** 2 / 2
+
+
+def _cost(e: RowElimination, i: int, *, pairs: bool) -> float:
+    """A substitution costs parents × (neighbours + parents), a pivot neighbours²/2."""
+    neighbours = len(e.H.rows.get(i, ()))
+    if i not in e.leaves:
+        turned = e.tape.turned.get(i)
+        both = neighbours + (len(e.H.rows.get(turned[0], ())) if turned else 0)
+        parents = len(e.tape.forms[i])
+        return parents * (both + parents)
+    key = e.paired(i) if pairs else None
+    if key is None:
+        return neighbours**2 / 2
+    parents = len(e.H.rows[key]) - 1
+    return parents * (neighbours - 1 + parents)
+
+
+def solutions(problem: Problem) -> Iterator[RowSolution]:
+    """The results in all orders that are worth counting; beyond `MOST_FREE` rates only the tape's."""
+    ways = (tape_backwards, cheapest_first) if len(problem.rates) <= MOST_FREE else (tape_backwards,)
+    for way in ways:
+        with_pairs = way(problem, pairs=True)
+        yield with_pairs
+        if any(x == problem.graph.one for x in with_pairs.margins):
+            yield way(problem, pairs=False)
+
+
+def cheapest_solution(problems: Iterable[Problem], *, multipliers: bool = True) -> RowSolution:
+    """The result of the fewest operations, parameters hoisted: of v̇ and λ together, or of v̇ alone."""
+
+    def cost(found: tuple[Graph, RowSolution]) -> int:
+        graph, solution = found
+        wanted = [*solution.vdot, *solution.multipliers] if multipliers else solution.vdot
+        return count_operations(graph, wanted, hoist=["p"]).operations
+
+    return min(((p.graph, s) for p in problems for s in solutions(p)), key=cost)[1]
