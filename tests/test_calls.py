@@ -32,7 +32,8 @@ def known() -> dict[str, Any]:
 
 
 FIRST: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
-    "constraint": (lambda k: k["s"].constraint(0), "as many coordinates as there are degrees of freedom"),
+    "constraint": (lambda k: k["s"].add_constraint(0), "constraint(between=(P, Q))"),
+    "no slip": (lambda k: k["s"].no_slip(0), "rolling(body, at=P, along=…)"),
     "eom": (lambda k: k["s"].eom, "derive().equations"),
     "run": (lambda k: k["s"].run(10), "simulate(10.0"),
     "point mass": (lambda k: k["s"].point_mass(1), "particle(mass, at=P)"),
@@ -65,7 +66,7 @@ FIRST: dict[str, tuple[Callable[[dict[str, Any]], Any], str]] = {
     "a typed answer": (lambda k: k["d"].check("V = 0\nT = )"), "[E701] the answer, line 2, column 5: this ')' has no"),
     "constraint in a file": (
         lambda k: lg.loads(examples.text("pendulum") + '\n[[constraint]]\nvalue = "x"\n'),
-        "as many coordinates as there are degrees of freedom",
+        "known: name, expression, between, distance, axes",
     ),
 }
 

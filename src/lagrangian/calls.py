@@ -132,11 +132,6 @@ class Guided:
         raise NoSuchName(f"{kind} has no '{name}'", fix=fix, code="E402")
 
 
-CONSTRAINTS = (
-    "constraints are not in this version: choose as many coordinates as there are degrees of freedom, and write "
-    "positions with them, so that the constraint holds by itself"
-)
-
 _DERIVED = {
     **dict.fromkeys(("equations", "eom", "eoms", "equations_of_motion"), "derive().equations"),
     **dict.fromkeys(("lagrangian", "L"), "derive().L"),
@@ -152,7 +147,10 @@ _DERIVED = {
 
 SYSTEM: Mapping[str, str] = {
     **_DERIVED,
-    **dict.fromkeys(("constraint", "constraints", "add_constraint", "holonomic", "nonholonomic"), CONSTRAINTS),
+    **dict.fromkeys(
+        ("constraints", "add_constraint", "holonomic"), "constraint(expression), or constraint(between=(P, Q))"
+    ),
+    **dict.fromkeys(("nonholonomic", "no_slip"), "velocity_constraint(expression), or rolling(body, at=P, along=…)"),
     **dict.fromkeys(
         ("solve", "run", "integrate", "solve_ivp", "simulation"), "simulate(10.0, theta=0.2), or compile()"
     ),

@@ -11,7 +11,8 @@ from typing import Any, Self
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from lagrangian.calls import SYSTEM, Guided, worded
+from lagrangian.calls import SYSTEM, worded
+from lagrangian.constraining import Constrained
 from lagrangian.errors import ModelError, Notice
 from lagrangian.model import (
     Builder,
@@ -45,7 +46,7 @@ MOST_NAMES = 10_000
 
 
 @worded
-class Described(Guided):
+class Described(Constrained):
     """The methods that describe a system: symbols, geometry, elements. `lagrangian.System` adds the verbs."""
 
     _guide = SYSTEM

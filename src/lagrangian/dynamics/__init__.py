@@ -6,7 +6,8 @@
 from lagrangian.dynamics.bodies import Bodies
 from lagrangian.dynamics.body_numbers import body_numbers
 from lagrangian.dynamics.canonical import canonical, canonical_impacts, momenta, velocities
-from lagrangian.dynamics.describe import Inputs, describe
+from lagrangian.dynamics.describe import describe
+from lagrangian.dynamics.description import Inputs
 from lagrangian.dynamics.feedback import SUPPLY, balance_terms_closed, closed, observe_closed, power_closed
 from lagrangian.dynamics.impacts import impacts
 from lagrangian.dynamics.loose import loose, moving_no_mass

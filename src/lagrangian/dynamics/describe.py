@@ -7,7 +7,6 @@ one node. Elements of a kind that is not known here are taken by what they say o
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 import sympy as sp
@@ -15,62 +14,18 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.dynamics.axes import Axes, PlaceMotion
 from lagrangian.dynamics.bodies import Bodies
+from lagrangian.dynamics.constraints import rows
+from lagrangian.dynamics.description import Description, Inputs
 from lagrangian.dynamics.floating import Float, floating_body, floating_rates
 from lagrangian.dynamics.mechanics import Mechanics, Pairs
 from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.rotations import along_axis
 from lagrangian.dynamics.vectors import Vector, dot, minus, plus, scaled, times, zeros
 from lagrangian.errors import ModelError
-from lagrangian.graph import Graph, from_sympy, gradient
-from lagrangian.model import Frame, Model, Point, time
+from lagrangian.graph import Graph, gradient
+from lagrangian.model import Frame, Model, time
 from lagrangian.model.elements.damper import RATE
 from lagrangian.model.elements.spring import DELTA
-
-
-@dataclass
-class Inputs:
-    """The input nodes of a program over a model: one id a coordinate, velocity, parameter, input, and time."""
-
-    q: list[int]
-    v: list[int]
-    u: list[int]
-    p: list[int]
-    t: int
-
-    @classmethod
-    def of(cls, graph: Graph, model: Model, *, state: bool = False) -> Inputs:
-        """Groups q, v, u, p, t; with ``state``, x = [q; v] in place of q and v."""
-        n = len(model.coordinates)
-        q = [graph.input("x" if state else "q", i) for i in range(n)]
-        v = [graph.input("x", n + i) if state else graph.input("v", i) for i in range(len(model.velocities))]
-        u = [graph.input("u", i) for i in range(len(model.inputs))]
-        p = [graph.input("p", i) for i in range(len(model.parameters))]
-        return cls(q, v, u, p, graph.input("t", 0))
-
-
-@dataclass
-class Description:
-    """A model while it is turned into nodes."""
-
-    model: Model
-    graph: Graph
-    inputs: Inputs
-    motion: Motion
-    table: dict[Any, int]
-    memo: dict[Any, int] = field(default_factory=dict)
-    axes: dict[Frame, Axes] = field(default_factory=dict)
-    places: dict[Point, PlaceMotion] = field(default_factory=dict)
-    angles: dict[Frame, int] = field(default_factory=dict)
-
-    def node(self, expr: Any, local: Mapping[Any, int] | None = None) -> int:
-        """The node of an expression; ``local`` gives meaning to symbols of this expression alone."""
-        if local:
-            return from_sympy(self.graph, expr, {**self.table, **local})
-        return from_sympy(self.graph, expr, self.table, self.memo)
-
-    def nodes(self, exprs: Sequence[Any]) -> Vector:
-        """The nodes of several expressions."""
-        return [self.node(e) for e in exprs]
 
 
 def describe(model: Model, graph: Graph, inputs: Inputs) -> Mechanics:
@@ -91,6 +46,8 @@ def described(model: Model, graph: Graph, inputs: Inputs) -> tuple[Mechanics, De
     down = zeros(graph, model.dimension)
     m = Mechanics(graph, motion, Bodies(motion), moved(model), down, floats=tuple(floats.values()))
     for element in model.elements:
+        if element.ledger == "λ":
+            continue
         try:
             ELEMENTS.get(element.kind, _any)(d, m, element)
         except ModelError as error:
@@ -98,6 +55,7 @@ def described(model: Model, graph: Graph, inputs: Inputs) -> tuple[Mechanics, De
                 error.element = element.title
             error.at(element.place)
             raise
+    m.rows = rows(d)
     return m, d
 
 

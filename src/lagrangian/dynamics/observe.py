@@ -13,7 +13,8 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from lagrangian.dynamics.describe import Inputs, _symbols, described
+from lagrangian.dynamics.describe import _symbols, described
+from lagrangian.dynamics.description import Inputs
 from lagrangian.dynamics.programs import _program
 from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.graph import Graph, Output, Program, from_sympy

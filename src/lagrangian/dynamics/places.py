@@ -6,7 +6,8 @@ from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
-from lagrangian.dynamics.describe import Description, Inputs, described
+from lagrangian.dynamics.describe import described
+from lagrangian.dynamics.description import Description, Inputs
 from lagrangian.dynamics.programs import _matrix, _program, _vector
 from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.graph import Graph, Output, Program, jvp

@@ -19,7 +19,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from lagrangian.dynamics.describe import Inputs, describe
+from lagrangian.dynamics.describe import describe
+from lagrangian.dynamics.description import Inputs
 from lagrangian.dynamics.mechanics import Mechanics
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, Output, Program

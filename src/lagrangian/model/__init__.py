@@ -8,6 +8,8 @@ from lagrangian.model.elements import (
     DEFLECTION,
     REGISTRY,
     Action,
+    Ball,
+    Constraint,
     Damper,
     Dissipation,
     Element,
@@ -16,16 +18,23 @@ from lagrangian.model.elements import (
     Gravity,
     Kinetic,
     Particle,
+    Pin,
     Potential,
     RigidBody,
+    Rolling,
+    Rope,
+    Slider,
     Spring,
     Torque,
+    VelocityConstraint,
+    Weld,
     Words,
 )
 from lagrangian.model.floating import Floating
 from lagrangian.model.geometry import Frame, Point, as_expr
 from lagrangian.model.model import Model
 from lagrangian.model.names import RESERVED, check_name, time
+from lagrangian.model.rows import Row
 from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, Velocity
 
 __all__ = [
@@ -33,7 +42,9 @@ __all__ = [
     "REGISTRY",
     "RESERVED",
     "Action",
+    "Ball",
     "Builder",
+    "Constraint",
     "Coordinate",
     "Damper",
     "Definition",
@@ -49,12 +60,19 @@ __all__ = [
     "Model",
     "Parameter",
     "Particle",
+    "Pin",
     "Point",
     "Potential",
     "RigidBody",
+    "Rolling",
+    "Rope",
+    "Row",
+    "Slider",
     "Spring",
     "Torque",
     "Velocity",
+    "VelocityConstraint",
+    "Weld",
     "Words",
     "as_expr",
     "check_name",

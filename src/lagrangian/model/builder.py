@@ -22,6 +22,7 @@ from lagrangian.model.floating import Floating
 from lagrangian.model.geometry import Frame, Point, as_expr, as_vector, is_listed
 from lagrangian.model.model import Model
 from lagrangian.model.names import check_name, is_text, time
+from lagrangian.model.rows import check_rows
 from lagrangian.model.symbols import Coordinate, Velocity
 
 E = TypeVar("E", bound=Element)
@@ -345,5 +346,6 @@ class Builder(Declarations):
             settings=dict(self.settings),
         )
         check_effect(made)
+        check_rows(made)
         self._frozen = made
         return made

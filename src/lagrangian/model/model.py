@@ -62,6 +62,11 @@ class Model(Brief):
         return self._memo["bodies"]
 
     @cached_property
+    def constraints(self) -> tuple[Element, ...]:
+        """The constraints, in order: joints that close loops, expressions, no slip."""
+        return tuple(e for e in self.elements if e.ledger == "λ")
+
+    @cached_property
     def floating(self) -> tuple[Frame, ...]:
         """The frames that float, in order."""
         return tuple(f for f in self.frames if f.floating is not None)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from lagrangian.errors import ParseError, did_you_mean
-from lagrangian.model import REGISTRY, Element, Frame
+from lagrangian.model import REGISTRY, Element, Frame, RigidBody
 from lagrangian.model.elements import Entry, FieldKind
 from lagrangian.quantities.source import shown
 from lagrangian.read.toml_index import Path
@@ -52,8 +52,8 @@ class _Reader:
         """A point, or its name."""
         return self.geometry.point(value, self.where(key))
 
-    def two_points(self, key: str, value: Any, entry: Entry) -> Any:
-        """The names of the two points that an element joins."""
+    def points(self, key: str, value: Any, entry: Entry) -> Any:
+        """The names of the points that an element joins."""
         path = self.where(key)
         return tuple(self.geometry.named_point(name, (*path, i)) for i, name in enumerate(value))
 
@@ -98,6 +98,40 @@ class _Reader:
             )
         return coordinates[found[0]]
 
+    def frames(self, key: str, value: Any, entry: Entry) -> Any:
+        """The names of one frame or two."""
+        path = self.where(key)
+        return tuple(self.geometry.frame(name, (*path, i)) for i, name in enumerate(value))
+
+    def body(self, key: str, value: Any, entry: Entry) -> Any:
+        """A rigid body, by its name; bodies are read before what holds them together."""
+        bodies = {e.name: e for e in self.loader.builder.elements if isinstance(e, RigidBody)}
+        if value not in bodies:
+            raise ParseError(
+                f"there is no rigid body {shown(value)}",
+                element=self.title,
+                place=self.loader.index.of_value(self.where(key)),
+                fix=did_you_mean(value[:64], bodies) or "known: " + (", ".join(bodies) or "none"),
+                code="E402",
+            )
+        return bodies[value]
+
+    def directions(self, key: str, value: Any, entry: Entry) -> Any:
+        """A vector, or a list of them."""
+        path, what = self.where(key), f"the {key} of {self.title}"
+        if not isinstance(value[0], list):
+            return self.loader.vector(value, path, what)
+        for i, x in enumerate(value):
+            if not isinstance(x, list):
+                raise ParseError(
+                    f"direction {i + 1} is not a list",
+                    element=self.title,
+                    place=self.loader.index.of_value((*path, i)),
+                    fix="along = [[1, 0, 0], [0, 1, 0]], or one direction alone: [1, 0, 0]",
+                    code="E406",
+                )
+        return tuple(self.loader.vector(x, (*path, i), what) for i, x in enumerate(value))
+
     def strength_of_gravity(self, key: str, value: Any, entry: Entry) -> Any:
         """An expression; the parameter g where it is left out."""
         if value is None:
@@ -110,13 +144,17 @@ _FIELDS: dict[FieldKind, Callable[[_Reader, str, Any, Entry], Any]] = {
     FieldKind.VECTOR: _Reader.vector,
     FieldKind.EXPRESSION_OR_VECTOR: _Reader.expression_or_vector,
     FieldKind.POINT: _Reader.point,
-    FieldKind.TWO_POINTS: _Reader.two_points,
+    FieldKind.TWO_POINTS: _Reader.points,
     FieldKind.FRAME: _Reader.frame,
     FieldKind.FRAME_OR_ANGLE: _Reader.frame_or_angle,
     FieldKind.BODY_FRAME: _Reader.body_frame,
     FieldKind.INERTIA: _Reader.inertia,
     FieldKind.COORDINATE: _Reader.coordinate,
     FieldKind.STRENGTH_OF_GRAVITY: _Reader.strength_of_gravity,
+    FieldKind.POINTS: _Reader.points,
+    FieldKind.FRAMES: _Reader.frames,
+    FieldKind.BODY: _Reader.body,
+    FieldKind.DIRECTIONS: _Reader.directions,
 }
 
 

@@ -217,18 +217,19 @@ class Loader(Reading):
     # -- elements -----------------------------------------------------------------------------------------------
 
     def _elements(self) -> None:
-        """Add the elements in the order of the file, whatever their kinds."""
-        found: list[tuple[int, Path, Callable[[], None]]] = []
+        """Add the elements in the order of the file, whatever their kinds; then the constraints on them."""
+        found: list[tuple[tuple[bool, int], Path, Callable[[], None]]] = []
         for kind in REGISTRY:
+            last = REGISTRY[kind].ledger == "λ"
             for number, table in enumerate(getattr(self.file, kind)):
                 path = (kind, number)
                 add = partial(add_element, self, self.geometry, kind, table, path)
-                found.append((self.index.offset(path), path, add))
+                found.append(((last, self.index.offset(path)), path, add))
         if self.file.energies is not None:
             for key in ("T", "V", "D", "Xi"):
                 path = ("energies", key)
                 if getattr(self.file.energies, key):
-                    found.append((self.index.offset(path), path, lambda k=key: self._energy(k)))
+                    found.append(((False, self.index.offset(path)), path, lambda k=key: self._energy(k)))
         for _, path, add in sorted(found, key=lambda item: item[0]):
             self.placed(add, self.index.of_key(path))
 

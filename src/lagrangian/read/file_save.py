@@ -115,7 +115,7 @@ class _Writer:
         for element in self.model.elements:
             for key, point in element.points():
                 uses[id(point)] += 1
-                if key == "between":
+                if key in ("between", "through"):
                     joined.add(id(point))
         kept = [p for p in points if p.name or uses[id(p)] > 1 or id(p) in joined]
         return _named(kept, "P", {p.name for p in points if p.name})
@@ -244,10 +244,12 @@ class _Writer:
             if value.is_diagonal():
                 return self.vector([value[i, i] for i in range(3)], what)
             return "[" + ", ".join(self.vector(value.row(i), what) for i in range(3)) + "]"
+        if isinstance(value, Element):
+            return _text(value.name)
         if isinstance(value, tuple):
-            if isinstance(value[0], Point):
-                return "[" + ", ".join(self.point(p, what) for p in value) + "]"
-            return self.vector(value, what)
+            if isinstance(value[0], sp.Expr):
+                return self.vector(value, what)
+            return "[" + ", ".join(self._field(element, key, x) for x in value) + "]"
         return self.expression(value, what, element.entries[key].local)
 
     def _settings(self) -> None:

@@ -53,6 +53,12 @@ Inertia: TypeAlias = Annotated[_Text | _Number | _Rows, _ByForm]
 Between: TypeAlias = Annotated[list[str], Field(min_length=2, max_length=2, description="The two points it joins.")]
 
 
+Points: TypeAlias = Annotated[list[str], Field(min_length=2, max_length=1000, description="Points, in order.")]
+Frames: TypeAlias = Annotated[list[str], Field(min_length=1, max_length=2, description="One frame or two.")]
+Directions: TypeAlias = Annotated[list[Annotated[_Text | _Number | _List, _ByForm]], Field(min_length=1, max_length=3)]
+"""A vector, or a list of vectors."""
+
+
 class CoordinateTable(_Table):
     """A generalized coordinate."""
 
@@ -131,6 +137,10 @@ _TYPES: dict[FieldKind, Any] = {
     FieldKind.BODY_FRAME: Expression,
     FieldKind.INERTIA: Inertia,
     FieldKind.COORDINATE: str,
+    FieldKind.POINTS: Points,
+    FieldKind.FRAMES: Frames,
+    FieldKind.BODY: str,
+    FieldKind.DIRECTIONS: Directions,
     FieldKind.STRENGTH_OF_GRAVITY: Expression,
 }
 

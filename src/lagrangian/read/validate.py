@@ -8,7 +8,6 @@ from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
-from lagrangian.calls import CONSTRAINTS
 from lagrangian.errors import ParseError, Place, did_you_mean
 from lagrangian.quantities.source import printable, shown
 from lagrangian.read.file_schema import ModelFile
@@ -170,8 +169,6 @@ def _translated(error: ValidationError, data: dict[str, Any], index: Index) -> P
     element = owner(path, data) or None
     if kind == "extra_forbidden":
         known = [f.alias or n for n, f in _table_of(path[:-1], data).model_fields.items()]
-        if str(name) in ("constraint", "constraints"):
-            return ParseError(f"{shown(str(name))}: {CONSTRAINTS}", place=index.of_key(path), code="E405")
         hint = did_you_mean(str(name)[:64], known)
         listed = "known: " + ", ".join(known)
         return ParseError(

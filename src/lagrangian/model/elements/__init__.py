@@ -6,14 +6,18 @@ energy or force is booked (``ledger``) and with what expression.
 
 from lagrangian.model.elements.answers import ActsOn, Entry, FieldKind, Measure
 from lagrangian.model.elements.base import DEFLECTION, Action, Element, Level, Use, Words, deflection_between
+from lagrangian.model.elements.constraint import Constraint, Restriction
 from lagrangian.model.elements.damper import Damper
 from lagrangian.model.elements.force import Force
 from lagrangian.model.elements.gravity import Gravity
+from lagrangian.model.elements.joints import Ball, Pin, Slider, Weld
 from lagrangian.model.elements.particle import Particle
 from lagrangian.model.elements.raw import Dissipation, GeneralizedForce, Kinetic, Potential
 from lagrangian.model.elements.rigid_body import RigidBody
+from lagrangian.model.elements.rope import Rope
 from lagrangian.model.elements.spring import Spring
 from lagrangian.model.elements.torque import Torque
+from lagrangian.model.elements.velocity_constraint import Rolling, VelocityConstraint
 
 REGISTRY: dict[str, type[Element]] = {
     "particle": Particle,
@@ -27,6 +31,14 @@ REGISTRY: dict[str, type[Element]] = {
     "kinetic": Kinetic,
     "dissipation": Dissipation,
     "generalized_force": GeneralizedForce,
+    "constraint": Constraint,
+    "velocity_constraint": VelocityConstraint,
+    "pin": Pin,
+    "ball": Ball,
+    "slider": Slider,
+    "weld": Weld,
+    "rolling": Rolling,
+    "rope": Rope,
 }
 """Every kind of element by its name in files and in Python."""
 
@@ -35,6 +47,8 @@ __all__ = [
     "REGISTRY",
     "Action",
     "ActsOn",
+    "Ball",
+    "Constraint",
     "Damper",
     "Dissipation",
     "Element",
@@ -47,11 +61,18 @@ __all__ = [
     "Level",
     "Measure",
     "Particle",
+    "Pin",
     "Potential",
+    "Restriction",
     "RigidBody",
+    "Rolling",
+    "Rope",
+    "Slider",
     "Spring",
     "Torque",
     "Use",
+    "VelocityConstraint",
+    "Weld",
     "Words",
     "deflection_between",
 ]

@@ -17,6 +17,7 @@ Unit: TypeAlias = "tuple[int, int, int]"
 """The exponents of kg, m and s."""
 
 ANGLE: Unit = (0, 0, 0)
+LENGTH: Unit = (0, 1, 0)
 MASS: Unit = (1, 0, 0)
 INERTIA: Unit = (1, 2, 0)
 ACCELERATION: Unit = (0, 1, -2)
@@ -39,6 +40,14 @@ class FieldKind(Enum):
     """A frame, or in the plane the angle of one that is made for it."""
     INERTIA = auto()
     COORDINATE = auto()
+    POINTS = auto()
+    """Two points or more, in order."""
+    FRAMES = auto()
+    """One frame, against the fixed axes, or two."""
+    BODY = auto()
+    """A rigid body, by its name."""
+    DIRECTIONS = auto()
+    """A vector, or a list of them."""
     STRENGTH_OF_GRAVITY = auto()
     """An expression; the parameter g where it is left out."""
 

@@ -16,7 +16,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.codes import CodeText
 from lagrangian.errors import ModelError, Place
-from lagrangian.model.elements.answers import ActsOn, Entry, Measure
+from lagrangian.model.elements.answers import ActsOn, Entry, Measure, Unit
 from lagrangian.model.geometry import Frame, Point, is_listed
 from lagrangian.model.names import is_text, time
 from lagrangian.model.symbols import Coordinate
@@ -113,6 +113,34 @@ class Action:
     target: Point | Frame | None = None
 
 
+@dataclass(frozen=True, kw_only=True)
+class Condition:
+    """One row of a constraint: f(q, t) = 0, or c(q, q̇, t) = 0 where no position says it.
+
+    ``suffix`` is added to the constraint's name; ``unit`` is that of its multiplier, None where the expression decides.
+    """
+
+    suffix: str = ""
+    unit: Unit | None = None
+
+    def position(self, model: Surroundings) -> sp.Expr | None:
+        """f, zero where the constraint holds; None for a row on velocities alone."""
+        raise NotImplementedError
+
+    def rate(self, model: Surroundings) -> sp.Expr:
+        """c, linear in the rates and zero where the constraint holds: ḟ of a row on positions."""
+        f = self.position(model)
+        assert f is not None
+        return bounded.diff(f, time)
+
+    def multiplier(self, model: Surroundings) -> Words:
+        """What λ is, in words."""
+        raise NotImplementedError
+
+
+Ledger: TypeAlias = Literal["T*", "V", "Ξ", "λ"]
+"""Where an element is booked: as an energy, as a non-conservative force, or, for a constraint, with its multiplier."""
+
 T, V, XI = Name("T*"), Name("V"), Name("Xi")
 
 QUESTIONS = ("kind", "plural", "about", "entries", "ledger", "because", "uses", "measures")
@@ -122,6 +150,7 @@ QUESTIONS_OF = {
     "T*": ("kinetic", "is_body", "note"),
     "V": ("potential", "stored", "note", "acts_on"),
     "Ξ": ("works", "resists", "acts_on"),
+    "λ": ("conditions", "acts_on"),
 }
 """What it asks besides, by where the kind is booked."""
 
@@ -141,7 +170,7 @@ class Element(Brief):
     plural: ClassVar[str]
     about: ClassVar[str]
     entries: ClassVar[Mapping[str, Entry]]
-    ledger: ClassVar[Literal["T*", "V", "Ξ"]]
+    ledger: ClassVar[Ledger]
     because: ClassVar[tuple[str | Name, ...]]
     """Why it is booked there, in words."""
     is_body: ClassVar[bool] = False
@@ -213,6 +242,10 @@ class Element(Brief):
     def ends(self, model: Surroundings) -> tuple[Action, ...]:
         """The same actions, end by end, as the box rule counts them; the pair is two actions on two bodies."""
         return self.works(model)
+
+    def conditions(self, model: Surroundings) -> tuple[Condition, ...]:
+        """The rows that a constraint consists of; none unless the element is a constraint."""
+        return ()
 
     def dissipation(self, model: Surroundings) -> sp.Expr | None:
         """Rayleigh's function D [W], with Ξ_i = −∂D/∂ξ̇_i, or None where the element has none."""

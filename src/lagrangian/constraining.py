@@ -1,0 +1,110 @@
+"""Describing constraints: joints that close loops, expressions that are zero, bodies that do not slip."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from lagrangian.calls import Guided
+from lagrangian.model import (
+    Ball,
+    Builder,
+    Constraint,
+    Frame,
+    Pin,
+    Point,
+    RigidBody,
+    Rolling,
+    Rope,
+    Slider,
+    VelocityConstraint,
+    Weld,
+)
+
+Bodies = Frame | RigidBody | Sequence[Frame | RigidBody]
+"""One body or two, as rigid bodies or as frames."""
+
+
+class Constrained(Guided):
+    """What restricts the motion: M v̇ + h = Ξ + Aᵀ λ; λ > 0 acts so as to increase what is held at zero."""
+
+    _builder: Builder
+
+    def constraint(
+        self,
+        expression: object = None,
+        *,
+        between: Sequence[Point] | None = None,
+        distance: object = None,
+        axes: Frame | None = None,
+        name: str = "",
+    ) -> Constraint:
+        """Add a constraint f(q, t) = 0: an expression, two points that coincide, or their ``distance``.
+
+        The points P, Q of ``between`` coincide: f = r_P − r_Q, one row a component, and λ [N] is the force on P's body
+        at P. With a distance ℓ [m] f = |r_P − r_Q| − ℓ, and λ [N] pushes the ends apart. In space the rows stand in the
+        axes of P's body, or of ``axes``.
+        """
+        return self._builder.add(
+            Constraint(expression=expression, between=between, distance=distance, axes=axes, name=name)
+        )
+
+    def velocity_constraint(
+        self,
+        expression: object = None,
+        *,
+        at: Point | None = None,
+        body: RigidBody | None = None,
+        along: object = None,
+        axes: Frame | None = None,
+        name: str = "",
+    ) -> VelocityConstraint:
+        """Add a constraint on velocities, linear in the rates: ``x.diff()*sin(theta) - y.diff()*cos(theta)`` is zero.
+
+        Or the matter of a rigid ``body`` at the point ``at`` has no velocity ``along`` one direction or several (in the
+        fixed axes, or in those of ``axes``); then λ [N] is the force on the body along that direction.
+        """
+        return self._builder.add(
+            VelocityConstraint(expression=expression, at=at, body=body, along=along, axes=axes, name=name)
+        )
+
+    def rolling(
+        self, body: RigidBody, at: Point, along: object, *, axes: Frame | None = None, name: str = ""
+    ) -> Rolling:
+        """Add a body that rolls: its matter at the point of contact does not slip ``along`` the given directions."""
+        return self._builder.add(Rolling(body=body, at=at, along=along, axes=axes, name=name))
+
+    def pin(
+        self, between: Sequence[Point], *, axis: object = None, bodies: Bodies | None = None, name: str = ""
+    ) -> Pin:
+        """Close a loop by a pin: two points coincide, and in space the bodies turn about ``axis`` alone.
+
+        The axis has the same components in the axes of both bodies. ``bodies`` are needed where the points do not say.
+        """
+        return self._builder.add(Pin(between=between, axis=axis, bodies=bodies, name=name))
+
+    def ball(self, between: Sequence[Point], *, name: str = "") -> Ball:
+        """Close a loop by a ball joint: two points coincide."""
+        return self._builder.add(Ball(between=between, name=name))
+
+    def slider(
+        self,
+        between: Sequence[Point],
+        along: object,
+        *,
+        axes: Frame | None = None,
+        bodies: Bodies | None = None,
+        name: str = "",
+    ) -> Slider:
+        """Close a loop by a slider: the first point stays on the line through the second one ``along`` a direction.
+
+        The direction is fixed in ``axes`` (the fixed axes when left out). ``bodies`` do not turn against each other.
+        """
+        return self._builder.add(Slider(between=between, along=along, axes=axes, bodies=bodies, name=name))
+
+    def weld(self, between: Sequence[Point], *, bodies: Bodies | None = None, name: str = "") -> Weld:
+        """Close a loop by a weld: two points coincide, and the bodies do not turn against each other."""
+        return self._builder.add(Weld(between=between, bodies=bodies, name=name))
+
+    def rope(self, through: Sequence[Point], length: object, *, name: str = "") -> Rope:
+        """Add a taut rope of fixed ``length`` [m] through points: Σ |r_{k+1} − r_k| = length; its tension is −λ [N]."""
+        return self._builder.add(Rope(through=through, length=length, name=name))

@@ -1,0 +1,203 @@
+"""Constraints → rows of nodes: what must be zero, its rate, and its rate's rate where the engine has it already.
+
+A closure of two points is measured along the paths from the place that both hang on, so that what they share never
+enters. In space its rows stand in the axes of a body: the velocities there are nodes of the tape already. Where the
+points coincide these rows have the same multipliers as the derivatives of f.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from itertools import pairwise
+from typing import Any
+
+from lagrangian.dynamics.axes import Accelerations, Axes, PlaceMotion
+from lagrangian.dynamics.description import Description
+from lagrangian.dynamics.rows import ConstraintRow
+from lagrangian.dynamics.vectors import Vector, cross, dot, minus, plus, times, transposed, zeros
+from lagrangian.model.elements import Element
+from lagrangian.model.elements.base import Condition
+from lagrangian.model.elements.conditions import (
+    Coincidence,
+    NoSlip,
+    OnLine,
+    Perpendicular,
+    SameTurn,
+    Separation,
+    Stated,
+)
+
+Made = tuple[int, int | None, Callable[[Accelerations], int] | None]
+"""c, f where there is one, and how ċ comes out of accelerations."""
+
+
+def rows(d: Description) -> list[ConstraintRow]:
+    """The rows of all constraints, in order."""
+    found: list[ConstraintRow] = []
+    for element in d.model.constraints:
+        found += _rows_of(d, element)
+    return found
+
+
+def _rows_of(d: Description, element: Element) -> Iterator[ConstraintRow]:
+    for condition in element.conditions(d.model):
+        c, f, acceleration = CONDITIONS[type(condition)](d, condition)
+        name = f"{element.name}.{condition.suffix}" if condition.suffix else element.name
+        yield ConstraintRow(name, element.name, c, f, acceleration)
+
+
+def _coincidence(d: Description, s: Any) -> Made:
+    motion, g = d.motion, d.graph
+    start, end = d.places[s.start], d.places[s.end]
+    gap = motion.between(end, start)
+    if motion.dimension == 2 or s.frame is None:
+        c = motion.rate([gap[s.axis]])[0]
+        return c, gap[s.axis], None
+    axes = d.axes[s.frame]
+    f = times(g, transposed(motion.rotation(axes)), gap)[s.axis]
+    closure = Closing(d, start, end)
+    velocity = minus(g, closure.velocity(start, axes), closure.velocity(end, axes))
+    return velocity[s.axis], f, closure.acceleration(axes, s.axis)
+
+
+class Closing:
+    """Velocities of two places against the place that both hang on, in the axes of a body."""
+
+    def __init__(self, d: Description, start: PlaceMotion, end: PlaceMotion) -> None:
+        self.motion, self.graph = d.motion, d.graph
+        self.start, self.end = start, end
+        above = set(_upwards(start))
+        self.common = next(place for place in _upwards(end) if place in above)
+
+    @property
+    def grounded(self) -> bool:
+        """Whether what both hang on is at rest, so that velocities against it are velocities."""
+        return self.common.parent is None
+
+    def velocity(self, place: PlaceMotion, axes: Axes) -> Vector:
+        """v_place − v_common of axes that do not turn with what both hang on."""
+        motion, g = self.motion, self.graph
+        if self.grounded:
+            return motion.turned(place.velocity, place.axes, axes)
+        chain: list[PlaceMotion] = []
+        while place is not self.common:
+            chain.append(place)
+            assert place.parent is not None
+            place = place.parent
+        total, at = zeros(g, 3), motion.root
+        for step in reversed(chain):
+            carried = motion.turned(total, at, step.axes)
+            total = plus(g, plus(g, carried, cross(g, self._omega(step.axes), step.offset)), step.offset_rate)
+            at = step.axes
+        return motion.turned(total, at, axes)
+
+    def _omega(self, axes: Axes) -> Vector:
+        """ω of axes against those that both places are carried by, in the axes themselves."""
+        home = self.common.axes
+        chain: list[Axes] = []
+        at: Axes | None = axes
+        while at is not None and at is not home:
+            chain.append(at)
+            at = at.parent
+        if at is None:
+            return axes.omega
+        total = zeros(self.graph, 3)
+        for below in reversed(chain):
+            total = plus(self.graph, times(self.graph, transposed(below.turn), total), below.own)
+        return total
+
+    def acceleration(self, axes: Axes, axis: int) -> Callable[[Accelerations], int] | None:
+        """a_start − a_end in ``axes``; None where the two hang on something that moves: then c is differentiated."""
+        if not self.grounded:
+            return None
+        motion, g = self.motion, self.graph
+
+        def difference(acc: Accelerations) -> int:
+            start = motion.turned(acc.a[self.start], self.start.axes, axes)
+            end = motion.turned(acc.a[self.end], self.end.axes, axes)
+            return g.sub(start[axis], end[axis])
+
+        return difference
+
+
+def _upwards(place: PlaceMotion) -> Iterator[PlaceMotion]:
+    at: PlaceMotion | None = place
+    while at is not None:
+        yield at
+        at = at.parent
+
+
+def _differentiated(d: Description, f: int) -> Made:
+    return d.motion.rate([f])[0], f, None
+
+
+def _separation(d: Description, s: Any) -> Made:
+    g = d.graph
+    total = g.neg(d.node(s.length))
+    for start, end in pairwise(s.points):
+        gap = d.motion.between(d.places[start], d.places[end])
+        total = g.add(total, g.sqrt(dot(g, gap, gap)))
+    return _differentiated(d, total)
+
+
+def _stated(d: Description, s: Any) -> Made:
+    if s.velocity:
+        return d.node(s.rate(d.model)), None, None
+    return _differentiated(d, d.node(s.value))
+
+
+def _same_turn(d: Description, s: Any) -> Made:
+    g = d.graph
+    other = d.angles[s.second] if s.second is not None else g.zero
+    return _differentiated(d, g.sub(g.sub(d.angles[s.first], other), d.node(s.angle)))
+
+
+def _perpendicular(d: Description, s: Any) -> Made:
+    """f = a · b, ḟ = (ω_first − ω_second) · (a × b), in the axes of the second."""
+    motion, g = d.motion, d.graph
+    first = d.axes[s.first]
+    second = motion.root if s.second is None else d.axes[s.second]
+    a, b = motion.turned(d.nodes(s.along), first, second), d.nodes(s.other)
+    turning = minus(g, motion.turned(first.omega, first, second), second.omega)
+    return dot(g, turning, cross(g, a, b)), dot(g, a, b), None
+
+
+def _on_line(d: Description, s: Any) -> Made:
+    motion, g = d.motion, d.graph
+    gap = motion.between(d.places[s.end], d.places[s.start])
+    normal = d.nodes(s.normal)
+    if s.frame is not None:
+        normal = times(g, motion.rotation(d.axes[s.frame]), normal)
+    return _differentiated(d, dot(g, normal, gap))
+
+
+def _no_slip(d: Description, s: Any) -> Made:
+    """c = e · (v_centre + ω × (r_at − r_centre)), in the axes that e is given in."""
+    motion, g = d.motion, d.graph
+    centre, body = d.places[s.centre], d.axes[s.frame]
+    target = motion.root if s.axes is None else d.axes[s.axes]
+    arm = motion.between(centre, d.places[s.at])
+    e = d.nodes(s.along)
+    if motion.dimension == 2:
+        w = body.omega[0]
+        velocity = plus(g, centre.velocity, [g.neg(g.mul(w, arm[1])), g.mul(w, arm[0])])
+        if s.axes is not None:
+            e = times(g, target.turn, e)
+        return dot(g, e, velocity), None, None
+    if target is not motion.root:
+        arm = times(g, transposed(motion.rotation(target)), arm)
+    omega = motion.turned(body.omega, body, target)
+    velocity = plus(g, motion.turned(centre.velocity, centre.axes, target), cross(g, omega, arm))
+    return dot(g, e, velocity), None, None
+
+
+CONDITIONS: dict[type[Condition], Callable[[Description, Any], Made]] = {
+    Coincidence: _coincidence,
+    Separation: _separation,
+    Stated: _stated,
+    SameTurn: _same_turn,
+    Perpendicular: _perpendicular,
+    OnLine: _on_line,
+    NoSlip: _no_slip,
+}
+"""How each kind of condition becomes nodes."""

@@ -1,0 +1,90 @@
+"""The rows of a model's constraints, in order: f(q, t) = 0 or c(q, q̇, t) = 0, each with its multiplier λ."""
+
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import cast
+
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.errors import ModelError
+from lagrangian.model.elements import Element, Words
+from lagrangian.model.elements.answers import Unit
+from lagrangian.model.elements.base import Condition
+from lagrangian.model.elements.conditions import Stated
+from lagrangian.model.model import Model
+
+
+@dataclass(frozen=True, eq=False)
+class Row:
+    """One scalar constraint: ``rate`` = c, linear in the rates; ``position`` = f with c = ḟ, or None.
+
+    ``name`` is the constraint's, with a suffix where it has several rows ("loop.x"); ``unit`` is that of λ, None where
+    the expression's own unit decides; ``multiplier`` says in words what λ is.
+    """
+
+    name: str
+    element: Element
+    condition: Condition
+    position: sp.Expr | None
+    rate: sp.Expr
+    unit: Unit | None
+    multiplier: Words
+
+
+def rows_of(model: Model) -> tuple[Row, ...]:
+    """The rows of all constraints, in the order in which they were described."""
+    return tuple(_rows(model))
+
+
+def _rows(model: Model) -> Iterator[Row]:
+    for element in model.constraints:
+        for condition in element.conditions(model):
+            name = f"{element.name}.{condition.suffix}" if condition.suffix else element.name
+            yield Row(
+                name,
+                element,
+                condition,
+                condition.position(model),
+                condition.rate(model),
+                condition.unit,
+                condition.multiplier(model),
+            )
+
+
+def check_rows(model: Model) -> None:
+    """Refuse a constraint on velocities that holds no rate, or is not linear in them."""
+    rates: set[sp.Expr] = {*(v.symbol for v in model.velocities), *(c.rate for c in model.coordinates)}
+    for element in model.constraints:
+        for condition in element.conditions(model):
+            if isinstance(condition, Stated) and condition.velocity:
+                _check_linear(element, condition.rate(model), rates)
+
+
+def _check_linear(element: Element, c: sp.Expr, rates: set[sp.Expr]) -> None:
+    found = [v for v in rates if c.has(v)]
+    if not found:
+        raise ModelError(
+            "the expression holds no rate",
+            element=element.title,
+            place=element.place,
+            fix="a velocity constraint is linear in the rates, such as x' - r*phi'; write f(q, t) = 0 as a constraint",
+            code="E301",
+        )
+    held = {v: sp.Dummy(str(i)) for i, v in enumerate(found)}
+    flat = cast("sp.Expr", c.xreplace(held))
+    for a in held.values():
+        slope = bounded.diff(flat, a)
+        if slope.free_symbols & set(held.values()):
+            raise ModelError(
+                "the expression is not linear in the rates",
+                element=element.title,
+                place=element.place,
+                fix="a velocity constraint is a sum of terms a(q, t) · rate, and one a(q, t) alone",
+                code="E301",
+            )
