@@ -265,6 +265,15 @@ class Function:
             self.put(f"shufflevector {self.real} {first}, {self.real} poison, <{self.lanes} x i32> zeroinitializer"),
         )
 
+    def whole_broadcast(self, x: str) -> str:
+        """A scalar 64-bit integer in every lane."""
+        if self.lanes == 1:
+            return x
+        first = self.put(f"insertelement {self.whole} poison, i64 {x}, i32 0")
+        return self.put(
+            f"shufflevector {self.whole} {first}, {self.whole} poison, <{self.lanes} x i32> zeroinitializer"
+        )
+
     def part(self, x: Value, narrow: Function, k: int) -> Value:
         """Lanes of the k-th piece of a vector as one of a narrower function's."""
         if narrow.lanes == self.lanes:

@@ -6,7 +6,7 @@ from lagrangian.graph.evaluate import evaluate
 from lagrangian.graph.from_sympy import from_sympy, unknown_part
 from lagrangian.graph.graph import Graph, operands
 from lagrangian.graph.program import Count, Output, Program, count_operations, count_program, reached
-from lagrangian.graph.replace import replaced
+from lagrangian.graph.replace import copied, replaced
 from lagrangian.graph.scalar import Scalar
 from lagrangian.graph.to_sympy import to_sympy
 
@@ -19,6 +19,7 @@ __all__ = [
     "Tangents",
     "bends",
     "bounds",
+    "copied",
     "count_operations",
     "count_program",
     "evaluate",

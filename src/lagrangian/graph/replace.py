@@ -23,6 +23,21 @@ def replaced(graph: Graph, ids: Iterable[int], known: Mapping[int, int]) -> list
     return [value[i] for i in ends]
 
 
+def copied(source: Graph, ids: Iterable[int], target: Graph) -> list[int]:
+    """The nodes ``ids`` of one graph, made again in another; inputs keep their groups and places."""
+    ends = list(ids)
+    value: dict[int, int] = {}
+    for i in reached(source, ends):
+        node = source.nodes[i]
+        if node[0] == "const":
+            value[i] = target.const(node[1])
+        elif node[0] == "input":
+            value[i] = target.input(node[1], node[2])
+        else:
+            value[i] = _made(target, node, tuple(value[k] for k in operands(node)))
+    return [value[i] for i in ends]
+
+
 def _made(graph: Graph, node: tuple[Any, ...], new: tuple[int, ...]) -> int:
     """The operation of ``node`` on other operands."""
     if node[0] == "powi":

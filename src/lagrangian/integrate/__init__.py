@@ -7,6 +7,7 @@ from lagrangian.lazily import lazily
 if TYPE_CHECKING:
     from .methods import METHODS
     from .problem import Events, Signals
+    from .projection import Drift, Projection
     from .solution import Solution
     from .solver import Solver
     from .status import RunStatus
@@ -16,10 +17,11 @@ else:
         {
             "methods": "METHODS",
             "problem": "Events Signals",
+            "projection": "Drift Projection",
             "solution": "Solution",
             "solver": "Solver",
             "status": "RunStatus",
         },
     )
 
-__all__ = ["METHODS", "Events", "RunStatus", "Signals", "Solution", "Solver"]
+__all__ = ["METHODS", "Drift", "Events", "Projection", "RunStatus", "Signals", "Solution", "Solver"]

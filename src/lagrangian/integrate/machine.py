@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from lagrangian.graph import Program
 
     from .problem import Events
+    from .projection import Projection
 
 _RUN = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64)
 _TAPE = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)
@@ -33,7 +34,7 @@ _TAPE = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)
 def _printer_version() -> str:
     """A sum over this room's sources: any change may change the code."""
     total = hashlib.sha256()
-    for source in sorted((Path(__file__).parent / "integrators").glob("*.py")):
+    for source in sorted((Path(__file__).parent / "methods").glob("*.py")):
         total.update(source.read_bytes())
     return total.hexdigest()
 
@@ -41,11 +42,19 @@ def _printer_version() -> str:
 class Machine:
     """An integrator in memory: what is called, and how much work space it wants."""
 
-    def __init__(self, build: Build, method: Method, variant: IntegratorVariant, events: Events | None = None) -> None:
+    def __init__(
+        self,
+        build: Build,
+        method: Method,
+        variant: IntegratorVariant,
+        events: Events | None = None,
+        projection: Projection | None = None,
+    ) -> None:
         def printer(module: Module, build: Build) -> None:
-            Loop(module, build.program, method, variant, events).print()
+            Loop(module, build.program, method, variant, events, projection).print()
 
         name = f"{method.name} {method.order} {variant!r} {_printer_version()} {_fingerprint(events, build)}"
+        name += _projected(projection, build)
         self.variant = variant
         self._loaded = build.extended(name, printer)
         self.call = _RUN(self._loaded.address("run"))
@@ -77,6 +86,8 @@ _BLOCKS = {
     "guard_shared": "guard_prologue_1",
     "after_shared": "after_prologue_1",
     "bounds_shared": "bounds_prologue_1",
+    "approach_shared": "approach_prologue_1",
+    "landing_shared": "landing_prologue_1",
 }
 """Entries of the table and the functions that fill what they point to."""
 
@@ -87,6 +98,17 @@ def _fingerprint(events: Events | None, build: Build) -> str:
         return ""
     what = (events.direction, events.terminal, events.reset)
     return f"{fingerprint(events.program, build.options, build.target)} {what}"
+
+
+def _projected(projection: Projection | None, build: Build) -> str:
+    """What stands for the projection in the name of the code."""
+    if projection is None:
+        return ""
+    known = (
+        None if program is None else fingerprint(program, build.options, build.target)
+        for program in (projection.position, projection.velocity)
+    )
+    return f" {list(known)} {projection.corrects}"
 
 
 def aligned_to(size: int, count: int) -> NDArray[np.float64]:

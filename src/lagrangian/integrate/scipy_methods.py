@@ -11,7 +11,7 @@ import math
 import time as clock
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -21,6 +21,8 @@ from lagrangian.errors import RunError
 from lagrangian.integrate.chattering import LEAST, NEAR, Pace, Sticking
 from lagrangian.integrate.crossings import Crossings, Hit
 from lagrangian.integrate.methods.memory_layout import MARGIN
+from lagrangian.integrate.projection import Drift, Projection
+from lagrangian.integrate.scipy_projection import Projected
 from lagrangian.integrate.status import RunStatus
 
 Array = NDArray[np.float64]
@@ -31,6 +33,9 @@ SCIPY = ("RK45", "RK23", "DOP853", "Radau", "BDF", "LSODA")
 
 IMPLICIT = frozenset({"Radau", "BDF", "LSODA"})
 """Those that use a Jacobian."""
+
+LEAST_STEP = 2.0**-50
+"""Part of t below which no step is tried."""
 
 MAX_NOT_FINITE = 1000
 """Evaluations without a finite result, one after another, after which a solver is not asked to try a smaller step."""
@@ -50,7 +55,7 @@ class Outcome:
     """A run as far as it went: states (S, nx) at ``times`` (S,), and how it ended.
 
     ``reached`` and ``final`` are the last time and state; ``hits`` are the events; ``reason`` says more where there is
-    more to say.
+    more to say. ``drift``: how far it came from the rows of a projection.
     """
 
     times: Array
@@ -63,6 +68,7 @@ class Outcome:
     evaluations: int = 0
     hits: list[Hit] = field(default_factory=list)
     reason: str = ""
+    drift: Drift | None = None
 
 
 @dataclass
@@ -131,13 +137,17 @@ def integrate_scipy(
     rtol: float = 1e-9,
     atol: float | Array = 1e-12,
     bounds: Bounds | None = None,
+    projection: Projection | None = None,
 ) -> Outcome:
     """Run ẋ = rhs(x, u, p, t) from ``times[0]`` and return the states at ``times``.
 
     ``rhs`` and ``jacobian`` are kernels (`lagrangian.codegen`) of the groups x, u, p, t; ``legs`` cover the time from
-    ``times[0]`` to ``times[-1]``. Nothing is raised for a run that fails on its way: its outcome says so.
+    ``times[0]`` to ``times[-1]``. ``projection``: as for `Solver`. Nothing is raised for a run that fails on its way:
+    its outcome says so.
     """
-    march = _March(method, _Field(rhs, jacobian, p, len(x0)), x0, times, crossings, rtol, atol, bounds or Bounds())
+    ground = None if projection is None else Projected(projection, rhs.program, p, rtol, atol)
+    field = _Field(rhs, jacobian, p, len(x0))
+    march = _March(method, field, x0, times, crossings, rtol, atol, bounds or Bounds(), ground)
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")  # LSODA warns of what its return code says as well
         try:
@@ -166,18 +176,19 @@ class _March:
         rtol: float,
         atol: float | Array,
         bounds: Bounds,
+        ground: Projected | None = None,
     ) -> None:
         from scipy import integrate  # takes longer to load than most runs: commands that run nothing do without
 
         self.make: Callable[..., Any] = getattr(integrate, method)
-        self.f, self.crossings, self.bounds = f, crossings, bounds
+        self.f, self.crossings, self.bounds, self.ground = f, crossings, bounds, ground
         self.options: dict[str, Any] = {"rtol": rtol, "atol": atol, "max_step": bounds.max_step}
         if method in IMPLICIT and f.jacobian is not None:
             self.options["jac"] = f.slope
         self.t, self.x = float(times[0]), np.array(x0, float)
         self.times, self.states = times, np.empty((len(times), len(x0)))
         self.states[0], self.stored = self.x, 1
-        self.status, self.reason, self.steps = RunStatus.REACHED, "", 0
+        self.status, self.reason, self.steps, self.rejected = RunStatus.REACHED, "", 0, 0
         self.deadline = math.inf if bounds.seconds is None else clock.monotonic() + bounds.seconds
         self.hits: list[Hit] = []
         self.pace = Pace(self.t)
@@ -186,13 +197,17 @@ class _March:
     def over(self, leg: Interval) -> bool:
         """March over a leg; return whether to go on after it."""
         self.f.u, self.f.last = leg.u, max(leg.end - MARGIN * abs(leg.end), self.t)
+        if self.ground is not None and self.steps == 0:
+            self.x = self.ground.begin(self.t, self.x, leg.u)
+        shorter: float | None = None
         while self.t < leg.end:
             if self.crossings is not None:
                 self.crossings.start(self.t, self.x, leg.u, self.f)
                 if self.crossings.blind is not None:
                     self.status = RunStatus.BLIND
                     return False
-            solver = self.make(self.f, self.t, self.x, leg.end, **self.options)
+            solver = self.make(self.f, self.t, self.x, leg.end, first_step=shorter, **self.options)
+            shorter = None
             jumped = False
             while solver.status == "running" and not jumped:
                 if not self._within_bounds() or self.sticks(leg):
@@ -205,13 +220,33 @@ class _March:
                 if not np.all(np.isfinite(solver.y)):
                     self.status, self.reason = RunStatus.NOT_FINITE, "the state is not finite after this step"
                     return False
-                jumped = self._advance(solver, leg)
+                dense = solver.dense_output()
+                if self.ground is not None:
+                    dense = self.ground.along(dense, leg.u)
+                    size, anew = self.ground.settle(solver, self.x, leg.u)
+                    if not size <= 1.0:
+                        shorter = self._shorter(solver.t, size)
+                        if shorter is None:
+                            return False
+                        break
+                    jumped = anew
+                jumped = self._advance(solver, dense, leg) or jumped
                 if self.status != RunStatus.REACHED:
                     return False
         return True
 
+    def _shorter(self, end: float, size: float) -> float | None:
+        """The step to try after one to ``end`` whose correction was too great; None if there is none."""
+        self.steps, self.rejected = self.steps - 1, self.rejected + 1
+        if (end - self.t) / 2 > LEAST_STEP * max(abs(self.t), abs(end)):
+            return (end - self.t) / 2
+        known = math.isfinite(size)
+        self.status = RunStatus.UNDERFLOW if known else RunStatus.NOT_FINITE
+        self.reason = "however short a step is, it must be corrected by more than the tolerance" if known else ""
+        return None
+
     def _within_bounds(self) -> bool:
-        if self.steps >= self.bounds.max_steps:
+        if self.steps + self.rejected >= self.bounds.max_steps:
             self.status = RunStatus.TOO_MANY
         elif clock.monotonic() > self.deadline:
             self.status = RunStatus.LATE
@@ -237,11 +272,13 @@ class _March:
         self.status = RunStatus.NOT_FINITE if broken else RunStatus.UNDERFLOW
         self.reason = self.f.why if broken else (words or "").strip().rstrip(".")
 
-    def _advance(self, solver: Any, leg: Interval) -> bool:
+    def _advance(self, solver: Any, dense: Any, leg: Interval) -> bool:
         """Take in one step up to its end, or to an event that stops or changes the state; return whether it did."""
-        dense, end = solver.dense_output(), solver.t
+        end = solver.t
         hits = [] if self.crossings is None else self.crossings.between(self.t, end, dense, leg.u, leg.asked)
         for hit in hits:
+            if self.ground is not None and hit.after is not None:
+                hit = replace(hit, after=self.ground.reset(hit.time, hit.after, leg.u))
             self.hits.append(hit)
             crowded = len(self.hits) >= self.bounds.max_events and not hit.terminal
             if hit.terminal or hit.after is not None or crowded:
@@ -287,8 +324,9 @@ class _March:
             self.t,
             self.x,
             self.steps,
-            0,
+            self.rejected,
             self.f.evaluations,
             self.hits,
             self.reason,
+            None if self.ground is None else self.ground.drift,
         )

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrangian.integrate.projection import Drift
+
 Array = NDArray[np.float64]
 Whole = NDArray[np.int64]
 
@@ -19,7 +21,8 @@ class Solution:
     ``status`` (N,): a `RunStatus`. ``reached`` (N,): the time of ``final`` (N, nx), the last state. ``steps``,
     ``rejected``, ``evaluations`` (N,): accepted and rejected steps, evaluations of the derivative. ``event_count``
     (N,), and for the e-th event of a run ``event_index`` (N, E), −1 where there is none, ``event_time`` (N, E) and
-    ``event_state`` (N, E, nx), the state before a reset, NaN where there is none; E is the greatest count.
+    ``event_state`` (N, E, nx), the state before a reset, NaN where there is none; E is the greatest count. ``drift``:
+    how far the runs came from the rows of a projection, None without one.
     """
 
     times: Array
@@ -34,3 +37,4 @@ class Solution:
     event_index: Whole
     event_time: Array
     event_state: Array
+    drift: Drift | None = None

@@ -26,6 +26,7 @@ from .methods.events import ROUNDS
 from .methods.loop import IntegratorVariant
 from .observe import signals_at
 from .problem import Events, Signals
+from .projection import DRIFT, Drift, Projection
 from .solution import Solution
 
 if TYPE_CHECKING:
@@ -56,6 +57,9 @@ class Solver:
     shape (nx,). ``method`` is a name in `METHODS`. Many runs are computed ``lanes`` side by side (1, 2, 4, 8, 16; what
     is fastest here unless given), each with its own time and step length, on ``threads`` cores (all unless given). A
     run's result depends neither on its company nor on the number of threads. ``keep``: keep the code on disk.
+    ``projection``: every accepted step's end, every state inside a step that is handed out, and every state that events
+    leave or change satisfies its rows; a step of an adaptive method whose correction is beyond the tolerances is
+    rejected. The state at the start is projected too, and the first sample is as it was given.
 
     >>> from lagrangian.graph import Graph, Output, Program
     >>> g = Graph()
@@ -76,6 +80,7 @@ class Solver:
         method: str = "dop853",
         *,
         events: Events | None = None,
+        projection: Projection | None = None,
         lanes: int | None = None,
         threads: int | None = None,
         keep: bool = True,
@@ -98,6 +103,7 @@ class Solver:
         self.program, self.method, self.sticking = program, METHODS[method], Sticking(program)
         check.suits(self.method, program)
         self.events = None if events is None else events.checked(program)
+        self.projection = None if projection is None else projection.checked(program)
         self.threads, self._lanes = threads, lanes
         self._keep = keep
         self._machines: dict[tuple[IntegratorVariant, int], Machine] = {}
@@ -114,7 +120,8 @@ class Solver:
 
     def __reduce__(self) -> Any:
         """A solver sent to another process is compiled there."""
-        return _rebuilt, (self.program, self.method.name, self.events, self._lanes, self.threads, self._keep)
+        given = (self.program, self.method.name, self.events, self.projection, self._lanes, self.threads, self._keep)
+        return _rebuilt, given
 
     def solve(
         self,
@@ -153,7 +160,7 @@ class Solver:
         variant = IntegratorVariant(lanes, own or lanes == 1, signals, self.events is not None)
         found = self._machines.get((variant, method.order))
         if found is None:
-            found = Machine(build_of(self.program, lanes, self._keep), method, variant, self.events)
+            found = Machine(build_of(self.program, lanes, self._keep), method, variant, self.events, self.projection)
             self._machines[variant, method.order] = found
         return found
 
@@ -165,9 +172,15 @@ class Solver:
 
 
 def _rebuilt(
-    program: Program, method: str, events: Events | None, lanes: int | None, threads: int | None, keep: bool
+    program: Program,
+    method: str,
+    events: Events | None,
+    projection: Projection | None,
+    lanes: int | None,
+    threads: int | None,
+    keep: bool,
 ) -> Solver:
-    return Solver(program, method, events=events, lanes=lanes, threads=threads, keep=keep)
+    return Solver(program, method, events=events, projection=projection, lanes=lanes, threads=threads, keep=keep)
 
 
 class _Task:
@@ -199,6 +212,7 @@ class _Task:
         self.status = np.full(count, RunStatus.LATE)
         self.reached = np.full(count, self.times[0])
         self.counts = {n: np.zeros(count, np.int64) for n in ("steps", "rejected", "evaluations", "event_count")}
+        self.drift = Drift.blank(count) if solver.projection is not None else np.empty((0, len(DRIFT)))
         self.shared = self.machine.shared(parameters) if parameters.ndim == 1 else {}
         if not store:
             self.times_used = self.times[[0, -1]]
@@ -212,6 +226,7 @@ class _Task:
             **self.shared, "times": self.times_used, "samples": len(self.times_used),
             "states": place, "states_row": row, "states_step": 8 * size if store else 0,
             "final": self.final, "status": self.status, "reached": self.reached, **self.counts,
+            "drift": self.drift,
         }  # fmt: skip
         if signals is not None:
             self.table |= {"knots": signals.knots, "knot_count": len(signals.knots)}
@@ -249,6 +264,8 @@ class _Task:
         self._halt = threading.Event()
         self._events: list[Array] = []
         cost = len(self.solver.program.graph.nodes) * self.solver.method.cost
+        if self.solver.projection is not None:
+            cost += sum(len(program.graph.nodes) for program in self.solver.projection.programs)
         self._budget = max(1, BUDGET // max(1, cost) // (OFTEN if self.solver.sticking else 1))
         _log.info("integrating %d run%s", self.count, "" if self.count == 1 else "s")
         try:
@@ -364,4 +381,5 @@ class _Task:
         return Solution(
             self.times if self.states.shape[1] else np.empty(0), self.states, self.status, self.reached, self.final,
             self.counts["steps"], self.counts["rejected"], self.counts["evaluations"], each, index, when, where,
+            None if self.solver.projection is None else Drift.of_rows(self.drift),
         )  # fmt: skip

@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from lagrangian.integrate.problem import Events
 
     from .lane_scheduler import LaneScheduler
+    from .projector import Projector
 
 ROUNDS = 128
 """Times of events in one step after which the step is cut."""
@@ -68,8 +69,10 @@ class EventDetector:
     """Prints what looks for events; ``count`` of them."""
 
     def __init__(
-        self, p: Printer, lanes: Lanes, method: Method, service: LaneScheduler, events: Events, *, own: bool
-    ) -> None:
+        self, p: Printer, lanes: Lanes, method: Method, service: LaneScheduler, events: Events,
+        project: Projector | None, *, own: bool,
+    ) -> None:  # fmt: skip
+        self.project = project if project is not None and project.corrects else None
         self.p, self.f, self.lanes, self.method, self.service = p, p.f, lanes, method, service
         self.events, self.count = events, len(events.direction)
         guard, after = parts(events)
@@ -214,7 +217,10 @@ class EventDetector:
                 return f.select(whole, new, between(x, *rest))
 
             p.map(entry, s.x, s.new_x, *coefficients, into=(into,))
-            return Vec(slot=into.slot), f.select(whole, new_t, f.fma(theta, s.h, s.t))
+            x, t = Vec(slot=into.slot), f.select(whole, new_t, f.fma(theta, s.h, s.t))
+            if self.project is not None:
+                self.project.correct(t, inputs(t), x, f.logic("and", good, f.opposite(whole)))
+            return x, t
 
         def values_at(theta: Value) -> tuple[Value, ...]:
             x, t = place(theta, self.there)

@@ -56,6 +56,7 @@ class Explicit(Method):
         self.error_order, self._dense_order, self.memory, self.limits = error_order, dense_order, memory, limits
         self.follows = error_order is not None
         self.evaluations = len(table.c)
+        self.lands_late = self.follows and all(len(row) <= len(table.c) for row in table.errors)
         self.dense_evaluations = len(table.more_c) if self.follows else 1
 
     @property
@@ -75,9 +76,14 @@ class Explicit(Method):
         s.stages = stages
         if not self.follows:
             return None
-        s.new_k = s.rate(s.t + s.h, s.new_x, s.new_k)
-        stages.append(s.new_k)
+        if not s.lands_late:
+            self.landed(s, s.rate(s.t + s.h, s.new_x, s.new_k))
         return self.error(s)
+
+    def landed(self, s: MethodStep, k: Vec) -> None:
+        """The last stage is the derivative at the step's end."""
+        s.new_k = k
+        s.stages = [*s.stages[: len(self.table.c)], k]
 
     def _stage(self, s: MethodStep, c: float, row: Row, stages: Sequence[Vec]) -> Vec:
         p = s.p

@@ -30,12 +30,21 @@ class Watching(Protocol):
         ...
 
 
+class Noting(Watching, Protocol):
+    """What notes something of every run."""
+
+    def write(self, lane: str, run: str) -> None:
+        """Print that what was noted of a lane's run is handed over."""
+        ...
+
+
 class LaneScheduler:
     """Prints the part of the loop that looks after single lanes."""
 
     def __init__(self, p: Printer, lanes: Lanes, method: Method, *, size: int, inputs: int, signals: bool) -> None:
         self.p, self.f, self.lanes, self.method = p, p.f, lanes, method
         self.size, self.inputs, self.signals = size, inputs, signals
+        self.evaluations = method.evaluations  # of the derivative, in every step that is tried
 
     def prepare(self) -> None:
         """Print, at the start of the function, what is read from the table once."""
@@ -123,7 +132,7 @@ class LaneScheduler:
 
     # The service itself ------------------------------------------------------------------------------------------
 
-    def print(self, tapes: Tapes, watch: Watching | None) -> None:
+    def print(self, tapes: Tapes, watch: Watching | None, project: Noting | None) -> None:
         """Print the service: at its end the function returns, or goes on to ``begin`` or ``head``."""
         p, f, lanes = self.p, self.f, self.lanes
         f.label("service")
@@ -140,19 +149,21 @@ class LaneScheduler:
                     self._stop(lane, at.NEW)
             ended = self.compare("eq", p.get(lanes.state, lane, "i64"), str(at.ENDED))
             with p.when(ended):
-                self._finish(lane)
+                self._finish(lane, project)
             empty = self.compare("eq", p.get(lanes.state, lane, "i64"), str(at.EMPTY))
             there = self.compare("slt", p.word(at.CURSOR), p.word(at.LAST))
             with p.when(f.put(f"and i1 {empty}, {there}")):
                 self._take(lane)
-                if watch is not None:
-                    watch.forget(lane)
+                for other in (watch, project):
+                    if other is not None:
+                        other.forget(lane)
         if tapes.own:
             state = p.load_whole(lanes.state)
             with p.when(p.any(p.whole_is(state, at.NEW))):
                 tapes.prologue(lanes.p_in)
-                if watch is not None:
-                    watch.prologues()
+                for other in (watch, project):
+                    if other is not None:
+                        other.prologues()
         state = p.load_whole(lanes.state)
         fresh = f.logic("or", p.whole_is(state, at.NEW), p.whole_is(state, at.RESTARTED))
         f.do(f"br i1 {p.any(f.opposite(p.whole_is(state, at.EMPTY)))}, label %some, label %none")
@@ -219,7 +230,7 @@ class LaneScheduler:
         p.set(count, lanes.left, lane)
         p.set(f.put(f"fdiv double {way}, {count}"), lanes.h, lane)
 
-    def _finish(self, lane: str) -> None:
+    def _finish(self, lane: str, project: Noting | None) -> None:
         """Write what is known of a lane's run; the lane is empty then."""
         p, f, lanes = self.p, self.f, self.lanes
         assert lanes.x.slot is not None
@@ -228,7 +239,7 @@ class LaneScheduler:
         self.copy_out(lanes.x.slot, row, self.size, lane)
         self.put(p.get(lanes.t, lane), self["reached"], run)
         steps, rejected = p.get(lanes.steps, lane, "i64"), p.get(lanes.rejected, lane, "i64")
-        tried = f.put(f"mul i64 {self.add(steps, rejected)}, {self.method.evaluations}")
+        tried = f.put(f"mul i64 {self.add(steps, rejected)}, {self.evaluations}")
         found = {
             "status": p.get(lanes.code, lane, "i64"),
             "steps": steps,
@@ -238,6 +249,8 @@ class LaneScheduler:
         }
         for name, x in found.items():
             self.put(x, self[name], run, "i64")
+        if project is not None:
+            project.write(lane, run)
         p.set(str(at.EMPTY), lanes.state, lane, "i64")
 
     def _take(self, lane: str) -> None:

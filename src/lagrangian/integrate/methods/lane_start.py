@@ -12,6 +12,7 @@ from .events import EventDetector
 from .memory_layout import Lanes
 from .method import Method, rough_power
 from .printer import Printer, Vec
+from .projector import Projector
 
 
 class Around(Protocol):
@@ -22,6 +23,7 @@ class Around(Protocol):
     lanes: Lanes
     method: Method
     watch: EventDetector | None
+    project: Projector | None
     new_k: Vec
     own_blocks: tuple[Vec, ...]
     inlet: tuple[Vec, ...]
@@ -56,6 +58,9 @@ class LaneStart:
         new = p.whole_is(state, at.NEW)
         fresh = f.logic("or", new, p.whole_is(state, at.RESTARTED))
         trouble = Value(f, f.constant(0.0))
+        if self.loop.project is not None:
+            t = p.load(lanes.t)
+            self.loop.project.begin(new, t, self.loop.inputs_at(t))
         if method.follows:
             t = p.load(lanes.t)
             k = self.loop.rate(t, lanes.x, self.loop.new_k)

@@ -17,20 +17,22 @@ from lagrangian.codegen.emit import attributes
 from lagrangian.codegen.ir import Module, Value
 from lagrangian.integrate.status import RunStatus
 
-from . import events
 from . import memory_layout as at
 from .evaluate import Tapes
 from .events import EventDetector
 from .jets import Jets
+from .lane_end import attend
 from .lane_scheduler import LaneScheduler
 from .lane_start import LaneStart
 from .memory_layout import Lanes
 from .method import Method, MethodStep, rough_power
 from .printer import Printer, Vec
+from .projector import Projector
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program
     from lagrangian.integrate.problem import Events
+    from lagrangian.integrate.projection import Projection
 
 SAFETY = 0.85
 
@@ -58,6 +60,7 @@ class Loop:
         method: Method,
         variant: IntegratorVariant,
         watched: Events | None = None,
+        projection: Projection | None = None,
     ) -> None:
         size = len(program.inputs["x"])
         self.p = p = Printer(module, variant.lanes, size)
@@ -73,9 +76,13 @@ class Loop:
         self.own_slots = tuple(p.reserve(1) for _ in range(method.slots))
         self.inlet: tuple[Vec, ...] = () if p.unrolled else (Vec(slot=self.tapes.start("body", "x")),)
         self.service = LaneScheduler(p, self.lanes, method, size=size, inputs=self.inputs, signals=self.signals)
+        self.project: Projector | None = None
+        if projection is not None:
+            self.project = Projector(p, self.lanes, program, projection, (self.new_x, self.new_lost), own=own)
+            self.service.evaluations -= self.project.corrects and method.lands_late
         self.watch: EventDetector | None = None
         if watched is not None:
-            self.watch = EventDetector(p, self.lanes, method, self.service, watched, own=own)
+            self.watch = EventDetector(p, self.lanes, method, self.service, watched, self.project, own=own)
 
     def print(self) -> None:
         """Print both functions."""
@@ -87,19 +94,20 @@ class Loop:
         self.max_steps = p.entry(at.TABLE.index("max_steps"))
         p.set_word("%budget", at.BUDGET)
         self.service.prepare()
+        if self.project is not None:
+            self.project.prepare(self.service)
         if self.watch is not None:
             self.watch.prepare()
         f.do("br label %service")
         self._head()
-        self.service.print(self.tapes, self.watch)
+        self.service.print(self.tapes, self.watch, self.project)
         LaneStart(self).print()
         widest = f.module.target.lanes
         width = widest if self.method.expands else min(p.lanes, widest)  # expansions of one run are packed
         f.finish("run", "i64", "ptr %table, ptr %work, i64 %budget", attributes(width))
-        sizes = [0, 0, 0]
-        if self.watch is not None:
-            tapes = (self.watch.guard, self.watch.after, self.watch.pieces.tapes)
-            sizes = [0 if t is None else len(t.low.prologue.outputs) for t in tapes]
+        tapes = (None,) * 3 if (w := self.watch) is None else (w.guard, w.after, w.pieces.tapes)
+        tapes += (None,) * 2 if self.project is None else self.project.tapes
+        sizes = [0 if t is None else len(t.low.prologue.outputs) for t in tapes]
         facts = (p.slots, len(self.tapes.low.prologue.outputs), *sizes, *self.lanes.places)
         lines = ["define void @facts(ptr %out) {"]
         for k, x in enumerate(facts):
@@ -161,6 +169,7 @@ class Loop:
         return MethodStep(
             self.p, t, h, lanes.x, lanes.lost, lanes.k, self.rate, self.rtol, self.atol,
             self.new_x, self.new_lost, self.new_k, self.inlet, running, self.spend, self.own_blocks, self.own_slots,
+            lands_late=self.project is not None and self.project.corrects and self.method.lands_late,
         )  # fmt: skip
 
     def spend(self, flag: str, count: int) -> None:
@@ -181,13 +190,18 @@ class Loop:
         if unsettled is not None:
             fine = f.logic("and", fine, f.compare("oeq", unsettled, 0.0))
         good = f.logic("and", running, fine)
+        if self.project is not None:
+            size = self._settle(s, good, new_t, Value(f, f.constant(0.0)))
+            finite = f.logic("and", finite, f.compare("olt", size, float("inf")))
+            fine, good = f.logic("and", fine, finite), f.logic("and", good, finite)
+            self.project.note(new_t, good)
         self._inspect(s, good, new_t)
         self._commit(s, good, new_t)
         p.store(f.select(good, left, p.load(lanes.left)), lanes.left)
         arrived = f.logic("and", good, f.compare("ole", left, 0.0))
         broken = f.logic("and", running, f.opposite(fine))
         code = p.whole_select(finite, self._constant(RunStatus.NO_CONVERGENCE), self._constant(RunStatus.NOT_FINITE))
-        self._attend(running, arrived, broken, code)
+        attend(self, running, arrived, broken, code)
 
     def _adaptive(self, t: Value, stop: Value, running: str) -> None:
         """A step as long as the last one's error allows, the stop point never crossed."""
@@ -203,17 +217,19 @@ class Loop:
         error = method.trial(s)
         assert error is not None
         good = f.logic("and", running, f.compare("ole", error, 1.0))
+        if self.project is not None:
+            error = self._settle(s, good, new_t, error)
+            good = f.logic("and", running, f.compare("ole", error, 1.0))
+            self.project.note(new_t, good)
         self._inspect(s, good, new_t)
         next_h, finite = self._next_step(h, wanted, error, good)
         bad = f.logic("and", running, f.opposite(good))
         stuck = f.logic("and", bad, f.compare("ole", t + next_h * 0.125, t))
         p.store(f.select(running, next_h, wanted), lanes.h)
         self._commit(s, good, new_t)
-        rejected = p.load_whole(lanes.rejected)
-        one = f.put(f"zext {f.flag} {bad} to {f.whole}")
-        p.store_whole(f.put(f"add {f.whole} {rejected}, {one}"), lanes.rejected)
+        p.count(bad, lanes.rejected)
         code = p.whole_select(finite, self._constant(RunStatus.UNDERFLOW), self._constant(RunStatus.NOT_FINITE))
-        self._attend(running, f.logic("and", good, last), stuck, code)
+        attend(self, running, f.logic("and", good, last), stuck, code)
 
     def _expanding(self, t: Value, stop: Value, running: str) -> None:
         """A step whose length follows from the expansion of the motion about its start."""
@@ -225,6 +241,8 @@ class Loop:
         seen = f.compare("ogt", t + longest * 0.125, t)
         wanted = f.select(f.logic("and", seen, f.compare("ogt", wanted, longest)), longest, wanted)
         wanted = f.select(f.compare("ogt", wanted, self.max_step), self.max_step, wanted)
+        if self.project is not None:
+            wanted = wanted * p.load(self.project.shrunk)
         last = f.compare("ole", rest, wanted)
         half = f.compare("olt", rest, wanted + wanted)
         new_t = f.select(last, stop, t + f.select(half, rest * 0.5, wanted))
@@ -233,6 +251,11 @@ class Loop:
         (trouble,) = p.fold(lambda total, x: (f.fma(x, 0.0, total),), [0.0], s.new_x)
         fine = f.compare("oeq", trouble, 0.0)
         good = f.logic("and", running, fine)
+        if self.project is not None:
+            size = self._settle(s, good, new_t, Value(f, f.constant(0.0)))
+            fine = f.logic("and", fine, f.compare("olt", size, float("inf")))
+            good = self.project.within(f.logic("and", running, fine), size, lanes.rejected)
+            self.project.note(new_t, good)
         stuck = f.logic("and", running, f.compare("ole", t + wanted * 0.125, t))
         self._inspect(s, good, new_t)
         p.store(f.select(f.logic("and", good, f.compare("ogt", wanted, 0.0)), wanted, unit), lanes.h)
@@ -240,7 +263,16 @@ class Loop:
         broken = f.logic("or", stuck, f.logic("and", running, f.opposite(fine)))
         code = p.whole_select(fine, self._constant(RunStatus.UNDERFLOW), self._constant(RunStatus.NOT_FINITE))
         arrived = f.logic("and", f.logic("and", good, last), f.opposite(broken))
-        self._attend(running, arrived, broken, code)
+        attend(self, running, arrived, broken, code)
+
+    def _settle(self, s: MethodStep, good: str, new_t: Value, error: Value) -> Value:
+        """The end of a step projected, and the derivative there; return what its error is then."""
+        assert self.project is not None
+        error = self.project.settle(s, good, self.inputs_at(new_t), new_t, error)
+        if self.method.follows and self.project.corrects:
+            self.method.landed(s, s.rate(s.t + s.h, s.new_x, self.new_k))
+            self.spend(good, 1)
+        return error
 
     def _jets(self, states: list[list[Value]], t: Value, unit: Value) -> Jets:
         """The series of the right-hand side, the states' coefficients as far as they are known."""
@@ -317,6 +349,8 @@ class Loop:
             new_t = f.select(stays, new_t, p.load(lanes.end))
             (s.new_x,) = p.map(lambda new, kept: f.select(stays, new, kept), s.new_x, watch.kept, into=(self.new_x,))
             (s.new_lost,) = p.map(lambda lost: f.select(stays, lost, 0.0), s.new_lost, into=(self.new_lost,))
+            if self.project is not None:
+                self.project.reset(s, f.opposite(stays), new_t, self.inputs_at(new_t))
             on = f.logic("and", good, stays)
             for k in range(watch.count):
                 p.store(f.select(on, 0.0, p.load(watch.fresh, k)), watch.fresh, k)
@@ -329,49 +363,7 @@ class Loop:
         if self.method.follows:
             p.map(keep, s.new_k, lanes.k, into=(lanes.k,))
         p.store(f.select(good, new_t, s.t), lanes.t)
-        one = f.put(f"zext {f.flag} {good} to {f.whole}")
-        p.store_whole(f.put(f"add {f.whole} {p.load_whole(lanes.steps)}, {one}"), lanes.steps)
-
-    def _attend(self, running: str, arrived: str, broken: str, code: str) -> None:
-        """Go on with the next step, or to the service where a lane arrived at a stop point or cannot go on."""
-        p, f, lanes, watch = self.p, self.f, self.lanes, self.watch
-        tried = f.put(f"add {f.whole} {p.load_whole(lanes.steps)}, {p.load_whole(lanes.rejected)}")
-        spent = f.put(f"icmp sge {f.whole} {tried}, {self._whole_broadcast(self.max_steps)}")
-        spent = f.logic("and", f.logic("and", running, spent), f.opposite(arrived))
-        over = f.logic("or", broken, spent)
-        any_flag = f.logic("or", arrived, over)
-        cut = ""
-        if watch is not None:
-            cut = f.opposite(p.whole_is(p.load_whole(watch.cut), 0))
-            any_flag = f.logic("or", any_flag, cut)
-        f.do(f"br i1 {p.any(any_flag)}, label %mark, label %head")
-        f.label("mark")
-        state, codes = p.load_whole(lanes.state), p.load_whole(lanes.code)
-        code = p.whole_select(broken, code, self._constant(RunStatus.TOO_MANY))
-        changes = [(arrived, at.STOPPED, ""), (over, at.ENDED, code)]
-        if watch is not None:
-            held = p.load_whole(watch.cut)
-            for why, becomes, how in (
-                (events.RESET, at.AT_EVENT, ""),
-                (events.ENDS, at.ENDED, self._constant(RunStatus.TERMINAL)),
-                (events.ACCUMULATING, at.ENDED, self._constant(RunStatus.ZENO)),
-                (events.CROWDS, at.ENDED, self._constant(RunStatus.CROWDED)),
-                (events.BLIND, at.ENDED, self._constant(RunStatus.BLIND)),
-            ):
-                changes.append((p.whole_is(held, why), becomes, how))
-        for flag, becomes, how in changes:
-            state = p.whole_select(flag, self._constant(becomes), state)
-            codes = p.whole_select(flag, how, codes) if how else codes
-        p.store_whole(state, lanes.state)
-        p.store_whole(codes, lanes.code)
-        f.do("br label %service")
-
-    def _whole_broadcast(self, x: str) -> str:
-        f = self.f
-        if f.lanes == 1:
-            return x
-        first = f.put(f"insertelement {f.whole} poison, i64 {x}, i32 0")
-        return f.put(f"shufflevector {f.whole} {first}, {f.whole} poison, <{f.lanes} x i32> zeroinitializer")
+        p.count(good, lanes.steps)
 
     # Requested times ---------------------------------------------------------------------------------------------
 
@@ -390,4 +382,7 @@ class Loop:
                 lambda x, new, *c: f.select(whole, new, between(x, *c)),
                 s.x, s.new_x, *coefficients, into=(lanes.sampled,),
             )  # fmt: skip
+            if self.project is not None and self.project.corrects:
+                inner = f.logic("and", inside, f.opposite(whole))
+                self.project.correct(following, self.inputs_at(following), lanes.sampled, inner)
             self.service.write_samples()

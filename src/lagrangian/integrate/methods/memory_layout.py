@@ -10,7 +10,7 @@ TABLE = (
     "x0", "x0_row", "u", "u_row", "p", "p_row", "shared", "times", "samples", "states", "states_row", "states_step",
     "final", "status", "reached", "steps", "rejected", "evaluations", "event_count", "rtol", "atol", "step",
     "max_step", "max_steps", "knots", "knot_count", "knot_start", "knot_slope", "max_events",
-    "guard_shared", "after_shared", "bounds_shared",
+    "guard_shared", "after_shared", "bounds_shared", "approach_shared", "landing_shared", "drift",
 )  # fmt: skip
 """Entries of the table: addresses, strides in bytes, counts, and ``rtol``, ``step``, ``max_step`` as doubles."""
 

@@ -45,6 +45,7 @@ class MethodStep:
     spend: Callable[[str, int], None]  # (flag, n): n more evaluations of the derivative where the flag holds
     memory: tuple[Vec, ...] = ()  # vectors and slots of the method's own, kept from step to step
     slots: tuple[int, ...] = ()
+    lands_late: bool = False  # the derivative at the end is handed in after the trial
     unit: Value | None = None  # the unit of time of an expansion
     stages: list[Vec] = field(default_factory=list)  # derivatives computed in the step, the first being k
 
@@ -85,6 +86,7 @@ class Method(ABC):
     expands: bool = False  # the length of a step follows from an expansion at its start
     blocks: int = 0  # vectors of its own, f(t, x) in each at first
     slots: int = 0  # single numbers of its own
+    lands_late: bool = False  # the derivative at a step's end may be taken after the error, at a projected end
     memory: float = 0.0  # weight of the previous step's error (PI control)
 
     @property
@@ -118,6 +120,10 @@ class Method(ABC):
 
         Sets ``s.new_x``, ``s.new_lost`` and, if the method ``follows``, ``s.new_k``.
         """
+
+    def landed(self, s: MethodStep, k: Vec) -> None:
+        """Take in the derivative at the step's end, which a projection moved."""
+        s.new_k = k
 
     def interpolant(self, s: MethodStep) -> list[Vec]:
         """Print what the polynomial inside the step needs, after a trial; return its coefficients.

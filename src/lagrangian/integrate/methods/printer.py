@@ -161,6 +161,12 @@ class Printer:
         bits = self.f.put(f"bitcast {self.f.flag} {flag} to i{self.lanes}")
         return self.f.put(f"icmp ne i{self.lanes} {bits}, 0")
 
+    def count(self, flag: str, slot: int) -> None:
+        """Add 1 to the integers of a slot where the flag holds."""
+        f = self.f
+        one = f.put(f"zext {f.flag} {flag} to {f.whole}")
+        self.store_whole(f.put(f"add {f.whole} {self.load_whole(slot)}, {one}"), slot)
+
     def whole_is(self, x: str, value: int) -> str:
         """Where integers have a value."""
         return self.f.put(f"icmp eq {self.f.whole} {x}, {self.f.integer(value)}")

@@ -1,0 +1,219 @@
+"""Projection inside an integrator: states brought back to their rows, lane by lane, and what that took."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from lagrangian.codegen.ir import Value
+from lagrangian.integrate.projection import CLOSED, DRIFT, MARGIN, MARGIN_TIME, RESET, ROUNDING, SEEN, START
+
+from . import memory_layout as at
+from .evaluate import Tapes
+from .memory_layout import Lanes
+from .printer import Printer, Vec
+
+if TYPE_CHECKING:
+    from lagrangian.graph import Program
+    from lagrangian.integrate.projection import Projection
+
+    from .lane_scheduler import LaneScheduler
+    from .method import MethodStep
+
+CALLED = 1 << 30
+"""Copies that make a program one that is called: the places where states are projected are many."""
+
+SHORTER = 0.5
+"""How much shorter a step is tried whose correction was too great, where no error decides the length."""
+
+UNKNOWN = "0x7FF8000000000000"
+"""What a time is that nobody knows yet."""
+
+
+class Projector:
+    """Prints how states are projected."""
+
+    def __init__(
+        self, p: Printer, lanes: Lanes, rates: Program, projection: Projection, ends: tuple[Vec, Vec], *, own: bool
+    ) -> None:
+        self.p, self.f, self.lanes, self.corrects = p, p.f, lanes, projection.corrects
+        self.end, self.lost = ends
+        approach, landing = projection.approach, projection.landing(rates)
+        self.approach = None if approach is None else self._tapes(approach, "approach", own)
+        self.landing = self._tapes(landing, "landing", own)
+        self.tells = "margin" in landing.outputs
+        self.first, self.second = p.reserve(p.size + 1), p.reserve(p.size + len(SEEN))
+        self.moved, self.gap, self.size, self.shrunk = p.block(), p.reserve(1), p.reserve(1), p.reserve(1)
+        self.worst = p.reserve(len(DRIFT))
+
+    def _tapes(self, program: Program, name: str, own: bool) -> Tapes:
+        return Tapes(self.p, program, name, own=own and bool(program.inputs.get("p")), copies=CALLED)
+
+    @property
+    def tapes(self) -> tuple[Tapes | None, Tapes]:
+        """What is evaluated, for the sizes of shared blocks."""
+        return self.approach, self.landing
+
+    def prepare(self, service: LaneScheduler) -> None:
+        """Print, at the start of the function, what is read from the table."""
+        p = self.p
+        self.service = service
+        self.approach_shared = p.entry(at.TABLE.index("approach_shared"), "ptr")
+        self.landing_shared = p.entry(at.TABLE.index("landing_shared"), "ptr")
+        self.drift = p.entry(at.TABLE.index("drift"), "ptr")
+
+    def prologues(self) -> None:
+        """Print what follows from every lane's parameters."""
+        for tapes in self.tapes:
+            if tapes is not None and tapes.own:
+                tapes.prologue(self.lanes.p_in)
+
+    # One state a lane --------------------------------------------------------------------------------------------
+
+    def correct(self, t: Value, u: Vec, x: Vec, flag: str, lost: Vec | None = None) -> None:
+        """Print the projection of the vector in the slots ``x`` in lanes with the flag; the sum of what was added is in
+        ``self.moved`` then. ``lost``: what sums have lost to rounding so far.
+        """
+        p, f = self.p, self.f
+        zero = Value(f, f.constant(0.0))
+        p.map(lambda old: zero, self.moved, into=(self.moved,))
+        p.store(zero, self.gap)
+        if self.approach is not None:
+            self.approach.evaluate(self.approach_shared, {"x": x, "u": u}, t, self.first)
+            p.store(p.load(self.first, p.size), self.gap)
+            self._add(self.first, x, flag, lost)
+        self._land(t, u, x)
+        if self.approach is not None:
+            again = f.logic("and", flag, f.compare("ogt", self._seen("rest"), CLOSED))
+            with p.when(p.any(again)):
+                self.approach.evaluate(self.approach_shared, {"x": x, "u": u}, t, self.first)
+                self._add(self.first, x, again, lost)
+                self._land(t, u, x)
+        else:
+            p.store(self._seen("rest"), self.gap)
+        if self.corrects:
+            self._add(self.second, x, flag, lost)
+
+    def _land(self, t: Value, u: Vec, x: Vec) -> None:
+        self.landing.evaluate(self.landing_shared, {"x": x, "u": u}, t, self.second)
+
+    def _seen(self, name: str) -> Value:
+        return self.p.load(self.second, self.p.size + SEEN.index(name))
+
+    def _add(self, dx: int, x: Vec, flag: str, lost: Vec | None) -> None:
+        """Add a correction to a state."""
+        p, f = self.p, self.f
+        zero = Value(f, f.constant(0.0))
+
+        def add(x: Value, moved: Value, d: Value, lost: Value = zero) -> tuple[Value, ...]:
+            whole = d + lost
+            new = x + whole
+            kept = f.select(flag, whole - (new - x), lost)
+            return f.select(flag, new, x), f.select(flag, moved + d, moved), kept
+
+        given = (x, self.moved, Vec(slot=dx)) if lost is None else (x, self.moved, Vec(slot=dx), lost)
+        into = (x, self.moved) if lost is None else (x, self.moved, lost)
+        if lost is None:
+            p.map(lambda *entries: add(*entries)[:2], *given, into=into)
+        else:
+            p.map(add, *given, into=into)
+
+    # The end of a step -------------------------------------------------------------------------------------------
+
+    def settle(self, s: MethodStep, good: str, u: Vec, time: Value, error: Value) -> Value:
+        """Print the projection of a step's end where the step is good; return the greater of its error and the size of
+        the correction, in tolerances; not a number where the projection is none.
+        """
+        p = self.p
+        x, lost = self.end, self.lost
+        p.store(error, self.size)
+        with p.when(p.any(good)):
+            self.correct(time, u, x, good, lost)
+            if self.corrects:
+                self._measure(s, x, good)
+        s.new_x, s.new_lost = self._read(x), self._read(lost)
+        return p.load(self.size)
+
+    def _measure(self, s: MethodStep, x: Vec, good: str) -> None:
+        """Note the size of the correction where it is more than rounding."""
+        p, f = self.p, self.f
+
+        def add(total: Value, old: Value, new: Value, atol: Value, moved: Value) -> tuple[Value]:
+            ratio = moved / s.scale(old, new, atol)
+            return (f.fma(ratio, ratio, total),)
+
+        (total,) = p.fold(add, [0.0], s.x, x, s.atol, self.moved)
+        size = f.intrinsic("sqrt", total * (1.0 / p.size))
+        gap, speed, rest = p.load(self.gap), self._seen("gap"), self._seen("left")
+        small = f.logic("and", f.compare("ole", gap, ROUNDING), f.compare("ole", speed, ROUNDING))
+        small = f.logic("and", small, f.compare("olt", size, float("inf")))
+        error = p.load(self.size)
+        greater = f.select(f.logic("or", small, f.compare("ole", size, error)), error, size)
+        greater = f.fma(gap + speed + rest, 0.0, greater)  # 0·gap: what is not finite shows
+        p.store(f.select(good, greater, error), self.size)
+
+    def _read(self, home: Vec) -> Vec:
+        """A vector whose slots were written: as it lives elsewhere."""
+        if not self.p.unrolled:
+            return home
+        assert home.slot is not None
+        return Vec(values=tuple(self.p.load(home.slot, i) for i in range(self.p.size)))
+
+    def within(self, tried: str, size: Value, rejected: int) -> str:
+        """Where a correction is within the tolerances; elsewhere the step is rejected and tried shorter."""
+        p, f = self.p, self.f
+        good = f.logic("and", tried, f.compare("ole", size, 1.0))
+        bad = f.logic("and", tried, f.opposite(good))
+        shrunk = p.load(self.shrunk)
+        p.store(f.select(good, 1.0, f.select(bad, shrunk * SHORTER, shrunk)), self.shrunk)
+        p.count(bad, rejected)
+        return good
+
+    # What is told of a run ---------------------------------------------------------------------------------------
+
+    def note(self, t: Value, flag: str, kind: int = 0) -> None:
+        """Note residuals, of the last projection, in lanes with the flag: at a step's end, a start, after a reset."""
+        p, f = self.p, self.f
+        before = (p.load(self.gap), self._seen("gap"))
+        if kind:
+            found = dict(zip((kind, kind + 1), before, strict=True))
+        else:
+            found = dict(zip(range(4), (before[0], self._seen("rest"), before[1], self._seen("left")), strict=True))
+        for place, gap in found.items():
+            worst = p.load(self.worst, place)
+            p.store(f.select(f.logic("and", flag, f.compare("ogt", gap, worst)), gap, worst), self.worst, place)
+        if not self.tells:
+            return
+        margin, least = self._seen("margin"), p.load(self.worst, MARGIN)
+        closer = f.logic("and", flag, f.compare("olt", margin, least))
+        p.store(f.select(closer, margin, least), self.worst, MARGIN)
+        p.store(f.select(closer, t, p.load(self.worst, MARGIN_TIME)), self.worst, MARGIN_TIME)
+
+    def begin(self, new: str, t: Value, u: Vec) -> None:
+        """Print the projection of lanes that begin, or begin anew."""
+        p = self.p
+        with p.when(p.any(new)):
+            self.correct(t, u, self.lanes.x, new)
+            self.note(t, new, START)
+
+    def reset(self, s: MethodStep, flag: str, t: Value, u: Vec) -> None:
+        """Print the projection of a step's end where an event left it."""
+        p = self.p
+        with p.when(p.any(flag)):
+            self.correct(t, u, self.end, flag)
+            self.note(t, flag, RESET)
+        s.new_x = self._read(self.end)
+
+    def forget(self, lane: str) -> None:
+        """Print what a lane that takes a new run starts from."""
+        p = self.p
+        for place in range(len(DRIFT)):
+            p.set("0.0", self.worst + place, lane)
+        p.set("0x7FF0000000000000", self.worst + MARGIN, lane)
+        p.set(UNKNOWN, self.worst + MARGIN_TIME, lane)
+        p.set("1.0", self.shrunk, lane)
+
+    def write(self, lane: str, run: str) -> None:
+        """Print how what was noted of a lane's run is handed over."""
+        f, service = self.f, self.service
+        row = f.put(f"getelementptr double, ptr {self.drift}, i64 {f.put(f'mul i64 {run}, {len(DRIFT)}')}")
+        service.copy_out(self.worst, row, len(DRIFT), lane)

@@ -1,0 +1,144 @@
+"""Rows that a motion keeps, and the steps that bring a state back to them; what drift there was.
+
+A method keeps f(q, t) = 0 and A(q, t) v + a₀ = 0 to its tolerance alone. After a step the state is projected: one
+Newton step on positions (a second where the first leaves more than `CLOSED`), then a linear one on velocities. Here
+nothing is known of how a correction is found: two programs say it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.errors import RunError
+from lagrangian.graph import Graph, Output, Program, copied, replaced
+
+Array = NDArray[np.float64]
+
+CLOSED = 1e-12
+"""Largest residual of a position row, in parts of its scale, that is left without a second step."""
+
+ROUNDING = 2.0**-43
+"""Residuals, in parts of their scale, up to which a correction says nothing of a step's error."""
+
+
+@dataclass(frozen=True)
+class Projection:
+    """How states are brought back to the rows they should satisfy, over the groups x, u, p, t of the right-hand side.
+
+    ``position`` and ``velocity`` (None where there are no such rows) have the outputs ``dx`` (nx,), what a step adds to
+    x, and ``gap`` (), the largest residual of a row at x over the row's scale. ``velocity`` is evaluated at corrected
+    positions and leaves them alone. ``margin`` (), in either, tells how far the rows are from depending on each other.
+    With ``corrects=False`` nothing is changed, and the residuals are only measured.
+    """
+
+    position: Program | None
+    velocity: Program | None
+    corrects: bool = True
+
+    def checked(self, rates: Program) -> Projection:
+        """The same, or a `RunError` that says what does not fit the right-hand side ``rates``."""
+        size = len(rates.inputs["x"])
+        for program in self.programs:
+            for group, names in program.inputs.items():
+                if names and tuple(names) != tuple(rates.inputs.get(group, ("t",) if group == "t" else ())):
+                    raise RunError(
+                        f"group '{group}' of '{program.name}' is not that of the right-hand side",
+                        code="E501",
+                        fix="name the same entries in the same order",
+                    )
+            shapes = {name: output.shape for name, output in program.outputs.items()}
+            if shapes.get("dx") != (size,) or shapes.get("gap") != () or shapes.get("margin", ()) != ():
+                raise RunError(
+                    f"'{program.name}' has outputs {shapes}, and a projection needs 'dx' ({size},) and 'gap' ()",
+                    code="E501",
+                    fix="'margin' () may be added",
+                )
+        if not self.programs:
+            raise RunError("a projection needs a program for positions, or one for velocities", code="E501")
+        return self
+
+    @property
+    def programs(self) -> tuple[Program, ...]:
+        """Those that there are."""
+        return tuple(p for p in (self.position, self.velocity) if p is not None)
+
+    @property
+    def approach(self) -> Program | None:
+        """The step on positions: ``dx`` (nx,) and ``gap`` (); None where there is none."""
+        if self.position is None or not self.corrects:
+            return None
+        return replace(self.position, outputs={name: self.position.outputs[name] for name in ("dx", "gap")})
+
+    def landing(self, rates: Program) -> Program:
+        """What follows it: ``dx`` (nx,), and `SEEN`: numbers of the state before and after that step."""
+        graph = rates.graph if all(p.graph is rates.graph for p in self.programs) else Graph()
+        position, velocity = (None if p is None else _outputs(p, graph) for p in (self.position, self.velocity))
+        size = len(rates.inputs["x"])
+        rest = position["gap"][0] if position else graph.zero
+        dx, gap, left = [graph.zero] * size, graph.zero, graph.zero
+        if velocity:
+            gap = left = velocity["gap"][0]
+        if velocity and self.corrects:
+            dx = velocity["dx"]
+            moved = {graph.input("x", i): graph.add(graph.input("x", i), d) for i, d in enumerate(dx)}
+            (left,) = replaced(graph, [gap], moved)
+        margins = [found["margin"][0] for found in (velocity, position) if found and "margin" in found]
+        seen = {"rest": rest, "gap": gap, "left": left, **({"margin": margins[0]} if margins else {})}
+        outputs = {"dx": Output(tuple(dx), (size,)), **{name: Output((i,), ()) for name, i in seen.items()}}
+        defaults = {k: v for program in self.programs for k, v in program.defaults.items()}
+        return Program(f"{rates.name} projection", graph, {**rates.inputs, "t": ("t",)}, outputs, defaults)
+
+
+SEEN = ("rest", "gap", "left", "margin")
+"""Outputs of `Projection.landing` beside ``dx``: the residuals of positions, those of velocities, those of velocities
+after the step, and the margin where one is told."""
+
+
+def _outputs(program: Program, graph: Graph) -> dict[str, list[int]]:
+    """The nodes of a program's outputs in a graph."""
+    own = program.graph is graph
+    return {n: list(o.ids) if own else copied(program.graph, o.ids, graph) for n, o in program.outputs.items()}
+
+
+@dataclass
+class Drift:
+    """How far N runs came from their rows, (N,) each: largest residuals in parts of the rows' scales.
+
+    ``position`` and ``velocity``: at the ends of steps, ``…_before`` and ``…_after`` the projection; equal where
+    nothing is corrected. ``start_…``: of the states that the runs were given. ``reset_…``: of the states right after
+    events that change the state. ``margin``: the least seen, +∞ where none is told, and its time ``margin_time``.
+    """
+
+    position_before: Array
+    position_after: Array
+    velocity_before: Array
+    velocity_after: Array
+    start_position: Array
+    start_velocity: Array
+    reset_position: Array
+    reset_velocity: Array
+    margin: Array
+    margin_time: Array
+
+    @classmethod
+    def of_rows(cls, rows: Array) -> Drift:
+        """From rows (N, 10), one a run, in the order of the fields."""
+        return cls(*np.ascontiguousarray(rows.T))
+
+    @staticmethod
+    def blank(count: int) -> Array:
+        """Rows of runs that have not begun."""
+        rows = np.zeros((count, len(DRIFT)))
+        rows[:, MARGIN], rows[:, MARGIN_TIME] = np.inf, np.nan
+        return rows
+
+
+DRIFT = tuple(field.name for field in fields(Drift))
+"""What is noted of a run, in order."""
+
+START, RESET, MARGIN, MARGIN_TIME = (
+    DRIFT.index(name) for name in ("start_position", "reset_position", "margin", "margin_time")
+)

@@ -1,0 +1,147 @@
+"""Projection for SciPy's solvers: their own state is moved, so that a multistep method keeps its order.
+
+A method of one step (RK45, RK23, DOP853, Radau) goes on from the projected state and the derivative there. A multistep
+method holds a history. Were it begun anew after every step, it would stay at order 1; were only what it hands out
+projected, it would drift away from that. So the history is corrected by δ, what the projection added to the last state:
+
+    BDF      backward differences ∇ʲ x_n, each of which holds x_n once:       D_j ← D_j + δ for all j
+    LSODA    Nordsieck's vector (x, h ẋ, h² ẍ/2, …), of the last state:       the first entry ← + δ
+
+As δ is of the size of the step's own error, the order stays. What is handed out is projected in any case; were a solver
+found not to keep its history where it is expected, it would begin anew.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.codegen import Kernel, compile
+from lagrangian.errors import RunError
+from lagrangian.graph import Program
+from lagrangian.integrate.projection import CLOSED, MARGIN, MARGIN_TIME, RESET, ROUNDING, SEEN, START, Drift, Projection
+
+Array = NDArray[np.float64]
+Control = Callable[[float, Array], Array]
+
+NOT_FINITE = ("E502", "E503")
+
+ONE_STEP = frozenset({"RK45", "RK23", "DOP853", "Radau"})
+"""Methods without a history."""
+
+NORDSIECK = 20
+"""Where Nordsieck's vector begins in LSODA's work space (ODEPACK, opkda1.f)."""
+
+
+class Projected:
+    """The states of one run brought back to their rows, and what is noted of that."""
+
+    def __init__(self, projection: Projection, rates: Program, p: Array, rtol: float, atol: float | Array) -> None:
+        projection = projection.checked(rates)
+        self.corrects, self.p, self.rtol, self.atol = projection.corrects, p, rtol, atol
+        approach, landing = projection.approach, projection.landing(rates)
+        self._approach: Kernel | None = None if approach is None else compile(approach, threads=1)
+        self._landing: Kernel = compile(landing, threads=1)
+        self.worst = Drift.blank(1)[0]
+
+    @property
+    def drift(self) -> Drift:
+        """What was noted so far."""
+        return Drift.of_rows(self.worst[np.newaxis])
+
+    def state(self, t: float, x: Array, u: Control) -> tuple[Array, dict[str, float]]:
+        """A state projected, and the residuals; not a number where it cannot be."""
+        x, first = np.array(x, float), 0.0
+        try:
+            if self._approach is not None:
+                found = self._at(self._approach, t, x, u)
+                first, x = float(found["gap"]), x + found["dx"]
+            found = self._at(self._landing, t, x, u)
+            if self._approach is None:
+                first = float(found["rest"])
+            elif found["rest"] > CLOSED:
+                x = x + self._at(self._approach, t, x, u)["dx"]
+                found = self._at(self._landing, t, x, u)
+        except RunError as trouble:
+            if trouble.code not in NOT_FINITE:
+                raise
+            return np.full_like(x, np.nan), {}
+        if self.corrects:
+            x = x + found["dx"]
+        return x, {"before": first, "margin": np.inf, **{n: float(found[n]) for n in SEEN if n in found}}
+
+    def _at(self, kernel: Kernel, t: float, x: Array, u: Control) -> dict[str, Array]:
+        given = {"x": np.ascontiguousarray(x), "u": u(t, x), "p": self.p, "t": t}
+        found: Any = kernel(**{name: value for name, value in given.items() if name in kernel.program.inputs})
+        return found
+
+    def _note(self, t: float, seen: dict[str, float], kind: int) -> None:
+        if not seen:
+            return
+        gaps = [seen["before"], seen["gap"]] if kind else [seen[n] for n in ("before", "rest", "gap", "left")]
+        place = slice(kind, kind + len(gaps))
+        self.worst[place] = np.maximum(self.worst[place], gaps)
+        if seen["margin"] < self.worst[MARGIN]:
+            self.worst[MARGIN], self.worst[MARGIN_TIME] = seen["margin"], t
+
+    def begin(self, t: float, x: Array, u: Control) -> Array:
+        """The state that a run starts from."""
+        moved, seen = self.state(t, x, u)
+        self._note(t, seen, START)
+        return moved
+
+    def reset(self, t: float, x: Array, u: Control) -> Array:
+        """The state that an event left."""
+        moved, seen = self.state(t, x, u)
+        self._note(t, seen, RESET)
+        return moved
+
+    def settle(self, solver: Any, before: Array, u: Control) -> tuple[float, bool]:
+        """Move a solver that made a step to the projected state; return the size of the correction in tolerances, and
+        whether the solver has to begin anew there. One whose correction is beyond 1 is left as it was.
+        """
+        moved, seen = self.state(solver.t, solver.y, u)
+        change = moved - solver.y
+        scale = self.atol + self.rtol * np.maximum(np.abs(before), np.abs(moved))
+        size = float(np.sqrt(np.mean((change / scale) ** 2)))
+        if np.isfinite(size) and seen["before"] <= ROUNDING and seen["gap"] <= ROUNDING:
+            size = 0.0
+        if not size <= 1.0:
+            return size, False
+        self._note(solver.t, seen, 0)
+        return size, self.corrects and not _moved(solver, moved, change)
+
+    def along(self, dense: Any, u: Control) -> Any:
+        """A solver's values inside a step, projected: t → x (nx,), or times (k,) → (nx, k)."""
+        if not self.corrects:
+            return dense
+
+        def inside(t: Any) -> Array:
+            if np.ndim(t) == 0:
+                return self.state(float(t), dense(t), u)[0]
+            columns = [self.state(float(at), x, u)[0] for at, x in zip(t, dense(t).T, strict=True)]
+            return np.array(columns).reshape(len(t), -1).T
+
+        return inside
+
+
+def _moved(solver: Any, state: Array, change: Array) -> bool:
+    """Put a state into a solver; return whether the solver goes on from it."""
+    name, size = type(solver).__name__, float(np.abs(solver.y).max())
+    if name == "BDF" and np.allclose(solver.D[0], solver.y, 1e-12, 1e-12 * size):
+        solver.D[: solver.order + 3] += change
+        solver.y = state
+        return True
+    if name == "LSODA":
+        work = solver._lsoda_solver._integrator.rwork[NORDSIECK : NORDSIECK + len(state)]
+        if not np.array_equal(work, solver.y):
+            return False
+        work[:], solver.y = state, state
+        return True
+    if name in ONE_STEP:
+        solver.y, solver.f = state, solver.fun(solver.t, state)
+        return True
+    return False
