@@ -6,6 +6,15 @@
 from lagrangian.dynamics.bodies import Bodies
 from lagrangian.dynamics.body_numbers import body_numbers
 from lagrangian.dynamics.canonical import canonical, canonical_impacts, momenta, velocities
+from lagrangian.dynamics.constraint_programs import (
+    constraint_matrix,
+    correction,
+    divisors,
+    forward_dual,
+    multipliers,
+    projection,
+    residual,
+)
 from lagrangian.dynamics.describe import describe
 from lagrangian.dynamics.description import Inputs
 from lagrangian.dynamics.feedback import SUPPLY, balance_terms_closed, closed, observe_closed, power_closed
@@ -44,10 +53,14 @@ __all__ = [
     "canonical_impacts",
     "closed",
     "configurations",
+    "constraint_matrix",
     "coriolis",
+    "correction",
     "describe",
+    "divisors",
     "energy",
     "forward",
+    "forward_dual",
     "frame_program",
     "impacts",
     "inverse",
@@ -57,6 +70,7 @@ __all__ = [
     "mass_matrix",
     "momenta",
     "moving_no_mass",
+    "multipliers",
     "named_place",
     "notices",
     "observe",
@@ -65,7 +79,9 @@ __all__ = [
     "potential_force",
     "power",
     "power_closed",
+    "projection",
     "rates",
+    "residual",
     "rhs",
     "velocities",
 ]
