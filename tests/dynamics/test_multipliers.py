@@ -1,9 +1,12 @@
 """Accelerations and multipliers along the tape against dense matrices of numbers."""
 
 import mechanisms
+import mechanisms_in_space
 import numpy as np
 import pytest
 from closed_loops import values
+
+from lagrangian.dynamics.multipliers import DependentRow
 
 SYSTEMS = {
     "slider-crank": mechanisms.slider_crank,
@@ -30,3 +33,79 @@ def test_accelerations_and_multipliers_are_those_of_dense_matrices(name, seed):
     found = values(m, q, v, p, vdot=m.forward(), lam=m.constrained.multipliers)
     assert np.abs(found["vdot"] - vdot).max() < 1e-12 * (1 + np.abs(vdot).max())
     assert np.abs(found["lam"] - lam).max() < 1e-12 * (1 + np.abs(lam).max())
+
+
+def moving(numbers, q):
+    """Some velocities that satisfy the rows at q."""
+    _, sizes, directions = np.linalg.svd(numbers.rows(q, np.zeros(numbers.n))[0])
+    rank = int((sizes > 1e-9 * sizes[0]).sum())
+    return directions[rank:].T @ np.arange(1.0, numbers.n - rank + 1)
+
+
+def trihedral(theta):
+    """The regular loop of Bricard: cos θ + cos φ + cos θ cos φ = 0."""
+    phi = np.arccos(-np.cos(theta) / (1 + np.cos(theta)))
+    return np.array([theta, phi, theta, phi, theta])
+
+
+REDUNDANT = {
+    "double parallelogram": (mechanisms.double_parallelogram, np.array([0.7, 0.7, 0.7, 0.0])),
+    "Bricard": (mechanisms.bricard, trihedral(0.6)),
+}
+
+
+@pytest.mark.parametrize("name", REDUNDANT)
+def test_a_row_that_depends_on_others_where_the_loop_closes_is_skipped(name):
+    build, q = REDUNDANT[name]
+    m, numbers, p = build()
+    v = moving(numbers, q)
+    vdot, _ = numbers.solution(q, v)
+    size, found = np.abs(vdot).max(), m.constrained
+    wanted = {"vdot": found.vdot, "lam": found.multipliers, "margins": found.margins, "skipped": found.residuals}
+    for off, tolerance in ((0.0, 1e-12), (1e-9, 2e-8)):
+        rng = np.random.default_rng(5)
+        at = q + off * rng.normal(size=len(q)), v + off * rng.normal(size=len(q))
+        got = values(m, *at, p, **wanted)
+        assert np.abs(got["vdot"] - vdot).max() < tolerance * size
+        skipped = np.abs(got["margins"]) < 1e-11
+        assert skipped.sum() == 1 and got["margins"][~skipped].min() > 1e-3
+        assert np.abs(got["lam"][skipped]) < 1e-200
+        assert np.abs(got["skipped"]).max() <= 1e-12 * size + 10 * off * size and (got["skipped"][~skipped] == 0).all()
+        M, h, A, _ = numbers.equations(*at)
+        assert np.abs(M @ got["vdot"] + h - A.T @ got["lam"]).max() < 1e-11 * np.abs(h).max()
+
+
+def test_the_margin_falls_with_the_square_of_the_distance_from_the_flat_position():
+    m, _, p = mechanisms.planar([(2, (1.0, 0.0))], [0.5, 1.0, 0.5], [(0, 0), 0, 1])
+    margins = []
+    for angle in (1e-2, 1e-3):
+        got = values(m, [angle, 0.0, angle - np.pi], np.ones(3), p, margins=m.constrained.margins)
+        margins.append(got["margins"].min())
+    assert margins[0] / margins[1] == pytest.approx(100, rel=0.01) and 1e-6 < margins[0] < 1e-3
+
+
+def test_a_hinge_that_says_again_what_others_say_is_named():
+    m, numbers = mechanisms_in_space.door()
+    with pytest.raises(DependentRow, match=r"'upper hinge.z' depends on the other constraints") as caught:
+        m.forward()
+    assert caught.value.row is m.rows[-1]
+    m, _ = mechanisms_in_space.door(all_rows=False)
+    q = np.array([0, 0, 0, 0, 0, np.sin(0.4), np.cos(0.4)])
+    v = np.array([0, 0, 0, 0, 0, 1.3])
+    vdot, _ = numbers.solution(q, v)
+    assert np.abs(values(m, q, v, vdot=m.forward())["vdot"] - vdot).max() < 1e-12 * np.abs(vdot).max()
+    off = np.array([0, 0, 0, 1e-9, 1e-9, 0, 0])
+    assert np.abs(values(m, q + off, v, vdot=m.forward())["vdot"] - vdot).max() < 1e-7 * np.abs(vdot).max()
+
+
+def test_a_bicycle_rolls():
+    m, numbers, p = mechanisms_in_space.bicycle()
+    for seed in range(3):
+        rng = np.random.default_rng(seed)
+        q, v = rng.uniform(-0.4, 0.4, 8), rng.uniform(-1, 1, 8)
+        order = [1, 2, 0, 3, 4]  # the oracle's rows are the gaps first
+        vdot, lam = numbers.solution(q, v)
+        got = values(m, q, v, p, vdot=m.forward(), lam=m.constrained.multipliers, c=[row.rate for row in m.rows])
+        assert np.abs(got["c"] - numbers.rows(q, v)[1][order]).max() < 1e-13
+        assert np.abs(got["vdot"] - vdot).max() < 1e-11 * (1 + np.abs(vdot).max())
+        assert np.abs(got["lam"] - lam[order]).max() < 1e-11 * (1 + np.abs(lam).max())
