@@ -125,10 +125,7 @@ def _front_contact(m, d, axle, fork, wheel):
 
 
 def _slips_of_a_bicycle(parts):
-    """The rows on velocities as a function of q and its rates.
-
-    Velocities are taken by differences of exact jets: v = ∂r/∂q q̇ needs no second jet, for r is linear along unit steps.
-    """
+    """The rows on velocities as a function of q and its rates, by angular velocities about the axes in turn."""
 
     def slips(q, rates):
         rear = [rates[0] - WHEEL * cos(q[2]) * rates[4], rates[1] - WHEEL * sin(q[2]) * rates[4]]

@@ -128,7 +128,7 @@ def test_random_rows_on_random_trees(data):
     m, numbers = mechanisms_in_space.random_tree(parents, axes, seed, joints)
     rng = np.random.default_rng(seed)
     q, v = rng.uniform(-1.2, 1.2, n), rng.uniform(-1, 1, n)
-    M, h, A, gamma = numbers.equations(q, v)
+    M, _, A, gamma = numbers.equations(q, v)
     L = np.linalg.cholesky(M)
     size = np.linalg.svd(np.linalg.solve(L, A.T), compute_uv=False)
     if len(A) > n or size[-1] <= 1e-2 * size[0]:
