@@ -73,6 +73,21 @@ class Code(StrEnum):
         "a velocity constraint that is not linear in the rates",
         "It is a sum of terms a(q, t) · rate, and one a(q, t) alone.",
     )
+    E302 = (
+        "E302",
+        "constraints that contradict each other",
+        "No motion satisfies all of them; the message names them.",
+    )
+    E304 = (
+        "E304",
+        "constraints that no position satisfies",
+        "The message says how far the nearest position is from closing, and which fixed coordinate prevents it.",
+    )
+    E305 = (
+        "E305",
+        "too many fixed coordinates",
+        "With these coordinates and rates held, no rates of the others satisfy the constraints.",
+    )
     E308 = (
         "E308",
         "a position that contains a rate or a kink",
@@ -203,9 +218,9 @@ class Code(StrEnum):
 
 
 CodeText = Literal[
-    "E101", "E102", "E103", "E104", "E105", "E106", "E107", "E201", "E202", "E203", "E210", "E301", "E308", "E401",
-    "E402", "E403", "E404", "E405", "E406", "E408", "E409", "E410", "E412", "E413", "E414", "E415", "E416", "E417",
-    "E418", "E419", "E501", "E502", "E503", "E504", "E505", "E506", "E521", "E522", "E523", "E524", "E525", "E601",
-    "E701", "E702", "E703", "E704", "E705", "E801", "E802", "E803", "E804",
+    "E101", "E102", "E103", "E104", "E105", "E106", "E107", "E201", "E202", "E203", "E210", "E301", "E302", "E304",
+    "E305", "E308", "E401", "E402", "E403", "E404", "E405", "E406", "E408", "E409", "E410", "E412", "E413", "E414",
+    "E415", "E416", "E417", "E418", "E419", "E501", "E502", "E503", "E504", "E505", "E506", "E521", "E522", "E523",
+    "E524", "E525", "E601", "E701", "E702", "E703", "E704", "E705", "E801", "E802", "E803", "E804",
 ]  # fmt: skip
 """The codes as literal texts: a type checker rejects any other code where an error is made."""

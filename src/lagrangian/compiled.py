@@ -14,8 +14,8 @@ from lagrangian import codegen as machine
 from lagrangian import dynamics
 from lagrangian.errors import ModelError, RunError
 from lagrangian.graph import reached
-from lagrangian.queries import Looking
 from lagrangian.queries import by_name as _named
+from lagrangian.restricted import Restricted
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program
@@ -35,7 +35,7 @@ NOT_FINITE = "E503"
 """The error code of results that are not finite."""
 
 
-class Compiled(Looking):
+class Compiled(Restricted):
     """The dynamics M(q) q̈ + C(q, q̇) q̇ + G(q) = Ξ of a system, as functions in machine code.
 
     Every method takes arrays of shape ``(..., n)``, whose leading dimensions broadcast together, in the declared order

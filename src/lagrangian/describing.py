@@ -40,7 +40,6 @@ from lagrangian.quantities.quantity import parse_quantity
 STANDARD_GRAVITY = 9.81
 """The default value of the parameter g [m/s²]."""
 
-
 MOST_NAMES = 10_000
 """The largest number of names in a range such as ``q1:7``."""
 

@@ -15,7 +15,6 @@ from lagrangian.dynamics.axes import Accelerations, Axes, PlaceMotion
 from lagrangian.dynamics.description import Description
 from lagrangian.dynamics.rows import ConstraintRow
 from lagrangian.dynamics.vectors import Vector, cross, dot, minus, plus, times, transposed, zeros
-from lagrangian.model.elements import Element
 from lagrangian.model.elements.base import Condition
 from lagrangian.model.elements.conditions import (
     Coincidence,
@@ -26,6 +25,7 @@ from lagrangian.model.elements.conditions import (
     Separation,
     Stated,
 )
+from lagrangian.model.rows import named_conditions
 
 Made = tuple[int, int | None, Callable[[Accelerations], int] | None]
 """c, f where there is one, and how ċ comes out of accelerations."""
@@ -34,16 +34,10 @@ Made = tuple[int, int | None, Callable[[Accelerations], int] | None]
 def rows(d: Description) -> list[ConstraintRow]:
     """The rows of all constraints, in order."""
     found: list[ConstraintRow] = []
-    for element in d.model.constraints:
-        found += _rows_of(d, element)
+    for named in named_conditions(d.model):
+        c, f, acceleration = CONDITIONS[type(named.condition)](d, named.condition)
+        found.append(ConstraintRow(named.name, named.element.name, c, f, acceleration))
     return found
-
-
-def _rows_of(d: Description, element: Element) -> Iterator[ConstraintRow]:
-    for condition in element.conditions(d.model):
-        c, f, acceleration = CONDITIONS[type(condition)](d, condition)
-        name = f"{element.name}.{condition.suffix}" if condition.suffix else element.name
-        yield ConstraintRow(name, element.name, c, f, acceleration)
 
 
 def _coincidence(d: Description, s: Any) -> Made:

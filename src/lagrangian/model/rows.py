@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import cast
+from weakref import WeakKeyDictionary
 
 import sympy as sp
 
@@ -37,24 +38,43 @@ class Row:
     multiplier: Words
 
 
+_KNOWN: WeakKeyDictionary[Model, tuple[Row, ...]] = WeakKeyDictionary()
+
+
 def rows_of(model: Model) -> tuple[Row, ...]:
     """The rows of all constraints, in the order in which they were described."""
-    return tuple(_rows(model))
+    found = _KNOWN.get(model)
+    if found is None:
+        found = _KNOWN[model] = tuple(
+            Row(
+                named.name,
+                named.element,
+                named.condition,
+                named.condition.position(model),
+                named.condition.rate(model),
+                named.condition.unit,
+                named.condition.multiplier(model),
+            )
+            for named in named_conditions(model)
+        )
+    return found
 
 
-def _rows(model: Model) -> Iterator[Row]:
+@dataclass(frozen=True, eq=False)
+class NamedCondition:
+    """A row before its expressions are made: its name, its constraint and its condition."""
+
+    name: str
+    element: Element
+    condition: Condition
+
+
+def named_conditions(model: Model) -> Iterator[NamedCondition]:
+    """The rows of all constraints, in order, without their expressions, which are long for large systems."""
     for element in model.constraints:
         for condition in element.conditions(model):
             name = f"{element.name}.{condition.suffix}" if condition.suffix else element.name
-            yield Row(
-                name,
-                element,
-                condition,
-                condition.position(model),
-                condition.rate(model),
-                condition.unit,
-                condition.multiplier(model),
-            )
+            yield NamedCondition(name, element, condition)
 
 
 def check_rows(model: Model) -> None:

@@ -123,6 +123,11 @@ class Condition:
     suffix: str = ""
     unit: Unit | None = None
 
+    @property
+    def on_positions(self) -> bool:
+        """Whether a position says it; else it restricts velocities alone."""
+        return True
+
     def position(self, model: Surroundings) -> sp.Expr | None:
         """f, zero where the constraint holds; None for a row on velocities alone."""
         raise NotImplementedError

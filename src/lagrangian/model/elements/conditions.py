@@ -98,6 +98,11 @@ class Stated(Condition):
     value: sp.Expr
     velocity: bool = False
 
+    @property
+    def on_positions(self) -> bool:
+        """Whether it was given as a position."""
+        return not self.velocity
+
     def position(self, model: Surroundings) -> sp.Expr | None:
         """f as given."""
         return None if self.velocity else model.expand(self.value)
@@ -182,6 +187,11 @@ class NoSlip(Condition):
     along: tuple[sp.Expr, ...]
     axes: Frame | None
     unit: Unit | None = FORCE
+
+    @property
+    def on_positions(self) -> bool:
+        """Never: no position says it."""
+        return False
 
     def position(self, model: Surroundings) -> None:
         """No position says it."""

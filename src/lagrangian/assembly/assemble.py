@@ -1,0 +1,165 @@
+"""Consistent starts: coordinates that close every loop and rates that keep them closed, from a rough guess."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian import codegen, dynamics
+from lagrangian.assembly.newton import Array, LoopSearch
+from lagrangian.errors import RunError
+from lagrangian.model import Model
+from lagrangian.model.rows import NamedCondition, named_conditions
+
+Flags = NDArray[np.bool_]
+
+NEAR = 64
+"""Guesses near the given one, tried where that one does not close."""
+
+FAR = 1000
+"""Guesses anywhere."""
+
+SPREAD = 0.3
+"""How far the near guesses are spread, in rad or in the system's length."""
+
+SAME = 1e-6
+"""Positions nearer than this are one."""
+
+KEPT = 1e-9
+"""A velocity row that is left with more than this part of its terms is not satisfied."""
+
+
+class Assembler:
+    """Finds positions and velocities of a model that satisfy its constraints; ``fixed`` coordinates stay as given."""
+
+    def __init__(self, model: Model, fixed: Collection[str] = ()) -> None:
+        self.model, self.fixed = model, tuple(fixed)
+        self.names = [c.name for c in model.coordinates]
+        self.search = LoopSearch.of(model, self.fixed)
+
+    @cached_property
+    def rows(self) -> tuple[NamedCondition, ...]:
+        """The model's rows."""
+        return tuple(named_conditions(self.model))
+
+    # -- positions ----------------------------------------------------------------------------------------------
+
+    def position(self, q: Array, p: Array, t: float = 0.0) -> Array:
+        """The position nearest to the guess q (n,) that was found; a `RunError` with the gaps where there is none."""
+        if self.search is None:
+            return q
+        found, closed = self.search.run(q[None, :], p, t)
+        if closed[0]:
+            return found[0]
+        others = self.positions(q, p, t, spread=SPREAD, count=NEAR)
+        if not len(others):
+            others = self.positions(q, p, t, spread=None, count=FAR)
+        if not len(others):
+            raise self._open(q, found[0], p, t)
+        return others[0]
+
+    def positions(self, q: Array, p: Array, t: float, *, spread: float | None, count: int) -> Array:
+        """The different positions found from random guesses, nearest to q first, shape (found, n)."""
+        if self.search is None:
+            return q[None, :]
+        rng = np.random.default_rng(1)
+        angles, moving = self.search.angles(q, p, t), self.search.moving(q, p, t)
+        noise = rng.uniform(-1.0, 1.0, (count, len(q))) * moving
+        size = self._length(q, p, t, angles)
+        reach = np.where(angles, np.pi if spread is None else spread, (2.0 if spread is None else spread) * size)
+        centre = q if spread is not None else np.where(angles, 0.0, q)
+        guesses = centre + noise * reach
+        held = [self.names.index(name) for name in self.fixed]
+        guesses[:, held] = q[held]
+        guesses[0] = q
+        found, closed = self.search.run(guesses, p, t)
+        angles[held] = False  # what stays, stays to the last digit
+        return self._different(found[closed], q, angles)
+
+    def _length(self, q: Array, p: Array, t: float, angles: Flags) -> float:
+        """The length that the gaps and the guess show."""
+        assert self.search is not None
+        lengths = np.abs(np.where(angles, 0.0, q)).max(initial=0.0)
+        return float(max(lengths, np.abs(self.search.gaps(q[None, :], p, t)).max(initial=0.0), 1e-3))
+
+    @staticmethod
+    def _different(found: Array, q: Array, angles: Flags) -> Array:
+        """Each position once, angles taken near the guess, the nearest first."""
+        turned = np.where(angles, q + np.remainder(found - q + np.pi, 2 * np.pi) - np.pi, found)
+        order = np.argsort(np.linalg.norm(turned - q, axis=-1), kind="stable")
+        kept: list[Array] = []
+        for x in turned[order]:
+            apart = [np.where(angles, np.remainder(x - y + np.pi, 2 * np.pi) - np.pi, x - y) for y in kept]
+            if all(np.abs(d).max() > SAME * (1.0 + np.abs(x).max()) for d in apart):
+                kept.append(x)
+        return np.array(kept).reshape(-1, len(q))
+
+    def _open(self, guess: Array, nearest: Array, p: Array, t: float) -> RunError:
+        """The error that names what stays open, how far, and what would close it."""
+        assert self.search is not None
+        gaps = self.search.gaps(nearest[None, :], p, t)[0]
+        named: dict[str, float] = {}
+        for row, gap in zip([r for r in self.rows if r.condition.on_positions], gaps, strict=True):
+            named[row.element.name] = max(named.get(row.element.name, 0.0), abs(float(gap)))
+        worst = sorted(named.items(), key=lambda item: -item[1])
+        shown = ", ".join(f"'{name}' by {gap:.3g}" for name, gap in worst[:4] if gap > 0)
+        freed = [name for name in self.fixed if self._closes_without(name, guess, p, t)]
+        if freed:
+            fix = f"do not hold {' or '.join(freed[:4])} fixed: freed alone, it lets the loop close"
+        elif self.fixed:
+            fix = "no position closes with any one of the fixed coordinates freed: look at the lengths"
+        else:
+            fix = "look at the lengths: no position with them closes the loop"
+        return RunError(
+            f"no position was found that satisfies the constraints (nearest: {shown} open)", fix=fix, code="E304"
+        )
+
+    def _closes_without(self, name: str, guess: Array, p: Array, t: float) -> bool:
+        other = Assembler(self.model, tuple(n for n in self.fixed if n != name))
+        return bool(len(other.positions(guess, p, t, spread=SPREAD, count=NEAR)))
+
+    # -- velocities ---------------------------------------------------------------------------------------------
+
+    @cached_property
+    def _velocity(self) -> tuple[codegen.Kernel, codegen.Kernel, codegen.Kernel]:
+        step = dynamics.correction(self.model, self.fixed, position=False)
+        assert step is not None
+        optional = {"u": 0.0, "t": 0.0}
+        made = [codegen.compile(x, optional=optional) for x in (step, dynamics.residual(self.model))]
+        matrix = codegen.compile(dynamics.constraint_matrix(self.model), optional={**optional, "v": 0.0})
+        return made[0], made[1], matrix
+
+    def velocity(self, q: Array, v: Array, p: Array, t: float = 0.0) -> Array:
+        """The rates nearest to v, by kinetic energy, that keep the constraints; a `RunError` where there are none."""
+        correct, rows, matrix = self._velocity
+        for _ in range(2):  # the second takes the rounding of the first away
+            v = v + np.asarray(correct(q, v, None, p, t)["dv"])
+        left = np.abs(np.asarray(rows(q, v, None, p, t)["Av"]))
+        A = np.abs(np.asarray(matrix(q, None, None, p, t)["A"]))
+        a0 = np.abs(np.asarray(matrix(q, None, None, p, t)["a0"]))
+        terms = A @ np.abs(v) + a0
+        wrong = left > KEPT * (1e-3 + terms)
+        if wrong.any():
+            names = [f"'{row.name}'" for row, bad in zip(self.rows, wrong, strict=True) if bad]
+            held = f" with {', '.join(self.fixed)} fixed" if self.fixed else ""
+            raise RunError(
+                f"no rates satisfy the constraint{'s' if len(names) > 1 else ''} {', '.join(names[:6])}{held}",
+                fix="hold fewer coordinates fixed" if self.fixed else "look at constraints that contradict each other",
+                code="E305" if self.fixed else "E302",
+            )
+        return v
+
+
+def consistent(
+    model: Model, q: Array, v: Array, p: Array, t: float = 0.0, *, fixed: Sequence[str] = ()
+) -> tuple[Array, Array]:
+    """q and v that satisfy every constraint, from a guess; coordinates in ``fixed`` and their rates stay.
+
+    Raises `RunError`: no position closes the loops (E304), the fixed coordinates leave no motion that does (E305).
+    """
+    assembler = Assembler(model, fixed)
+    at = assembler.position(np.asarray(q, float), p, t)
+    return at, assembler.velocity(at, np.asarray(v, float), p, t)
