@@ -77,7 +77,7 @@ def test_letters_and_numbers_that_mean_a_parameter_are_read_and_told() -> None:
     verdict = derived("pendulum").check("m*L^2*theta'' + b*theta' + 9.81*m*L*sin(theta) = 0")
     assert verdict.right and "9.81 was read as g." in map(str, verdict.notes)
     verdict = derived("pendulum").check("0.25*theta'' + 0.02*theta' + 4.905*sin(theta) = 0")
-    assert verdict.right and "are put in" in str(verdict.notes[-1])
+    assert verdict.right and "are substituted" in str(verdict.notes[-1])
     verdict = derived("pendulum").check("0.25*theta'' + 0.02*theta' + 4.906*sin(theta) = 0")
     assert not verdict.right
     verdict = derived("lecture-3a").check("m1*x1'' + c*(x1 - x2) = -F + w\nm2*x2'' + c*(x2 - x1) = F")

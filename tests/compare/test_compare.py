@@ -270,7 +270,7 @@ def test_the_same_force_booked_as_a_potential_is_the_same_motion() -> None:
     found = lg.compare(lg.loads(ABSOLUTE), lg.loads(booked))
     assert found.same
     assert [d.quantity for d in found.differences] == ["V", "Xi"]
-    assert "book the same forces in different columns" in found.to_text()
+    assert "count the same forces in different places" in found.to_text()
 
 
 def test_more_coordinates_are_another_system() -> None:

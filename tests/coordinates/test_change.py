@@ -213,7 +213,7 @@ def test_random_linear_changes_of_random_chains(rows: list[list[int]]) -> None:
         ({}, "is a mapping"),
         ({"x2": "x1 + 3"}, "1 coordinate is replaced .x2. by 0 new"),
         ({"x2": "u + v"}, "by 2 new"),
-        ({"x2": "x1' + r"}, "holds a rate"),
+        ({"x2": "x1' + r"}, "contains a rate"),
         ({"x2": "F + r"}, "an input"),
         ({"x3": "u", "x2": "x1 + r"}, "no coordinate 'x3'"),
         ({"x1": "u + v", "x2": "2*u + 2*v"}, "singular: u and v"),

@@ -127,7 +127,7 @@ def test_momenta_of_coupled_ignorable_coordinates() -> None:
     ("name", "ignorable", "message"),
     [
         ("double-pendulum", None, "no coordinate is ignorable"),
-        ("spherical-pendulum", ["theta"], "L holds it"),
+        ("spherical-pendulum", ["theta"], "L contains it"),
         ("cart-pole", ["x"], "a force acts on it"),
         ("spherical-pendulum", ["fi"], "there is no coordinate 'fi'"),
         ("spherical-pendulum", [], "no coordinate is given"),

@@ -1,4 +1,4 @@
-"""Is this answer right? Right in which shape, or wrong where, and why."""
+"""Checks an answer: whether it is right, in what sense, or where it is wrong and why."""
 
 from lagrangian.check.check import check
 from lagrangian.check.lines import lines_from, lines_of

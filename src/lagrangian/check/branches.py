@@ -1,7 +1,7 @@
-"""The side of zero on which a distance lives: √(r²) is r there, and states are taken there.
+"""Distances are positive: √(p²) is simplified to p, and states are chosen with p > 0.
 
-A side is taken where the model tells it: it has the root of p², or its mass matrix is singular at p = 0 as in polar
-coordinates, with p = ±q + c of one coordinate q, of one sign at ordinary states.
+This is done for p = ±q + c, with one coordinate q, if the model contains the root of p², or if its mass matrix is
+singular at p = 0, as in polar coordinates, and if p has the same sign at all ordinary states.
 """
 
 from __future__ import annotations
@@ -19,19 +19,21 @@ from lagrangian import bounded
 from lagrangian.derive.sampling import Array, CompiledExpressions, States
 
 LONGEST = 80
-"""Operations of an expression whose factors are looked at."""
+"""The largest number of operations of an expression whose factors are examined."""
 
 
 @dataclass(frozen=True)
 class Branch:
-    """``p``, which is ±``q`` + c, is positive; ``root`` says whether the model has the root of its square."""
+    """A distance ``p`` = ±``q`` + c, which is positive; ``root`` says whether the model contains the root of its
+    square."""
 
     q: sp.Expr
     p: sp.Expr
     root: bool
 
     def put(self, values: Array, states: States) -> Array:
-        """Values of the coordinate, those beyond p = 0 reflected in it; multiples of 2⁻¹² as every state's are."""
+        """Values of the coordinate, reflected at p = 0 where p would be negative; multiples of 2⁻¹², as in every
+        state."""
         slope = int(_slope(self.p, self.q))
         c = CompiledExpressions([self.p - slope * self.q]).at(states)[0]
         p = np.abs(slope * values + c)
@@ -39,7 +41,8 @@ class Branch:
 
 
 def sides_of(exprs: Sequence[sp.Expr], M: sp.Matrix, states: States, q: Sequence[sp.Expr]) -> tuple[Branch, ...]:
-    """The sides that expressions with roots and a mass matrix tell, one a coordinate."""
+    """The distances that can be recognized from expressions with roots and from a mass matrix, one for each
+    coordinate."""
     found: dict[sp.Expr, Branch] = {}
     for root, p in (*((True, p) for p in _rooted(exprs)), *((False, p) for p in _singular(M, states, q))):
         of = [x for x in q if p.has(x)]
@@ -52,7 +55,7 @@ def sides_of(exprs: Sequence[sp.Expr], M: sp.Matrix, states: States, q: Sequence
 
 
 def natural(expr: sp.Expr, sides: Sequence[Branch]) -> sp.Expr:
-    """The expression with √(p²) and |p| written as p, for every p that is positive on its side."""
+    """The expression with √(p²) and |p| replaced by p, for every distance p."""
     if not sides:
         return expr
     table: dict[sp.Basic, sp.Expr] = {}
@@ -87,7 +90,7 @@ def _is_root(f: sp.Basic) -> bool:
 
 
 def _squares(base: sp.Expr) -> tuple[sp.Expr, list[tuple[sp.Expr, int]]] | None:
-    """A positive number and factors with even powers whose product is the base; None where it is no square."""
+    """A positive number and factors with even powers whose product is the base; None if it is not a square."""
     if sp.count_ops(base) > LONGEST or not base.free_symbols or not base.is_polynomial(*_letters(base)):
         return None
     number, parts = _factors(base)
@@ -97,7 +100,7 @@ def _squares(base: sp.Expr) -> tuple[sp.Expr, list[tuple[sp.Expr, int]]] | None:
 
 
 def _factors(expr: sp.Expr) -> Any:
-    """A number and factors with their powers; the expression itself where none are found, or not soon."""
+    """A number and factors with their powers; the expression itself if none are found in reasonable time."""
 
     def looked_for() -> Any:
         try:
@@ -120,7 +123,7 @@ def _rooted(exprs: Sequence[sp.Expr]) -> Iterator[sp.Expr]:
 
 
 def _singular(M: sp.Matrix, states: States, q: Sequence[sp.Expr]) -> Iterator[sp.Expr]:
-    """Factors ±q + c of the diagonal of the mass matrix at whose zeros it is singular."""
+    """Factors ±q + c of the diagonal of the mass matrix at whose zeros the matrix is singular."""
     tried: dict[sp.Expr, None] = {}
     for i in range(M.rows):
         entry: Any = M[i, i]

@@ -1,7 +1,6 @@
-"""Every way to go wrong in a system, and what it does to every line of an answer, at the states of the check.
+"""All variants of all known mistakes in a system, and their effect on every line of an answer at the random states.
 
-For all variants of all misconceptions at once, on one graph:
-ΔW_i = d/dt ∂ΔT/∂ξ̇_i − ∂ΔT/∂ξ_i + ∂ΔV/∂ξ_i − ΔΞ_i + Δrow_i.
+All variants are computed at once, on one graph: ΔW_i = d/dt ∂ΔT/∂ξ̇_i − ∂ΔT/∂ξ_i + ∂ΔV/∂ξ_i − ΔΞ_i + Δrow_i.
 """
 
 from __future__ import annotations
@@ -24,15 +23,15 @@ from lagrangian.graph import jvp, vjp
 from lagrangian.model import time
 
 LONGEST_SYSTEM = 2_000
-"""Operations of T*, V and Ξ times coordinates, above which mistakes are not tried but told by their terms alone."""
+"""If T*, V and Ξ have more operations, times the number of coordinates, mistakes are reported only by their terms."""
 
 WORK = 120_000
-"""Operations that all variants of a system may have, the likelier first; those of a robot arm have half as many."""
+"""The total number of operations of all variants, likely ones first; those of a robot arm have half as many."""
 
 
 @dataclass(frozen=True, eq=False)
 class Wrong:
-    """A variant of a misconception; ``rank`` is its place in the order of belief."""
+    """A variant of a misconception; ``rank`` is its place in the order of likelihood."""
 
     module: ModuleType
     variant: Variant
@@ -40,17 +39,17 @@ class Wrong:
 
     @property
     def name(self) -> str:
-        """The misconception's name: its file's."""
+        """The name of the misconception, which is the name of its file."""
         return self.module.__name__.rsplit(".", 1)[-1]
 
     @property
     def general(self) -> bool:
-        """Whether it says little."""
+        """Whether the misconception is so general that it explains little."""
         return self.name in GENERAL
 
     @property
     def step(self) -> int:
-        """The step of the lecture in which it was made."""
+        """The step of the lecture in which the mistake was made."""
         v = self.variant
         if v.rows or v.only is not None or ("L" in v.stated and "V" not in v.stated):
             return self.module.STEP
@@ -67,7 +66,7 @@ class Wrong:
 
 
 class Effects:
-    """What every variant does, at every state."""
+    """The effects of every variant at every state."""
 
     def __init__(self, truth: Reference) -> None:
         self.truth = truth
@@ -94,7 +93,8 @@ class Effects:
                 yield Wrong(module, variant, rank)
 
     def _added(self, wrong: Wrong) -> bool:
-        """Add the nodes of ΔT, ΔV, ΔΞ_i and ΔW_i of a variant; False where it divides by 0, and so is no answer."""
+        """Add the nodes of ΔT, ΔV, ΔΞ_i and ΔW_i of a variant; return False if it divides by 0 and is therefore not
+        usable."""
         v = wrong.variant
         put = self.truth.put
         try:
@@ -125,28 +125,28 @@ class Effects:
 
     @cached_property
     def _values(self) -> Array:
-        """Everything of every variant at every state, shape (variants, 2 + 2n, size)."""
+        """All quantities of every variant at every state, shape (variants, 2 + 2n, size)."""
         n = self.truth.n
         return self.graph.at(self.truth.states).reshape(len(self.wrongs), 2 + 2 * n, self.truth.states.size)
 
     @cached_property
     def T(self) -> Array:
-        """ΔT where an answer's line of T* shows it, (variants, size)."""
+        """ΔT for variants that are visible in a line of T*, otherwise 0, (variants, size)."""
         return self._values[:, 0] * self._shown("T")
 
     @cached_property
     def V(self) -> Array:
-        """ΔV where an answer's line of V shows it, (variants, size)."""
+        """ΔV for variants that are visible in a line of V, otherwise 0, (variants, size)."""
         return self._values[:, 1] * self._shown("V")
 
     @cached_property
     def L(self) -> Array:
-        """ΔT − ΔV where an answer's line of L shows it, (variants, size)."""
+        """ΔT − ΔV for variants that are visible in a line of L, otherwise 0, (variants, size)."""
         return (self._values[:, 0] - self._values[:, 1]) * self._shown("L")
 
     @cached_property
     def Xi(self) -> Array:
-        """ΔΞ where an answer's line of a Ξ shows it, (variants, n, size)."""
+        """ΔΞ for variants that are visible in a line of a Ξ, otherwise 0, (variants, n, size)."""
         return self._values[:, 2 : 2 + self.truth.n] * self._shown("Xi")[:, :, None]
 
     @cached_property
@@ -155,34 +155,34 @@ class Effects:
         return self._values[:, 2 + self.truth.n :]
 
     def _shown(self, key: str) -> Array:
-        """1 for the variants that a line of this kind shows: not those that concern single equations."""
+        """1 for the variants that are visible in a line of this kind, which excludes those of single equations."""
         shown = [key in w.variant.stated and w.variant.only is None for w in self.wrongs]
         return np.array(shown, dtype=float)[:, None]
 
     @cached_property
     def usable(self) -> Array:
-        """Which variants have a value everywhere and do something, (variants,) of truth values."""
+        """Which variants have a finite value everywhere and change something, as Booleans (variants,)."""
         finite = np.isfinite(self._values).all(axis=(1, 2))
         size = np.abs(np.where(np.isfinite(self._values), self._values, 0)).max(axis=(1, 2))
         return finite & (size > 1e-12)
 
     @cached_property
     def felt(self) -> Array:
-        """Which variants change an equation, (variants,) of truth values."""
+        """Which variants change an equation, as Booleans (variants,)."""
         return np.abs(self.W).max(axis=(1, 2)) > 1e-12
 
 
 def too_long(truth: Reference) -> bool:
-    """Whether a system is too long for every way to go wrong in it to be tried."""
+    """Whether a system is too large to try all variants of all mistakes."""
     return sum(bounded.size(x) for x in (truth.T, truth.V, *truth.Xi)) * truth.n > LONGEST_SYSTEM
 
 
 def _operations(v: Variant) -> int:
-    """How many operations a variant has when it is written out."""
+    """The number of operations of a variant when it is written out."""
     return sum(bounded.size(sp.sympify(x)) for x in (v.T, v.V, *v.Xi.values(), *v.rows.values()))
 
 
 @lru_cache(maxsize=32)
 def effects_of(truth: Reference) -> Effects:
-    """Every variant in a system, worked out once for the systems that were checked with last."""
+    """All variants in a system, computed once for the systems that were checked most recently."""
     return Effects(truth)

@@ -1,4 +1,4 @@
-"""Is this answer right? The check as a table of contents."""
+"""The check of an answer, from its lines to the verdict."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ _log = logging.getLogger(__name__)
 
 
 def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3) -> Verdict:
-    """Return what is right and what is wrong with an answer, line by line and as a whole.
+    """Return what is right and what is wrong in an answer, line by line and as a whole.
 
-    Lines are checked in order; equality is decided in normal form, or with 50 digits where there is none.
+    Lines are checked in order. Equality is decided in normal form or, if there is none, with 50 digits.
     """
     _log.info("checking the answer")
     truth = truth_of(derivation)
@@ -46,7 +46,7 @@ def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3) 
 
 
 def _read(truth: Reference, spelling: Spelling, hint: int, *, explain: bool) -> Verdict:
-    """The verdict on an answer whose names are read; with ``explain``, what went wrong is looked for."""
+    """The verdict on an answer whose names are known; with ``explain``, also the mistakes that explain it."""
     judged = _judged(truth, spelling.lines)
     verdict = Verdict(judged.status, judged.findings, notes=spelling.notes + judged.notes, hint=hint)
     if judged.status.right or judged.status is Status.INCOMPLETE:
@@ -60,7 +60,7 @@ def _read(truth: Reference, spelling: Spelling, hint: int, *, explain: bool) -> 
 
 @dataclass(frozen=True, eq=False)
 class Judged:
-    """The findings of all lines, and what they come to."""
+    """The findings for all lines, and the overall verdict."""
 
     status: Status
     findings: tuple[Finding, ...]
@@ -69,13 +69,14 @@ class Judged:
 
     @property
     def combination(self) -> tuple[tuple[sp.Expr, ...], ...] | None:
-        """The factors of the answer's equations, where all were found."""
+        """The factors of the right equations in those of the answer, if all were found."""
         rows = [r for r in self.comparison.rows if r.kind is not Kind.NOTHING]
         return tuple(r.factors or () for r in rows) if rows and all(r.factors is not None for r in rows) else None
 
 
 def _judged(truth: Reference, lines: Sequence[AnsweredLine], change: ProposedChange | None = None) -> Judged:
-    """Judge every line, the equations together; with a change, everything is put into the system's coordinates."""
+    """Judge every line, and the equations together; with a change, everything is converted to the system's
+    coordinates."""
     moved = lines if change is None else [replace(line, expr=change.put(line.expr)) for line in lines]
     turn = change.turn(truth) if change is not None else None
     truth = truth.within(change.region(truth)) if change is not None else truth
@@ -95,7 +96,7 @@ def _judged(truth: Reference, lines: Sequence[AnsweredLine], change: ProposedCha
 def _overall(
     truth: Reference, comparison: RowComparison, findings: Sequence[Finding]
 ) -> tuple[Status, tuple[Finding, ...]]:
-    """The verdict on the whole: its worst line's, or what the equations come to together."""
+    """The overall verdict: that of the worst line, or that of the equations together."""
     statuses = [f.status for f in findings if f.line.kind != "equation"]
     if comparison.rows:
         statuses.append(of_equations(truth, comparison))
@@ -146,7 +147,7 @@ def _missing(truth: Reference, comparison: RowComparison) -> tuple[Text, ...]:
 def _equations(
     truth: Reference, lines: Sequence[AnsweredLine], comparison: RowComparison, above: StatedQuantity
 ) -> list[Finding]:
-    """What was found of every equation; a wrong one is compared with the right one it is most like."""
+    """The findings for every equation; a wrong one is compared with the right equation that it resembles most."""
     taken = [r.index for r in comparison.rows if r.true and r.index is not None]
     wrong = [j for j, r in enumerate(comparison.rows) if r.kind is Kind.WRONG]
     forms = {j: truth.form(lines[j].expr) for j in wrong}
@@ -180,7 +181,7 @@ def _status(row: ReferenceRow) -> Status:
 
 
 def _note(truth: Reference, row: ReferenceRow) -> Text | None:
-    """What a true row is made of, in words."""
+    """Which right equations a true row consists of, in words."""
     if row.kind is Kind.NOTHING:
         return text("says 0 = 0")
     if row.kind is Kind.SCALED and row.index is not None:
@@ -207,7 +208,8 @@ def _note(truth: Reference, row: ReferenceRow) -> Text | None:
 
 
 def _elsewhere(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdict | None:
-    """The verdict in other coordinates, where the answer is right in some; a mistake goes before an unspoken change."""
+    """The verdict in other coordinates if the answer is right in some; a known mistake has precedence over an unstated
+    change."""
     glance = QuickTest(truth, spelling.lines)
     for change in candidates(truth, spelling.lines):
         if not glance.may_be(change):
@@ -234,7 +236,7 @@ def _elsewhere(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdic
 
 
 def _tells(lines: Sequence[AnsweredLine]) -> bool:
-    """Whether an answer says enough to tell a relative coordinate from an absolute one that is wrong."""
+    """Whether an answer contains enough to distinguish a relative coordinate from a wrong absolute one."""
     kinds = {line.kind for line in lines}
     return bool(kinds & {"equation", "L"}) or {"T", "V"} <= kinds
 
@@ -246,13 +248,13 @@ def _values(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Symbol, 
 
 
 def _with_values(values: Mapping[sp.Symbol, sp.Expr], spelling: Spelling) -> Spelling:
-    """What is said of an answer in numbers: the values are put in."""
+    """The verdict on an answer with numbers: the values of the parameters are substituted."""
     named = [x for p in sorted(values, key=str) for x in (p, ", ")][:-1]
-    return replace(spelling, notes=(*spelling.notes, text("The values of ", *named, " are put in.")))
+    return replace(spelling, notes=(*spelling.notes, text("The values of ", *named, " are substituted.")))
 
 
 def _own_names(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdict | None:
-    """The verdict on a wrong answer with coordinates of its own: the system is derived in these, and compared anew."""
+    """The verdict on a wrong answer with its own coordinates: the system is converted to these and compared again."""
     if not new_names(truth, spelling.lines):
         return None
     change = likeliest(truth, spelling.lines)
@@ -261,7 +263,7 @@ def _own_names(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdic
         return None
     lines = tuple(line for line in spelling.lines if line.kind != "definition")
     judged = _judged(other, lines)
-    if judged.status.right:  # equal in doubles alone
+    if judged.status.right:  # equal only in double precision
         return None
     named = mistakes(other, lines, judged.findings)
     note = text("Your coordinates were read ", *change.words.parts, ".")
@@ -277,7 +279,7 @@ def _own_names(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdic
 
 
 def _explained(truth: Reference, spelling: Spelling, judged: Judged, verdict: Verdict) -> Verdict:
-    """The verdict with the mistakes that explain it."""
+    """The verdict, with the mistakes that explain the answer."""
     named = mistakes(truth, spelling.lines, judged.findings)
     notes = (*verdict.notes, *(not_there(truth, name) for name in new_names(truth, spelling.lines)))
     if too_long(truth) or not truth.tried_all:

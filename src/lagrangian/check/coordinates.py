@@ -1,7 +1,7 @@
-"""Answers in other coordinates: which changes are tried, and what a line says in the system's own.
+"""Answers in other coordinates: the changes that are tried, and lines converted to the system's coordinates.
 
-A change writes the answer's coordinate η as ψ(ξ) in the system's. It is tried by putting ψ, ψ̇ and ψ̈ in place of η, η̇
-and η̈ in every line; what is right then was right in the other coordinates.
+A change expresses a coordinate η of the answer as ψ(ξ) in those of the system. To try it, ψ, ψ̇ and ψ̈ replace η, η̇
+and η̈ in every line; a line that is then right was right in the other coordinates.
 """
 
 from __future__ import annotations
@@ -30,15 +30,16 @@ from lagrangian.page.plain import plain
 from lagrangian.viewed import Brief
 
 MAX_CHANGES = 200
-"""Changes that are tried."""
+"""The largest number of changes that are tried."""
 
 
 @dataclass(frozen=True, eq=False)
 class ProposedChange(Brief):
-    """A change of coordinates: the answer's symbols in the system's, in words, and whether it needs to be said.
+    """A change of coordinates: the answer's symbols in those of the system, its description, and whether it must be
+    reported.
 
-    ``plain`` changes are those people make without a word (relative for absolute), or that the answer states itself by
-    a name of its own; the others are told where no mistake explains the answer.
+    ``plain`` changes are usually made without saying so (relative instead of absolute coordinates), or are stated in
+    the answer under a new name. Other changes are proposed only if no mistake explains the answer.
     """
 
     table: Mapping[sp.Expr, sp.Expr]
@@ -56,13 +57,13 @@ class ProposedChange(Brief):
         return cast("sp.Expr", expr.xreplace(whole))
 
     def turn(self, truth: Reference) -> sp.Matrix | None:
-        """(∂ψ/∂ξ)⁻¹ with the answer's coordinates in the order of those they stand for; None where it is singular."""
+        """(∂ψ/∂ξ)⁻¹, with the answer's coordinates in the order of those that they replace; None if it is singular."""
         psi = self._in_order(truth)
         J = sp.Matrix([[p.diff(q) for q in truth.derivation.coordinates] for p in psi])
         return sp.Matrix(J.inv()) if truth.n <= 6 and J.det() != 0 else None
 
     def region(self, truth: Reference) -> sp.Expr | None:
-        """det ∂ψ/∂ξ, which keeps its sign where the change is one-to-one; None where it is constant, or too long."""
+        """det ∂ψ/∂ξ, whose sign is constant where the change is one-to-one; None if it is constant or too long."""
         psi = self._in_order(truth)
         q = truth.derivation.coordinates
         J = sp.Matrix([[p.diff(x) for x in q] for p in psi])
@@ -72,7 +73,7 @@ class ProposedChange(Brief):
         return det if det.has(*q) else None
 
     def _in_order(self, truth: Reference) -> list[sp.Expr]:
-        """ψ of every coordinate: the own one where it stays; new names take the places of those that are gone."""
+        """ψ of every coordinate: itself if it stays; new names take the places of those that they replace."""
         own = list(truth.derivation.coordinates)
         new = [psi for eta, psi in self.table.items() if eta not in own]
         psi: list[sp.Expr] = []
@@ -86,20 +87,22 @@ class ProposedChange(Brief):
 
 
 def candidates(truth: Reference, lines: Sequence[AnsweredLine]) -> Iterator[ProposedChange]:
-    """The changes worth trying for an answer: for its own names where it has any, else of the system's coordinates."""
+    """The changes worth trying for an answer: for its own names if it has any, otherwise for the system's
+    coordinates."""
     new = new_names(truth, lines)
     yield from islice(_renamed(truth, new, lines) if new else _reused(truth), MAX_CHANGES)
 
 
 def new_names(truth: Reference, lines: Sequence[AnsweredLine]) -> list[sp.Expr]:
-    """What moves in an answer and is no coordinate, input or definition of the system."""
+    """The moving names in an answer that are not coordinates, inputs or definitions of the system."""
     own = set(truth.derivation.coordinates) | {u.symbol for u in truth.model.inputs}
     own |= {d.symbol for d in truth.model.definitions}
     found = {f for line in lines for f in line.expr.atoms(AppliedUndef) if f.args == (time,)}
     return sorted(found - own, key=str)
 
 
-# -- names of the answer's own ----------------------------------------------------------------------------------------
+# -- names that only the answer has
+# -------------------------------------------------------------------------------------
 
 
 def _renamed(truth: Reference, new: Sequence[sp.Expr], lines: Sequence[AnsweredLine]) -> Iterator[ProposedChange]:
@@ -126,7 +129,7 @@ def _renamed(truth: Reference, new: Sequence[sp.Expr], lines: Sequence[AnsweredL
 
 
 def _solutions(expr: sp.Expr, unknown: sp.Expr) -> list[sp.Expr]:
-    """What the unknown is, where the expression is linear in it."""
+    """The value of the unknown, if the expression is linear in it."""
     slope = expr.diff(unknown)
     if slope == 0 or slope.has(unknown):
         return []
@@ -142,7 +145,8 @@ def _meant(table: Mapping[sp.Expr, sp.Expr]) -> Text:
 
 
 def meanings(truth: Reference) -> list[sp.Expr]:
-    """What a coordinate of the answer's own may be: ours, sums and differences of ours, places and directions."""
+    """The possible meanings of an unknown coordinate: one of the system, sums and differences, positions and
+    directions."""
     q: list[sp.Expr] = list(truth.derivation.coordinates)
     found: list[sp.Expr] = [*q, *(-x for x in q)]
     for i, a in enumerate(q):
@@ -193,7 +197,7 @@ def _reused(truth: Reference) -> Iterator[ProposedChange]:
 
 
 def _relative(group: Sequence[sp.Expr]) -> Iterator[ProposedChange]:
-    """Relative for absolute and absolute for relative: pair by pair, and all along the chain."""
+    """Relative instead of absolute coordinates and vice versa: for each pair, and all along the chain."""
     if len(group) > 2:
         sums = {x: sp.Add(*group[: k + 1]) for k, x in enumerate(group) if k}
         steps = {x: x - group[k] for k, x in enumerate(group[1:])}
@@ -206,13 +210,13 @@ def _relative(group: Sequence[sp.Expr]) -> Iterator[ProposedChange]:
 
 
 def turning(truth: Reference) -> list[sp.Expr]:
-    """The coordinates that stand in sines and cosines, in order."""
+    """The coordinates that occur in sines and cosines, in order."""
     angles = [f.args[0] for f in sp.Add(truth.T, truth.V, *truth.Xi).atoms(sp.sin, sp.cos)]
     return [q for q in truth.derivation.coordinates if any(a.has(q) for a in angles)]
 
 
 def shifts(truth: Reference) -> Iterator[tuple[sp.Expr, sp.Expr]]:
-    """(coordinate, constant) pairs: rest lengths with both signs, and the place of rest."""
+    """Pairs (coordinate, constant): rest lengths with both signs, and the equilibrium position."""
     rests = [
         truth.expand(r) for e in truth.model.elements if (r := cast("sp.Expr", getattr(e, "rest", sp.S.Zero))) != 0
     ]
@@ -228,7 +232,8 @@ def shifts(truth: Reference) -> Iterator[tuple[sp.Expr, sp.Expr]]:
 
 
 def _static(truth: Reference) -> list[tuple[sp.Expr, sp.Expr]]:
-    """The place where a system that is linear at rest stays, coordinate by coordinate; those that are not at 0."""
+    """The equilibrium of a system with linear statics, coordinate by coordinate; only coordinates that are not 0
+    there."""
     still: dict[sp.Basic, sp.Expr] = {u.symbol: sp.S.Zero for u in truth.model.inputs}
     for c in truth.model.coordinates:
         still |= {c.rate: sp.S.Zero, c.acceleration: sp.S.Zero}
@@ -244,11 +249,13 @@ def _static(truth: Reference) -> list[tuple[sp.Expr, sp.Expr]]:
     return [(x, c) for x, c in found if c != 0]
 
 
-# -- a quick look -----------------------------------------------------------------------------------------------------
+# -- quick test
+# ---------------------------------------------------------------------------------------------------------
 
 
 class QuickTest:
-    """Tells quickly whether a change may make an answer right: by its equations in doubles, else by an energy."""
+    """Tests quickly whether a change may make an answer right: from its equations in doubles, otherwise from an
+    energy."""
 
     def __init__(self, truth: Reference, lines: Sequence[AnsweredLine]) -> None:
         self.truth = truth
@@ -261,7 +268,7 @@ class QuickTest:
         self._compiled = CompiledExpressions(chosen)
 
     def true_lines(self, change: ProposedChange) -> int:
-        """How many equations are true with this change, in doubles."""
+        """The number of equations that are true with this change, in doubles."""
         if not self._equations:
             return int(self.may_be(change))
         return int(self._true(change).sum())
@@ -276,7 +283,7 @@ class QuickTest:
         return np.logical_and(good.any(axis=1), small)
 
     def may_be(self, change: ProposedChange) -> bool:
-        """Whether the answer may be right with this change; False where nothing can be compared."""
+        """Whether the answer may be right with this change; False if nothing can be compared."""
         if not self._compiled.ids:
             return False
         states = self.truth.states
@@ -299,7 +306,7 @@ class QuickTest:
 
 @lru_cache(maxsize=1024)
 def _motion(psi: sp.Expr) -> CompiledExpressions:
-    """ψ, ψ̇ and ψ̈ as one graph, made once for the changes of all answers."""
+    """ψ, ψ̇ and ψ̈ as one graph, which is made once for the changes of all answers."""
     rate = sp.diff(psi, time)
     return CompiledExpressions([psi, rate, sp.diff(rate, time)])
 
@@ -308,7 +315,7 @@ def _motion(psi: sp.Expr) -> CompiledExpressions:
 
 
 def likeliest(truth: Reference, lines: Sequence[AnsweredLine]) -> ProposedChange | None:
-    """The change that makes most equations of a wrong answer true; None where none makes any."""
+    """The change for which most equations of a wrong answer are true; None if it makes none true."""
     glance = QuickTest(truth, lines)
     tried = [(glance.true_lines(change), -k, change) for k, change in enumerate(candidates(truth, lines))]
     best = max(tried, key=lambda x: x[:2], default=None)
@@ -318,7 +325,7 @@ def likeliest(truth: Reference, lines: Sequence[AnsweredLine]) -> ProposedChange
 
 
 def in_these(truth: Reference, change: ProposedChange) -> Reference | None:
-    """What is right in the answer's coordinates, where the change can be turned round; made once a change."""
+    """The reference in the answer's coordinates, if the change can be inverted; made once for each change."""
     key = tuple(change.table.items())
     known = truth.others
     if key not in known:

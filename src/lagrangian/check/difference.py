@@ -1,4 +1,4 @@
-"""The smallest difference of terms between an answer's line and the right one, each term traced to its element."""
+"""The smallest difference of terms between a line of an answer and the right one, with the element of each term."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from lagrangian.derive.algebra.form import Key
 from lagrangian.model import time
 
 MAX_DIFFERENCES = 12
-"""Differences that are told; an answer with more of them is another answer."""
+"""The largest number of differences that are reported; an answer with more of them is a different answer."""
 
 
 @dataclass(frozen=True)
 class Likeness:
-    """How much a line is like a right one: which, times what factor, and the share of terms that agree."""
+    """How similar a line is to a right one: which one, times what factor, and the fraction of terms that agree."""
 
     index: int
     factor: sp.Expr
@@ -29,7 +29,8 @@ class Likeness:
 
 
 def likeness(form: Form | None, rights: Sequence[Form | None]) -> list[Likeness]:
-    """How like each right form a form is, in the order of the right ones; a factor of 1 where nothing is alike."""
+    """The similarity of a form to each right form, in the order of the right ones; the factor is 1 if nothing is
+    similar."""
     found: list[Likeness] = []
     for i, right in enumerate(rights):
         voted = ratio(form, right, unlike=0.5) if form is not None and right is not None else None
@@ -42,7 +43,7 @@ def likeness(form: Form | None, rights: Sequence[Form | None]) -> list[Likeness]
 
 
 def paired(likes: Sequence[Sequence[Likeness]], taken: Iterable[int]) -> list[Likeness | None]:
-    """The best pairing of lines with right equations that are not taken yet, the likest pair first."""
+    """The best assignment of lines to right equations that are not yet taken, the most similar pair first."""
     used = set(taken)
     out: list[Likeness | None] = [None] * len(likes)
     pairs = sorted(
@@ -58,9 +59,9 @@ def paired(likes: Sequence[Sequence[Likeness]], taken: Iterable[int]) -> list[Li
 def differences(
     truth: Reference, form: Form, right: Form, factor: sp.Expr, index: int | None
 ) -> tuple[TermDifference, ...]:
-    """The terms in which ``form`` differs from ``factor`` times ``right``; ``index`` is the equation's coordinate.
+    """The terms in which ``form`` differs from ``factor`` times ``right``; ``index`` is the coordinate of the equation.
 
-    They are told as the answer has them, times the factor.
+    They are given in the scale of the answer, that is, times the factor.
     """
     scale = truth.form(factor)
     if scale is None or scale.is_zero:
@@ -92,12 +93,13 @@ def differences(
 
 
 def _scaled(term: Form, factor: sp.Expr) -> sp.Expr:
-    """A term of the right line in the scale of the answer; one that merely stands on the other side as it is."""
+    """A term of the right line in the scale of the answer; a term that was only moved to the other side is
+    unchanged."""
     return term.expr() if abs(factor) == 1 else bounded.expand(factor * term.expr())
 
 
 def _alone(ours: Form, theirs: Form, difference: Form) -> tuple[Form, Form]:
-    """Of terms in the same motion only the monomials that differ: of m₁ẍ + m₂ẍ against m₁ẍ, the m₂ẍ."""
+    """Of terms with the same motion, only the monomials that differ: for m₁ẍ + m₂ẍ and m₁ẍ, the m₂ẍ."""
     monomials = {(h, m) for h, p in difference.parts.items() for m in p}
 
     def kept(form: Form) -> Form:
@@ -108,12 +110,12 @@ def _alone(ours: Form, theirs: Form, difference: Form) -> tuple[Form, Form]:
 
 
 def _groups(form: Form) -> list[frozenset[Key]]:
-    """The keys of a form term by readable term: one group for each motion."""
+    """The keys of a form, grouped by readable term: one group for each motion."""
     return [frozenset({k}) for k in sorted(form.keys(), key=str)]
 
 
 def _origins(truth: Reference, term: Form, index: int | None) -> tuple[TermOrigin, ...]:
-    """The elements behind a term of equation ``index``, each with its step, once."""
+    """The elements behind a term of equation ``index``, each once, with its step."""
     if index is None:
         return _shares(truth, term)
     found: dict[TermOrigin, None] = {}
@@ -126,7 +128,7 @@ def _origins(truth: Reference, term: Form, index: int | None) -> tuple[TermOrigi
 
 
 def _shares(truth: Reference, term: Form) -> tuple[TermOrigin, ...]:
-    """The elements whose energies hold a term, each with its step."""
+    """The elements whose energies contain a term, each with its step."""
     keys, letters = term.keys(), term.expr().free_symbols - {time}
     found: dict[TermOrigin, None] = {}
     for element in truth.model.elements:

@@ -1,7 +1,8 @@
-"""Which misconception explains an answer: the one whose equations are the answer's.
+"""Finds the misconception that explains an answer: the one that leads to the same equations.
 
-An answer's equations P are explained by a variant with equations W + ΔW when every P_j is a sum of those with factors
-that do not depend on the motion or the place. Two mistakes at once add up, because Lagrange's equations are linear.
+A variant with equations W + ΔW explains the equations P of an answer if every P_j is a sum of them with factors that do
+not depend on rates and accelerations or, less plainly, do depend on the position. The effects of two mistakes add up,
+because Lagrange's equations are linear in T*, V and Ξ.
 """
 
 from __future__ import annotations
@@ -21,9 +22,9 @@ from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
 
 @dataclass(frozen=True, eq=False)
 class Explanation:
-    """One mistake, or two at once, and how plainly it gives the answer.
+    """One mistake, or two together, and how directly it leads to the answer.
 
-    0: row by row, 1: with factors, 2: mixed, 3: with factors that depend on the place.
+    0: row by row, 1: with factors, 2: mixed, 3: with factors that depend on the position.
     """
 
     wrongs: tuple[Wrong, ...]
@@ -31,7 +32,7 @@ class Explanation:
 
 
 def explain_rows(truth: Reference, exprs: Sequence[sp.Expr]) -> list[Explanation]:
-    """The variants that give all of these equations, the likeliest first."""
+    """The variants that lead to all of these equations, the most likely first."""
     P = CompiledExpressions(exprs).at(truth.states) * np.array([[_side(truth, e)] for e in exprs])
     said = np.isfinite(P).all(axis=1) & (np.abs(P).max(axis=1) > 1e-12)
     P = P[said]
@@ -44,19 +45,19 @@ def explain_rows(truth: Reference, exprs: Sequence[sp.Expr]) -> list[Explanation
 
 
 def _side(truth: Reference, expr: sp.Expr) -> int:
-    """−1 where most terms of an equation stand on the other side than in the right one it is like."""
+    """−1 if most terms of an equation are on the opposite side compared with the right equation that it resembles."""
     best = max(likeness(truth.form(expr), truth.forms), key=lambda x: x.score)
     return -1 if best.factor.could_extract_minus_sign() else 1
 
 
 def _by_place(truth: Reference, effects: Effects, P: Array) -> list[Explanation]:
-    """The variants that give the answer with factors that depend on the place, as when r was divided out."""
+    """The variants that lead to the answer with factors that depend on the position, as when r was divided out."""
     found = _alone(truth, effects, P, list(truth.states.blocks()))
     return [Explanation(e.wrongs, 3) for e in found]
 
 
 def _alone(truth: Reference, effects: Effects, P: Array, parts: Sequence[slice]) -> list[Explanation]:
-    """The single variants that give the answer with factors that are constant in each part of the states."""
+    """The single variants that lead to the answer with factors that are constant in each set of states."""
     candidates = np.flatnonzero(np.logical_and(effects.usable, effects.felt))
     if not len(candidates):
         return []
@@ -72,7 +73,7 @@ def _alone(truth: Reference, effects: Effects, P: Array, parts: Sequence[slice])
 
 
 def _spanned(P: Array, W: Array) -> tuple[Array, Array]:
-    """Which W (variants, n, s) span every row of P (k, s), and how plainly: same rows 0, scaled 1, mixed 2."""
+    """Which W (variants, n, s) span every row of P (k, s), and how directly: same rows 0, scaled 1, mixed 2."""
     scale = np.abs(W).max(axis=2, keepdims=True)
     unit = W / np.where(scale > 0, scale, 1.0)
     A = np.einsum("ks,vsn->vkn", P, np.linalg.pinv(unit, rcond=1e-10))
@@ -86,7 +87,7 @@ def _spanned(P: Array, W: Array) -> tuple[Array, Array]:
 
 
 def _together(truth: Reference, effects: Effects, P: Array) -> list[Explanation]:
-    """Two mistakes whose effects add up to the answer's, row i for row i."""
+    """Pairs of mistakes whose effects add up to that of the answer, row by row."""
     if len(P) != truth.n:
         return []
     usable = [i for i in np.flatnonzero(np.logical_and(effects.usable, effects.felt)) if not effects.wrongs[i].general]

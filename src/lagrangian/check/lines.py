@@ -1,4 +1,4 @@
-"""From an answer as it was read to the lines that are checked, with what the answer itself gives put in."""
+"""Converts an answer that was read to the lines that are checked, with its own definitions substituted."""
 
 from __future__ import annotations
 
@@ -70,7 +70,8 @@ def _expression(thing: object) -> sp.Expr:
 
 
 def filled(truth: Reference, lines: Sequence[AnsweredLine]) -> tuple[AnsweredLine, ...]:
-    """The lines with definitions written out and every Ξ that an equation only names put in: the answer's, or ours."""
+    """The lines with definitions written out, and with the value of every Ξ that is only named: the answer's value, or
+    ours."""
     given = {line.name: line.expr for line in lines if line.kind == "Xi"}
     forces: dict[Any, sp.Expr] = {}
     for c, own in zip(truth.model.coordinates, truth.Xi, strict=True):

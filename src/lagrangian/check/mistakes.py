@@ -1,4 +1,4 @@
-"""Which mistakes are told: those that explain the first wrong line, and as many of the others as can be."""
+"""Chooses the mistakes to report: those that explain the first wrong line and as many other lines as possible."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
 
 @dataclass(frozen=True)
 class NamedMistakes:
-    """The mistakes that explain an answer, the likeliest set first; ``others`` explain it as well.
+    """The mistakes that explain an answer, as the most likely set; ``others`` explain it as well.
 
-    ``certain``: one mistake of a particular kind explains everything.
+    ``certain``: a single specific mistake explains everything.
     """
 
     told: tuple[Mistake, ...] = ()
@@ -32,7 +32,7 @@ class NamedMistakes:
 def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence[Finding]) -> NamedMistakes:
     """Find the mistakes behind the wrong lines; lines that follow from others need no explanation of their own.
 
-    A mistake that would show in a line that is right is believed last.
+    A mistake that would be visible in a line that is right is considered last.
     """
     wrong = [f.line for f in findings if f.status is Status.WRONG and not f.follows]
     if not wrong:
@@ -58,7 +58,7 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
 
 
 def _contradicted(truth: Reference, right: Sequence[AnsweredLine]) -> set[Wrong]:
-    """The variants that would show in a line that is right."""
+    """The variants that would be visible in a line that is right."""
     found: set[Wrong] = set()
     for line in right:
         if line.kind in ("T", "V", "L", "Xi"):
@@ -74,7 +74,7 @@ def _contradicted(truth: Reference, right: Sequence[AnsweredLine]) -> set[Wrong]
 
 
 def _named(truth: Reference, groups: Sequence[Sequence[Explanation]], against: set[Wrong]) -> NamedMistakes:
-    """One mistake that explains every group, else the best of each group in turn."""
+    """One mistake that explains every group, otherwise the best for each group in turn."""
     held = [{w for e in g if len(e.wrongs) == 1 for w in e.wrongs} for g in groups]
     shared = set.intersection(*held) if all(held) else set()
     first = [e for e in groups[0] if e.wrongs[0] in shared and len(e.wrongs) == 1] if shared else list(groups[0])
@@ -91,7 +91,7 @@ def _named(truth: Reference, groups: Sequence[Sequence[Explanation]], against: s
 
 
 def _once(mistakes: Sequence[Mistake], told: Sequence[Mistake]) -> tuple[Mistake, ...]:
-    """Every misconception once, without those that were told."""
+    """Every misconception once, without those that are already reported."""
     names = {m.name for m in told}
     kept: list[Mistake] = []
     for m in mistakes:
@@ -102,7 +102,7 @@ def _once(mistakes: Sequence[Mistake], told: Sequence[Mistake]) -> tuple[Mistake
 
 
 def _explain_line(truth: Reference, line: AnsweredLine) -> list[Wrong]:
-    """The variants that give a line of T*, V, L or a Ξ, the likeliest first."""
+    """The variants that lead to a line of T*, V, L or a Ξ, the most likely first."""
     i = index_of(truth, line.name)
     if line.kind == "D":
         return _explain_dissipation(truth, line)
@@ -126,7 +126,7 @@ def _explain_line(truth: Reference, line: AnsweredLine) -> list[Wrong]:
 
 
 def _explain_dissipation(truth: Reference, line: AnsweredLine) -> list[Wrong]:
-    """The variants whose ΔΞ is −∂ΔD/∂ξ̇."""
+    """The variants for which ΔΞ = −∂ΔD/∂ξ̇."""
     effects = effects_of(truth)
     rest = line.expr - dissipation(truth)
     change = CompiledExpressions([-rest.diff(c.rate) for c in truth.model.coordinates]).at(truth.states)
@@ -145,6 +145,6 @@ def _changes(effects: Effects, kind: str, i: int | None) -> Array:
 
 
 def _without_constant(values: Array) -> Array:
-    """Values less that of the first state with the same parameters."""
+    """Values minus the value at the first state with the same parameters."""
     shaped = values.reshape(*values.shape[:-1], SETS, -1)
     return (shaped - shaped[..., :1]).reshape(values.shape)

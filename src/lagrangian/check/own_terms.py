@@ -1,8 +1,9 @@
-"""One of the answer's own terms is wrong: its sign, its factor, or a term beside it is missing.
+"""Finds a single wrong term in an equation: a wrong sign, a wrong factor, a superfluous or a missing term.
 
-With the right equations projected out, what is left of a wrong equation P is what is wrong with it. Where that is c
-times what is left of one of its own terms t, then P − c t is right: c = 2 turns a sign, c = 1 drops a term too much,
-another c is a wrong factor. A missing term is looked for among the siblings of the written ones, with sine for cosine.
+The right equations are projected out of a wrong equation P; what remains is its error. If the error is c times what
+remains of one of the answer's own terms t, then P − c t is right: c = 2 means a wrong sign, c = 1 a superfluous term,
+and another c a wrong factor. A missing term is sought among terms like those that were written, with sine and cosine
+exchanged.
 """
 
 from __future__ import annotations
@@ -23,13 +24,13 @@ from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
 from lagrangian.page.formula import text
 
 MOST_TERMS = 250
-"""Terms of an equation, multiplied out, that are looked at."""
+"""The largest number of terms of an expanded equation that are examined."""
 
 WHY = text("Go through ∂L/∂ξ̇, its d/dt and ∂L/∂ξ once more, term by term, and mind the signs.")
 
 
 def wrong_term(truth: Reference, expr: sp.Expr, coordinate: str | None) -> Mistake | None:
-    """The one term of an equation, left minus right, that makes it wrong; None where no single one does."""
+    """The one term of an equation, left minus right, that makes it wrong; None if there is no such single term."""
     if terms(expr) > MOST_TERMS or not np.isfinite(truth.W).all():
         return None
     parts = (*sp.Add.make_args(expr), *sp.Add.make_args(bounded.expand(expr)))
@@ -62,7 +63,8 @@ def _of_own(t: sp.Expr, c: sp.Expr, coordinate: str | None) -> Mistake:
 
 
 def _beside(truth: Reference, values: Array) -> Array:
-    """What is left of each row when the right equations, with factors constant in each set, are projected out."""
+    """What remains of each row when the right equations are projected out, with factors that are constant in each
+    set."""
     size = truth.states.size // SETS
     out = np.empty_like(values)
     for k in range(SETS):
@@ -77,7 +79,7 @@ def _beside(truth: Reference, values: Array) -> Array:
 
 
 def _times(whole: Array, part: Array) -> sp.Expr | None:
-    """The rational c with whole = c · part; None where there is none."""
+    """The rational number c with whole = c · part; None if there is none."""
     size = float(part @ part)
     if not np.isfinite(part).all() or size <= 1e-20:
         return None
@@ -89,7 +91,7 @@ def _times(whole: Array, part: Array) -> sp.Expr | None:
 
 
 def _siblings(t: sp.Expr) -> Iterator[sp.Expr]:
-    """The term with sine for cosine in one place, or in two."""
+    """The term with sine and cosine exchanged in one place, or in two."""
     table: dict[Any, Any] = {}
     for f in sorted(t.atoms(sp.sin, sp.cos), key=sp.default_sort_key):
         table[f] = sp.cos(f.args[0]) if isinstance(f, sp.sin) else sp.sin(f.args[0])

@@ -1,4 +1,4 @@
-"""What is right: a system's own equations and energies, at random states and in normal form; made once."""
+"""The right answer: a system's own equations and energies, at random states and in normal form, computed once."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ from lagrangian.derive.sampling import DIGITS, Array, CompiledExpressions, State
 from lagrangian.model import Model
 
 LONGEST = 4000
-"""Terms that an expression may have multiplied out before it is compared by numbers instead of its normal form."""
+"""An expression with more terms when expanded is compared numerically instead of in normal form."""
 
 
 class Reference:
-    """The right equations of a derivation, ready to be compared with; ``values`` are put in for parameters.
+    """The right equations of a derivation, ready for comparison; ``values`` are substituted for parameters.
 
-    ``others`` keeps the same system in coordinates that answers had; ``tried_all`` turns false where well-known
-    mistakes have too many operations for all of them to be tried.
+    ``others`` caches the same system in the coordinates of answers; ``tried_all`` becomes false if well-known mistakes
+    have too many operations to be all tried.
     """
 
     def __init__(self, derivation: Derived, values: Mapping[sp.Symbol, sp.Expr] | None = None) -> None:
@@ -54,7 +54,8 @@ class Reference:
         return sides_of(exprs, M, self.states, list(d.coordinates))
 
     def within(self, region: sp.Expr | None) -> Reference:
-        """The same, compared far out only where ``region`` has the sign that it has at ordinary states."""
+        """The same reference, with distant states restricted to those where ``region`` has the sign that it has at
+        ordinary states."""
         if region is None:
             return self
         other = copy.copy(self)
@@ -62,9 +63,9 @@ class Reference:
         return other
 
     def wide(self, exprs: Sequence[sp.Expr]) -> tuple[States, list[int]]:
-        """States of every size and sign, farther out than any number of the expressions, and which to look at.
+        """States of any size and sign, larger than any number in the expressions, and which of them to use.
 
-        Distances stay on their side; in changed coordinates only those states count where the change is one-to-one.
+        Distances stay positive. In changed coordinates, only states where the change is one-to-one are used.
         """
         numbers = [abs(float(x)) for e in exprs for x in e.atoms(sp.Number) if x.is_finite]
         reach = max([300.0, *(5 * x for x in numbers if x < 1e12)])
@@ -82,9 +83,9 @@ class Reference:
         return self.T - self.V
 
     def expand(self, expr: sp.Expr) -> sp.Expr:
-        """An expression with every definition of the model written out, and values in place of parameters.
+        """An expression with all definitions of the model written out and with values substituted for parameters.
 
-        √(p²) is p for what is a distance in the model, see `sides`.
+        √(p²) becomes p for a distance p of the model, see `branches`.
         """
         whole = self.model.expand(sp.sympify(expr), constants=True)
         return self.put(whole)
@@ -94,7 +95,7 @@ class Reference:
         return natural(cast("sp.Expr", expr.xreplace(self.values)) if self.values else expr, self.sides)
 
     def with_values(self, values: Mapping[sp.Symbol, sp.Expr]) -> Reference:
-        """The same with values in place of parameters, made once."""
+        """The same reference with values substituted for parameters, made once."""
         key = tuple(sorted(values.items(), key=str))
         if key not in self._valued:
             self._valued[key] = Reference(self.derivation, values)
@@ -102,11 +103,11 @@ class Reference:
 
     @cached_property
     def algebra(self) -> Algebra:
-        """The ring in which answers are compared exactly; the derivation's own stays as it was."""
+        """The ring in which answers are compared exactly; that of the derivation itself is not changed."""
         return Algebra(self.model, (self.T, self.V, *self.Xi))
 
     def form(self, expr: sp.Expr) -> Form | None:
-        """The normal form of an expression, or None where it would be too long."""
+        """The normal form of an expression, or None if it would be too long."""
         if terms(expr) > LONGEST:
             return None
         try:
@@ -138,7 +139,7 @@ class Reference:
 
     @cached_property
     def accelerations(self) -> dict[sp.Basic, Array]:
-        """The true accelerations M⁻¹ (Ξ − C ξ̇ − G) at every state; not a number where M is singular."""
+        """The true accelerations M⁻¹ (Ξ − C ξ̇ − G) at every state; NaN where M is singular."""
         values = self._motion.at(self.states)
         n, size = self.n, self.states.size
         M = values[: n * n].reshape(n, n, size).transpose(2, 0, 1)
@@ -161,7 +162,7 @@ class Reference:
 
 
 def terms(expr: sp.Basic) -> int:
-    """How many terms an expression has at most when it is multiplied out."""
+    """An upper bound on the number of terms of an expanded expression."""
     known: dict[sp.Basic, int] = {}
     for e in sp.postorder_traversal(expr):
         if e in known:
@@ -189,5 +190,5 @@ def _product(counts: Sequence[int]) -> int:
 
 @lru_cache(maxsize=32)
 def truth_of(derivation: Derived) -> Reference:
-    """What is right of a derivation, made once for the derivations that were checked with last."""
+    """The reference for a derivation, made once for the derivations that were checked most recently."""
     return Reference(derivation)

@@ -1,7 +1,7 @@
-"""An answer's equations against the right ones: which are true, and how much of every right equation is in each.
+"""Compares an answer's equations with the right ones: which are true, and how much of each right equation they contain.
 
-With P_j the answer's equations and W_i the right ones, left minus right, the factors are P_j = Σ_i A_ji W_i. They are
-sought place by place over many motions; P_j is true where it vanishes with the true accelerations put in.
+P_j are the answer's equations and W_i the right ones, left minus right. The factors A in P_j = Σ_i A_ji W_i are sought
+at each position from many motions. P_j is true if it vanishes for the true accelerations.
 """
 
 from __future__ import annotations
@@ -23,14 +23,14 @@ from lagrangian.derive.algebra import Form
 from lagrangian.derive.sampling import DIGITS, PLACES, SETS, Array, CompiledExpressions, States
 
 DOUBLE_TOLERANCE = 1e-8
-"""Relative size below which a double may be zero; what is decided by it is decided again exactly."""
+"""The relative size below which a double may be zero; a decision based on it is confirmed exactly."""
 EXACTLY = mpmath.mpf(10) ** -30
 EXACT_STATES = 4
-"""States at which 50 digits are compared."""
+"""The number of states at which 50 digits are compared."""
 
 
 class Kind(Enum):
-    """What a true equation is made of."""
+    """How a true equation is composed of the right ones."""
 
     SAME = "a right equation"
     SCALED = "a right equation times a factor"
@@ -43,7 +43,8 @@ class Kind(Enum):
 
 @dataclass(frozen=True)
 class ReferenceRow:
-    """One equation of an answer: ``factors`` are its A_ji as SymPy, where they were found; ``index`` its equation."""
+    """One equation of an answer: ``factors`` are its A_ji in SymPy if they were found; ``index`` is its right
+    equation."""
 
     kind: Kind
     factors: tuple[sp.Expr, ...] | None = None
@@ -51,13 +52,13 @@ class ReferenceRow:
 
     @property
     def true(self) -> bool:
-        """Whether it holds for the right motion and says something."""
+        """Whether it holds for the right motion and is not trivial."""
         return self.kind not in (Kind.WRONG, Kind.NOTHING)
 
 
 @dataclass(frozen=True)
 class RowComparison:
-    """All equations of an answer: each one's kind, and how many independent ones there are among the true."""
+    """All equations of an answer: the kind of each, and how many of the true ones are independent."""
 
     rows: tuple[ReferenceRow, ...]
     rank: int
@@ -66,7 +67,7 @@ class RowComparison:
 def compare(
     truth: Reference, exprs: Sequence[sp.Expr], *, instead: Mapping[sp.Basic, Array] | None = None
 ) -> RowComparison:
-    """Return what each expression, left minus right of an equation, is made of."""
+    """Return how each expression, which is left minus right of an equation, is composed of the right equations."""
     compiled = CompiledExpressions(exprs)
     P = compiled.at(truth.states, instead)
     A, spanned = _factors(truth, P)
@@ -78,12 +79,12 @@ def compare(
 
 
 def small(values: Array, scale: Array | float) -> bool:
-    """Whether every value is finite and next to nothing beside the scale."""
+    """Whether every value is finite and negligible compared with the scale."""
     return bool(np.isfinite(values).all() and (np.abs(values) <= DOUBLE_TOLERANCE * np.maximum(scale, 1e-300)).all())
 
 
 def zero_everywhere(truth: Reference, expr: sp.Expr) -> bool:
-    """Whether an expression vanishes identically: in normal form, else with 50 digits at several states."""
+    """Whether an expression vanishes identically: in normal form, otherwise with 50 digits at several states."""
     if expr == 0:
         return True
     compiled = CompiledExpressions([expr])
@@ -102,7 +103,7 @@ def zero_everywhere(truth: Reference, expr: sp.Expr) -> bool:
 
 
 def _factors(truth: Reference, P: Array) -> tuple[Array, Array]:
-    """A (blocks, k, n) by least squares in every place, and which rows are wholly in the span."""
+    """A (blocks, k, n) by least squares at every position, and which rows lie completely in the span."""
     W, k = truth.W, len(P)
     found, holds = [], np.ones(k, bool)
     for block in truth.states.blocks():
@@ -121,7 +122,7 @@ def _factors(truth: Reference, P: Array) -> tuple[Array, Array]:
 
 
 def _on_motion(truth: Reference, compiled: CompiledExpressions) -> Array:
-    """Which expressions vanish along the true motion, beside what they are off it."""
+    """Which expressions vanish along the true motion, compared with their size elsewhere."""
     truly = compiled.at(truth.states, truth.accelerations)
     other = compiled.at(truth.states)
     good = np.isfinite(truly) & np.isfinite(other)
@@ -132,9 +133,9 @@ def _on_motion(truth: Reference, compiled: CompiledExpressions) -> Array:
 
 
 def _rank(truth: Reference, compiled: CompiledExpressions, true: list[bool]) -> int:
-    """How many of the true equations are independent: the rank of ∂P/∂ξ̈ at the true motion.
+    """The number of independent true equations: the rank of ∂P/∂ξ̈ for the true motion.
 
-    There, and not anywhere: the product of two equations is true as well, and says nothing.
+    It must be computed for the true motion: the product of two equations is also true there, but says nothing.
     """
     if not any(true):
         return 0
@@ -196,7 +197,7 @@ def _named(factors: tuple[sp.Expr, ...], truth: Reference) -> ReferenceRow:
 
 
 def _exact(truth: Reference, form: Form | None, factors: Sequence[sp.Expr]) -> bool | None:
-    """P − Σ A W = 0 in normal form; None where that does not tell, as with functions it does not know."""
+    """Whether P − Σ A W = 0 in normal form; None if that is undecided, as with unknown functions."""
     if form is None:
         return None
     rest = form
@@ -220,7 +221,7 @@ def _surely(truth: Reference, compiled: CompiledExpressions, j: int, expr: sp.Ex
 
 
 def _vanishes(truth: Reference, compiled: CompiledExpressions, j: int, states: States, index: int) -> bool | None:
-    """Whether expression j vanishes at one state; None where the right equations have no value themselves."""
+    """Whether expression j vanishes at one state; None if the right equations have no value there."""
     try:
         motion = truth.accelerations_exactly(states, index)
     except (ZeroDivisionError, ValueError):
@@ -238,7 +239,7 @@ def _vanishes(truth: Reference, compiled: CompiledExpressions, j: int, states: S
 
 
 def _symbolic(truth: Reference, expr: sp.Expr, form: Form | None, A: Array) -> tuple[sp.Expr, ...] | None:
-    """The factors of one row as expressions, found from their values in every place; None where they are not."""
+    """The factors of one row as expressions, found from their values at every position; None if they are not found."""
     size = np.abs(A).max()
     used = [i for i in range(truth.n) if np.abs(A[:, i]).max() > DOUBLE_TOLERANCE * size]
     factors: list[sp.Expr] = [sp.S.Zero] * truth.n
@@ -271,9 +272,9 @@ def terms_of(expr: sp.Expr) -> int:
 
 
 def ratio(form: Form, right: Form, *, unlike: float = 1.0) -> tuple[sp.Expr, int] | None:
-    """The factor c, a number times a monomial, for which most terms of ``form`` are c times a term of ``right``.
+    """Return the factor c, a number times a monomial, for which most terms of ``form`` are c times a term of ``right``.
 
-    Returns c and how many terms agree; None where nothing is alike. A factor other than ±1 counts ``unlike`` as much.
+    Also return how many terms agree; None if no terms do. A term with a factor other than ±1 counts only ``unlike``.
     """
     votes: Counter[tuple[Fraction, int]] = Counter()
     for h, mine in form.parts.items():
@@ -300,7 +301,7 @@ def ratio(form: Form, right: Form, *, unlike: float = 1.0) -> tuple[sp.Expr, int
 
 
 def _quotient(truth: Reference, expr: sp.Expr, i: int) -> tuple[sp.Expr, ...] | None:
-    """The factor of a row that is a multiple of one right equation, by the coefficient of an acceleration."""
+    """The factor of a row that is a multiple of one right equation, from the coefficient of an acceleration."""
     if terms_of(expr) > 200:
         return None
     for c in truth.model.coordinates:
@@ -313,7 +314,7 @@ def _quotient(truth: Reference, expr: sp.Expr, i: int) -> tuple[sp.Expr, ...] | 
 
 
 def _solved(truth: Reference, expr: sp.Expr, A: Array) -> tuple[sp.Expr, ...] | None:
-    """The factors from A M = ∂P/∂ξ̈, where they do not depend on the place."""
+    """The factors from A M = ∂P/∂ξ̈, if they do not depend on the position."""
     by_set = A.reshape(SETS, PLACES, -1)
     if np.abs(by_set - by_set[:, :1]).max() > DOUBLE_TOLERANCE * np.abs(A).max():
         return None

@@ -1,4 +1,4 @@
-"""Names the system has not, and numbers where it has names: read as what they must mean, and said so."""
+"""Interprets unknown names, and numbers in place of names, and reports the interpretation."""
 
 from __future__ import annotations
 
@@ -21,21 +21,21 @@ from lagrangian.page.formula import Text, text
 from lagrangian.page.plain import plain
 
 MAX_READINGS = 120
-"""Ways to read unknown names that are tried."""
+"""The largest number of interpretations of unknown names that are tried."""
 
 
 @dataclass(frozen=True)
 class Spelling:
-    """The lines with their names read, and what was read as what."""
+    """The lines after names were interpreted, and the interpretations."""
 
     lines: tuple[AnsweredLine, ...]
     notes: tuple[Text, ...] = ()
 
 
 def spelled(truth: Reference, lines: Sequence[AnsweredLine], *, numbers: bool = True) -> Spelling:
-    """Read unknown constants as parameters the answer lacks, and numbers as the parameters that have these values.
+    """Read unknown constants as parameters that the answer lacks, and numbers as the parameters with these values.
 
-    Without ``numbers`` these stay what they are.
+    Without ``numbers``, numbers are not interpreted.
     """
     lines, notes = _numbers(truth, tuple(lines)) if numbers else (tuple(lines), ())
     known = {p.symbol for p in truth.model.parameters} | {time}
@@ -58,13 +58,13 @@ def spelled(truth: Reference, lines: Sequence[AnsweredLine], *, numbers: bool = 
 
 
 def not_there(truth: Reference, symbol: sp.Basic) -> Text:
-    """Say that the system has no such symbol, and which of its names is nearest."""
+    """Report that the system has no such symbol, and which of its names is nearest."""
     hint = did_you_mean(plain(symbol), truth.model.symbols)
     return text(f"The system has no '{plain(symbol)}'.{f' {hint}' if hint else ''}")
 
 
 def in_numbers(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
-    """Whether an answer names no parameter, and has numbers that only values can be."""
+    """Whether an answer names no parameter but contains numbers that can only be values of parameters."""
     known = {p.symbol for p in truth.model.parameters}
     numbers = {abs(x) for line in lines for x in line.expr.atoms(sp.Rational, sp.Float)}
     plain_ones = {sp.Rational(a, b) for a in range(5) for b in range(1, 5)}
@@ -83,7 +83,7 @@ def _readings(unknown: Sequence[sp.Basic], free: Sequence[sp.Expr]) -> list[dict
 
 
 def _closest(unknown: Sequence[sp.Basic], free: Sequence[sp.Expr]) -> dict[sp.Basic, sp.Expr]:
-    """Every unknown name as the nearest one that the answer lacks; the only one, where there is one of each."""
+    """Every unknown name as the nearest name that the answer lacks; if there is one of each, they are matched."""
     if len(unknown) == 1 and len(free) == 1:
         return {unknown[0]: free[0]}
     found: dict[sp.Basic, sp.Expr] = {}
@@ -97,7 +97,7 @@ def _closest(unknown: Sequence[sp.Basic], free: Sequence[sp.Expr]) -> dict[sp.Ba
 
 
 def _may_be_right(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
-    """Whether the equations vanish along the true motion, or the energies are the right ones, in doubles."""
+    """Whether the equations vanish along the true motion, or the energies are right, in doubles."""
     for line in lines:
         if line.kind == "equation":
             compiled = CompiledExpressions([line.expr])
@@ -114,7 +114,7 @@ def _may_be_right(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
 
 
 def _numbers(truth: Reference, lines: tuple[AnsweredLine, ...]) -> tuple[tuple[AnsweredLine, ...], tuple[Text, ...]]:
-    """Numbers that can only be the value of a parameter the answer lacks, such as 9.81 for g."""
+    """Numbers that can only be the value of a parameter that the answer lacks, such as 9.81 for g."""
     used = {s for line in lines for s in line.expr.free_symbols | line.expr.atoms(AppliedUndef)}
     table: dict[sp.Basic, sp.Expr] = {}
     notes: list[Text] = []

@@ -1,4 +1,4 @@
-"""Lines that give one quantity, T*, V, L, D, a Ξ, ∂L/∂ξ̇, ∂L/∂ξ: right, right but for what does not matter, or wrong."""
+"""Judges lines that state one quantity: T*, V, L, D, a Ξ, ∂L/∂ξ̇ or ∂L/∂ξ; harmless differences are allowed."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ from lagrangian.page.formula import Name, Text, text
 
 @dataclass(frozen=True)
 class StatedQuantity:
-    """What an answer states, by kind: its own T*, V and L, and its own Ξ by coordinate; None where it states none."""
+    """The quantities that an answer states: its own T*, V, L, and its own Ξ by coordinate; None for those not
+    stated."""
 
     T: sp.Expr | None = None
     V: sp.Expr | None = None
@@ -34,7 +35,7 @@ class StatedQuantity:
         return any(x is not None for x in (self.T, self.V, self.L, *self.Xi))
 
     def lagrangian(self, truth: Reference) -> sp.Expr:
-        """The answer's Lagrangian: as stated, or its T* − V with the right ones where it states none."""
+        """The answer's Lagrangian: as stated, or its T* − V with the right T* or V for one that is not stated."""
         if self.L is not None:
             return self.L
         return (self.T if self.T is not None else truth.T) - (self.V if self.V is not None else truth.V)
@@ -46,7 +47,7 @@ class StatedQuantity:
 
 
 def given(truth: Reference, lines: Sequence[AnsweredLine]) -> StatedQuantity:
-    """What the lines state; the last one counts where a quantity is given twice."""
+    """The quantities that the lines state; if one is given twice, the last counts."""
     energies = {line.kind: line.expr for line in lines if line.kind in ("T", "V", "L")}
     forces = {line.name: line.expr for line in lines if line.kind == "Xi"}
     Xi = tuple(forces.get(c.name) for c in truth.model.coordinates)
@@ -73,9 +74,9 @@ def left_sides(truth: Reference, L: sp.Expr) -> list[sp.Expr]:
 
 
 def judge(truth: Reference, lines: Sequence[AnsweredLine], k: int, turn: sp.Matrix | None = None) -> Finding:
-    """What was found of line number ``k``, which may follow from those above it.
+    """The finding for line number ``k``, which may follow from lines above it.
 
-    ``turn`` is (∂ψ/∂ξ)⁻¹ where the answer has coordinates of its own: what belongs to one of them is a sum of ours.
+    ``turn`` is (∂ψ/∂ξ)⁻¹ if the answer has its own coordinates: the quantity of one of them is then a sum of ours.
     """
     line = lines[k]
     i = index_of(truth, line.name)
@@ -99,12 +100,12 @@ def judge(truth: Reference, lines: Sequence[AnsweredLine], k: int, turn: sp.Matr
 
 
 def index_of(truth: Reference, name: str | None) -> int | None:
-    """The number of the coordinate of a name."""
+    """The index of the coordinate with a name."""
     return next((i for i, c in enumerate(truth.model.coordinates) if c.name == name), None)
 
 
 def right_value(truth: Reference, line: AnsweredLine, i: int | None, turn: sp.Matrix | None = None) -> sp.Expr | None:
-    """What the line should say; None where there is nothing to compare it with. Ξ_η = (∂ξ/∂η)ᵀ Ξ_ξ, see `judge`."""
+    """The right value for the line; None if there is nothing to compare with. Ξ_η = (∂ξ/∂η)ᵀ Ξ_ξ, see `judge`."""
     if line.kind in ("T", "V", "L"):
         return {"T": truth.T, "V": truth.V, "L": truth.L}[line.kind]
     if line.kind == "D":
@@ -131,7 +132,7 @@ def _of_coordinate(truth: Reference, kind: str, i: int, L: sp.Expr, Xi: sp.Expr)
 
 
 def dissipation(truth: Reference) -> sp.Expr:
-    """Rayleigh's function of all dampers that have one."""
+    """The sum of Rayleigh's functions of all dampers that have one."""
     parts = [e.dissipation(truth.model) for e in truth.model.elements]
     return sp.Add(*[truth.expand(d) for d in parts if d is not None])
 
@@ -147,7 +148,7 @@ def driving(truth: Reference, i: int) -> sp.Expr:
 
 
 def harmless(truth: Reference, line: AnsweredLine, rest: sp.Expr) -> Text | None:
-    """Why a difference of an energy does not matter to the equations, in words; None where it does."""
+    """Why a difference in an energy does not change the equations, in words; None if it does."""
     coordinates = truth.model.coordinates
     if line.kind == "V" and all(zero_everywhere(truth, rest.diff(c.symbol)) for c in coordinates):
         if rest.has(*[c.rate for c in coordinates]):
@@ -167,7 +168,7 @@ def harmless(truth: Reference, line: AnsweredLine, rest: sp.Expr) -> Text | None
 
 
 def _follows(truth: Reference, line: AnsweredLine, i: int | None, above: StatedQuantity) -> bool:
-    """Whether a line is what the lines above it lead to."""
+    """Whether a line is the consequence of the lines above it."""
     if line.kind == "L" and above.T is not None and above.V is not None:
         return zero_everywhere(truth, line.expr - above.T + above.V)
     if i is None or line.kind not in ("p", "p-rate", "slope") or not above.stated:
@@ -177,7 +178,7 @@ def _follows(truth: Reference, line: AnsweredLine, i: int | None, above: StatedQ
 
 
 def spanned(P: Array, W: Array) -> bool:
-    """Whether constant factors make every row of P (k, s) out of the rows of W (n, s)."""
+    """Whether all rows of P (k, s) are combinations of the rows of W (n, s) with constant factors."""
     scale = np.abs(W).max(axis=1, keepdims=True)
     unit = W / np.where(scale > 0, scale, 1.0)
     left = np.abs(P - P @ np.linalg.pinv(unit, rcond=1e-10) @ unit).max(axis=1)
@@ -185,7 +186,7 @@ def spanned(P: Array, W: Array) -> bool:
 
 
 def equations_follow(truth: Reference, exprs: Sequence[sp.Expr], above: StatedQuantity) -> list[bool]:
-    """Which equations are those that the answer's own energies and forces lead to."""
+    """Which equations follow from the answer's own energies and forces."""
     if not above.stated or not exprs:
         return [False] * len(exprs)
     W = above.rows(truth)

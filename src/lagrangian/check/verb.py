@@ -1,4 +1,4 @@
-"""What `System.check` and `Derivation.check` return: the verdict on an answer, with the ways of writing it."""
+"""The results of `System.check` and `Derivation.check`: the verdict on an answer, with the methods that write it."""
 
 from __future__ import annotations
 
@@ -24,24 +24,24 @@ from lagrangian.write.written import Written
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class CheckedAnswer(Written, check.Verdict):
-    """Whether an answer is right, in which shape, or where it is wrong and why; see `lagrangian.check.Verdict`."""
+    """Whether an answer is right, in what sense, or where it is wrong and why; see `lagrangian.check.Verdict`."""
 
     model: Model
 
     def report(self) -> Report[Model]:
-        """Return the verdict as words and tables, as much as ``hint`` gives away."""
+        """Return the verdict as words and tables; ``hint`` limits how much it reveals."""
         return check.report(self, self.model)
 
     def __repr__(self) -> str:
-        """Say of what it is, and whether it is right; ``print`` shows it all."""
+        """Name the system and the verdict; ``print`` shows the whole result."""
         return cut(f"<CheckedAnswer, {self.model.name}: {self.status.value}>")
 
 
 def check_answer(derivation: Derived, answer: Any, *, hint: int = 3, name: str | None = None) -> CheckedAnswer:
     """Check an answer: text or LaTeX, an `Answer` that was read, SymPy equations, or energies by name.
 
-    ``hint`` is how much the words give away: 0 right or not, 1 the line, 2 the element and the step, 3 the term.
-    ``name`` is the answer's file, for messages. Raises `ParseError` for a text that cannot be read, with its place.
+    ``hint`` limits how much the result reveals: 0 right or wrong, 1 the line, 2 the element and the step, 3 the term.
+    ``name`` is the file of the answer, for messages. Raises `ParseError`, with the place, if a text cannot be read.
     """
     if isinstance(hint, bool) or hint not in (0, 1, 2, 3):
         raise ModelError(f"a hint has a level from 0 to 3 (got {hint})", fix=Advice(Argument("hint", "2")), code="E406")
@@ -53,7 +53,7 @@ def check_answer(derivation: Derived, answer: Any, *, hint: int = 3, name: str |
 
 @dataclass(frozen=True)
 class FolderRow(Brief):
-    """One answer of a folder: its file, the verdict (None where there is none), and why there is none in words.
+    """One answer of a folder: its file and the verdict, or the reason why there is no verdict.
 
     ``read`` says whether its text could be read.
     """
@@ -72,7 +72,7 @@ class FolderRow(Brief):
 
     @property
     def mistakes(self) -> tuple[str, ...]:
-        """The names of the mistakes; "unexplained" where it is wrong and none was found; none below hint level 2."""
+        """The names of the mistakes; "unexplained" if it is wrong and none was found; empty below hint level 2."""
         if self.verdict is None:
             return ("unjudged",) if self.read else ("unreadable",)
         if self.verdict.status.right:
@@ -84,7 +84,7 @@ class FolderRow(Brief):
         return tuple(m.name for m in self.verdict.mistakes) or ("unexplained",)
 
     def cells(self) -> list[str]:
-        """The row of the table of answers, as much as the hint level gives away."""
+        """The row in the table of answers; the hint level limits how much it reveals."""
         v = self.verdict
         told = v is not None and v.hint >= 1
         right = sum(f.status.right for f in v.findings) if v is not None and told else ""
@@ -100,7 +100,7 @@ class FolderRow(Brief):
 
 @dataclass(frozen=True)
 class CheckedFolder(Brief):
-    """The verdicts on a folder of answers, and how often each mistake was made, the most frequent first."""
+    """The verdicts on a folder of answers, and how often each mistake occurred, the most frequent first."""
 
     rows: tuple[FolderRow, ...]
 
@@ -111,7 +111,7 @@ class CheckedFolder(Brief):
 
     @property
     def counts(self) -> dict[str, int]:
-        """How many answers show each mistake."""
+        """The number of answers with each mistake."""
         found = Counter(name for row in self.rows for name in dict.fromkeys(row.mistakes))
         return dict(sorted(found.items(), key=lambda x: (-x[1], x[0])))
 
@@ -124,12 +124,12 @@ class CheckedFolder(Brief):
         return _csv(["mistake", "answers", "share", "files"], rows)
 
     def answers_to_csv(self) -> str:
-        """Return a line an answer as CSV: file, verdict, right lines, lines, first wrong line, mistakes, trouble."""
+        """Return CSV with a row per answer: file, verdict, right lines, lines, first wrong line, mistakes, trouble."""
         head = ["file", "verdict", "right lines", "lines", "first wrong line", "mistakes", "trouble"]
         return _csv(head, [row.cells() for row in self.rows])
 
     def to_text(self) -> str:
-        """Return a line an answer, then the counts."""
+        """Return a line per answer, then the counts."""
         wide = max(len(row.file) for row in self.rows)
         lines = []
         for row in self.rows:
@@ -156,9 +156,9 @@ def _csv(head: list[str], rows: list[list[str]]) -> str:
 
 
 def check_folder(derivation: Derived, folder: Path, *, hint: int = 3) -> CheckedFolder:
-    """Check every file of a folder, by name; what cannot be read is told in its row and does not stop the rest.
+    """Check every file in a folder, in the order of their names; a file that cannot be read is reported in its row.
 
-    Raises `Error` where the folder holds no file.
+    Raises `Error` if the folder contains no files.
     """
     files = sorted(p for p in folder.iterdir() if p.is_file() and not p.name.startswith("."))
     if not files:
@@ -182,7 +182,7 @@ def _in_a_line(error: Error) -> str:
 
 
 def read_text(path: Path) -> str:
-    """Return the text of an answer's file; raises `Error` where there is none that can be read."""
+    """Return the text of an answer's file; raises `Error` if it cannot be read."""
     try:
         with path.open("rb") as file:
             data = file.read(MAX_BYTES + 1)

@@ -1,4 +1,4 @@
-"""What the checker says of an answer, as data and in words."""
+"""The verdict on an answer, as data and in words."""
 
 from __future__ import annotations
 
@@ -26,13 +26,14 @@ class Status(StrEnum):
 
     @property
     def right(self) -> bool:
-        """Whether nothing is wrong with the answer and nothing is missing."""
+        """Whether nothing is wrong or missing in the answer."""
         return self not in (Status.INCOMPLETE, Status.WRONG)
 
 
 @dataclass(frozen=True)
 class AnsweredLine(Brief):
-    """One line of an answer: what it states, and as what. ``expr`` is the energy, the force, or left minus right."""
+    """One line of an answer: what kind it is and what it states. ``expr`` is the energy, the force, or left minus
+    right."""
 
     kind: str
     expr: sp.Expr
@@ -52,7 +53,7 @@ class AnsweredLine(Brief):
 
 @dataclass(frozen=True)
 class TermOrigin(Brief):
-    """Where a term comes from: the element in words, and the step that puts it in."""
+    """The origin of a term: the element in words, and the step in which it enters."""
 
     element: str
     step: int
@@ -64,10 +65,10 @@ class TermOrigin(Brief):
 
 @dataclass(frozen=True)
 class TermDifference(Brief):
-    """A term that differs from the best matching right line: missing, extra, or with another coefficient.
+    """A term that differs from the most similar right line: missing, superfluous, or with another coefficient.
 
-    ``term`` is what the right line has (what the answer has, where it is extra); ``written`` what the answer has in
-    its place, 0 where it is missing. ``coordinate`` is the equation's.
+    ``term`` is the term of the right line (or of the answer, if it is superfluous); ``written`` is what the answer has
+    instead, 0 if it is missing. ``coordinate`` is that of the equation.
     """
 
     kind: str
@@ -112,9 +113,9 @@ class Mistake(Brief):
 
 @dataclass(frozen=True)
 class Finding(Brief):
-    """What was found of one line: whether it is right, as what, and how it differs.
+    """The finding for one line: whether it is right, in what sense, and how it differs.
 
-    ``coordinate`` is the equation it is, or was meant to be; ``note`` says what is special about it.
+    ``coordinate`` is that of the equation, as it is or was meant to be; ``note`` adds anything special about it.
     """
 
     line: AnsweredLine
@@ -142,12 +143,12 @@ class Finding(Brief):
 
 @dataclass(frozen=True)
 class Verdict:
-    """What the checker says of an answer.
+    """The verdict on an answer.
 
-    ``status`` is the whole's; ``findings`` are the lines', in order; ``mistakes`` are the misconceptions that explain
-    what is wrong, the likeliest first; ``combination[j]`` says for equation j of the answer how much of every right
-    equation is in it; ``change`` writes the answer's coordinates in the system's. ``hint`` is how much the words give
-    away: 0 right or not, 1 the line, 2 the element and the step, 3 the term.
+    ``status`` is that of the whole answer; ``findings`` are those of the lines, in order; ``mistakes`` are the
+    misconceptions that explain what is wrong, the most likely first. ``combination[j]`` contains the factors of all
+    right equations in equation j of the answer; ``change`` expresses the answer's coordinates in those of the system.
+    ``hint`` limits how much the result reveals: 0 right or wrong, 1 the line, 2 the element and the step, 3 the term.
     """
 
     status: Status
@@ -161,12 +162,12 @@ class Verdict:
 
     @property
     def right(self) -> bool:
-        """Whether the answer is right, in whatever shape."""
+        """Whether the answer is right, in whatever sense."""
         return self.status.right
 
     @property
     def mistake(self) -> Mistake | None:
-        """The likeliest mistake, where one was found that explains everything."""
+        """The most likely mistake, if one was found that explains everything."""
         return self.mistakes[0] if self.mistakes else None
 
     @property
@@ -175,7 +176,7 @@ class Verdict:
         return next((f for f in self.findings if not f.status.right), None)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return plain data for JSON, as much as the hint level gives away."""
+        """Return plain data for JSON; the hint level limits how much it reveals."""
         data: dict[str, Any] = {"right": self.right, "verdict": self.status.value, "hint": self.hint}
         if self.hint >= 1:
             data["lines"] = [_at(f.to_dict(), self.hint) for f in self.findings]
@@ -191,7 +192,7 @@ class Verdict:
 
 
 def _at(finding: dict[str, Any], hint: int) -> dict[str, Any]:
-    """A finding without what a lower hint does not tell."""
+    """A finding without the parts that a lower hint level does not reveal."""
     if hint >= 3:
         return finding
     kept = {k: v for k, v in finding.items() if k != "differences"}

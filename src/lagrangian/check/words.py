@@ -1,4 +1,4 @@
-"""A verdict in words: as much as the hint level gives away, kindly, and in the words of the lecture."""
+"""A verdict in the words of the lecture; the hint level limits how much it reveals."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ STEPS = {
     5: "Left-hand sides",
     6: "Non-conservative forces",
 }
-"""The lecture's steps."""
+"""The steps of the lecture."""
 
 
 def report(verdict: Verdict, model: Model) -> Report:
@@ -70,7 +70,7 @@ def _headline(verdict: Verdict) -> tuple[str | Left, ...]:
 
 
 def _of(finding: Finding, model: Model) -> tuple[str | Left, ...]:
-    """Whose equation a line is."""
+    """The coordinate whose equation a line is."""
     if finding.line.kind != "equation" or finding.coordinate is None:
         return ()
     symbols = {c.name: c.symbol for c in model.coordinates}
@@ -96,7 +96,7 @@ def _word(finding: Finding) -> str:
 
 
 def _why(verdict: Verdict) -> Iterator[Item]:
-    """The mistakes; where none was found, the steps and elements that the wrong lines point to."""
+    """The mistakes or, if none was found, the steps and elements that the wrong lines point to."""
     for k, mistake in enumerate(verdict.mistakes):
         yield text(*(("And: ",) if k else ()), *mistake.what.parts)
         yield text("Why that is not so: ", *mistake.why.parts)
@@ -126,7 +126,7 @@ def _differing(verdict: Verdict) -> bool:
 
 
 def _terms(verdict: Verdict) -> Iterator[Item]:
-    """Every difference of the lines that need a correction of their own."""
+    """All differences of the lines that need a correction of their own."""
     for f in verdict.findings:
         for d in f.differences if not f.follows else ():
             yield text(*_said(f, d))

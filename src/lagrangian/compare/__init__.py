@@ -1,4 +1,4 @@
-"""Two derivations side by side: the same motion in other coordinates, or where they differ."""
+"""Compares two derivations: are they the same motion in other coordinates, or where do they differ?"""
 
 from lagrangian.compare.compare import compare
 from lagrangian.compare.comparison import Comparison, comparison_report

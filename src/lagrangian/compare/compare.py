@@ -1,8 +1,8 @@
-"""Two derivations compared, as a table of contents.
+"""The comparison of two derivations, from the change of coordinates to the verdict.
 
-With ξ = φ(η) and J = ∂ξ/∂η:  T*_η = T*_ξ(φ),  V_η = V_ξ(φ) + a constant,  Ξ_η = Jᵀ Ξ_ξ,  and the equations of motion
-in η are Jᵀ times those in ξ: every row of one set is a sum of rows of the other, as the lecture's comparison of its
-examples 3A and 3B has it.
+With ξ = φ(η) and J = ∂ξ/∂η: T*_η = T*_ξ(φ), V_η = V_ξ(φ) + a constant, Ξ_η = Jᵀ Ξ_ξ, and the equations of motion in η
+are Jᵀ times those in ξ. So every row of one set is a sum of rows of the other, as in the lecture's comparison of its
+examples 3A and 3B.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _log = logging.getLogger(__name__)
 
 
 class Derivable(Protocol):
-    """What can be derived: a `System`."""
+    """Something that can be derived, such as a `System`."""
 
     def derive(self) -> Derived:
         """Return the derivation."""
@@ -40,10 +40,11 @@ class Derivable(Protocol):
 
 
 def compare(a: Derivable | Derived, b: Derivable | Derived, change: Mapping[Any, Any] | None = None) -> Comparison:
-    """Return two systems (or their derivations) side by side: are they one motion, and where do they differ?
+    """Return a comparison of two systems (or their derivations): are they the same motion, and where do they differ?
 
-    ``change`` says coordinates of one in those of the other, ``{"x2": "x1 + x2r"}``; left out, it is found from what
-    both put in the same places. Raises `ModelError` where it cannot be found, or is no change.
+    ``change`` expresses the coordinates of one system in those of the other, ``{"x2": "x1 + x2r"}``. By default it is
+    inferred from places that both systems have in common. Raises `ModelError` if it cannot be inferred, or is not a
+    valid change.
     """
     a, b = _derived(a, "first"), _derived(b, "second")
     tag_a, tag_b = _letters(a, b)
@@ -71,7 +72,8 @@ def _derived(thing: object, which: str) -> Derived:
 
 
 def _letters(a: Derived, b: Derived) -> tuple[str, str]:
-    """The lecture's a for absolute and r for relative, where that tells the two apart; else a and b."""
+    """The lecture's letters, a for absolute and r for relative, if they distinguish the two systems; otherwise a and
+    b."""
     relative = [any(to is not None for to in d.steps[1].expressions["relative"].values()) for d in (a, b)]
     return ("r", "a") if relative == [True, False] else ("a", "r") if relative == [False, True] else ("a", "b")
 
@@ -81,7 +83,7 @@ def _of_other_size(sides: tuple[ComparedSystem, ComparedSystem]) -> Comparison:
     counts = [len(s.derivation.coordinates) for s in sides]
     why = text(
         f"(A) has {counts[0]} generalized coordinate{'s' if counts[0] != 1 else ''} and (B) has {counts[1]}: "
-        "they do not move alike."
+        "they cannot describe the same motion."
     )
     models = a.derivation.model, b.derivation.model
     return Comparison(
@@ -90,7 +92,7 @@ def _of_other_size(sides: tuple[ComparedSystem, ComparedSystem]) -> Comparison:
 
 
 def _correspondence(a: Model, b: Model, given: Mapping[Any, Any] | None) -> tuple[Change, bool, bool]:
-    """The change, whether it says (B)'s coordinates in (A)'s, and whether names alone speak for it."""
+    """The change, whether it expresses (B)'s coordinates in (A)'s, and whether it is based on equal names alone."""
     if given is not None:
         change, turned = given_change(a, b, given)
         check_regular(b if turned else a, change)
@@ -200,7 +202,7 @@ def _row(
 
 
 def _energies(zero: Zero, shared: Shared) -> tuple[Check, ...]:
-    """T* and V are the same functions, V up to what no derivative sees."""
+    """Compare T* and V, the latter up to terms that vanish in derivatives."""
     T, V = (shared.energies(column) for column in ("T*", "V"))
     found = [
         Check(text(Name("T*"), " is the same"), *_pair(zero.vanishes([(sp.S.One, T[0]), (sp.S.NegativeOne, T[1])])))
@@ -215,7 +217,7 @@ def _energies(zero: Zero, shared: Shared) -> tuple[Check, ...]:
 
 
 def _forces(zero: Zero, shared: Shared) -> tuple[Check, ...]:
-    """Ξ_j = Σ_i J_ij Ξ_i for every new coordinate j."""
+    """Check Ξ_j = Σ_i J_ij Ξ_i for every new coordinate j."""
     found = []
     for j, c in enumerate(shared.b.coordinates):
         terms = [(sp.S.NegativeOne, shared.Xi_b[j])]

@@ -1,4 +1,4 @@
-"""Comparison: what was found of two systems, and its words, as the lecture compares its examples 3A and 3B."""
+"""The result of a comparison, and its text, which follows the lecture's comparison of its examples 3A and 3B."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ from lagrangian.viewed import cut
 from lagrangian.write.written import Written
 
 MAX_JACOBIAN_SIZE = 8
-"""Coordinates up to which J is written out."""
+"""J is written out for at most this many coordinates."""
 MAX_TABLE_OPERATIONS = 30
-"""Operations up to which everything of a kind stands in a table, side by side."""
+"""Quantities with at most this many operations in total are shown side by side in a table."""
 
 
 @dataclass(frozen=True, eq=False)
 class Comparison(Written):
-    """Two systems side by side.
+    """The result of comparing two systems.
 
-    ``change`` says the coordinates ξ of ``source`` in those η of ``into``, with ``J`` = ∂ξ/∂η: each row of ``into`` is
-    Σ J_ij · (row i of ``source``, rewritten). ``rows`` says so for every equation of ``into``, ``back`` the other way.
-    ``same``: the equations are the same motion, and no parameter has another value. Where coordinates do not
-    correspond at all ``change`` is None and ``why`` says it.
+    ``change`` expresses the coordinates ξ of ``source`` in the coordinates η of ``into``, and ``J`` = ∂ξ/∂η: each row
+    of ``into`` is Σ J_ij · (row i of ``source``, rewritten). ``rows`` contains this for every equation of ``into``,
+    ``back`` for the opposite direction. ``same`` is true if the equations describe the same motion and no parameter has
+    different values. If the coordinates cannot be matched, ``change`` is None and ``why`` gives the reason.
     """
 
     a: ComparedSystem
@@ -59,12 +59,12 @@ class Comparison(Written):
         return comparison_report(self)
 
     def __repr__(self) -> str:
-        """Say of what it is, and what was found; ``print`` shows it all."""
+        """Name the two systems and the verdict; ``print`` shows the whole result."""
         a, b = self.a.derivation.model.name, self.b.derivation.model.name
         return cut(f"<Comparison of {a!r} and {b!r}: {'the same' if self.same else 'they differ'}>")
 
     def __bool__(self) -> bool:
-        """Whether they are the same: ``assert lg.compare(a, b)``."""
+        """Whether the systems are the same, so that you can write ``assert lg.compare(a, b)``."""
         return self.same
 
 
@@ -88,7 +88,7 @@ def comparison_report(found: Comparison) -> Report[Model]:
 
 
 class _Shown:
-    """The pieces of the report; a letter that means one thing in (A) and another in (B) gets the set's letter."""
+    """The parts of the report; a symbol with different meanings in (A) and (B) gets the letter of its system."""
 
     def __init__(self, found: Comparison) -> None:
         self.found = found
@@ -108,11 +108,11 @@ class _Shown:
     # -- letters ------------------------------------------------------------------------------------------------
 
     def expr(self, side: ComparedSystem, expr: sp.Expr) -> sp.Expr:
-        """An expression of one side, its letters told apart."""
+        """An expression of one system, with its symbols made distinct."""
         return cast("sp.Expr", expr.xreplace(self.names[side.tag])) if self.names[side.tag] else expr
 
     def left(self, side: ComparedSystem, item: Any) -> Any:
-        """Anything that stands in a formula."""
+        """Any side of a formula."""
         if isinstance(item, sp.Expr):
             return self.expr(side, item)
         if isinstance(item, Matrix):
@@ -121,16 +121,16 @@ class _Shown:
         return fit_terms(tuple(self.left(side, t) for t in parts)) if parts is not None else item
 
     def text(self, words: Text) -> Text:
-        """Words that speak of the coordinates that both are written in."""
+        """Words about the coordinates in which both are written."""
         names = self.names[self.found.into.tag]
         return Text(tuple(p if isinstance(p, str) else within(p, names) for p in words.parts))
 
     def check(self, check: Check) -> Check:
-        """A check in the letters of the report."""
+        """A check with the symbols of the report."""
         return replace(check, what=self.text(check.what))
 
     def checks(self, rows: Sequence[EquationRow]) -> tuple[Check, ...]:
-        """What was verified of rows."""
+        """The checks of rows."""
         return tuple(self.check(r.check) for r in rows)
 
     # -- parts --------------------------------------------------------------------------------------------------
@@ -141,27 +141,33 @@ class _Shown:
         if found.why is not None:
             return found.why
         if found.same:
-            return text("(A) and (B) are one motion: every equation of one is a sum of equations of the other.")
+            return text(
+                "(A) and (B) describe the same motion: every equation of one is a sum of equations of the other."
+            )
         if found.equations_same:
             return text("(A) and (B) have the same equations, but not the same values of their parameters.")
         wrong = [r.label for r in found.rows if not r.holds]
-        return text(f"(A) and (B) are not the same motion: {', '.join(wrong)} cannot be had from the other set.")
+        return text(
+            f"(A) and (B) do not describe the same motion: {', '.join(wrong)} cannot be obtained from the other set."
+        )
 
     def remarks(self) -> list[Item]:
-        """What must be known to read the rest."""
+        """Remarks that are needed to understand the rest."""
         found, items = self.found, []
         if found.assumed and found.change is not None:
             named = not found.change.replaced
-            what = "coordinates of the same name were taken to be the same" if named else "the most places agree so"
+            what = (
+                "coordinates of the same name were taken to be the same" if named else "most places agree in this way"
+            )
             items.append(text(f"The two do not put everything in the same places; {what}."))
         if found.equations_same and found.differences:
-            items.append(text("They book the same forces in different columns; see at the end."))
+            items.append(text("They count the same forces in different places; see at the end."))
         if first := next(iter(found.differences), None):
             items += [] if found.equations_same else [text("The first difference. ", *self.difference(first))]
         return items
 
     def side_by_side(self) -> list[Item]:
-        """Coordinates, T*, V and Ξ of both."""
+        """Coordinates, T*, V and Ξ of both systems."""
         sides = (self.found.a, self.found.b)
         forces = [list(s.derivation.Xi.values()) for s in sides]
         rows: list[tuple[Name, list[sp.Expr | None]]] = [
@@ -183,7 +189,7 @@ class _Shown:
         return items
 
     def listed(self, side: ComparedSystem) -> list[Left | str]:
-        """The coordinates of one side."""
+        """The coordinates of one system."""
         return commas([self.expr(side, q) for q in side.derivation.coordinates])
 
     def change(self) -> list[Item]:
@@ -209,7 +215,7 @@ class _Shown:
         return items
 
     def equations(self, side: ComparedSystem) -> list[Item]:
-        """The equations of motion of one side, labelled 1a, 2a."""
+        """The equations of motion of one system, labelled 1a, 2a."""
         items: list[Item] = [Heading(text(f"({side.tag}) {side.derivation.model.name}"))]
         boxed = [f for f in side.derivation.result if isinstance(f, Formula) and f.boxed]
         for i, f in enumerate(boxed):
@@ -217,7 +223,7 @@ class _Shown:
         return items
 
     def compared(self) -> list[Item]:
-        """Each equation of one set in the coordinates of the other, and how they add up."""
+        """Each equation of one set in the coordinates of the other, and their sums."""
         found = self.found
         items = [*self.equations(found.source), *self.equations(found.into)]
         same = not (found.change and found.change.replaced)
@@ -230,12 +236,12 @@ class _Shown:
                 items.append(formula(*sides, note=text(r.label)))
         else:
             labels = ", ".join(f"{r.label} is {r.source}" for r in found.rewritten)
-            items.append(text(f"Nothing is to be rewritten: {labels}."))
+            items.append(text(f"Nothing has to be rewritten: {labels}."))
         items.append(Heading(text("Row by row")))
         return [*items, *self.row_by_row(found.rows, found.into)]
 
     def row_by_row(self, rows: Sequence[EquationRow], side: ComparedSystem) -> list[Item]:
-        """First the rows that match as they are, then those that must be added, written out."""
+        """First the rows that match directly, then those that have to be added, written out."""
         boxed = [f for f in side.derivation.result if isinstance(f, Formula) and f.boxed]
         alone: list[Item] = []
         added: list[Item] = []
@@ -244,7 +250,7 @@ class _Shown:
             if len(factors) == 1 or not row.holds:
                 alone.append(self.text(row.words))
                 if not row.holds:
-                    alone.append(self.text(text(f"What is left over of {row.label}: ", fit(row.rest), ".")))
+                    alone.append(self.text(text(f"The remainder of {row.label}: ", fit(row.rest), ".")))
                 continue
             added.append(self.recipe(row, first=not added))
             sides = tuple(self.left(side, x) for x in equation.sides)
@@ -252,14 +258,14 @@ class _Shown:
         return [*alone, *added]
 
     def recipe(self, row: EquationRow, *, first: bool) -> Text:
-        """What is to be done: "Now add B-1 and B-2:"."""
+        """The instruction: "Now add B-1 and B-2:"."""
         words = recipe(row.factors, row.of)
         start = str(words[0])
         start = f"Now, {start[0].lower()}{start[1:]}" if first else start
         return self.text(text(start, *words[1:], ":"))
 
     def back(self) -> list[Item]:
-        """Which way the second list of rows goes."""
+        """The direction of the second list of rows."""
         source, into = self.found.source, self.found.into
         return [text(f"And the equations of ({source.tag}) from those of ({into.tag}):")]
 
@@ -268,7 +274,7 @@ class _Shown:
         source, into = self.found.source, self.found.into
         return [
             text(
-                f"With the coordinates of ({into.tag}) put into ({source.tag}), ",
+                f"With the coordinates of ({into.tag}) substituted in ({source.tag}), ",
                 Name("T*"),
                 " and ",
                 Name("V"),
@@ -280,7 +286,7 @@ class _Shown:
         ]
 
     def differences(self) -> list[Item]:
-        """Every difference, in the order of the steps; then the parameters."""
+        """All differences, in the order of the steps; then the parameters."""
         found = self.found
         items: list[Item] = [text(*self.difference(d)) for d in found.differences]
         valued = [p for p in found.parameters if not p.missing]
@@ -312,7 +318,7 @@ class _Shown:
             if title is None:
                 pieces.append(f"({tag}) has no such element")
             elif value == 0:
-                pieces.append(f"{title} of ({tag}) adds nothing")
+                pieces.append(f"{title} of ({tag}) contributes nothing")
             else:
                 pieces += [f"({tag}) has ", fit(self.expr(into, value)), f" from {title}"]
         if d.element_a and d.element_b and d.a != 0 != d.b:

@@ -1,4 +1,4 @@
-"""Where two systems differ: step by step, T*, V, then each Ξ_i, element by element."""
+"""Finds where two systems differ, step by step and element by element: T*, V, then each Ξ_i."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ VALUE_TOLERANCE = 1e-12
 
 
 def parameter_differences(a: Model, b: Model) -> tuple[ParameterDifference, ...]:
-    """Parameters that have two values, and those that only one system has."""
+    """Parameters with two different values, and parameters that only one system has."""
     left, right = ({p.name: p for p in m.parameters} for m in (a, b))
     found = []
     for name in dict.fromkeys([*left, *right]):
@@ -37,7 +37,7 @@ def _apart(x: float, y: float) -> bool:
 
 
 def unmatched(a: Model, b: Model) -> tuple[Difference, ...]:
-    """Elements that only one system has, by name and kind, where coordinates do not correspond."""
+    """Elements that only one system has, matched by name and kind, if the coordinates cannot be matched."""
     found = []
     for quantity, step in STEPS.items():
         mine = [e.title for e in a.elements if e.ledger == LEDGER[quantity]]
@@ -49,7 +49,7 @@ def unmatched(a: Model, b: Model) -> tuple[Difference, ...]:
 
 
 def differing(zero: Zero, shared: Shared, *, turned: bool) -> tuple[Difference, ...]:
-    """Every contribution that differs, in the order of the steps; ``turned`` where the first system is (B)."""
+    """All contributions that differ, in the order of the steps; ``turned`` if the first system is (B)."""
     found: list[Difference] = []
     forces: list[tuple[Quantity, int | None]] = [("Xi", i) for i in range(len(shared.b.coordinates))]
     energies: list[tuple[Quantity, int | None]] = [("T*", None), ("V", None)]
@@ -70,7 +70,7 @@ def differing(zero: Zero, shared: Shared, *, turned: bool) -> tuple[Difference, 
 
 
 def _matters(zero: Zero, shared: Shared, quantity: Quantity, gap: sp.Expr) -> bool:
-    if quantity == "V":  # another datum is no difference
+    if quantity == "V":  # a different datum is not a difference
         return any(not zero.vanishes([(sp.S.One, sp.diff(gap, c.symbol))]).holds for c in shared.b.coordinates)
     return not zero.vanishes([(sp.S.One, gap)]).holds
 
@@ -88,9 +88,10 @@ Pair = tuple[Element | None, sp.Expr, Element | None, sp.Expr]
 
 
 def _pairs(zero: Zero, shared: Shared, quantity: Quantity, index: int | None) -> Iterator[Pair]:
-    """Elements of both side by side, each with what it adds here.
+    """Pairs of elements of the two systems, with their contributions.
 
-    Those of one name go together; then those that add the same; then those of one kind, in order; the rest is alone.
+    Elements of the same name are paired, then those with the same contribution, then those of the same kind, in order;
+    the remaining ones are listed alone.
     """
     left, right = (
         [(e, shared.share(e, quantity, index, first=first)) for e in m.elements if e.ledger == LEDGER[quantity]]

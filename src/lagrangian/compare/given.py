@@ -1,4 +1,4 @@
-"""A change of coordinates between two systems, as a person says it."""
+"""A change of coordinates between two systems, as a user gives it."""
 
 from __future__ import annotations
 
@@ -16,9 +16,10 @@ from lagrangian.read import Scope, parse_expression
 
 
 def given_change(a: Model, b: Model, given: Mapping[Any, Any]) -> tuple[Change, bool]:
-    """Return the change that {coordinate of one: expression in the other's} says, and whether it says (B)'s in (A)'s.
+    """Return the change {coordinate of one: expression in the other's}, and whether it expresses (B)'s coordinates in
+    (A)'s.
 
-    A coordinate that is not named is the one of the same name in the other system. Raises `ModelError`.
+    A coordinate that is not mentioned equals the one of the same name in the other system. Raises `ModelError`.
     """
     if not isinstance(given, Mapping):
         raise ModelError(

@@ -1,9 +1,9 @@
-"""Which coordinates of one system are which of another: found from what both put in the same places.
+"""Matches the coordinates of two systems by the places that the systems have in common.
 
-Bodies, points and frames are matched by name, bodies also by mass and by order. Equal positions, differences of
-positions and angles give equations ξ = φ(η): linear ones as they are; from  L cos α(ξ) = L cos β(η),
-L sin α(ξ) = L sin β(η)  follows α = ±β + k π/2. What comes out is a proposal; `agreement` counts how much it puts in
-the same places.
+Bodies, points and frames are matched by name; bodies also by mass and by order. Equal positions, differences of
+positions and angles give equations for ξ = φ(η). Linear equations are solved directly; from L cos α(ξ) = L cos β(η), L
+sin α(ξ) = L sin β(η) follows α = ±β + k π/2. The result is a proposal; `agreement` measures how many places it makes
+equal.
 """
 
 from __future__ import annotations
@@ -23,27 +23,28 @@ from lagrangian.derive.sample import Sampler
 from lagrangian.model import Frame, Model, Point, RigidBody, time
 
 MAX_OPERATIONS = 200
-"""Operations up to which a component of a position is looked into."""
+"""The largest number of operations in a component of a position that is used."""
 POSITION_TOLERANCE = 1e-9
 MAX_PROPOSALS = 12
-"""Proposals that are looked at."""
+"""The largest number of proposals that are examined."""
 Vector = tuple[sp.Expr, ...]
 Table = dict[Any, sp.Expr]
 
 
 @dataclass(frozen=True)
 class Places:
-    """Pairs of vectors (positions, or one angle) that mean the same place in two systems."""
+    """Pairs of vectors (positions, or single angles) that describe the same place in two systems."""
 
     pairs: tuple[tuple[Vector, Vector], ...]
 
     def swapped(self) -> Places:
-        """The same seen from the other system."""
+        """The same pairs in the opposite order."""
         return Places(tuple((b, a) for a, b in self.pairs))
 
 
 def places(a: Model, b: Model) -> Places:
-    """Return what both systems have: positions of bodies and points of one name, angles of bodies and frames."""
+    """Return the places that both systems have: positions of bodies and points, angles of bodies and frames, by
+    name."""
     found: list[tuple[Vector, Vector]] = []
     if a.dimension == b.dimension:
         for p, q in _points(a, b):
@@ -66,7 +67,7 @@ def _position(model: Model, point: Point) -> Vector:
 
 
 def bodies(a: Model, b: Model) -> list[tuple[Any, Any]]:
-    """Pairs of bodies: of one name, else of one mass, else in their order where none is left over."""
+    """Pairs of bodies with the same name, else the same mass, else in order if this leaves none over."""
     left, right, pairs = list(a.bodies), list(b.bodies), []
     for same in (lambda x, y: x.title == y.title, lambda x, y: x.name == y.name, lambda x, y: x.mass == y.mass):
         for x in list(left):
@@ -101,7 +102,7 @@ def _frames(a: Model, b: Model) -> Iterator[tuple[Frame, Frame]]:
 
 
 def agreement(a: Model, change: Change, pairs: Places) -> float:
-    """The share of the places that ξ = φ(η) makes equal; 0 where there are none."""
+    """The fraction of the places that ξ = φ(η) makes equal; 0 if there are none."""
     if not pairs.pairs:
         return 0.0
     gaps = [[change.put_in(x) - y for x, y in zip(p, q, strict=True)] for p, q in pairs.pairs]
@@ -116,12 +117,11 @@ def agreement(a: Model, change: Change, pairs: Places) -> float:
 
 
 def solved(a: Model, b: Model, pairs: Places) -> Iterator[dict[AppliedUndef, sp.Expr]]:
-    """Every φ that the places allow, coordinates of ``a`` in those of ``b``, the surest first.
+    """All φ that the places allow, coordinates of ``a`` in those of ``b``, the most certain first.
 
-    Where they do not tell all, one coordinate after the other is taken to be the one of its name, and what follows
-    from that is told.
+    If the places do not determine all coordinates, one after another is assumed to equal the one of the same name.
     """
-    old = {c.symbol: sp.Dummy(c.name) for c in a.coordinates}  # a letter can mean one thing here, another there
+    old = {c.symbol: sp.Dummy(c.name) for c in a.coordinates}  # a symbol may have different meanings in the two systems
     vectors = [(tuple(_renamed(x, old) for x in p), q) for p, q in _differences(pairs)]
     vectors += [((x,), (y,)) for p, q in vectors if len(p) > 1 for x, y in zip(p, q, strict=True)]
     theirs = {c.name: c.symbol for c in b.coordinates}
@@ -155,7 +155,7 @@ def _renamed(expr: sp.Expr, names: Mapping[Any, sp.Expr]) -> sp.Expr:
 
 
 def _differences(pairs: Places) -> Iterator[tuple[Vector, Vector]]:
-    """The positions, and how each differs from the one before it, from the simplest on."""
+    """The positions, and the difference of each from the previous one, the simplest first."""
     yield from pairs.pairs
     for (p, q), (r, s) in pairwise(pairs.pairs):
         if len(p) == len(r):
@@ -166,7 +166,7 @@ def _differences(pairs: Places) -> Iterator[tuple[Vector, Vector]]:
 
 
 def _linear(p: Vector, q: Vector, unknown: set[Any]) -> list[sp.Expr]:
-    """Components that are linear in what is unknown, with constant factors or alone: left minus right."""
+    """Components that are linear in the unknowns, with constant factors or alone: left minus right."""
     found = []
     for x, y in zip(p, q, strict=True):
         mine = x.free_symbols & unknown
@@ -186,7 +186,7 @@ def _linear(p: Vector, q: Vector, unknown: set[Any]) -> list[sp.Expr]:
 
 
 def _turned(p: Vector, q: Vector, unknown: set[Any], moving: set[Any]) -> list[sp.Expr]:
-    """α = ±β + k π/2 where what is unknown stands in sines and cosines of one angle α only."""
+    """α = ±β + k π/2 if the unknowns occur only in sines and cosines of a single angle α."""
     if any(sp.count_ops(x) > MAX_OPERATIONS for x in (*p, *q)):
         return []
     angles = {_upright(f.args[0]) for x in p for f in x.atoms(sp.sin, sp.cos) if f.free_symbols & unknown}
@@ -208,14 +208,14 @@ def _turned(p: Vector, q: Vector, unknown: set[Any], moving: set[Any]) -> list[s
 
 
 def _upright(argument: Any) -> sp.Expr:
-    """An angle with the sign that SymPy takes out of a sine turned off."""
+    """An angle without the sign that SymPy takes out of a sine."""
     angle: sp.Expr = argument
     return -angle if angle.could_extract_minus_sign() else angle
 
 
 def _resolved(equations: Sequence[sp.Expr], unknown: set[Any]) -> Table:
-    """What linear equations tell of the unknown, by elimination; one that contradicts those before it is left out."""
-    rows: dict[Any, tuple[Table, sp.Expr]] = {}  # letter = rest − Σ factor · other letter
+    """Solve linear equations for the unknowns by elimination; an equation that contradicts earlier ones is omitted."""
+    rows: dict[Any, tuple[Table, sp.Expr]] = {}  # symbol = rest − Σ factor · other symbol
     for equation in dict.fromkeys(bounded.expand(e) for e in equations):
         factors: Table = {u: f for u in equation.free_symbols & unknown if (f := sp.diff(equation, u)) != 0}
         rest = bounded.expand(-cast("sp.Expr", equation.xreplace(dict.fromkeys(unknown, sp.S.Zero))))
@@ -234,7 +234,7 @@ def _resolved(equations: Sequence[sp.Expr], unknown: set[Any]) -> Table:
 
 
 def _without(letter: Any, factors: Table, rest: sp.Expr, row: tuple[Table, sp.Expr]) -> tuple[Table, sp.Expr]:
-    """Σ factor · letter = rest with one letter put in from its own row."""
+    """Substitute the row of a symbol into Σ factor · symbol = rest."""
     factor = factors[letter]
     others, value = row
     out = {u: f for u, f in factors.items() if u is not letter}

@@ -1,4 +1,4 @@
-"""What a comparison of two systems found, as data."""
+"""The data of a comparison."""
 
 from __future__ import annotations
 
@@ -14,7 +14,8 @@ from lagrangian.viewed import Brief
 
 @dataclass(frozen=True, eq=False)
 class ComparedSystem(Brief):
-    """One of the two: its tag "A" or "B", its derivation, and the letter of its rows (a absolute, r relative)."""
+    """One of the two systems: its tag "A" or "B", its derivation, and the letter of its rows (a absolute, r
+    relative)."""
 
     tag: Literal["A", "B"]
     derivation: Derived
@@ -29,7 +30,7 @@ class ComparedSystem(Brief):
 class EquationRow(Brief):
     """An equation of one set as a sum of rows of the other: ``label`` = Σ factors · ``of``.
 
-    ``rest`` is what is left over, ``label`` − Σ factors · ``of``: 0 where the row holds.
+    ``rest`` is the remainder, ``label`` − Σ factors · ``of``, which is 0 if the row holds.
     """
 
     label: str
@@ -41,13 +42,13 @@ class EquationRow(Brief):
 
     @property
     def holds(self) -> bool:
-        """Whether it is so."""
+        """Whether the remainder is 0."""
         return self.check.holds is True
 
 
 @dataclass(frozen=True)
 class Rewritten(Brief):
-    """An equation of the first set in the coordinates of the other: B-1, with its terms left and right."""
+    """An equation of the first set in the coordinates of the other, B-1, with its terms on the left and right."""
 
     label: str
     source: str
@@ -57,10 +58,11 @@ class Rewritten(Brief):
 
 @dataclass(frozen=True)
 class Difference(Brief):
-    """Where two systems differ: the step and quantity ("T*", "V", "Xi"), and what each has there from which element.
+    """A difference: the step, the quantity ("T*", "V", "Xi"), and the contributions of both systems with their
+    elements.
 
     ``coordinate`` is the one whose Ξ it is. ``a`` and ``b`` are the contributions in the shared coordinates, ``term``
-    the first term of a − b; an element that one system has not is None.
+    is the first term of a − b. An element that one system does not have is None.
     """
 
     step: int
@@ -75,7 +77,7 @@ class Difference(Brief):
 
 @dataclass(frozen=True)
 class ParameterDifference(Brief):
-    """A parameter whose value differs, or that one system has not (``missing``: "A" or "B")."""
+    """A parameter whose values differ, or that one system does not have (``missing``: "A" or "B")."""
 
     name: str
     a: float | None

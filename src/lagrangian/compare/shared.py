@@ -1,4 +1,4 @@
-"""Two systems in one set of coordinates: everything of the first with ξ = φ(η) put in."""
+"""Two systems in the same coordinates: ξ = φ(η) is substituted into everything of the first."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from lagrangian.model import Element, Model
 from lagrangian.model.model import written_out
 
 LARGEST_BLOCK = 4
-"""Rows of a J with moving entries up to which its inverse is written out."""
+"""If J has entries that move, its inverse is written out up to this number of rows."""
 LARGEST_INVERSE = 60
-"""Rows of a constant J up to which its inverse is written out."""
+"""If J is constant, its inverse is written out up to this number of rows."""
 
 
 class Shared:
@@ -38,15 +38,15 @@ class Shared:
 
     @cached_property
     def J(self) -> sp.ImmutableMatrix:
-        """∂ξ/∂η, one row a coordinate of the first system, one column one of the second."""
+        """∂ξ/∂η, with a row for each coordinate of the first system and a column for each of the second."""
         return self.change.jacobian
 
     def seen(self, expr: sp.Expr) -> sp.Expr:
-        """An expression of the first system in η, with definitions written out that the second has not."""
+        """An expression of the first system in η; definitions that the second does not have are written out."""
         return self.change.put_in(written_out(self.a.expand(expr), self._constants[0]))
 
     def own(self, expr: sp.Expr) -> sp.Expr:
-        """An expression of the second system, with definitions written out that the first has not."""
+        """An expression of the second system; definitions that the first does not have are written out."""
         return written_out(self.b.expand(expr), self._constants[1])
 
     @cached_property
@@ -76,7 +76,7 @@ class Shared:
         return self.seen(pair[0]), self.own(pair[1])
 
     def share(self, element: Element, column: str, index: int | None, *, first: bool) -> sp.Expr:
-        """What an element adds to T*, to V, or to the Ξ of coordinate ``index`` of the second system."""
+        """The contribution of an element to T*, to V, or to the Ξ of coordinate ``index`` of the second system."""
         model = self.a if first else self.b
         into = self.seen if first else self.own
         if column == "T*":
@@ -98,7 +98,7 @@ def _residual(equation: sp.Eq) -> sp.Expr:
 
 
 def inverse(J: sp.ImmutableMatrix) -> sp.ImmutableMatrix | None:
-    """J⁻¹ where it can be written out in few words: J constant, or few rows of it moving; else None."""
+    """J⁻¹ if it is short enough to write out (J is constant, or few of its rows move), else None."""
     n = J.rows
     constant = all(x.is_number for x in J.flat())
     alone = [i for i in range(n) if sum(x != 0 for x in J.row(i)) == 1 and 1 in J.row(i)]

@@ -1,4 +1,4 @@
-"""How rows of one set add up to a row of the other, said as the lecture says it."""
+"""Describes in the lecture's words how rows of one set add up to a row of the other."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ def combination(label: str, factors: Factors, of: Labels, *, holds: bool) -> Tex
 
 
 def recipe(factors: Factors, of: Labels) -> tuple[str | Left, ...]:
-    """What is to be done with the rows: "Add B-1 and B-2"."""
+    """The instruction for the rows: "Add B-1 and B-2"."""
     pieces = _pieces(factors, of)
     plus = [(f, n) for f, n in pieces if not f.could_extract_minus_sign()]
     minus = [(-f, n) for f, n in pieces if f.could_extract_minus_sign()]
@@ -34,11 +34,11 @@ def recipe(factors: Factors, of: Labels) -> tuple[str | Left, ...]:
         return ("Add ", *_listed(plus))
     if plus:
         return ("From ", *_listed(plus, plus=True), " subtract ", *_listed(minus))
-    return ("Add ", *_listed(minus), " and turn the signs")
+    return ("Add ", *_listed(minus), " and change the signs")
 
 
 def equality(label: str, factors: Factors, of: Labels) -> Text:
-    """In signs: "1r = B-1 + B-2"."""
+    """The same as an equation: "1r = B-1 + B-2"."""
     parts: list[str | Left] = [f"{label} = "]
     for k, (f, name) in enumerate(_pieces(factors, of)):
         minus = f.could_extract_minus_sign()
@@ -66,7 +66,7 @@ def _listed(pieces: list[tuple[sp.Expr, str]], *, plus: bool = False) -> list[st
 
 
 def within(part: Any, names: Mapping[sp.Basic, sp.Expr]) -> Any:
-    """A symbol, also one in ∂…/∂…, under its name in the report."""
+    """A symbol, also inside ∂…/∂…, with its name in the report."""
     if isinstance(part, sp.Basic):
         return part.xreplace(names)
     by = getattr(part, "by", None)
@@ -74,7 +74,7 @@ def within(part: Any, names: Mapping[sp.Basic, sp.Expr]) -> Any:
 
 
 def commas(exprs: Sequence[Left]) -> list[Left | str]:
-    """Expressions with commas between them."""
+    """Expressions separated by commas."""
     parts: list[Left | str] = []
     for e in exprs:
         parts += [", ", e] if parts else [e]
@@ -82,5 +82,5 @@ def commas(exprs: Sequence[Left]) -> list[Left | str]:
 
 
 def symbols(names: Sequence[str]) -> list[Left | str]:
-    """Names as symbols with commas between them."""
+    """Names as symbols, separated by commas."""
     return commas([sp.Symbol(n) for n in names])

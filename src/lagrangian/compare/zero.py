@@ -1,4 +1,4 @@
-"""Is this expression 0? By the normal form where it reaches, else at random states with 50 digits."""
+"""Decides whether an expression is 0: by its normal form if there is one, else at random states with 50 digits."""
 
 from __future__ import annotations
 
@@ -14,29 +14,29 @@ from lagrangian.errors import ModelError
 from lagrangian.model import Model
 
 ENOUGH = 5
-"""States at which 50 digits are compared."""
+"""The number of states at which 50 digits are compared."""
 EXACTLY = mpmath.mpf(10) ** -35
 LONGEST = 20_000
-"""Operations above which the normal form is not tried."""
+"""The normal form is not tried for expressions with more operations."""
 
 
 @dataclass(frozen=True)
 class ZeroVerdict:
-    """Whether something vanishes, and how that was found."""
+    """Whether an expression vanishes, and how that was decided."""
 
     holds: bool
     figure: str
 
 
 class Zero:
-    """Decides in the ring of one model."""
+    """Decides in the polynomial ring of one model."""
 
     def __init__(self, model: Model, expressions: Sequence[sp.Expr]) -> None:
         self.algebra = Algebra(model, expressions)
         self._states = States(model, 4)
 
     def form(self, expr: sp.Expr) -> Form | None:
-        """The normal form, or None where it would be too long."""
+        """The normal form, or None if it would be too long."""
         if int(sp.count_ops(expr)) > LONGEST:
             return None
         try:
@@ -45,12 +45,12 @@ class Zero:
             return None
 
     def readable(self, expr: sp.Expr) -> sp.Expr:
-        """The expression as a textbook would write it, as it is where that is out of reach."""
+        """The expression in textbook form, or unchanged if it is too long for that."""
         form = self.form(expr)
         return expr if form is None else form.expr()
 
     def vanishes(self, terms: Sequence[tuple[sp.Expr, sp.Expr]]) -> ZeroVerdict:
-        """Whether Σ factor · expression, over all pairs, is 0. Raises `ModelError` where it has a value nowhere."""
+        """Whether Σ factor · expression, over all pairs, is 0. Raises `ModelError` if it has no value at any state."""
         exact = self._exactly(terms)
         if exact is True:
             return ZeroVerdict(True, "exact")
@@ -72,7 +72,7 @@ class Zero:
             return None
 
     def _numerically(self, summands: Sequence[sp.Expr]) -> ZeroVerdict:
-        """|Σ| / Σ|summand| at random states, the largest; states where there is no value are passed over."""
+        """The largest |Σ| / Σ|summand| at random states; states without a value are skipped."""
         parts = [t for s in summands for t in sp.Add.make_args(s)]
         if not parts:
             return ZeroVerdict(True, "exact")

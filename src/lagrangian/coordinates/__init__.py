@@ -1,4 +1,4 @@
-"""The same system in other coordinates."""
+"""Describes the same system in other coordinates."""
 
 from lagrangian.coordinates.carry import carried, changed
 from lagrangian.coordinates.change import Change, check_regular, is_regular, read_change

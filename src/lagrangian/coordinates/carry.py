@@ -1,4 +1,4 @@
-"""A model carried over to other coordinates: every definition, point, frame and element, each under its name."""
+"""Converts a model to other coordinates; every definition, point, frame and element keeps its name."""
 
 from __future__ import annotations
 
@@ -17,16 +17,17 @@ from lagrangian.page.plain import plain
 
 
 def changed(model: Model, change: Mapping[Any, Any] | Change, *, name: str | None = None) -> Model:
-    """Return the same system in other coordinates; ``change`` is {old: expression in kept and new ones}.
+    """Return the same system in other coordinates; ``change`` is {old: expression in coordinates that stay or are new}.
 
-    Points and frames keep their parents, elements their names; a generalized force on an old coordinate becomes one on
-    each new coordinate that moves it, Ξ_η = Jᵀ Ξ_ξ. Raises `ModelError` for a change that is none (`read_change`).
+    Points and frames keep their parents, and elements their names. A generalized force on an old coordinate becomes one
+    on each new coordinate that moves it, Ξ_η = Jᵀ Ξ_ξ. Raises `ModelError` if the change is not valid (see
+    `read_change`).
     """
     return carried(model, change, name=name).model()
 
 
 def carried(model: Model, change: Mapping[Any, Any] | Change, *, name: str | None = None) -> Builder:
-    """Return what `changed` does while it can still grow."""
+    """Return the same as `changed`, as a builder that can still be extended."""
     found = change if isinstance(change, Change) else read_change(model, change)
     return _Carrier(model, found, name or _title(model, found)).built()
 
@@ -37,14 +38,14 @@ def _title(model: Model, change: Change) -> str:
 
 
 class _Carrier:
-    """Builds the new description piece by piece, in the old one's order."""
+    """Builds the new description piece by piece, in the order of the old one."""
 
     def __init__(self, model: Model, change: Change, name: str) -> None:
         self.model, self.change, self.builder = model, change, Builder(name)
         self._things: dict[int, Point | Frame] = {id(model.origin): self.builder.origin}
 
     def built(self) -> Builder:
-        """Return the builder with everything in it."""
+        """Return the builder with the complete description."""
         model, b = self.model, self.builder
         floating = {c.name: f for f in model.floating if f.floating is not None for c in f.floating.coordinates}
         for c in self.change.new:
@@ -77,7 +78,7 @@ class _Carrier:
             self._things.update({id(frame): made, id(frame.origin): made.origin})
 
     def point(self, point: Point) -> Point:
-        """The point in the new coordinates, with its own parent."""
+        """The point in the new coordinates, with its parent."""
         made = self._things.get(id(point))
         if not isinstance(made, Point):
             assert point.parent is not None
@@ -92,7 +93,7 @@ class _Carrier:
         return made
 
     def frame(self, frame: Frame) -> Frame:
-        """The frame in the new coordinates, with its own parent and origin."""
+        """The frame in the new coordinates, with its parent and origin."""
         made = self._things.get(id(frame))
         if not isinstance(made, Frame):
             made = self.builder.frame(
@@ -107,7 +108,7 @@ class _Carrier:
         return made
 
     def elements(self, element: Element) -> Iterator[Element]:
-        """The element in the new coordinates; a generalized force can become several."""
+        """The element in the new coordinates; a generalized force may become several."""
         if isinstance(element, GeneralizedForce):
             yield from self._generalized(element)
             return
@@ -119,7 +120,7 @@ class _Carrier:
         """Ξ_j = Ξ_i ∂ξ_i/∂η_j for every new coordinate that moves ξ_i."""
         old = [c.symbol for c in self.change.old]
         value = self.change.put_in(force.value)
-        if force.coordinate not in old:  # a velocity of a frame that floats
+        if force.coordinate not in old:  # a velocity of a floating frame
             yield force.named(force.name)
             return
         row = self.change.jacobian.row(old.index(force.coordinate))

@@ -2,8 +2,8 @@
 
     J = ∂φ/∂η      ξ̇ = J η̇ + ∂φ/∂t      ξ̈ = d/dt ξ̇
 
-A coordinate that is not named keeps its name and its meaning. A new coordinate may carry the name of one that it
-replaces: ``theta2 = theta1 + theta2`` says that the old θ2 is the sum, and that the new θ2 is measured from θ1.
+A coordinate that is not mentioned keeps its name and its meaning. A new coordinate may have the name of one that it
+replaces: ``theta2 = theta1 + theta2`` means that the old θ2 is the sum, and that the new θ2 is measured from θ1.
 """
 
 from __future__ import annotations
@@ -29,20 +29,20 @@ from lagrangian.read import Scope, parse_expression
 from lagrangian.viewed import Brief
 
 MOST_SETS = 500
-"""Sets of coordinates that are tried for what a change given the other way round replaces."""
+"""The largest number of sets of old coordinates that are tried if the new ones are given in terms of the old."""
 STATES = 3
-"""Random places at which the rank of J is taken; the largest counts."""
+"""The number of random positions at which the rank of J is computed; the largest counts."""
 MIN_SINGULAR_VALUE = 1e-9
-"""Relative singular value below which J is singular at a place."""
+"""J is singular at a position if its relative singular value is below this."""
 
 
 @dataclass(frozen=True, eq=False)
 class Change(Brief):
-    """ξ = φ(η, t): the old coordinates in the new ones, in the order of either set.
+    """A change ξ = φ(η, t): the old coordinates in terms of the new ones, both in order.
 
-    ``old`` are the coordinates of the model; ``new`` those that take their places, in the same order: a coordinate that
-    is kept stands where it stood, and a new one where the one it replaces stood. ``table`` holds φ for every old
-    symbol.
+    ``old`` are the coordinates of the model; ``new`` are those that take their places, in the same order: a coordinate
+    that stays keeps its position, and a new one has the position of the one that it replaces. ``table`` contains φ for
+    every old symbol.
     """
 
     old: tuple[Coordinate, ...]
@@ -52,13 +52,13 @@ class Change(Brief):
 
     @cached_property
     def jacobian(self) -> sp.ImmutableMatrix:
-        """J = ∂φ/∂η, one row an old coordinate, one column a new one."""
+        """J = ∂φ/∂η, with a row for each old coordinate and a column for each new one."""
         rows = [[sp.diff(self.table[c.symbol], n.symbol) for n in self.new] for c in self.old]
         return sp.ImmutableMatrix(rows)
 
     @cached_property
     def replacements(self) -> dict[sp.Basic, sp.Expr]:
-        """What every old coordinate, rate and acceleration becomes; to be put in all at once."""
+        """The expression for every old coordinate, rate and acceleration, to be substituted all at once."""
         found: dict[sp.Basic, sp.Expr] = {}
         for c in self.old:
             value = self.table[c.symbol]
@@ -71,25 +71,25 @@ class Change(Brief):
         return found
 
     def put_in(self, expr: sp.Expr) -> sp.Expr:
-        """An expression of the old coordinates and their rates in the new ones."""
+        """An expression of the old coordinates and their rates, converted to the new ones."""
         if expr not in self._memo:
             self._memo[expr] = cast("sp.Expr", expr.xreplace(self.replacements)) if self.replacements else expr
         return self._memo[expr]
 
     @property
     def replaced(self) -> tuple[tuple[Coordinate, sp.Expr], ...]:
-        """The old coordinates that are not kept, with φ."""
+        """The old coordinates that are replaced, with φ."""
         return tuple((c, self.table[c.symbol]) for c in self.old if self.table[c.symbol] != c.symbol)
 
 
 def read_change(model: Model, given: Mapping[Any, Any], *, into: Iterable[str] = ()) -> Change:
-    """Return the change of coordinates that ``given`` says, checked.
+    """Return the change of coordinates described by ``given``, after checking it.
 
-    Keys are coordinates of the model (symbols or names), values expressions of kept and new coordinates, as SymPy or as
-    text. The other way round, new names with expressions of the old coordinates, is solved where it is linear. ``into``
-    are names of new coordinates that are known beforehand. Raises `ModelError` for a change that is singular, whose
-    numbers do not match, that holds rates, inputs or symbols nobody declared, or that replaces part of a floating
-    frame.
+    Keys are coordinates of the model (symbols or names); values are expressions of coordinates that stay or are new, as
+    SymPy or text. A mapping of new names to expressions of old coordinates is solved if it is linear. ``into`` lists
+    names of new coordinates that are known beforehand. Raises `ModelError` if the change is singular, if the numbers of
+    old and new coordinates differ, if it contains rates, inputs or undeclared symbols, or if it replaces part of a
+    floating frame.
     """
     if not isinstance(given, Mapping) or not given:
         raise ModelError(
@@ -119,7 +119,8 @@ def _no_coordinate(model: Model, name: str) -> ModelError:
 
 
 def _check_new(model: Model, pairs: Mapping[str, sp.Expr]) -> None:
-    """Refuse names that are no coordinates, unless what they are given by is: coordinates of the system."""
+    """Raise an error for names that are not coordinates, unless the expressions contain only coordinates of the
+    system."""
     own = {c.symbol for c in model.coordinates}
     for name, expr in pairs.items():
         if not expr.atoms(AppliedUndef) & own:
@@ -139,10 +140,10 @@ def _key(key: object) -> str:
 
 
 class _Open(Scope):
-    """Names of a model; a name that it has not is the name of a new coordinate."""
+    """The names of a model; any other name is that of a new coordinate."""
 
     def meanings(self, written: str) -> tuple[list[str], int]:
-        """What a name means; nothing is unknown that could be a coordinate's name."""
+        """The meanings of a name; an unknown name that could be that of a coordinate is one."""
         names, dots = super().meanings(written)
         if not names and written not in RESERVED and str(written).isidentifier() and len(written) <= 64:
             name = check_name(str(written), "coordinate")
@@ -159,7 +160,7 @@ def _expression(model: Model, value: object, key: str, into: Iterable[str]) -> s
 
 
 def _solved(model: Model, pairs: Mapping[str, sp.Expr]) -> Change:
-    """The change whose new coordinates are given by the old ones, solved for as many of the last ones as are new."""
+    """Solve the change in which new coordinates are given in terms of old ones for as many old ones, the last first."""
     new = [moving_symbol(check_name(k, "coordinate")) for k in pairs]
     for key, expr in pairs.items():
         _check_letters(model, expr, key, {c.symbol for c in model.coordinates})
@@ -184,7 +185,7 @@ def _determinant(matrix: sp.Matrix) -> sp.Expr:
 
 
 def _placed(model: Model, given: Mapping[Coordinate, sp.Expr]) -> Change:
-    """Put the new coordinates in the places of those they replace."""
+    """Put the new coordinates in the places of those that they replace."""
     given = {c: e for c, e in given.items() if e != c.symbol}
     kept = {c.symbol for c in model.coordinates if c not in given}
     fresh: dict[AppliedUndef, None] = {}
@@ -217,7 +218,7 @@ def _placed(model: Model, given: Mapping[Coordinate, sp.Expr]) -> Change:
 
 
 def _promised(s: AppliedUndef, own: Mapping[Coordinate, list[AppliedUndef]], taken: list[AppliedUndef]) -> bool:
-    """Whether another expression has this new coordinate alone left for its place."""
+    """Whether this new coordinate is the only one left for the place of another expression."""
     later = list(own.values())[len(taken) + 1 :]
     return any([x for x in mine if x not in taken] == [s] for mine in later)
 
@@ -235,12 +236,12 @@ def _counted(n: int, one: str, many: str) -> str:
 
 
 def _check_letters(model: Model, expr: sp.Expr, key: str, moving: set[Any]) -> None:
-    """Refuse rates, inputs, moving definitions and constants that the model has not."""
+    """Raise an error for rates, inputs, moving definitions and constants that the model does not have."""
     where = f"what '{key}' becomes"
     if rates := expr.atoms(sp.Derivative):
         rate = min(map(plain, rates))
         raise ModelError(
-            f"{where} holds a rate, {rate}",
+            f"{where} contains a rate, {rate}",
             fix="use only coordinates, parameters and t; the rates are derived from them",
             code="E308",
         )
@@ -254,7 +255,7 @@ def _check_letters(model: Model, expr: sp.Expr, key: str, moving: set[Any]) -> N
             raise ModelError(f"unknown coordinate '{plain(s)}' in {where}", fix=fix, code="E402")
         what = "an input" if s in inputs else "a velocity" if s in quasi else "a definition that moves"
         raise ModelError(
-            f"{where} holds '{plain(s)}', {what}",
+            f"{where} contains '{plain(s)}', {what}",
             fix="use only kept or new coordinates, parameters and t",
             code="E417",
         )
@@ -269,7 +270,7 @@ def _check_letters(model: Model, expr: sp.Expr, key: str, moving: set[Any]) -> N
 
 
 def _checked(model: Model, change: Change) -> Change:
-    """Refuse a change of a floating frame's coordinates, and one whose J has not full rank anywhere."""
+    """Raise an error if a coordinate of a floating frame is changed, or if J nowhere has full rank."""
     floating = {c.name: f for f in model.floating if f.floating is not None for c in f.floating.coordinates}
     for c, _ in change.replaced:
         if c.name in floating:
@@ -284,24 +285,24 @@ def _checked(model: Model, change: Change) -> Change:
 
 
 def check_regular(model: Model, change: Change) -> None:
-    """Refuse a change whose J = ∂(old)/∂(new) has not full rank anywhere."""
+    """Raise an error if J = ∂(old)/∂(new) nowhere has full rank."""
     size, weakest = _smallest(model, change)
     if size < MIN_SINGULAR_VALUE:
         names = [c.name for c, w in zip(change.new, weakest, strict=True) if abs(w) > 1e-6]
         raise ModelError(
             f"the change is singular: {' and '.join(names)} can wiggle without moving an old coordinate",
-            fix="make every new coordinate move the system in its own way: det ∂(old)/∂(new) must not be 0 everywhere",
+            fix="every new coordinate must move the system independently: det ∂(old)/∂(new) must not be 0 everywhere",
             code="E210",
         )
 
 
 def is_regular(model: Model, change: Change) -> bool:
-    """Whether J = ∂(old)/∂(new) has full rank somewhere."""
+    """Whether J = ∂(old)/∂(new) has full rank at some position."""
     return _smallest(model, change)[0] >= MIN_SINGULAR_VALUE
 
 
 def _smallest(model: Model, change: Change) -> tuple[float, NDArray[np.float64]]:
-    """The smallest singular value of J beside its largest, and the direction that goes with it, at the best place."""
+    """The smallest singular value of J relative to its largest, with its direction, at the best position."""
     n = len(change.old)
     sampler = Sampler(model, list(change.jacobian.flat()))
     best, weakest = -1.0, np.zeros(n)

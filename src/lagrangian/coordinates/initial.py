@@ -1,4 +1,4 @@
-"""What a model file says of a run, carried over: the initial state ξ(0), ξ̇(0) becomes η(0), η̇(0).
+"""Converts the settings of a run in a model file: the initial state ξ(0), ξ̇(0) becomes η(0), η̇(0).
 
 φ(η, 0) = ξ      J η̇ = ξ̇ − ∂φ/∂t
 """
@@ -17,13 +17,13 @@ from lagrangian.model import Coordinate, Model, time
 from lagrangian.quantities.quantity import parse_quantity
 
 SMALL = 1e-10
-"""Residual of φ(η) = ξ, relative to 1 + |ξ|, up to which the initial state is found."""
+"""The largest residual of φ(η) = ξ, relative to 1 + |ξ|, of an initial state."""
 
 
 def carried_settings(model: Model, change: Change) -> dict[str, Any]:
-    """Return the model's settings with the initial state in the new coordinates.
+    """Return the settings of the model with the initial state in the new coordinates.
 
-    Raises `ModelError` where it has no counterpart, or where a parameter that it takes has no value.
+    Raises `ModelError` if no initial state corresponds to it, or if a parameter that is needed has no value.
     """
     settings = dict(model.settings)
     given = settings.get("initial")
@@ -49,7 +49,7 @@ def _solved(model: Model, change: Change, given: dict[str, float]) -> dict[str, 
         got = evaluate(program, {"q": list(map(float, eta)), "p": parameters})
         return {key: np.array(value, float) for key, value in got.items()}
 
-    import scipy.optimize  # slow to load, and few changes of coordinates come here
+    import scipy.optimize  # imported here because it is slow to load and rarely needed
 
     n = len(change.new)
     for start in (position, position + 0.5, np.ones(n), np.linspace(0.3, 1.7, n)):
@@ -75,7 +75,7 @@ def _solved(model: Model, change: Change, given: dict[str, float]) -> dict[str, 
 
 
 def _short(value: float) -> float:
-    """Without the last digits where a solver's rounding stands."""
+    """Round off the last digits, which contain the rounding errors of a solver."""
     near = float(f"{value:.12g}")
     return 0.0 if abs(near) < 1e-13 else near
 
@@ -105,5 +105,5 @@ def _program(model: Model, change: Change) -> Program:
 
 
 def _still(coordinates: tuple[Coordinate, ...]) -> dict[sp.Basic, sp.Expr]:
-    """Zero for every rate."""
+    """Return zero for every rate."""
     return {c.rate: sp.S.Zero for c in coordinates}

@@ -1,4 +1,4 @@
-"""What a model file says of the inputs of its runs, carried over: expressions of old coordinates in the new ones."""
+"""Converts the inputs of a run in a model file from old coordinates to new ones."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ from lagrangian.read import Scope, parse_expression
 
 
 def carried_signals(model: Model, change: Change, given: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the inputs by name; a feedback such as ``-k*x2`` is written in the new coordinates, all else stays."""
+    """Return the inputs by name; a feedback such as ``-k*x2`` is converted to the new coordinates, others stay the
+    same."""
     return {name: _carried(model, change, name, value) for name, value in given.items()}
 
 
@@ -22,7 +23,7 @@ def _carried(model: Model, change: Change, name: str, value: Any) -> Any:
         return value
     try:
         expr = parse_expression(value, Scope(model.symbols), what=f"input '{name}'")
-    except ModelError:  # a number with a unit, which no coordinate changes; what is neither, a run refuses
+    except ModelError:  # a number with a unit; anything else is refused when the system runs
         return value
     written = change.put_in(expr)
     return value if written == expr else plain(written)

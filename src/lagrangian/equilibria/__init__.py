@@ -1,1 +1,1 @@
-"""Where a system can rest: all equilibria that are found in a box."""
+"""Finds the equilibria of a system: all that a search in a box finds."""

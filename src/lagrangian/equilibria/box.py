@@ -1,4 +1,4 @@
-"""The box of coordinates in which rests are sought."""
+"""The box of coordinates in which equilibria are sought."""
 
 from __future__ import annotations
 
@@ -17,16 +17,16 @@ Array = NDArray[np.float64]
 
 TURN = 2 * np.pi
 LENGTHS = 4.0
-"""A side that is a length reaches so many times the largest length among the parameters."""
+"""A side that is a length extends to this multiple of the largest length among the parameters."""
 
 SIDE = 10.0
-"""Half a side where no length is known."""
+"""Half the length of a side if no length is known."""
 
 
 @dataclass(frozen=True, eq=False)
 class Box:
-    """Low and high ends by coordinate; ``turns``: the same after a whole turn; ``given``: the side was given;
-    ``positive``: a distance, above 0.
+    """Low and high ends by coordinate; ``turns``: periodic with a whole turn; ``given``: the user gave the side;
+    ``positive``: a distance, always above 0.
     """
 
     names: tuple[str, ...]
@@ -42,12 +42,12 @@ class Box:
         return {n: (float(a), float(b)) for n, a, b in zip(self.names, self.low, self.high, strict=True)}
 
     def centre(self) -> Array:
-        """0 where the box holds it, else the middle."""
+        """0 if the box contains it, otherwise the middle of the box."""
         inside = (self.low <= 0) & (self.high >= 0) & ~self.positive
         return np.where(inside, 0.0, (self.low + self.high) / 2)
 
     def placed(self, q: Array) -> tuple[Array, bool]:
-        """A root with whole turns taken so that it lies in the box, and whether it does, where sides were given."""
+        """A root with whole turns subtracted so that it lies in the box, and whether it does on the given sides."""
         slack = 1e-9 * (self.high - self.low)
         turned = self.low - slack + (q - self.low + slack) % TURN
         q = np.where(self.turns & self.given, turned, q)
@@ -56,7 +56,8 @@ class Box:
 
 
 def make_box(given: Given, names: tuple[str, ...], asked: Mapping[Any, Any] | None, turns: NDArray[np.bool_]) -> Box:
-    """The box that was asked for, with (−π, π] for angles and a few lengths of the parameters for the rest."""
+    """The box that the user gave; by default (−π, π] for angles, and a multiple of the lengths of the parameters for
+    the rest."""
     low, high, told = np.empty(len(names)), np.empty(len(names)), np.zeros(len(names), bool)
     sides = _sides(given, names, asked)
     reach = _reach(given)
@@ -98,7 +99,7 @@ def _sides(given: Given, names: tuple[str, ...], asked: Mapping[Any, Any] | None
 
 
 def _reach(given: Given) -> float:
-    """Half a side of the box for what is no angle: a few times the largest length among the parameters."""
+    """Half a side of the box for a coordinate that is not an angle: a multiple of the largest length."""
     parameters = given.parameters
     if given.dimensions is None:
         return SIDE

@@ -1,7 +1,7 @@
-"""Roots that are not isolated: where K is singular and h stays 0 along a curve or a surface.
+"""Roots that are not isolated: K is singular there, and h stays 0 along a curve or a surface.
 
-At a root with K c = 0 one step along c, corrected back to h = 0, tells: where it comes to rest elsewhere, the root
-belongs to a family; where it comes back, it is isolated and merely degenerate.
+At a root with K c = 0, a step is made along c and corrected back to h = 0. If this ends at another point, the root
+belongs to a family; if it returns, the root is isolated but degenerate.
 """
 
 from __future__ import annotations
@@ -17,20 +17,20 @@ from lagrangian.viewed import Brief
 Array = NDArray[np.float64]
 
 SINGULAR = 1e-6
-"""Singular value of K, over the largest, that counts as none."""
+"""A singular value of K below this fraction of the largest counts as zero."""
 
 DEGENERATE = 1e-3
-"""Distance, in widths of the box, of what may be one degenerate root."""
+"""Roots within this distance, in widths of the box, may be one degenerate root."""
 
 STRIDE = 0.01
-"""Length of a step along a family, in widths of the box."""
+"""The length of a step along a family, in widths of the box."""
 
 MAX_ROOTS = 1500
 
 
 @dataclass(frozen=True, eq=False)
 class Family(Brief):
-    """Roots that hang together: one of them, how many dimensions they have, which coordinates change along them."""
+    """A continuum of roots: one of them, its dimension, and the coordinates that change along it."""
 
     root: Array
     dimension: int
@@ -38,7 +38,7 @@ class Family(Brief):
 
 
 def split(search: Search, roots: Array, low: Array, high: Array) -> tuple[Array, list[Family]]:
-    """The isolated ones among distinct roots, and the families of the others."""
+    """The isolated roots among distinct ones, and the families of the others."""
     isolated: list[Array] = []
     families: list[Family] = []
     left = list(roots)
@@ -48,7 +48,7 @@ def split(search: Search, roots: Array, low: Array, high: Array) -> tuple[Array,
         directions = _directions(search, root, flat)
         if not len(directions):
             isolated.append(root)
-            if len(flat):  # Newton's steps stall near a degenerate root: what they left around it is the same one
+            if len(flat):  # Newton's steps stall near a degenerate root and leave copies around it
                 left = [r for r in left if search.distance(r, root) > DEGENERATE or not _touch(search, r, root)]
             continue
         if len(directions) == 1:
@@ -63,18 +63,18 @@ def split(search: Search, roots: Array, low: Array, high: Array) -> tuple[Array,
 
 
 def _flat(search: Search, root: Array) -> Array:
-    """Directions, in widths of the box, with K c = 0."""
+    """The directions, in widths of the box, with K c = 0."""
     values, rows = search.singular(root)
     return rows[values <= SINGULAR * max(float(values.max(initial=0.0)), 1.0)]
 
 
 def _touch(search: Search, a: Array, b: Array) -> bool:
-    """Whether h is 0 between two roots as well, up to rounding."""
+    """Whether h is also 0 between two roots, to within rounding."""
     return bool(search.residual((a + b)[None] / 2)[0] < 1e2 * EXACT)
 
 
 def _directions(search: Search, root: Array, flat: Array) -> Array:
-    """Those of the flat directions along which h stays 0."""
+    """The flat directions along which h stays 0."""
     return np.array([c for c in flat if any(_stays(search, root, sign * c) for sign in (1, -1))])
 
 
@@ -84,7 +84,7 @@ def _stays(search: Search, root: Array, direction: Array) -> bool:
 
 
 def _next(search: Search, root: Array, direction: Array, length: float) -> Array | None:
-    """The root a step further along, or None where there is none."""
+    """The root one step further along, or None if there is none."""
     trial = root.copy()
     trial[search.seek] += length * direction * search.width[search.seek]
     found = search.polish(trial[None])[0]
@@ -93,7 +93,7 @@ def _next(search: Search, root: Array, direction: Array, length: float) -> Array
 
 
 def _curve(search: Search, root: Array, direction: Array, low: Array, high: Array) -> Array:
-    """The roots along a curve, from one end in the box to the other, or once around."""
+    """The roots along a curve, from one side of the box to the other, or once around a closed curve."""
     sides: list[list[Array]] = []
     for sign in (1.0, -1.0):
         here, along, path = root, sign * direction, [root]

@@ -1,4 +1,4 @@
-"""Equilibria: where and how stable, how well they balance, what nothing depends on; and their report."""
+"""Equilibria: the points, their stability, their residual, the free directions; and the report of them."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ from lagrangian.write.written import Written
 
 @dataclass(frozen=True)
 class Equilibrium(Brief):
-    """A rest: values of all states by name (rates 0), with the inputs and parameters it belongs to.
+    """An equilibrium: values of all states by name (rates 0), with the inputs and parameters to which it belongs.
 
-    ``residual`` is the largest |h| in units of h's own size in the box, ``stability`` the verdict. ``moves`` names the
-    coordinates that change along a family of rests, of which this is the one nearest to 0; ``dimension`` is the
-    family's, 0 where the rest is isolated. ``starts`` of the search led here.
+    ``residual`` is the largest |h|, relative to the size of h in the box; ``stability`` is the verdict. In a family of
+    equilibria this is the one nearest to 0: ``moves`` names the coordinates that change along the family, and
+    ``dimension`` is its dimension, 0 for an isolated equilibrium. ``starts`` counts the starting points that led here.
     """
 
     at: Mapping[str, float]
@@ -43,18 +43,18 @@ class Equilibrium(Brief):
         return self.at[name]
 
     def __str__(self) -> str:
-        """Read as a line."""
+        """Return the equilibrium and its stability as one line."""
         shown = {name: value for name, value in self.at.items() if not name.endswith("'")}
         return f"{point_words(tuple(shown), np.array(list(shown.values())))}: {self.stability.verdict}"
 
 
 @dataclass(frozen=True, eq=False)
 class Equilibria(Written, Sequence[Equilibrium]):
-    """The rests that were found, sorted by the values of the coordinates.
+    """The equilibria that were found, sorted by the values of the coordinates.
 
-    ``box`` is where the search started, by coordinate; ``free`` the directions that nothing depends on, each as
-    coordinate → share, held at ``held``; ``starts`` how many starts there were; ``sure`` whether every rest was met
-    several times and the last round found nothing new.
+    ``box`` contains the range of the search for each coordinate; ``free`` the directions on which nothing depends, each
+    as coordinate → component, held at ``held``; ``starts`` is the number of starting points. ``sure`` is true if every
+    equilibrium was found several times and the last round found nothing new.
     """
 
     model: Model
@@ -71,15 +71,15 @@ class Equilibria(Written, Sequence[Equilibrium]):
     @overload
     def __getitem__(self, index: slice) -> tuple[Equilibrium, ...]: ...
     def __getitem__(self, index: int | slice) -> Equilibrium | tuple[Equilibrium, ...]:
-        """The rest at an index."""
+        """The equilibrium with an index."""
         return self.found[index]
 
     def __len__(self) -> int:
-        """How many there are."""
+        """The number of equilibria."""
         return len(self.found)
 
     def __iter__(self) -> Iterator[Equilibrium]:
-        """One after the other."""
+        """Iterate over the equilibria."""
         return iter(self.found)
 
     def report(self) -> Report[Model]:
@@ -88,7 +88,7 @@ class Equilibria(Written, Sequence[Equilibrium]):
 
 
 def equilibria_report(found: Equilibria) -> Report[Model]:
-    """Return the report of rests."""
+    """Return the report of equilibria."""
     names = list(found.box)
     letters = [symbol(found.model, name) for name in names]
     items: list[Item] = []
@@ -133,7 +133,7 @@ def _family(e: Equilibrium) -> str:
 
 
 def data(found: Equilibria) -> dict[str, Any]:
-    """Rests as plain data."""
+    """Equilibria as plain data."""
     return {
         "system": found.model.name,
         "equilibria": [

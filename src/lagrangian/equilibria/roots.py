@@ -1,7 +1,8 @@
-"""All roots of h(q) = 0 that many starts find: damped Gauss–Newton steps, every start at once, in machine code.
+"""Finds roots of h(q) = 0 by damped Gauss–Newton steps from many starting points at once, in machine code.
 
-Levenberg and Marquardt's steps (KᵀK + μ diag KᵀK) s = −Kᵀh with h in units of its own size; Moré, The Levenberg–
-Marquardt algorithm (1978). Starts are Roberts' additive recurrence (the golden ratio in more dimensions).
+The steps are those of Levenberg and Marquardt, (KᵀK + μ diag KᵀK) s = −Kᵀh with h relative to its own size; see Moré,
+The Levenberg–Marquardt algorithm (1978). The starting points are Roberts' additive recurrence (the golden ratio in more
+dimensions).
 """
 
 from __future__ import annotations
@@ -18,13 +19,13 @@ Forces = Callable[[Array], tuple[Array, Array]]
 
 STEPS = 80
 NEAR = 1e-5
-"""Residual, in units of h's own size, from which a start is polished."""
+"""Below this residual, relative to the size of h, a point is polished."""
 
 EXACT = 1e-11
-"""Residual, in units of h's own size, of a root."""
+"""Below this residual, relative to the size of h, a point is a root."""
 
 SAME = 1e-8
-"""Distance, in widths of the box, of two roots that are one."""
+"""Roots within this distance, in widths of the box, are the same."""
 
 
 def starting_points(count: int, low: Array, high: Array, skip: int = 0) -> Array:
@@ -42,8 +43,8 @@ def starting_points(count: int, low: Array, high: Array, skip: int = 0) -> Array
 class Search:
     """The search in the coordinates ``seek`` of q; the others keep the values of ``base``.
 
-    ``scale`` (m,) is the size of each entry of h, ``width`` (n,) that of the box, ``turns`` tells the coordinates that
-    are the same after a whole turn.
+    ``scale`` (m,) is the size of each entry of h, ``width`` (n,) that of the box, and ``turns`` marks the coordinates
+    that are periodic with a whole turn.
     """
 
     forces: Forces
@@ -54,12 +55,12 @@ class Search:
     turns: NDArray[np.bool_]
 
     def residual(self, q: Array) -> Array:
-        """The largest entry of h in units of its size, of every q (N, n)."""
+        """The largest entry of h relative to its size, for every q (N, n)."""
         h, _ = self.forces(q)
         return np.abs(h / self.scale).max(axis=1, initial=0.0)
 
     def descend(self, q: Array) -> Array:
-        """Where every start ends: (N, n)."""
+        """The end of the iteration from every starting point: (N, n)."""
         q = q.copy()
         damping = np.full(len(q), 1e-2)
         h, K = self._scaled(q)
@@ -77,7 +78,7 @@ class Search:
         return q
 
     def _scaled(self, q: Array) -> tuple[Array, Array]:
-        """h and ∂h/∂q in units of h's size and of the box's width, the columns that are sought."""
+        """h and ∂h/∂q, relative to the size of h and the width of the box, for the coordinates that are sought."""
         h, K = self.forces(q)
         return h / self.scale, (K / self.scale[:, None] * self.width)[:, :, self.seek]
 
@@ -92,7 +93,7 @@ class Search:
         return np.clip(step, -0.25, 0.25)
 
     def polish(self, q: Array) -> Array:
-        """Gauss–Newton's shortest steps, undamped, while they help: shape (N, n)."""
+        """Undamped Gauss–Newton steps of minimal length, as long as they reduce the residual: shape (N, n)."""
         q = q.copy()
         h, K = self._scaled(q)
         for _ in range(12):
@@ -107,7 +108,7 @@ class Search:
         return q
 
     def roots(self, q: Array) -> Array:
-        """The roots that starts lead to, one row a start that got there, turns taken off."""
+        """The roots that were reached, a row for each successful start, with whole turns subtracted."""
         q = self.descend(q)
         q = q[self.residual(q) < NEAR]
         if not len(q):
@@ -116,13 +117,13 @@ class Search:
         return self.wrapped(q[self.residual(q) < EXACT])
 
     def wrapped(self, q: Array) -> Array:
-        """Whole turns taken off: (−π, π], where −π up to rounding is π."""
+        """Angles with whole turns subtracted: (−π, π], where −π to within rounding becomes π."""
         angle = np.pi - (np.pi - q) % (2 * np.pi)
         angle = np.where(angle < -np.pi + SAME, angle + 2 * np.pi, angle)
         return np.where(self.turns, angle, q)
 
     def distance(self, a: Array, b: Array) -> Array:
-        """How far apart roots are, in widths of the box; the short way round for what turns."""
+        """The distance of roots in widths of the box; the shorter way round for periodic coordinates."""
         apart = np.abs(a - b)
         apart = np.where(self.turns, np.minimum(apart, 2 * np.pi - apart), apart)
         return (apart / self.width).max(axis=-1, initial=0.0)
@@ -137,7 +138,7 @@ class Search:
 
 
 def distinct(search: Search, found: Array) -> tuple[Array, NDArray[np.int64]]:
-    """The different ones among roots, the best of each, and how many starts led to it."""
+    """The distinct roots, the most accurate of each, and how many starts led to it."""
     kept: list[Array] = []
     counts: list[int] = []
     left = found[np.argsort(search.residual(found), kind="stable")] if len(found) else found

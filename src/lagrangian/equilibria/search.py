@@ -1,7 +1,7 @@
-"""Where a system can stay at rest: h(q) = G(q) − Ξ(q, u) = 0 at q̇ = 0, all roots that can be found in a box.
+"""Finds all equilibria in a box, the roots of h(q) = G(q) − Ξ(q, u) = 0 at q̇ = 0.
 
-Many starts, damped Newton steps with the exact ∂h/∂q, until every root was met several times and a round of starts
-finds nothing new. Directions that h does not depend on are held; roots that are not isolated are one family.
+Damped Newton steps with the exact ∂h/∂q start from many points, in rounds, until every root was found several times and
+a round finds nothing new. Directions on which h does not depend are held; roots that are not isolated form a family.
 """
 
 from __future__ import annotations
@@ -35,23 +35,23 @@ _log = logging.getLogger(__name__)
 Array = NDArray[np.float64]
 
 ROUND = 256
-"""Starts a round."""
+"""The number of starting points in a round."""
 
 ROUNDS = 16
 ENOUGH = 5
-"""Times that every root should be met."""
+"""Every root should be found this number of times."""
 
 MAX_EQUILIBRIA = 1000
-"""Rests above which the search ends: so many are no list to read."""
+"""The search ends when there are more equilibria, because nobody reads such a long list."""
 
 MANY = 8
-"""Rests from which on their verdicts are worth machine code."""
+"""From this number of equilibria on, machine code is compiled for their verdicts."""
 
 SINGULAR = 1e-13
-"""Eigenvalue of M, in widths of the box and over the largest, that counts as none."""
+"""An eigenvalue of M, in widths of the box, below this fraction of the largest counts as zero."""
 
 LARGE = 1e100
-"""What stands for a value that is not finite."""
+"""The value that replaces one that is not finite."""
 
 
 def equilibria(
@@ -62,12 +62,12 @@ def equilibria(
     box: Mapping[Any, Any] | None = None,
     starts: int | None = None,
 ) -> Equilibria:
-    """Return the rests of a model at constant inputs, all that can be found from starts in a box.
+    """Return the equilibria of a model at constant inputs that a search from many points in a box finds.
 
-    ``box``: coordinate → (low, high), numbers or text with units. Angles take (−π, π] unless given, lengths a few times
-    the largest length among the parameters; rests beyond a side that was not given are kept. ``starts``: how many
-    starts; as many as it takes unless given. Where forces depend on time, only what rests at all times is kept.
-    Raises `RunError` for values and names that do not fit.
+    ``box``: coordinate → (low, high), numbers or text with units. By default it is (−π, π] for angles, and a few times
+    the largest length among the parameters for lengths; equilibria outside a side are kept unless you gave that side.
+    ``starts``: the number of starting points; by default as many as the search needs. If forces depend on time, only
+    equilibria at all times are kept. Raises `RunError` for values and names that do not fit.
     """
     if starts is not None and (type(starts) is not int or not 1 <= starts <= 1_000_000):
         raise RunError(f"starts must be a whole number from 1 (got {starts!r})", code="E501")
@@ -97,7 +97,7 @@ def equilibria(
 
 @dataclass(frozen=True, eq=False)
 class _Task:
-    """One search: the model at given inputs and parameters, its box, and what nothing depends on."""
+    """One search: the model with given inputs and parameters, its box, and the free directions."""
 
     model: Model
     box: Box
@@ -109,7 +109,7 @@ class _Task:
     p: Array
 
     def equilibrium(self, q: Array, hits: Mapping[bytes, int], family: Family | None = None) -> Equilibrium | None:
-        """A root with its verdict; None where it is outside the box, or no rest at other times."""
+        """An equilibrium with its verdict; None if it is outside the box, or is not an equilibrium at other times."""
         count = hits.get(q.tobytes(), 0)
         q, inside = self.box.placed(q)
         if not inside or not self._rests_always(q):
@@ -131,11 +131,12 @@ class _Task:
     def _stability(self, x: Array) -> Stability:
         try:
             return self.linearizer.at_rest(x, self.u, self.p).stability
-        except RunError as trouble:  # a rest it is all the same
+        except RunError as trouble:  # it is an equilibrium all the same
             return Stability("marginal", trouble.what)
 
     def is_singular(self, q: Array) -> bool:
-        """Whether M is singular at q: there h = 0 says nothing, for these coordinates do not describe what is near."""
+        """Whether M is singular at q: then h = 0 says nothing, because these coordinates do not describe the
+        neighbourhood."""
         M = self.linearizer.values(self.linearizer.mass, q=q, v=np.zeros_like(q), u=self.u, p=self.p, t=0.0)["M"]
         if not np.isfinite(M).all():
             return True
@@ -143,7 +144,7 @@ class _Task:
         return bool(sized.min() < SINGULAR * np.abs(sized).max())
 
     def moves_no_mass(self, q: Array) -> str:
-        """What moves no mass at q, for the middle of a sentence."""
+        """The coordinates that move no mass at q, as words for the middle of a sentence."""
         moved = dynamics.loose(self.model, q.tolist(), self.u.tolist(), self.p.tolist(), 0.0)
         return f" ({moved})" if moved else ""
 
@@ -181,7 +182,7 @@ def _prepared(model: Model, inputs: Named | None, params: Named | None, asked: M
 
 
 def _turning(linearizer: Linearizer, u: Array, p: Array) -> NDArray[np.bool_]:
-    """The coordinates of which h, ∂h/∂q and M are the same after a whole turn."""
+    """The coordinates in which h, ∂h/∂q and M are periodic with a whole turn."""
     n = len(linearizer.forces.inputs["q"])
     source = np.random.default_rng(4)
     same, fixed = np.ones(n, bool), np.ones(n, bool)
@@ -204,7 +205,7 @@ def _all_forces(linearizer: Linearizer, q: Array, u: Array, p: Array) -> Array:
 
 
 def _sought(task: _Task, asked: int | None) -> tuple[Array, dict[bytes, int], int, bool]:
-    """Distinct roots, how many starts led to each, how many starts there were, and whether that is enough."""
+    """Distinct roots, how many starts led to each, the number of starts, and whether that is enough."""
     search, box = task.search, task.box
     found = np.empty((0, len(search.base)))
     before, count, sure = -1, 0, False
@@ -227,7 +228,7 @@ def _sought(task: _Task, asked: int | None) -> tuple[Array, dict[bytes, int], in
 
 
 def _is_family(search: Search, roots: Array, count: int) -> bool:
-    """Whether many of the starts found a root of their own, and K is singular there."""
+    """Whether many of the starts found different roots, and K is singular there."""
     if len(roots) <= count // 8:
         return False
     flat = [search.singular(q)[0] for q in roots[:16]]
@@ -235,7 +236,7 @@ def _is_family(search: Search, roots: Array, count: int) -> bool:
 
 
 def _corners(task: _Task) -> Array:
-    """Angles at 0 or half a turn, all else at the centre: what hangs or stands."""
+    """Angles at 0 or half a turn and all else at the centre: hanging and upright positions."""
     angles = [int(k) for k in np.flatnonzero(task.box.turns) if k in task.search.seek][:8]
     grid = np.array(list(product((0.0, np.pi), repeat=len(angles))))
     made = np.tile(task.box.centre(), (len(grid), 1))
@@ -246,7 +247,7 @@ def _corners(task: _Task) -> Array:
 def _notes(
     task: _Task, found: Sequence[Equilibrium], sure: bool, left_out: Sequence[Array], outside: int
 ) -> tuple[str, ...]:
-    """What a reader should know besides the list."""
+    """Notes that a reader should know besides the list."""
     listed = []
     if left_out:
         where = point_words(task.box.names, left_out[0]) + (" and elsewhere" if len(left_out) > 1 else "")
@@ -267,12 +268,12 @@ def _notes(
         why = f": the force on {one_sided[0]} has one sign everywhere, nothing balances it" if one_sided else ""
         listed.append(f"there is no {'other ' if left_out else ''}rest in the box{why}")
     elif not sure and not any(e.dimension for e in found):
-        listed.append("some were met by few starts: there may be more; raise starts, or narrow the box")
+        listed.append("some were found from few starts: there may be more; increase starts, or narrow the box")
     return tuple(listed)
 
 
 def _scale(h: Array) -> Array:
-    """The size of every entry of h over the starts; entries that are always 0 get that of the others."""
+    """The size of every entry of h over the starts; entries that are always 0 get the size of the others."""
     good = np.abs(h[(np.abs(h) < LARGE).all(axis=1)])
     size = np.median(good, axis=0) + 1e-3 * good.max(axis=0) if len(good) else np.zeros(h.shape[1])
     largest = float(size.max(initial=0.0)) or 1.0
@@ -280,7 +281,7 @@ def _scale(h: Array) -> Array:
 
 
 def _kernel(program: Program, u: Array, p: Array) -> Forces:
-    """h and K at rest in machine code; where they are not finite h is `LARGE` and K is 0, so that no step leads on."""
+    """h and K at rest in machine code; where they are not finite, h is `LARGE` and K is 0, so that no step leads on."""
     g = program.graph
     outputs = {
         name: Output(tuple(_guarded(g, i) for i in program.outputs[name].ids), program.outputs[name].shape)
@@ -299,6 +300,6 @@ def _kernel(program: Program, u: Array, p: Array) -> Forces:
 
 
 def _guarded(g: Graph, i: int) -> int:
-    """The node where it is finite, else `LARGE`: a comparison with what is not a number is false."""
+    """The node if it is finite, else `LARGE`: a comparison with NaN is false."""
     limit = g.const(LARGE)
     return g.select(g.lt(g.abs(i), limit), i, limit)

@@ -1,4 +1,4 @@
-"""The expression graph: building, differentiating, evaluating, and `Program`, the waist of the house."""
+"""The expression graph: building, differentiating, evaluating it, and `Program`, on which everything else is built."""
 
 from lagrangian.graph.autodiff import Tangents, gradient, hessian, hessian_product, jacobian, jvp, vjp
 from lagrangian.graph.bounds import bends, bounds, states_read

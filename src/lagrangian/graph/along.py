@@ -1,6 +1,6 @@
-"""Functions of one number along a stretch of a motion: what bounds their first and second derivatives there.
+"""Functions of one variable along a piece of a motion: bounds of their first and second derivatives there.
 
-The bounds hold over the ball |a − v| ≤ R in which the number stays (`lagrangian.graph.bounds`).
+The bounds hold in the ball |a − v| ≤ R in which the argument stays (see `lagrangian.graph.bounds`).
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from lagrangian.graph.graph import Graph
 
 @dataclass(frozen=True, slots=True)
 class Along:
-    """What is known of a node along a stretch, as nodes; ``free`` where R and S are less than d and K say."""
+    """The bounds for a node along a piece of a motion, as nodes; ``free`` if R and S are smaller than d and K imply."""
 
     v: int
     d: int
@@ -27,9 +27,9 @@ class Along:
 
 @dataclass(frozen=True, slots=True)
 class Slopes:
-    """A function at a node's centre: value, slope, the greatest |f′| and |f″| where the node is.
+    """A function at the centre of a node: value, derivative, and bounds of |f′| and |f″| in the range of the node.
 
-    ``within``: the greatest |f| anywhere, where there is one.
+    ``within``: a bound of |f| everywhere, if there is one.
     """
 
     v: int
@@ -40,12 +40,12 @@ class Slopes:
 
 
 def greatest(g: Graph, a: Along) -> int:
-    """The greatest |a|."""
+    """The largest |a|."""
     return g.add(g.abs(a.v), a.R)
 
 
 def smallest(g: Graph, a: Along) -> int:
-    """The least |a|, 0 where a may be 0."""
+    """The smallest |a|, or 0 if a may be 0."""
     return above(g, g.sub(g.abs(a.v), a.R))
 
 
@@ -78,7 +78,7 @@ def _tan(g: Graph, a: Along) -> Slopes:
 
 def _exp(g: Graph, a: Along) -> Slopes:
     v = g.exp(a.v)
-    most = g.exp(g.add(a.v, a.R))  # v e^R would be 0 where v is too small to be told from it
+    most = g.exp(g.add(a.v, a.R))  # v e^R would be 0 if v is so small that it underflows
     return Slopes(v, v, most, most)
 
 
@@ -161,4 +161,4 @@ FUNCTIONS: dict[str, Rule] = {
     "acos": _arc("acos", -1.0), "atan": _atan, "sinh": _sinh, "cosh": _cosh, "tanh": _tanh, "asinh": _asinh,
     "acosh": _acosh, "atanh": _atanh,
 }  # fmt: skip
-"""Functions of one number: what bounds their derivatives where the number is."""
+"""Functions of one variable, with the function that bounds their derivatives in the range of the argument."""

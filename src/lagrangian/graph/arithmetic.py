@@ -1,8 +1,8 @@
-"""The nodes of an expression graph, and the four operations on them.
+"""The nodes of an expression graph, and the four arithmetic operations on them.
 
-What is rewritten when a node is made is exact in real arithmetic and never longer: ``0·x``, ``1·x``, ``x − x``,
-``−(−x)``, ``a + (−b) → a − b``, signs pulled out of products and odd functions, constants folded, operands of
-commutative operations ordered.
+Simplifications when a node is made are exact in real arithmetic and never make an expression longer: ``0·x``, ``1·x``,
+``x − x``, ``−(−x)``, ``a + (−b) → a − b``, signs are pulled out of products and odd functions, constants are folded,
+and operands of commutative operations are sorted.
 """
 
 from __future__ import annotations
@@ -16,11 +16,11 @@ from lagrangian.errors import ModelError
 Node = tuple[Any, ...]  # (operation, *operands)
 
 MAX_EXPONENT = 1 << 20
-"""Greatest whole exponent: beyond it a power is ``pow``, not repeated products."""
+"""The largest whole exponent that is written as products; larger ones use ``pow``."""
 
 
 class Arithmetic:
-    """Nodes, each made once: constants, inputs, sums, products, quotients and whole powers."""
+    """Nodes, each made only once: constants, inputs, sums, products, quotients and whole powers."""
 
     __slots__ = ("_known", "negative", "nodes", "one", "zero")
 
@@ -47,18 +47,18 @@ class Arithmetic:
     # -- leaves -------------------------------------------------------------------------------------------------
 
     def const(self, x: float) -> int:
-        """A number. Raises `ModelError` where it is not one."""
-        x = float(x) + 0.0  # −0 is 0
+        """A constant. Raises `ModelError` if it is NaN."""
+        x = float(x) + 0.0  # −0 becomes 0
         if x != x:
             raise ModelError("a constant of an expression is not a number (nan)", code="E101")
         return self._make(("const", x))
 
     def input(self, group: str, index: int) -> int:
-        """Entry ``index`` of the input group."""
+        """The input with ``index`` in an input group."""
         return self._make(("input", group, index))
 
     def value(self, a: int) -> float | None:
-        """The number a constant node is, else None."""
+        """The number of a constant node, otherwise None."""
         node = self.nodes[a]
         return node[1] if node[0] == "const" else None
 
@@ -172,7 +172,7 @@ class Arithmetic:
         return found
 
     def div(self, a: int, b: int) -> int:
-        """a / b. A division by the constant 0 is kept: it is infinite or not a number when it is evaluated."""
+        """a / b. A division by the constant 0 is not folded; its value is infinite or NaN when it is evaluated."""
         if a == b:
             return self.one
         nodes = self.nodes
@@ -183,7 +183,7 @@ class Arithmetic:
             if na[0] == "const":
                 return self._folded(na[1] / nb[1], ("div", a, b))
             mantissa, _ = math.frexp(nb[1])
-            if abs(mantissa) == 0.5 and abs(nb[1]) > 1e-300:  # a power of two: its reciprocal is exact
+            if abs(mantissa) == 0.5 and abs(nb[1]) > 1e-300:  # the reciprocal of a power of two is exact
                 return self.mul(self.const(1.0 / nb[1]), a)
             if nb[1] < 0.0:
                 return self.neg(self.div(a, self.const(-nb[1])))
@@ -194,7 +194,7 @@ class Arithmetic:
         return self._make(("div", a, b))
 
     def powi(self, a: int, n: int) -> int:
-        """a^n for a whole number n known here."""
+        """a^n for a known whole number n."""
         if n == 0:
             return self.one
         if n == 1:
@@ -216,12 +216,13 @@ class Arithmetic:
         return self._make(("powi", a, n))
 
     def _folded(self, x: float, node: Node) -> int:
-        """The constant x where it is finite; else the operation itself, so that nothing becomes infinite unseen."""
+        """The constant x if it is finite, otherwise the operation itself, so that the problem appears when it is
+        evaluated."""
         return self.const(x) if math.isfinite(x) else self._make(node)
 
     def _attempt(self, compute: Callable[[], float], node: Node) -> int:
         try:
             x = compute()
-        except (ValueError, OverflowError, ZeroDivisionError):  # outside the domain: left to the evaluation
+        except (ValueError, OverflowError, ZeroDivisionError):  # outside the domain: left for the evaluation
             return self._make(node)
         return self._folded(x, node)

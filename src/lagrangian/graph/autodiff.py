@@ -1,12 +1,12 @@
 """Derivatives on the graph: forward tangents, reverse cotangents, and what is made of them.
 
-Both walk the active nodes only: those that lie between what is asked for and what is varied. With y = f(x),
+Both visit only active nodes, which lie between the outputs and the nodes that are varied. With y = f(x),
 
     jvp:  ẏ = Σ_k ∂f/∂x_k ẋ_k        vjp:  x̄_k = Σ_i ȳ_i ∂f_i/∂x_k
 
-What is varied may be any nodes, not inputs alone. They count as independent of each other, even where one is computed
-from another, and nothing behind them is followed. At a kink the derivative is that of
-the branch the evaluation takes; abs has slope sign(a), which is 0 at 0.
+The varied nodes may be any nodes, not only inputs. They are treated as independent of each other, even if one is
+computed from another, and nodes behind them are not visited. At a kink the derivative is that of the branch that is
+evaluated; abs has slope sign(a), which is 0 at 0.
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ def _power_slopes(g: Graph, node: Node, y: int) -> tuple[int, int]:
     base = g.mul(b, g.pow(a, g.sub(b, g.one)))
     if g.value(b) is not None:
         return base, g.zero
-    # 0^b does not depend on b for b > 0, and ln 0 · 0 would not be a number
+    # 0^b does not depend on b for b > 0, and ln 0 · 0 would be NaN
     log = g.select(g.eq(a, g.zero), g.zero, g.mul(y, g.log(a)))
     return base, log
 
@@ -83,20 +83,20 @@ def slopes(g: Graph, i: int) -> tuple[int, ...]:
     if op == "select":
         c = node[1]
         return g.zero, g.select(c, g.one, g.zero), g.select(c, g.zero, g.one)
-    return tuple(g.zero for _ in operands(node))  # conditions are steps
+    return tuple(g.zero for _ in operands(node))  # conditions are piecewise constant
 
 
 def jvp(graph: Graph, outputs: Sequence[int], tangents: Mapping[int, int]) -> list[int]:
-    """The tangents of ``outputs`` when every node x of ``tangents`` moves at ``tangents[x]``.
+    """The tangents of ``outputs`` when every node x of ``tangents`` has the tangent ``tangents[x]``.
 
-    A tangent is carried as a factor times a base until two bases meet: the tangent of L sin φ becomes (L cos φ)·φ̇ and
-    not L·(cos φ·φ̇). The factor then depends on positions alone, and often it is a position that is there already.
+    A tangent is stored as a factor times a base until two bases meet: the tangent of L sin φ becomes (L cos φ)·φ̇ and
+    not L·(cos φ·φ̇). Then the factor depends only on positions, and is often a node that already exists.
     """
     return Tangents(graph, tangents)(outputs)
 
 
 class Tangents:
-    """`jvp` along one direction, asked many times: what was worked out once is kept."""
+    """`jvp` for one direction and many calls; earlier results are reused."""
 
     def __init__(self, graph: Graph, tangents: Mapping[int, int]) -> None:
         self._graph = graph
@@ -123,11 +123,11 @@ class Tangents:
 
 
 Tangent = tuple[int, int]
-"""(factor, base): their product is the tangent."""
+"""A pair (factor, base) whose product is the tangent."""
 
 
 def _value(g: Graph, tangent: Tangent) -> int:
-    """factor · base; (x b)·b is x·b², for b² serves every component of a turning vector."""
+    """factor · base; (x b)·b becomes x·b², because b² can be shared by all components of a rotating vector."""
     factor, base = tangent
     node = g.nodes[factor]
     if node[0] == "neg":
@@ -150,7 +150,7 @@ def _joined(g: Graph, a: Tangent | None, b: Tangent | None) -> Tangent | None:
 
 
 def _tangent(g: Graph, i: int, node: Node, moving: Mapping[int, Tangent]) -> Tangent | None:
-    """The tangent of node i, given those of its operands that move."""
+    """The tangent of node i from those of its operands that vary."""
     op = node[0]
     if op in ("const", "input") or op in CONDITIONS:
         return None
@@ -180,7 +180,7 @@ def _tangent(g: Graph, i: int, node: Node, moving: Mapping[int, Tangent]) -> Tan
 
 
 def _branch(g: Graph, node: Node, moving: Mapping[int, Tangent]) -> Tangent | None:
-    """The tangent of the branch that is taken."""
+    """The tangent of the active branch."""
     if node[0] == "select":
         condition, a, b = node[1:]
     else:
@@ -196,7 +196,7 @@ def _branch(g: Graph, node: Node, moving: Mapping[int, Tangent]) -> Tangent | No
 
 
 def vjp(graph: Graph, outputs: Sequence[int], cotangents: Sequence[int], inputs: Sequence[int]) -> list[int]:
-    """Σ_i cotangent_i · ∂output_i/∂x for every node x of ``inputs``, in one pass backwards."""
+    """Σ_i cotangent_i · ∂output_i/∂x for every node x of ``inputs``, computed in one backward pass."""
     g, nodes = graph, graph.nodes
     ends = set(inputs)
     zero = g.zero
@@ -223,7 +223,7 @@ def vjp(graph: Graph, outputs: Sequence[int], cotangents: Sequence[int], inputs:
 
 
 def _spread(g: Graph, i: int, node: Node, c: int, bar: dict[int, int], active: set[int]) -> None:
-    """Add the cotangent c of node i to those of its operands."""
+    """Add the contributions of the cotangent c of node i to those of its operands."""
     op = node[0]
     zero = g.zero
     if op == "div":
@@ -251,9 +251,9 @@ def gradient(graph: Graph, output: int, inputs: Sequence[int]) -> list[int]:
 
 
 def jacobian(graph: Graph, outputs: Sequence[int], inputs: Sequence[int]) -> dict[tuple[int, int], int]:
-    """The entries ∂output_i/∂x_k that are not zero by structure, at ``[i, k]``.
+    """The entries ∂output_i/∂x_k that are not structurally zero, at ``[i, k]``.
 
-    Rows are taken backwards or columns forwards, whichever are fewer.
+    It is computed backwards by rows or forwards by columns, whichever are fewer.
     """
     entries: dict[tuple[int, int], int] = {}
     if len(outputs) <= len(inputs):
@@ -277,10 +277,10 @@ def hessian_product(graph: Graph, output: int, inputs: Sequence[int], direction:
 
 
 def hessian(graph: Graph, output: int, inputs: Sequence[int]) -> dict[tuple[int, int], int]:
-    """The entries ∂²output/∂x_i∂x_k that are not zero by structure; ``[i, k]`` and ``[k, i]`` are the same node.
+    """The entries ∂²output/∂x_i∂x_k that are not structurally zero; ``[i, k]`` and ``[k, i]`` are the same node.
 
-    Where an x is computed from other nodes it is cut out of the graph first: the gradient of c a²/2 + (c a) b by a is
-    c a, and must not be taken for the x that c a is itself.
+    If an x is computed from other nodes, it is first cut out of the graph: the gradient of c a²/2 + (c a) b with
+    respect to a is c a, which must not be mistaken for an x that happens to be c a.
     """
     cut = [x if graph.nodes[x][0] == "input" else graph.input("cut", k) for k, x in enumerate(inputs)]
     (output,) = replaced(graph, [output], dict(zip(inputs, cut, strict=True)))

@@ -1,4 +1,4 @@
-"""Bounds of functions of a motion over a stretch of it: where they cannot be zero, and where they cannot turn.
+"""Bounds of functions of a motion over a piece of it, which show that they have no zero there, or are monotonic.
 
 A stretch is θ = c + s, |s| ≤ r. Of every node five numbers are known, given those of the states:
 
@@ -22,31 +22,31 @@ from lagrangian.graph.graph import CONDITIONS, Graph, Node, operands
 from lagrangian.graph.program import Output, Program, reached
 
 ENDLESS = 1e200
-"""A derivative without a bound: large enough to prove nothing, small enough that 0 times it is 0."""
+"""A stand-in for an unbounded derivative: large enough to prove nothing, but finite, so that 0 times it is 0."""
 
 
 @dataclass(frozen=True, slots=True)
 class Truth:
-    """A condition at the centre, and whether it is the same all along the stretch."""
+    """A condition at the centre, and whether it has the same value on the whole stretch."""
 
     holds: int
     decided: int
 
 
 def states_read(program: Program) -> tuple[int, ...]:
-    """Which entries of the group ``x`` the outputs of a program read, in order."""
+    """The entries of the group ``x`` that the outputs of a program depend on, in order."""
     nodes = program.graph.nodes
     return tuple(sorted({nodes[i][2] for i in reached(program.graph, program.ids) if nodes[i][:2] == ("input", "x")}))
 
 
 def bounds(program: Program, output: str = "g") -> Program:
-    """Return a program that says of each entry of ``output`` whether it can be zero, or turn, along a stretch.
+    """Return a program that says for each entry of ``output`` whether it can be zero, or turn, on a stretch.
 
     Inputs: ``x``, ``rate`` and ``bend`` (value at the centre, derivative there, bound of the second derivative) of the
     entries in `states_read`; ``u`` and ``drift`` (value and derivative, which is constant); ``p``; ``t``, the time at
-    the centre; ``stretch``: dt/dθ and r. Outputs of the output's length, 1 or 0: ``clear``, 1 where |v| > R or R = 0,
-    only if the entry crosses 0 nowhere on the stretch, and ``steady``, 1 where |d| > K r, only if it rises or falls
-    throughout.
+    the centre; ``stretch``: dt/dθ and r. The outputs have the length of ``output`` and are 1 or 0. ``clear`` is 1 if
+    |v| > R or R = 0, which proves that the entry crosses 0 nowhere on the stretch. ``steady`` is 1 if |d| > K r, which
+    proves that it rises or falls throughout.
     """
     walk, found, inputs = _walked(program, output)
     g = walk.g
@@ -58,9 +58,9 @@ def bounds(program: Program, output: str = "g") -> Program:
 
 
 def bends(program: Program, output: str = "g") -> Program:
-    """Return a program that gives each entry's ``value`` at the centre of a stretch, and ``bend`` = K.
+    """Return a program for each entry's ``value`` at the centre of a stretch and the bound ``bend`` = K.
 
-    Inputs are those of `bounds`. What has no finite bound has `ENDLESS`; what has no finite value has 0.
+    The inputs are those of `bounds`. An entry without a finite bound has `ENDLESS`; one without a finite value has 0.
     """
     walk, found, inputs = _walked(program, output)
     g, shape = walk.g, (len(found),)
@@ -74,7 +74,7 @@ def bends(program: Program, output: str = "g") -> Program:
 
 
 def _walked(program: Program, output: str) -> tuple[_Walk, list[Along], dict[str, tuple[str, ...]]]:
-    """What is known along a stretch of each entry of an output, and the inputs that it is made of."""
+    """The bounds along a stretch for each entry of an output, and the inputs of the program."""
     read = states_read(program)
     names, u = program.inputs.get("x", ()), tuple(program.inputs.get("u", ()))
     kept = tuple(names[k] for k in read)
@@ -88,7 +88,7 @@ def _walked(program: Program, output: str) -> tuple[_Walk, list[Along], dict[str
 
 
 class _Walk:
-    """Carries `Along` through the nodes of ``old`` into the graph ``g``."""
+    """Computes `Along` for the nodes of ``old`` in the graph ``g``."""
 
     def __init__(self, g: Graph, old: Graph, states: dict[int, int]) -> None:
         self.g, self.old, self.states = g, old, states
@@ -97,14 +97,14 @@ class _Walk:
         self.endless = g.const(ENDLESS)
 
     def over(self, ids: Sequence[int]) -> Sequence[int]:
-        """Work out what the nodes ``ids`` need; return them."""
+        """Compute what the nodes ``ids`` need; return their bounds."""
         for i in reached(self.old, ids):
             node = self.old.nodes[i]
             self.known[i] = self._truth(node) if node[0] in CONDITIONS else self._along(node)
         return ids
 
     def number(self, i: int) -> Along:
-        """What is known of a node that is a number; conditions are 1 and 0."""
+        """The bounds of a node as a number; conditions become 1 and 0."""
         found = self.known[i]
         if isinstance(found, Along):
             return found
@@ -116,12 +116,13 @@ class _Walk:
     # -- pieces -------------------------------------------------------------------------------------------------
 
     def still(self, v: int) -> Along:
-        """What does not change."""
+        """The bounds of a constant."""
         zero = self.g.zero
         return Along(v, zero, zero, zero, zero)
 
     def smooth(self, v: int, d: int, K: int, *, R: int | None = None, S: int | None = None) -> Along:
-        """From value, derivative and bound; ``R`` and ``S`` where something else bounds them too."""
+        """The bounds from value, derivative and second derivative; ``R`` and ``S`` if they are bounded in another way
+        as well."""
         g, size = self.g, self.g.abs(d)
         bent = g.mul(K, self.r)
         reach = g.mul(self.r, g.add(size, g.mul(g.const(0.5), bent)))
@@ -132,7 +133,7 @@ class _Walk:
         )  # fmt: skip
 
     def apart(self, a: Along, b: Along) -> int:
-        """Whether a and b are different all along."""
+        """Whether a and b are different on the whole stretch."""
         g = self.g
         return g.lt(g.add(a.R, b.R), g.abs(g.sub(a.v, b.v)))
 
@@ -234,7 +235,7 @@ class _Walk:
         return self.smooth(f.v, g.mul(f.slope, a.d), K, R=least, S=g.mul(f.first, a.S) if a.free else None)
 
     def _power(self, a: Along, n: int, whole: int | None) -> Slopes:
-        """a^n; |a|^(n−1) is greatest at one of the ends."""
+        """a^n; |a|^(n−1) is largest at one of the ends."""
         g = self.g
         ends = (greatest(g, a),) if whole is not None and whole >= 2 else (smallest(g, a), greatest(g, a))
         m, k = g.sub(n, g.one), g.sub(n, g.const(2.0))

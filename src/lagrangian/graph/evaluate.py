@@ -1,7 +1,7 @@
-"""Evaluation by a slow and obvious interpreter: the oracle of every back end.
+"""A slow and simple interpreter of programs, with which all back ends are compared.
 
-In double precision every operation is IEEE's: what divides by zero or leaves a domain is infinite or not a number,
-never an exception. In mpmath precision the same walk is done with as many decimal digits as asked.
+In double precision every operation follows IEEE 754: a division by zero or an argument outside the domain gives
+infinity or NaN, never an exception. With mpmath, the same evaluation uses the requested number of decimal digits.
 """
 
 # mpmath has no type stubs:
@@ -24,7 +24,7 @@ Table = Mapping[str, Callable[..., Any]]
 
 
 def _guarded(function: Callable[..., float]) -> Callable[..., float]:
-    """The function with not-a-number outside its domain and infinity beyond the greatest double."""
+    """The function, with NaN outside its domain and infinity beyond the largest double."""
 
     def call(*x: float) -> float:
         try:
@@ -54,7 +54,7 @@ def _atanh(a: float) -> float:
 def _pow(a: float, b: float) -> float:
     try:
         return math.pow(a, b)
-    except ValueError:  # 0 to a negative power is infinite; a negative base to a broken power is not a number
+    except ValueError:  # 0 to a negative power is infinite; a negative base to a fractional power is NaN
         return math.nan if a else (math.copysign(math.inf, a) if b % 2 == 1 else math.inf)
     except OverflowError:
         return -math.inf if a < 0 and b % 2 == 1 else math.inf
@@ -108,7 +108,7 @@ DOUBLE: Table = {
 
 
 def _real(function: Callable[..., Any]) -> Callable[..., Any]:
-    """The mpmath function, not-a-number where its value is not real or not defined."""
+    """The mpmath function, with NaN where its value is not real or not defined."""
 
     def call(*x: Any) -> Any:
         try:
@@ -139,11 +139,11 @@ MANY_DIGITS: Table = {
 
 
 def evaluate(program: Program, inputs: Mapping[str, Sequence[Any]], *, digits: int | None = None) -> dict[str, Any]:
-    """The outputs of ``program``: one number, or nested lists of its shape.
+    """The outputs of ``program``, each a number or nested lists of its shape.
 
-    ``inputs`` holds one sequence of numbers a group. ``digits`` asks for mpmath numbers of that many decimal digits
-    (constants stay the doubles they are). A group that is left out takes the defaults of its entries.
-    Raises `RunError` where a group is missing or has the wrong length.
+    ``inputs`` contains a sequence of numbers for each group. ``digits`` requests mpmath numbers with that many decimal
+    digits (constants remain doubles). A group that is omitted takes the defaults of its entries. Raises `RunError` if a
+    group is missing or has the wrong length.
     """
     values = {group: _entries(program, group, inputs) for group in program.inputs}
     if digits is None:
@@ -186,7 +186,7 @@ def _run(
 
 
 def _shaped(flat: list[Any], shape: tuple[int, ...]) -> Any:
-    """Nested lists of a flat list, row after row."""
+    """A flat list as nested lists, row after row."""
     if not shape:
         return flat[0]
     if len(shape) == 1:

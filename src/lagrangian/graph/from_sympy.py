@@ -1,8 +1,8 @@
-"""SymPy → graph, without recursion and without running any text.
+"""Converts SymPy expressions to graph nodes, without recursion and without executing text.
 
-Every subexpression is converted once. What stands in ``symbols`` (a symbol, a function of time, a derivative of one)
-is looked up whole; a sum is added term by term, and a product is one quotient: factors with negative exponents stand
-below the line.
+Every subexpression is converted once. The keys of ``symbols`` (symbols, functions of time, their derivatives) are
+looked up as a whole. A sum is added term by term; a product becomes one quotient, with the factors of negative exponent
+in the denominator.
 """
 
 # SymPy has no type stubs:
@@ -79,7 +79,8 @@ LEAVES: tuple[type, ...] = (
 
 
 def unknown_part(expr: sp.Basic) -> sp.Basic | None:
-    """The first subexpression that no graph can hold (a sum over an index, an integral, a matrix, …), or None."""
+    """The first subexpression that a graph cannot represent (a sum over an index, an integral, a matrix, …), or
+    None."""
     stack, seen = [expr], {expr}
     while stack:
         e = stack.pop()
@@ -99,10 +100,10 @@ def from_sympy(
     symbols: Mapping[Any, int],
     memo: MutableMapping[Any, int] | None = None,
 ) -> int:
-    """The node that computes ``expr``, with ``symbols`` saying which node every symbol is.
+    """The node that computes ``expr``; ``symbols`` gives the node of every symbol.
 
-    ``memo`` keeps what was converted, for further calls with the same graph and symbols. Raises `ModelError` that names
-    an unknown symbol or function.
+    ``memo`` stores what was converted, for further calls with the same graph and symbols. Raises `ModelError` that
+    names an unknown symbol or function.
     """
     done: MutableMapping[Any, int] = {} if memo is None else memo
     stack: list[sp.Basic] = [sp.sympify(expr, strict=True)]
@@ -127,7 +128,7 @@ def from_sympy(
 
 
 def _parts(e: sp.Basic) -> list[sp.Basic]:
-    """The subexpressions whose nodes the node of ``e`` is made from."""
+    """The subexpressions from whose nodes the node of ``e`` is made."""
     if isinstance(e, sp.Pow):
         return [e.base] if e.exp.is_Rational else [e.base, e.exp]
     if isinstance(e, sp.Mul):
@@ -142,7 +143,7 @@ def _base(f: Any) -> sp.Basic:
 
 
 def _whole_below(f: Any) -> bool:
-    """Whether a factor goes below the line: a rational negative power."""
+    """Whether a factor belongs in the denominator: a negative rational power."""
     return isinstance(f, sp.Pow) and bool(f.exp.is_Rational) and bool(f.exp.is_negative)
 
 
@@ -159,7 +160,7 @@ def _leaf(graph: Graph, e: sp.Basic, symbols: Mapping[Any, int]) -> int:
     if isinstance(e, (BooleanTrue, BooleanFalse)):
         return graph.one if isinstance(e, BooleanTrue) else graph.zero
     if e in (sp.oo, -sp.oo, sp.nan, sp.zoo, sp.I):
-        raise ModelError(f"an expression holds {e}", fix="expressions must be real and finite", code="E101")
+        raise ModelError(f"an expression contains {e}", fix="expressions must be real and finite", code="E101")
     name = str(e)
     kind = "derivative" if isinstance(e, sp.Derivative) else "symbol"
     raise ModelError(
@@ -168,7 +169,7 @@ def _leaf(graph: Graph, e: sp.Basic, symbols: Mapping[Any, int]) -> int:
 
 
 def _operation(graph: Graph, e: Any, done: Mapping[Any, int]) -> int:
-    """The node of ``e``, its parts being done."""
+    """The node of ``e``, after its parts were converted."""
     if isinstance(e, sp.Add):
         return _sum(graph, [done[a] for a in e.args])
     if isinstance(e, sp.Mul):
@@ -187,9 +188,9 @@ def _operation(graph: Graph, e: Any, done: Mapping[Any, int]) -> int:
     if isinstance(e, sp.atan2):
         return graph.atan2(a[0], a[1])
     if isinstance(e, (sp.Min, sp.Max)):
-        ordered = [done[x] for x in sorted(e.args, key=sp.default_sort_key)]  # SymPy's order changes from run to run
+        ordered = [done[x] for x in sorted(e.args, key=sp.default_sort_key)]  # SymPy's order may change from run to run
         return _chain(graph.min if isinstance(e, sp.Min) else graph.max, ordered)
-    if isinstance(e, sp.Heaviside):  # 0 below, 1 above, and at 0 what its second argument says
+    if isinstance(e, sp.Heaviside):  # 0 below, 1 above, and at 0 the value of its second argument
         return graph.select(
             graph.lt(a[0], graph.zero), graph.zero, graph.select(graph.lt(graph.zero, a[0]), graph.one, a[1])
         )
@@ -199,9 +200,9 @@ def _operation(graph: Graph, e: Any, done: Mapping[Any, int]) -> int:
 
 
 def _sum(graph: Graph, terms: list[int]) -> int:
-    """The terms added one after another, oldest first, those with a sign last, so that they are subtracted.
+    """The terms added one after another, oldest first, those with a minus sign last, so that they are subtracted.
 
-    In this order θ₁, θ₁ + θ₂, θ₁ + θ₂ + θ₃, … share their beginnings: a chain of relative angles stays linear.
+    In this order θ₁, θ₁ + θ₂, θ₁ + θ₂ + θ₃, … share their beginnings, so a chain of relative angles has linear size.
     """
     plus = sorted(t for t in terms if graph.nodes[t][0] != "neg")
     minus = sorted(t for t in terms if graph.nodes[t][0] == "neg")
@@ -216,7 +217,7 @@ def _chain(make: Make, items: list[int]) -> int:
 
 
 def _product(graph: Graph, e: sp.Mul, done: Mapping[Any, int]) -> int:
-    """c · Π above / Π below, the number c = p/q last: p/(q …) where only q is there is a multiplication."""
+    """c · Π numerator / Π denominator, with the number c = p/q last: p/(q …) only if q alone is a multiplication."""
     above = graph.one
     below = graph.one
     coefficient = graph.one
@@ -231,7 +232,7 @@ def _product(graph: Graph, e: sp.Mul, done: Mapping[Any, int]) -> int:
 
 
 def _power(graph: Graph, base: int, exponent: Any) -> int:
-    """base^(p/q): whole powers by products, halves through the square root."""
+    """base^(p/q): whole powers as products, half powers with a square root."""
     p, q = int(exponent.p), int(exponent.q)
     if q == 1:
         return graph.powi(base, p)
@@ -259,7 +260,7 @@ def _piecewise(graph: Graph, e: sp.Piecewise, done: Mapping[Any, int]) -> int:
 
 
 def _condition(graph: Graph, e: Any, a: list[int]) -> int:
-    """Comparisons and what joins them."""
+    """Comparisons and their logical combinations."""
     if isinstance(e, sp.StrictLessThan):
         return graph.lt(a[0], a[1])
     if isinstance(e, sp.LessThan):
@@ -284,7 +285,7 @@ def _condition(graph: Graph, e: Any, a: list[int]) -> int:
     name = e.func.__name__
     if name == "DiracDelta":
         raise ModelError(
-            f"an energy or a position holds sign({str(e.args[0])[:60]}), which jumps: its derivative is an impulse",
+            f"an energy or a position contains sign({str(e.args[0])[:60]}), which jumps: its derivative is an impulse",
             fix="write abs(x) for x*sign(x); what is differentiated must be continuous",
             code="E525",
         )

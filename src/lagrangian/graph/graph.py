@@ -1,7 +1,8 @@
-"""The expression graph: scalar operations in static single assignment, every one of them made once.
+"""The expression graph: scalar operations in static single assignment, each made only once.
 
-A node is ``(operation, operand ids)``; the same pair never exists twice, so what two expressions share is computed
-once. Operands are smaller than the node itself: increasing ids are an order of evaluation. Nodes are only added.
+A node is ``(operation, operand ids)``; the same pair never exists twice, so a subexpression that occurs twice is
+computed once. The ids of the operands are smaller than that of the node, so ascending ids are a valid order of
+evaluation. Nodes are never removed.
 """
 
 from __future__ import annotations
@@ -28,7 +29,7 @@ UNARY: dict[str, Callable[[float], float]] = {
     "exp": math.exp,
     "log": math.log,
 }
-"""Functions of one number, and what folds them on constants; outside their domain nothing is folded."""
+"""Functions of one variable with the Python function that folds constants; outside the domain nothing is folded."""
 
 ODD = frozenset({"sin", "tan", "asin", "atan", "sinh", "tanh", "asinh", "atanh"})
 EVEN = frozenset({"cos", "cosh"})
@@ -37,7 +38,7 @@ LEAVES = frozenset({"const", "input"})
 
 
 def operands(node: Node) -> tuple[int, ...]:
-    """The ids a node reads, in order."""
+    """The ids that a node reads, in order."""
     op = node[0]
     if op == "const" or op == "input":
         return ()
@@ -50,8 +51,9 @@ class Graph(Arithmetic):
     """A hash-consed graph of scalar operations.
 
     ``nodes[i]`` is ``("const", x)``, ``("input", group, index)``, ``("powi", a, n)`` with a literal whole ``n``, or an
-    operation followed by the ids of its operands. Conditions (``lt le eq and or not``) are read by ``select`` and by
-    each other alone; one that is known when it is made is the constant 1 or 0, and what reads it is simplified.
+    operation followed by the ids of its operands. Only ``select`` and other conditions may read conditions (``lt le eq
+    and or not``). A condition that is known when it is made becomes the constant 1 or 0, and what reads it is
+    simplified.
 
     >>> g = Graph()
     >>> x = g.input("x", 0)
@@ -79,7 +81,7 @@ class Graph(Arithmetic):
         return self._make(("pow", a, b))
 
     def unary(self, op: str, a: int) -> int:
-        """A function of `UNARY` by name."""
+        """The function in `UNARY` with this name."""
         node = self.nodes[a]
         if node[0] == "const":
             return self._attempt(lambda: UNARY[op](node[1]), (op, a))
@@ -91,7 +93,7 @@ class Graph(Arithmetic):
         elif node[0] == "sub" and (op in ODD or op in EVEN):
             found = self._known.get((op, a))
             if found is None and (mirrored := self._known.get(("sub", node[2], node[1]))) is not None:
-                other = self._known.get((op, mirrored))  # sin(a − b) = −sin(b − a), where the latter is there already
+                other = self._known.get((op, mirrored))  # sin(a − b) = −sin(b − a), if the latter already exists
                 if other is not None:
                     return self.neg(other) if op in ODD else other
         return self._make((op, a))
@@ -184,11 +186,11 @@ class Graph(Arithmetic):
         return self._make(("atan2", y, x))
 
     def min(self, a: int, b: int) -> int:
-        """The smaller one."""
+        """The smaller of two nodes."""
         return self._extreme("min", a, b)
 
     def max(self, a: int, b: int) -> int:
-        """The greater one."""
+        """The larger of two nodes."""
         return self._extreme("max", a, b)
 
     def _extreme(self, op: str, a: int, b: int) -> int:
@@ -223,7 +225,7 @@ class Graph(Arithmetic):
         return self._make((op, a, b))
 
     def and_(self, a: int, b: int) -> int:
-        """Both conditions."""
+        """Whether both conditions hold."""
         if self.zero in (a, b):
             return self.zero
         if a == self.one or a == b:
@@ -231,7 +233,7 @@ class Graph(Arithmetic):
         return a if b == self.one else self._make(("and", *sorted((a, b))))
 
     def or_(self, a: int, b: int) -> int:
-        """Either condition."""
+        """Whether either condition holds."""
         if self.one in (a, b):
             return self.one
         if a == self.zero or a == b:
@@ -239,14 +241,14 @@ class Graph(Arithmetic):
         return a if b == self.zero else self._make(("or", *sorted((a, b))))
 
     def not_(self, a: int) -> int:
-        """The opposite condition."""
+        """The negation of a condition."""
         if a in (self.zero, self.one):
             return self.one if a == self.zero else self.zero
         node = self.nodes[a]
         return node[1] if node[0] == "not" else self._make(("not", a))
 
     def select(self, condition: int, a: int, b: int) -> int:
-        """``a`` where the condition holds, else ``b``."""
+        """``a`` if the condition holds, otherwise ``b``."""
         if a == b or condition == self.one:
             return a
         if condition == self.zero:

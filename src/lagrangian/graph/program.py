@@ -1,4 +1,4 @@
-"""Program: named inputs to named outputs, the one small type between mechanics and machine."""
+"""Program: named inputs to named outputs, the one type that connects mechanics with numerical code."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class Output:
-    """The node ids of an array of results, row after row, and its shape (``()`` is one number)."""
+    """An array of results: its node ids, row after row, and its shape (``()`` for one number)."""
 
     ids: tuple[int, ...]
     shape: tuple[int, ...]
@@ -29,7 +29,7 @@ class Program:
     """A graph with named inputs and outputs.
 
     ``inputs``: group → names of its entries in order; ``("input", group, k)`` is the k-th. ``outputs``: name →
-    `Output`. ``defaults``: values of entries of the group ``"p"``, None where one must be given.
+    `Output`. ``defaults``: the values of the entries of the group ``"p"``, None if a value must be given.
     """
 
     name: str
@@ -40,7 +40,7 @@ class Program:
     _memo: dict[Any, Any] = field(default_factory=dict[Any, Any], init=False, repr=False, compare=False)
 
     def remembered(self, key: Any, make: Callable[[], T]) -> T:
-        """Return what was made of this program under a key, made at the first asking; kept as long as the program."""
+        """Return what ``make`` computes from this program, cached under a key as long as the program exists."""
         if key not in self._memo:
             self._memo[key] = make()
         return self._memo[key]
@@ -50,12 +50,12 @@ class Program:
 
     @property
     def ids(self) -> tuple[int, ...]:
-        """The node ids of all outputs, one output after the other."""
+        """The node ids of all outputs, one output after another."""
         return tuple(i for output in self.outputs.values() for i in output.ids)
 
 
 def reached(graph: Graph, ids: Iterable[int], stop: Iterable[int] = ()) -> list[int]:
-    """The nodes that ``ids`` need, in increasing order; nothing behind the nodes in ``stop`` is followed."""
+    """The nodes that ``ids`` need, in ascending order; nodes behind those in ``stop`` are not visited."""
     nodes = graph.nodes
     seen: set[int] = set()
     halt = cast("Container[int]", stop) if isinstance(stop, (set, frozenset, Mapping)) else set(stop)
@@ -72,10 +72,11 @@ def reached(graph: Graph, ids: Iterable[int], stop: Iterable[int] = ()) -> list[
 
 @dataclass(frozen=True)
 class Count:
-    """How much a program computes.
+    """The number of operations of a program.
 
-    ``operations`` are all but sines and cosines (a whole power counts its products); ``sincos`` are the angles of which
-    a sine, a cosine or both are needed; ``prologue`` are the operations that depend on hoisted groups alone.
+    ``operations`` counts all except sines and cosines (a whole power counts as its products). ``sincos`` is the number
+    of angles whose sine, cosine or both are needed. ``prologue`` counts the operations that depend only on hoisted
+    groups.
     """
 
     operations: int
@@ -84,7 +85,8 @@ class Count:
 
 
 def count_operations(graph: Graph, ids: Iterable[int], *, hoist: Iterable[str] = ()) -> Count:
-    """Count what is live in ``ids``; work that depends on the groups in ``hoist`` alone is counted apart."""
+    """Count the operations that ``ids`` need; those that depend only on the groups in ``hoist`` are counted
+    separately."""
     nodes = graph.nodes
     held = frozenset(hoist)
     fixed: dict[int, bool] = {}
@@ -110,5 +112,5 @@ def count_operations(graph: Graph, ids: Iterable[int], *, hoist: Iterable[str] =
 
 
 def count_program(program: Program, *, hoist: Iterable[str] = ("p",)) -> Count:
-    """`count_operations` of a whole program, parameters hoisted."""
+    """`count_operations` of a whole program with hoisted parameters."""
     return count_operations(program.graph, program.ids, hoist=hoist)

@@ -1,4 +1,4 @@
-"""Nodes with other nodes in the place of some that they read."""
+"""Replaces nodes by other nodes in everything that reads them."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from lagrangian.graph.program import reached
 
 
 def replaced(graph: Graph, ids: Iterable[int], known: Mapping[int, int]) -> list[int]:
-    """The nodes ``ids`` with every node of ``known`` replaced by what it is there, all at once."""
+    """The nodes ``ids`` in which every node of ``known`` is replaced by its value, all at once."""
     ends = list(ids)
     value = dict(known)
     for i in reached(graph, ends, known):
@@ -39,7 +39,7 @@ def copied(source: Graph, ids: Iterable[int], target: Graph) -> list[int]:
 
 
 def _made(graph: Graph, node: tuple[Any, ...], new: tuple[int, ...]) -> int:
-    """The operation of ``node`` on other operands."""
+    """The operation of ``node`` with other operands."""
     if node[0] == "powi":
         return graph.powi(new[0], node[2])
     method: Any = getattr(graph, node[0] + "_" if node[0] in ("and", "or", "not") else node[0])

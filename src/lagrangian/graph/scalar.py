@@ -1,4 +1,4 @@
-"""A handle on a node, for writing formulas with operators."""
+"""A node with operators, for writing formulas."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from lagrangian.graph.graph import Graph
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Scalar:
-    """A node of a graph that prints more nodes when an operator is applied.
+    """A node of a graph; an operator applied to it adds nodes to the graph.
 
     >>> g = Graph()
     >>> x = Scalar(g, g.input("x", 0))
@@ -62,6 +62,6 @@ class Scalar:
         return Scalar(self.graph, self.graph.abs(self.id))
 
     def apply(self, function: str, *others: Scalar | float) -> Scalar:
-        """A function of the graph by name: ``x.apply("sin")``, ``y.apply("atan2", x)``."""
+        """Apply a function of the graph by name: ``x.apply("sin")``, ``y.apply("atan2", x)``."""
         method: Any = getattr(self.graph, function)
         return Scalar(self.graph, method(self.id, *(self._of(o) for o in others)))

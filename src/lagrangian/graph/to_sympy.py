@@ -1,4 +1,4 @@
-"""Graph → SymPy, without recursion."""
+"""Converts graph nodes to SymPy, without recursion."""
 
 # SymPy has no type stubs:
 # pyright: reportMissingTypeStubs=false, reportUnknownLambdaType=false
@@ -37,7 +37,7 @@ OPERATIONS: dict[str, Callable[..., Any]] = {
 
 
 def number(x: float) -> sp.Expr:
-    """The number as the shortest exact decimal or fraction that is that double; infinity stays infinity."""
+    """The shortest decimal or fraction that equals the double exactly; infinity stays infinity."""
     if x != x or x in (float("inf"), float("-inf")):
         return sp.Float(x)
     if x.is_integer() and abs(x) < 2**53:
@@ -48,7 +48,7 @@ def number(x: float) -> sp.Expr:
 
 
 def to_sympy(graph: Graph, node: int, symbols: Mapping[int, sp.Expr]) -> sp.Expr:
-    """The SymPy expression of ``node``, with ``symbols`` saying what the input nodes are called."""
+    """The SymPy expression of ``node``; ``symbols`` gives the symbols of the input nodes."""
     value: dict[int, Any] = {}
     for i in reached(graph, [node], symbols):
         if i in symbols:

@@ -1,1 +1,1 @@
-"""What every motion keeps, and the functions of Hamilton and Routh."""
+"""Quantities that are constant along every motion, and the equations of Hamilton and Routh."""

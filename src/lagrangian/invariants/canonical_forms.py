@@ -1,4 +1,4 @@
-"""Hamilton's and Routh's forms as reports."""
+"""The forms of Hamilton and Routh as reports."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ from lagrangian.write.written import Written
 
 @dataclass(frozen=True, eq=False)
 class Hamiltonian(Written):
-    """H(q, p, t) and what follows from it.
+    """Hamilton's form: H(q, p, t), the momenta and the canonical equations.
 
-    ``momenta``: coordinate → symbol of its momentum, a function of time. ``definitions``: momentum → ∂L/∂ξ̇ in rates.
-    ``equations``: rate of a coordinate or momentum → its expression in q, p, t. ``is_total`` says that H is T* + V,
-    ``is_constant`` that every motion keeps it; it is kept while the inputs of ``while_constant`` do not change where
-    there are such.
+    ``momenta``: coordinate → symbol of its momentum, a function of time. ``definitions``: momentum → ∂L/∂ξ̇ in terms of
+    rates. ``equations``: rate of a coordinate or momentum → its expression in q, p, t. ``is_total`` says whether H is
+    T* + V, and ``is_constant`` whether H is constant along every motion, as long as the inputs in ``while_constant`` do
+    not change.
     """
 
     model: Model
@@ -42,11 +42,12 @@ class Hamiltonian(Written):
 
 @dataclass(frozen=True, eq=False)
 class Routhian(Written):
-    """R of the coordinates that are left, with the momenta of the ignorable ones as constants.
+    """Routh's form: the Routhian R of the remaining coordinates, with the momenta of the ignorable ones as constants.
 
-    ``ignorable``: coordinate → symbol of its constant momentum. ``definitions``: that symbol → ∂L/∂ξ̇ in rates.
-    ``rates``: rate of an ignorable coordinate → its expression, for quadrature once the others are known.
-    ``coordinates`` are left; ``equations`` are theirs. ``potential`` is the effective potential, −R at rest.
+    ``ignorable``: coordinate → symbol of its constant momentum. ``definitions``: that symbol → ∂L/∂ξ̇ in terms of
+    rates. ``rates``: rate of an ignorable coordinate → its expression, to be integrated once the others are known.
+    ``coordinates`` are the remaining ones, with their ``equations``. ``potential`` is the effective potential, −R at
+    rest.
     """
 
     model: Model
@@ -69,18 +70,18 @@ def _defined(definitions: Mapping[Any, sp.Expr], rates: Mapping[Any, Any]) -> li
 
 
 LONGEST = 200
-"""Operations up to which H, R and equations are written out: about ten lines of a page."""
+"""H, R and equations with at most this many operations are written out, which is about ten lines of a page."""
 
 
 def _sum(expr: sp.Expr) -> Left:
-    """The terms of a sum, or its summary where it is too long to read."""
+    """The terms of a sum, or its summary if it is too long to read."""
     terms = tuple(cast("sp.Expr", term) for term in expr.as_ordered_terms())
     operations = int(sp.count_ops(expr))
     return Terms(terms) if operations <= LONGEST else Elided(expr, operations, terms)
 
 
 def _by_mass(found: Hamiltonian) -> list[Item]:
-    """H = ½ pᵀ M⁻¹ p + V with its M and V, where H itself is too long to read and is T* + V."""
+    """H = ½ pᵀ M⁻¹ p + V with M and V, if H itself is too long to read and equals T* + V."""
     if not found.is_total or int(sp.count_ops(found.H)) <= LONGEST:
         return []
     rates = [c.rate for c in found.model.coordinates]
@@ -96,7 +97,7 @@ def _by_mass(found: Hamiltonian) -> list[Item]:
 
 
 def _by_rates(found: Hamiltonian) -> list[Item]:
-    """The canonical equations by M and V, where H is given so."""
+    """The canonical equations in terms of M and V, if H is given in this form."""
     if not _by_mass(found):
         return []
     M, p, v = Name("M"), Name("p vector"), Name("q vector", "", 1)
@@ -110,11 +111,11 @@ def _entry(expr: Any) -> sp.Expr:
 def hamiltonian_report(found: Hamiltonian) -> Report[Model]:
     """Return the report of Hamilton's form."""
     by_momentum = {found.momenta[c.symbol]: c.rate for c in found.model.coordinates}
-    kind = "T* + V" if found.is_total else "not T* + V, for a motion is prescribed"
-    kept = "every motion keeps it" if found.is_constant else "forces or explicit time change it"
+    kind = "T* + V" if found.is_total else "not T* + V, because a motion is prescribed"
+    kept = "it is constant along every motion" if found.is_constant else "forces or explicit time change it"
     if found.while_constant:
         names = ", ".join(found.while_constant)
-        kept = f"motions keep it while {names} {'is' if len(found.while_constant) == 1 else 'are'} constant"
+        kept = f"it is constant while {names} {'is' if len(found.while_constant) == 1 else 'are'} constant"
     equations: list[Item] = [formula(x, _sum(value), boxed=True) for x, value in found.equations.items()]
     parts = (
         Part(text("Momenta"), tuple(_defined(found.definitions, by_momentum))),
@@ -151,12 +152,12 @@ def routhian_report(found: Routhian) -> Report[Model]:
             text("Routhian"),
             (
                 formula(Name("R"), _sum(found.R), boxed=True),
-                text("The Lagrangian of what is left; its potential is"),
+                text("The Lagrangian of the remaining coordinates; its potential is"),
                 formula(Name("V", "eff"), _sum(found.potential)),
             ),
         ),
-        Part(text("Equations of what is left"), tuple(equations), found.checks),
-        Part(text("What is gone follows"), tuple(gone)),
+        Part(text("Equations of the remaining coordinates"), tuple(equations), found.checks),
+        Part(text("The ignorable coordinates"), tuple(gone)),
     )
     data = {
         "system": found.model.name,

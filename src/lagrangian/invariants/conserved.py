@@ -1,4 +1,5 @@
-"""What a motion keeps: momenta of ignorable coordinates, total momenta, energy; proved exactly, watched along a run."""
+"""Finds conserved quantities: momenta of ignorable coordinates, total momenta, energy; each is proved and observed in a
+run."""
 
 from __future__ import annotations
 
@@ -27,18 +28,19 @@ _log = logging.getLogger(__name__)
 Array = NDArray[np.float64]
 
 SWINGS = 20.0
-"""Length of a run, in periods of the fastest pole at its start."""
+"""The length of a run, in periods of the fastest pole at its start."""
 
 TRIES = 5
-"""Random starts until a run comes to its end."""
+"""The number of random initial states that are tried until a run reaches its end."""
 
 
 def conserved_quantities(model: Model, *, params: Named | None = None, seed: int = 1) -> ConservedQuantities:
     """Return the conserved quantities of a model.
 
-    Each is proved: the normal form of its rate along any motion is 0. Where all parameters have values it is also
-    watched along a run from a random start (``seed``), by the integrator in machine code. ``params`` are values in that
-    run; one given as 0 vanishes from the formulas too, as a damping that is left out.
+    Each is proved: the normal form of its rate along any motion is 0. If all parameters have values, each is also
+    evaluated along a run from a random initial state (``seed``), with the integrator in machine code. ``params`` are
+    values in that run; a parameter that is 0 there also vanishes from the formulas, such as a damping that is
+    neglected.
     """
     program = rates(model)
     given = Given.of(model, program)
@@ -48,7 +50,7 @@ def conserved_quantities(model: Model, *, params: Named | None = None, seed: int
     if vanishing and (light := [plain(q) for q, p in zip(system.q, system.momenta, strict=True) if p.is_zero]):
         raise ModelError(
             f"coordinate '{light[0]}' moves no mass where {' = '.join(p.name for p in vanishing)} = 0",
-            fix="leave a mass or an inertia to it",
+            fix="keep a mass or an inertia for it",
             code="E201",
         )
     _log.info("conserved: searching for symmetries")
@@ -84,13 +86,13 @@ def _words(system: LagrangianForm, symmetry: Symmetry, direction: Mapping[Any, s
     coordinates = list(direction)
     if symmetry.kind == "energy":
         name = "energy T* + V" if system.is_total else "h = Σ ξ̇ ∂L/∂ξ̇ − L"
-        return name, "energy", text(L, " does not hold time, and ", Xi, " gives and takes no power")
+        return name, "energy", text(L, " does not contain time, and ", Xi, " supplies and takes no power")
     if symmetry.kind == "momentum":
         (q,) = coordinates
         return (
             f"momentum of {plain(q)}",
             "momentum",
-            text(q, " is ignorable: ", L, " holds its rate but not ", q, " itself, and no ", Xi, " acts on it"),
+            text(q, " is ignorable: ", L, " contains its rate but not ", q, " itself, and no ", Xi, " acts on it"),
         )
     moved: list[Any] = []
     for q, d in direction.items():
@@ -108,18 +110,18 @@ def _words(system: LagrangianForm, symmetry: Symmetry, direction: Mapping[Any, s
 
 
 def _missed(system: LagrangianForm, found: Sequence[Conserved]) -> tuple[Text, ...]:
-    """Why ignorable coordinates' momenta and the energy are not kept, where they are not."""
+    """Why the momenta of ignorable coordinates and the energy are not conserved, if they are not."""
     kept = {q for c in found if c.kind == "momentum" for q in c.direction}
     listed: list[Text] = []
     L = Name("L")
     for k, (q, slope, force) in enumerate(zip(system.q, system.slopes, system.forces, strict=True)):
         if q not in kept and slope.is_zero and not system.momenta[k].is_zero:
-            listed.append(text(L, " does not hold ", q, ", but its momentum changes at ", force.expr()))
+            listed.append(text(L, " does not contain ", q, ", but its momentum changes at the rate ", force.expr()))
     if not any(c.kind in ("energy", "mixed") for c in found):
-        parts: list[Any] = ["the energy changes at ", system.power.expr()]
+        parts: list[Any] = ["the energy changes at the rate ", system.power.expr()]
         for u in system.moved_by(system.energy):
             parts += [", and at ", (-system.lagrangian.diff(u.symbol)).expr(), " times the rate of ", u.symbol]
-            parts.append(" where that changes")
+            parts.append(" if that changes")
         listed.append(text(*parts))
     return tuple(listed)
 
@@ -127,7 +129,7 @@ def _missed(system: LagrangianForm, found: Sequence[Conserved]) -> tuple[Text, .
 def _watched(
     model: Model, program: Any, listed: list[Conserved], p: Array, seed: int
 ) -> tuple[list[Conserved], float | None]:
-    """The quantities with their drift along runs: one with constant inputs, one with none."""
+    """The quantities with their drift along runs: a run with constant inputs, and a run without inputs."""
     watched, longest = list(listed), None
     for driven in (True, False):
         mine = [k for k, c in enumerate(watched) if bool(c.while_zero) != driven]
@@ -146,7 +148,7 @@ def _watched(
 
 
 def _run(model: Model, program: Any, u: Array, p: Array, source: np.random.Generator) -> tuple[Array, Array] | None:
-    """Times and states of a run from a random start that comes to its end, or None."""
+    """Times and states of a run from a random initial state that reaches its end, or None."""
     n = len(model.coordinates)
     solver = integrate.Solver(dynamics.rhs(model), "dop853")
     for _ in range(TRIES):
@@ -164,7 +166,7 @@ def _run(model: Model, program: Any, u: Array, p: Array, source: np.random.Gener
 
 
 def _drift(model: Model, quantity: Conserved, times: Array, states: Array, u: Array, p: Array) -> float:
-    """The largest change of a quantity along a run over the largest sum of its terms' sizes."""
+    """The largest change of a quantity along a run, relative to the largest sum of the sizes of its terms."""
     terms = sp.Add.make_args(bounded.expand(quantity.expression))
     asked = {"Q": quantity.expression} | {f"term {k}": cast("sp.Expr", term) for k, term in enumerate(terms)}
     kernel = machine.compile(dynamics.observe(model, asked))

@@ -1,4 +1,4 @@
-"""Conserved quantities as a report."""
+"""The conserved quantities as a report."""
 
 from __future__ import annotations
 
@@ -16,23 +16,23 @@ from lagrangian.viewed import Brief
 from lagrangian.write.written import Written
 
 KEPT = 1e-8
-"""Drift along a run up to which a quantity counts as kept: the integrator's tolerance, not rounding alone."""
+"""A quantity counts as conserved if its drift is at most this: the integrator's tolerance, not only rounding."""
 
 ROUNDING = 1e-10
-"""Drift below which only rounding and the integrator's last digits tell runs apart."""
+"""Below this drift, runs differ only by rounding and the last digits of the integrator."""
 
 
 @dataclass(frozen=True)
 class Conserved(Brief):
-    """A quantity that every motion keeps.
+    """A quantity that is constant along every motion.
 
     ``kind``: "energy", "momentum" (of one ignorable coordinate), "total momentum" (a shift of several coordinates),
-    "turn" (a direction that depends on the coordinates, such as the angular momentum of x and y), "mixed" (with energy,
-    as where a potential turns at a constant rate: Jacobi's integral).
-    ``expression`` is the quantity; ``direction`` what every coordinate is moved by where nothing changes (empty for
-    the energy); ``while_zero`` the inputs that must be 0, ``while_constant`` those that must not change, as a road that
-    stands in a spring's energy. ``drift`` is its largest change along a run over its size,
-    None where no run was made.
+    "turn" (a direction that depends on the coordinates, such as the angular momentum of x and y), "mixed" (combined
+    with energy, as when a potential rotates at a constant rate: Jacobi's integral). ``expression`` is the quantity.
+    ``direction`` is the displacement of every coordinate that changes nothing (empty for the energy). ``while_zero``
+    are the inputs that must be 0; ``while_constant`` are those that must not change, such as a road height in a
+    spring's energy. ``drift`` is the largest change along a run relative to the size of the quantity, None if there was
+    no run.
     """
 
     name: str
@@ -45,14 +45,14 @@ class Conserved(Brief):
     while_constant: tuple[str, ...] = ()
 
     def __str__(self) -> str:
-        """Read as a line."""
+        """Return the quantity as one line."""
         only = condition(self.while_zero, self.while_constant)
         return f"{self.name}: {plain(self.expression)}{' ' + only if only else ''}"
 
 
 @dataclass(frozen=True, eq=False)
 class ConservedQuantities(Written, Sequence[Conserved]):
-    """What a system keeps; ``missed`` says why the others are not kept; ``run`` is the time [s] they were watched.
+    """The conserved quantities; ``missed`` says why others are not conserved; ``run`` is the length of the run [s].
 
     ``vanishing`` are the parameters that were given as 0.
     """
@@ -64,11 +64,11 @@ class ConservedQuantities(Written, Sequence[Conserved]):
     vanishing: tuple[str, ...] = ()
 
     def __getitem__(self, index: Any) -> Any:
-        """The quantity at an index."""
+        """The quantity with an index."""
         return self.found[index]
 
     def __len__(self) -> int:
-        """How many there are."""
+        """The number of quantities."""
         return len(self.found)
 
     def report(self) -> Report[Model]:
@@ -77,7 +77,7 @@ class ConservedQuantities(Written, Sequence[Conserved]):
 
 
 def condition(zero: Sequence[str], constant: Sequence[str]) -> str:
-    """``while F is 0 and z is constant``, or nothing."""
+    """``while F is 0 and z is constant``, or an empty text."""
     pairs = ((zero, "0"), (constant, "constant"))
     parts = [f"{listed(names)} {'is' if len(names) == 1 else 'are'} {what}" for names, what in pairs if names]
     return "while " + " and ".join(parts) if parts else ""
@@ -89,12 +89,12 @@ def listed(names: Sequence[str]) -> str:
 
 
 def conserved_report(found: ConservedQuantities) -> Report[Model]:
-    """Return the report of what a system keeps."""
+    """Return the report of conserved quantities."""
     parts = [_part(found, c) for c in found]
-    items: list[Item] = [] if found else [text("Nothing was found that every motion keeps.")]
+    items: list[Item] = [] if found else [text("No conserved quantity was found.")]
     items += [Text(("Not kept: ", *why.parts, ".")) for why in found.missed]
     if items:
-        parts.append(Part(text("What is not kept"), tuple(items)))
+        parts.append(Part(text("Not conserved"), tuple(items)))
     where = f" where {' = '.join((*found.vanishing, '0'))}" if found.vanishing else ""
     return Report(f"{found.model.name}: conserved quantities{where}", found.model, tuple(parts), data(found))
 

@@ -26,13 +26,13 @@ from lagrangian.model.names import moving_symbol
 from lagrangian.page.formula import Check, text
 
 STATES = 20
-"""Random states at which the canonical equations are held against Lagrange's."""
+"""The number of random states at which the canonical equations are compared with Lagrange's."""
 
 TOLERANCE = 1e-9
 
 
 def hamiltonian(model: Model) -> Hamiltonian:
-    """Return Hamilton's form of a model. Raises `RunError` where the inverse of M is too long to write out."""
+    """Return Hamilton's form of a model. Raises `RunError` if the inverse of M is too long to write out."""
     system = LagrangianForm.of(model)
     letters = [sp.Symbol(name) for name in momentum_names(model)]
     moving = [cast("sp.Expr", moving_symbol(s.name)) for s in letters]
@@ -71,7 +71,7 @@ def hamiltonian(model: Model) -> Hamiltonian:
 
 
 def momentum_names(model: Model) -> list[str]:
-    """``p_theta`` for every coordinate, with another letter before it where the model has such a name."""
+    """``p_theta`` for every coordinate, with a different first letter if the model already has such a name."""
     taken = set(model.symbols)
     found = []
     for c in model.coordinates:
@@ -84,11 +84,11 @@ def momentum_names(model: Model) -> list[str]:
 
 
 def split(system: LagrangianForm) -> tuple[list[Form], Form]:
-    """b_i = ∂L/∂ξ̇_i at rest and V − T₀, of L = T₂ + T₁ + T₀ − V. Raises `RunError` where T* is not quadratic."""
+    """b_i = ∂L/∂ξ̇_i at rest and V − T₀, for L = T₂ + T₁ + T₀ − V. Raises `RunError` if T* is not quadratic."""
     if any(entry.diff(v).parts for row in system.mass for entry in row for v in system.v):
         raise RunError(
             "T* is not quadratic in the rates: the momenta cannot be solved for them",
-            fix="energies of motion are ½ ξ̇ᵀ M ξ̇ + bᵀ ξ̇ + T₀",
+            fix="the kinetic co-energy must be ½ ξ̇ᵀ M ξ̇ + bᵀ ξ̇ + T₀",
             code="E523",
         )
     still = dict.fromkeys(system.v, sp.S.Zero)
@@ -110,7 +110,7 @@ def _checks(
     rates: Sequence[sp.Expr],
     pushes: Sequence[sp.Expr],
 ) -> tuple[Check, ...]:
-    """H, ξ̇ and ṗ, momenta put in, against Σ ξ̇ p − L, the rates and ∂L/∂ξ + Ξ, at random states."""
+    """Compare H, ξ̇ and ṗ, with the momenta substituted, to Σ ξ̇ p − L, the rates and ∂L/∂ξ + Ξ, at random states."""
     put = {s: p.raw() for s, p in zip(letters, system.momenta, strict=True)}
     pairs: list[tuple[Any, Any]] = [(H, system.energy.raw())]
     pairs += list(zip(rates, system.v, strict=True))
@@ -121,5 +121,5 @@ def _checks(
         for left, right in zip(values[::2], values[1::2], strict=True):
             difference = abs(left - right) / max(1.0, abs(right))
             worst = difference if not difference <= worst else worst
-    what = text("with the momenta put in: H is Σ ξ̇ p − L, the rates come back, and ṗ is ∂L/∂ξ + Ξ")
+    what = text("with the momenta substituted, H is Σ ξ̇ p − L, ξ̇ are the rates, and ṗ is ∂L/∂ξ + Ξ")
     return (Check(what, worst < TOLERANCE, f"largest relative difference {worst:.1e} at {STATES} random states"),)

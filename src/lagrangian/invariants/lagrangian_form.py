@@ -1,4 +1,4 @@
-"""L, Ξ and what follows from them in normal form: momenta, forces, the rate of the energy."""
+"""L, Ξ and quantities computed from them in normal form: momenta, forces, the rate of the energy."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from lagrangian.model import Input, Model, time
 
 @dataclass(frozen=True, eq=False)
 class LagrangianForm:
-    """A model's Lagrangian L = T* − V and generalized forces Ξ, and the algebra they live in."""
+    """A model's Lagrangian L = T* − V and generalized forces Ξ, and the algebra in which they are expressed."""
 
     model: Model
     T: sp.Expr
@@ -25,9 +25,9 @@ class LagrangianForm:
 
     @classmethod
     def of(cls, model: Model, vanishing: Sequence[sp.Symbol] = ()) -> LagrangianForm:
-        """The energies and forces of a model, definitions written out, ``vanishing`` parameters at 0.
+        """The energies and forces of a model with definitions written out and ``vanishing`` parameters set to 0.
 
-        Raises `ModelError` for a floating frame, and where something is divided by what vanishes.
+        Raises `ModelError` for a floating frame, and if something is divided by a vanishing parameter.
         """
         if len(model.velocities) != len(model.coordinates):
             raise ModelError(
@@ -102,7 +102,7 @@ class LagrangianForm:
 
     @cached_property
     def pushes(self) -> tuple[Form, ...]:
-        """What the momenta change at: ṗ_i = ∂L/∂ξ_i + Ξ_i."""
+        """The rates of the momenta: ṗ_i = ∂L/∂ξ_i + Ξ_i."""
         return tuple(a + b for a, b in zip(self.slopes, self.forces, strict=True))
 
     @cached_property
@@ -113,20 +113,20 @@ class LagrangianForm:
 
     @cached_property
     def power(self) -> Form:
-        """What h changes at: dh/dt = Σ Ξ_i ξ̇_i − ∂L/∂t."""
+        """The rate of the energy: dh/dt = Σ Ξ_i ξ̇_i − ∂L/∂t."""
         parts = [f * self.algebra.form(v) for f, v in zip(self.forces, self.v, strict=True)]
         return self.algebra.total([*parts, -self.lagrangian.diff(time)])
 
     def moved_by(self, form: Form) -> tuple[Input, ...]:
-        """The inputs that a form holds: what is kept is so only while these are constant.
+        """The inputs in a form: a conserved quantity is constant only while these are.
 
-        ``power`` holds their values, not their rates; where u changes, dh/dt has −∂L/∂u u̇ besides.
+        ``power`` contains their values, not their rates; if u changes, dh/dt also contains −∂L/∂u u̇.
         """
         return tuple(u for u in self.model.inputs if form.raw().has(u.symbol))
 
     @property
     def is_total(self) -> bool:
-        """Whether h is T* + V: T* homogeneous of degree two in the rates."""
+        """Whether h is T* + V, because T* is homogeneous of degree two in the rates."""
         return (self.energy - self.kinetic - self.potential).is_zero
 
     @cached_property

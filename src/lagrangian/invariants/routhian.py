@@ -1,4 +1,4 @@
-"""Routh's form: ignorable coordinates gone, their constant momenta in their place.
+"""Routh's form: ignorable coordinates are eliminated, and their constant momenta take their place.
 
     R = L − Σ_s p_s ξ̇_s,   ξ̇_s from p_s = ∂L/∂ξ̇_s:      d/dt(∂R/∂ξ̇_r) − ∂R/∂ξ_r = Ξ_r for the coordinates that are left
 
@@ -30,9 +30,10 @@ from lagrangian.values.values import key_name
 
 
 def routhian(model: Model, ignorable: Sequence[Any] | None = None) -> Routhian:
-    """Return Routh's form of a model; ``ignorable`` names the coordinates to remove, all ignorable ones unless given.
+    """Return Routh's form of a model; ``ignorable`` names the coordinates to eliminate, by default all that are
+    ignorable.
 
-    Raises `RunError` for a coordinate that L holds or a force acts on, and where none is ignorable.
+    Raises `RunError` for a coordinate that appears in L or on which a force acts, and if none is ignorable.
     """
     system = LagrangianForm.of(model)
     gone = _chosen(system, ignorable)
@@ -76,7 +77,7 @@ def routhian(model: Model, ignorable: Sequence[Any] | None = None) -> Routhian:
 
 
 def _chosen(system: LagrangianForm, asked: Sequence[Any] | None) -> list[int]:
-    """The coordinates to remove."""
+    """The coordinates to eliminate."""
     names = [c.name for c in system.model.coordinates]
     proper = [
         k
@@ -99,7 +100,7 @@ def _chosen(system: LagrangianForm, asked: Sequence[Any] | None) -> list[int]:
         k = names.index(name)
         if k not in proper:
             slope, force = system.slopes[k], system.forces[k]
-            why = f"L holds it: ∂L/∂{name} = {plain(slope.expr())}" if not slope.is_zero else None
+            why = f"L contains it: ∂L/∂{name} = {plain(slope.expr())}" if not slope.is_zero else None
             why = why or f"a force acts on it: {plain(force.expr())}"
             raise RunError(f"'{name}' is not ignorable: {why}", code="E524")
         found.append(k)
@@ -116,7 +117,7 @@ def _equation(system: LagrangianForm, r: int, polynomial: Form, pieces: Sequence
     """d/dt ∂R/∂ξ̇_r − ∂R/∂ξ_r = Ξ_r."""
     momentum = polynomial.diff(system.v[r])
     left = (momentum.total_derivative() - polynomial.diff(system.q[r])).expr()
-    extra = summed([d for p in pieces for d in p.diff(system.v[r])])  # ∂/∂ξ̇_r of what is taken away
+    extra = summed([d for p in pieces for d in p.diff(system.v[r])])  # ∂/∂ξ̇_r of the subtracted terms
     left += summed([d for p in pieces for d in p.diff(system.q[r])])
     if extra != 0:
         left -= bounded.diff(extra, time)
@@ -131,11 +132,11 @@ def _checks(
     R: sp.Expr,
     equations: Sequence[sp.Eq],
 ) -> tuple[Check, ...]:
-    """R, the momenta put in, is L − Σ p ξ̇; and the equations are Lagrange's where ṗ = 0 along the motion."""
+    """Check R against L − Σ p ξ̇ with the momenta substituted, and its equations against Lagrange's for ṗ = 0."""
     put = {beta: system.momenta[k].raw() for k, beta in zip(gone, betas, strict=True)}
     wanted = system.lagrangian.raw() - sp.Add(*(put[b] * system.v[k] for k, b in zip(gone, betas, strict=True)))
     pairs: list[tuple[Any, Any]] = [(R.xreplace(put), wanted)]
-    # accelerations of what is gone, so that its momenta stay constant: Σ_s M_ss ξ̈_s = −(ṗ at ξ̈_s = 0)
+    # accelerations of the eliminated coordinates for constant momenta: Σ_s M_ss ξ̈_s = −(ṗ at ξ̈_s = 0)
     accelerations = [c.acceleration for c in system.model.coordinates]
     rows = [system.momenta[k].total_derivative().raw() for k in gone]
     unknown = [accelerations[k] for k in gone]
@@ -152,5 +153,5 @@ def _checks(
         for a, b in zip(values[::2], values[1::2], strict=True):
             difference = abs(a - b) / max(1.0, abs(b))
             worst = difference if not difference <= worst else worst
-    what = text("with the momenta put in: R is L − Σ p ξ̇, and its equations are Lagrange's")
+    what = text("with the momenta substituted, R is L − Σ p ξ̇, and its equations are Lagrange's")
     return (Check(what, worst < TOLERANCE, f"largest relative difference {worst:.1e} at {STATES} random states"),)

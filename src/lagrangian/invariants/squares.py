@@ -2,7 +2,7 @@
 
     M = L D Lᵀ,  z = L⁻¹ w:        ½ wᵀ M⁻¹ w = Σ_i z_i² / (2 d_i)
 
-Rows whose pivot moves are kept for last; where more than one is left, they stay one quotient, adjugate over
+Rows whose pivot is not constant come last; if there is more than one, they form one quotient, adjugate over
 determinant.
 """
 
@@ -24,18 +24,18 @@ from lagrangian.errors import RunError
 
 @dataclass(frozen=True, eq=False)
 class SquarePiece:
-    """coefficient · Π form^exponent, kept factored."""
+    """coefficient · Π form^exponent, in factored form."""
 
     coefficient: Fraction
     factors: tuple[tuple[Form, int], ...]
 
     def expr(self) -> sp.Expr:
-        """The piece as written."""
+        """The piece as an expression."""
         number = sp.Rational(self.coefficient.numerator, self.coefficient.denominator)
         return cast("sp.Expr", sp.Mul(number, *(form.expr() ** e for form, e in self.factors)))
 
     def diff(self, symbol: Any) -> list[SquarePiece]:
-        """The derivative, a piece for every factor that changes."""
+        """The derivative, with one piece for every factor that changes."""
         found = []
         for k, (form, e) in enumerate(self.factors):
             slope = form.diff(symbol)
@@ -49,7 +49,7 @@ class SquarePiece:
 def half_square(matrix: Sequence[Sequence[Form]], w: Sequence[Form], algebra: Algebra) -> list[SquarePiece]:
     """½ wᵀ M⁻¹ w.
 
-    Raises `OutOfReach` where too many rows with moving pivots hang together, `RunError` where M is singular.
+    Raises `OutOfReach` if too many rows with moving pivots are coupled, and `RunError` if M is singular.
     """
     pieces: list[SquarePiece] = []
     for block in blocks(matrix):
@@ -86,18 +86,18 @@ def half_square(matrix: Sequence[Sequence[Form]], w: Sequence[Form], algebra: Al
 
 
 def _is_fraction(form: Form) -> bool:
-    """Whether a sum stands below the line."""
+    """Whether a sum is in the denominator."""
     return bool(sp.fraction(bounded.together(form.expr()))[1].has(sp.Add))
 
 
 def _cleared(part: dict[int, dict[int, Form]], left: dict[int, Form], k: int, i: int) -> SquarePiece:
-    """The last square with what stands below the line in it cleared: (d w_i − m w_k)² / (2 d (d M_ii − m²))."""
+    """The last square with denominators inside it cleared: (d w_i − m w_k)² / (2 d (d M_ii − m²))."""
     d, m = part[k][k], part[i][k]
     return SquarePiece(Fraction(1, 2), ((d * left[i] - m * left[k], 2), (d, -1), (d * part[i][i] - m * m, -1)))
 
 
 def _rest(part: dict[int, dict[int, Form]], left: dict[int, Form], algebra: Algebra) -> list[SquarePiece]:
-    """What has moving pivots: one square, or the quotient of adjugate and determinant."""
+    """The rows with moving pivots: one square, or the quotient of adjugate and determinant."""
     rows = list(left)
     if not rows:
         return []
@@ -118,7 +118,7 @@ def _rest(part: dict[int, dict[int, Form]], left: dict[int, Form], algebra: Alge
 
 
 def _moves(form: Form) -> bool:
-    """Whether coordinates or time stand in a form."""
+    """Whether a form contains coordinates or time."""
     return bool(form.raw().has(AppliedUndef, sp.Symbol("t")))
 
 
@@ -129,5 +129,5 @@ def _bounded(forms: Sequence[Form]) -> None:
 
 
 def summed(pieces: Sequence[SquarePiece]) -> sp.Expr:
-    """The sum of pieces, each as written."""
+    """The sum of pieces as an expression."""
     return cast("sp.Expr", sp.Add(*(p.expr() for p in pieces)))

@@ -1,4 +1,4 @@
-"""Symmetries of a Lagrangian: directions in which nothing changes, found by a null space and proved in normal form.
+"""Finds symmetries of a Lagrangian, directions in which nothing changes: by a null space, and proved in normal form.
 
 Along δξ_i = a_i + Σ_j B_ij ξ_j (shifts, turns and what is made of them; a, B and e made of parameters) and δt = −e
 
@@ -30,19 +30,19 @@ from lagrangian.model import time
 from lagrangian.viewed import Brief
 
 TURNS = 12
-"""Coordinates up to which directions that depend on the coordinates are looked for."""
+"""Directions that depend on the coordinates are sought for at most this many coordinates."""
 
 DENOMINATOR = 24
-"""Largest denominator of a share in a direction."""
+"""The largest denominator of a component of a direction."""
 
 
 PARAMETRIC = 6
-"""Coordinates up to which turns whose shares depend on parameters are looked for."""
+"""Rotations with components that depend on parameters are sought for at most this many coordinates."""
 
 
 @dataclass(frozen=True, eq=False)
 class Symmetry(Brief):
-    """δξ_i = shift_i + Σ_j turn_ij ξ_j and δt = −time that leave the motion as it is; shares hold parameters only."""
+    """A symmetry δξ_i = shift_i + Σ_j turn_ij ξ_j, δt = −time; its components contain only parameters."""
 
     system: LagrangianForm
     shift: tuple[sp.Expr, ...]
@@ -72,7 +72,7 @@ class Symmetry(Brief):
 
     @cached_property
     def rate(self) -> Form:
-        """What it changes at."""
+        """The rate of the conserved quantity, which is 0."""
         system, algebra = self.system, self.system.algebra
         parts = []
         for d, push, p in zip(self.direction, system.pushes, system.momenta, strict=True):
@@ -84,7 +84,7 @@ class Symmetry(Brief):
 
     @property
     def kind(self) -> str:
-        """What it is: "energy", "momentum" (of one coordinate), "shift" (of several), "turn", "screw" (with energy)."""
+        """The kind: "energy", "momentum" (of one coordinate), "shift" (of several), "turn", "screw" (with energy)."""
         moved = sum(1 for x in self.shift if x != 0)
         if self.time != 0:
             return "energy" if not moved and not self.turn else "screw"
@@ -95,7 +95,7 @@ class Symmetry(Brief):
 
 @dataclass(frozen=True, eq=False)
 class _Columns:
-    """The elementary directions and their rates at random states."""
+    """The elementary directions and the rates of their quantities at random states."""
 
     system: LagrangianForm
     names: list[tuple[str, int, int]]
@@ -111,7 +111,7 @@ class _Columns:
         return cls(system, [*names, ("time", 0, 0)], Sampler(system.model, [*exprs, *system.q, *system.v]))
 
     def null_rows(self, fixed: Mapping[Any, float]) -> tuple[NDArray[np.float64], list[int]]:
-        """The null space in reduced form, and its leading columns, with the symbols of ``fixed`` at their values."""
+        """The null space in reduced form and its leading columns, with the values of ``fixed`` substituted."""
         rows = np.array([self._row(got) for got in self._states(fixed)])
         if not len(rows):
             raise ModelError(
@@ -120,7 +120,7 @@ class _Columns:
                 code="E503",
             )
         size = np.linalg.norm(rows, axis=0)
-        scale = np.where(size > 0, size, 1.0)  # one tolerance serves all; a column of zeros is a symmetry by itself
+        scale = np.where(size > 0, size, 1.0)  # one tolerance for all; a column of zeros is a symmetry by itself
         return reduced(null_space(rows / scale) / scale)
 
     def _states(self, fixed: Mapping[Any, float]) -> list[list[float]]:
@@ -144,7 +144,7 @@ class _Columns:
         return row
 
     def symmetry(self, shares: Sequence[sp.Expr]) -> Symmetry:
-        """The symmetry with these shares of the elementary directions."""
+        """The symmetry with these components along the elementary directions."""
         shift = [sp.S.Zero] * len(self.system.q)
         turn: dict[tuple[int, int], sp.Expr] = {}
         at_time: sp.Expr = sp.S.Zero
@@ -161,10 +161,10 @@ class _Columns:
 
 
 def symmetries(system: LagrangianForm, still: Mapping[Any, Any]) -> list[Symmetry]:
-    """The symmetries of a system, with the symbols of ``still`` at their values; proved, and independent.
+    """The symmetries of a system with the values of ``still`` substituted; proved, and independent.
 
-    What is found is exact: a direction counts only if the normal form of its rate is 0. Shares are small fractions, or
-    such times powers of parameters.
+    They are exact: a direction counts only if the normal form of its rate is 0. Components are small fractions, or
+    small fractions times powers of parameters.
     """
     n = len(system.q)
     columns = _Columns.of(system, still, n <= TURNS)
@@ -181,9 +181,9 @@ def symmetries(system: LagrangianForm, still: Mapping[Any, Any]) -> list[Symmetr
 
 
 def _parametric(columns: _Columns, parameters: Sequence[Any], known: int) -> list[list[sp.Expr]] | None:
-    """Shares as fractions times powers of parameters: how they change when one parameter after the other doubles.
+    """Components as fractions times powers of parameters, found by doubling one parameter after another.
 
-    None where there are no more than the ``known`` ones, or where they are not of this form.
+    None if there are no more than the ``known`` ones, or if they do not have this form.
     """
     base = {p: 0.5 + 0.37 * ((k * 0.618) % 1.0) for k, p in enumerate(parameters)}
     first, leading = columns.null_rows(base)
@@ -221,7 +221,7 @@ def _power(
 
 
 def _cleared(shares: list[sp.Expr]) -> list[sp.Expr]:
-    """The shares times what stands below the line in them."""
+    """The components multiplied by their common denominator."""
     under = sp.S.One
     for share in shares:
         under = sp.lcm(under, sp.fraction(share)[1])

@@ -1,1 +1,1 @@
-"""A linear system near a point: A, B, C, D, poles, modes, stability, control."""
+"""The linear system near a point: A, B, C, D, poles, modes, stability, control."""

@@ -24,8 +24,8 @@ Array = NDArray[np.float64]
 class LinearizationAlong(Brief):
     """The linearization at the times ``t`` (S,) of a trajectory ``x`` (S, n) with inputs ``u`` (S, m).
 
-    ``A`` (S, n, n), ``B`` (S, n, m), ``C`` (S, k, n), ``D`` (S, k, m); ``y`` (S, k) are the outputs there. Names are in
-    declared order. Inputs are held at their values: feedback that drove the run is not part of A.
+    ``A`` (S, n, n), ``B`` (S, n, m), ``C`` (S, k, n), ``D`` (S, k, m); ``y`` (S, k) are the outputs. Names are in
+    declared order. The inputs are treated as constants: a feedback that controlled the run does not contribute to A.
     """
 
     model: Model
@@ -47,11 +47,11 @@ class LinearizationAlong(Brief):
         return cut(f"<{self.model.name}: linearization along a run, {len(self.t)} times{span}>")
 
     def __len__(self) -> int:
-        """How many times there are."""
+        """The number of times."""
         return len(self.t)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return plain data for JSON."""
+        """Return plain data that can be written as JSON."""
         arrays = {name: getattr(self, name).tolist() for name in ("t", "x", "u", "y", "A", "B", "C", "D")}
         names = {name: list(getattr(self, name)) for name in ("states", "inputs", "outputs")}
         return {"system": self.model.name, **names, "parameters": dict(self.parameters), **arrays}
@@ -67,7 +67,7 @@ def linearize_along(
 ) -> LinearizationAlong:
     """Return the linearization along a trajectory: a run, or a pair of times (S,) and states (S, n).
 
-    A run brings its own inputs and parameters. ``inputs``: name or symbol → number, text with a unit, or one value a
+    A run has its own inputs and parameters. ``inputs``: name or symbol → number, text with a unit, or a value for each
     time (S,). Raises `RunError` for shapes, names and values that do not fit.
     """
     program = rates(model)
@@ -99,7 +99,7 @@ def linearize_along(
 def _taken(
     model: Model, trajectory: Any, states: tuple[str, ...]
 ) -> tuple[Array, Array, dict[str, Any], dict[str, float]]:
-    """Times, states (S, n), inputs and parameters of a trajectory."""
+    """The times, states (S, n), inputs and parameters of a trajectory."""
     if hasattr(trajectory, "t") and hasattr(trajectory, "y"):
         t, x = np.asarray(trajectory.t, float), np.ascontiguousarray(np.asarray(trajectory.y, float).T)
         own = {i.name: trajectory[i.symbol] for i in model.inputs} if hasattr(trajectory, "observe") else {}

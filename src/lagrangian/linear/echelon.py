@@ -1,4 +1,4 @@
-"""Null spaces in a form that people can name: reduced row echelon, the earliest columns leading."""
+"""Null spaces in a readable form: reduced row echelon form, with the earliest columns leading."""
 
 from __future__ import annotations
 
@@ -13,7 +13,8 @@ ZERO_TOLERANCE = 1e-8
 
 
 def null_space(matrix: Array, tolerance: float = 1e-11) -> Array:
-    """Rows that span {c : matrix c = 0}, orthonormal: (k, n). Singular values count relative to the largest."""
+    """An orthonormal basis, in rows (k, n), of {c : matrix c = 0}. Singular values are taken relative to the
+    largest."""
     n = matrix.shape[1]
     _, values, rows = np.linalg.svd(matrix, full_matrices=True) if matrix.size else (None, np.zeros(0), np.eye(n))
     full = np.zeros(n)
@@ -22,7 +23,7 @@ def null_space(matrix: Array, tolerance: float = 1e-11) -> Array:
 
 
 def reduced(rows: NDArray[Any]) -> tuple[NDArray[Any], list[int]]:
-    """The reduced row echelon form of independent rows, and its leading columns; dust is swept to 0."""
+    """The reduced row echelon form of independent rows and its leading columns; rounding errors are set to 0."""
     rows = rows.copy()
     leading: list[int] = []
     for k in range(rows.shape[1]):

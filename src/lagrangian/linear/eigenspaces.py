@@ -1,9 +1,11 @@
-"""Poles of a matrix with what belongs to each, the same on every processor.
+"""Computes the poles of a matrix with their eigenspaces, with the same result on every processor.
 
 Rounding splits a pole of a Jordan block of m rows into m poles about (ε‖A‖)^(1/m) apart, differently on every machine,
-and turns the vectors of equal poles into any others that span the same. So poles that rounding cannot tell apart are
-taken together, at their mean, which is exact to first order; their vectors are the null space of A − λ by singular
-values. How many poles belong to λ is told by the staircase: the null space, that of what is left across it, and so on.
+and replaces the vectors of equal poles by others that span the same space. Therefore poles that rounding cannot tell
+apart are combined into one at their mean, which is exact to first order; their vectors are the null space of A − λ by
+singular values. The multiplicity of λ is found by the staircase: the null space, the null space of what remains across
+it, and so on.
+
 Sources: Golub & Van Loan, Matrix Computations (4th ed.), §§ 7.1.6, 7.2.2; Kublanovskaya, USSR Comp. Math. 6 (1966).
 """
 
@@ -23,21 +25,22 @@ Complex = NDArray[np.complex128]
 
 EPSILON = float(np.finfo(float).eps)
 SLACK = 100.0
-"""How many times the first-order bound of its rounding error a real part must exceed to count as not zero."""
+"""A real part is not zero if it exceeds the first-order bound of its rounding error by this factor."""
 
 EQUAL = float(np.sqrt(EPSILON))
-"""Difference of two poles, over their size, up to which they are one."""
+"""Two poles may be the same if their difference, relative to their size, is at most this."""
 
 MAX_JORDAN_BLOCK = 6
-"""Rows of the largest Jordan block that is looked for."""
+"""The largest number of rows of a Jordan block that is looked for."""
 
 ILL = 1e-2
-"""Cosine of a pole's left and right vectors below which it may belong to a Jordan block."""
+"""If the cosine between its left and right vectors is smaller, a pole may belong to a Jordan block."""
 
 
 @dataclass(frozen=True, eq=False)
 class Eigenspace(Brief):
-    """A pole that counts ``times``, its rounding error, and {w : A w = λ w}, a column of ``basis`` a dimension."""
+    """A pole with its multiplicity ``times``, its rounding error, and {w : A w = λ w} with a basis in the columns of
+    ``basis``."""
 
     pole: complex
     times: int
@@ -46,8 +49,9 @@ class Eigenspace(Brief):
 
 
 def eigenspaces(A: Array, noise: float = 0.0) -> list[Eigenspace]:
-    """The poles of A (n×n, balanced), every one once; ``noise`` is the rounding error in the entries of A beyond ε."""
-    import scipy.linalg  # a third of a second that only who asks for poles pays
+    """The poles of A (n×n, balanced), each once; ``noise`` is the error in the entries of A if it is larger than
+    rounding."""
+    import scipy.linalg  # the import takes a third of a second, so only those who ask for poles pay for it
 
     found: Any = scipy.linalg.eig(A, left=True, right=True)
     poles, left, right = (np.asarray(x, np.complex128) for x in found)
@@ -63,7 +67,7 @@ def eigenspaces(A: Array, noise: float = 0.0) -> list[Eigenspace]:
 
 
 def _groups(A: Array, poles: Complex, cosine: Array, errors: Array, error: float) -> list[list[int]]:
-    """The indices of poles that are one."""
+    """The indices of poles that are the same."""
     left, found = list(range(len(poles))), []
     for m in range(min(MAX_JORDAN_BLOCK, len(poles)), 1, -1):
         for k in list(left):
@@ -86,7 +90,7 @@ def _groups(A: Array, poles: Complex, cosine: Array, errors: Array, error: float
 
 
 def _is_block(A: Array, poles: Complex, cosine: Array, error: float) -> bool:
-    """Whether poles are what rounding makes of one that is not simple and has too few vectors."""
+    """Whether poles are those into which rounding splits a multiple pole with too few vectors."""
     size = float(np.linalg.norm(A, 2)) or 1.0
     mean = complex(poles.mean())
     spread = float(np.abs(poles - mean).max())
@@ -96,7 +100,7 @@ def _is_block(A: Array, poles: Complex, cosine: Array, error: float) -> bool:
 
 
 def _multiplicity(A: Array, pole: complex, error: float) -> int:
-    """How many poles of A are ``pole``, by the staircase of null spaces."""
+    """The multiplicity of ``pole`` in A, from the staircase of null spaces."""
     rest = A - pole * np.eye(len(A))
     count = 0
     while len(rest):
@@ -111,12 +115,12 @@ def _multiplicity(A: Array, pole: complex, error: float) -> int:
 
 
 def _null_space(A: Array, pole: complex, times: int, error: float) -> Complex:
-    """An orthonormal basis of {w : A w = λ w}, of at least one and at most ``times`` columns."""
+    """An orthonormal basis of {w : A w = λ w}, with at least one and at most ``times`` columns."""
     _, values, rows = np.linalg.svd(A - pole * np.eye(len(A)))
     count = int((values <= error + 2 * EQUAL * abs(pole)).sum())
     return rows[len(A) - min(max(count, 1), times) :].conj().T
 
 
 def plain_basis(basis: Any) -> Any:
-    """The same space by the reduced row echelon form of its columns: what people can name."""
+    """The same space with a readable basis: the reduced row echelon form of its columns."""
     return reduced(basis.T)[0].T if basis.shape[1] > 1 else basis

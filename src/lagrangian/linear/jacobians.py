@@ -1,4 +1,4 @@
-"""Programs with their derivatives: exact, on the graph, as further outputs beside what is differentiated."""
+"""Adds exact derivatives to programs, computed on the graph, as additional outputs."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Arrays = dict[str, NDArray[np.float64]]
 
 
 def with_jacobians(program: Program, wanted: Mapping[str, tuple[str, str]]) -> Program:
-    """``program`` with outputs added: name → (output y, group x) gives ∂y/∂x, shape (len y, len x)."""
+    """Return ``program`` with additional outputs: name → (output y, group x) adds ∂y/∂x, shape (len y, len x)."""
     outputs = dict(program.outputs)
     for name, (of, by) in wanted.items():
         outputs[name] = _matrix(program, program.outputs[of].ids, by)
@@ -43,40 +43,40 @@ def forces(model: Model) -> Program:
 
 
 def values(program: Program, **groups: Any) -> Arrays:
-    """The outputs as arrays, evaluated at one point in double precision by the interpreter."""
+    """The outputs as arrays, evaluated by the interpreter at one point in double precision."""
     found = evaluate(program, {name: np.atleast_1d(given).tolist() for name, given in groups.items()})
     return {name: np.asarray(value, float).reshape(program.outputs[name].shape) for name, value in found.items()}
 
 
 def reads(program: Program, output: str, group: str) -> frozenset[int]:
-    """The entries of ``group`` that ``output`` reads, by what stands in the graph."""
+    """The entries of ``group`` on which ``output`` depends, according to the graph."""
     nodes = program.graph.nodes
     met = (nodes[i] for i in reached(program.graph, program.outputs[output].ids))
     return frozenset(node[2] for node in met if node[0] == "input" and node[1] == group)
 
 
 KINKED = frozenset({"abs", "sign", "min", "max", "select"})
-"""Operations that may have no slope somewhere."""
+"""Operations that have no derivative somewhere."""
 
 
 def may_kink(program: Program, output: str) -> bool:
-    """Whether an operation that may have no slope stands in an output."""
+    """Whether an output contains an operation that may have no derivative somewhere."""
     nodes = program.graph.nodes
     return any(nodes[i][0] in KINKED for i in reached(program.graph, program.outputs[output].ids))
 
 
 class QuickValues:
-    """`values` in machine code: for many points of the same programs."""
+    """`values` in machine code, for many points of the same programs."""
 
     def __init__(self) -> None:
         self._kernels: dict[int, tuple[Program, machine.Kernel]] = {}
 
     def __call__(self, program: Program, **groups: Any) -> Arrays:
-        """The outputs as arrays; what is not finite is handed on as it is."""
+        """The outputs as arrays; values that are not finite are returned unchanged."""
         if id(program) not in self._kernels:
             self._kernels[id(program)] = (program, machine.compile(program))
         try:
             found = self._kernels[id(program)][1](**groups)
-        except RunError:  # kernels refuse what is not finite; the interpreter shows it
+        except RunError:  # kernels refuse values that are not finite; the interpreter returns them
             return values(program, **groups)
         return found if isinstance(found, dict) else {next(iter(program.outputs)): found}

@@ -1,4 +1,4 @@
-"""The data of a linearization: the matrices with their names, and what follows from them alone."""
+"""The data of a linearization: the matrices with their names, and quantities that are computed from them."""
 
 from __future__ import annotations
 
@@ -20,15 +20,15 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class LinearModel(Brief):
-    """δẋ = A δx + B δu, δy = C δx + D δu about a point x₀, u₀.
+    """The linear system δẋ = A δx + B δu, δy = C δx + D δu about a point x₀, u₀.
 
     ``states``, ``inputs``, ``outputs`` name the entries in declared order, x = [q; q̇]. ``at``, ``inputs_at``,
-    ``parameters`` are the values there by name. ``kind`` is "rest", "steady motion" (only coordinates that nothing
-    depends on move) or "operating point", where ``drift`` = f(x₀, u₀) adds to δẋ. ``residual`` is the largest |q̈|.
-    ``mass``, ``damping``, ``stiffness``, ``input_matrix`` are M, D, K and S of the second-order form about a rest, else
-    None. ``notes`` say what else there is to know of the point, ``free`` names what nothing depends on, ``changing``
-    says that A or B changes with time, ``minimum`` that energy has a strict minimum there and nothing supplies power.
-    ``noise`` are the rounding errors in A and in M⁻¹K.
+    ``parameters`` are the values there by name. ``kind`` is "rest" (an equilibrium), "steady motion" (only coordinates
+    on which nothing depends move) or "operating point"; in the last case ``drift`` = f(x₀, u₀) is added to δẋ.
+    ``residual`` is the largest |q̈|. ``mass``, ``damping``, ``stiffness``, ``input_matrix`` are M, D, K and S of the
+    second-order form about an equilibrium, otherwise None. ``notes`` contain remarks about the point, ``free`` names
+    the coordinates on which nothing depends, ``changing`` says that A or B depends on time, ``minimum`` that the energy
+    has a strict minimum there and nothing supplies power. ``noise`` are the rounding errors in A and in M⁻¹K.
     """
 
     model: Model
@@ -59,12 +59,12 @@ class LinearModel(Brief):
 
     @property
     def coordinates(self) -> tuple[str, ...]:
-        """The coordinates' names."""
+        """The names of the coordinates."""
         return tuple(c.name for c in self.model.coordinates)
 
     @cached_property
     def spectrum(self) -> Spectrum:
-        """The eigenvalues of A with the bounds of their rounding errors."""
+        """The eigenvalues of A with bounds of their rounding errors."""
         if self.mass is not None and self.damping is not None and self.stiffness is not None:
             return spectrum(self.A, (self.mass, self.damping, self.stiffness), self.noise)
         return spectrum(self.A, None, self.noise)
@@ -81,7 +81,7 @@ class LinearModel(Brief):
 
     @property
     def damping_ratios(self) -> Array:
-        """−Re λ/|λ| of every pole; nan for a pole at 0."""
+        """−Re λ/|λ| of every pole; NaN for a pole at 0."""
         size = np.abs(self.poles)
         return np.where(size > 0, -self.poles.real / np.where(size > 0, size, 1.0), np.nan)
 
@@ -92,7 +92,7 @@ class LinearModel(Brief):
 
     @cached_property
     def stability(self) -> Stability:
-        """The verdict and its reason."""
+        """The verdict on stability, with its reason."""
         if self.changing:
             return Stability("depends on time", "A changes with time, and poles at one moment decide nothing")
         if self.kind == "operating point":
@@ -101,15 +101,15 @@ class LinearModel(Brief):
 
     @property
     def controllability(self) -> Reach:
-        """What the inputs reach, and the modes they do not. Raises `RunError` where there is no input."""
+        """What the inputs can control, and the modes that they cannot. Raises `RunError` if there is no input."""
         return controllable(self.A, self.B, self.states)
 
     @property
     def observability(self) -> Reach:
-        """What the outputs tell, and the modes they do not show."""
+        """What can be observed from the outputs, and the modes that cannot."""
         return observable(self.A, self.C, self.states)
 
     @property
     def stable(self) -> bool | None:
-        """True or False where the verdict is known, else None."""
+        """True or False if the verdict is known, otherwise None."""
         return self.stability.stable

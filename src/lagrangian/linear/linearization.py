@@ -1,4 +1,4 @@
-"""Linearization: its data, its report, and what can be asked of it."""
+"""The class `Linearization`: the data of a linearization, its report and its methods."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ from lagrangian.write.written import Written
 
 @dataclass(frozen=True, eq=False)
 class Linearization(Written, LinearModel):
-    """δẋ = A δx + B δu, δy = C δx + D δu, with names, poles, modes and the verdict; see `LinearModel`."""
+    """A linearization δẋ = A δx + B δu, δy = C δx + D δu, with names, poles, modes and stability; see `LinearModel`."""
 
     def report(self, *, symbols: bool = False) -> Report[Model]:
-        """Return the report; with ``symbols`` also its matrices in symbols."""
+        """Return the report; with ``symbols``, also the matrices with the parameters as symbols."""
         return linear_report(self, self.symbolic if symbols else None)
 
     @cached_property
@@ -40,7 +40,8 @@ class Linearization(Written, LinearModel):
 
     @cached_property
     def symbolic(self) -> SymbolicLinearization:
-        """M, D, K, S, A, B as SymPy, parameters as letters; raises `RunError` where they are too long to write."""
+        """M, D, K, S, A, B in SymPy, with the parameters as symbols; raises `RunError` if they are too long to
+        write."""
         return in_symbols(self)
 
     def to_control(self) -> Any:
@@ -48,8 +49,8 @@ class Linearization(Written, LinearModel):
         return to_control(self)
 
     def lqr(self, Q: Any, R: Any) -> Regulator:
-        """Return the linear-quadratic regulator u = u₀ − K (x − x₀), by python-control.
+        """Return the linear-quadratic regulator u = u₀ − K (x − x₀), computed by python-control.
 
-        ``Q`` weighs states, ``R`` inputs: a matrix, one number, or weights by name.
+        ``Q`` is the weight of states, ``R`` that of inputs: a matrix, one number, or weights by name.
         """
         return lqr(self, Q, R)

@@ -1,8 +1,8 @@
-"""Linearization: δẋ = A δx + B δu, δy = C δx + D δu, exact, with the names of everything.
+"""Computes linearizations δẋ = A δx + B δu, δy = C δx + D δu with exact derivatives, and the names of all quantities.
 
-A = ∂ẋ/∂x and B = ∂ẋ/∂u of ẋ = f(x, u, p, t), x = [q; q̇], by differentiating the graph of the forward dynamics; q̈ is
-already solved for in it. About a rest the same is M δq̈ + D δq̇ + K δq = S δu, with K = ∂h/∂q, D = ∂h/∂q̇, S = −∂h/∂u of
-h = C q̇ + G − Ξ.
+A = ∂ẋ/∂x and B = ∂ẋ/∂u of ẋ = f(x, u, p, t), x = [q; q̇], are found by differentiating the graph of the forward
+dynamics, which gives q̈ explicitly. About an equilibrium this is equivalent to M δq̈ + D δq̇ + K δq = S δu, with K =
+∂h/∂q, D = ∂h/∂q̇, S = −∂h/∂u of h = C q̇ + G − Ξ.
 """
 
 from __future__ import annotations
@@ -32,10 +32,10 @@ Array = NDArray[np.float64]
 _log = logging.getLogger(__name__)
 
 PERTURBED = 1e-12
-"""Relative change of parameters and point by which rounding errors are estimated."""
+"""The relative change of parameters and point from which rounding errors are estimated."""
 
 STEP = 1e-6
-"""Step by which a motion with kinks is looked at."""
+"""The step with which a kink in the motion is looked for."""
 
 
 def linearize(
@@ -50,10 +50,11 @@ def linearize(
 ) -> Linearization:
     """Return the linearization of a model about a point.
 
-    ``at``: values of coordinates and rates by name or symbol, 0 where not given, or an `Equilibrium`; a number or text
-    with a unit each. ``outputs``: expressions, listed or by name; the coordinates unless given. A point that is no rest
-    is refused unless ``operating_point`` asks for it; what is within rounding of one is moved onto it and says so.
-    Raises `RunError` for names and values that do not fit, where M is not positive definite, and at a kink.
+    ``at``: values of coordinates and rates by name or symbol (0 unless given), or an `Equilibrium`; each value is a
+    number or text with a unit. ``outputs``: expressions, as a list or by name; by default the coordinates. A point that
+    is not an equilibrium raises `RunError` unless ``operating_point`` is true; a point very close to an equilibrium is
+    moved onto it, and `notes` says so. `RunError` is also raised for names and values that do not fit, if M is not
+    positive definite, and at a kink.
     """
     linearizer = Linearizer(model)
     given = Given.of(model, linearizer.rates)
@@ -66,7 +67,7 @@ def linearize(
 
 @dataclass(frozen=True, eq=False)
 class Linearizer:
-    """The programs behind linearizations of one model, made once; ``values`` evaluates them."""
+    """The programs for linearizations of one model, made once; ``values`` evaluates them."""
 
     model: Model
     values: Callable[..., Arrays] = values
@@ -88,7 +89,7 @@ class Linearizer:
 
     @cached_property
     def power(self) -> Program:
-        """The power of what is not conservative."""
+        """The power of the nonconservative forces."""
         return dynamics.power(self.model)
 
     @cached_property
@@ -106,7 +107,7 @@ class Linearizer:
 
     @cached_property
     def rests_change(self) -> bool:
-        """Whether the forces read time."""
+        """Whether the forces depend on time."""
         return bool(reads(self.forces, "h", "t"))
 
     @cached_property
@@ -115,11 +116,11 @@ class Linearizer:
         return measured(self.model, None, self.rates)
 
     def at_rest(self, x: Array, u: Array, p: Array) -> Linearization:
-        """The linearization about what is known to be a rest."""
+        """The linearization about a point that is known to be an equilibrium."""
         return self.about(OperatingPoint(self.rates.inputs["x"], x, u, p, "rest", 0.0), 0.0, None)
 
     def about(self, here: OperatingPoint, t: float, outputs: Any) -> Linearization:
-        """The linearization about a point of known kind."""
+        """The linearization about a point of a known kind."""
         program = self.rates
         found = _finite(self.values(program, x=here.x, u=here.u, p=here.p, t=t), here)
         self._proper(here, t, found)
@@ -158,21 +159,22 @@ class Linearizer:
         )
 
     def _proper(self, here: OperatingPoint, t: float, found: Arrays) -> None:
-        """Refuse a mass matrix that is not positive, and a point where the motion has no slope."""
+        """Raise an error if the mass matrix is not positive definite, or if the motion has no derivative at the
+        point."""
         n = len(self.forces.inputs["q"])
         M = self.values(self.mass, q=here.x[:n], v=here.x[n:], u=here.u, p=here.p, t=t)["M"]
         least = float(np.linalg.eigvalsh((M + M.T) / 2).min())
         if not least > 0:
             raise RunError(
                 f"the mass matrix is not positive definite at {here.shown}: its least eigenvalue is {least:.3g}",
-                fix="give masses and inertias above 0",
+                fix="give positive masses and inertias",
                 code="E203",
             )
         if self._may_kink:
             self._sloped(self.rates, "xdot", found["A"], here, t, "the motion")
 
     def _sloped(self, program: Program, output: str, slope: Array, here: OperatingPoint, t: float, what: str) -> None:
-        """Refuse a point where an output does not follow its slope to either side."""
+        """Raise an error if the derivative of an output is not the same on both sides of the point."""
         source = np.random.default_rng(6)
         size = max(1.0, _largest(slope))
         start = self.values(program, x=here.x, u=here.u, p=here.p, t=t)[output]
@@ -187,7 +189,7 @@ class Linearizer:
                 )
 
     def _second_order(self, here: OperatingPoint, t: float) -> Arrays | None:
-        """M, D, K, S about a rest, where velocities are the rates of the coordinates."""
+        """M, D, K, S about an equilibrium, if the velocities are the rates of the coordinates."""
         n = len(self.forces.inputs["q"])
         if n != len(self.forces.inputs["v"]):
             return None
@@ -197,9 +199,9 @@ class Linearizer:
     def _noise(
         self, here: OperatingPoint, t: float, found: Arrays, second: Arrays | None
     ) -> tuple[tuple[float, float], float]:
-        """The rounding errors in A and M⁻¹K, and in K: how they change when all digits behind the twelfth do.
+        """The rounding errors in A and M⁻¹K, and in K: their change when all digits after the twelfth change.
 
-        Where terms cancel, as at a bifurcation, they are much larger than ε times what is left.
+        If terms cancel, as at a bifurcation, the errors are much larger than ε times the result.
         """
         source = np.random.default_rng(5)
         dA = dK = dMK = 0.0
@@ -225,7 +227,7 @@ class Linearizer:
         )
 
     def _changes(self, here: OperatingPoint) -> bool:
-        """Whether A or B differs between a few times."""
+        """Whether A or B differs between several times."""
         if not self._reads_time:
             return False
         first, *others = (self.values(self.rates, x=here.x, u=here.u, p=here.p, t=t) for t in TIMES)

@@ -1,4 +1,4 @@
-"""Poles, modes and what they say of stability.
+"""Computes poles and modes, with bounds of their rounding errors.
 
     M δq̈ + D δq̇ + K δq = 0        δẋ = A δx,  x = [q; q̇]
 
@@ -24,19 +24,20 @@ from lagrangian.viewed import Brief
 Array = NDArray[np.float64]
 
 SYMMETRIC = 1e-10
-"""Relative difference up to which K counts as symmetric and D as zero."""
+"""The relative difference up to which K counts as symmetric and D as zero."""
 
 ZERO_SHAPE_TOLERANCE = 1e-9
-"""Share of a shape, over the largest, that is shown as zero."""
+"""Components of a shape below this fraction of the largest are shown as zero."""
 
 
 @dataclass(frozen=True)
 class Mode(Brief):
-    """One way in which the linear system moves by itself.
+    """A mode of the linear system: a motion of the form e^(λt).
 
-    ``pole`` λ [1/s] (of a pair, the one with positive imaginary part), ``frequency`` ω_n = |λ| [rad/s], ``damping``
-    ζ = −Re λ/|λ| (1 for decay without swinging, nan at λ = 0), ``shape`` the displacement of every coordinate, the
-    largest one 1: real where the system is undamped. ``pair`` says whether the conjugate pole belongs to it.
+    ``pole`` is λ [1/s] (of a pair, the one with a positive imaginary part), ``frequency`` ω_n = |λ| [rad/s],
+    ``damping`` ζ = −Re λ/|λ| (1 for decay without oscillation, NaN at λ = 0). ``shape`` is the displacement of every
+    coordinate, with 1 for the largest; it is real if the system is undamped. ``pair`` says whether the conjugate pole
+    belongs to the mode.
     """
 
     pole: complex
@@ -47,18 +48,18 @@ class Mode(Brief):
 
     @property
     def period(self) -> float:
-        """2π/|Im λ| [s]; infinite where nothing swings."""
+        """2π/|Im λ| [s]; infinite if there is no oscillation."""
         return 2 * np.pi / abs(self.pole.imag) if self.pole.imag else float("inf")
 
     @property
     def is_real(self) -> bool:
-        """Whether all coordinates move in step or opposite."""
+        """Whether all coordinates move in phase or in opposite phase."""
         return all(x.imag == 0 for x in self.shape.values())
 
 
 @dataclass(frozen=True, eq=False)
 class Spectrum(Brief):
-    """The eigenvalues of A, [1/s], with the bound of each one's rounding error, and their vectors, a column each."""
+    """The eigenvalues of A [1/s] with bounds of their rounding errors, and the eigenvectors in columns."""
 
     poles: NDArray[np.complex128]
     errors: Array
@@ -66,7 +67,7 @@ class Spectrum(Brief):
 
     @cached_property
     def sides(self) -> NDArray[np.int64]:
-        """−1 in the left half plane, 0 on the imaginary axis as far as rounding lets one tell, +1 in the right one."""
+        """−1 in the left half plane, 0 on the imaginary axis to within rounding, +1 in the right half plane."""
         real = self.poles.real
         return np.where(np.abs(real) <= self.errors, 0, np.sign(real)).astype(np.int64)
 
@@ -74,9 +75,9 @@ class Spectrum(Brief):
 def spectrum(
     A: Array, second_order: tuple[Array, Array, Array] | None = None, noise: tuple[float, float] = (0.0, 0.0)
 ) -> Spectrum:
-    """The spectrum of A (n×n); ``second_order`` is (M, D, K) where A is made of them.
+    """The spectrum of A (n×n); ``second_order`` is (M, D, K) if A is made of these.
 
-    ``noise`` are the rounding errors in the entries of A and of M⁻¹K, where these are known to be larger than ε.
+    ``noise`` are the errors in the entries of A and of M⁻¹K if they are known to be larger than ε.
     """
     if A.shape[0] == 0:
         return Spectrum(np.zeros(0, complex), np.zeros(0), np.zeros((0, 0), complex))
@@ -95,12 +96,12 @@ def spectrum(
 
 
 def _columns(basis: NDArray[Any], count: int) -> NDArray[Any]:
-    """``count`` columns: those of the basis, and again where they are fewer."""
+    """``count`` columns: those of the basis, repeated if there are fewer."""
     return basis[:, np.arange(count) % basis.shape[1]]
 
 
 def is_conservative(M: Array, D: Array, K: Array) -> bool:
-    """Whether D vanishes, K is symmetric and M positive definite."""
+    """Whether D vanishes, K is symmetric and M is positive definite."""
     size = float(np.abs(K).max(initial=0.0))
     rate = np.sqrt(size * float(np.abs(M).max(initial=0.0)))
     return (
@@ -112,7 +113,7 @@ def is_conservative(M: Array, D: Array, K: Array) -> bool:
 
 
 def _undamped(M: Array, K: Array, noise: float) -> Spectrum:
-    """λ = ±√(−κ) with K φ = κ M φ; what is zero up to rounding is zero."""
+    """λ = ±√(−κ) with K φ = κ M φ; values that are zero to within rounding are set to zero."""
     import scipy.linalg
 
     kappa, shapes = scipy.linalg.eigh((K + K.T) / 2, (M + M.T) / 2)
@@ -124,27 +125,27 @@ def _undamped(M: Array, K: Array, noise: float) -> Spectrum:
         shapes[:, group] = plain_basis(shapes[:, group] * unit) / unit
     roots = np.sqrt(-kappa.astype(complex))
     poles = np.concatenate([roots, -roots])
-    # of λ² = −κ: the error of λ is that of κ over 2|λ|
+    # λ² = −κ, so the error of λ is that of κ over 2|λ|
     error = np.where(kappa == 0, 0.0, bound / (2 * np.sqrt(np.maximum(np.abs(kappa), bound or 1.0))))
     vectors = np.vstack([np.hstack([shapes, shapes]), np.hstack([shapes * roots, -shapes * roots])])
     return _sorted(poles, np.concatenate([error, error]), vectors)
 
 
 def _equal(rising: Array, bound: float) -> list[slice]:
-    """Where rising numbers, known up to ``bound``, are one."""
+    """The groups of ascending numbers that are equal to within ``bound``."""
     room = np.maximum(EQUAL * np.maximum(np.abs(rising[1:]), np.abs(rising[:-1])), 2 * bound)
     ends = [0, *(np.flatnonzero(np.diff(rising) > room) + 1).tolist(), len(rising)]
     return [slice(a, b) for a, b in pairwise(ends)]
 
 
 def _sorted(poles: NDArray[np.complex128], errors: Array, vectors: NDArray[np.complex128]) -> Spectrum:
-    """The spectrum, slowest first; of a pair the pole above the real axis first."""
+    """The spectrum, slowest first; of a pair, the pole above the real axis comes first."""
     order = slowest_first(poles)
     return Spectrum(np.asarray(poles[order] + 0.0, complex), errors[order], np.asarray(vectors[:, order], complex))
 
 
 def slowest_first(poles: NDArray[np.complex128]) -> NDArray[np.int64]:
-    """The order of poles: by size, those of one size by real part, of a pair the one above the real axis first."""
+    """The order of poles: by size, then by real part, then the pole above the real axis first."""
     size = np.abs(poles)
     rising = np.sort(size)
     steps = np.concatenate([[0], np.cumsum(np.diff(rising) > ZERO_SHAPE_TOLERANCE * rising[1:])])
@@ -152,10 +153,10 @@ def slowest_first(poles: NDArray[np.complex128]) -> NDArray[np.int64]:
 
 
 def modes(found: Spectrum, coordinates: tuple[str, ...]) -> tuple[Mode, ...]:
-    """One mode a real pole or conjugate pair, its shape by the names of the coordinates.
+    """One mode for each real pole or conjugate pair, its shape by the names of the coordinates.
 
-    A pole that counts twice has two modes where it has two shapes, else one: standing still and drifting, or what a
-    critical damper leaves.
+    A double pole has two modes if it has two shapes. Otherwise it has one, as for a free position and its drift, or for
+    critical damping.
     """
     listed: list[Mode] = []
     for k, pole in enumerate(found.poles):
@@ -171,7 +172,7 @@ def modes(found: Spectrum, coordinates: tuple[str, ...]) -> tuple[Mode, ...]:
 
 
 def _shape(vector: NDArray[np.complex128], names: tuple[str, ...]) -> dict[str, complex]:
-    """The displacements over the largest of them (the first of equals), dust swept to zero."""
+    """The displacements relative to the largest (the first of equal ones), with rounding errors set to zero."""
     sizes = np.abs(vector)
     if not len(sizes) or not sizes.max():
         return dict.fromkeys(names, 0j)

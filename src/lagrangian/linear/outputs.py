@@ -1,4 +1,4 @@
-"""What is measured: y = h(x, u, p, t) with C = ∂y/∂x and D = ∂y/∂u."""
+"""Outputs y = h(x, u, p, t) with C = ∂y/∂x and D = ∂y/∂u."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from lagrangian.page.plain import plain
 
 @dataclass(frozen=True, eq=False)
 class Measured:
-    """Named outputs and the program x, u, p, t → "y", "C" and "D"."""
+    """Named outputs, and the program x, u, p, t → "y", "C" and "D"."""
 
     names: tuple[str, ...]
     program: Program
 
 
 def measured(model: Model, outputs: Any, rhs: Program) -> Measured:
-    """The outputs asked for, the coordinates where none are.
+    """The requested outputs; by default, the coordinates.
 
-    Text is read in the grammar of model files. Raises `ModelError` for symbols the model does not have, `RunError`
-    where two outputs have one name.
+    Text is read in the grammar of model files. Raises `ModelError` for symbols that the model does not have, and
+    `RunError` if two outputs have the same name.
     """
     if outputs is None:
         names = rhs.inputs["x"][: len(model.coordinates)]
@@ -53,7 +53,7 @@ def _differentiated(names: tuple[str, ...], program: Program) -> Measured:
 
 
 def _named(model: Model, outputs: Any) -> dict[str, sp.Expr]:
-    """Name → expression; what is listed without a name is called by its own text."""
+    """Name → expression; an item of a list without a name is called by its own text."""
     if isinstance(outputs, Mapping):
         given = [(str(name), _expression(model, value)) for name, value in outputs.items()]
     else:

@@ -1,8 +1,8 @@
-"""What inputs can move and what outputs can tell: controllability and observability of δẋ = A δx + B δu, δy = C δx.
+"""Controllability and observability of δẋ = A δx + B δu, δy = C δx.
 
-The staircase: orthogonal turns split off what B reaches, then what A makes of that, and so on; what is left over is
-never reached. Ranks are taken by singular values, of A balanced and B with columns of length one, so that units do not
-decide. The test of Popov, Belevitch and Hautus names the modes: a pole λ is uncontrollable where some w ≠ 0 has
+The staircase: orthogonal transformations split off what B reaches, then what A maps it to, and so on; the rest is never
+reached. Ranks are determined from singular values, with A balanced and the columns of B normalized, so that units do
+not matter. The test of Popov, Belevitch and Hautus identifies the modes: a pole λ is uncontrollable if some w ≠ 0 has
 wᵀA = λ wᵀ and wᵀB = 0: the left null space of A − λ within what is left over. Source: Paige, IEEE Trans. AC-26 (1981)
 130–138.
 """
@@ -22,17 +22,18 @@ from lagrangian.viewed import Brief
 Array = NDArray[np.float64]
 
 SMALL = 1e-11
-"""Singular value, over the norm of the balanced A and B, that counts as none."""
+"""A singular value below this fraction of the norm of the balanced A and B counts as zero."""
 
 
 @dataclass(frozen=True)
 class Missing(Brief):
-    """A pole that inputs do not move (or outputs do not show), with its combination of states.
+    """A pole that the inputs cannot control (or the outputs cannot show), with its combination of states.
 
-    For controllability ``combination`` is the w of Popov, Belevitch and Hautus: Σ w_i x_i runs by itself. For
-    observability it is the motion that leaves all outputs at rest. The largest share is 1. Where a pole has several,
-    they are a basis in reduced row echelon form. ``times`` is how often the pole counts among those that are missing:
-    more often than it has combinations where one of them drives another, as momentum does position.
+    For controllability ``combination`` is the w of Popov, Belevitch and Hautus: Σ w_i x_i evolves independently of the
+    inputs. For observability it is the motion for which all outputs are zero. The largest component is 1. If a pole has
+    several combinations, they are a basis in reduced row echelon form. ``times`` is the multiplicity of the pole among
+    those that are missing; it exceeds the number of combinations if one of them drives another, as momentum drives
+    position.
     """
 
     pole: complex
@@ -42,7 +43,7 @@ class Missing(Brief):
 
 @dataclass(frozen=True)
 class Reach(Brief):
-    """``rank`` of ``order`` dimensions are reached; ``missing`` are the modes of the others, of a pair one."""
+    """``rank`` of ``order`` dimensions are reached; ``missing`` are the other modes, one of each pair."""
 
     order: int
     rank: int
@@ -50,17 +51,17 @@ class Reach(Brief):
 
     @property
     def complete(self) -> bool:
-        """Whether all of the state is reached."""
+        """Whether the whole state is reached."""
         return self.rank == self.order
 
     @property
     def enough(self) -> bool:
-        """Whether what is missing decays by itself: stabilizable (by inputs), detectable (from outputs)."""
+        """Whether all missing modes decay: stabilizable (by inputs), detectable (from outputs)."""
         return all(m.pole.real < 0 for m in self.missing)
 
 
 def controllable(A: Array, B: Array, states: tuple[str, ...]) -> Reach:
-    """What the inputs reach. Raises `RunError` where there are none."""
+    """Controllability by the inputs. Raises `RunError` if there are none."""
     if not B.shape[1]:
         raise RunError(
             "the system has no input",
@@ -71,7 +72,7 @@ def controllable(A: Array, B: Array, states: tuple[str, ...]) -> Reach:
 
 
 def observable(A: Array, C: Array, states: tuple[str, ...]) -> Reach:
-    """What the outputs tell. Raises `RunError` where there are none."""
+    """Observability from the outputs. Raises `RunError` if there are none."""
     if not C.shape[0]:
         raise RunError("no output is given", fix="write outputs=[expression, …]", code="E401")
     return _reach(A.T, C.T, states)
@@ -124,7 +125,7 @@ def _clean(value: complex, size: float) -> complex:
 
 
 def _named(w: NDArray[Any], states: tuple[str, ...]) -> dict[str, complex]:
-    """The shares by name over the largest, those that are not dust."""
+    """The components by name relative to the largest, without those that are rounding errors."""
     lead = int(np.argmax(np.abs(w) >= (1 - 1e-9) * np.abs(w).max()))
     shares = w / w[lead]
     return {

@@ -1,4 +1,4 @@
-"""Through python-control: a linearization as a StateSpace with names, and the linear-quadratic regulator."""
+"""Uses python-control: a linearization as a StateSpace with names, and the linear-quadratic regulator."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Array = NDArray[np.float64]
 
 
 def python_control() -> ModuleType:
-    """The package python-control, or the error with the line that installs it."""
+    """Import python-control, or raise the error with the command that installs it."""
     try:
         import control
     except ImportError as missing:
@@ -46,17 +46,17 @@ def to_control(linear: LinearModel) -> Any:
 
 
 def lqr(linear: LinearModel, Q: Any, R: Any) -> Regulator:
-    """The regulator that minimises ∫ (δxᵀQ δx + δuᵀR δu) dt, by python-control.
+    """The regulator that minimizes ∫ (δxᵀQ δx + δuᵀR δu) dt, computed by python-control.
 
-    ``Q`` and ``R``: a matrix, a number (times one), or weights of the diagonal by name (0 where not named). Raises
-    `RunError` where a mode that the inputs do not reach does not decay, and for weights that do not fit.
+    ``Q`` and ``R``: a matrix, a number (times the identity), or weights of the diagonal by name (0 if not named).
+    Raises `RunError` if an uncontrollable mode does not decay, and for weights that do not fit.
     """
     reach = controllable(linear.A, linear.B, linear.states)
     lost = [m for m in reach.missing if not m.pole.real < 0]
     if lost:
         names = ", ".join(lost[0].combination)
         raise RunError(
-            f"no feedback stabilizes the system: the pole {shown(lost[0].pole)} of {names} is not controllable",
+            f"no feedback can stabilize the system: the pole {shown(lost[0].pole)} of {names} is not controllable",
             fix="add an input that acts on it, or linearize without that coordinate",
             code="E522",
         )

@@ -1,4 +1,4 @@
-"""A linear-quadratic regulator: the law, its gains, the poles it leaves, and its report."""
+"""A linear-quadratic regulator: the feedback law, its gains, the poles of the closed loop, and the report."""
 
 from __future__ import annotations
 
@@ -20,14 +20,15 @@ from lagrangian.write.written import Written
 Array = NDArray[np.float64]
 
 ZERO_GAIN_TOLERANCE = 1e-11
-"""Share of an entry, over the largest of its row, that is shown as zero."""
+"""Entries below this fraction of the largest in their row are shown as zero."""
 
 
 @dataclass(frozen=True, eq=False)
 class Regulator(Written):
-    """u = u₀ − K (x − x₀): ``K`` (inputs × states), Riccati's ``S`` and the poles of A − B K [1/s], slowest first.
+    """A regulator u = u₀ − K (x − x₀): ``K`` (inputs × states), Riccati's ``S``, the poles of A − B K [1/s], slowest
+    first.
 
-    ``law`` is that feedback as expressions of the coordinates and rates by input symbol, for a simulation's inputs.
+    ``law`` is this feedback as input symbol → expression of coordinates and rates, for the inputs of a simulation.
     """
 
     linear: LinearModel = field(repr=False)
@@ -72,14 +73,14 @@ def regulator_report(found: Regulator) -> Report[Model]:
     cost = text("From δ", x, " the law costs δ", x, "ᵀ ", S, " δ", x, ", with")
     parts = (
         Part(text("The law"), law),
-        Part(text("The poles that it leaves"), (Table((text("pole [1/s]"),), poles),)),
+        Part(text("The poles of the closed loop"), (Table((text("pole [1/s]"),), poles),)),
         Part(text("Riccati's matrix"), (cost, formula(S, matrix(_swept(found.S, np.sqrt(np.abs(np.diag(found.S)))))))),
     )
     return Report(f"{linear.model.name}: linear-quadratic regulator", linear.model, parts, _data(found))
 
 
 def _swept(found: Array, unit: Array) -> Array:
-    """What rounding left of zeros is zero: entries far below the others of their row, columns in units of S's own."""
+    """Set rounding errors to zero: entries far below the others of their row, with columns in units of S."""
     sized = np.abs(found) / np.where(unit > 0, unit, 1.0)
     return np.where(sized > ZERO_GAIN_TOLERANCE * sized.max(axis=1, initial=0.0, keepdims=True), found, 0.0)
 

@@ -1,4 +1,4 @@
-"""A linearization as a report: the point, the matrices, poles and modes, the verdict."""
+"""A linearization as a report: the point, the matrices, poles and modes, stability."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ from lagrangian.page.formula import Item, Matrix, Name, Table, Text, formula, te
 from lagrangian.page.report import Part, Report
 
 ROUNDING = 1e-12
-"""Acceleration left over, over the largest entry of A, that is rounding's."""
+"""A remaining acceleration below this fraction of the largest entry of A is due to rounding."""
 
 MAX_SHOWN_COLUMNS = 16
-"""Columns up to which a matrix is written out."""
+"""A matrix with at most this many columns is written out."""
 
 
 POLES_AND_MODES = "Poles and modes"
-"""The title of that part."""
+"""The title of that section."""
 
 
 def symbol(model: Model, name: str) -> Any:
-    """What a name of a state or an output means to a reader: the coordinate, its rate, or the name itself."""
+    """The symbol for the name of a state or an output: the coordinate, its rate, or the name itself."""
     for c in model.coordinates:
         if name == c.name:
             return c.symbol
@@ -40,7 +40,7 @@ def symbol(model: Model, name: str) -> Any:
 
 
 def linear_report(linear: LinearModel, symbols: SymbolicLinearization | None = None) -> Report:
-    """Return the report of a linearization, with its matrices in symbols where they are given."""
+    """Return the report of a linearization, with its matrices in symbols if they are given."""
     parts = [_point(linear), _matrices(linear)]
     if linear.mass is not None and len(linear.mass) <= MAX_SHOWN_COLUMNS:
         parts.append(_second_order(linear))
@@ -72,7 +72,7 @@ x, u, y, q = (Name(f"{letter} vector") for letter in "xuyq")
 
 
 def _ordered(linear: LinearModel, vector: Name, names: Sequence[str]) -> Text:
-    """``x = (θ₁, θ₂, θ̇₁, θ̇₂)``, the vector's letter bold: a coordinate may be called x too."""
+    """``x = (θ₁, θ₂, θ̇₁, θ̇₂)``, with a bold letter for the vector, because a coordinate may also be called x."""
     parts: list[Any] = []
     for name in names:
         parts += [", " if parts else "", _entry(linear, name)]
@@ -140,7 +140,7 @@ def _modes(linear: LinearModel) -> Part:
 
 
 def _reach(linear: LinearModel) -> Part:
-    """What inputs reach and outputs tell."""
+    """Controllability by inputs and observability from outputs."""
     items: list[Item] = []
     if linear.inputs:
         items.append(text(_sentence("Controllability", linear.controllability, "not controllable", "stabilizable")))

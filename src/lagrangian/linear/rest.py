@@ -1,4 +1,4 @@
-"""The point to linearize about: is it a rest, a steady motion, or neither?"""
+"""The point about which a system is linearized: an equilibrium, a steady motion, or neither?"""
 
 from __future__ import annotations
 
@@ -20,24 +20,24 @@ from lagrangian.values.values import Given, Named
 Array = NDArray[np.float64]
 
 ANY_POINT = Argument("operating_point", "True")
-"""What takes a point that is no equilibrium as it is."""
+"""The argument that accepts a point that is not an equilibrium."""
 
 NEAR = 1e-4
-"""Newton's step, relative to 1 + |q|, up to which a point counts as a rest that was typed with few digits."""
+"""A point counts as an equilibrium typed with few digits if Newton's step, relative to 1 + |q|, is at most this."""
 
 ROUNDING = 1e-9
-"""Accelerations left over at a rest, relative to the largest entry of A."""
+"""The largest remaining acceleration at an equilibrium, relative to the largest entry of A."""
 
 TIMES = (0.0, 0.37, 1.91, 7.13)
-"""[s] Times at which what reads t is compared."""
+"""The times [s] at which expressions of t are compared."""
 
 
 @dataclass(frozen=True, eq=False)
 class OperatingPoint:
-    """A point x, u, p with what moves there.
+    """A point x, u, p, and what moves there.
 
-    ``kind``: "rest", "steady motion" or "operating point"; ``residual`` the largest |q̈|; ``free`` the coordinates that
-    nothing depends on.
+    ``kind``: "rest", "steady motion" or "operating point"; ``residual`` is the largest |q̈|; ``free`` are the
+    coordinates on which nothing depends.
     """
 
     names: tuple[str, ...]
@@ -56,7 +56,7 @@ class OperatingPoint:
 
 
 def point_words(names: tuple[str, ...], x: Array) -> str:
-    """``theta = 0.1, x' = 2``: the first entries of a point."""
+    """Return the first entries of a point, ``theta = 0.1, x' = 2``."""
     listed = [f"{n} = {v:.6g}" for n, v in zip(names, x, strict=True)]
     return ", ".join(listed[:8]) + (", …" if len(listed) > 8 else "")
 
@@ -71,9 +71,9 @@ def rest(
     t: float,
     any_point: bool,
 ) -> OperatingPoint:
-    """The point that was asked for. Raises `RunError` where it is no rest and ``any_point`` is not set."""
+    """Return the requested point. Raises `RunError` if it is not an equilibrium and ``any_point`` is not set."""
     states = program.inputs["x"]
-    if at is not None and not isinstance(at, Mapping) and hasattr(at, "at"):  # an Equilibrium brings its own
+    if at is not None and not isinstance(at, Mapping) and hasattr(at, "at"):  # an Equilibrium, with its own inputs
         inputs = {**at.inputs, **given.inputs.values(inputs)}
         params = {**at.parameters, **given.parameters.values(params)}
         at = at.at
@@ -86,7 +86,7 @@ def rest(
         raise RunError(
             f"the mass matrix is singular at {point_words(states[: len(q)], q)}: {moved}, so that nothing decides the "
             "accelerations",
-            fix="give what they move a mass or an inertia, or choose a neighbouring point or other coordinates",
+            fix="add a mass or an inertia that they move, or choose a neighbouring point or other coordinates",
             code="E203",
         )
     found = _values(program, here, t)
@@ -123,7 +123,7 @@ def _values(program: Program, here: OperatingPoint, t: float) -> Arrays:
 
 
 def _moved_later(program: Program, here: OperatingPoint, t: float) -> float | None:
-    """A time at which ẋ is another there than at t; None where it never is."""
+    """A time at which ẋ differs from that at t; None if there is none."""
     if not reads(program, "xdot", "t"):
         return None
     found = _values(program, here, t)
@@ -137,7 +137,7 @@ def _largest(a: Array) -> float:
 
 
 def free_coordinates(program: Program, here: OperatingPoint, n: int, t: float) -> tuple[str, ...]:
-    """The coordinates that ẋ does not depend on, there and at random states."""
+    """The coordinates on which ẋ does not depend, at the point and at random states."""
     source = np.random.default_rng(2)
     constant = np.ones(n, bool)
     for k in range(4):
@@ -151,7 +151,7 @@ def free_coordinates(program: Program, here: OperatingPoint, n: int, t: float) -
 
 
 def _classified(here: OperatingPoint, found: Arrays, n: int) -> OperatingPoint:
-    """Which kind of point it is as it stands."""
+    """The kind of the point as it is."""
     bound = ROUNDING * max(1.0, _largest(found["A"]))
     if here.residual > bound:
         return here
@@ -165,7 +165,7 @@ def _classified(here: OperatingPoint, found: Arrays, n: int) -> OperatingPoint:
 
 
 def _settled(model: Model, program: Program, here: OperatingPoint, found: Arrays, n: int, t: float) -> OperatingPoint:
-    """The rest that the point is, or is within rounding of; else the error that teaches."""
+    """The equilibrium at the point, or very close to it; otherwise an explanatory error."""
     start = here.x
     moved = 0.0
     for _ in range(6):
@@ -188,7 +188,7 @@ def _settled(model: Model, program: Program, here: OperatingPoint, found: Arrays
 
 
 def _newton(here: OperatingPoint, found: Arrays, n: int) -> Array:
-    """The shortest change of the coordinates that is not free which makes q̈ vanish, rates kept."""
+    """The shortest change of the coordinates that are not free for which q̈ vanishes, with the same rates."""
     A, a = found["A"][n:, :n], found["xdot"][n:]
     step = np.zeros(len(here.x))
     step[:n] = -np.linalg.lstsq(A, a, rcond=1e-12)[0]

@@ -1,8 +1,10 @@
-"""What poles, and where they do not decide, energy, say of the stability of a rest or a steady motion.
+"""Determines the stability of an equilibrium or a steady motion from its poles or, if these do not decide, from its
+energy.
 
-Lyapunov's first method: all Re λ < 0 is asymptotically stable, one Re λ > 0 unstable; poles on the imaginary axis leave
-it open. Lagrange–Dirichlet: where h = T₂ − T₀ + V has a strict minimum and nothing supplies power, the rest is stable.
-Sources: Hahn, Stability of Motion (1967), §§ 25, 28; Meirovitch, Methods of Analytical Dynamics (1970), §§ 6.7, 6.10.
+Lyapunov's first method: all Re λ < 0 is asymptotically stable, one Re λ > 0 unstable; poles on the imaginary axis do
+not decide. Lagrange–Dirichlet: if h = T₂ − T₀ + V has a strict minimum and nothing supplies power, the equilibrium is
+stable. Sources: Hahn, Stability of Motion (1967), §§ 25, 28; Meirovitch, Methods of Analytical Dynamics (1970), §§ 6.7,
+6.10.
 """
 
 from __future__ import annotations
@@ -21,15 +23,15 @@ from lagrangian.viewed import Brief
 Array = NDArray[np.float64]
 
 SAMPLES = 40
-"""Random motions near the rest at which the power of what is not conservative is looked at."""
+"""The number of random motions near the equilibrium for which the power of nonconservative forces is computed."""
 
 
 @dataclass(frozen=True)
 class Stability(Brief):
-    """A verdict, and why.
+    """A verdict on stability, with its reason.
 
     Verdicts: "asymptotically stable", "stable" (in Lyapunov's sense), "unstable", "marginal" (the linearization does
-    not decide), "depends on time" (poles say nothing of coefficients that change). ``pole`` is the one that decides.
+    not decide), "depends on time" (the coefficients change, so poles say nothing). ``pole`` is the one that decides.
     """
 
     verdict: str
@@ -38,16 +40,16 @@ class Stability(Brief):
 
     @property
     def stable(self) -> bool | None:
-        """True or False where it is known, else None."""
+        """True or False if it is known, otherwise None."""
         return {"asymptotically stable": True, "stable": True, "unstable": False}.get(self.verdict)
 
     def __str__(self) -> str:
-        """Read as a sentence."""
+        """Return the verdict as a sentence."""
         return f"{self.verdict}: {self.reason}"
 
 
 def shown(pole: complex) -> str:
-    """A pole in words for a sentence: ``-0.5 ± 2i``."""
+    """Return a pole in words for a sentence: ``-0.5 ± 2i``."""
     if abs(pole.imag) == 0:
         return f"{pole.real + 0.0:.6g}"
     real = f"{pole.real:.6g} " if pole.real else ""
@@ -55,7 +57,7 @@ def shown(pole: complex) -> str:
 
 
 def judge(found: Spectrum, coordinates: tuple[str, ...], minimum: bool) -> Stability:
-    """The verdict of a spectrum over x = [q; q̇]; ``minimum`` says that energy decides."""
+    """The verdict for a spectrum over x = [q; q̇]; ``minimum`` says that the energy decides."""
     sides = found.sides
     if not len(sides):
         return Stability("marginal", "nothing moves")
@@ -83,7 +85,7 @@ def judge(found: Spectrum, coordinates: tuple[str, ...], minimum: bool) -> Stabi
         where = f"there is a pole at 0: nothing brings {_listed(moved)} back"
         others = sides[np.abs(found.poles) > 0]
         if len(others) and (others < 0).all():
-            where += ", and all else dies out"
+            where += ", and everything else decays"
     return Stability("marginal", f"{where}; the linearization does not decide", pole)
 
 
@@ -106,7 +108,7 @@ def has_minimum(M: Array, K: Array, noise: float) -> bool:
 
 
 def loses_power(values: Callable[..., Arrays], power: Program, q: Array, u: Array, p: Array) -> bool:
-    """Whether no random motion near the rest q gains energy: dh/dt = P ≤ 0."""
+    """Whether no random motion near the equilibrium q gains energy: dh/dt = P ≤ 0."""
     source = np.random.default_rng(1)
     for _ in range(SAMPLES):
         x = np.concatenate([q + 0.1 * source.standard_normal(len(q)), source.standard_normal(len(q))])
@@ -117,10 +119,11 @@ def loses_power(values: Callable[..., Arrays], power: Program, q: Array, u: Arra
 
 
 def loses_power_beyond_potential(values: Callable[..., Arrays], power: Program, q: Array, u: Array, p: Array) -> bool:
-    """Whether what acts at rest, w(q), has a potential, and all else takes power: P − w·q̇ ≤ 0 near the rest q.
+    """Whether the forces at rest, w(q), have a potential and all others take power: P − w·q̇ ≤ 0 near the equilibrium
+    q.
 
-    w = ∂P/∂q̇ at q̇ = 0, as a constant torque or a spring's end that an input holds; it has a potential where ∂w/∂q is
-    symmetric and time does not move it. ``power`` has "W" = ∂P/∂x and "slope" = ∂W/∂x beside P.
+    w = ∂P/∂q̇ at q̇ = 0, such as a constant torque, or the force of a spring whose end is an input. It has a potential
+    if ∂w/∂q is symmetric and w does not depend on time. ``power`` has "W" = ∂P/∂x and "slope" = ∂W/∂x besides P.
     """
     source = np.random.default_rng(2)
     n = len(q)

@@ -1,7 +1,7 @@
-"""A linearization in symbols: M, D, K, S and A, B about a rest, with every parameter a letter.
+"""A linearization in symbols: M, D, K, S and A, B about an equilibrium, with the parameters as symbols.
 
-h = C q̇ + G − Ξ of the derivation, differentiated and taken at the rest: K = ∂h/∂q, D = ∂h/∂q̇, S = −∂h/∂u;
-A = [[0, 1], [−M⁻¹K, −M⁻¹D]], B = [[0], [M⁻¹S]].
+h = C q̇ + G − Ξ of the derivation is differentiated and evaluated at the equilibrium: K = ∂h/∂q, D = ∂h/∂q̇, S =
+−∂h/∂u; A = [[0, 1], [−M⁻¹K, −M⁻¹D]], B = [[0], [M⁻¹S]].
 """
 
 from __future__ import annotations
@@ -23,18 +23,18 @@ from lagrangian.page.plain import plain
 from lagrangian.viewed import Brief
 
 MAX_SYMBOLIC_COORDINATES = 6
-"""Coordinates up to which a linearization is written in symbols."""
+"""The largest number of coordinates for which a linearization is written in symbols."""
 
 EXACT_TOLERANCE = 1e-12
 
 
 @dataclass(frozen=True, eq=False)
 class SymbolicLinearization(Brief):
-    """The matrices as SymPy, parameters as letters.
+    """The matrices of a linearization in SymPy, with the parameters as symbols.
 
-    ``point`` says what was put for every coordinate and input: an exact number where its value is 0 or a simple part
-    of a turn, else a symbol that stands for its value at the rest, named after it. ``conditions`` are the equations
-    that these symbols obey there, h = 0.
+    ``point`` contains the substitution for every coordinate and input: an exact number if its value is 0 or a simple
+    fraction of a turn, otherwise a symbol, named after it, that stands for its value at the equilibrium. ``conditions``
+    are the equations h = 0 that these symbols satisfy.
     """
 
     M: sp.ImmutableMatrix
@@ -48,12 +48,13 @@ class SymbolicLinearization(Brief):
 
 
 def symbolic(linear: LinearModel) -> SymbolicLinearization:
-    """Return a linearization in symbols. Raises `RunError` where it is about no rest, or too long to write out."""
+    """Return a linearization in symbols. Raises `RunError` if it is not about an equilibrium, or too long to write
+    out."""
     model, n = linear.model, len(linear.model.coordinates)
     if linear.kind != "rest" or linear.mass is None:
         raise RunError(
             "symbolic matrices are available only at an equilibrium, and only for systems without floating frames",
-            fix="use A and B, which hold the numbers",
+            fix="use A and B, which contain the numbers",
             code="E523",
         )
     if n > MAX_SYMBOLIC_COORDINATES:
@@ -80,7 +81,7 @@ def symbolic(linear: LinearModel) -> SymbolicLinearization:
 
 def _too_long(why: str) -> RunError:
     return RunError(
-        f"the symbolic matrices are too long to write: {why}", fix="use A and B, which hold the numbers", code="E523"
+        f"the symbolic matrices are too long to write: {why}", fix="use A and B, which contain the numbers", code="E523"
     )
 
 
@@ -116,7 +117,7 @@ def _made(model: Model, raw: dict[str, sp.Matrix], point: dict[Any, Any], n: int
 
 
 def _entry(row: list[FormRatio], column: list[Form], sign: int) -> sp.Expr:
-    """Σ_k (M⁻¹)_ik column_k, a single fraction."""
+    """Σ_k (M⁻¹)_ik column_k as a single fraction."""
     terms = [
         sign * (ratio.over * x).expr() / ratio.under.expr()
         for ratio, x in zip(row, column, strict=True)
@@ -126,7 +127,7 @@ def _entry(row: list[FormRatio], column: list[Form], sign: int) -> sp.Expr:
 
 
 def _slopes(h: sp.Matrix, by: list[Any]) -> sp.Matrix:
-    """∂h/∂by, every coordinate, rate and input a letter of its own."""
+    """∂h/∂by, with a symbol for every coordinate, rate and input."""
     return sp.Matrix(h.rows, len(by), lambda i, k: sp.diff(h[i], by[k]))
 
 
@@ -136,7 +137,8 @@ def _at(matrix: sp.Matrix, point: dict[Any, Any], v: list[Any]) -> sp.Matrix:
 
 
 def _point(linear: LinearModel) -> dict[sp.Expr, sp.Expr]:
-    """Coordinate or input → exact value, or the symbol of its value at the rest; t is the moment's value."""
+    """Coordinate or input → exact value, or the symbol for its value at the equilibrium; t has its value at that
+    moment."""
     model = linear.model
     taken = set(model.symbols)
     found: dict[sp.Expr, sp.Expr] = {}
@@ -157,7 +159,7 @@ def _point(linear: LinearModel) -> dict[sp.Expr, sp.Expr]:
 
 
 def _exact(value: float) -> sp.Expr | None:
-    """0, or a part of a turn with a small denominator; None for another number."""
+    """0 or a fraction of a turn with a small denominator; None for any other number."""
     if value == 0:
         return sp.S.Zero
     part = Fraction(value / np.pi).limit_denominator(12)

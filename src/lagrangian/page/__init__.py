@@ -1,1 +1,1 @@
-"""What a page says, as data that knows neither mechanics nor markup: words, formulas, tables, checks, reports."""
+"""The content of a page as data, without mechanics or markup: words, formulas, tables, checks, reports."""

@@ -1,4 +1,4 @@
-"""Numbers of an analysis as they stand in its report: six digits, complex ones with i."""
+"""Numbers in a report: six digits, complex numbers with i."""
 
 # SymPy has no type stubs:
 # pyright: reportMissingTypeStubs=false
@@ -26,7 +26,7 @@ def figure(x: float) -> str:
 
 
 def scientific(x: float, digits: int) -> str:
-    """A finite number with so many digits, with a power of ten where it is far from 1: ``2·10⁻⁵``."""
+    """A finite number with the given number of digits, with a power of ten if it is far from 1: ``2·10⁻⁵``."""
     mantissa, e, exponent = f"{x + 0.0:.{digits}g}".replace("-", "−").partition("e")
     if not e:
         return mantissa
@@ -43,7 +43,7 @@ def complex_figure(z: complex) -> str:
 
 
 def number(x: float) -> sp.Expr:
-    """A number in a formula, with as many digits as are shown."""
+    """A number in a formula, rounded to the digits that are shown."""
     shown = float(f"{x + 0.0:.{DIGITS}g}")
     return sp.Integer(int(shown)) if shown.is_integer() and abs(shown) < 1e6 else sp.Float(shown)
 
@@ -54,10 +54,10 @@ def matrix(rows: NDArray[np.float64]) -> Matrix:
 
 
 def plain_numbers(values: Iterable[complex]) -> list[dict[str, float]]:
-    """Complex numbers as data: real and imaginary parts."""
+    """Complex numbers as data: pairs of real and imaginary part."""
     return [{"re": float(np.real(z)) + 0.0, "im": float(np.imag(z)) + 0.0} for z in values]
 
 
 def or_none(x: float) -> float | None:
-    """A number as data; what is not finite is null."""
+    """A number as data; None if it is not finite."""
     return float(x) if np.isfinite(x) else None

@@ -1,7 +1,7 @@
-"""What a step of a derivation is made of: words with symbols in them, formulas, tables.
+"""The parts of a step of a derivation: words with symbols in them, formulas, tables.
 
-These are data without any markup. `write` lays them out; ``str()`` gives a plain reading. A quantity is named by its
-meaning ("T*", "Xi"), and the writer chooses the letter of the notation that was asked for (T*, T or K; Ξ, Q or τ).
+They are data without markup. `write` lays them out; ``str()`` returns plain text. A quantity is named by its meaning
+("T*", "Xi"), and the writer chooses the letter in the requested notation (T*, T or K; Ξ, Q or τ).
 """
 
 # SymPy has no type stubs:
@@ -20,14 +20,14 @@ from lagrangian.viewed import Brief, Worded, cut
 
 @dataclass(frozen=True)
 class Name(Worded):
-    """A named quantity: ``base`` is its meaning, ``index`` its subscript, ``dots`` its time derivatives.
+    """A named quantity: ``base`` is its meaning, ``index`` its subscript, ``dots`` the number of time derivatives.
 
     Bases: "T*" kinetic co-energy, "V" potential energy, "L" Lagrangian, "D" Rayleigh's function, "Xi" generalized
     force, "xi" generalized coordinate, "delta" deflection, "h" height, "v" speed, "omega" angular velocity, "x", "y",
     "z" positions, "phi" an angle, "W" virtual work, "F" force, "M" mass matrix, "C" Coriolis matrix, "G" gravity and
-    stiffness vector, "q" the vector of coordinates, "E" energy, "H" Hamiltonian, "R" Routhian; matrices "A", "B",
-    "D matrix", "J", "K", "S"; vectors "x vector", "u vector", "y vector", "q vector", "f vector". A base outside this
-    list is shown as it is.
+    stiffness vector, "q" the vector of coordinates, "E" energy, "H" Hamiltonian, "R" Routhian; matrices "A", "B", "D
+    matrix", "J", "K", "S"; vectors "x vector", "u vector", "y vector", "q vector", "f vector". Any other base is shown
+    as it is.
     """
 
     base: str
@@ -35,30 +35,30 @@ class Name(Worded):
     dots: int = 0
 
     def __str__(self) -> str:
-        """Read as plain text."""
+        """Return plain text."""
         return self.base + (f"_{self.index}" if self.index else "") + "'" * self.dots
 
 
 @dataclass(frozen=True)
 class Partial(Worded):
-    """∂of/∂by."""
+    """The partial derivative ∂of/∂by."""
 
     of: Left
     by: Left
 
     def __str__(self) -> str:
-        """Read as plain text."""
+        """Return plain text."""
         return f"∂{show(self.of)}/∂{show(self.by)}"
 
 
 @dataclass(frozen=True)
 class Total(Worded):
-    """d/dt of something."""
+    """The total time derivative d/dt of something."""
 
     of: Left
 
     def __str__(self) -> str:
-        """Read as plain text."""
+        """Return plain text."""
         return f"d/dt({show(self.of)})"
 
 
@@ -69,41 +69,41 @@ class Variation(Worded):
     of: Left
 
     def __str__(self) -> str:
-        """Read as plain text."""
+        """Return plain text."""
         return f"δ{show(self.of)}"
 
 
 @dataclass(frozen=True)
 class Terms(Worded):
-    """A sum whose terms keep this order; an empty one is 0."""
+    """A sum whose terms keep the given order; an empty sum is 0."""
 
     terms: tuple[Left, ...]
 
     def __str__(self) -> str:
-        """Read as plain text."""
+        """Return plain text."""
         text = " + ".join(show(t) for t in self.terms) or "0"
         return text.replace("+ -", "- ")
 
 
 @dataclass(frozen=True)
 class Minus(Worded):
-    """−of."""
+    """The negative, −of."""
 
     of: Left
 
     def __str__(self) -> str:
-        """Read as plain text."""
+        """Return plain text."""
         return f"-{show(self.of)}"
 
 
 @dataclass(frozen=True)
 class Product(Worded):
-    """Factors side by side, in this order, a sum among them in parentheses."""
+    """Factors side by side in the given order; sums among them are in parentheses."""
 
     factors: tuple[Left, ...]
 
     def __str__(self) -> str:
-        """Read as plain text."""
+        """Return plain text."""
         return "·".join(f"({show(f)})" if isinstance(f, (Terms, sp.Add)) else show(f) for f in self.factors)
 
 
@@ -115,48 +115,49 @@ class Square(Worded):
     of: tuple[Left, ...]
 
     def __str__(self) -> str:
-        """Read as plain text."""
+        """Return plain text."""
         inner = " + ".join(f"({show(a)})^2" for a in self.of)
         return f"{plain(self.coefficient)}*({inner})" if len(self.of) > 1 else f"{plain(self.coefficient)}*{inner}"
 
 
 @dataclass(frozen=True)
 class Matrix(Worded):
-    """A matrix or column of expressions, row by row; of a symmetric one the writer shows the upper half."""
+    """A matrix or column of expressions, row by row; of a symmetric matrix the writer shows the upper half."""
 
     rows: tuple[tuple[Left, ...], ...]
     symmetric: bool = False
 
     def __str__(self) -> str:
-        """Read as plain text."""
+        """Return plain text."""
         return "[" + "; ".join(", ".join(show(x) for x in row) for row in self.rows) + "]"
 
 
 Left: TypeAlias = "Name | Partial | Total | Variation | Terms | Minus | Product | Square | Matrix | Elided | sp.Expr"
-"""Anything that can stand on a side of an equality."""
+"""Anything that can be a side of an equality."""
 
 
 @dataclass(frozen=True)
 class Elided(Worded):
-    """An expression or matrix too long to read: how many operations it has, and all of it for those who want it."""
+    """An expression or matrix that is too long to read: its number of operations, and the whole for those who want
+    it."""
 
     expr: sp.Expr | Matrix
     operations: int
     terms: tuple[sp.Expr, ...] = ()
 
     def __str__(self) -> str:
-        """Read as plain text."""
+        """Return plain text."""
         return f"[{self.operations} operations]"
 
 
 def show(item: Left | str) -> str:
-    """Return a plain reading of anything that stands in a formula or a text."""
+    """Return plain text for any part of a formula or a text."""
     return plain(item) if isinstance(item, sp.Basic) else str(item)
 
 
 @dataclass(frozen=True)
 class Formula(Worded):
-    """A chain of equalities a = b = c. ``brief`` marks what belongs on the one-page checklist, ``boxed`` a result."""
+    """A chain of equalities a = b = c. ``brief`` puts it on the one-page checklist; ``boxed`` marks a result."""
 
     sides: tuple[Left, ...]
     note: Text | None = None
@@ -164,19 +165,19 @@ class Formula(Worded):
     boxed: bool = False
 
     def __str__(self) -> str:
-        """Read as plain text."""
+        """Return plain text."""
         return " = ".join(show(s) for s in self.sides)
 
 
 @dataclass(frozen=True)
 class Text(Worded):
-    """Words with symbols in them, in order."""
+    """Words and symbols, in order."""
 
     parts: tuple[str | Left, ...]
     brief: bool = False
 
     def __str__(self) -> str:
-        """Read as plain text."""
+        """Return plain text."""
         return "".join(show(p) for p in self.parts)
 
 
@@ -187,7 +188,7 @@ class Heading(Worded):
     text: Text
 
     def __str__(self) -> str:
-        """Read as plain text."""
+        """Return plain text."""
         return str(self.text)
 
 
@@ -200,7 +201,7 @@ class Table(Worded):
     brief: bool = False
 
     def __str__(self) -> str:
-        """Read as plain text."""
+        """Return plain text."""
         lines = [" | ".join(str(h) for h in self.header)]
         return "\n".join(lines + [" | ".join(str(c) for c in row) for row in self.rows])
 
@@ -210,9 +211,9 @@ Item: TypeAlias = "Text | Formula | Heading | Table"
 
 @dataclass(frozen=True)
 class Check(Brief):
-    """Something that was verified: in words, whether it holds, and the figure.
+    """A check: its description, whether it holds, and its figure.
 
-    ``holds`` is None for what could not be checked here; the figure then says why.
+    ``holds`` is None if the check could not be made here; then the figure says why.
     """
 
     what: Text
@@ -220,7 +221,7 @@ class Check(Brief):
     figure: str = ""
 
     def __repr__(self) -> str:
-        """Read as ``<Check: the equations agree with …: holds, largest relative difference 5e-16 …>``."""
+        """Return ``<Check: the equations agree with …: holds, largest relative difference 5e-16 …>``."""
         verdict = {True: "holds", False: "DOES NOT HOLD", None: "not checked"}[self.holds]
         return cut(f"<Check: {self.what}: {verdict}{', ' if self.figure else ''}{self.figure}>")
 
@@ -232,7 +233,7 @@ TermKind: TypeAlias = Literal["inertia", "velocity", "damping", "stiffness", "gr
 
 @dataclass(frozen=True)
 class EquationTerm(Brief):
-    """A readable term of an equation of motion: its kind and the elements that make it."""
+    """A readable term of an equation of motion: its kind, and the elements that contribute to it."""
 
     expr: sp.Expr
     kind: TermKind
@@ -240,10 +241,10 @@ class EquationTerm(Brief):
 
 
 def text(*parts: str | Left, brief: bool = False) -> Text:
-    """Return words with symbols in them: ``text("wiggle only ", theta, ": …")``."""
+    """Return words and symbols as a `Text`: ``text("wiggle only ", theta, ": …")``."""
     return Text(parts, brief)
 
 
 def formula(*sides: Left, note: Text | None = None, brief: bool = False, boxed: bool = False) -> Formula:
-    """Return the chain of equalities ``sides[0] = sides[1] = …``."""
+    """Return the `Formula` ``sides[0] = sides[1] = …``."""
     return Formula(sides, note, brief, boxed)

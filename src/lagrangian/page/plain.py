@@ -14,7 +14,7 @@ from sympy.printing.str import StrPrinter
 
 
 class _Plain(StrPrinter):
-    """SymPy's text printer with primes for rates, names without ``(t)`` and ``^`` for powers."""
+    """SymPy's printer of text, with primes for rates, names without ``(t)`` and ``^`` for powers."""
 
     _names = {"Abs": "abs", "Min": "min", "Max": "max"}  # noqa: RUF012 - a printer's table, never changed
 
@@ -28,7 +28,7 @@ class _Plain(StrPrinter):
         return f"{self._names.get(name, name)}({self.stringify(expr.args, ', ')})"
 
     def _print_Max(self, expr: Any) -> str:
-        ordered = sorted(expr.args, key=sp.default_sort_key)  # SymPy's order changes from run to run
+        ordered = sorted(expr.args, key=sp.default_sort_key)  # the order of SymPy may change from run to run
         return f"{self._names[expr.func.__name__]}({self.stringify(ordered, ', ')})"
 
     _print_Min = _print_Max
@@ -60,12 +60,12 @@ class _Plain(StrPrinter):
 
 
 def as_cases(step: Any) -> sp.Piecewise:
-    """Return SymPy's step Heaviside(u, h) as cases: 0 where u < 0, 1 where u > 0, else h."""
+    """Return SymPy's step function Heaviside(u, h) as cases: 0 if u < 0, 1 if u > 0, otherwise h."""
     u, half = step.args
     cases = (0, sp.Lt(u, 0, evaluate=False)), (1, sp.Gt(u, 0, evaluate=False)), (half, True)
     return cast("sp.Piecewise", sp.Piecewise(*cases, evaluate=False))
 
 
 def plain(expr: sp.Basic) -> str:
-    """Return ``expr`` as text that the expression grammar reads back."""
+    """Return ``expr`` as text that the grammar of expressions can read."""
     return _Plain({"order": None}).doprint(expr)

@@ -1,4 +1,4 @@
-"""Report: what an analysis says, as data that `write` can lay out: words, formulas, tables, checks."""
+"""A report: the result of an analysis as data that `write` can lay out: words, formulas, tables, checks."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from lagrangian.page.formula import Check, Item, Text
 from lagrangian.viewed import Brief
 
 M = TypeVar("M")
-"""The model whose letters are used."""
+"""The model, whose symbols are used."""
 
 
 @dataclass(frozen=True)
 class Part(Brief):
-    """A section of a report: items in reading order, then what was checked."""
+    """A section of a report: its items in reading order, then its checks."""
 
     title: Text
     items: tuple[Item, ...] = ()
@@ -24,9 +24,9 @@ class Part(Brief):
 
 @dataclass(frozen=True)
 class Report(Brief, Generic[M]):
-    """A title, parts, and the model whose letters and names the parts use.
+    """A title, parts, and the model whose symbols and names the parts use.
 
-    ``data`` is what JSON gives: dictionaries, lists, text, numbers, true, false and null alone.
+    ``data`` is the content of the JSON format: only dictionaries, lists, text, numbers, true, false and null.
     """
 
     title: str

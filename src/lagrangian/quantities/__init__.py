@@ -1,1 +1,1 @@
-"""Numbers with units, as people write them: "40 N/m"; and text that knows its place."""
+"""Numbers with units, such as "40 N/m", and text with its place in a file."""

@@ -44,7 +44,8 @@ _TOKEN = re.compile(
 
 @dataclass(frozen=True)
 class Quantity:
-    """``value`` in SI units, the ``unit`` it was given in (empty for a bare number) and its dimension."""
+    """A quantity: ``value`` in SI units, the ``unit`` in which it was given (empty for a bare number) and its
+    dimension."""
 
     value: float
     unit: str
@@ -65,7 +66,7 @@ class _Token:
 
 
 def parse_quantity(text: str, *, place: Place | None = None, what: str = "value") -> Quantity:
-    """Return the quantity that ``text`` writes. Raises `ParseError` with line, column and what would be right.
+    """Return the quantity that ``text`` describes. Raises `ParseError` with line, column and a correct form.
 
     >>> parse_quantity("40 N/m").value, parse_quantity("250 mm").value
     (40.0, 0.25)
@@ -74,7 +75,7 @@ def parse_quantity(text: str, *, place: Place | None = None, what: str = "value"
 
 
 def read_quantity(source: Source) -> Quantity:
-    """Return the quantity of a text that knows its place."""
+    """Return the quantity that a `Source` describes."""
     source.check_text(MAX_CHARACTERS, "a number and a unit, such as 40 N/m")
     reader = _Reader(source)
     number, is_pi = reader.number()
@@ -92,19 +93,19 @@ def read_quantity(source: Source) -> Quantity:
 
 @lru_cache(maxsize=1024)
 def parse_unit(text: str, what: str = "unit", place: Place | None = None) -> Unit:
-    """Return the unit that ``text`` writes (``"N/m"``); raises `ParseError`."""
+    """Return the unit that ``text`` describes, such as ``"N/m"``; raises `ParseError`."""
     source = Source(text, what, place)
     source.check_text(MAX_CHARACTERS, "a unit, such as N/m")
     return _Reader(source).unit()
 
 
 def unit_dimension(text: str) -> tuple[Fraction, Fraction, Fraction]:
-    """Return the exponents of kg, m and s of a unit; electrical and other dimensions are left out."""
+    """Return the exponents of kg, m and s of a unit; other base units are ignored."""
     return parse_unit(text).dimension.mechanical
 
 
 def unit_and_words(text: str) -> tuple[str | None, str]:
-    """Split ``"N, pushes the carts apart"``. What stands before the comma is a unit where it is made of SI symbols."""
+    """Split ``"N, pushes the carts apart"``. The part before the comma is a unit if it consists of SI symbols."""
     first, comma, rest = text.partition(",")
     words = re.findall(r"[^\W\d]+|°", first)
     if words and all(w in BEFORE_WORDS for w in words) and not re.search(r"[^\W\d]\s+[^\W\d]", first):
@@ -117,13 +118,14 @@ def unit_and_words(text: str) -> tuple[str | None, str]:
 
 
 def si_unit(text: str) -> str | None:
-    """Return the SI unit that values in a unit are turned into: ``kg`` for g; None where it is an SI unit itself."""
+    """Return the SI unit to which values in a unit are converted: ``kg`` for g; None if the unit itself is an SI
+    unit."""
     unit = parse_unit(text)
     return None if unit.plain else unit.si
 
 
 def unit_factor(text: str) -> float:
-    """Return what one of a unit is in SI units: 0.001 for mm."""
+    """Return the factor from a unit to SI units: 0.001 for mm."""
     return float(parse_unit(text).factor)
 
 
@@ -183,7 +185,7 @@ class _Reader:
     # -- the number ---------------------------------------------------------------------------------------------
 
     def number(self) -> tuple[Fraction, bool]:
-        """Read ``-2*pi/3``: the rational part, and whether pi stands in it."""
+        """Read ``-2*pi/3``: the rational part, and whether it contains pi."""
         sign = -1 if self.peek().kind == "sign" and self.take().text != "+" else 1
         if not self._is_number():
             token = self.peek()
@@ -193,7 +195,7 @@ class _Reader:
                 )
             found = shown(token.text) if token.text else "the end"
             self.fail(
-                f"found {found} where a number must come first",
+                f"found {found} where a number is expected first",
                 token.start,
                 "write a number and a unit, such as 40 N/m",
             )
@@ -209,11 +211,9 @@ class _Reader:
                 break
             operator = self.take().text
         if pis not in (0, 1):
-            self.fail("pi can stand once, as a factor", 0, "write a decimal number")
+            self.fail("pi may occur only once, as a factor", 0, "write a decimal number")
         if self._is_number() and not (self.peek().text == "1" and self.peek(1).text in ("/", "÷")):
-            self.fail(
-                "two numbers stand next to each other", self.offset, "write one number and a unit, such as 40 N/m"
-            )
+            self.fail("two numbers are next to each other", self.offset, "write one number and a unit, such as 40 N/m")
         return value, bool(pis)
 
     def _is_number(self, ahead: int = 0) -> bool:
@@ -239,7 +239,7 @@ class _Reader:
     # -- the unit -----------------------------------------------------------------------------------------------
 
     def unit(self) -> Unit:
-        """Read the rest as a unit; nothing is no unit."""
+        """Read the rest as a unit; an empty rest is no unit."""
         if self.peek().kind == "end":
             return ONE
         first = self.peek()
@@ -257,7 +257,7 @@ class _Reader:
         return unit
 
     def _behind(self) -> NoReturn:
-        """Refuse what stands behind a unit."""
+        """Raise an error for anything after a unit."""
         token = self.peek()
         fix = "write a unit such as N/m or kg*m^2"
         if token.kind == "sign" and self.peek(1).kind == "name" and self.tokens[self.at - 1].kind == "name":
@@ -294,7 +294,7 @@ class _Reader:
             base = ONE
         else:
             found = shown(token.text) if token.text else "the end"
-            self.fail(f"found {found} where a unit must stand", token.start, "write a unit such as N/m", "E408")
+            self.fail(f"found {found} where a unit is expected", token.start, "write a unit such as N/m", "E408")
         return ONE.times(base, self._exponent())
 
     def _named(self, token: _Token) -> Unit:

@@ -1,4 +1,4 @@
-"""A piece of text and where it stands, so that every error points at the character that is wrong."""
+"""A piece of text with its place, so that every error can point at the wrong character."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from lagrangian.errors import ParseError, Place
 
 
 def shown(text: str, limit: int = 40) -> str:
-    """Return the text in single quotes, cut at ``limit`` characters, with control characters written out."""
+    """Return the text in single quotes, cut after ``limit`` characters, with control characters escaped."""
     cut = text if len(text) <= limit else text[: limit - 1] + "…"
     return "'" + "".join(c if c.isprintable() else f"\\u{ord(c):04x}" for c in cut) + "'"
 
 
 def character(c: str) -> str:
-    """Return a character for a message: itself where it prints, with its code point where it is not ASCII."""
+    """Return a character for a message: itself if it can be printed, with its code point if it is not ASCII."""
     if c.isascii():
         return f"'{c}'" if c.isprintable() else f"the control character U+{ord(c):04X}"
     shown_as = f"'{c}' " if c.isprintable() else "a character that does not print "
@@ -26,10 +26,10 @@ def character(c: str) -> str:
 
 @dataclass(frozen=True)
 class Source:
-    """``text`` as a person wrote it. ``what`` says what it is (``"k of spring 's1'"``); ``place`` is where it starts.
+    """A ``text`` from a user. ``what`` describes it (``"k of spring 's1'"``); ``place`` is where it begins.
 
-    ``locate`` gives the place of each character for text inside a file, whose lines go on around it and which may be
-    written there with escapes; without it the text stands in the file as it is.
+    ``locate`` returns the place of each character of a text inside a file, in which it may continue over lines and
+    contain escapes. Without it, the text is in the file as it is.
     """
 
     text: str
@@ -55,11 +55,11 @@ class Source:
         return Place(start.file, (start.line or 1) + row, offset - first + 1, printable(line))
 
     def error(self, message: str, offset: int, *, fix: str | None = None, code: CodeText = "E701") -> ParseError:
-        """Return a `ParseError` that points at ``offset``."""
+        """Return a `ParseError` whose place is that of ``offset``."""
         return ParseError(message, element=self.what or None, place=self.at(offset), fix=fix, code=code)
 
     def check_text(self, limit: int, example: str) -> None:
-        """Refuse what is not text, empty, or longer than ``limit`` characters."""
+        """Raise an error if the text is not a string, is empty, or has more than ``limit`` characters."""
         if not isinstance(self.text, str):
             kind = type(self.text).__name__
             raise ParseError(f"this must be text (got {kind})", element=self.what, place=self.place, code="E406")
@@ -68,7 +68,7 @@ class Source:
                 f"the text has {len(self.text)} characters; at most {limit} are read",
                 element=self.what,
                 place=self.place,
-                fix="give parts of it names under [define]" if limit > 1000 else f"write it shortly, such as {example}",
+                fix="give parts of it names under [define]" if limit > 1000 else f"write it briefly, such as {example}",
                 code="E703",
             )
         if not self.text.strip():
@@ -76,5 +76,6 @@ class Source:
 
 
 def printable(line: str | None) -> str | None:
-    """Return a line with one printable character for each of its own, so that the caret stays under the right one."""
+    """Return a line with one printable character for each of its characters, so that the caret is under the right
+    one."""
     return None if line is None else "".join(c if c.isprintable() else " " for c in line)

@@ -1,4 +1,4 @@
-"""What was probably meant by a name that is not a unit here, and why some units of other books are refused."""
+"""Suggestions for names that are not units here, and reasons why some units of other books are refused."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ OFFSET = {
     **dict.fromkeys(("degC", "celsius", "Celsius", "centigrade"), ("273.15 K", "1 K")),
     **dict.fromkeys(("degF", "fahrenheit", "Fahrenheit"), ("255.37 K", "5/9 K")),
 }
-"""Temperatures: where their zero is, and what a difference of one degree is."""
+"""Temperatures: their zero, and the size of one degree."""
 
 LOGARITHMS = frozenset(("dB", "dBm", "Np", "decibel"))
 
@@ -84,7 +84,7 @@ _MEANT = {
     "mph": "MPH Mph",
     "kg, km or kN, or 1e3 for a thousand": "k",
 }
-"""What to write for names that are met in notes, drawings and programs."""
+"""What to write instead of names that occur in notes, drawings and programs."""
 
 LENGTHS = "m, km, cm, mm, µm, nm, in, ft, yd, mi or nmi"
 _LONG = "parsec parsecs pc kpc Mpc lightyear lightyears ly au AU fathom furlong league chain rod thou mil mils"
@@ -98,7 +98,7 @@ _COMMON = _OFTEN.split()
 
 
 def similar(name: str) -> str | None:
-    """Say which unit was probably meant."""
+    """Return a suggestion for an unknown unit."""
     if name in HINTS:
         return HINTS[name]
     known = units()
@@ -109,7 +109,7 @@ def similar(name: str) -> str | None:
     if name in _LONG.split():
         return f"lengths are in {LENGTHS}"
     if name.endswith("s") and name[:-1] in known:
-        unit = name[:-1]  # a symbol has no plural: As is A*s, bars is bar
+        unit = name[:-1]  # a symbol has no plural: As is A*s, but bars is bar
         product = unit in _COMMON and not unit.islower() and not unit.endswith("Hz")
         return f"write {unit}*s" if product else f"write {unit}"
     if product := _glued(name):
@@ -118,7 +118,7 @@ def similar(name: str) -> str | None:
 
 
 def _glued(name: str) -> str | None:
-    """Units written without a sign between them, or a power without one: Nms, kgm2, m2."""
+    """Find units written without a sign between them, or a power without ^: Nms, kgm2, m2."""
     match = re.fullmatch(r"([^\W\d_]+)([2-9]?)", name)
     if match is None:
         return None
@@ -134,7 +134,7 @@ def _glued(name: str) -> str | None:
 
 
 def refusal(name: str) -> tuple[str, str] | None:
-    """Why a unit that many books use cannot be read at all, and what to write; None for any other name."""
+    """Return the reason why a unit of many books is refused, and what to write; None for any other name."""
     if name in OFFSET:
         zero, difference = OFFSET[name]
         reason = f"the zero of '{name}' is at {zero}: no factor turns it into kelvins"

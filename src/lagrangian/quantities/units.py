@@ -1,7 +1,7 @@
-"""What a unit's name means: its factor to SI, its dimension, and what it is called in SI.
+"""The table of units: for each name its factor to SI, its dimension, and its SI unit.
 
-One table holds every unit that is read: those of a mechanics book. A name that is not in it is refused, so that a slip
-of the pen ("gr", "Kg", "c") never becomes another unit; `unit_hints` says what was probably meant.
+The table contains every unit that is accepted: those found in mechanics books. Any other name is refused, so that a
+typing mistake ("gr", "Kg", "c") never becomes another unit; `unit_hints` suggests the unit that was probably meant.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from fractions import Fraction
 from functools import cache
 
 BASE = ("kg", "m", "s", "A", "K", "mol", "cd")
-"""The SI base units, in the order of a dimension's exponents."""
+"""The SI base units, in the order of the exponents of a dimension."""
 
 COHERENT: dict[str, tuple[int, ...]] = {
     "kg": (1,),
@@ -38,13 +38,13 @@ COHERENT: dict[str, tuple[int, ...]] = {
     "T": (1, 0, -2, -1),
     "H": (1, 2, -2, -2),
 }
-"""The SI units that are products of base units without a factor: exponents of `BASE`, zeros at the end left out."""
+"""The SI units that are products of base units with factor 1: exponents of `BASE`, without trailing zeros."""
 
 PREFIXES = {
     **{"p": -12, "n": -9, "µ": -6, "u": -6, "m": -3, "c": -2, "d": -1},
     **{"da": 1, "h": 2, "k": 3, "M": 6, "G": 9, "T": 12},
 }
-"""Powers of ten; u stands for µ."""
+"""Powers of ten; u means µ."""
 
 _FOOT, _INCH, _MILE = Fraction("0.3048"), Fraction("0.0254"), Fraction("1609.344")
 _POUND, _GRAVITY = Fraction("0.45359237"), Fraction("9.80665")
@@ -53,8 +53,8 @@ _PI = Fraction(repr(math.pi))
 _MANY, _FEW = "T G M k m µ u n p", "k m µ u"
 
 TABLE: tuple[tuple[str, str, Fraction | int | str, str, str], ...] = (
-    # symbols, words, one of it is so many of these SI units, prefixes before the symbols
-    # length: Mm and Gm are too near to mm and gm
+    # symbols, words, the value of one in these SI units, prefixes of the symbols
+    # length: Mm and Gm are too similar to mm and gm
     ("m", "metre metres meter meters", 1, "m", "k h da d c m µ u n p"),
     ("", "kilometre kilometres kilometer kilometers", 1000, "m", ""),
     ("", "centimetre centimetres centimeter centimeters", "0.01", "m", ""),
@@ -64,7 +64,7 @@ TABLE: tuple[tuple[str, str, Fraction | int | str, str, str], ...] = (
     ("yd", "yard yards", 3 * _FOOT, "m", ""),
     ("mi", "mile miles", _MILE, "m", ""),
     ("nmi", "", 1852, "m", ""),
-    # mass: Mg is too near to mg
+    # mass: Mg is too similar to mg
     ("kg", "kilogram kilograms", 1, "kg", ""),
     ("g", "gram grams", "0.001", "kg", "m µ u n"),
     ("t", "tonne tonnes", 1000, "kg", ""),
@@ -76,7 +76,7 @@ TABLE: tuple[tuple[str, str, Fraction | int | str, str, str], ...] = (
     ("min", "minute minutes", 60, "s", ""),
     ("h", "hour hours", 3600, "s", ""),
     ("d", "day days", 86400, "s", ""),
-    # angle, turning
+    # angle and rotation
     ("rad", "radian radians", 1, "rad", "m µ u"),
     ("deg °", "degree degrees", _PI / 180, "rad", ""),
     ("arcmin", "", _PI / 10800, "rad", ""),
@@ -121,16 +121,16 @@ TABLE: tuple[tuple[str, str, Fraction | int | str, str, str], ...] = (
     ("mol", "mole moles", 1, "mol", _FEW),
     ("cd", "candela candelas", 1, "cd", ""),
 )
-"""Every unit that is read, after NIST Special Publication 811."""
+"""Every unit that is accepted, following NIST Special Publication 811."""
 
 _SHORT = "kg g m km cm mm s ms min h N kN J W Pa Hz rad deg ° A V Ω K"
 BEFORE_WORDS = frozenset(_SHORT.split())  # not T, F, H, in, t: words begin with these
-"""Symbols that are a unit where they stand before a comma and words, as in ``"N, pushes the carts apart"``."""
+"""Symbols that are read as a unit before a comma and words, as in ``"N, pushes the carts apart"``."""
 
 
 @dataclass(frozen=True)
 class Dimension:
-    """kg^a m^b s^c A^d K^e mol^f cd^g; angles have none."""
+    """A dimension kg^a m^b s^c A^d K^e mol^f cd^g; angles have none."""
 
     exponents: tuple[Fraction, ...] = (Fraction(0),) * 7
 
@@ -144,7 +144,7 @@ class Dimension:
         return self.exponents[0], self.exponents[1], self.exponents[2]
 
     def __str__(self) -> str:
-        """Read as a unit that can be read back: ``kg*m^2/s^2``, and nothing for no dimension."""
+        """Return a unit that can be read back: ``kg*m^2/s^2``, or nothing for no dimension."""
         return _product(zip(BASE, self.exponents, strict=True))
 
 
@@ -164,10 +164,10 @@ def _factor(unit: str, exponent: Fraction) -> str:
 
 @dataclass(frozen=True)
 class Unit:
-    """A unit: one of it is ``factor`` SI units of its dimension.
+    """A unit: one of it equals ``factor`` SI units of its dimension.
 
-    ``powers`` are the SI units it is turned into, such as N and m for lbf·ft; ``plain`` is whether it is made of SI
-    units without a factor.
+    ``powers`` are the SI units to which it is converted, such as N and m for lbf·ft; ``plain`` says whether it consists
+    of SI units with factor 1.
     """
 
     factor: Fraction
@@ -176,7 +176,7 @@ class Unit:
     plain: bool = True
 
     def times(self, other: Unit, power: Fraction) -> Unit:
-        """self · other^power; raises OverflowError where the factor leaves the range of numbers."""
+        """Return self · other^power; raises OverflowError if the factor leaves the range of numbers."""
         factor = other.factor ** int(power) if power.denominator == 1 else Fraction(float(other.factor) ** float(power))
         powers = dict(self.powers)
         for name, exponent in other.powers:
@@ -190,7 +190,7 @@ class Unit:
 
     @property
     def si(self) -> str:
-        """The SI unit that its values are turned into: ``rad/s`` for rpm, ``N*m`` for lbf*ft."""
+        """The SI unit to which its values are converted: ``rad/s`` for rpm, ``N*m`` for lbf*ft."""
         return _product(self.powers)
 
 
@@ -198,7 +198,7 @@ ONE = Unit(Fraction(1), Dimension())
 
 
 def _coherent(text: str) -> Unit:
-    """A product of SI units without a factor, as the table writes it: ``rad/s``, ``m^3``."""
+    """A product of SI units with factor 1, as the table writes it: ``rad/s``, ``m^3``."""
     unit, sign = ONE, 1
     for part in text.replace("/", " / ").split():
         if part == "/":
@@ -213,7 +213,7 @@ def _coherent(text: str) -> Unit:
 
 @cache
 def units() -> dict[str, Unit]:
-    """Every unit that is read, by each of its names."""
+    """Every unit that is accepted, by each of its names."""
     found: dict[str, Unit] = {}
     for symbols, words, number, text, prefixes in TABLE:
         one, factor = _coherent(text), Fraction(number)
@@ -227,5 +227,5 @@ def units() -> dict[str, Unit]:
 
 
 def lookup(name: str) -> Unit | None:
-    """Return the unit of one name, or None for an unknown one."""
+    """Return the unit with a name, or None if there is none."""
     return units().get(name.replace("\u03bc", "µ").replace("\u2126", "Ω"))

@@ -1,1 +1,1 @@
-"""From a description to runs: one, an ensemble, a sweep. Wires mechanics to integrators and names what comes out."""
+"""Runs of a system: one run, an ensemble, a sweep. Connects mechanics with integrators and names the results."""

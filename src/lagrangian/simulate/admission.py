@@ -1,4 +1,4 @@
-"""Masses and inertias with the values that a run has, held to the rule that holds for a file's."""
+"""Checks masses and inertias with the parameter values of a run, by the same rule as those in a file."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from lagrangian.model.body_checks import Numbers, check_body
 
 
 def check_masses(model: Model, p: NDArray[np.float64], varied: Iterable[str] = ()) -> tuple[Notice, ...]:
-    """Return what is to be known of a system with the parameters ``p``; ``varied`` ones count as unknown.
+    """Return the notices for a system with the parameters ``p``; ``varied`` ones count as unknown.
 
-    Raises `ModelError`, which names the body, where a mass is not above 0 or an inertia makes M indefinite.
+    Raises `ModelError`, which names the body, if a mass is not positive or an inertia makes M indefinite.
     """
     unknown = set(varied)
     values = [None if q.name in unknown else float(x) for q, x in zip(model.parameters, p, strict=True)]
@@ -34,7 +34,7 @@ def check_masses(model: Model, p: NDArray[np.float64], varied: Iterable[str] = (
 
 
 def fitness(model: Model, varied: Iterable[str]) -> Fitness | None:
-    """How parameter sets are looked at that differ in ``varied``; None where these decide no mass and no inertia."""
+    """The check of parameter sets that differ in ``varied``; None if these do not affect a mass or an inertia."""
     bodies = dynamics.body_numbers(model, varied)
     if bodies is None:
         return None
@@ -44,15 +44,15 @@ def fitness(model: Model, varied: Iterable[str]) -> Fitness | None:
 
 
 class Admission:
-    """Refuses parameter sets that no system can have, before anything is computed with them."""
+    """Refuses impossible parameter sets before anything is computed with them."""
 
     def __init__(self, model: Model, fitness: Fitness) -> None:
         self._model, self._fitness, self._seen = model, fitness, 0
 
     def __call__(self, p: NDArray[np.float64]) -> Look | None:
-        """Look at parameter sets (..., n_p); raises `ModelError`, which names the body of the first bad one.
+        """Check parameter sets (..., n_p); raise `ModelError`, which names the body, for the first impossible one.
 
-        Returns what looks at single sets in its place, once some have been seen.
+        Return an object that checks single sets, for use after some sets have been checked.
         """
         rows, look = np.ascontiguousarray(p.reshape(-1, p.shape[-1])), None
         self._seen += len(rows)

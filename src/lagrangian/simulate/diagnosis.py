@@ -1,4 +1,4 @@
-"""How a run ended, in words: the time, the state, the reason, and what may help."""
+"""Describes how a run ended: the time, the state, the reason, and possible remedies."""
 
 from __future__ import annotations
 
@@ -18,22 +18,22 @@ from lagrangian.simulate.integrating import Task, right_hand_side
 Array = NDArray[np.float64]
 
 SINGULAR, NEARLY = 1e-10, 1e-6
-"""Least eigenvalue of M, in parts of its greatest elsewhere, below which a run has ended because of it."""
+"""M caused the end of a run if its smallest eigenvalue, relative to the largest elsewhere, is below this."""
 
 SHOWN = 8
-"""States written out in a message."""
+"""The largest number of states in a message."""
 
 JUMP = "a force that jumps with the state is better smooth (tanh for sign) or an event's reset"
-"""What no shorter step helps against."""
+"""Advice for jumps, which no smaller step can resolve."""
 
 RADAU = Argument("method", "'Radau'")
-"""What helps where a system is stiff."""
+"""Advice for stiff systems."""
 
 
 def message(task: Task, outcome: Outcome) -> Advice:
-    """One sentence for a run that came to its end; time, state, reason and advice for one that did not."""
+    """Return a sentence for a run that reached its end; otherwise time, state, reason and advice."""
     slow = (
-        " (an input is a Python function: SciPy's solver asked it at every evaluation)"
+        " (an input is a Python function: SciPy's solver called it at every evaluation)"
         if task.drive.calls_python
         else ""
     )
@@ -54,13 +54,13 @@ def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
             if singular:
                 return (
                     singular,
-                    "give what they move a mass or an inertia, or choose other coordinates near this configuration",
+                    "add a mass or an inertia that they move, or choose other coordinates near this configuration",
                 )
             broken = _not_finite(task, outcome)
             if broken:
                 return broken, "look for a division by zero or a root of a negative number there"
-            if said.startswith("["):  # the solver kept what an evaluation said
-                return said, "a finite value everywhere the run may get to"
+            if said.startswith("["):  # the solver kept the message of an evaluation
+                return said, "a finite value everywhere the run may reach"
             return f"[E504] {said}", _gentler(task, outcome)
         case RunStatus.TOO_MANY:
             return (
@@ -70,8 +70,8 @@ def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
         case RunStatus.ZENO:
             return (
                 f"[E505] event '{_last_event(task, outcome)}' repeats itself without end: {len(outcome.hits)} events, "
-                "each changes the state",
-                Advice("let what touches come to rest with a terminal event, or raise ", Argument("max_events")),
+                "each of which changes the state",
+                Advice("end the run with a terminal event where bodies touch, or raise ", Argument("max_events")),
             )
         case RunStatus.CROWDED:
             return (
@@ -103,9 +103,9 @@ def _state(task: Task, x: Array) -> str:
 
 
 def _singular(task: Task, outcome: Outcome) -> str:
-    """Whether M is singular where the run stopped, and which coordinates move nothing there."""
+    """Whether M is singular where the run stopped, and which coordinates move no mass there."""
     q, t = outcome.final[: len(task.model.coordinates)].tolist(), outcome.reached
-    u = [0.0] * len(task.model.inputs)  # a kinetic energy reads no input
+    u = [0.0] * len(task.model.inputs)  # a kinetic energy does not depend on inputs
     for near, how in ((SINGULAR, ""), (NEARLY, "all but ")):
         if moved := dynamics.loose(task.model, q, u, task.p.tolist(), t, near):
             return f"[E203] the mass matrix is {how}singular there: {moved}"
@@ -123,7 +123,7 @@ def _rates(task: Task, outcome: Outcome) -> tuple[tuple[str, ...], Array]:
 
 
 def _not_finite(task: Task, outcome: Outcome) -> str:
-    """Which rates are not finite at the last state."""
+    """The rates that are not finite at the last state."""
     try:
         names, rates = _rates(task, outcome)
     except RunError as trouble:  # an input that is a function gave no number there
@@ -133,7 +133,7 @@ def _not_finite(task: Task, outcome: Outcome) -> str:
 
 
 def _blind(task: Task, outcome: Outcome) -> str:
-    """Which events have a condition that is not a number at the last state, or a moment later along ẋ."""
+    """The events whose condition is NaN at the last state, or a moment later along ẋ."""
     program = dynamics.impacts(task.model, task.impacts, task.drive.feedback)
     x, t = outcome.final[: task.size], outcome.reached
     _, rates = _rates(task, outcome)
@@ -150,7 +150,7 @@ def _blind(task: Task, outcome: Outcome) -> str:
 
 
 def _gentler(task: Task, outcome: Outcome) -> str:
-    """What may help a run whose steps became too small."""
+    """Advice for a run whose steps became too small."""
     names, rates = _rates(task, outcome)
     fast = names[int(np.argmax(np.abs(rates) / (np.abs(outcome.final[: task.size]) + task.atol)))]
     if task.method in SCIPY and task.method in IMPLICIT:

@@ -1,4 +1,4 @@
-"""Why an energy balance is missed: steps that are too long, or a motion and an energy that contradict each other."""
+"""Finds why an energy balance is violated: steps that are too long, or a motion that contradicts its energy."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ if TYPE_CHECKING:
     from lagrangian.simulate.trajectory import Trajectory
 
 LOOKS = 12
-"""States of the run at which the balance is looked at."""
+"""The number of states of the run at which the balance is examined."""
 
 TOLERANCE = 1e-6
-"""What dh/dt − P may differ from 0 by, relative to the largest of its terms: more than rounding is a contradiction."""
+"""If dh/dt − P exceeds this, relative to its largest term, motion and energy contradict each other."""
 
 
 def disagreement(run: Trajectory) -> str:
-    """Say where the compiled system contradicts its own energy or its own formulas; empty where it does not.
+    """Return how the compiled system contradicts its own energy or its own formulas; an empty text if it does not.
 
-    At states of the run dh/dt along the accelerations must be the power supplied, whatever the steps were, and the
-    compiled rates must be those of the slow evaluation. What is missed although both hold is the integration's.
+    At states of the run, dh/dt along the accelerations must be the supplied power, whatever the steps were, and the
+    compiled rates must equal those of the slow evaluation. If both hold, the integration is the cause.
     """
     terms = dynamics.balance_terms_closed(run.model, run.feedback)
     rates = dynamics.closed(run.model, run.feedback)

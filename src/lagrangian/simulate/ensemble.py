@@ -1,4 +1,4 @@
-"""Many runs: what `system.ensemble` and `system.sweep` return."""
+"""The class `Ensemble`: the results of many runs, returned by `system.ensemble` and `system.sweep`."""
 
 from __future__ import annotations
 
@@ -26,18 +26,18 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 SHOWN = 20
-"""Failures listed unless more are asked for."""
+"""The default number of failures that are listed."""
 
 ROWS = 1 << 15
-"""Rows that are written together."""
+"""The number of rows that are written together."""
 
 UNDONE = (RunStatus.NOT_RUN, RunStatus.LOST)
-"""Statuses of runs that have no results."""
+"""The statuses of runs without results."""
 
 
 @dataclass(frozen=True)
 class Failure:
-    """A run that failed: its place along the axes, what varied there, when and why it ended."""
+    """A run that failed: its place along the axes, the varied values, and when and why it ended."""
 
     index: tuple[int, ...]
     values: Mapping[str, float]
@@ -45,19 +45,18 @@ class Failure:
     reason: str
 
     def __str__(self) -> str:
-        """Read as ``k = 10, m2 = 3: stopped at t = 0.5 s: the limit on the number of steps was reached``."""
+        """Return ``k = 10, m2 = 3: stopped at t = 0.5 s: the limit on the number of steps was reached``."""
         where = ", ".join(f"{name} = {x:.6g}" for name, x in self.values.items()) or f"run {self.index}"
         return f"{where}: stopped at t = {self.reached:.6g} s: {self.reason}"
 
 
 class Ensemble(Mapping[str, NDArray[Any]]):
-    """The results of many runs by name, arrays over the ensemble's axes; NaN where a run failed.
+    """The results of many runs by name, as arrays over the axes of the ensemble; NaN if a run failed.
 
-    Runs whose events accumulate (status −4) are reduced over what they reached, as those that a terminal event ends.
-
-    ``dims`` and ``shape`` are the axes; ``coordinates`` what varied along them: name → (axes, values); ``times`` the
-    times of samples. ``runs["max theta1"]`` is an array of that shape, ``runs["theta1"]`` is short for it where only
-    one thing is kept of theta1; samples have the axis of time last. ``status`` says how each run ended.
+    ``dims`` and ``shape`` are the axes; ``coordinates`` are the varied values: name → (axes, values); ``times`` are the
+    times of samples. ``runs["max theta1"]`` is an array of this shape; ``runs["theta1"]`` is short for it if there is
+    only one result for theta1. Samples have time as their last axis. ``status`` says how each run ended. If a terminal
+    event ends a run, or its events accumulate (status −4), results are taken over the part that was simulated.
     """
 
     def __init__(
@@ -77,10 +76,10 @@ class Ensemble(Mapping[str, NDArray[Any]]):
 
     @classmethod
     def of_store(cls, path: str | Path, *, lost: bool = False) -> Ensemble:
-        """The results in a store, finished or not; arrays are read from disk when they are asked for.
+        """Open the results in a store, finished or not; arrays are read from disk when they are needed.
 
-        What is read is what was written: raises `Error` where there is no store, `RunError` (code E804) where it is
-        damaged. With ``lost`` damaged runs are NaN with status −127, and the others can be read.
+        Raises `Error` if there is no store, and `RunError` (code E804) if it is damaged. With ``lost``, damaged runs
+        are NaN with status −127, and the others can be read.
         """
         stored = Stored(Path(path), lost=lost)
         task = stored.document.kept["task"]
@@ -109,7 +108,7 @@ class Ensemble(Mapping[str, NDArray[Any]]):
         return name in self._arrays
 
     def get(self, name: str, default: Any = None) -> Any:
-        """Return the result of that full name, or ``default``."""
+        """Return the result with this full name, or ``default``."""
         if name not in self._arrays:
             return default
         return self[name]
@@ -122,34 +121,34 @@ class Ensemble(Mapping[str, NDArray[Any]]):
 
     @property
     def times(self) -> NDArray[np.float64]:
-        """The times of the samples [s]; empty where no samples were kept."""
+        """The times of the samples [s]; empty if no samples were stored."""
         return self.coordinates[TIME][1] if TIME in self.coordinates else np.empty(0)
 
     @property
     def count(self) -> int:
-        """How many runs there are."""
+        """The number of runs."""
         return int(np.prod(self.shape))
 
     # -- how it went --------------------------------------------------------------------------------------------
 
     @property
     def status(self) -> NDArray[np.int8]:
-        """How each run ended: 0 the end was reached, 1 a terminal event, negative a failure."""
+        """How each run ended: 0 at its end, 1 by a terminal event, negative for a failure."""
         return self["status"]
 
     @property
     def success(self) -> bool:
-        """Whether every run came to its end, or to a terminal event."""
+        """Whether every run reached its end or a terminal event."""
         return bool((self.status >= 0).all())
 
     @property
     def counts(self) -> dict[str, int]:
-        """How many runs ended how, in words."""
+        """The number of runs for each way of ending, in words."""
         values, counts = np.unique(self.status, return_counts=True)
         return {_reason(int(v)): int(n) for v, n in sorted(zip(values, counts, strict=True), key=lambda x: -x[1])}
 
     def failures(self, most: int = SHOWN) -> list[Failure]:
-        """The first runs that failed, with what varied there and why they ended."""
+        """The first runs that failed, with the varied values and the reason for each."""
         status = self.status
         places = np.flatnonzero((status < 0) & ~np.isin(status, UNDONE))[:most]
         reached = self["reached"]
@@ -160,7 +159,7 @@ class Ensemble(Mapping[str, NDArray[Any]]):
         return found
 
     def at(self, index: tuple[int, ...]) -> dict[str, float]:
-        """What varied, at one run: name → value."""
+        """The varied values of one run: name → value."""
         place = dict(zip(self.dims, index, strict=True))
         return {
             name: float(values[tuple(place[d] for d in dims)])
@@ -169,7 +168,7 @@ class Ensemble(Mapping[str, NDArray[Any]]):
         }
 
     def __repr__(self) -> str:
-        """Say how many runs there are, along which axes, how they ended and what was kept."""
+        """Summarize the runs: their number, axes, ends and results."""
         axes = " × ".join(f"{d} {n}" for d, n in zip(self.dims, self.shape, strict=True))
         sizes = f" ({axes})" if axes else ""
         ends = ", ".join(f"{n} {words}" for words, n in self.counts.items())
@@ -203,9 +202,10 @@ class Ensemble(Mapping[str, NDArray[Any]]):
         return made
 
     def columns(self) -> dict[str, NDArray[Any]]:
-        """Everything as columns of one length: what varied, what was kept; a row a run (with samples, a run and time).
+        """Everything as columns of equal length, varied values and results; a row per run (with samples, per run and
+        time).
 
-        An axis along which nothing named varies is counted from 0.
+        An axis along which nothing named varies is numbered from 0.
         """
         dims = {name: self._dims[name] for name in self} | {name: d for name, (d, _) in self.coordinates.items()}
         values = {name: self[name] for name in self} | {name: v for name, (_, v) in self.coordinates.items()}
@@ -222,15 +222,16 @@ class Ensemble(Mapping[str, NDArray[Any]]):
         return needed("pandas").DataFrame(self.columns())
 
     def plot(self, *names: str) -> Figure:
-        """Return a pyplot figure of results (all that are numbers a run, unless named) over what varies.
+        """Return a pyplot figure of results over the varied values; by default, of all results with one number per run.
 
-        Curves over one axis, maps over two, histograms of samples; samples over an axis as median and band. Runs that
-        failed have red crosses. Notebooks show it, ``plt.show()`` opens it, ``runs.plot().savefig(…)`` writes it.
+        One axis gives curves, two axes give maps, and samples give histograms; samples over an axis are shown as median
+        and band. Failed runs are marked by red crosses. Notebooks show the figure, ``plt.show()`` opens it, and
+        ``runs.plot().savefig(…)`` writes it.
         """
         return self._drawn(names, shown=True)
 
     def figure(self, *names: str) -> Figure:
-        """Return what `plot` does as a figure apart from pyplot, for programs, threads and servers."""
+        """Return the same figure as `plot` without using pyplot, for programs, threads and servers."""
         return self._drawn(names, shown=False)
 
     def _drawn(self, names: tuple[str, ...], *, shown: bool) -> Figure:
@@ -253,14 +254,14 @@ class Ensemble(Mapping[str, NDArray[Any]]):
         )
 
     def _failed(self) -> str:
-        """How many runs failed and how, in words; nothing where none did."""
+        """The number of failed runs and the reasons, in words; empty if there are none."""
         status = self.status
         lost = status[(status < 0) & (status != RunStatus.NOT_RUN)]
         ways = ", ".join(_reason(int(s)) for s in np.unique(lost)[:3])
         return f"{lost.size} of {self.count} runs FAILED: {ways}" if lost.size else ""
 
     def _along(self, axis: str) -> NDArray[Any]:
-        """The values along an axis: its own, or those of the one thing that varies along it alone, or numbers."""
+        """The values along an axis: its own, or those of the single quantity that varies along it, or numbers."""
         own = [values for dims, values in self.coordinates.values() if dims == (axis,)]
         if axis in self.coordinates or len(own) == 1:
             return self.coordinates[axis][1] if axis in self.coordinates else own[0]
@@ -277,7 +278,7 @@ class Ensemble(Mapping[str, NDArray[Any]]):
         return values
 
     def _shown(self, name: str, values: NDArray[Any]) -> tuple[str, str, NDArray[Any]]:
-        """Label, unit and values for a picture, angles in degrees."""
+        """Label, unit and values for a plot, with angles in degrees."""
         label = name
         if name in self.dims and name not in self.coordinates:
             label = next((n for n, (dims, _) in self.coordinates.items() if dims == (name,)), name)
@@ -286,9 +287,10 @@ class Ensemble(Mapping[str, NDArray[Any]]):
         return (label, "deg", np.degrees(values)) if unit == "rad" else (label, unit, values)
 
     def save(self, path: str | Path, *, overwrite: bool = False) -> Path:
-        """Write everything to ``.csv``, ``.parquet`` (as `columns`) or ``.nc`` (as `to_xarray`), whole or not at all.
+        """Write everything to a ``.csv``, ``.parquet`` (as `columns`) or ``.nc`` file (as `to_xarray`), completely or
+        not at all.
 
-        Raises `Error` where a file is there already (unless ``overwrite``), or nothing can be written there.
+        Raises `Error` if the file exists (unless ``overwrite``) or cannot be written.
         """
         target = Path(path)
         check_target(target, list(ENDINGS), overwrite=overwrite)
@@ -296,14 +298,15 @@ class Ensemble(Mapping[str, NDArray[Any]]):
 
 
 def _spread(values: Any, dims: tuple[str, ...], sizes: Mapping[str, int]) -> NDArray[Any]:
-    """An array over some axes as one over all of them, row after row."""
+    """Broadcast an array over some axes to all axes, and flatten it."""
     shape = [sizes[d] if d in dims else 1 for d in sizes]
     ordered = np.transpose(values, [dims.index(d) for d in sizes if d in dims])
     return np.broadcast_to(ordered.reshape(shape), tuple(sizes.values())).reshape(-1)
 
 
 def _netcdf(runs: Ensemble, path: Path) -> None:
-    """NetCDF 4 made in memory: HDF5 crashes on a full disk. ``coordinates`` are named as the CF conventions ask."""
+    """NetCDF 4, made in memory because HDF5 crashes on a full disk. ``coordinates`` are named as in the CF
+    conventions."""
     netcdf, data, memory = needed("h5netcdf"), runs.to_xarray(), io.BytesIO()
     beside = [name for name, values in data.coords.items() if (name,) != values.dims and " " not in name]
     with netcdf.File(memory, "w") as file:
@@ -329,7 +332,7 @@ def _csv(runs: Ensemble, path: Path) -> None:
 
 
 class Writable(Protocol):
-    """What text can be written into, piece by piece."""
+    """An object to which text can be written piece by piece."""
 
     def write(self, text: str, /) -> object:
         """Write a piece of text."""
@@ -337,7 +340,7 @@ class Writable(Protocol):
 
 
 def write_csv(runs: Ensemble, file: Writable) -> None:
-    """Write a line of names and a line a row; numbers with all their digits."""
+    """Write a line of names and a line for each row; numbers have all their digits."""
     columns = runs.columns()
     writer = csv.writer(file, lineterminator="\n")
     writer.writerow(columns)
@@ -347,11 +350,11 @@ def write_csv(runs: Ensemble, file: Writable) -> None:
 
 
 ENDINGS: Mapping[str, Callable[[Ensemble, Path], None]] = {".csv": _csv, ".nc": _netcdf, ".parquet": _parquet}
-"""How a file is written, by the ending of its name."""
+"""The function that writes a file, for each ending of its name."""
 
 
 def _reason(status: int) -> str:
     try:
         return RunStatus(status).message
-    except ValueError:  # from a store of a later version
+    except ValueError:  # from a store that a later version wrote
         return f"status {status}"

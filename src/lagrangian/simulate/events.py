@@ -15,7 +15,7 @@ from lagrangian.page.plain import plain
 
 @dataclass(frozen=True, eq=False)
 class Event:
-    """Where an expression of state and time crosses zero, and what happens there; made by `event`."""
+    """An expression of state and time that may cross zero, and what happens then; made by `event`."""
 
     expression: sp.Expr
     direction: int = 0
@@ -25,7 +25,7 @@ class Event:
 
     @property
     def title(self) -> str:
-        """Its name, or its expression where it has none."""
+        """Its name, or its expression if it has no name."""
         return self.name or plain(self.expression)
 
 
@@ -36,10 +36,10 @@ def event(
     reset: Mapping[Any, Any] | None = None,
     name: str = "",
 ) -> Event:
-    """Return an event where ``expression``, of coordinates, rates, inputs, parameters and t, crosses zero.
+    """Return an event that occurs where ``expression``, of coordinates, rates, inputs, parameters and t, crosses zero.
 
-    ``direction``: +1 where it rises, −1 where it falls, 0 both. ``terminal`` ends the run there. ``reset`` maps states
-    to their values after the event, made of the state before: an impact is ``reset={y.diff(): -e*y.diff()}``.
+    ``direction``: +1 if it rises, −1 if it falls, 0 for both. ``terminal`` ends the run there. ``reset`` maps states to
+    their values after the event, as expressions of the state before: ``reset={y.diff(): -e*y.diff()}`` is an impact.
 
     >>> from sympy.physics.mechanics import dynamicsymbols
     >>> y = dynamicsymbols("y")
@@ -68,7 +68,8 @@ def event(
 
 
 def listed_events(given: Any) -> tuple[Event, ...]:
-    """Return one event or several as a tuple. Raises `RunError` for what is none, and for two of one name."""
+    """Return one event or several as a tuple. Raises `RunError` for other objects, and for two events of the same
+    name."""
     listed = tuple(given) if isinstance(given, Iterable) else (given,)
     for e in listed:
         if not isinstance(e, Event):

@@ -1,7 +1,7 @@
-"""What drives a run: constants, tables, expressions of time and state, Python functions, for each input by name.
+"""The inputs of a run: constants, tables, expressions of time and state, or Python functions, by name.
 
-Expressions are compiled into the equations; constants and tables are piecewise linear signals; a Python function is
-asked at every evaluation, which costs the machine code its speed.
+Expressions are compiled into the equations; constants and tables are piecewise linear signals. A Python function is
+called at every evaluation, which is slow.
 """
 
 from __future__ import annotations
@@ -38,14 +38,14 @@ MAX_KNOTS = 1_000_000
 
 @dataclass(frozen=True, eq=False)
 class SampledInput:
-    """A signal by its values at times: held until the next (``hold``), or joined by straight lines."""
+    """A signal given by values at times: each held until the next (``hold``), or joined by straight lines."""
 
     times: Array
     values: Array
     hold: bool
 
     def at(self, t: Array, *, left: bool = False) -> Array:
-        """The signal at times ``t``; ``left`` takes the value before a jump where there is one."""
+        """The signal at times ``t``; at a jump, ``left`` selects the value before it."""
         if not self.hold:
             return np.interp(t, self.times, self.values)
         place = np.searchsorted(self.times, t, side="left" if left else "right") - 1
@@ -57,10 +57,10 @@ Source = float | SampledInput | Callable[[float, Array], float]
 
 @dataclass(frozen=True, eq=False)
 class InputSignals:
-    """Every input of a model: ``feedback`` by symbol; the rest, in order, are ``free`` with a source each.
+    """All inputs of a model: ``feedback`` by symbol; the others, in order, are ``free``, each with a source.
 
-    ``size`` is the number of states [q; v], which Python functions are given a copy of. ``stops`` are times at which
-    conditions in time alone switch.
+    ``size`` is the number of states [q; v], of which Python functions get a copy. ``stops`` are the times at which
+    conditions that depend only on time switch.
     """
 
     feedback: dict[Any, sp.Expr] = field(default_factory=dict)
@@ -76,7 +76,7 @@ class InputSignals:
 
     @property
     def constant(self) -> bool:
-        """Whether all that is free is constant, and no step has to end anywhere."""
+        """Whether all free inputs are constant and no step has to end at a given time."""
         return not len(self.stops) and all(isinstance(s, float) for s in self.sources)
 
     def knots(self, start: float, end: float) -> Array:
@@ -86,7 +86,7 @@ class InputSignals:
         return np.concatenate([[start], np.unique(np.concatenate([*inside, np.empty(0)]))])
 
     def pieces(self, start: float, end: float) -> tuple[Array, Array, Array]:
-        """Knots (K,), values there (K, nu) and slopes (K, nu) of the signals: u = value + slope (t − knot)."""
+        """Knots (K,), values (K, nu) and slopes (K, nu) of the signals at them: u = value + slope (t − knot)."""
         knots = self.knots(start, end)
         value, slope = np.zeros((len(knots), len(self.free))), np.zeros((len(knots), len(self.free)))
         ends = np.append(knots[1:], max(end, knots[-1]))
@@ -100,7 +100,7 @@ class InputSignals:
         return knots, value, slope
 
     def legs(self, start: float, end: float) -> list[Interval]:
-        """The stretches between knots, each with u(t, x)."""
+        """The intervals between knots, each with u(t, x)."""
         knots, value, slope = self.pieces(start, end)
         ends = [*knots[1:], end]
         asked = tuple(k for k, s in enumerate(self.sources) if callable(s))
@@ -124,7 +124,7 @@ class InputSignals:
         return u
 
     def at(self, t: Array, x: Array) -> Array:
-        """The free inputs at times (S,) and states (S, nx), shape (S, nu); after a jump where there is one."""
+        """The free inputs at times (S,) and states (S, nx), shape (S, nu); at a jump, the value after it."""
         found = np.zeros((len(t), len(self.free)))
         for k, source in enumerate(self.sources):
             if isinstance(source, SampledInput):
@@ -140,7 +140,7 @@ class InputSignals:
 
 
 def _asked(name: str, function: Callable[[float, Array], Any], t: float, x: Array) -> float:
-    """What a Python function says, as one finite number."""
+    """The result of a Python function as one finite number."""
     answer = function(t, x)
     try:
         real = float(answer)
@@ -161,10 +161,10 @@ def driving(
     fallback: Mapping[str, Any],
     dims: Mapping[str, Dim | None] | None = None,
 ) -> InputSignals:
-    """The inputs of a run from what was given by name or symbol; ``fallback`` is what the model's file says; else 0.
+    """The inputs of a run from those given by name or symbol, else ``fallback`` from the model file, else 0.
 
-    ``dims`` are the dimensions of the inputs, by name, that a value with a unit must have.
-    Raises `RunError` or `ModelError` for unknown names, tables that do not fit, functions that cannot be called.
+    ``dims`` are the required dimensions of the inputs, by name. Raises `RunError` or `ModelError` for unknown names,
+    tables that do not fit, and functions that cannot be called.
     """
     inputs = {u.name: u for u in model.inputs}
     named: dict[str, Any] = dict(fallback)
@@ -200,7 +200,7 @@ def _items(given: Mapping[Any, Any] | None) -> list[tuple[Any, Any]]:
 
 
 def _source(model: Model, u: Input, dim: Dim | None, given: Any) -> Source | sp.Expr:
-    """A signal as the kind it is."""
+    """Convert a signal to its kind of source."""
     what = f"input '{u.name}'"
     if isinstance(given, str):
         return _text(model, what, given, dim)
@@ -214,7 +214,8 @@ def _source(model: Model, u: Input, dim: Dim | None, given: Any) -> Source | sp.
 
 
 def _text(model: Model, what: str, text: str, dim: Dim | None) -> float | sp.Expr:
-    """An expression in the model's names, or else a number with a unit; what looks like a call is no unit."""
+    """Read an expression in the names of the model or, if it is not one, a number with a unit; a call is never a
+    unit."""
     try:
         expr = read.parse_expression(text, read.Scope(model.symbols), what=what)
     except ModelError as trouble:
@@ -234,13 +235,13 @@ def _function(what: str, given: Callable[..., Any]) -> Callable[[float, Array], 
         raise RunError(
             f"{what}: the function cannot be called with (t, x)", fix="lambda t, x: …", code="E503"
         ) from None
-    except ValueError:  # a builtin that does not tell its signature
+    except ValueError:  # a builtin without a signature
         return given
     return given
 
 
 def _table(what: str, given: Sequence[Any]) -> SampledInput:
-    """(times, values) or (times, values, "hold" | "linear")."""
+    """Read (times, values) or (times, values, "hold" | "linear")."""
     kind = given[2] if len(given) == 3 else LINEAR
     if len(given) not in (2, 3) or kind not in (HOLD, LINEAR):
         raise RunError(
@@ -270,7 +271,7 @@ def _table(what: str, given: Sequence[Any]) -> SampledInput:
 
 
 def check_covers(drive: InputSignals, start: float, end: float) -> None:
-    """Refuse tables that do not reach over the run; the last value of a ``hold`` is kept."""
+    """Raise an error for tables that do not cover the run; the last value of a ``hold`` table continues."""
     for u, source in zip(drive.free, drive.sources, strict=True):
         if isinstance(source, SampledInput):
             late = source.times[0] > start

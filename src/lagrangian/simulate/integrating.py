@@ -1,7 +1,7 @@
-"""One run, by machine code where that is possible and by SciPy's solvers where it is asked for.
+"""Integrates one run, in machine code if possible, and with SciPy's solvers if requested.
 
-Either way the state that is integrated is [q; v] with the energy supplied beside it; a symplectic method integrates
-[q; p], and the state is turned into momenta and back at its border.
+In both cases the state is [q; v], followed by the supplied energy. A symplectic method integrates [q; p]; states are
+converted to momenta before and back afterwards.
 """
 
 from __future__ import annotations
@@ -29,15 +29,15 @@ _log = logging.getLogger(__name__)
 Array = NDArray[np.float64]
 
 SYMPLECTIC = frozenset({"gauss4"})
-"""Methods that want canonical coordinates and momenta."""
+"""Methods that need canonical coordinates and momenta."""
 
 REMEMBERED = 32
-"""Compiled things kept with a model, the latest."""
+"""The number of compiled functions that are cached with a model; the most recently used stay."""
 
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """Everything a run needs, understood and checked; ``rtol`` and ``atol`` are those of one step."""
+    """Everything that a run needs, after all checks; ``rtol`` and ``atol`` are those of one step."""
 
     model: Model
     drive: InputSignals
@@ -63,24 +63,24 @@ class Task:
 
     @property
     def impacts(self) -> list[tuple[str, Any, Mapping[Any, Any]]]:
-        """The events as `lagrangian.dynamics.impacts` takes them."""
+        """The events in the form that `lagrangian.dynamics.impacts` needs."""
         return [(e.title, e.expression, e.reset) for e in self.events]
 
 
 def remembered(model: Model, key: Any, make: Callable[[], Any]) -> Any:
-    """What was compiled for a model under a key, made at the first asking."""
+    """Return what was compiled for a model under a key; compile it at the first request."""
     kept: dict[Any, Any] = model._memo.setdefault("compiled", {})
-    found = kept.pop(key, None)  # one step, as other threads ask too; one that finds nothing meanwhile makes its own
+    found = kept.pop(key, None)  # one operation: other threads use the cache too
     if found is None:
         found = make()
-    kept[key] = found  # the latest last
+    kept[key] = found  # the most recently used is last
     for oldest in list(kept)[:-REMEMBERED]:
         kept.pop(oldest, None)
     return found
 
 
 def run(task: Task) -> Outcome:
-    """Integrate; the outcome's states are [q; v] and, where something supplies energy, what was supplied."""
+    """Integrate; the states of the outcome are [q; v] and, if anything supplies energy, the supplied energy."""
     if len(task.times) == 1:
         return Outcome(task.times, task.x0[np.newaxis], RunStatus.REACHED, float(task.times[0]), task.x0)
     if task.method in SCIPY:
@@ -94,7 +94,7 @@ def run(task: Task) -> Outcome:
 
 
 def right_hand_side(model: Model, drive: InputSignals, *, canonical: bool = False) -> Program:
-    """ẋ with the feedback compiled in and the energy supplied as a last state, if any can be."""
+    """ẋ with feedback compiled in and, if anything can supply energy, the supplied energy as a last state."""
     key = ("rhs", canonical, frozenset(drive.feedback.items()))
     make = dynamics.canonical if canonical else dynamics.closed
     return remembered(model, key, lambda: make(model, drive.feedback, supply=True))
@@ -195,7 +195,7 @@ def _hits(task: Task, found: Any) -> list[Hit]:
 def _to_momenta(task: Task, x: Array) -> Array:
     kernel = remembered(task.model, "momenta", lambda: machine.compile(dynamics.momenta(task.model)))
     n, size = len(task.model.coordinates), task.size
-    u = np.zeros(len(task.model.inputs))  # a kinetic energy reads no input
+    u = np.zeros(len(task.model.inputs))  # a kinetic energy does not depend on inputs
     return np.concatenate([x[:n], kernel(np.array(x[:size]), u, task.p, float(task.times[0])), x[size:]])
 
 

@@ -1,4 +1,4 @@
-"""What is done with each run of an ensemble: how it is integrated, what is observed and which of it is kept."""
+"""What is done in each run of an ensemble: how it is integrated, what is observed, and which results are stored."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ Array: TypeAlias = NDArray[np.float64]
 Outputs: TypeAlias = Mapping[str, Any] | Iterable[Any] | str | sp.Expr | None
 
 MOST_CHARACTERS = 200
-"""Longest name of a result, which is the name of a folder in a store."""
+"""The longest name of a result, which is also the name of a folder in a store."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Recording:
-    """What is kept of each run; see `lagrangian.System.ensemble`."""
+    """What is stored of each run; see `lagrangian.System.ensemble`."""
 
     outputs: Outputs = None
     reduce: str | Sequence[str] | None = ("final",)
@@ -40,7 +40,7 @@ class Recording:
 
 
 def instants(model: Model, settings: RunSettings) -> Array:
-    """The times of the samples, the start first, at least two."""
+    """The times of the samples, at least two, beginning with the start."""
     times = settings.instants(model, len(model.coordinates) + len(model.velocities))
     if len(times) < 2:
         fix = Advice(Argument("duration", "10"))
@@ -51,9 +51,9 @@ def instants(model: Model, settings: RunSettings) -> Array:
 def study_of(
     model: Model, settings: RunSettings, recording: Recording, drive: InputSignals, times: Array
 ) -> tuple[Study, dict[str, sp.Expr]]:
-    """What is done with every run, and the expressions observed by name.
+    """What is done with every run, and the observed expressions by name.
 
-    Raises `RunError` or `ModelError` for what is not known or does not fit.
+    Raises `RunError` or `ModelError` for unknown names and values that do not fit.
     """
     method = settings.method or DEFAULT
     if method not in METHODS:
@@ -86,7 +86,7 @@ def study_of(
 
 
 def _accuracy(settings: RunSettings, method: str) -> dict[str, Any]:
-    """What decides step lengths and ends of runs; tolerances mean what they mean for one run."""
+    """The settings that determine step sizes and the ends of runs; tolerances have the same meaning as for one run."""
     options: dict[str, Any] = {name: getattr(settings, name) for name in ("max_steps", "max_events", "max_step")}
     if METHODS[method].adaptive:
         options["rtol"], options["atol"] = settings.of_a_step()
@@ -98,7 +98,7 @@ def _accuracy(settings: RunSettings, method: str) -> dict[str, Any]:
 def _kept(
     model: Model, outputs: Outputs, reduce: str | Sequence[str] | None
 ) -> tuple[dict[str, sp.Expr], tuple[Kept, ...]]:
-    """The expressions to observe by name, and what is kept of each."""
+    """The expressions to observe by name, and the results to store of each."""
     reductions = list(reduce) if isinstance(reduce, Iterable) and not isinstance(reduce, str) else [reduce]
     for r in reductions:
         _reduction(r)
@@ -120,7 +120,7 @@ def _kept(
 
 
 def _check_result(name: str) -> None:
-    """Refuse what cannot be the name of an array in a file, or is the name of another."""
+    """Raise an error for a name that an array in a file cannot have, or that another result has."""
     if name in TAKEN:
         raise RunError(f"a result cannot be called '{name}'", fix=f"not one of {', '.join(sorted(TAKEN))}", code="E403")
     strange = next((c for c in name if c in "/\\" or not c.isprintable()), None)
@@ -141,7 +141,7 @@ def _reduction(name: Any) -> None:
 
 
 def _named(model: Model, outputs: Outputs) -> list[tuple[str | None, Any]]:
-    """Outputs with the names they were given, if any."""
+    """Outputs with the names that were given, if any."""
     if outputs is None:
         return [(None, s.symbol) for s in (*model.coordinates, *model.velocities)]
     if isinstance(outputs, Mapping):
@@ -152,7 +152,7 @@ def _named(model: Model, outputs: Outputs) -> list[tuple[str | None, Any]]:
 
 
 def _asked(model: Model, name: str | None, asked: Any) -> tuple[str | None, sp.Expr, str]:
-    """The reduction that an output asks for itself ("max theta1"), its expression, and its name."""
+    """The reduction that an output requests ("max theta1"), its expression, and its name."""
     if isinstance(asked, sp.Expr):
         return None, asked, name or plain(asked)
     if not isinstance(asked, str):

@@ -1,4 +1,4 @@
-"""What a run looks like: its columns with units and words, and its picture."""
+"""Tables and plots of a run: its columns with units and descriptions, and its figure."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 TURNS = 4 * np.pi
-"""[rad] Angles that go farther than this are drawn in turns, others in degrees."""
+"""Angles [rad] that exceed this are plotted in turns, others in degrees."""
 
 PICTURES = frozenset((".png", ".pdf", ".svg", ".jpg", ".jpeg", ".eps"))
-"""Endings of the names of pictures."""
+"""Endings of the names of image files."""
 
 KINDS = {
     "rad": "angle",
@@ -47,13 +47,13 @@ KINDS = {
     "J": "energy",
     "W": "power",
 }
-"""What quantities of a unit are together."""
+"""The common meaning of quantities with a unit."""
 
 NAMED = {"kg m/s^2": "N", "kg m^2/s^2": "N m", "kg m^2/s^3": "W", "kg/s^2": "N/m", "kg/s": "N s/m"}
 
 
 class Units:
-    """The SI units of a model's quantities, as far as its declarations and its geometry tell."""
+    """The SI units of a model's quantities, as far as its declarations and its geometry determine them."""
 
     def __init__(self, model: Model) -> None:
         self.model = model
@@ -61,7 +61,7 @@ class Units:
         self._angles: set[Any] = remembered(model, "angles", lambda: _angles(model))
 
     def of(self, expr: sp.Expr) -> str:
-        """The unit of an expression, or nothing where it is not known."""
+        """The unit of an expression, or an empty text if it is not known."""
         if isinstance(expr, sp.Add):
             found = {self.of(term) for term in expr.args}
             return found.pop() if len(found) == 1 else self._worked_out(expr)
@@ -93,7 +93,7 @@ class Units:
 
 
 def _angles(model: Model) -> set[Any]:
-    """Coordinates that turn something: those in an angle of a frame or under a sine."""
+    """Coordinates that are angles: those in the angle of a frame or inside a sine or cosine."""
     exprs: list[Any] = [x for body in model.bodies for x in model.position(body.at)]
     exprs += [x for point in model.points for x in model.position(point)]
     frames = [f for e in model.elements for _, f in e.frames()] + list(model.frames)
@@ -113,7 +113,7 @@ def _angles(model: Model) -> set[Any]:
 
 
 def _alone(angle: sp.Expr, q: Any) -> bool:
-    """Whether q stands in an angle as one of the terms of a sum, times a number at most."""
+    """Whether q occurs in an angle as a term of a sum, at most with a numerical factor."""
     return bool(sp.diff(angle, q).is_number) and angle.has(q)
 
 
@@ -145,12 +145,12 @@ def table(run: Recorded) -> ColumnTable:
 
 
 def extremes(values: NDArray[np.float64]) -> tuple[float, float, float, float]:
-    """Where a quantity began, ended, and stayed between."""
+    """The initial, final, smallest and largest value of a quantity."""
     return float(values[0]), float(values[-1]), float(values.min()), float(values.max())
 
 
 def attributes(run: Recorded) -> dict[str, Any]:
-    """What is to be known of a run: how it was made, how it ended, how well energy is balanced."""
+    """Attributes of a run: how it was made, how it ended, how well its energy is balanced."""
     return {
         "title": run.model.name,
         "source": f"lagrangian {version('lagrangian')}",
@@ -174,7 +174,7 @@ def _state_symbols(model: Model) -> list[Any]:
 
 
 def plot(run: Recorded, asked: Sequence[Any], *, energy: bool | None, audit: bool, shown: bool = False) -> Figure:
-    """The figure of what is asked for; of coordinates, inputs that act and energies where nothing is."""
+    """The figure of the requested quantities; by default, of coordinates, inputs that are not 0, and energies."""
     units, labels = Units(run.model), Labels(run.model)
     panels = [_panel(run, units, labels, _expression(run.model, x)) for x in asked]
     if not asked:
@@ -192,7 +192,7 @@ def plot(run: Recorded, asked: Sequence[Any], *, energy: bool | None, audit: boo
 
 
 def check_no_file(asked: Any, verb: str) -> None:
-    """Refuse the name of a picture's file where a quantity is asked for."""
+    """Raise an error for the name of an image file where a quantity is expected."""
     if isinstance(asked, (str, os.PathLike)) and Path(asked).suffix.lower() in PICTURES:
         raise ModelError(
             f"plot takes names and expressions, and '{str(asked)[:60]}' names a file",

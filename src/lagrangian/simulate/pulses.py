@@ -1,9 +1,9 @@
-"""Narrow pulses of functions of time alone: the times at which steps have to end so that none is jumped over.
+"""Finds narrow pulses in functions of time: the times at which steps have to end so that no pulse is skipped.
 
-Between pulses nothing shows a method that there are any, and its steps grow. A function of time is cut into pieces in
-each of which bounds of its second derivative (`lagrangian.graph.bounds`) show that it bends by no more than `BENT` of
-its whole change: the pieces are short where it is narrow. Where they are of very different lengths, steps end where
-these pass from one power of `CLASS` to the next, and at every end of the shortest ones.
+Between pulses a method cannot notice them, and its steps grow. Therefore a function of time is divided into pieces. In
+each of them, bounds of its second derivative (`lagrangian.graph.bounds`) show that the curvature changes it by no more
+than `BENT` of its whole range; the pieces are short where the function is narrow. If their lengths are very different,
+steps end where the lengths pass from one power of `CLASS` to the next, and at every end of the shortest ones.
 """
 
 from __future__ import annotations
@@ -23,23 +23,23 @@ from lagrangian.simulate.integrating import remembered, right_hand_side
 Array = NDArray[np.float64]
 
 BENT = 0.1
-"""Part of its whole change by which a function may bend in one piece."""
+"""The fraction of its whole range by which curvature may change a function within one piece."""
 
 CLASS, UNEVEN = 8.0, 16.0
-"""The ratio of lengths that makes a class; the ratio of the longest piece to the shortest that makes a pulse."""
+"""The ratio of lengths that separates classes; also the ratio of longest to shortest piece that makes a pulse."""
 
 MOST, DEEPEST = 20_000, 44
-"""Pieces that are looked at, and how often the run is halved, at most; a function that needs more has no stops."""
+"""The largest number of pieces, and of halvings of the run; a function that needs more gets no stops."""
 
 SHORTEST = 2048
-"""Ends of shortest pieces at which steps end, at most: where there are more the function is not narrow but restless."""
+"""The largest number of shortest pieces at which steps end; if there are more, the function is not a pulse."""
 
 CURVED = frozenset({*UNARY, "div", "pow", "powi"})
-"""Operations that can make a pulse."""
+"""Operations that can produce a pulse."""
 
 
 def curved(program: Program, *, inputs: bool) -> list[int]:
-    """The nodes that read time, and beside it constants alone, and can be narrow there. ``inputs``: are constants."""
+    """The nodes that depend only on time and constants, and may be narrow. ``inputs``: whether inputs are constants."""
     nodes = program.graph.nodes
     time: dict[int, bool] = {}
     state: dict[int, bool] = {}
@@ -53,7 +53,7 @@ def curved(program: Program, *, inputs: bool) -> list[int]:
 
 
 class Pulses:
-    """The narrow functions of time alone of a model that is driven so."""
+    """The narrow functions of time in a model with given inputs."""
 
     def __init__(self, model: Model, drive: InputSignals) -> None:
         self.program, self._model = right_hand_side(model, drive), model
@@ -65,17 +65,17 @@ class Pulses:
 
     @property
     def parameters(self) -> set[int]:
-        """Which parameters decide when the pulses are."""
+        """The parameters that determine the times of the pulses."""
         nodes = self.program.graph.nodes
         return {nodes[i][2] for i in reached(self.program.graph, self.nodes) if nodes[i][:2] == ("input", "p")}
 
     def times(self, p: Array, u: Array, start: float, end: float) -> Array:
-        """The times in (start, end) at which some function becomes narrower or wider."""
+        """The times in (start, end) at which a function becomes narrower or wider."""
         key = (*self._key, p.tobytes(), u.tobytes(), start, end)
         return remembered(self._model, key, lambda: self.times_anew(p, u, start, end))
 
     def times_anew(self, p: Array, u: Array, start: float, end: float) -> Array:
-        """The same, not remembered: for many sets of parameters."""
+        """The same without caching, for many sets of parameters."""
         count = len(self.nodes)
         leaves: list[tuple[Array, Array, NDArray[np.bool_]]] = []
         low, width = np.array([0.0]), 1.0
@@ -98,7 +98,7 @@ class Pulses:
         return start + (end - start) * np.unique(np.concatenate([*found, np.empty(0)]))
 
     def _bends(self, t: Array, r: float, p: Array, u: Array) -> tuple[Array, Array]:
-        """Of each function at times t its value, and the greatest second derivative within r; (S, functions)."""
+        """The value of each function at times t, and the largest second derivative within r; (S, functions)."""
         kernel = remembered(self._model, (*self._key, "kernel"), self._kernel)
         given: dict[str, Any] = {"t": t, "p": p, "u": u, "drift": np.zeros_like(u)}
         given["stretch"] = np.tile([1.0, r], (len(t), 1))
@@ -112,7 +112,8 @@ class Pulses:
 
     @staticmethod
     def _edges(leaves: list[tuple[Array, Array, NDArray[np.bool_]]], k: int) -> Array:
-        """Where the class of the pieces of function k changes, and the ends of those of the lowest class."""
+        """The times at which the class of the pieces of function k changes, and the ends of pieces of the lowest
+        class."""
         low = np.concatenate([at[settled[:, k]] for at, _, settled in leaves])
         width = np.concatenate([wide[settled[:, k]] for _, wide, settled in leaves])
         order = np.argsort(low)

@@ -1,4 +1,5 @@
-"""A run as it was recorded, and what can be asked of it: states, expressions, energies, points, the energy balance."""
+"""The recorded data of a run, and what can be computed from them: states, expressions, energies, points, energy
+balance."""
 
 from __future__ import annotations
 
@@ -28,18 +29,18 @@ Array = NDArray[np.float64]
 
 
 TRUSTED = 1e-3
-"""Largest miss of the energy balance that is passed over, relative to the energy that moves."""
+"""An error of the energy balance, relative to the energy that moves, up to this is accepted."""
 
 ROUNDING = 1e-13
-"""Energy supplied below this share of the energy that moves is none."""
+"""If the supplied energy is below this fraction of the energy that moves, it counts as zero."""
 
 
 @dataclass(frozen=True)
 class Audit(Brief):
-    """How well a run keeps its energy balance h(t) = h(0) + energy supplied, h = q̇·∂L/∂q̇ − L.
+    """How well a run satisfies its energy balance h(t) = h(0) + supplied energy, h = q̇·∂L/∂q̇ − L.
 
-    ``figure`` is the largest difference relative to the energy that moves in the run (the largest of T*, of the change
-    of V, and of the energy supplied); ``time`` is where it is largest. float(audit) is the figure.
+    ``figure`` is the largest difference, relative to the energy that moves in the run (the largest of T*, the change of
+    V, and the supplied energy); ``time`` is where it is largest. float(audit) is the figure.
     """
 
     figure: float
@@ -51,7 +52,7 @@ class Audit(Brief):
 
     @property
     def missed(self) -> Advice:
-        """What is to be said of a balance that is off by more than `TRUSTED`, else nothing."""
+        """The warning about an error of more than `TRUSTED`, otherwise an empty text."""
         if self.figure <= TRUSTED:
             return Advice()
         return Advice(
@@ -64,13 +65,13 @@ class Audit(Brief):
         )
 
     def __str__(self) -> str:
-        """Read as ``energy drift 3.1e-12`` or ``power balance 3.1e-12``."""
+        """Return ``energy drift 3.1e-12`` or ``power balance 3.1e-12``."""
         return f"{'energy drift' if self.conserved else 'power balance'} {self.figure:.1e}"
 
 
 @dataclass(frozen=True)
 class Occurrences(Brief):
-    """When an event happened: ``t`` (k,) and the states just before it, ``y`` (n_states, k)."""
+    """The occurrences of an event: the times ``t`` (k,) and the states just before it, ``y`` (n_states, k)."""
 
     t: Array
     y: Array
@@ -81,7 +82,7 @@ class Occurrences(Brief):
 
 @dataclass(eq=False)
 class Recorded(Guided):
-    """The numbers of a run, and everything that can be asked of them by name; see `Trajectory`."""
+    """The numbers of a run, and everything that can be computed from them by name; see `Trajectory`."""
 
     _guide = TRAJECTORY
 
@@ -104,7 +105,7 @@ class Recorded(Guided):
     settings: Mapping[str, Any]
     notices: tuple[Notice, ...] = ()
 
-    # -- asking -------------------------------------------------------------------------------------------------
+    # -- quantities ---------------------------------------------------------------------------------------------
 
     @cached_property
     def states(self) -> tuple[str, ...]:
@@ -113,12 +114,13 @@ class Recorded(Guided):
 
     @property
     def params(self) -> dict[str, float]:
-        """The parameters the run was made with."""
+        """The parameters of the run."""
         values = zip((p.name for p in self.model.parameters), map(float, self.p), strict=True)
         return Entries(dict(values), "params")
 
     def __getitem__(self, asked: Any) -> Array:
-        """Return a quantity at every time: a state by name, an expression (SymPy or text), or a point's path (S, d)."""
+        """Return a quantity at every time: a state by name, an expression (SymPy or text), or the path of a point
+        (S, d)."""
         if isinstance(asked, str):
             if asked in self.states:
                 return self.y[self.states.index(asked)]
@@ -135,12 +137,12 @@ class Recorded(Guided):
 
     @cached_property
     def _places(self) -> dict[Any, int]:
-        """Where the symbols of the states stand in ``y``."""
+        """The rows of ``y`` for the symbols of the states."""
         symbols = [*(c.symbol for c in self.model.coordinates), *(v.symbol for v in self.model.velocities)]
         return {symbol: i for i, symbol in enumerate(symbols)}
 
     def _own_name(self, name: str) -> str | None:
-        """A quantity is an entry, not an attribute."""
+        """Quantities are accessed as entries, not as attributes."""
         model = self.__dict__.get("model")
         return f'run["{name}"]' if model is not None and name in model.symbols else None
 
@@ -151,7 +153,7 @@ class Recorded(Guided):
         return self._evaluated(key, lambda: dynamics.observe_closed(self.model, asked, self.feedback))
 
     def _evaluated(self, key: Any, make: Callable[[], Program]) -> dict[str, Array]:
-        """What a program says at every time; it is compiled once for all runs of the system."""
+        """The outputs of a program at every time; it is compiled only once for all runs of the system."""
         kernel: machine.Kernel = remembered(self.model, key, lambda: machine.compile(make()))
         answer = kernel(np.ascontiguousarray(self.y.T), self.u, self.p, self.t)
         return answer if isinstance(answer, dict) else {next(iter(kernel.program.outputs)): answer}
@@ -180,12 +182,12 @@ class Recorded(Guided):
 
     @property
     def power(self) -> Array:
-        """The power supplied from outside, Ξ·q̇ − ∂L/∂t [W], shape (S,)."""
+        """The external power Ξ·q̇ − ∂L/∂t [W], shape (S,)."""
         return self._power["P"]
 
     @cached_property
     def imbalance(self) -> Array:
-        """h(t) − h(0) − the energy supplied until t [J], shape (S,): what `audit` judges."""
+        """h(t) − h(0) − the energy supplied until t [J], shape (S,), from which `audit` is computed."""
         h = self._power["h"]
         return h - h[0] - self.supplied - self.jumps if len(h) else h
 
@@ -208,7 +210,7 @@ class Recorded(Guided):
 
     @cached_property
     def powers(self) -> Mapping[str, Array]:
-        """The power [W] that each force, damper, spring, … by its name gives to what moves, (S,) each."""
+        """The power [W] that each force, damper, spring, … supplies to the motion, by name, (S,) each."""
         acting = [e for e in self.model.elements if e.ledger != "T*"]
         return NamedQuantities(
             self, "element that gives power,", {e.name: partial(element_power, self.model, e) for e in acting}
@@ -216,14 +218,14 @@ class Recorded(Guided):
 
 
 class NamedQuantities(Mapping[str, Array]):
-    """Quantities of a run by name, worked out when asked for; ``what`` they are called in messages."""
+    """Quantities of a run by name, computed when they are requested; ``what`` describes them in messages."""
 
     def __init__(self, run: Recorded, what: str, quantities: Mapping[str, Callable[[], Any]]) -> None:
         self._run, self._what, self._quantities = run, what, quantities
         self._known: dict[str, Array] = {}
 
     def __getitem__(self, name: Any) -> Array:
-        key = getattr(name, "name", name)  # the point or element itself will do
+        key = getattr(name, "name", name)  # the point or element itself is accepted, too
         if key not in self._quantities:
             known = ", ".join(self._quantities) or "none"
             fix = did_you_mean(str(key), self._quantities) or f"known: {known}"
@@ -251,9 +253,9 @@ def _same(thing: Any) -> Any:
 
 
 def element_power(model: Model, element: Element) -> sp.Expr:
-    """The power [W] an element gives to what moves: Σ effort · rate, and −V̇ of what it stores by position.
+    """The power [W] that an element supplies to the motion: Σ effort · rate, and −V̇ of its potential energy.
 
-    V̇ is taken along the motion, with inputs and time held.
+    V̇ is taken along the motion, with inputs and time constant.
     """
     given = sum((a.effort * a.rate for a in element.works(model)), sp.S.Zero)
     stored = element.potential(model)

@@ -1,4 +1,4 @@
-"""Resets without a value: the run ends at the state before the event, and the reason is told."""
+"""Resets whose value is not finite: the run ends at the state before the event, with the reason."""
 
 from __future__ import annotations
 
@@ -20,11 +20,12 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 NOT_A_VALUE = "E503"
-"""The code of outputs that are not finite."""
+"""The error code of outputs that are not finite."""
 
 
 def valued(kernel: Kernel) -> Callable[..., dict[str, Array]]:
-    """The outputs ``g`` and ``after`` of events, where a value that is not finite is one and raises nothing."""
+    """The outputs ``g`` and ``after`` of events, in which a value that is not finite is returned instead of raising an
+    error."""
     shapes = {name: out.shape for name, out in kernel.program.outputs.items()}
 
     def evaluate(x: Array, u: Any, p: Array, t: Any) -> dict[str, Array]:
@@ -32,10 +33,10 @@ def valued(kernel: Kernel) -> Callable[..., dict[str, Array]]:
             answer = kernel(x, u, p, t)
             return answer if isinstance(answer, dict) else {"g": answer}
         except RunError as trouble:
-            if trouble.code != NOT_A_VALUE:  # an input that is not finite, say
+            if trouble.code != NOT_A_VALUE:  # such as an input that is not finite
                 raise
         found = {name: np.empty(shape) for name, shape in shapes.items()}
-        with contextlib.suppress(RunError):  # the same again, now with every value written
+        with contextlib.suppress(RunError):  # the same call again, with every value returned
             kernel(x, u, p, t, out=found)
         return found
 

@@ -1,4 +1,4 @@
-"""Options of runs, checked once for one run and for many: how they are integrated, and how they are executed."""
+"""The options of runs, checked in one place for single runs and ensembles: integration and execution."""
 
 from __future__ import annotations
 
@@ -27,29 +27,29 @@ Array: TypeAlias = NDArray[np.float64]
 Options = TypeVar("Options")
 
 SAMPLES = 1001
-"""Times at which a run is sampled unless told otherwise."""
+"""The default number of times at which a run is sampled."""
 
 MAX_STORED = 1 << 28
-"""Numbers a run may store: 2 GiB."""
+"""The largest number of values that a run may store: 2 GiB."""
 
 DEFAULT = "dop853"
-"""The method taken unless told, in machine code."""
+"""The default method, in machine code."""
 
 STORE = Argument("store", '"sweep.zarr"')
-"""What keeps results on disk."""
+"""The ending of stores on disk."""
 
 STEP_SHARE = 1e-3
-"""Share of the run's tolerances for one step of a method of ours or one chosen by itself: errors add up."""
+"""The fraction of the run's tolerances for one step of our own methods or of an automatic choice: errors add up."""
 
 FINEST_RTOL = 100 * float(np.finfo(float).eps)
-"""The least relative tolerance of a step that doubles can hold."""
+"""The smallest relative tolerance of a step that is possible with doubles."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class RunSettings:
-    """How long a run is, at which times it is sampled, and how it is integrated; see `lagrangian.System.simulate`.
+    """The duration of a run, the times of its samples, and how it is integrated; see `lagrangian.System.simulate`.
 
-    Texts with a unit become SI numbers. Raises `RunError` for a value that does not fit.
+    Texts with a unit are converted to SI numbers. Raises `RunError` for a value that does not fit.
     """
 
     duration: float | str | None = None
@@ -73,10 +73,10 @@ class RunSettings:
         _check_method(self.method, self.step)
 
     def instants(self, model: Model, states: int) -> Array:
-        """Return the times of the samples, the start first, no more than can be stored with so many states.
+        """Return the times of the samples, beginning with the start, if that many states can be stored.
 
-        The duration is that of the model file where none is given. Raises `RunError` where there is none, and where
-        doubles cannot tell the times apart.
+        The default duration is that of the model file. Raises `RunError` if there is none, and if the times are too
+        close to be distinct doubles.
         """
         begin = float(self.start)
         if self.times is not None:
@@ -112,14 +112,14 @@ class RunSettings:
         return grid
 
     def of_a_step(self) -> tuple[float, float]:
-        """Return the relative and the absolute tolerance of one step: for SciPy's methods the given ones."""
+        """Return the relative and the absolute tolerance of one step; for SciPy's methods these are the given ones."""
         share = 1.0 if self.method in SCIPY else STEP_SHARE
         return max(self.rtol * share, FINEST_RTOL), self.atol * share
 
 
 @dataclass(frozen=True, kw_only=True)
 class Execution:
-    """How many runs are done and where their results go; see `lagrangian.System.ensemble`.
+    """How the runs of an ensemble are executed, and where their results are stored; see `lagrangian.System.ensemble`.
 
     Raises `RunError` for a value that does not fit.
     """
@@ -151,16 +151,16 @@ class Execution:
 
 
 def whole(value: Any, what: str, *, least: int = 1) -> int:
-    """Return a whole number. Raises `RunError` for what is not one, or is below ``least``."""
+    """Return a whole number. Raises `RunError` for anything else, and for a number below ``least``."""
     if isinstance(value, bool) or not isinstance(value, (int, np.integer)) or value < least:
         raise RunError(f"{what} must be a whole number, at least {least} (got {value!r:.30})", code="E501")
     return int(value)
 
 
 def check_names(model: Model, by_name: Iterable[str], options: Iterable[str]) -> None:
-    """Raise `RunError` for a keyword that is not a state of the model, with what is meant among them and the options.
+    """Raise `RunError` for a keyword that is not a state of the model, and suggest a state or an option.
 
-    ``options``: the names that the verb takes itself.
+    ``options``: the names of the options of the verb.
     """
     states = [*(c.name for c in model.coordinates), *(v.name for v in model.velocities)]
     for name in by_name:
@@ -177,17 +177,17 @@ def check_names(model: Model, by_name: Iterable[str], options: Iterable[str]) ->
 
 
 def picked(kind: type[Options], given: Mapping[str, Any]) -> Options:
-    """Return options of one kind, out of everything that a verb was called with."""
+    """Return the options of one kind from all arguments of a verb."""
     return kind(**{name: given[name] for name in names_of(kind) if name in given})
 
 
 def names_of(*settings: type) -> tuple[str, ...]:
-    """Return the names of the options that dataclasses hold."""
+    """Return the names of the options in dataclasses."""
     return tuple(field.name for kind in settings for field in fields(kind))
 
 
 def _checked(settings: Any, checks: Mapping[str, Callable[[Any, str], Any]]) -> None:
-    """Put what the checks return in place of what was given."""
+    """Replace the fields by the values that the checks return."""
     for name, check in checks.items():
         object.__setattr__(settings, name, check(getattr(settings, name), name))
 
@@ -226,7 +226,7 @@ def _duration(value: Any, what: str) -> float:
 
 
 def _times(value: Any, what: str) -> tuple[float, ...]:
-    """Times in seconds that increase."""
+    """Return increasing times in seconds."""
     if isinstance(value, (tuple, list)) and any(isinstance(time, str) for time in value):
         value = [_time(time, "a time") for time in value]
     array = np.array(numbers(value, what))
@@ -261,7 +261,7 @@ _CHECKS: dict[str, Callable[[Any, str], Any]] = {
 
 
 def _check_method(method: Any, step: Any) -> None:
-    """Raise `RunError` for a method that is not known, or does not go with the step."""
+    """Raise `RunError` for an unknown method, or one that does not fit the step."""
     known = [*METHODS, *SCIPY]
     if method is not None and (not isinstance(method, str) or method not in known):
         same = [name for name in known if name.lower() == str(method).lower()]
@@ -280,7 +280,7 @@ def _check_method(method: Any, step: Any) -> None:
 
 
 def _meant(name: str, states: Sequence[str], options: Iterable[str]) -> str | None:
-    """What a keyword is called here that other packages have, or that means a rate."""
+    """The option here for a keyword of other packages, or the state for one that means a rate."""
     if name in ("y0", "x0", "q0", "ic", "ics", "initial_conditions", "initial_state"):
         return f"write initial={{'{states[0]}': 0.2}}, or {states[0]}=0.2"
     if name in ("t_span", "tspan", "t_end", "tend", "tf", "t", "T", "time", "t_max"):

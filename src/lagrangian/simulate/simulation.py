@@ -1,4 +1,4 @@
-"""``system.simulate``: from a description to a run."""
+"""``system.simulate``: simulates a description once."""
 
 from __future__ import annotations
 
@@ -36,13 +36,13 @@ _log = logging.getLogger(__name__)
 Array = NDArray[np.float64]
 
 IN_PYTHON = "DOP853"
-"""The method taken unless told for inputs that are Python functions."""
+"""The default method if an input is a Python function."""
 
 MAX_CHECKED_COORDINATES = 12
-"""Coordinates up to which M is looked at before a run."""
+"""M is examined before a run if there are at most this many coordinates."""
 
 OPTIONS = ("initial", "params", "inputs", *names_of(RunSettings))
-"""What a run takes by name beside its initial values."""
+"""The arguments of a run other than initial values."""
 
 
 def simulate(
@@ -54,7 +54,7 @@ def simulate(
     inputs: Mapping[Any, Any] | None = None,
     by_name: Mapping[str, Any],
 ) -> Trajectory:
-    """Run a model; see `lagrangian.System.simulate`. ``by_name``: initial values, ``theta1=0.2``."""
+    """Simulate a model; see `lagrangian.System.simulate`. ``by_name``: initial values, ``theta1=0.2``."""
     check_names(model, by_name, OPTIONS)
     in_file = model.settings
     given = Given.of(model, _named(model))
@@ -83,12 +83,12 @@ def simulate(
         Bounds(settings.max_steps, settings.max_events, longest, settings.timeout),
     )
     made = _trajectory(task, run(task), {"rtol": settings.rtol, "atol": settings.atol})
-    made.notices = (*notices, *(_undecided(task) if made.success else ()))  # a failed one says so itself
+    made.notices = (*notices, *(_undecided(task) if made.success else ()))  # a failed run has its own message
     return _judged(made)
 
 
 def _undecided(task: Task) -> tuple[Notice, ...]:
-    """A notice where M is singular at the start of a run of a few coordinates."""
+    """A notice if M is singular at the start of a run with few coordinates."""
     model, n = task.model, len(task.model.coordinates)
     if n > MAX_CHECKED_COORDINATES or not (
         moved := dynamics.loose(
@@ -101,7 +101,7 @@ def _undecided(task: Task) -> tuple[Notice, ...]:
 
 
 def _judged(made: Trajectory) -> Trajectory:
-    """The run, with a missed energy balance in its message; a failed one where motion and energy contradict."""
+    """The run, with an error of the energy balance in its message; it has failed if motion and energy contradict."""
     try:
         missed = made.audit.missed
     except RunError as trouble:  # an energy that is not finite somewhere must not hide the run
@@ -114,19 +114,19 @@ def _judged(made: Trajectory) -> Trajectory:
 
 
 def _named(model: Model) -> Program:
-    """The names of a model's states, inputs and parameters as the groups of a program that computes nothing."""
+    """The names of a model's states, inputs and parameters as the groups of a program without outputs."""
     states = (*(c.name for c in model.coordinates), *(v.name for v in model.velocities))
     groups = {"x": states, "u": tuple(u.name for u in model.inputs), "p": tuple(p.name for p in model.parameters)}
     return Program("names", Graph(), groups, {})
 
 
-# -- what was given ---------------------------------------------------------------------------------------------
+# -- the arguments -------------------------------------------------------------------------------------------------
 
 
 def _initial(
     given: Given, model: Model, program: Program, fallback: Mapping[str, Any], initial: Any, by_name: Mapping[str, Any]
 ) -> Array:
-    """x at the start: what is given over what the file says over the resting configuration."""
+    """x at the start: given values, else those of the file, else 0 at rest."""
     values = dict.fromkeys(given.states.names, 0.0)
     values.update({c.name: c.start for c in model.coordinates})
     values.update(given.states.values(dict(fallback)))
@@ -148,7 +148,7 @@ def _initial(
 
 
 def _method(method: str | None, drive: InputSignals) -> str:
-    """The method that will run, or a `RunError` where it cannot call an input."""
+    """The method to use, or a `RunError` if it cannot call an input."""
     if method is None:
         return IN_PYTHON if drive.calls_python else DEFAULT
     if method in METHODS and drive.calls_python:
@@ -161,14 +161,14 @@ def _method(method: str | None, drive: InputSignals) -> str:
     return method
 
 
-# -- what came of it --------------------------------------------------------------------------------------------
+# -- the result ----------------------------------------------------------------------------------------------------
 
 
 def _trajectory(task: Task, outcome: Outcome, settings: Mapping[str, Any]) -> Trajectory:
     n = task.size
     t, x = outcome.times, outcome.states
     further = outcome.status != 0 and outcome.reached > t[-1]
-    if further:  # what was reached last is kept too, after whatever event changed it
+    if further:  # the last state is stored, too, after any event that changed it
         t, x = np.append(t, outcome.reached), np.vstack([x, outcome.final])
     return Trajectory(
         model=task.model,
@@ -201,9 +201,9 @@ def _occurrences(task: Task, hits: Sequence[Hit], n: int) -> dict[str, Occurrenc
 
 
 def _jumps(task: Task, hits: Sequence[Hit], t: Array, n: int, *, after_last: bool) -> Array:
-    """What events that change the state have changed h by, until each time.
+    """The sum of the changes of h by events, up to each time.
 
-    A sample at the very time of an event is of the state before it; with ``after_last`` the last one is after it.
+    A sample at the time of an event is the state before it; with ``after_last``, the last sample is the state after it.
     """
     total = np.zeros(len(t))
     changed = [h for h in hits if h.after is not None]

@@ -1,4 +1,4 @@
-"""Which force, torque or other element makes a run stick, and the smooth law that would not."""
+"""Finds which force, torque or other element makes a run stick, and a smooth law that would not."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 WIDTH = "0.001"
-"""The width of the smooth law that is advised, in the unit of what changes sign."""
+"""The suggested width of the smooth law, in the unit of the argument of the sign."""
 
 
 def stuck(task: Task, outcome: Outcome) -> tuple[str, str]:
-    """What keeps a run from leaving its last state, and what helps."""
+    """The element that prevents a run from leaving its last state, and the remedy."""
     values, steps = _values(task, outcome), "get ever shorter" if task.step is None else "jump to and fro"
-    rates = {v.symbol for v in task.model.velocities}  # a force that jumps holds only what it moves at once
+    rates = {v.symbol for v in task.model.velocities}  # a force that jumps acts immediately only on what it moves
     found: list[tuple[bool, float, _Law]] = []
     for law in _laws(task):
         here: Any = law.surface.xreplace(values)
@@ -63,7 +63,7 @@ def stuck(task: Task, outcome: Outcome) -> tuple[str, str]:
 
 @dataclass(frozen=True)
 class _Law:
-    """Something that jumps where ``surface`` is 0, in the expression ``key`` of an element or an input."""
+    """A law that jumps where ``surface`` is 0, in the expression ``key`` of an element or an input."""
 
     who: str
     key: str
@@ -73,7 +73,7 @@ class _Law:
 
 
 def _values(task: Task, outcome: Outcome) -> dict[sp.Basic, sp.Float]:
-    """The numbers of all symbols at the last state, rates included."""
+    """The values of all symbols at the last state, including rates."""
     model, x = task.model, outcome.final
     n = len(model.coordinates)
     u = task.drive.at(np.array([outcome.reached]), x[np.newaxis, : task.size])[0]
@@ -88,7 +88,7 @@ def _values(task: Task, outcome: Outcome) -> dict[sp.Basic, sp.Float]:
 
 
 def _laws(task: Task) -> Iterator[_Law]:
-    """Everything that jumps in the elements and in the inputs that are expressions, definitions written out."""
+    """All jumps in the elements and in the inputs that are expressions, with definitions written out."""
     model: Model = task.model
     listed: list[tuple[str, str, sp.Expr]] = []
     for element in model.elements:
@@ -104,7 +104,7 @@ def _laws(task: Task) -> Iterator[_Law]:
 
 
 def _jumps(expr: sp.Expr) -> Iterator[tuple[Any, Any]]:
-    """What jumps in an expression, each with the expression that is zero there."""
+    """The jumps in an expression, each with the expression that is zero there."""
     for jump in expr.atoms(sp.sign, sp.Heaviside, sp.Abs):
         yield jump, jump.args[0]
     for piece in expr.atoms(sp.Piecewise):

@@ -1,4 +1,4 @@
-"""``system.ensemble`` and ``system.sweep``: from a description to many runs."""
+"""``system.ensemble`` and ``system.sweep``: simulate a description many times."""
 
 from __future__ import annotations
 
@@ -44,17 +44,17 @@ OPTIONS = tuple(
     for name in ("initial", "params", "inputs", *names_of(RunSettings, Recording, Execution))
     if name not in ("samples", "timeout")
 )
-"""What an ensemble takes by name beside initial values."""
+"""The arguments of an ensemble other than initial values."""
 
 MAX_CHUNK_BYTES = 2**30
-"""Bytes of a chunk on disk at most: compressors take no more than 2 GiB at a time."""
+"""The largest size of a chunk on disk in bytes: compressors accept at most 2 GiB at a time."""
 
 MOST_MEMORY = 0.5
-"""Part of the machine's memory that results without a store may take."""
+"""The fraction of the machine's memory that results without a store may take."""
 
 
 def chosen(given: Mapping[str, Any]) -> tuple[RunSettings, Recording, Execution]:
-    """Return the options among everything that a verb was called with; a number of times is one of samples."""
+    """Return the options from all arguments of a verb; a number of times becomes a number of samples."""
     times = given["times"]
     counted = np.ndim(times) == 0
     sampled = {"samples": whole(times, "times", least=2), "times": None} if counted else {"times": times}
@@ -73,7 +73,8 @@ def ensemble(
     dims: Sequence[str] | None,
     by_name: Mapping[str, Any],
 ) -> Ensemble:
-    """Many runs from arrays; see `lagrangian.System.ensemble`. ``by_name``: initial values, ``theta1=[0.1, 0.2]``."""
+    """Simulate many runs from arrays; see `lagrangian.System.ensemble`. ``by_name``: initial values, ``theta1=[0.1,
+    0.2]``."""
     check_names(model, by_name, (*OPTIONS, "dims"))
     varied, driven = _split_inputs(inputs)
     varying = from_arrays(model, {"x": {**(initial or {}), **by_name}, "p": params, "u": varied}, dims)
@@ -94,14 +95,14 @@ def sweep(
     seed: int,
     by_name: Mapping[str, Any],
 ) -> Ensemble:
-    """Every combination of values; see `lagrangian.System.sweep`."""
+    """Simulate every combination of values; see `lagrangian.System.sweep`."""
     check_names(model, by_name, (*OPTIONS, "grid", "draws", "seed"))
     varying = from_grid(model, grid, {"x": {**(initial or {}), **by_name}, "p": params}, draws, seed)
     return _done(model, varying, settings, recording, dict(inputs or {}), execution)
 
 
 def _split_inputs(inputs: Mapping[Any, Any] | None) -> tuple[dict[Any, Any], dict[Any, Any]]:
-    """Inputs that are arrays of constants, one a run; and the others: numbers, expressions, tables."""
+    """Split inputs into arrays of constants, one for each run, and others: numbers, expressions, tables."""
     varied, driven = {}, {}
     for key, value in (inputs or {}).items():
         array = (isinstance(value, np.ndarray) and value.ndim > 0) or isinstance(value, list)
@@ -120,7 +121,7 @@ def _done(
     inputs: dict[Any, Any],
     execution: Execution,
 ) -> Ensemble:
-    """Do the runs, or what is missing of them."""
+    """Compute the runs, or those that are missing."""
     drive = _drive(model, varying, inputs)
     times = instants(model, settings)
     check_covers(drive, float(times[0]), float(times[-1]))
@@ -174,12 +175,12 @@ def _in_memory(
 def _machine_memory() -> float:
     try:
         return float(os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES"))
-    except (AttributeError, ValueError, OSError):  # not told on this system: 4 GiB are nearly always there
+    except (AttributeError, ValueError, OSError):  # unknown on this system: 4 GiB are nearly always available
         return 4.0 * 2**30
 
 
 def _executor(execution: Execution) -> tuple[Executor, dict[str, int]]:
-    """Who computes, and what that asks of the chunks."""
+    """Who computes the runs, and the size of chunks that it needs."""
     if execution.scheduler is None:
         return Here(execution.threads), {}
     from lagrangian.integrate.remote import Dask
@@ -189,7 +190,7 @@ def _executor(execution: Execution) -> tuple[Executor, dict[str, int]]:
 
 
 def _drive(model: Model, varying: Varying, inputs: dict[Any, Any]) -> InputSignals:
-    """The inputs that do not vary; one given twice is refused."""
+    """The inputs that do not vary; an input given twice is an error."""
     varied = {name for group, name in varying.columns if group == "u"}
     for key in inputs:
         if key_name(key) in varied:
@@ -221,7 +222,7 @@ def _drive(model: Model, varying: Varying, inputs: dict[Any, Any]) -> InputSigna
     return drive
 
 
-# -- what is written of it --------------------------------------------------------------------------------------
+# -- description of the results --------------------------------------------------------------------------------
 
 
 def _plan(
@@ -264,7 +265,7 @@ def _words(made_of: Mapping[str, tuple[Kept, str]], name: str) -> dict[str, Any]
 
 
 def _task(model: Model, varying: Varying, drive: InputSignals, study: Study) -> dict[str, Any]:
-    """What is done, as plain data: two tasks with equal data give the same bits."""
+    """The task as plain data: tasks with equal data have identical results."""
     times = study.times
     return {
         "version": _version(),
@@ -290,7 +291,7 @@ def _version() -> str:
 
 
 def _events(study: Study) -> str:
-    """Which events there are, how many times of each are kept, and all that decides what they do."""
+    """The events, how many times of each are stored, and everything that determines their effect."""
     e = study.events
     named = [f"{kept.name} {kept.times}" for kept in study.events_kept]
     return f"{named} #{_hash(repr((e.direction, e.terminal, e.reset, digest(e.program))).encode())}"
@@ -303,7 +304,7 @@ def _source(source: Any) -> Any:
 
 
 def digest(program: Program) -> str:
-    """A short text that differs where two programs compute something different."""
+    """A short text that differs if two programs compute different functions."""
     return program.remembered("digest", lambda: _digest(program))
 
 

@@ -1,8 +1,8 @@
-"""When conditions in time alone switch: the times at which steps have to end, as they do at the knots of tables.
+"""Finds when conditions that depend only on time switch; steps have to end then, as they do at the knots of tables.
 
-A step's error is judged at a few places inside it; a pulse between them is not seen at all, and a jump is seen as an
-error that no step is short enough for. Where piecewise, Heaviside, abs, sign, min, max and atan2 read nothing but time
-and constants, the times at which they switch are known before the run.
+The error of a step is estimated from a few places inside it. A pulse between them is not noticed at all, and a jump
+looks like an error for which no step is short enough. If piecewise, Heaviside, abs, sign, min, max and atan2 depend
+only on time and constants, the times at which they switch can be computed before the run.
 """
 
 from __future__ import annotations
@@ -28,22 +28,22 @@ from lagrangian.simulate.pulses import Pulses
 Array = NDArray[np.float64]
 
 COARSE, FINE = 1 << 12, 1 << 20
-"""Places at which conditions are looked at: at first, and at most where finer looks find more switches."""
+"""The number of places at which conditions are examined at first, and at most if finer searches find more switches."""
 
 ROUNDS = 1100
-"""Halvings between any two doubles, at most."""
+"""The largest number of halvings between any two doubles."""
 
 MOST_RUNS, MOST_DIFFERENT = 100_000, 1000
-"""Runs that are looked through for different times of switches, and runs with different ones, at most."""
+"""The largest number of runs that are searched for different switching times, and of runs with different times."""
 
 MOST_PULSES, SOME = 10_000, 32
-"""Ends of steps at the pulses of all runs of an ensemble, at most; runs that are looked at where there are too many."""
+"""The limits on ends of steps at the pulses of all runs of an ensemble, and on runs examined if there are too many."""
 
 NOT_FINITE = "E503"
 
 
 def pairs(program: Program, *, inputs: bool) -> list[tuple[int, int]]:
-    """The pairs (a, b) of nodes whose order decides something and that read time, and beside it constants alone.
+    """The pairs (a, b) of nodes that are compared and depend only on time and constants.
 
     ``inputs``: whether the inputs are constants.
     """
@@ -65,7 +65,7 @@ def pairs(program: Program, *, inputs: bool) -> list[tuple[int, int]]:
 
 
 def _pair(graph: Graph, node: Any) -> tuple[int, int] | None:
-    """The two nodes whose order decides what an operation does, if it has such."""
+    """The two nodes that an operation compares, if it does."""
     match node[0]:
         case "lt" | "le" | "min" | "max":
             return node[1], node[2]
@@ -75,14 +75,14 @@ def _pair(graph: Graph, node: Any) -> tuple[int, int] | None:
 
 
 def parameters_read(program: Program, found: list[tuple[int, int]]) -> set[int]:
-    """Which parameters decide when the pairs switch."""
+    """The parameters that determine when the pairs switch."""
     nodes = program.graph.nodes
     ids = [i for pair in found for i in pair]
     return {nodes[i][2] for i in reached(program.graph, ids) if nodes[i][:2] == ("input", "p")}
 
 
 class Switches:
-    """The conditions in time alone of a model that is driven so."""
+    """The conditions in a model with given inputs that depend only on time."""
 
     def __init__(self, model: Model, drive: InputSignals) -> None:
         self.program, self._model = right_hand_side(model, drive), model
@@ -94,11 +94,12 @@ class Switches:
 
     @property
     def parameters(self) -> set[int]:
-        """Which parameters decide when they switch."""
+        """The parameters that determine when they switch."""
         return parameters_read(self.program, self.pairs)
 
     def times(self, p: Array, u: Array, start: float, end: float) -> Array:
-        """The times in (start, end] at which something switches: each the first at which all has switched there."""
+        """The times in (start, end] at which a condition switches: each is the first time at which the switch is
+        complete."""
         count = COARSE
         grid = np.linspace(start, end, count + 1)
         order = self._order(grid, p, u)
@@ -118,7 +119,7 @@ class Switches:
                 f"conditions in time switch {len(where)} times in this run", fix="simulate a shorter time", code="E505"
             )
         low, high = grid[where], grid[where + 1]
-        after = order[where + 1, which]  # equality may lie between: it is passed as well
+        after = order[where + 1, which]  # equality may lie between the two and is passed, too
         for _ in range(ROUNDS):
             middle = low + (high - low) / 2
             open_ = (middle > low) & (middle < high)
@@ -129,13 +130,13 @@ class Switches:
         return merged(high, start, end)
 
     def _order(self, t: Array, p: Array, u: Array) -> NDArray[np.int8]:
-        """−1, 0 or 1 of each pair at times t: whether the first is less, equal or greater; (S, pairs)."""
+        """The sign −1, 0 or 1 of a − b for each pair at times t; (S, pairs)."""
         kernel = remembered(self._model, (*self._key, "kernel"), self._kernel)
         out = np.empty((len(t), 2 * len(self.pairs)))
         x = np.zeros(len(self.program.inputs["x"]))
         try:
             kernel(x=x, u=u, p=p, t=np.ascontiguousarray(t), out=out)
-        except RunError as trouble:  # every time is computed all the same; what is no number has no order
+        except RunError as trouble:  # every time is computed in any case; NaN has no order
             if trouble.code != NOT_FINITE:
                 raise
         a, b = out[:, 0::2], out[:, 1::2]
@@ -149,7 +150,7 @@ class Switches:
 
 
 def merged(times: Array, start: float, end: float) -> Array:
-    """Times in order, of those that rounding alone tells apart (0 is passed in two bits) the last."""
+    """Times in order; of those that differ only by rounding (0 is crossed within two bits), the last."""
     ordered = np.unique(times[(times > start) & (times <= end)])
     if not len(ordered):
         return ordered
@@ -160,7 +161,7 @@ def merged(times: Array, start: float, end: float) -> Array:
 
 
 def with_stops(model: Model, drive: InputSignals, p: Array, times: Array) -> InputSignals:
-    """The same driving with the times at which conditions in time switch in a run over ``times``."""
+    """The inputs with the times at which conditions in time switch in a run over ``times``."""
     if len(times) < 2:
         return drive
     switches, pulses = Switches(model, drive), Pulses(model, drive)
@@ -173,11 +174,11 @@ def with_stops(model: Model, drive: InputSignals, p: Array, times: Array) -> Inp
 def with_stops_of_all(
     model: Model, drive: InputSignals, design: Design, times: Array, max_step: float
 ) -> tuple[InputSignals, tuple[Advice, ...]]:
-    """The same driving with the times at which conditions in time switch in any run of an ensemble, and of pulses.
+    """The inputs with the times of switches and pulses in all runs of an ensemble.
 
-    Where these differ from run to run, every run's steps end at all of them. Raises `RunError` where conditions switch
-    at too many different times, unless steps are bounded by ``max_step``. Pulses at too many times are left to that
-    bound, and a notice says so where there is none.
+    If these differ from run to run, the steps of every run end at all of them. If there are too many switching times,
+    `RunError` is raised unless ``max_step`` limits the steps. If there are too many pulses, only ``max_step`` limits
+    the steps; without it, a notice says so.
     """
     found = _switches_of_all(model, drive, design, times, max_step)
     narrow = _pulses_of_all(model, drive, design, times)
@@ -197,12 +198,12 @@ def with_stops_of_all(
 
 
 def _constants(drive: InputSignals, times: Array) -> Array:
-    """The inputs where all are constant, else zeros."""
+    """The inputs if all are constant, else zeros."""
     return drive.at(times[:1], np.zeros((1, drive.size)))[0] if drive.constant else np.zeros(len(drive.free))
 
 
 def _pulses_of_all(model: Model, drive: InputSignals, design: Design, times: Array) -> list[Array] | None:
-    """The times of narrow functions of time in the runs of an ensemble; None where there are too many."""
+    """The times of narrow functions of time in the runs of an ensemble; None if there are too many."""
     pulses = Pulses(model, drive)
     if not pulses:
         return []

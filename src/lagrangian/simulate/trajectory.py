@@ -1,4 +1,4 @@
-"""A run: what `system.simulate` returns, with its tables and pictures."""
+"""The class `Trajectory`: a run returned by `system.simulate`, with its tables and plots."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ if TYPE_CHECKING:
 
 @dataclass(eq=False)
 class Trajectory(Recorded):
-    """A run of a system, as SciPy's solvers return one, and everything that can be asked of it by name.
+    """A run of a system, with the same fields as the results of SciPy's solvers, and quantities by name.
 
     ``t`` (S,) are the times [s], ``y`` (n_states, S) the states x = [q; v] in declared order, ``states`` their names.
     ``run["theta1"]``, ``run["theta1'"]``, ``run["theta1''"]`` and ``run[expression]`` are arrays (S,), in SI units.
-    ``success`` is whether the run came to its end (or to a terminal event), ``message`` says how it ended; a run that
-    failed keeps what it reached. ``notices`` say what is to be known of the system with these
-    parameters. ``nfev`` counts evaluations of the right-hand side, ``method`` is what integrated.
+    ``success`` says whether the run reached its end (or a terminal event), and ``message`` how it ended; a run that
+    failed contains the results up to that time. ``notices`` are those of the system with these parameters. ``nfev`` is
+    the number of evaluations of the right-hand side, ``method`` the integration method.
     """
 
     def to_xarray(self) -> xarray.Dataset:
@@ -39,28 +39,28 @@ class Trajectory(Recorded):
         return tables.to_pandas(plot.table(self))
 
     def to_csv(self) -> str:
-        """Return the same columns as CSV text: a line of names, then a line a sample."""
+        """Return the same columns as CSV text: a line of names, then a line for each sample."""
         return tables.to_csv(plot.table(self))
 
     def save(self, path: str | Path, *, overwrite: bool = False) -> Path:
-        """Write the run to a ``.csv``, ``.nc`` (NetCDF), ``.parquet`` or ``.npz`` file, whole or not at all.
+        """Write the run to a ``.csv``, ``.nc`` (NetCDF), ``.parquet`` or ``.npz`` file, completely or not at all.
 
-        Raises `Error` where the file exists, unless ``overwrite``, or where it cannot be written.
+        Raises `Error` if the file exists, unless ``overwrite``, or if it cannot be written.
         """
         return tables.save(plot.table(self), path, overwrite=overwrite)
 
     def plot(self, *quantities: Any, energy: bool | None = None, audit: bool = False) -> Figure:
         """Return a pyplot figure of ``quantities`` (names, text or SymPy expressions) over time.
 
-        Notebooks show it, ``plt.show()`` opens it, ``run.plot().savefig("run.png")`` writes it. Of the coordinates, the
-        inputs that act and the energies where none is named. ``energy`` adds or leaves out the energies; ``audit`` adds
-        what the energy balance is off by. Angles are drawn in degrees, or in turns if many. A run that failed has
-        crosses where it ended, and the reason.
+        By default it shows the coordinates, the inputs that are not 0, and the energies. ``energy`` adds or omits the
+        energies; ``audit`` adds the error of the energy balance. Angles are in degrees, or in turns if they are large.
+        A failed run is marked by crosses at its end, with the reason. Notebooks show the figure, ``plt.show()`` opens
+        it, and ``run.plot().savefig("run.png")`` writes it.
         """
         return plot.plot(self, quantities, energy=energy, audit=audit, shown=True)
 
     def figure(self, *quantities: Any, energy: bool | None = None, audit: bool = False) -> Figure:
-        """Return what `plot` does as a figure apart from pyplot, for programs, threads and servers."""
+        """Return the same figure as `plot` without using pyplot, for programs, threads and servers."""
         return plot.plot(self, quantities, energy=energy, audit=audit)
 
     def _repr_html_(self) -> str:
@@ -76,7 +76,7 @@ class Trajectory(Recorded):
     # -- showing ------------------------------------------------------------------------------------------------
 
     def __repr__(self) -> str:
-        """Say what ran, how, how far, and how well energy is balanced."""
+        """Summarize the run: the time, the method, and how well its energy is balanced."""
         span = f"t = {self.t[0]:g} … {self.t[-1]:g} s" if len(self.t) else "nothing"
         end = "" if self.success else f"; FAILED: {self.message}"
         try:

@@ -1,4 +1,4 @@
-"""What differs from run to run: initial states, parameters and inputs, given as arrays, ranges or draws."""
+"""The quantities that vary from run to run: initial states, parameters and inputs, as arrays, ranges or draws."""
 
 from __future__ import annotations
 
@@ -29,16 +29,16 @@ Array: TypeAlias = NDArray[np.float64]
 
 SAMPLE, RUN, TIME, EVENT = "sample", "run", "time", "event"
 TAKEN = {SAMPLE, RUN, TIME, EVENT, DONE, "chunk", "status", "reached"}
-"""Names of axes and results that no varied entry may carry as it is."""
+"""Names of axes and results that a varied entry must not have."""
 
 PORTION = 1 << 20
 MAX_LISTED = 10_000_000
-"""Most values of one array of a grid."""
+"""The largest number of values in one array of a grid."""
 
 
 @dataclass(frozen=True, eq=False)
 class ListedEntries:
-    """Every entry of a model that a run starts from, by group, with its value where nothing varies it."""
+    """All entries of a model that determine a run, by group, with their values if they do not vary."""
 
     model: Model
     given: Given
@@ -46,7 +46,8 @@ class ListedEntries:
 
     @classmethod
     def of(cls, model: Model) -> ListedEntries:
-        """Coordinates at rest where they start, inputs 0, parameters as declared, and what [simulate] says."""
+        """The default entries: coordinates at their initial values, at rest, inputs 0, declared parameters, and
+        [simulate]."""
         given = Given.of(model, remembered(model, "states", lambda: dynamics.rhs(model)))
         x: dict[str, float | None] = dict.fromkeys(given.states.names, 0.0)
         x.update({c.name: c.start for c in model.coordinates})
@@ -59,7 +60,7 @@ class ListedEntries:
         return {"x": self.given.states, "u": self.given.inputs, "p": self.given.parameters}[group]
 
     def found(self, written: str) -> tuple[str, str]:
-        """The group and the name of an entry, however it is written: ``theta1'``, ``θ₁'``, ``L_a``."""
+        """The group and the name of an entry in any spelling: ``theta1'``, ``θ₁'``, ``L_a``."""
         for group in GROUPS:
             if written in self.base[group]:
                 return group, written
@@ -78,7 +79,7 @@ class ListedEntries:
         )
 
     def complete(self, varied: Iterable[tuple[str, str]]) -> dict[str, Array]:
-        """The constants of all runs; entries that vary may lack a value."""
+        """The constants of all runs; entries that vary need no value."""
         free = set(varied)
         missing = [n for n, value in self.base["p"].items() if value is None and ("p", n) not in free]
         if missing:
@@ -102,7 +103,7 @@ class Varying:
     columns: dict[tuple[str, str], Array | RandomColumn] = field(default_factory=dict)
 
     def design(self) -> Design:
-        """The runs."""
+        """The runs of the ensemble."""
         columns = [
             DesignColumn(group, list(self.entries.base[group]).index(name), name, source)
             for (group, name), source in self.columns.items()
@@ -111,7 +112,7 @@ class Varying:
         return Design(tuple(self.axes), shape, self.entries.complete(self.columns), columns)
 
     def coordinates(self, names: Iterable[str], units: Units) -> dict[str, tuple[Variable, Iterator[Array]]]:
-        """The varied entries as coordinates beside results that are called ``names``."""
+        """The varied entries as coordinates of results that are called ``names``."""
         found: dict[str, tuple[Variable, Iterator[Array]]] = {}
         taken = {*TAKEN, *names}
         for (group, name), source in self.columns.items():
@@ -134,7 +135,7 @@ class Varying:
         return found
 
     def dims(self, names: Iterable[str]) -> tuple[str, ...]:
-        """The names of the axes beside results that are called ``names``."""
+        """The names of the axes for results that are called ``names``."""
         taken = {*TAKEN, *names}
         groups = {name: group for group, name in self.columns}
         return tuple(_title(groups[d], d, taken) if d in groups else d for d in self.axes)
@@ -147,7 +148,7 @@ class Varying:
         return {"long_name": f"{noun} {name}", **({"units": unit} if unit else {})}
 
     def task(self) -> dict[str, Any]:
-        """What varies and what does not, as plain data that tells two tasks apart."""
+        """The varied and the constant values as plain data by which tasks can be distinguished."""
         varied = {name: _said(source) for (_, name), source in self.columns.items()}
         fixed = {
             word: {n: v for n, v in self.entries.base[g].items() if (g, n) not in self.columns}
@@ -157,7 +158,7 @@ class Varying:
 
 
 def _title(group: str, name: str, taken: set[str]) -> str:
-    """What the coordinate of an entry is called: its name, or where a result has that name, θ(0) and the like."""
+    """The name of the coordinate for an entry: its own or, if a result has that name, one such as θ(0)."""
     if name not in taken:
         return name
     return f"{name}(0)" if group == "x" else f"{'parameter' if group == 'p' else 'input'} {name}"
@@ -175,9 +176,9 @@ def _said(source: Array | RandomColumn) -> str:
 
 
 def from_arrays(model: Model, given: Mapping[str, Mapping[Any, Any] | None], dims: Sequence[str] | None) -> Varying:
-    """An ensemble of arrays that broadcast together; ``given`` holds numbers and arrays by group and name.
+    """An ensemble from arrays that broadcast together; ``given`` contains numbers and arrays by group and name.
 
-    Raises `RunError` for unknown names, and shapes that do not fit together.
+    Raises `RunError` for unknown names, and for shapes that do not fit together.
     """
     entries = ListedEntries.of(model)
     columns: dict[tuple[str, str], Array | RandomColumn] = {}
@@ -219,7 +220,7 @@ def _items(given: Mapping[Any, Any] | None, group: str) -> list[tuple[Any, Any]]
 
 
 def _entry(entries: ListedEntries, group: str, name: str) -> tuple[str, str]:
-    """The entry that ``name`` means in ``group``, in which it was given."""
+    """The entry of ``group`` that ``name`` means."""
     names = entries.group(group).names
     if name in names:
         return group, name
@@ -235,12 +236,12 @@ def _entry(entries: ListedEntries, group: str, name: str) -> tuple[str, str]:
 
 
 def _take(entries: ListedEntries, columns: dict[Any, Any], where: tuple[str, str], value: Any) -> None:
-    """Note a number as the value of all runs, or an array as a column."""
+    """Record a number as the value for all runs, or an array as a column."""
     group, name = where
     what = f"'{name}'"
     if where in columns:
         raise RunError(f"{what} is given twice, by name and by symbol", code="E404")
-    listed = isinstance(value, Sequence) and not isinstance(value, (str, bytes))  # ragged ones have no number of axes
+    listed = isinstance(value, Sequence) and not isinstance(value, (str, bytes))  # ragged arrays have no number of axes
     if not listed and np.ndim(value) == 0:
         dims = entries.group(group)
         entries.base[group][name] = number(value, what, dims.dims[dims.names.index(name)])
@@ -274,7 +275,7 @@ def from_grid(
     draws: int | None,
     seed: int,
 ) -> Varying:
-    """An ensemble over every combination of the values in ``grid``, each for every draw of what is random.
+    """An ensemble of every combination of the values in ``grid``, each for every random draw.
 
     ``grid``: name → values (an array, or text such as "10:100:50" and "normal(1, 0.1)"), or texts "k=10:100:50".
     """

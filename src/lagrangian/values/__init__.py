@@ -1,1 +1,1 @@
-"""Names and what was given for them: SI numbers, and the dimensions that they must have."""
+"""Values given by name, converted to SI numbers, and the dimensions that they must have."""

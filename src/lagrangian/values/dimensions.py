@@ -1,10 +1,10 @@
-"""Do the units fit? Dimensions are worked out by solving for those that were not given.
+"""Checks that units agree, and determines unknown dimensions by solving linear equations.
 
-Every symbol has a dimension kg^a m^b s^c, known from its unit or unknown. What the model says ("this is a mass", "this
-is added to that", "this is the argument of a sine") are linear equations between the exponents; they are solved one
-after another, and the first that contradicts the others is the error, with the element it stands in. Angles have no
-dimension. A bare number may stand for a quantity ("0.5" for half a metre): where that would explain a difference there
-is no error, and then the equations' terms are not compared.
+Every symbol has a dimension kg^a m^b s^c, which is known from its unit or unknown. The model states facts such as "this
+is a mass", "this is added to that" or "this is the argument of a sine", which are linear equations for the exponents.
+They are solved one after another; the first one that contradicts the others is reported as an error, with its element.
+Angles have no dimension. A bare number may stand for a quantity ("0.5" for half a metre): if that would explain a
+difference, there is no error, and the terms of the equations are not compared.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ Exponents = tuple[Fraction, Fraction, Fraction]
 
 @dataclass(frozen=True)
 class Dim:
-    """kg^a m^b s^c times powers of dimensions not known yet (``unknown``: symbol → power)."""
+    """A dimension kg^a m^b s^c times powers of dimensions that are not known yet (``unknown``: symbol → power)."""
 
     known: Exponents = (Fraction(0), Fraction(0), Fraction(0))
     unknown: tuple[tuple[Any, Fraction], ...] = ()
@@ -48,7 +48,7 @@ class Dim:
         return NONE.times(self, exponent)
 
     def __str__(self) -> str:
-        """Read as a unit: ``kg m^2/s^2``, and ``1`` for none."""
+        """Return the dimension as a unit: ``kg m^2/s^2``, or ``1`` for none."""
         over = [_factor(u, e) for u, e in zip(("kg", "m", "s"), self.known, strict=True) if e > 0]
         under = [_factor(u, -e) for u, e in zip(("kg", "m", "s"), self.known, strict=True) if e < 0]
         text = " ".join(over) or "1"
@@ -68,7 +68,7 @@ RATE = NONE.times(SECOND, Fraction(-1))
 
 
 class Mismatch(Exception):
-    """Two dimensions that should be equal are not."""
+    """Two dimensions that should be equal differ."""
 
     def __init__(self, found: Dim, wanted: Dim) -> None:
         super().__init__(f"{found} instead of {wanted}")
@@ -77,9 +77,9 @@ class Mismatch(Exception):
 
 @dataclass
 class Dimensions:
-    """The dimensions solved so far; ``loose`` once a bare number stood for a quantity with a unit.
+    """The dimensions found so far; ``loose`` once a bare number was taken for a quantity with a unit.
 
-    ``given``: whether anybody gave a unit, beside the standard g's own.
+    ``given``: whether a unit was given other than that of the standard g.
     """
 
     solved: dict[Any, Dim] = field(default_factory=dict)
@@ -88,7 +88,7 @@ class Dimensions:
     seen: dict[int, Point] = field(default_factory=dict)
 
     def reduce(self, dim: Dim) -> Dim:
-        """The dimension with all that is solved put in."""
+        """The dimension after all solved dimensions have been substituted."""
         result = Dim(dim.known)
         for symbol, power in dim.unknown:
             part = self.solved.get(symbol)
@@ -96,7 +96,7 @@ class Dimensions:
         return result
 
     def equal(self, found: Dim, wanted: Dim) -> Dim:
-        """Take ``found`` = ``wanted`` into account; raise `Mismatch` where that contradicts what is known."""
+        """Use the equation ``found`` = ``wanted``; raise `Mismatch` if it contradicts what is known."""
         found, wanted = self.reduce(found), self.reduce(wanted)
         rest = found.times(wanted, Fraction(-1))
         if rest.unknown:
@@ -153,7 +153,7 @@ class Dimensions:
 
     def _same(self, parts: Any) -> Dim | None:
         first: Dim | None = None
-        for part in sorted(parts, key=_number_explains):  # what has no numbers in it sets the dimension
+        for part in sorted(parts, key=_number_explains):  # the parts without bare numbers determine the dimension
             found = self.of(part)
             if found is not None and first is not None:
                 self.settle(found, first, part)
@@ -161,7 +161,7 @@ class Dimensions:
         return None if first is None else self.reduce(first)
 
     def settle(self, found: Dim, wanted: Dim, expr: sp.Expr) -> None:
-        """Take ``found`` = ``wanted`` into account, unless a bare number in ``expr`` may carry what is missing."""
+        """Use the equation ``found`` = ``wanted``, unless a bare number in ``expr`` may have the missing unit."""
         try:
             self.equal(found, wanted)
         except Mismatch:
@@ -171,13 +171,15 @@ class Dimensions:
 
 
 PURE = 12
-"""Up to here numerators and denominators are pure numbers, as in L/2 or m L²/12; 9.81 may well be a quantity."""
+"""Fractions with numerator and denominator up to this are pure numbers, as in L/2 or m L²/12; 9.81 may be a
+quantity."""
 
 
 def _number_explains(expr: sp.Expr) -> bool:
-    """Whether a number in the expression may carry a unit of its own.
+    """Whether a number in the expression may have a unit of its own.
 
-    A factor that is not ±1 may, as in ``0.5*sin(theta)`` or ``3*t``, but not a small one beside parameters: ``L/2``.
+    A factor other than ±1 may, as in ``0.5*sin(theta)`` or ``3*t``, but not a simple factor of a parameter, as in
+    ``L/2``.
     """
     for term in sp.Add.make_args(expr):
         number, rest = term.as_coeff_Mul()
@@ -189,7 +191,7 @@ def _number_explains(expr: sp.Expr) -> bool:
 
 
 def check_dimensions(model: Model) -> Dimensions | None:
-    """Raise `ModelError` where a unit does not fit; return the solved dimensions, or None when no unit was given."""
+    """Raise `ModelError` if units do not agree; return the dimensions found, or None if no unit was given."""
     if "dimensions" not in model._memo:
         model._memo["dimensions"] = _checked(model)
     found: Dimensions | None = model._memo["dimensions"]
@@ -237,7 +239,7 @@ def _settle(dims: Dimensions, symbol: Any, expr: sp.Expr, where: str, place: Pla
 
 
 def _inside(dims: Dimensions, element: Any, what: str, expr: sp.Expr) -> Dim | None:
-    """The dimension of an expression of an element, whose own terms and functions must fit each other."""
+    """The dimension of an expression in an element; its own terms and functions must agree, too."""
     try:
         return dims.of(expr)
     except Mismatch as wrong:
@@ -258,7 +260,7 @@ def _claim(dims: Dimensions, element: Any, what: str, expr: sp.Expr, wanted: Dim
     try:
         dims.settle(found, wanted, expr)
     except Mismatch as wrong:
-        if not dims.given:  # nobody spoke of units: a bare sin(theta) is a position in units of its own
+        if not dims.given:  # no units were given: a bare sin(theta) is a position in a unit of its own
             dims.loose = True
             return
         names = ", ".join(sorted(plain(s) for s in _atoms(expr)))
@@ -273,7 +275,7 @@ def _claim(dims: Dimensions, element: Any, what: str, expr: sp.Expr, wanted: Dim
 
 
 def _is_standard_gravity(x: Any) -> bool:
-    """Whether this is the parameter that `gravity` adds when none is given."""
+    """Whether this is the parameter that `gravity` adds by default."""
     return isinstance(x, Parameter) and (x.name, x.unit, x.value) == ("g", "m/s^2", 9.81)
 
 
@@ -285,10 +287,10 @@ Claim = tuple[str, sp.Expr, Dim]
 
 
 def _claims(model: Model, element: Any, dims: Dimensions) -> Iterator[Claim]:
-    """What an element says of its expressions: (what it is, the expression, its dimension)."""
+    """The statements of an element about its expressions: (description, expression, dimension)."""
     for key, point in element.points():
         at = point
-        while not at.is_origin and id(at) not in dims.seen:  # what it hangs on was settled when it was first met
+        while not at.is_origin and id(at) not in dims.seen:  # what the dimension depends on was already determined
             dims.seen[id(at)] = at
             for x in at.offset:
                 yield f"position ({key})", x, LENGTH
@@ -296,7 +298,7 @@ def _claims(model: Model, element: Any, dims: Dimensions) -> Iterator[Claim]:
     for key, frame in element.frames():
         yield f"angle ({key})", frame.angle, NONE
     for measure in element.measures(model):
-        if measure.local:  # its meaning in this element's law, and in no other's
+        if measure.local:  # the meaning of the symbol in the law of this element only
             dims.solved[measure.expr] = _unit(dims, element, measure)
         else:
             yield measure.what, measure.expr, _unit(dims, element, measure)
@@ -311,9 +313,9 @@ def _unit(dims: Dimensions, element: Any, measure: Measure) -> Dim:
 
 
 def check_terms(dims: Dimensions, terms: tuple[sp.Expr, ...], coordinate: sp.Expr) -> int:
-    """Return how many terms of an equation have the dimension energy / ξ; raise `Mismatch` for one that has not.
+    """Return how many terms of an equation have the dimension energy / ξ; raise `Mismatch` for one that has another.
 
-    Numbers here are pure (they come from the derivation), so every term counts.
+    Numbers are pure here, because they come from the derivation, so every term counts.
     """
     wanted = ENERGY.times(dims.of(coordinate) or NONE, Fraction(-1))
     for term in terms:

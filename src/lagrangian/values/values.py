@@ -1,4 +1,4 @@
-"""What people hand to an analysis by name: numbers, or text with units, for coordinates, rates, inputs, parameters."""
+"""Values that users pass by name, as numbers or text with units, for coordinates, rates, inputs and parameters."""
 
 from __future__ import annotations
 
@@ -20,23 +20,23 @@ from lagrangian.quantities.quantity import parse_quantity
 from lagrangian.values.dimensions import NONE, RATE, SECOND, Dim, Dimensions, check_dimensions
 
 Named = Mapping[Any, Any]
-"""Values by name or by symbol; each a number in SI units or text with a unit, such as "12 deg"."""
+"""Values by name or by symbol; each is a number in SI units or text with a unit, such as "12 deg"."""
 
 
 def key_name(key: object) -> str:
-    """The name behind a key: text as it is, a symbol (or the derivative of one) as it is written in a model file."""
+    """Return the name for a key: text as it is, a symbol (or its derivative) as it is written in model files."""
     return plain(key) if isinstance(key, sp.Basic) else str(key)
 
 
 def _unit(dim: Dim) -> str:
-    """A dimension as its SI unit; what has none is an angle, or a number."""
+    """Return a dimension as an SI unit; without dimension it is an angle or a number."""
     return "rad (or no unit)" if dim.known == NONE.known else str(dim)
 
 
 def number(value: object, what: str, dim: Dim | None = None) -> float:
-    """A finite number in SI units, from a number or from text with a unit; ``dim`` is the dimension it must have.
+    """Return a finite number in SI units from a number or from text with a unit; ``dim`` is the required dimension.
 
-    Raises `RunError`: complex, not finite, not a number, or of another dimension.
+    Raises `RunError` if it is complex, not finite, not a number, or has another dimension.
     """
     if isinstance(value, str):
         quantity = parse_quantity(value, what=what)
@@ -44,7 +44,7 @@ def number(value: object, what: str, dim: Dim | None = None) -> float:
         if dim is not None and not dim.unknown and not quantity.is_bare and found.known != dim.known:
             raise RunError(
                 f"{what} = {value!r} has the unit {_unit(found)}, but {_unit(dim)} is needed",
-                fix="check whether it is the quantity that is meant, or give a number alone, in SI units",
+                fix="check that it is the intended quantity, or give a number in SI units without a unit",
                 code="E408",
             )
         return quantity.value
@@ -66,11 +66,11 @@ def number(value: object, what: str, dim: Dim | None = None) -> float:
 
 
 MOST_STATES = 1_000_000
-"""Most random states at which a check is made."""
+"""The largest number of random states for a check."""
 
 
 def check_sampling(states: object, seed: object) -> None:
-    """Refuse a number of random states or a seed that is not a whole number in range."""
+    """Raise an error unless the number of random states and the seed are whole numbers in range."""
     for name, value, least, most in (("states", states, 1, MOST_STATES), ("seed", seed, 0, None)):
         whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool)
         if not whole or int(value) < least or (most is not None and int(value) > most):  # type: ignore[call-overload]
@@ -82,14 +82,15 @@ def check_sampling(states: object, seed: object) -> None:
 
 @dataclass(frozen=True)
 class Group:
-    """The entries of one group of a program that values are given for: what an entry is called, and its dimension."""
+    """One group of the inputs of a program: its names, what an entry is called, and the dimensions."""
 
     noun: str
     names: tuple[str, ...]
     dims: tuple[Dim | None, ...]
 
     def values(self, given: Named | Sequence[float] | NDArray[Any] | None) -> dict[str, float]:
-        """Name → number of what was given; an array stands for all entries in order. Raises `RunError`."""
+        """Return name → number for the given values; an array has a number for every entry, in order. Raises
+        `RunError`."""
         if given is None:
             return {}
         if not isinstance(given, Mapping):
@@ -123,7 +124,7 @@ class Group:
 
 @dataclass(frozen=True, eq=False)
 class Given:
-    """The groups of a model: states (from the program's group x), inputs and parameters."""
+    """The groups of a model: states (the group x of the program), inputs and parameters."""
 
     model: Model
     states: Group
@@ -133,7 +134,7 @@ class Given:
 
     @classmethod
     def of(cls, model: Model, program: Program) -> Given:
-        """The groups x, u, p of ``program``, with the dimensions that the model's units imply."""
+        """The groups x, u, p of ``program``, with the dimensions that follow from the units of the model."""
         dims = check_dimensions(model)
         moving = {c.name: _dim(dims, c.symbol) for c in model.coordinates}
         rates = {f"{name}'": None if d is None else d.times(RATE) for name, d in moving.items()}
@@ -148,7 +149,8 @@ class Given:
         )
 
     def parameter_values(self, given: Named | None) -> NDArray[np.float64]:
-        """Every parameter's value: given, else declared. Raises `RunError` that lists those without one."""
+        """The value of every parameter: the given one, else the declared one. Raises `RunError` that lists those
+        without a value."""
         values = {p.name: p.value for p in self.model.parameters} | self.parameters.values(given)
         missing = [name for name, value in values.items() if value is None]
         if missing:
@@ -160,12 +162,12 @@ class Given:
         return np.array(list(values.values()), float)
 
     def input_values(self, given: Named | None) -> NDArray[np.float64]:
-        """Every input's constant value, 0 where none is given."""
+        """The constant value of every input, 0 if none is given."""
         values = dict.fromkeys(self.inputs.names, 0.0) | self.inputs.values(given)
         return np.array(list(values.values()), float)
 
     def time_value(self, given: object) -> float:
-        """A time in seconds."""
+        """Return a time in seconds."""
         return number(given, "time", SECOND)
 
 

@@ -1,1 +1,1 @@
-"""Routes held against each other: the derived equations, what is compiled, exported and linearized from them."""
+"""Compares independent routes: the derived equations, and what is compiled, exported and linearized from them."""

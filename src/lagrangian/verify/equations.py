@@ -37,11 +37,11 @@ _log = logging.getLogger(__name__)
 Array: TypeAlias = NDArray[np.float64]
 
 TOLERANCE = 1e-9
-"""Relative difference up to which two numbers count as equal: rounding of long expressions, no more."""
+"""The relative difference up to which two numbers count as equal: no more than rounding of long expressions."""
 
 
 def verify(derivation: Derived, *, states: int = 50, seed: int = 1) -> tuple[Check, ...]:
-    """Return what was checked at ``states`` random states, each with its figure."""
+    """Return the checks at ``states`` random states, each with its figure."""
     check_sampling(states, seed)
     _log.info("verifying: the equations at %d random states", states)
     figures = _figures(derivation, states, seed)
@@ -77,7 +77,7 @@ def verify(derivation: Derived, *, states: int = 50, seed: int = 1) -> tuple[Che
         Check(text(M, " is symmetric"), figures.asymmetry < TOLERANCE, f"largest difference {figures.asymmetry:.1e}"),
         Check(text(M, " is positive definite"), figures.smallest > 0, f"smallest eigenvalue {figures.smallest:.2e}"),
     ]
-    if not any(map(_holds_rates, derivation.mass_matrix.flat())):  # Christoffel's C is that of a quadratic T*
+    if not any(map(_holds_rates, derivation.mass_matrix.flat())):  # Christoffel symbols require a quadratic T*
         timed = any(map(_holds_time, derivation.mass_matrix.flat()))
         held = ("; t itself, which stands in ", M, ", is held") if timed else ()
         skew = text("d", M, "/dt − 2", C, " is skew-symmetric", *held)
@@ -100,17 +100,18 @@ def _residual(equation: sp.Eq) -> sp.Expr:
 
 
 def _holds_time(expr: sp.Expr) -> bool:
-    """Whether t itself stands in an expression, apart from the coordinates that depend on it."""
+    """Whether an expression contains t itself, apart from the coordinates that depend on it."""
     return expr.replace(lambda e: isinstance(e, (AppliedUndef, sp.Derivative)), lambda _: sp.Dummy()).has(time)
 
 
 def _holds_rates(expr: sp.Expr) -> bool:
-    """Whether a rate stands in an expression: an entry of M where T* is not quadratic in the rates."""
+    """Whether an expression contains a rate: an entry of M does if T* is not quadratic in the rates."""
     return expr.has(sp.Derivative)
 
 
 def _dimensional(derivation: Derived) -> Check | None:
-    """Every term has the dimension of energy over its coordinate; None without units or with bare numbers."""
+    """Check that every term has the dimension of energy over its coordinate; None without units or with bare
+    numbers."""
     dims = check_dimensions(derivation.model)
     what = text("dimensions: every term of an equation has the same unit")
     if dims is None or dims.loose:
@@ -126,7 +127,7 @@ def _dimensional(derivation: Derived) -> Check | None:
 
 @dataclass
 class _Figures:
-    """The worst that was met."""
+    """The largest differences found."""
 
     work: float = 0.0
     energy: float = 0.0
@@ -155,7 +156,7 @@ def _figures(derivation: Derived, states: int, seed: int) -> _Figures:
         got = {k: np.array(v, float) for k, v in evaluate(program, {"x": [state[s] for s in sampler.symbols]}).items()}
         M, C, Mdot = (got[k].reshape(n, n) for k in ("M", "C", "Mdot"))
         v, a = got["v"], got["a"]
-        # rates and accelerations are about 1, so that M is the size of what moves, however small the masses are
+        # rates and accelerations are about 1, so M gives the scale, however small the masses are
         size = float(np.abs(M).max())
         scale = max(size, float(max(np.abs(M * a).max(), np.abs(C * v).max(), np.abs(got["G"]).max())))
         groups = _groups(model, state)
@@ -178,7 +179,7 @@ def _figures(derivation: Derived, states: int, seed: int) -> _Figures:
 def _hold_machine(
     found: _Figures, got: Mapping[str, Array], machine: Sequence[Program], groups: Mapping[str, list[float]]
 ) -> None:
-    """The programs of forward dynamics, M and the energies at a state, against what was derived."""
+    """Compare the programs for forward dynamics, M and the energies at a state with the derivation."""
     n = len(got["v"])
     forward, mass, energy = (evaluated(program, groups) for program in machine)
     M, a, bias = got["M"].reshape(n, n), np.array(forward["a"], float), got["C"].reshape(n, n) @ got["v"] + got["G"]
@@ -194,12 +195,12 @@ def _hold_machine(
 
 
 def _worse(a: float, b: float) -> float:
-    """The larger; not-a-number is the worst and stays, where Python's ``max`` would drop it."""
+    """Return the larger number; NaN is the worst and stays, whereas Python's ``max`` could drop it."""
     return float(np.maximum(a, b))
 
 
 def _groups(model: Model, state: Mapping[sp.Basic, float]) -> dict[str, list[float]]:
-    """A state as the groups that the programs of `dynamics` are called with."""
+    """A state as the groups of arguments of the programs of `dynamics`."""
     return {
         "q": [state[c.symbol] for c in model.coordinates],
         "v": [state[c.rate] for c in model.coordinates],
@@ -218,7 +219,7 @@ def _sum(g: Graph, nodes: Sequence[int]) -> int:
 
 
 class _Nodes:
-    """Expressions as graph nodes, and rates along a motion ξ̇, ξ̈, 1."""
+    """Expressions as graph nodes, and their rates along a motion with ξ̇, ξ̈ and dt/dt = 1."""
 
     def __init__(self, g: Graph, model: Model, table: dict[sp.Basic, int]) -> None:
         self.g, self._model, self._table = g, model, table
@@ -232,7 +233,7 @@ class _Nodes:
         return from_sympy(self.g, self._model.expand(sp.sympify(expr), constants=True), self._table)
 
     def rates(self, nodes: Sequence[int], *, with_acceleration: bool = True, running: bool = True) -> list[int]:
-        """d/dt of nodes along the motion; not ``running``, t itself is held."""
+        """d/dt of nodes along the motion; unless ``running``, t itself is constant."""
         moving = dict(zip(self.q, self.v, strict=True))
         if running:
             moving[self.t] = self.g.const(1.0)
@@ -248,7 +249,7 @@ def _program(derivation: Derived, sampler: Sampler) -> Program:
     node = _Nodes(g, model, table)
     M = [node.of(x) for x in derivation.mass_matrix.flat()]
     v = node.v
-    # h = ξ̇·∂L/∂ξ̇ − L; its rate at ξ̈ = 0, and what ξ̈ adds
+    # h = ξ̇·∂L/∂ξ̇ − L; its rate at ξ̈ = 0, and the contribution of ξ̈
     lagrangian = node.of(derivation.L)
     T, n = node.of(derivation.T), len(v)
     second = hessian(g, T, v)

@@ -1,4 +1,4 @@
-"""Exported sources, run and compared with the slow evaluation of the programs they are written of."""
+"""Runs exported source code and compares it with the slow evaluation of its programs."""
 
 from __future__ import annotations
 
@@ -25,19 +25,19 @@ Sources: TypeAlias = Callable[[str, str], Mapping[str, str]]
 """(language, stem) → file name → text."""
 
 Call: TypeAlias = Callable[[State], Sequence[Array]]
-"""A function of an exported file at a state: its outputs in order."""
+"""A function of an exported file that takes a state and returns its outputs in order."""
 
 TOLERANCE = 1e-9
-"""Difference, relative to the largest term of an output, up to which two numbers count as equal."""
+"""Two numbers are equal if their difference, relative to the largest term of the output, is at most this."""
 
 COMPILERS = ("cc", "gcc", "clang")
-"""C compilers that take these options, in the order in which they are looked for."""
+"""C compilers that accept these options, in the order in which they are tried."""
 
 OPTIONS = ("-std=c99", "-O1", "-ffp-contract=off", "-shared", "-fPIC")
-"""What the exported C is compiled with: products and sums rounded one by one, as where it is evaluated slowly."""
+"""Options for compiling the exported C: every product and sum is rounded, as in the slow evaluation."""
 
 PATIENCE = 300
-"""[s] after which a C compiler is given up."""
+"""The time [s] after which a C compiler is stopped."""
 
 STEM = "exported"
 
@@ -45,10 +45,10 @@ STEM = "exported"
 def exported(
     program: Callable[[str], Program], names: Sequence[str], sources: Sources, states: Sequence[State]
 ) -> tuple[Check, ...]:
-    """Return a check of the exported Python and one of the exported C.
+    """Return a check of the exported Python and a check of the exported C.
 
-    ``program(name)`` are the programs that the sources are written of, ``names`` which of them. Where no C compiler is
-    found, the check of the C source has ``holds`` None.
+    ``program(name)`` returns the programs in the source, and ``names`` lists them. If no C compiler is found, ``holds``
+    is None for the check of C.
     """
     programs = {name: program(name) for name in names}
     with tempfile.TemporaryDirectory(prefix="lagrangian-", ignore_cleanup_errors=True) as folder:
@@ -76,7 +76,7 @@ def _python(programs: Mapping[str, Program], texts: Mapping[str, str], states: S
 
 
 def _imported(folder: Path, texts: Mapping[str, str]) -> ModuleType:
-    """The exported module, from a file as its users load it."""
+    """Import the exported module from a file, as users do."""
     (file_name,) = texts
     path = folder / file_name
     path.write_text(texts[file_name], encoding="utf-8")

@@ -1,8 +1,8 @@
-"""Checks of a model that has no derivation to read: what every set of equations of motion obeys, at random states.
+"""Checks of models that have no derivation: laws that all equations of motion obey, at random states.
 
-For systems with floating frames, whose velocities are not the rates of their coordinates. By virtual work and by
-Lagrange's equations for quasi-velocities (`dynamics.floating` has the formula) the same forces must come out; forward
-dynamics must solve them; and M, C and the energy must keep their laws.
+They are used for systems with floating frames, whose velocities are not the rates of their coordinates. Virtual work
+and Lagrange's equations for quasi-velocities (see `dynamics.floating`) must give the same forces, forward dynamics must
+solve them, and M, C and the energy must obey their laws.
 """
 
 from __future__ import annotations
@@ -22,14 +22,14 @@ from lagrangian.values.values import check_sampling
 from lagrangian.verify.states import evaluated, random_states
 
 TOLERANCE = 1e-9
-"""Relative difference up to which two numbers count as equal: rounding, no more."""
+"""The relative difference up to which two numbers count as equal: no more than rounding."""
 
 Array: TypeAlias = NDArray[np.float64]
 
 
 @dataclass
 class _Worst:
-    """The worst that was met."""
+    """The largest differences found."""
 
     routes: float = 0.0
     solved: float = 0.0
@@ -40,14 +40,14 @@ class _Worst:
     power: float = 0.0
 
     def note(self, name: str, value: float) -> None:
-        """Keep the larger; not-a-number is the worst and stays."""
+        """Keep the larger number; NaN is the worst and stays."""
         setattr(self, name, float(np.maximum(getattr(self, name), value)))
 
 
 def verify_motion(model: Model, *, states: int = 50, seed: int = 1) -> tuple[Check, ...]:
-    """Check the programs of a model against each other at ``states`` random states.
+    """Compare the programs of a model with each other at ``states`` random states.
 
-    Raises `ModelError` where a unit does not fit, a velocity moves no mass, or no random state has finite forces.
+    Raises `ModelError` if units do not agree, if a velocity moves no mass, or if no random state has finite forces.
     """
     check_sampling(states, seed)
     dims = check_dimensions(model)
@@ -131,7 +131,7 @@ def _matrices(model: Model) -> Program:
 
 
 def _balance(model: Model) -> Program:
-    """x, ẋ, u, p, t → the rate of the energy h along ẋ, and the power P that is supplied."""
+    """x, ẋ, u, p, t → the rate of the energy h along ẋ, and the supplied power P."""
     power = dynamics.power(model)
     g, names = power.graph, power.inputs["x"]
     rates = {g.input("x", i): g.input("xdot", i) for i in range(len(names))}
@@ -141,7 +141,7 @@ def _balance(model: Model) -> Program:
 
 
 def _reads_time(model: Model) -> bool:
-    """Whether the kinetic energy depends on time itself: then C v is not all that velocities do."""
+    """Whether the kinetic energy depends on t itself: then C v does not contain all velocity terms."""
     g = Graph()
     inputs = dynamics.Inputs.of(g, model)
     m = dynamics.describe(model, g, inputs)

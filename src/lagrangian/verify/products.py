@@ -33,10 +33,11 @@ from lagrangian.verify.states import State, cancelling, evaluated, random_states
 
 _log = logging.getLogger(__name__)
 TOLERANCE = 1e-9
-"""Difference, relative to the largest term, up to which two numbers count as equal: rounding, no more."""
+"""Two numbers are equal if their difference, relative to the largest term, is at most this: no more than rounding."""
 
 ONE_BY_ONE = 3
-"""States at which functions are called one state at a time as well; all others go in one batch."""
+"""The number of states at which functions are also called one state at a time; all others are evaluated in one
+batch."""
 
 Array: TypeAlias = NDArray[np.float64]
 
@@ -48,7 +49,7 @@ Programs: TypeAlias = Callable[[str], Program]
 
 
 class Functions(Protocol):
-    """The compiled functions of a system, as `lagrangian.Compiled` has them."""
+    """The compiled functions of a system, as `lagrangian.Compiled` provides them."""
 
     @property
     def forward(self) -> Function: ...  # noqa: D102
@@ -78,29 +79,29 @@ class Functions(Protocol):
 
 @dataclass
 class Worst:
-    """The largest relative difference of each comparison by name; not-a-number is the worst and stays."""
+    """The largest relative difference of each comparison by name; NaN is the worst and stays."""
 
     figures: dict[str, float] = field(default_factory=dict)
 
     def note(self, name: str, difference: Array, *terms: Array) -> None:
-        """Take in a difference, relative to the largest of ``terms``."""
+        """Record a difference, relative to the largest of ``terms``."""
         self.figures[name] = float(np.maximum(self.figures.get(name, 0.0), relative(difference, *terms)))
 
 
 def verify_products(
     model: Model, functions: Functions, sources: Sources, *, states: int = 50, seed: int = 1
 ) -> tuple[Check, ...]:
-    """Return a check of every compiled function, of the exported sources and of the linearization.
+    """Return the checks of every compiled function, of the exported source and of the linearization.
 
-    Parameters keep the values they have. A check that could not be made on this machine has ``holds`` None and says
-    why. Raises `ModelError` where no random state has finite accelerations.
+    Parameters keep their values. If a check cannot be made on this machine, ``holds`` is None and the figure says why.
+    Raises `ModelError` if no random state has finite accelerations.
     """
     found = list(random_states(model, dynamics.forward(model), states, seed))
-    program = cache(functions.program)  # every state is compared with the same programs
+    program = cache(functions.program)  # the same programs are used at every state
     _log.info("verifying: the compiled functions")
     try:
         compiled = _compiled(model, functions, program, found)
-    except Error as error:  # a compiled function that refuses a state at which its formulas are finite
+    except Error as error:  # a compiled function refused a state at which its formulas are finite
         return (Check(text("every compiled function can be evaluated"), False, str(error)),)
     _log.info("verifying: the exported sources and the linearization")
     written = exported(program, functions.exported, sources, found)
@@ -108,7 +109,7 @@ def verify_products(
 
 
 def _compiled(model: Model, functions: Functions, program: Programs, states: Sequence[State]) -> list[Check]:
-    """The compiled functions against the slow evaluator and against each other."""
+    """Compare the compiled functions with the slow evaluator and with each other."""
     worst, routes = Worst(), _Routes(model)
     batch = _calls(functions, _stacked(states))
     for k, state in enumerate(states):
@@ -143,7 +144,7 @@ def _stacked(states: Sequence[State]) -> dict[str, Array]:
 
 
 def _calls(functions: Functions, at: Mapping[str, Array]) -> dict[str, Array]:
-    """What every compiled function says at one state or at many."""
+    """The results of all compiled functions at one state or at many."""
     q, v, a, u, p, t = (at[group] for group in ("q", "v", "a", "u", "p", "t"))
     t = t[..., 0]
     T, V = functions.energies(q, v, u=u, p=p, t=t)
@@ -164,7 +165,7 @@ def _calls(functions: Functions, at: Mapping[str, Array]) -> dict[str, Array]:
 
 
 def _against_formulas(program: Programs, state: State, answers: Mapping[str, Array], worst: Worst) -> None:
-    """Every answer against the slow evaluation of its own program."""
+    """Compare every result with the slow evaluation of its own program."""
     x = [*state["q"], *state["v"]]
     for name, answer in answers.items():
         if name in ("T", "V"):
@@ -176,7 +177,7 @@ def _against_formulas(program: Programs, state: State, answers: Mapping[str, Arr
 
 
 class _Routes:
-    """Routes to the same numbers that share nothing with the elimination that is compiled."""
+    """Routes to the same numbers that share nothing with the compiled elimination."""
 
     def __init__(self, model: Model) -> None:
         self._lagrange = dynamics.inverse_from_lagrangian(model)
@@ -184,7 +185,7 @@ class _Routes:
         self._energies = None if model.floating else _energies_of_elements(model)
 
     def hold(self, state: State, answers: Mapping[str, Array], worst: Worst) -> None:
-        """Compare the answers at a state with every route."""
+        """Compare the results at a state with every route."""
         a, forward = np.array(state["a"]), answers["forward"]
         M, bias = answers["mass_matrix"], answers["bias"]
         terms = cancelling("inverse", state, M), bias
@@ -205,7 +206,7 @@ class _Routes:
 
 
 def _hessian_of_kinetic(model: Model) -> Program:
-    """∂²T*/∂v_i∂v_k, shape (n, n), of T* as the sum over bodies, with the rates themselves varied."""
+    """∂²T*/∂v_i∂v_k, shape (n, n), of T* as a sum over bodies, differentiated by the rates themselves."""
     graph = Graph()
     inputs = dynamics.Inputs.of(graph, model)
     T, n = dynamics.describe(model, graph, inputs).kinetic(), len(inputs.v)
@@ -215,7 +216,7 @@ def _hessian_of_kinetic(model: Model) -> Program:
 
 
 def _energies_of_elements(model: Model) -> Program:
-    """T* and V as the elements state them in the derivation, not as they are gathered for the machine."""
+    """T* and V as the elements define them for the derivation, not as they are combined for the machine."""
     T = sp.Add(*(e.kinetic(model) for e in model.elements))
     V = sp.Add(*(e.potential(model) for e in model.elements))
     return dynamics.observe(model, {"T": T, "V": V})

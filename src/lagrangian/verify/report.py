@@ -11,7 +11,7 @@ from lagrangian.page.report import Part, Report
 
 
 def verification_report(model: Model, checks: Sequence[Check]) -> Report:
-    """Return the report of what was checked of a model, and of what else is to be known of it."""
+    """Return the report of the checks of a model, with its notices."""
     shown = [{"what": str(c.what), "holds": c.holds, "figure": c.figure} for c in checks]
     known = dynamics.notices(model)
     parts = [Part(text("What was checked"), (), tuple(checks))]

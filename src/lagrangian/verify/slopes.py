@@ -1,4 +1,4 @@
-"""A linearization held against difference quotients of the compiled right-hand side."""
+"""Compares a linearization with difference quotients of the compiled right-hand side."""
 
 from __future__ import annotations
 
@@ -17,23 +17,23 @@ from lagrangian.verify.states import State
 Array: TypeAlias = NDArray[np.float64]
 
 TOLERANCE = 1e-6
-"""Difference from a quotient, relative to the largest slope: what quotients of doubles can tell."""
+"""The allowed difference from a quotient, relative to the largest derivative: the accuracy of quotients in doubles."""
 
 SETTLED = 1e-7
-"""Change of a quotient by its last refinement, relative to the largest slope, up to which it is taken."""
+"""A quotient is used if its last refinement changed it by at most this, relative to the largest derivative."""
 
 WIDTH = 1e-2
-"""The first of the three widths of a quotient, relative to 1 + |x|; each next is half as wide."""
+"""The largest of the three steps of a quotient, relative to 1 + |x|; each of the others is half of the previous one."""
 
 POINTS = 3
-"""States at which quotients are taken."""
+"""The number of states at which quotients are computed."""
 
 
 def slopes(model: Model, rhs: Callable[..., Array], states: Sequence[State]) -> Check:
-    """Return the check of A = ∂ẋ/∂x and B = ∂ẋ/∂u at a few states where the quotients settle.
+    """Return the check of A = ∂ẋ/∂x and B = ∂ẋ/∂u at a few states where the quotients converge.
 
     Central quotients D(h) = (f(x + h) − f(x − h))/2h at h, h/2 and h/4 are extrapolated to h → 0 (Richardson), which
-    leaves O(h⁶). Where two extrapolations differ by more than `SETTLED`, as across a kink, the state is passed over.
+    leaves O(h⁶). A state where two extrapolations differ by more than `SETTLED`, as across a kink, is skipped.
     """
     what = text("the linearization's ", Name("A"), " and ", Name("B"), " equal difference quotients of these rates")
     worst, points, refused = 0.0, 0, ""
@@ -60,7 +60,7 @@ def slopes(model: Model, rhs: Callable[..., Array], states: Sequence[State]) -> 
 
 
 def linearized(model: Model, state: State) -> Any:
-    """The linearization about a state, whether it rests there or not."""
+    """The linearization about a state, whether it is an equilibrium or not."""
     names = (*(c.name for c in model.coordinates), *(v.name for v in model.velocities))
     return linearize(
         model,
@@ -73,7 +73,7 @@ def linearized(model: Model, state: State) -> Any:
 
 
 def _quotients(rhs: Callable[..., Array], state: State) -> tuple[Array, float]:
-    """∂ẋ/∂[x; u], shape (n, n + m), and the largest change by the last extrapolation."""
+    """∂ẋ/∂[x; u], shape (n, n + m), and the largest change in the last extrapolation."""
     point = np.array([*state["q"], *state["v"], *state["u"]])
     n = len(state["q"]) + len(state["v"])
     steps = WIDTH * (1 + np.abs(point))

@@ -16,7 +16,7 @@ State: TypeAlias = Mapping[str, list[float]]
 """Values of the groups q, v, a, u, p and t."""
 
 TRIES = 60
-"""Random states without finite accelerations after which there are none."""
+"""The number of random states without finite accelerations after which the search is abandoned."""
 
 
 def evaluated(program: Program, state: Mapping[str, list[float]]) -> dict[str, Any]:
@@ -25,9 +25,10 @@ def evaluated(program: Program, state: Mapping[str, list[float]]) -> dict[str, A
 
 
 def cancelling(name: str, state: State, M: Any) -> Any:
-    """How large the terms of an answer are at the rates and accelerations of a state, where they may cancel to nothing.
+    """The size of the terms of a result at the rates and accelerations of a state, which may cancel to zero.
 
-    A balanced wheel has no weight: what is left of two equal terms is rounding, and large only beside itself.
+    The weight of a balanced wheel, for example, is the difference of two equal terms: only a rounding error, which is
+    small compared with them.
     """
     a, v = np.array(state["a"]), np.array(state["v"])
     if name in ("forward", "rhs"):
@@ -40,16 +41,16 @@ def cancelling(name: str, state: State, M: Any) -> Any:
 
 
 def relative(difference: Any, *terms: Any) -> float:
-    """The largest entry of a difference, relative to the largest of ``terms``; infinite where these are all 0."""
+    """The largest entry of a difference relative to the largest of ``terms``; infinite if these are all 0."""
     off = float(np.max(np.abs(difference), initial=0.0))
     size = max((float(np.max(np.abs(x), initial=0.0)) for x in terms), default=0.0)
     return off and (off / size if size else np.inf)
 
 
 def random_states(model: Model, forward: Program, count: int, seed: int) -> Iterator[dict[str, list[float]]]:
-    """``count`` random states at which the accelerations are finite; parameters keep the values they have.
+    """``count`` random states with finite accelerations; parameters keep their values.
 
-    Quaternions of any length are orientations. Raises `ModelError` where `TRIES` states have no finite accelerations.
+    Quaternions may have any length. Raises `ModelError` if `TRIES` states have no finite accelerations.
     """
     source, missed = random.Random(seed), 0
     quaternions = {c.name for f in model.floating if f.floating is not None for c in f.floating.coordinates[3:]}

@@ -1,4 +1,4 @@
-"""Pictures of runs: plots with labels, units and legends. Data in, figures out; knows no mechanics."""
+"""Plots with labels, units and legends, from data without mechanics."""
 
 from lagrangian.view.plots import Marks, Panel, Picture, Series, draw, joined
 

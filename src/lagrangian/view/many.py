@@ -22,14 +22,14 @@ Array = NDArray[np.float64]
 
 WIDTH, HEIGHT, LEAST = 6.4, 2.4, 3.6
 BAND = (0.05, 0.95)
-"""Quantiles between which the band lies."""
+"""The quantiles that bound the band."""
 
 MOST_PANELS = 12
 
 
 @dataclass(frozen=True, eq=False)
 class SweptAxis:
-    """An axis: what varies along it, its unit, and the values."""
+    """An axis of a sweep: its name, its unit, and the values."""
 
     label: str
     unit: str
@@ -38,7 +38,7 @@ class SweptAxis:
 
 @dataclass(frozen=True, eq=False)
 class SweptResult:
-    """A result over the axes, and over samples as the last axis where there are any; NaN where a run failed."""
+    """A result over the axes and, if there are samples, over these as the last axis; NaN if a run failed."""
 
     label: str
     unit: str
@@ -48,9 +48,10 @@ class SweptResult:
 def draw_many(
     title: str, axes: tuple[SweptAxis, ...], results: tuple[SweptResult, ...], *, failed: str = "", shown: bool = False
 ) -> Figure:
-    """The figure; at most `MOST_PANELS` results are drawn. ``failed`` says in words how many runs failed, if any.
+    """Return the figure with at most `MOST_PANELS` results. ``failed`` is a sentence with the number of failed runs, if
+    any.
 
-    Runs that failed are marked: red crosses at the foot of curves and in maps.
+    Failed runs are marked by red crosses, in maps and below curves.
     """
     kept = results[:MOST_PANELS]
     height = max(LEAST, HEIGHT * len(kept) + 0.7) if len(axes) < 2 else (HEIGHT + 1.2) * len(kept) + 0.7
@@ -141,15 +142,16 @@ def _map(figure: Any, place: Any, across: SweptAxis, up: SweptAxis, result: Swep
 
 
 def _quantiles(y: Array, shares: tuple[float, ...]) -> Array:
-    """Quantiles along the last axis of what is finite, first axis the shares; NaN where nothing is."""
+    """Quantiles of the finite values along the last axis, with the quantiles on the first axis; NaN if there are
+    none."""
     some = np.asarray(np.isfinite(y).any(axis=-1))
     filled = np.where(np.isfinite(y), y, np.nan)
-    filled[~some] = 0.0  # quantiles of nothing would warn
+    filled[~some] = 0.0  # NumPy warns about quantiles of no values
     return np.where(some, np.nanquantile(filled, shares, axis=-1), np.nan)
 
 
 def _geometric(x: Array) -> bool:
-    """Whether values are spaced evenly in their logarithm rather than by themselves."""
+    """Whether the logarithms of the values are spaced more evenly than the values."""
     if len(x) < 4 or x[0] <= 0:
         return False
     steps = np.diff(np.log(x))

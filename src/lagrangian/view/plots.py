@@ -1,7 +1,7 @@
-"""Quantities over time as a figure of stacked panels with one time axis.
+"""Plots quantities over time as stacked panels with a common time axis.
 
-A `Figure` is made and returned. One that is ``shown`` is pyplot's: ``plt.show()`` opens it, and notebooks show it once;
-any other touches nothing of matplotlib's global state.
+The `Figure` is returned. One that is ``shown`` belongs to pyplot: ``plt.show()`` opens it, and notebooks show it once.
+Any other leaves matplotlib's global state unchanged.
 """
 
 from __future__ import annotations
@@ -27,20 +27,20 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 WIDTH, HEIGHT, LEAST = 7.2, 1.9, 3.2
-"""Inches: the figure's width, a panel's height, and the least height of a figure."""
+"""In inches: the width of the figure, the height of a panel, and the smallest height of a figure."""
 
 _SUPERSCRIPTS = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
 
 WRAP = 80
-"""Columns of a line of the title."""
+"""The largest number of characters in a line of the title."""
 
 IN_LEGEND = 8
-"""Curves that a legend lists in one column."""
+"""The largest number of curves in one column of a legend."""
 
 
 @dataclass(frozen=True, eq=False)
 class Series:
-    """One curve: its label as LaTeX (``tex``) and as text, and its values at the times of the figure."""
+    """A curve: its label as LaTeX (``tex``) and as text, and its values at the times of the figure."""
 
     tex: str
     text: str
@@ -50,7 +50,7 @@ class Series:
 
 @dataclass(frozen=True, eq=False)
 class Panel:
-    """Curves of one unit; ``what`` they are together, such as "angle"."""
+    """Curves of the same unit; ``what`` is their common meaning, such as "angle"."""
 
     what: str
     unit: str
@@ -59,7 +59,7 @@ class Panel:
 
 @dataclass(frozen=True, eq=False)
 class Marks:
-    """Instants drawn as thin lines through all panels: events."""
+    """Times that are marked by thin lines through all panels: events."""
 
     label: str
     times: Array
@@ -67,7 +67,7 @@ class Marks:
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """What a figure shows."""
+    """The content of a figure."""
 
     title: str
     t: Array
@@ -78,9 +78,9 @@ class Picture:
 
 
 def draw(picture: Picture, *, shown: bool = False) -> Figure:
-    """The figure: panels below each other, labels with units, legends where a panel has several curves.
+    """Draw the figure: panels below each other, labels with units, legends in panels with several curves.
 
-    What failed is marked: a cross at the end of every curve, and the reason in red.
+    A failed run is marked by a cross at the end of every curve, and by the reason in red.
     """
     height = max(LEAST, HEIGHT * len(picture.panels) + 0.7)
     figure = new_figure((WIDTH, height), shown=shown)
@@ -125,12 +125,13 @@ def _panel(axes: Any, t: Array, panel: Panel) -> None:
     axes.ticklabel_format(axis="y", scilimits=(-4, 5), useMathText=True)
     spread = max((float(np.ptp(s.values)) for s in panel.series if len(s.values)), default=0.0)
     middle = max((float(np.max(np.abs(s.values))) for s in panel.series if len(s.values)), default=0.0)
-    if spread <= 1e-9 * middle:  # a constant is drawn as one, not as its rounding
+    if spread <= 1e-9 * middle:  # a constant is drawn as a straight line, without its rounding errors
         axes.set_ylim(-1.2 * middle, 1.2 * middle) if middle else axes.set_ylim(-1.0, 1.0)
 
 
 def _math(series: Series) -> str:
-    """A label that matplotlib can typeset: its LaTeX, or the text where it knows less LaTeX than that."""
+    """A label that matplotlib can typeset: its LaTeX, or its text if it contains LaTeX that matplotlib does not
+    know."""
     from matplotlib.mathtext import MathTextParser
 
     written = f"${series.tex}$"
@@ -147,12 +148,12 @@ def _raised(unit: str) -> str:
 
 
 def _safe(text: str) -> str:
-    """Text in which matplotlib finds no mathematics."""
+    """Escape text so that matplotlib finds no mathematics in it."""
     return text.replace("$", r"\$")
 
 
 def new_figure(size: tuple[float, float], *, shown: bool) -> Figure:
-    """An empty figure; where it is to be ``shown``, and in the main thread, one of pyplot's."""
+    """Make an empty figure; if it is to be ``shown``, and in the main thread, it belongs to pyplot."""
     figure_class = _figure_class()
     if not shown or threading.current_thread() is not threading.main_thread():
         return figure_class(figsize=size, layout="constrained")
@@ -173,11 +174,11 @@ def _figure_class() -> type[Figure]:
 
 
 def _shown_once(figure: Any) -> None:
-    """Take the figure from those that a notebook shows at the end of its cell: it is being shown now."""
+    """Remove the figure from those that a notebook shows at the end of its cell, because it is being shown now."""
     matplotlib, plt = sys.modules["matplotlib"], sys.modules.get("matplotlib.pyplot")
     if plt is not None and "inline" in matplotlib.get_backend().lower():
         plt.close(figure)
-    raise NotImplementedError  # IPython's word for: show it in the usual way
+    raise NotImplementedError  # IPython's signal to show the object in the usual way
 
 
 def _png(figure: Any) -> bytes:
@@ -187,7 +188,7 @@ def _png(figure: Any) -> bytes:
 
 
 def joined(panels: Sequence[Panel]) -> tuple[Panel, ...]:
-    """Panels of the same unit and meaning as one, in order of their first."""
+    """Combine panels of the same unit and meaning, in the order of the first of each."""
     found: dict[tuple[str, str], Panel] = {}
     for panel in panels:
         key = (panel.what, panel.unit)

@@ -1,7 +1,6 @@
-"""Pages written out for people: text, Markdown, LaTeX, HTML; and tables on disk.
+"""Writers of pages in text, Markdown, LaTeX and HTML, and of tables in files.
 
-A page is a Document in one of three notations; a writer for each format renders it. This is the only room that knows
-page markup.
+A page is a Document in one of three notations; each format has a writer. Only this package contains page markup.
 """
 
 from typing import TYPE_CHECKING

@@ -1,4 +1,4 @@
-"""From words, formulas and tables to blocks of a Document, in a notation."""
+"""Converts words, formulas and tables to the blocks of a Document, in one notation."""
 
 from __future__ import annotations
 
@@ -27,17 +27,17 @@ from lagrangian.write.quantities import Notation, Quantities
 from lagrangian.write.unicode_math import unicode
 
 DETAILS_OPERATIONS = 4000
-"""Operations above which an elided expression is left out of the collapsible details too; ``full`` writes it."""
+"""An elided expression with more operations is left out of the collapsible details, too; ``full`` writes it."""
 
 SET_OPERATIONS = 800
-"""Operations up to which elided mathematics is set as such in its details; more of it is plain text there."""
+"""An elided expression with more operations is set as plain text in its details, not as mathematics."""
 
 
 class Items:
-    """Lays out the items of a derivation's step or of a report's part over one model.
+    """Lays out the items of a step of a derivation, or of a part of a report, for one model.
 
-    ``brief`` keeps what is marked for the one-page checklist; ``full`` writes out what would be summarised for its
-    length; ``details`` puts that under collapsible summaries instead. Raises `ModelError` for an unknown notation.
+    ``brief`` keeps only what is marked for the one-page checklist. ``full`` writes out what would be summarized because
+    of its length; ``details`` puts it under collapsible summaries instead. Raises `ModelError` for an unknown notation.
     """
 
     def __init__(self, model: Model, notation: Notation, *, brief: bool, full: bool, details: bool) -> None:
@@ -51,7 +51,7 @@ class Items:
     def items(
         self, items: Iterable[data.Item], anchor: str, *, terms: Sequence[Sequence[EquationTerm]] = ()
     ) -> Iterator[Block]:
-        """The blocks of items; boxed formulas that follow each other share a box."""
+        """The blocks for the given items; consecutive boxed formulas share a box."""
         box: list[Display] = []
         count, number = 0, 0
         for item in items:
@@ -73,7 +73,7 @@ class Items:
                 box = []
             match item:
                 case data.Formula():
-                    if len(sides) > 1 or len(item.sides) == 1:  # x₁ = x₁ says nothing
+                    if len(sides) > 1 or len(item.sides) == 1:  # x₁ = x₁ would say nothing
                         yield Display(sides, f"{anchor}-f{count}", None, self.note(item))
                         yield from self.hidden(item)
                 case data.Text():
@@ -88,29 +88,30 @@ class Items:
             yield from self.hidden_boxes(items)
 
     def note(self, item: data.Formula) -> Inline:
-        """What stands beside a formula."""
+        """The note beside a formula."""
         return self.inline(item.note) if item.note is not None else ()
 
     def inline(self, item: data.Text | data.Formula) -> Inline:
-        """Words and mathematics in a line."""
+        """Words and mathematics within a line."""
         return self.write.inline(item, given=self.given)
 
     def checks(self, checks: Sequence[Check]) -> CheckLines:
-        """The checks; on the checklist all that hold share one line."""
+        """The checks; on the checklist, all checks that hold share one line."""
         if self.brief and all(c.holds for c in checks):
             return CheckLines((CheckLine((f"{len(checks)} checks hold",), True, ""),))
         return CheckLines(tuple(CheckLine(self.inline(c.what), c.holds, figures(c.figure)) for c in checks))
 
-    # -- what is hidden, and where a term came from -------------------------------------------------------------------
+    # -- elided expressions, and the origin of terms
+    # ---------------------------------------------------------------------
 
     def hidden_boxes(self, items: Iterable[data.Item]) -> Iterator[Block]:
-        """The full text of boxed formulas that are summarised."""
+        """The full text of boxed formulas that are shown in a summarized form."""
         for item in items:
             if isinstance(item, data.Formula) and item.boxed:
                 yield from self.hidden(item)
 
     def hidden(self, item: data.Formula) -> Iterator[Block]:
-        """The full text of a formula that is summarised, under a summary."""
+        """The full text of a summarized formula, under a summary."""
         longest = max((n for side in item.sides for n in operations(side)), default=0)
         if not longest or self.write.full:
             return
@@ -120,7 +121,7 @@ class Items:
             yield Details((f"written out: {longest} operations",), (Display(sides, ""),), longest > SET_OPERATIONS)
 
     def tagged(self, item: data.Formula, sides: tuple[Math, ...], known: Sequence[EquationTerm]) -> tuple[Math, ...]:
-        """Mark each term of an equation of motion with the elements that make it."""
+        """Mark each term of an equation of motion with the elements that contribute to it."""
         origin = {term.expr: (self.spoken(term.elements), term.kind) for term in known}
         if not origin or len(sides) != len(item.sides):
             return sides
@@ -139,7 +140,7 @@ class Items:
         return tuple(made)
 
     def spoken(self, titles: Iterable[str]) -> tuple[str, ...]:
-        """Titles of elements as lines of text, symbols in them as in the formulas."""
+        """Titles of elements as lines of text, with symbols as in the formulas."""
         return tuple("".join(x if isinstance(x, str) else unicode(x) for x in self.write.words(t)) for t in titles)
 
 
@@ -155,7 +156,7 @@ def _terms(side: data.Left) -> tuple[sp.Expr, ...]:
 
 
 def operations(side: data.Left) -> Iterator[int]:
-    """The sizes of the elided expressions in a side."""
+    """The numbers of operations of the elided expressions in one side of a formula."""
     match side:
         case data.Elided():
             yield side.operations

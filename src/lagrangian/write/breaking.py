@@ -1,9 +1,9 @@
-"""Where a formula that is longer than its line is cut.
+"""Breaks a formula that is longer than its line.
 
-First at relations, then before + and − outside of every parenthesis, then inside of parentheses, deeper lines set in
-deeper. A product stays whole where it can: a factor is never parted from its parenthesis or its acceleration as long
-as another cut helps; where a product has to be cut, the line goes on with a dot for "times". A short parenthesis, such
-as (x₁ − x₂), stays whole to the last.
+It is broken first at relations, then before + and − outside all parentheses, then inside parentheses, where lines are
+indented further. A product stays on one line if possible: a factor is separated from its parenthesis or its
+acceleration only if no other break helps. If a product has to be broken, the next line begins with a dot for "times". A
+short parenthesis, such as (x₁ − x₂), is broken last of all.
 """
 
 from __future__ import annotations
@@ -35,18 +35,18 @@ from lagrangian.write.expression_tree import (
 )
 
 SMALL = 20
-"""Columns of a parenthesis that is short; on a narrow line a third of it."""
+"""A parenthesis of at most this many columns is short; on a narrow line, one of at most a third of the line."""
 WHOLE = 300
 """The level of a line break inside a short parenthesis."""
 STEP = 2
-"""Columns by which a line inside one more pair of parentheses is set in."""
+"""The indentation in columns for each surrounding pair of parentheses."""
 
 Measure = Callable[[Glyph], int]
 
 
 @dataclass
 class BrokenRow:
-    """A line of a formula; ``depth`` counts the parentheses around its beginning."""
+    """A line of a formula; ``depth`` is the number of parentheses open at its beginning."""
 
     tokens: list[Glyph] = field(default_factory=list)
     depth: int = 0
@@ -55,10 +55,10 @@ class BrokenRow:
 def break_lines(
     pieces: Sequence[Glyph], width: int, measure: Measure, *, first: int | None = None, flat: bool = True
 ) -> list[BrokenRow]:
-    """Cut tokens into lines of at most ``width`` columns (the first one ``first``).
+    """Break tokens into lines of at most ``width`` columns (at most ``first`` for the first line).
 
-    ``flat`` says that a fraction is written on one line, a/b; elsewhere it is set, a over b. A line is longer only
-    where a single symbol or number is.
+    ``flat`` says that a fraction is written on one line, a/b, instead of a over b. A line is longer than ``width`` only
+    if it is a single symbol or number.
     """
     made = _Breaker(width, width if first is None else first, measure, flat)
     made.put(made.guarded(pieces))
@@ -74,7 +74,7 @@ class _Breaker:
         self._sizes: dict[int, tuple[Glyph, int]] = {}
 
     def put(self, pieces: list[Glyph]) -> None:
-        """Add tokens to the line at hand and, where they do not fit, to lines after it."""
+        """Add tokens to the current line and, if they do not fit, to further lines."""
         if self._size(pieces) <= self.left:
             self._add(pieces)
             return
@@ -95,7 +95,7 @@ class _Breaker:
             product = segment[0].role == "gap"
             if (not product and not self.whole) or self._size(segment) > self.left:
                 self._next_line(segment[0])
-                if product:  # the gap after the dot is no second chance to cut
+                if product:  # after the dot no other break is allowed
                     segment = [Glyph("leaf", Word("·")), replace(segment[0], level=None), *segment[1:]]
             start = len(self.rows)
             self.put(segment)
@@ -120,7 +120,8 @@ class _Breaker:
         return self._sizes[id(piece)][1]
 
     def _segments(self, pieces: list[Glyph]) -> list[list[Glyph]]:
-        """The pieces cut at the best level: a product before its functions, where that is enough, else in its sums."""
+        """The pieces after the best possible breaks: in a product before its functions if that is enough, otherwise in
+        its sums."""
         levels = [(p.level, p.depth, p.role) for p in pieces[1:] if p.level is not None]
         if not levels:
             return [pieces]
@@ -134,7 +135,7 @@ class _Breaker:
         return _cut(pieces, best)
 
     def _opened(self, pieces: list[Glyph]) -> list[Glyph] | None:
-        """The pieces with the longest one that can be opened taken apart; None where there is no long one."""
+        """The pieces with the longest one that has an inside taken apart; None if there is no long one."""
         for i in sorted(range(len(pieces)), key=lambda i: -self._columns(pieces[i])):
             if 2 * self._columns(pieces[i]) <= self.width:
                 return None
@@ -144,7 +145,7 @@ class _Breaker:
         return None
 
     def guarded(self, pieces: Sequence[Glyph]) -> list[Glyph]:
-        """The pieces with cuts in short parentheses made the worst."""
+        """The pieces, in which breaks inside short parentheses have the worst level."""
         made, open_at = list(pieces), []
         short = max(SMALL // 2, min(SMALL, self.width // 3))
         for i, piece in enumerate(made):
@@ -165,7 +166,7 @@ def _cut(pieces: list[Glyph], level: int) -> list[list[Glyph]]:
 
 
 def _parts(piece: Glyph, flat: bool) -> list[Glyph] | None:
-    """What a long fraction, root or function is made of, so that it can be cut inside; None for what has no inside."""
+    """The tokens of a long fraction, root or function, so that it can be broken inside; None for anything else."""
     math, depth = piece.math, piece.depth
     if piece.role != "leaf":
         return None

@@ -1,4 +1,4 @@
-"""What a model describes, as a section of a page: the symbols with their meaning, and the definitions."""
+"""The description of a model as a section of a page: its symbols with their meaning, and its definitions."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from lagrangian.write.quantities import Notation, Quantities
 
 
 def system_section(model: Model, notation: Notation = "lecture") -> Section:
-    """What was described, for a system that has no derivation yet."""
+    """Return the section for a system that has not been derived."""
     return described(Items(model, notation, brief=False, full=False, details=False), model)
 
 
@@ -33,7 +33,7 @@ def described(items: Items, model: Model) -> Section:
 
 
 def _symbols(model: Model, write: Quantities) -> Iterator[tuple[Math | str, str, str]]:
-    """The symbols of the system: coordinates, parameters with their values, inputs."""
+    """The symbols: coordinates, parameters with their values, inputs."""
     for c in model.coordinates:
         yield write.expressions(c.symbol), c.description or "coordinate", f"[{unit(c.unit)}]" if c.unit else ""
     for p in model.parameters:

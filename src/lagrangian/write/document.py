@@ -1,4 +1,4 @@
-"""A Document: what a derivation says, in reading order, before it has a format."""
+"""A Document: the content of a page in reading order, independent of the format."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Literal, TypeAlias
 from lagrangian.write.expression_tree import Math
 
 Inline: TypeAlias = tuple[str | Math, ...]
-"""Words and mathematics in a line."""
+"""Words and mathematics within a line."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Paragraph:
 
 @dataclass(frozen=True)
 class Display:
-    """A formula on a line of its own: a chain of equal sides, a number for boxed results, a note beside it."""
+    """A formula on its own line: a chain of equal sides, a number for boxed results, and a note beside it."""
 
     sides: tuple[Math, ...]
     anchor: str
@@ -53,7 +53,7 @@ class TableBlock:
 
 @dataclass(frozen=True)
 class CheckLine:
-    """Something that was verified: in words, whether it holds (None: not checked), and the figure."""
+    """A check: its description, whether it holds (None: not checked), and its figure."""
 
     what: Inline
     holds: bool | None
@@ -61,25 +61,26 @@ class CheckLine:
 
     @property
     def mark(self) -> str:
-        """✓, ✗, or – for what was not checked."""
+        """✓, ✗, or – for a check that was not made."""
         return {True: "✓", False: "✗", None: "–"}[self.holds]
 
     @property
     def standing(self) -> str:
-        """The mark in a word."""
+        """The meaning of the mark, in a word."""
         return {True: "holds", False: "fails", None: "not checked"}[self.holds]
 
 
 @dataclass(frozen=True)
 class CheckLines:
-    """What was verified, in a list."""
+    """A list of checks."""
 
     verdicts: tuple[CheckLine, ...]
 
 
 @dataclass(frozen=True)
 class Details:
-    """What is too long to read at once, under a summary; ``vast`` where even a browser would take long to set it."""
+    """Text that is too long to read at once, under a summary; ``vast`` if even a browser would take long to lay it
+    out."""
 
     summary: Inline
     blocks: tuple[Block, ...]
@@ -91,7 +92,7 @@ Block: TypeAlias = HeadingBlock | Paragraph | Display | Boxed | TableBlock | Che
 
 @dataclass(frozen=True)
 class Section:
-    """A step of the derivation, or what stands before and after the steps. ``number`` is the step's."""
+    """A step of the derivation, or a section before or after the steps. ``number`` is the number of the step."""
 
     anchor: str
     title: Inline
@@ -101,7 +102,7 @@ class Section:
 
 @dataclass(frozen=True)
 class Document:
-    """A title and sections; ``brief`` tells the one-page checklist from the whole derivation."""
+    """A title and sections; ``brief`` distinguishes the one-page checklist from the whole derivation."""
 
     title: str
     sections: tuple[Section, ...]

@@ -1,4 +1,5 @@
-"""From SymPy to mathematics on a page: dots for rates, textbook order, signs in front, fractions where they belong."""
+"""Converts SymPy expressions to mathematics on a page: dots for rates, textbook order, signs in front, neat
+fractions."""
 
 from __future__ import annotations
 
@@ -51,7 +52,7 @@ _RELATIONS = {"<": "<", "<=": "≤", ">": ">", ">=": "≥", "==": "=", "!=": "�
 
 
 class Expressions:
-    """Lays out the expressions of one system, whose names look different from each other."""
+    """Lays out the expressions of one system, whose symbols all look different."""
 
     def __init__(self, model: Model) -> None:
         moving = [c.symbol for c in model.coordinates] + [d.symbol for d in model.definitions if d.moving]
@@ -59,11 +60,11 @@ class Expressions:
         self._order = Order(moving, [i.symbol for i in model.inputs], _coefficients(model))
 
     def letter(self, name: str) -> Letter:
-        """The symbol of a name of the system, or of any other name."""
+        """The letter for a symbol of the system, or for any other name."""
         return self.letters.get(name) or letter(name)
 
     def __call__(self, expr: Any) -> Math:
-        """Lay out an expression; `TypeError` for anything that is none."""
+        """Lay out an expression; `TypeError` for anything else."""
         match expr:
             case sp.Add():
                 return self.sum(self._sorted(expr))
@@ -101,14 +102,14 @@ class Expressions:
     # -- sums -------------------------------------------------------------------------------------------------------
 
     def sum(self, terms: Iterable[sp.Expr]) -> Math:
-        """Lay out a sum whose terms keep this order."""
+        """Lay out a sum whose terms keep the given order."""
         laid = [self.term(t) for t in terms]
         if len(laid) == 1 and not laid[0][0]:
             return laid[0][1]
         return Addition(tuple(laid)) if laid else Number("0")
 
     def term(self, term: sp.Expr) -> tuple[bool, Math]:
-        """Lay out a term as (is it negative?, its size)."""
+        """Lay out a term as (whether it is negative, its absolute value)."""
         if term.is_number and term.is_extended_real and term.is_negative:
             return True, self(-term)
         if isinstance(term, sp.Mul):
@@ -119,7 +120,7 @@ class Expressions:
         return False, self(term)
 
     def _sorted(self, expr: sp.Add) -> list[sp.Expr]:
-        """The terms in textbook order, a positive one first where there is one."""
+        """The terms in textbook order, with a positive one first if there is one."""
         terms = self._sorted_terms(expr)
         if _negative(terms[0]):
             first = next((t for t in terms if not _negative(t)), None)
@@ -148,7 +149,7 @@ class Expressions:
         return Addition(((True, shown),)) if negative else shown
 
     def _split(self, expr: sp.Expr) -> tuple[Any, list[sp.Expr], list[sp.Expr]]:
-        """The number, the factors above and the factors below the line."""
+        """The number, the factors of the numerator and the factors of the denominator."""
         number: Any = 1
         over: list[sp.Expr] = []
         under: list[sp.Expr] = []
@@ -188,7 +189,7 @@ class Expressions:
         return Power(self._base(base), self(exponent))
 
     def _facing(self, base: sp.Add) -> sp.Expr:
-        """The sum under an even power with the sign that leaves what moves positive: (x − L₀)², not (L₀ − x)²."""
+        """The base of an even power with the sign for which the moving part is positive: (x − L₀)², not (L₀ − x)²."""
         terms = self._sorted_terms(base)
         first = next((t for t in terms if t.has(AppliedUndef)), terms[0])
         return sp.Add(*[-t for t in terms]) if _negative(first) else base
@@ -241,7 +242,7 @@ class Expressions:
 
 
 def _coefficients(model: Model) -> Iterator[sp.Basic]:
-    """The symbols in the stiffnesses of springs, in the coefficients of dampers and in given dissipations."""
+    """The symbols in stiffnesses of springs, in coefficients of dampers and in given dissipation functions."""
     for element in model.elements:
         for expr in (getattr(element, "k", None), getattr(element, "b", None), element.dissipation(model)):
             if isinstance(expr, sp.Basic):
@@ -249,13 +250,13 @@ def _coefficients(model: Model) -> Iterator[sp.Basic]:
 
 
 def _negative(expr: sp.Expr) -> bool:
-    """Whether a sign stands in front: the number in it is negative."""
+    """Whether an expression is written with a minus sign in front, because its number is negative."""
     number = expr.as_coeff_Mul()[0]
     return bool(number.is_extended_real and number.is_negative)
 
 
 def _numeral(value: Any) -> Math:
-    """A number that is not negative: 2, ½, 9.81, 1.5·10⁻⁶."""
+    """A nonnegative number: 2, ½, 9.81, 1.5·10⁻⁶."""
     if isinstance(value, Fraction) and value.denominator != 1:
         return Quotient(Number(str(value.numerator)), Number(str(value.denominator)))
     if isinstance(value, (int, Fraction)):

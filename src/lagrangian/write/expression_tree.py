@@ -1,7 +1,7 @@
-"""Mathematics as it stands on a page, before it is text, LaTeX or MathML.
+"""Mathematics on a page as a tree, before it is converted to text, LaTeX or MathML.
 
-Every format renders the same tree, so that order, signs, parentheses and line breaks are decided once. A formula is cut
-into lines where its *tokens* allow it, see `breaking`.
+All formats render the same tree, so that order, signs, parentheses and line breaks are decided only once. A formula is
+broken into lines between its *tokens*, see `breaking`.
 """
 
 from __future__ import annotations
@@ -49,17 +49,17 @@ GREEK = {
     "Psi": "Ψ",
     "Omega": "Ω",
 }
-"""Spelled Greek letters; the other capitals look like Latin ones and stay spelled."""
+"""Spelled Greek letters; the other capitals look like Latin letters and stay spelled."""
 
 FUNCTIONS = frozenset(["sin", "cos", "tan", "sinh", "cosh", "tanh", "arcsin", "arccos", "arctan", "ln", "exp"])
-"""Functions written without parentheses before a single letter, and with their power after the name: sin²θ."""
+"""Functions that need no parentheses before a single letter, and whose power follows the name: sin²θ."""
 
 
 @dataclass(frozen=True)
 class Letter:
     """A symbol: base letter, subscript parts, dots for time derivatives; ``star`` as in T*, ``bold`` for a vector.
 
-    A vector is ``apart`` where its plain letter would be another symbol's, so that even plain text must show it bold.
+    A vector is ``apart`` if its plain letter would equal another symbol, so that even plain text must show it bold.
     ``base`` and the parts of ``sub`` are spelled: "theta", "x", "1r". A ``literal`` letter is shown exactly as spelled.
     """
 
@@ -76,7 +76,7 @@ _NUMBERED = re.compile(rf"({'|'.join(sorted(GREEK, key=len, reverse=True))}|[A-Z
 
 
 def numbered(part: str) -> tuple[str, str] | None:
-    """Return the letter, Greek ones spelled, and the number of a subscript such as ``phi1`` or ``k2``, or None."""
+    """Return the letter (Greek ones spelled) and the number of a name such as ``phi1`` or ``k2``, or None."""
     found = _NUMBERED.match(part)
     return (found.group(1), found.group(2)) if found else None
 
@@ -97,7 +97,7 @@ class Word:
 
 @dataclass(frozen=True)
 class Addition:
-    """Terms with their signs: (is it subtracted?, term)."""
+    """A sum of terms with signs: (whether it is subtracted, term)."""
 
     terms: tuple[tuple[bool, Math], ...]
 
@@ -134,7 +134,7 @@ class Radical:
 
 @dataclass(frozen=True)
 class Apply:
-    """A function of its arguments, perhaps with a power after its name: sin²θ."""
+    """A function with its arguments, perhaps with a power after its name: sin²θ."""
 
     name: str
     args: tuple[Math, ...]
@@ -143,7 +143,7 @@ class Apply:
 
 @dataclass(frozen=True)
 class Numeral:
-    """A named quantity with what it depends on: M(q)."""
+    """A named quantity with its arguments: M(q)."""
 
     of: Letter
     args: tuple[Math, ...]
@@ -160,7 +160,7 @@ class Fence:
 
 @dataclass(frozen=True)
 class Mark:
-    """∂, d or δ before something."""
+    """∂, d or δ in front of something."""
 
     sign: str
     of: Math
@@ -168,7 +168,7 @@ class Mark:
 
 @dataclass(frozen=True)
 class Relation:
-    """Sides with a relation between each two: a = b = c, x < 0."""
+    """Sides with a relation between any two: a = b = c, x < 0."""
 
     sides: tuple[Math, ...]
     sign: str = "="
@@ -176,7 +176,7 @@ class Relation:
 
 @dataclass(frozen=True)
 class Grid:
-    """A matrix or column; where it is ``symmetric`` the cells under the diagonal hold no entries."""
+    """A matrix or column; if it is ``symmetric``, the cells below the diagonal are empty."""
 
     rows: tuple[tuple[Math, ...], ...]
     symmetric: bool = False
@@ -184,14 +184,14 @@ class Grid:
 
 @dataclass(frozen=True)
 class Cases:
-    """A quantity with several branches; the condition None means otherwise."""
+    """A quantity with several branches; the condition None means "otherwise"."""
 
     branches: tuple[tuple[Math, Math | None], ...]
 
 
 @dataclass(frozen=True)
 class Tagged:
-    """A term that knows the elements it came from, and its kind."""
+    """A term with its kind and the elements that it came from."""
 
     of: Math
     elements: tuple[str, ...]
@@ -226,12 +226,12 @@ GLUED = 200
 
 @dataclass(frozen=True)
 class Glyph:
-    """A piece of a formula that is never cut.
+    """A piece of a formula that is never broken.
 
     ``role``: "leaf" (``math`` is rendered), "plus", "minus" (between terms), "negative" (before the first term), "gap"
     (between factors), "open", "close" (``text`` is the fence), "exponent" (``math`` is raised), "sign" (``text`` is a
-    relation). ``level`` says how bad a line break before it is (0 best), None that there cannot be one; ``depth``
-    counts the parentheses around it. ``tall`` fences hold a fraction.
+    relation). ``level`` says how bad a line break before it is (0 is best); None means that no break is allowed.
+    ``depth`` counts the parentheses around it. ``tall`` fences contain a fraction.
     """
 
     role: str
@@ -243,7 +243,7 @@ class Glyph:
 
 
 def tokens(math: Math, depth: int = 0) -> Iterator[Glyph]:
-    """Cut a formula into tokens; ``depth`` counts the parentheses around it."""
+    """Split a formula into tokens; ``depth`` counts the parentheses around it."""
     if isinstance(math, Addition):
         for i, (subtracted, term) in enumerate(math.terms):
             if i:
@@ -280,7 +280,7 @@ def tokens(math: Math, depth: int = 0) -> Iterator[Glyph]:
 
 
 def _stands_apart(before: Math, factor: Math) -> bool:
-    """Whether a product may be cut before a factor: a function, or a plain factor after a plain one."""
+    """Whether a product may be broken before a factor: before a function, or between two plain factors."""
     if isinstance(factor, Apply):
         return before not in _SIGNS
     return not any(isinstance(x, Fence) or _moves(x) or x in _SIGNS or _fences(x) for x in (before, factor))
@@ -290,12 +290,12 @@ _SIGNS = (Word("·"), Quotient(Word("d"), Word("dt")))
 
 
 def _moves(math: Math) -> bool:
-    """Whether it is a rate or an acceleration, or its power."""
+    """Whether an expression is a rate or an acceleration, or a power of one."""
     return (isinstance(math, Letter) and math.dots > 0) or (isinstance(math, Power) and _moves(math.base))
 
 
 def _fences(math: Math) -> bool:
-    """Whether it is a power of what stands in parentheses."""
+    """Whether an expression is a parenthesis or a power of one."""
     return isinstance(math, Power) and isinstance(fenced(math.base, _Loose), Fence)
 
 
@@ -303,13 +303,13 @@ _Loose = (Addition, Times, Quotient, Power, Mark, Relation, Cases)
 
 
 def fenced(math: Math, kinds: type | tuple[type, ...]) -> Math:
-    """Put parentheses around anything of these kinds."""
+    """Put an expression in parentheses if it is of one of these kinds."""
     inner = math.of if isinstance(math, Tagged) else math
     return Fence(math) if isinstance(inner, kinds) else math
 
 
 def _in_product(factors: tuple[Math, ...], i: int) -> Math:
-    """Parentheses for sums among factors, and around a bare argument that the next factor would run into."""
+    """Parentheses for sums among factors, and around a bare argument that would run into the next factor."""
     factor = fenced(factors[i], (Addition, Relation))
     following = factors[i + 1] if i + 1 < len(factors) else None
     if isinstance(factor, Apply) and following is not None and not isinstance(following, Apply) and bare(factor):
@@ -318,7 +318,7 @@ def _in_product(factors: tuple[Math, ...], i: int) -> Math:
 
 
 def bare(math: Apply) -> bool:
-    """Whether the argument stands without parentheses: sin θ, sin 2θ."""
+    """Whether an argument is written without parentheses: sin θ, sin 2θ."""
     if len(math.args) != 1 or math.name not in FUNCTIONS:
         return False
     arg = math.args[0]
@@ -328,12 +328,12 @@ def bare(math: Apply) -> bool:
 
 
 def equality(sides: tuple[Math, ...]) -> Math:
-    """One side as it is, several with equals signs between them."""
+    """Return a single side as it is, or several sides joined by equals signs."""
     return sides[0] if len(sides) == 1 else Relation(sides)
 
 
 def is_word(math: Math | None) -> bool:
-    """Whether it is a name of several letters, which needs air around it."""
+    """Whether it is a name of several letters, which needs space around it."""
     return isinstance(math, Word) or (isinstance(math, Letter) and (math.literal or _several(math.base)))
 
 
@@ -342,12 +342,12 @@ def _several(base: str) -> bool:
 
 
 def in_parentheses(math: Math) -> bool:
-    """Whether it stands in parentheses already; bars are none."""
+    """Whether it is already in parentheses; bars do not count."""
     return isinstance(math, Fence) and math.left == "("
 
 
 def product(front: Math, *rest: Math) -> Math:
-    """Factors side by side; a fraction takes what follows it into its numerator."""
+    """Factors side by side; factors after a fraction move into its numerator."""
     if not rest:
         return front
     if isinstance(front, Quotient) and not isinstance(front.over, Number):
@@ -360,7 +360,7 @@ def product(front: Math, *rest: Math) -> Math:
 
 
 def is_tall(math: Math | None) -> bool:
-    """Whether it holds a fraction with letters in it or anything else that stands higher than a line."""
+    """Whether it contains a fraction with letters, or anything else that is taller than a line."""
     match math:
         case Quotient():
             return not (isinstance(math.over, Number) and isinstance(math.under, Number))

@@ -1,4 +1,4 @@
-"""Files written whole or not at all."""
+"""Files that are written completely or not at all."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from lagrangian.errors import Error
 
 
 def write_file(path: str | os.PathLike[str], text: str) -> Path:
-    """Write ``text`` as UTF-8 to ``path`` and return the path; a device or pipe is written into as it stands.
+    """Write ``text`` as UTF-8 to ``path`` and return the path; a device or pipe is written to directly.
 
-    Raises `Error` as `write_with` does.
+    Raises the same errors as `write_with`.
     """
     given = Path(path)
     if given.exists() and not given.is_file() and not given.is_dir():
@@ -28,11 +28,10 @@ def write_file(path: str | os.PathLike[str], text: str) -> Path:
 
 
 def write_with(path: str | os.PathLike[str], fill: Callable[[Path], object]) -> Path:
-    """Let ``fill`` write a file beside ``path``, which then takes its place; return the path.
+    """Let ``fill`` write a temporary file next to ``path``, which then replaces ``path``; return the path.
 
-    A reader sees the old file or the new one, and a full disk leaves the old one. The permissions of a file that was
-    there are kept. Raises `Error` for a folder that is missing, a path that is no file, a place where writing is not
-    allowed, and a full disk.
+    Readers see either the old file or the new one, and the old one survives a full disk. The permissions of an existing
+    file are kept. Raises `Error` for a missing folder, a path that is not a file, missing permission, and a full disk.
     """
     target = _target(path)
     folder = target.parent
@@ -60,9 +59,10 @@ def write_with(path: str | os.PathLike[str], fill: Callable[[Path], object]) -> 
 
 
 def check_free(path: str | os.PathLike[str], *, overwrite: bool) -> None:
-    """Refuse, before the work, what cannot be written later: a folder, a file in no folder, one that is there already.
+    """Raise `Error`, before long work begins, if ``path`` cannot be written: it is a folder, or its folder does not
+    exist.
 
-    Raises `Error`; a file that is there is refused unless ``overwrite``.
+    An existing file is an error, too, unless ``overwrite``.
     """
     if _target(path).is_file() and not overwrite:
         fix = Advice("choose another name, or replace it: ", Argument("overwrite", "True"))
@@ -70,7 +70,7 @@ def check_free(path: str | os.PathLike[str], *, overwrite: bool) -> None:
 
 
 def _target(path: str | os.PathLike[str]) -> Path:
-    """The file behind a path, links followed; raises `Error` where there can be none."""
+    """The file that a path refers to after links are followed; raises `Error` if there can be none."""
     target = Path(os.path.realpath(path))
     if target.is_dir():
         raise Error(f"'{path}' is a folder", fix="name a file in it", code="E801")
@@ -81,7 +81,7 @@ def _target(path: str | os.PathLike[str]) -> Path:
 
 
 def _into(device: Path, text: str) -> Path:
-    """Write into a device or a named pipe as it stands: a file must never take its place."""
+    """Write directly to a device or a named pipe, which must never be replaced by a file."""
     try:
         with device.open("w", encoding="utf-8", newline="\n") as file:
             file.write(text)
@@ -91,7 +91,7 @@ def _into(device: Path, text: str) -> Path:
 
 
 def _umask() -> int:
-    """The mask of permissions of new files; there is no way to read it but to set it."""
+    """The permission mask of new files; the only way to read it is to set it."""
     mask = os.umask(0o022)
     os.umask(mask)
     return mask

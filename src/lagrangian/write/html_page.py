@@ -1,7 +1,7 @@
-"""A derivation as one HTML page that works offline: MathML, no scripts, nothing loaded from anywhere.
+"""Writes a derivation as one HTML page that works offline, with MathML and without scripts or external files.
 
-Hovering over a term of the final equations, or focusing it with the keyboard or a tap, shows the elements it came from.
-Every step can be folded away; on paper all of them are open. A formula that is wider than the screen is scrolled.
+A term of the final equations shows the elements that it came from when the pointer is over it, or when it has the
+focus. Every step can be folded; in print all steps are open. A formula that is wider than the screen can be scrolled.
 """
 
 from __future__ import annotations
@@ -31,10 +31,10 @@ from lagrangian.write.text import clean
 from lagrangian.write.text import display as text_lines
 
 WIDTH = 96
-"""Columns of Unicode text that fit the width of the page's text."""
+"""The width of the page in columns of Unicode text."""
 
 UNBROKEN_COLUMNS = 24
-"""Columns up to which a formula among words is kept in one piece."""
+"""A formula of up to this many columns within a text is kept in one piece."""
 
 EQUALS = '<span class="sign"><math><mo>=</mo></math></span>&#xa0;'
 
@@ -47,11 +47,11 @@ KINDS: Mapping[TermKind, str] = {
     "input": "input: from outside",
     "other": "other",
 }
-"""The kinds of terms, as the legend names them."""
+"""The kinds of terms, as named in the legend."""
 
 
 def page(document: Document, subject: str) -> str:
-    """Return a document as a self-contained HTML page; ``subject`` stands in its title beside the document's own."""
+    """Return a document as a self-contained HTML page; its title contains ``subject`` and the title of the document."""
     title = escape(document.title)
     body = "\n".join(_section(section, brief=document.brief) for section in document.sections)
     return (
@@ -65,9 +65,9 @@ def page(document: Document, subject: str) -> str:
 
 
 def fragment(document: Document) -> str:
-    """Return a document as a piece of HTML that brings its own style."""
+    """Return a document as a piece of HTML that contains its own style."""
     body = "\n".join(_section(section, brief=document.brief, anchors=False) for section in document.sections)
-    nested = _style().replace(":root", "&").replace("body {", "& {")  # the page's rules, for this piece alone
+    nested = _style().replace(":root", "&").replace("body {", "& {")  # the page's style rules, restricted to this piece
     style = f"<style>\n.lagrangian {{\n{nested}}}\n</style>"
     head = f'<div class="lagrangian" lang="en">{style}\n<div class="{"brief" if document.brief else "whole"}">'
     return f"{head}\n<h3>{escape(document.title)}</h3>\n{body}\n</div></div>"
@@ -78,17 +78,17 @@ def _style() -> str:
 
 
 def escape(words: str) -> str:
-    """Any text so that a browser shows it."""
+    """Escape any text for HTML."""
     return _escape(clean(words), quote=True)
 
 
 def inline(text: Inline) -> str:
-    """Words and mathematics in a line."""
+    """Words and mathematics within a line."""
     return "".join(escape(x) if isinstance(x, str) else _flowing(x) for x in text)
 
 
 def _flowing(formula: Math) -> str:
-    """A formula in a line of words; a long one in pieces, between which the line can end."""
+    """A formula in a line of words; a long formula in pieces between which the line can break."""
     pieces: list[list[Glyph]] = [[]]
     for token in tokens(formula):
         if token.level is not None and token.level <= 1 and sum(set_columns(t) for t in pieces[-1]) > UNBROKEN_COLUMNS:
@@ -146,13 +146,13 @@ def _block(block: Block, anchors: bool) -> Iterator[str]:
 
 
 def _preformatted(blocks: tuple[Block, ...]) -> str:
-    """Formulas as lines of text: mathematics of this length takes a browser long."""
+    """Formulas as lines of preformatted text, because a browser takes long for mathematics of this length."""
     shown = [line for block in blocks if isinstance(block, Display) for line in text_lines(block, WIDTH)]
     return f"<pre>{escape_lines(shown)}</pre>"
 
 
 def escape_lines(listed: list[str]) -> str:
-    """Lines of text so that a browser shows them."""
+    """Escape lines of text for HTML."""
     return "\n".join(escape(line) for line in listed)
 
 
@@ -163,7 +163,7 @@ def _display(block: Display, anchors: bool) -> str:
 
 
 def _chain(sides: tuple[Math, ...]) -> str:
-    """A formula term by term, so that its lines end where the screen does; a matrix in one piece."""
+    """A formula term by term, so that its lines break at the width of the screen; a matrix stays in one piece."""
     if any(isinstance(side, Grid) for side in sides):
         return displayed(sides, WIDTH)
     laid = [_terms(side, []) for side in sides]
@@ -174,7 +174,7 @@ def _chain(sides: tuple[Math, ...]) -> str:
 
 
 def _boxed(displays: tuple[Display, ...], anchors: bool) -> Iterator[str]:
-    """The results, term by term; each term can be asked for the elements it came from."""
+    """The results, term by term; each term shows the elements that it came from."""
     equations: list[str] = []
     kinds: list[str] = []
     for formula in displays:
@@ -191,7 +191,7 @@ def _boxed(displays: tuple[Display, ...], anchors: bool) -> Iterator[str]:
 
 
 def _kept(sides: list[str], equals: str) -> str:
-    """The sides with equals signs; a short right-hand side stays with its sign."""
+    """The sides with equals signs; a short right-hand side stays on the line of its sign."""
     text = sides[0]
     for side in sides[1:]:
         alone = side.count("<math") == 1

@@ -1,4 +1,4 @@
-"""How quantities of a system are called on an axis or over a column: as LaTeX and as one line of text."""
+"""Names of quantities for axes and columns: as LaTeX and as one line of text."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from lagrangian.write.unicode_math import unicode
 
 
 class Labels:
-    """The names and expressions of one system, written as in its derivation."""
+    """Writes the names and expressions of one system in the same way as its derivation."""
 
     def __init__(self, model: Model) -> None:
         self._laid = Expressions(model)

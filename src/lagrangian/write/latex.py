@@ -1,4 +1,4 @@
-"""A derivation as a LaTeX article that compiles as it is, with any engine."""
+"""Writes a derivation as a complete LaTeX article, for any engine."""
 
 from __future__ import annotations
 
@@ -25,11 +25,11 @@ from lagrangian.write.text import clean
 from lagrangian.write.unicode_math import columns
 
 MOST_BOXED = 30
-"""Rows of results that one box holds; more of them run over pages between two rules."""
+"""The largest number of rows of results in a box; more results run over pages between two rules."""
 MOST_ROWS = 30
-"""Rows of a table that is kept on one page."""
+"""A table with at most this many rows is kept on one page."""
 MOST_ALIGNED = 20
-"""Rows of a formula that are kept on one page."""
+"""A formula with at most this many rows is kept on one page."""
 
 _PREAMBLE = r"""\documentclass[11pt,a4paper,fleqn]{article}
 \usepackage[utf8]{inputenc}
@@ -78,7 +78,7 @@ def page(document: Document) -> str:
 
 
 def _blocks(blocks: Iterable[Block]) -> Iterator[str]:
-    """The blocks, formulas that follow each other in one display."""
+    """The blocks, with consecutive formulas combined in one display."""
     run: list[Display] = []
     for block in blocks:
         if isinstance(block, Display):
@@ -91,7 +91,7 @@ def _blocks(blocks: Iterable[Block]) -> Iterator[str]:
 
 
 def _displays(run: list[Display]) -> Iterator[str]:
-    """Formulas as rows of one display; a long one is aligned on its own, so that it can run over pages."""
+    """Formulas as rows of one display; a long one is aligned by itself, so that it can run over pages."""
     waiting: list[str] = []
     for formula in run:
         note = rf" \qquad\text{{({inline(formula.note)})}}" if formula.note else ""
@@ -153,7 +153,8 @@ def _boxed(displays: tuple[Display, ...]) -> str:
 
 
 def _table(table: TableBlock) -> str:
-    """A table; a long one runs over pages, its columns of fixed widths, so that the heads stand over them at once."""
+    """A table; a long one runs over pages and has columns of fixed widths, so that the headings always align with
+    them."""
     rows_of = (table.header, *table.rows)
     lengths = [max(_length(row[j]) for row in rows_of) for j in range(len(table.header))]
     head = " & ".join(rf"\textbf{{{inline(h)}}}" for h in table.header) + r" \\ \hline"

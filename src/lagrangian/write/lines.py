@@ -1,6 +1,6 @@
-"""Long formulas cut into lines for a page: LaTeX, Markdown and MathML share the cuts.
+"""Breaks long formulas into lines for a page; LaTeX, Markdown and MathML use the same breaks.
 
-Widths are columns of the Unicode text, a fair measure of the set formula too.
+Widths are counted in columns of the Unicode text, which is also a good measure of the typeset formula.
 """
 
 from __future__ import annotations
@@ -26,7 +26,8 @@ from lagrangian.write.unicode_math import columns, token, unicode
 
 @dataclass(frozen=True)
 class Line:
-    """A line of a formula: what stands left of the alignment, the equals sign or not, what follows, how far set in."""
+    """A line of a formula: the part left of the alignment, whether an equals sign follows, the rest, and the
+    indentation."""
 
     left: tuple[Glyph, ...]
     equals: bool
@@ -35,12 +36,12 @@ class Line:
 
 
 def measure(piece: Glyph) -> int:
-    """Columns of a token in a line of text."""
+    """The width of a token in a line of text."""
     return columns(token(piece))
 
 
 def set_columns(piece: Glyph) -> int:
-    """Columns of a token where fractions are set, numerator over denominator."""
+    """The width of a token where fractions are typeset, with the numerator over the denominator."""
     match piece.math:
         case Quotient(over, under) if piece.role == "leaf":
             return max(_set(over), _set(under))
@@ -55,9 +56,9 @@ def _set(math: Math) -> int:
 
 
 def chain(sides: tuple[Math, ...], width: int, *, aligned: bool = False) -> list[Line]:
-    """Cut a chain of equalities: one line if it fits, else a line a side under the first equals sign.
+    """Break a chain of equalities: one line if it fits, otherwise a line per side, aligned at the first equals sign.
 
-    An ``aligned`` one has its equals sign at the alignment in any case, as one of several chains.
+    If it is ``aligned``, its equals sign is at the alignment in any case, as for one of several chains.
     """
     first, *rest = sides
     if sum(_set(side) + 3 for side in sides) - 3 <= width:
@@ -89,15 +90,17 @@ def _rows(side: Math, width: int) -> list[BrokenRow]:
 
 
 def lines(sides: tuple[Math, ...], width: int) -> list[Line]:
-    """Cut any formula into lines, entry by entry where it is a matrix that is too wide."""
+    """Break any formula into lines; a matrix that is too wide is written entry by entry."""
     parts = chains(sides, width)
-    if len(parts) == 1 and any(isinstance(side, Grid) for side in sides):  # it fits, rows below each other
+    if len(parts) == 1 and any(
+        isinstance(side, Grid) for side in sides
+    ):  # it fits when its rows are placed below each other
         return [Line((), False, tuple(tokens(equality(sides))))]
     return [line for part in parts for line in chain(part, width, aligned=len(parts) > 1)]
 
 
 def chains(sides: tuple[Math, ...], width: int) -> list[tuple[Math, ...]]:
-    """A matrix that is too wide becomes a chain for every entry; anything else stays one chain."""
+    """A chain for every entry of a matrix that is too wide; anything else remains one chain."""
     if not any(isinstance(side, Grid) and grid_columns(side) + 8 > width for side in sides):
         return [sides]
     made: list[tuple[Math, ...]] = []
@@ -114,7 +117,7 @@ def chains(sides: tuple[Math, ...], width: int) -> list[tuple[Math, ...]]:
 
 
 def grid_columns(grid: Grid) -> int:
-    """Columns that a matrix takes, its entries three apart."""
+    """The width of a matrix whose entries are three columns apart."""
     if not grid.rows:
         return 2
     wide = [max(columns(unicode(row[j])) for row in grid.rows) for j in range(len(grid.rows[0]))]
@@ -122,9 +125,9 @@ def grid_columns(grid: Grid) -> int:
 
 
 def entries(grid: Grid) -> list[tuple[tuple[str, ...], Math]]:
-    """The entries of a matrix with their indices: 12 for row 1, column 2; a column's with one index.
+    """The entries of a matrix with their indices: 12 for row 1, column 2; a column has one index.
 
-    Two entries of a symmetric matrix that are the same are one, with both indices: 12 and 21.
+    Two equal entries of a symmetric matrix are listed once, with both indices: 12 and 21.
     """
     comma = "," if len(grid.rows) > 9 or any(len(row) > 9 for row in grid.rows) else ""
     made: list[tuple[tuple[str, ...], Math]] = []
@@ -139,7 +142,7 @@ def entries(grid: Grid) -> list[tuple[tuple[str, ...], Math]]:
 
 
 def entry(name: Math, index: str) -> Math:
-    """The name of a matrix with an entry's index."""
+    """The name of a matrix with the index of an entry."""
     if isinstance(name, Numeral):
         name = name.of
     if isinstance(name, Letter):

@@ -1,4 +1,4 @@
-"""A derivation as Markdown with LaTeX mathematics between dollar signs, as GitHub and notebooks show it."""
+"""Writes a derivation as Markdown with LaTeX mathematics between dollar signs, for GitHub and notebooks."""
 
 from __future__ import annotations
 
@@ -36,13 +36,13 @@ def page(document: Document) -> str:
 
 
 def escape(words: str) -> str:
-    """Return any text so that Markdown shows it: no markup, no HTML, no mathematics."""
+    """Escape any text for Markdown: no markup, no HTML, no mathematics."""
     safe = clean(words).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
     return _SPECIAL.sub(r"\\\1", safe)
 
 
 def inline(text: Inline) -> str:
-    """Return words and mathematics in a line."""
+    """Return words and mathematics within a line."""
     return "".join(escape(x) if isinstance(x, str) else f"${WEB.latex(x)}$" for x in text)
 
 
@@ -78,7 +78,7 @@ def _row(cells: tuple[Inline, ...]) -> str:
 
 
 def _start(line: str) -> str:
-    """A paragraph that begins like a list item or a rule is kept a paragraph."""
+    """Escape the beginning of a paragraph that looks like a list item or a rule."""
     return re.sub(
         r"\A(\s*)([-=]|\d+[.)])",
         lambda m: m[1] + ("\\" + m[2] if not m[2][0].isdigit() else m[2][:-1] + "\\" + m[2][-1]),

@@ -1,4 +1,4 @@
-"""Mathematics as MathML Core, which every browser shows without scripts; all text in it is escaped."""
+"""Writes mathematics as MathML Core, which browsers show without scripts; all text in it is escaped."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def mathml(math: Math, *, display: bool = False) -> str:
 
 
 def displayed(sides: tuple[Math, ...], width: int) -> str:
-    """Return a formula for display, cut into aligned lines where it is longer than ``width`` columns."""
+    """Return a formula for display, broken into aligned lines if it is longer than ``width`` columns."""
     cut = lines(sides, width)
     if len(cut) == 1:
         return f'<math display="block">{row(cut[0].right)}</math>'
@@ -53,7 +53,7 @@ def displayed(sides: tuple[Math, ...], width: int) -> str:
 
 
 def wide(sign: str, term: Math, width: int) -> str:
-    """Return a term that is longer than ``width`` columns in lines after its sign; nothing where it fits."""
+    """Return the lines of a term that is longer than ``width`` columns, after its sign; nothing if it fits."""
     cut = lines((term,), width)
     if len(cut) == 1:
         return ""

@@ -1,7 +1,7 @@
-"""How a symbol's name is written: theta1 → θ₁, L_a → L_a with a subscript, x2r → x_2r.
+"""Converts the name of a symbol to a letter: theta1 → θ₁, L_a → L with subscript a, x2r → x_2r.
 
-A Greek letter may be spelled; what follows a first letter with a digit, or an underscore, is its subscript. Any other
-name of several letters is a word and stays one. Two names of one system never look the same.
+Greek letters may be spelled. A subscript begins with a digit after the first letter, or with an underscore. Any other
+name of several letters is a word and stays as it is. Two names of a system never look the same.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ _LATIN_HEAD = re.compile(r"([^\W\d_])(\d\w*)?\Z")
 
 
 def letter(name: str) -> Letter:
-    """Return the symbol that a name stands for."""
+    """Return the letter for a name."""
     spelled = "".join(_VARIANTS.get(c, SPELLED.get(c, c)) if len(name) == 1 or _greek(c) else c for c in name)
     head, _, tail = spelled.partition("_")
     parts = tuple(p for p in tail.split("_") if p)
@@ -39,7 +39,7 @@ def _greek(c: str) -> bool:
 
 
 def letters(names: Iterable[str]) -> Mapping[str, Letter]:
-    """Return the symbols of all names of a system; a name that would look like an earlier one is shown as spelled."""
+    """Return the letters for all names of a system; a name that would look like an earlier one is shown as spelled."""
     table: dict[str, Letter] = {}
     taken: set[tuple[str, str]] = set()
     for name in names:
@@ -56,7 +56,7 @@ def letters(names: Iterable[str]) -> Mapping[str, Letter]:
 
 
 def natural(name: str) -> tuple[tuple[int, str, int], ...]:
-    """A key that sorts names as people do: m2 before m10, a before B, M before m."""
+    """A sort key for the order in which people list names: m2 before m10, a before B, M before m."""
     pieces = re.findall(r"\d+|\D+", name)
     return tuple((0, "", int(p)) if p.isdigit() and p.isascii() else (1, p.casefold(), 0) for p in pieces) + (
         (2, name, 0),

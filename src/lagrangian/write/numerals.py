@@ -1,4 +1,4 @@
-"""Numbers and units in words: 2·10⁻⁵ and N·m, not 2e-05 and N*m."""
+"""Numbers and units as text: 2·10⁻⁵ and N·m, not 2e-05 and N*m."""
 
 from __future__ import annotations
 
@@ -11,18 +11,19 @@ _FIGURE = re.compile(r"(?<![\w.])(\d+(?:\.\d+)?)e([+-]?\d+)(?![\w.])")
 
 
 def unit(words: str | None) -> str:
-    """Return a unit with its whole exponents raised and dots between its factors: N*m/s^2 → N·m/s²."""
+    """Return a unit with its exponents raised and dots between its factors: N*m/s^2 → N·m/s²."""
     dotted = re.sub(r"(?<=[\w)])\s*[* ]\s*(?=[^\W\d_])", "·", (words or "").strip())
     return re.sub(r"\^(-?\d+)", lambda m: m.group(1).translate(_RAISED), dotted)
 
 
 def figure(x: float) -> str:
-    """Return a number of six digits, with a power of ten where it is far from 1: 2·10⁻⁵."""
+    """Return a number with six digits, with a power of ten if it is far from 1: 2·10⁻⁵."""
     return figures(f"{x:.6g}")
 
 
 def measured(value: float, given: str | None) -> str:
-    """Return an SI value in the unit it was given in, with the SI value beside any other unit: 200 g (0.2 kg)."""
+    """Return an SI value in the unit in which it was given, followed by the SI value if the unit differs: 200 g (0.2
+    kg)."""
     if not given:
         return figure(value)
     words, si = f"{figure(value / unit_factor(given))} {unit(given)}", si_unit(given)
@@ -33,7 +34,7 @@ def measured(value: float, given: str | None) -> str:
 
 
 def figures(words: str) -> str:
-    """Return words with every number in them written as ``figure`` writes it, its digits kept: 5.5e-16 → 5.5·10⁻¹⁶.
+    """Return a text with every number in it written as ``figure`` does, with its own digits: 5.5e-16 → 5.5·10⁻¹⁶.
 
     A power of ten from 10⁻³ to 10³ is carried out: 1.59e-01 → 0.159.
     """

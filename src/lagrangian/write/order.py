@@ -1,8 +1,9 @@
-"""The order of a textbook: m g L sin θ, m₁ l₁ l₂ θ̈₂ cos(θ₁ − θ₂), (m₁ + m₂) ẍ₁, k (x₁ − x₂).
+"""Puts factors and terms in textbook order: m g L sin θ, m₁ l₁ l₂ θ̈₂ cos(θ₁ − θ₂), (m₁ + m₂) ẍ₁, k (x₁ − x₂).
 
 Factors: number, masses, stiffness, forces, damping, g, other parameters, sums, coordinates, rates, accelerations,
-functions. A letter b or c is damping where a damper or a spring of the system has it, else a parameter as any other.
-Terms: accelerations, rates, the rest; among equals by coordinate as declared, then by name as people count.
+functions. A letter b or c counts as damping if a damper or a spring of the system contains it, and otherwise as any
+other parameter. Terms: accelerations, rates, then the rest; equal ones by coordinate in declared order, then by name in
+natural order.
 """
 
 from __future__ import annotations
@@ -17,18 +18,18 @@ from lagrangian.write.names import natural
 
 _MASS, _STIFF, _GRAVITY, _OTHER, _SUM, _PLACE, _RATE, _ACCELERATION, _FUNCTION = range(1, 10)
 _LETTERS = {"k": 0, "f": 1, "b": 2, "c": 2}
-"""The order of stiffnesses, forces and damping coefficients among themselves."""
+"""The order among stiffnesses, forces and damping coefficients."""
 _TRIGONOMETRIC = {"sin": 0, "cos": 1, "tan": 2}
 
 
 class Order:
-    """Sort keys for the factors and terms of one system's expressions."""
+    """Sort keys for the factors and terms in the expressions of one system."""
 
     def __init__(
         self, moving: Iterable[sp.Expr], inputs: Iterable[sp.Expr] = (), coefficients: Iterable[sp.Basic] = ()
     ) -> None:
-        """``moving``: the coordinates as declared, then the definitions that move; ``inputs``: signals from outside;
-        ``coefficients``: the symbols in stiffnesses and damping coefficients.
+        """``moving``: the coordinates in declared order, then the definitions that move; ``inputs``: signals from
+        outside; ``coefficients``: the symbols in stiffnesses and damping coefficients.
         """
         self._index: dict[sp.Basic, int] = {symbol: i for i, symbol in enumerate(moving)}
         self._inputs = frozenset(inputs)
@@ -63,7 +64,7 @@ class Order:
         return (rank, 0, self._index.get(symbol, len(self._index)), natural(str(getattr(symbol, "func", symbol))))
 
     def _sum(self, base: sp.Add) -> tuple[Any, ...]:
-        """(m₁ + m₂) stands with the masses, (M + m sin²θ) before the coordinates, (x₁ − x₂) with them."""
+        """(m₁ + m₂) belongs to the masses; (M + m sin²θ) comes before the coordinates, and (x₁ − x₂) among them."""
         names = self.names(base)
         count = max((d.derivative_count for d in base.atoms(sp.Derivative)), default=0)
         if count:
@@ -78,13 +79,13 @@ class Order:
         return (_MASS if ranks == {_MASS} else _SUM, 2, names)
 
     def _class(self, symbol: sp.Symbol) -> int:
-        """The class of a parameter: of a letter for damping by what it is in the system."""
+        """The class of a parameter; that of a letter for damping depends on its use in the system."""
         if symbol.name[:1] in ("b", "c") and symbol not in self._coefficients:
             return _OTHER
         return _initial(symbol.name)
 
     def names(self, expr: sp.Expr) -> tuple[Any, ...]:
-        """The names in an expression as a key, coordinates by their index."""
+        """A key from the names in an expression, with coordinates by their index."""
         if expr not in self._names:
             atoms = expr.atoms(sp.Symbol, AppliedUndef)
             moving = sorted(self._index[a] for a in atoms if a in self._index)
@@ -95,7 +96,7 @@ class Order:
     def term(self, term: sp.Expr, functions: bool) -> tuple[Any, ...]:
         """Return the sort key of a term.
 
-        ``functions`` tells whether functions stand in the sum: then a number comes first, as in 1 − cos θ.
+        ``functions`` says whether the sum contains functions: then a number comes first, as in 1 − cos θ.
         """
         if term.is_number:
             return (-1,) if functions else (9,)
@@ -125,7 +126,7 @@ class Order:
 
 
 def _initial(name: str) -> int:
-    """The class of a parameter by its first letter, as textbooks use them."""
+    """The class of a parameter from its first letter, as textbooks use it."""
     if name == "g":
         return _GRAVITY
     if name[:1] in ("m", "M", "J", "I") and not name.startswith("mu"):

@@ -8,8 +8,8 @@
     generalized force      Ξ_i       Q_i       τ_i
     matrix form            M q̈ + C q̇ + G = Ξ   (with Q)   M(q) q̈ + C(q, q̇) q̇ + g(q) = τ
 
-A letter that already means something in the system gives way to the next one in its row of `_CHOICES`: a system with a
-parameter V has the potential energy U.
+If the system uses a letter itself, the next one in the same row of `_CHOICES` replaces it: in a system with a
+parameter V, the potential energy is U.
 """
 
 from __future__ import annotations
@@ -98,11 +98,11 @@ _COMMON: dict[str, tuple[Letter, ...]] = {
     "R": (Letter("R"), Letter("ℛ")),
 }
 _VECTORS = {letter: letter for letter in "MCGqABJKS"} | {"D matrix": "D"} | {f"{x} vector": x for x in "xuyqfp"}
-"""Letters of matrices and vectors, bold where a symbol of the system has the same."""
+"""The letters of matrices and vectors, which are bold if a symbol of the system has the same letter."""
 
 
 class Quantities:
-    """Lays out whatever stands in a formula, in one notation; ``full`` writes out what would be summarised."""
+    """Lays out everything that formulas contain, in one notation; ``full`` writes out what would be summarized."""
 
     def __init__(self, model: Model, notation: Notation, *, full: bool = False) -> None:
         if notation not in NOTATIONS:
@@ -124,7 +124,7 @@ class Quantities:
         return next((x for x in row if not self._clashes(base, x)), row[-1])
 
     def _clashes(self, meaning: str, candidate: Letter) -> bool:
-        """Whether a symbol of the system looks like this letter with an index the derivation may give it."""
+        """Whether a symbol of the system looks like this letter with an index that the derivation may use."""
         if candidate.star:
             return False
         for base, sub in self._taken:
@@ -132,7 +132,7 @@ class Quantities:
                 continue
             index = " ".join(sub)
             if meaning in ("Xi", "xi") and index == "":
-                continue  # without an index these are vectors, and bold
+                continue  # without an index these are vectors, so they are set bold
             if meaning == "xi" and index.isdigit() and self._own_place(base, index):
                 continue
             if index in self._subs or index.isdigit():
@@ -140,12 +140,12 @@ class Quantities:
         return False
 
     def _own_place(self, base: str, index: str) -> bool:
-        """Whether the coordinate at this place is itself named so: q₁ is the first coordinate."""
+        """Whether the coordinate with this index has this very name: q₁ is the first coordinate."""
         at = int(index) - 1
         return 0 <= at < len(self._order) and self.expressions.letter(self._order[at]) == Letter(base, (index,))
 
     def _index(self, index: str) -> str:
-        """An index as the parts of a subscript, joined: an element's name is laid out as a symbol is."""
+        """The parts of an index, joined; the name of an element is laid out like a symbol."""
         return " ".join(self._parts(index))
 
     def _parts(self, index: str) -> tuple[str, ...]:
@@ -181,9 +181,9 @@ class Quantities:
         return Letter(base, (), dots, bold=True, apart=any(taken == base for taken, _ in self._taken))
 
     def words(self, words: str) -> Iterator[str | Math]:
-        """Split words at the letters of the lecture that stand in them and lay those out in this notation.
+        """Find the letters of the lecture in words, and lay them out in this notation.
 
-        What stands in quotation marks is a name that somebody gave: a symbol's is laid out as in the formulas, any
+        A text in quotation marks is a name that a user chose: the name of a symbol is laid out as in the formulas; any
         other stays as it is.
         """
         for i, part in enumerate(self._quoted.split(words)):
@@ -208,7 +208,7 @@ class Quantities:
     # -- anything in a formula --------------------------------------------------------------------------------------
 
     def __call__(self, item: Left) -> Math:
-        """Lay out anything that stands on a side of an equality."""
+        """Lay out any side of an equality."""
         match item:
             case Name():
                 return self.name(item)
@@ -260,7 +260,7 @@ class Quantities:
         return product(laid[0], *laid[1:]) if laid else Number("1")
 
     def _square(self, coefficient: sp.Expr, of: tuple[Left, ...]) -> Math:
-        """½ m (ẋ² + ẏ²)."""
+        """Lay out a sum of squares: ½ m (ẋ² + ẏ²)."""
         content, rest = coefficient.as_content_primitive()
         if isinstance(rest, sp.Add):
             negative, front = False, product(self.expressions(content), self.expressions(rest))
@@ -272,7 +272,7 @@ class Quantities:
         return Addition(((True, made),)) if negative else made
 
     def formula(self, item: Formula) -> tuple[Math, ...]:
-        """Lay out the sides of a chain of equalities; a side that looks like the one before it is left out."""
+        """Lay out the sides of a chain of equalities; a side that looks like the previous one is omitted."""
         sides: list[Math] = []
         for side in item.sides:
             laid = self(side)
@@ -281,7 +281,7 @@ class Quantities:
         return tuple(sides)
 
     def inline(self, item: Text | Formula, *, given: frozenset[str] = frozenset()) -> tuple[str | Math, ...]:
-        """Lay out words with symbols in them; texts in ``given`` are somebody's own words and stay as they are."""
+        """Lay out words that contain symbols; texts in ``given`` are words of users and stay as they are."""
         if isinstance(item, Formula):
             return (equality(self.formula(item)),)
         made: list[str | Math] = []

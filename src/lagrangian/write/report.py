@@ -1,4 +1,4 @@
-"""A report of an analysis written out: text, Markdown, LaTeX, HTML, JSON."""
+"""Writes a report as text, Markdown, LaTeX, HTML or JSON."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from lagrangian.write.document import Block, Document, Paragraph, Section
 from lagrangian.write.quantities import Notation
 
 ReportFormat: TypeAlias = Literal["text", "markdown", "latex", "html", "json"]
-"""What a report is written as."""
+"""The formats of a report."""
 
 
 def lay_out_report(
     report: Report[Model], *, notation: Notation = "lecture", full: bool = False, details: bool = False
 ) -> Document:
-    """Return the document of a report; ``full`` writes out what would be summarised for its length.
+    """Return the document of a report; ``full`` writes out what would be summarized because of its length.
 
     Raises `ModelError` for an unknown notation.
     """
@@ -51,7 +51,7 @@ def write_report(
     full: bool = False,
     width: int = 80,
 ) -> str:
-    """Return a report in a format; JSON is its data. Raises `ModelError` for an unknown format or notation."""
+    """Return a report in a format; JSON contains its data. Raises `ModelError` for an unknown format or notation."""
     if format not in get_args(ReportFormat):
         known = get_args(ReportFormat)
         raise ModelError(
@@ -70,7 +70,7 @@ def write_report(
 def report_rows(
     report: Report[Model], *, notation: Notation = "lecture", full: bool = False, width: int = 80
 ) -> list[str]:
-    """Return the lines of a report as text; the titles among them are `Title`."""
+    """Return the lines of a report as text; its titles are of the class `Title`."""
     return text.page_rows(lay_out_report(report, notation=notation, full=full), width)
 
 

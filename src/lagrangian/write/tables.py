@@ -1,4 +1,4 @@
-"""Columns of numbers with names and units → CSV, NetCDF, Parquet, NPZ, and xarray and pandas objects."""
+"""Writes columns of numbers with names and units as CSV, NetCDF, Parquet, NPZ, and xarray and pandas objects."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, eq=False)
 class Column:
-    """A row of numbers with its name, unit (SI; empty where there is none) and what it is in words."""
+    """A sequence of numbers with a name, an SI unit (empty if there is none) and a description."""
 
     name: str
     values: Array
@@ -35,13 +35,13 @@ class Column:
 
     @property
     def attributes(self) -> dict[str, str]:
-        """``units`` and ``long_name``, as the CF conventions call them."""
+        """``units`` and ``long_name``, as in the CF conventions."""
         return {"units": self.unit or "1", "long_name": self.words or self.name}
 
 
 @dataclass(frozen=True, eq=False)
 class ColumnTable:
-    """Columns over one index column of the same length, and what is to be known of them all."""
+    """Columns of equal length with one index column, and attributes of the whole table."""
 
     index: Column
     columns: tuple[Column, ...]
@@ -49,13 +49,13 @@ class ColumnTable:
 
     @property
     def plain_attributes(self) -> dict[str, str | float | int]:
-        """The attributes as files hold them: numbers and text, anything else as JSON."""
+        """The attributes as stored in files: numbers and text, anything else as JSON."""
         return {key: _plain(value) for key, value in self.attributes.items()}
 
 
 def _plain(value: Any) -> str | float | int:
     if isinstance(value, str):
-        return str(value)  # of a kind of text too: HDF5 takes plain text alone
+        return str(value)  # also for subclasses of text, because HDF5 accepts only plain text
     return value if isinstance(value, (float, int)) and not isinstance(value, bool) else _json(value)
 
 
@@ -64,7 +64,7 @@ def _json(value: Any) -> str:
 
 
 def needed(module: str, extra: str = "data") -> Any:
-    """An optional package, or `MissingExtra` with the line that installs it."""
+    """Import an optional package, or raise `MissingExtra` with the command that installs it."""
     try:
         return importlib.import_module(module)
     except ImportError:
@@ -74,7 +74,7 @@ def needed(module: str, extra: str = "data") -> Any:
 
 
 def to_xarray(table: ColumnTable) -> xarray.Dataset:
-    """An `xarray.Dataset` over the index, a variable a column, units and long names as attributes."""
+    """Return an `xarray.Dataset` with a variable per column; units and descriptions are attributes."""
     xr = needed("xarray")
     at = table.index.name
     return xr.Dataset(
@@ -85,7 +85,7 @@ def to_xarray(table: ColumnTable) -> xarray.Dataset:
 
 
 def to_pandas(table: ColumnTable) -> pandas.DataFrame:
-    """A `pandas.DataFrame` indexed by the index; units and words stand in ``frame.attrs``."""
+    """Return a `pandas.DataFrame` with the index column as index; units and descriptions are in ``frame.attrs``."""
     pd = needed("pandas")
     index = pd.Index(table.index.values, name=table.index.name)
     frame = pd.DataFrame({c.name: c.values for c in table.columns}, index=index)
@@ -95,7 +95,7 @@ def to_pandas(table: ColumnTable) -> pandas.DataFrame:
 
 
 def to_csv(table: ColumnTable) -> str:
-    """Text with a line of names and a line a sample; numbers with all their digits."""
+    """Return text with a line of names and a line per row; numbers have all their digits."""
     out = io.StringIO()
     listed = (table.index, *table.columns)
     writer = csv.writer(out, lineterminator="\n")
@@ -109,7 +109,7 @@ def _csv(path: Path, table: ColumnTable) -> None:
 
 
 def _netcdf(path: Path, table: ColumnTable) -> None:
-    """NetCDF 4 through h5netcdf, made in memory: HDF5 does not take a full disk well."""
+    """Write NetCDF 4 through h5netcdf, in memory first, because HDF5 does not handle a full disk well."""
     netcdf = needed("h5netcdf")
     needed("h5py")
     memory, at = io.BytesIO(), table.index.name
@@ -151,11 +151,11 @@ ENDINGS: Mapping[str, Callable[[Path, ColumnTable], None]] = {
     ".parquet": _parquet,
     ".npz": _npz,
 }
-"""How a file is written, by the ending of its name."""
+"""The function that writes a file, for each ending of its name."""
 
 
 def check_target(path: Path, endings: Sequence[str], *, overwrite: bool) -> None:
-    """Refuse an ending that nothing is written to, and a file that is there already unless it may be replaced."""
+    """Raise an error for an unknown ending, and for an existing file unless it may be replaced."""
     if path.suffix.lower() not in endings:
         fix = did_you_mean(path.suffix.lower(), endings) or f"use one of {', '.join(endings)}"
         raise ModelError(f"the ending of '{path.name}' is not supported", fix=fix, code="E402")
@@ -163,9 +163,9 @@ def check_target(path: Path, endings: Sequence[str], *, overwrite: bool) -> None
 
 
 def save(table: ColumnTable, path: str | Path, *, overwrite: bool = False) -> Path:
-    """Write a table to a file of the kind its name ends with, whole or not at all; return the path.
+    """Write a table to a file whose ending determines the format, completely or not at all; return the path.
 
-    Raises `Error` where a file is there already (unless ``overwrite``), or nothing can be written there.
+    Raises `Error` if the file exists (unless ``overwrite``) or cannot be written.
     """
     target = Path(path)
     check_target(target, list(ENDINGS), overwrite=overwrite)

@@ -1,4 +1,4 @@
-"""Mathematics and words as LaTeX; names and words of users are escaped, never trusted."""
+"""Writes mathematics and words as LaTeX; names and words of users are escaped."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ _COMMAND = re.compile(r"\\[A-Za-z]+\Z")
 
 
 class Tex:
-    """Prints mathematics as LaTeX; ``words`` turns any text into what stands in ``\\text{…}``."""
+    r"""Writes mathematics as LaTeX; ``words`` converts any text to the content of ``\text{…}``."""
 
     def __init__(self, words: Callable[[str], str]) -> None:
         self.words = words
@@ -68,7 +68,7 @@ class Tex:
             made = self.token(piece)
             if piece.role == "gap" and any(is_word(p.math) for p in listed[max(i - 1, 0) : i + 2]):
                 made = r"\, "
-            if _COMMAND.search(text) and made[:1].isalpha():  # a command's name must not run into a letter
+            if _COMMAND.search(text) and made[:1].isalpha():  # the name of a command must not run into a letter
                 made = " " + made
             text += made
         return text.strip()

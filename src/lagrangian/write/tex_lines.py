@@ -7,7 +7,7 @@ from lagrangian.write.lines import Line, lines
 from lagrangian.write.tex import Tex
 
 WIDTH = 84
-"""Columns of Unicode text that fit the width of a page."""
+"""The width of a page in columns of Unicode text."""
 
 
 def rows(tex: Tex, sides: tuple[Math, ...], width: int = WIDTH) -> list[str]:
@@ -35,7 +35,7 @@ def displayed(tex: Tex, sides: tuple[Math, ...], width: int = WIDTH) -> str:
 
 
 def boxed(tex: Tex, formulas: list[tuple[tuple[Math, ...], int | None]], width: int = WIDTH) -> list[str]:
-    """Return the rows of several results, each numbered on its last row where there are several."""
+    """Return the rows of several results, each with a number on its last row if there are several."""
     made: list[str] = []
     for sides, number in formulas:
         cut = [_flush(tex, line) for line in lines(sides, width)]

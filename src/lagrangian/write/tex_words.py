@@ -1,4 +1,4 @@
-"""Any text as words of LaTeX: what users write is printed, never obeyed."""
+"""Writes any text as words in LaTeX: the words of users are printed, never executed."""
 
 from __future__ import annotations
 
@@ -53,15 +53,15 @@ _WEB = {
 
 
 def web(words: str) -> str:
-    """Return any text for ``\\text{…}`` in a browser: letters as they are, special characters outside of the text."""
+    r"""Return any text for ``\text{…}`` in a browser: letters as they are, special characters outside the text."""
     shown = unicodedata.normalize("NFC", words)
     return "".join(_WEB.get(c, c if c.isprintable() else " ") for c in shown)
 
 
 def escape(words: str) -> str:
-    """Return any text as LaTeX that prints it: special characters escaped, mathematical ones as mathematics.
+    r"""Return LaTeX that prints any text: special characters are escaped, mathematical ones set as mathematics.
 
-    A letter that pdfLaTeX has no sign for is left to ``\\glyph``, which the document defines for every engine.
+    A letter that pdfLaTeX cannot print is passed to ``\glyph``, which the document defines for every engine.
     """
     out: list[str] = []
     letters = unicodedata.normalize("NFC", words)

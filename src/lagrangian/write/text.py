@@ -1,4 +1,4 @@
-"""A derivation as Unicode text for a terminal: 80 columns, boxes around results."""
+"""Writes a derivation as Unicode text for a terminal, with boxes around results."""
 
 from __future__ import annotations
 
@@ -25,17 +25,17 @@ from lagrangian.write.unicode_math import columns, join, unicode
 
 NARROWEST = 40
 GAP = 3
-"""Columns between the columns of a table."""
+"""The space between the columns of a table."""
 MOST_LINES = 5
-"""Lines that a cell of a table may take, about."""
+"""The approximate number of lines that a cell of a table may take."""
 LONG_WORD = 16
-"""Columns of a word that may be cut in a table."""
+"""In a table, words of at least this many columns may be broken."""
 SHORT_COLUMNS = 6
-"""Columns of a left-hand side beside which a formula always has room."""
+"""A left-hand side of at most this many columns always leaves room for a formula beside it."""
 
 
 class Title(str):
-    """A line that is a title: a terminal shows it bold."""
+    """A line that is a title; a terminal shows it bold."""
 
     __slots__ = ()
 
@@ -46,9 +46,9 @@ def page(document: Document, width: int) -> str:
 
 
 def page_rows(document: Document, width: int) -> list[str]:
-    """Return the lines of a document as text of at most ``width`` columns, where its symbols allow it.
+    """Return the lines of a document as text of at most ``width`` columns, unless a single symbol is longer.
 
-    The titles among them are `Title`. Raises `ModelError` for a width under 40.
+    Titles are of the class `Title`. Raises `ModelError` for a width below 40.
     """
     if width < NARROWEST:
         raise ModelError(f"a width of {width} columns is too narrow", fix=f"use {NARROWEST} or more", code="E406")
@@ -104,12 +104,12 @@ def _block(block: Block, width: int) -> Iterator[str]:
 
 
 def clean(words: str) -> str:
-    """Words without characters that would move the cursor or turn the direction of writing."""
+    """Replace characters that would move the cursor or change the direction of writing."""
     return "".join(c if c.isprintable() or c in " \u00a0" else " " for c in words)
 
 
 def wrap(text: Inline, width: int, hang: int = 0) -> list[str]:
-    """Wrap words and formulas; a formula is only broken where it is longer than a line."""
+    """Wrap words and formulas; a formula is broken only if it is longer than a line."""
     lines, line = [], ""
     for word in _split(text):
         shown = "".join(x if isinstance(x, str) else unicode(x) for x in word)
@@ -131,7 +131,7 @@ def wrap(text: Inline, width: int, hang: int = 0) -> list[str]:
 
 
 def _split(text: Inline) -> list[list[str | Math]]:
-    """Words as runs of letters and formulas with no space between them."""
+    """Split words into runs of letters and formulas without spaces between them."""
     words: list[list[str | Math]] = [[]]
     for part in text:
         if not isinstance(part, str):
@@ -146,7 +146,7 @@ def _split(text: Inline) -> list[list[str | Math]]:
 
 
 def _fitting(word: str, width: int) -> list[str]:
-    """A word, cut anywhere where it is longer than a line."""
+    """Break a word anywhere if it is longer than a line."""
     parts, part = [], ""
     for c in word:
         if columns(part + c) > width:
@@ -160,7 +160,8 @@ def _fitting(word: str, width: int) -> list[str]:
 
 
 def display(formula: Display, width: int) -> list[str]:
-    """A chain of equal sides in lines: on one line if it fits, else a line a side under the equals sign."""
+    """Write a chain of equal sides: on one line if it fits, otherwise on a line per side, aligned at the equals
+    signs."""
     if any(isinstance(side, Grid) for side in formula.sides):
         lines = _matrix(formula.sides, width)
     else:
@@ -202,7 +203,7 @@ def _broken(side: Math, first: str, indent: int, width: int) -> list[str]:
 
 
 def _matrix(sides: tuple[Math, ...], width: int) -> list[str]:
-    """Matrices as blocks side by side; entry by entry where they are too wide."""
+    """Write matrices as blocks side by side, or entry by entry if they are too wide."""
     blocks = [_grid(side) if isinstance(side, Grid) else [unicode(side)] for side in sides]
     height = max(len(b) for b in blocks)
     if sum(columns(b[0]) for b in blocks) + 3 * (len(blocks) - 1) <= width:
@@ -235,7 +236,7 @@ def _centred(cell: str, width: int) -> str:
 
 
 def _box(displays: tuple[Display, ...], width: int) -> Iterator[str]:
-    """Formulas in a frame, each with its number at the right."""
+    """Write formulas in a frame, each with its number at the right."""
     numbers = max(len(f"({d.number})") for d in displays) + 2 if len(displays) > 1 else 0
     inner = width - 6 - numbers
     rows: list[tuple[str, str]] = []
@@ -281,7 +282,7 @@ def _table(table: TableBlock, width: int) -> Iterator[str]:
 
 
 def _listed(table: TableBlock, width: int) -> Iterator[str]:
-    """A table too wide for the page, row by row: its first cell, below it the others with their heads."""
+    """Write a table that is too wide row by row: its first cell, and below it the other cells with their headings."""
     for i, row in enumerate(table.rows):
         if i:
             yield ""
@@ -292,7 +293,7 @@ def _listed(table: TableBlock, width: int) -> Iterator[str]:
 
 
 def _least(cell: Inline) -> int:
-    """Columns that a cell needs so that its words and formulas stay whole, a very long word excepted."""
+    """The number of columns that a cell needs so that its words and formulas stay whole, except very long words."""
     return max(
         (
             columns(_words(tuple(word)))

@@ -1,4 +1,4 @@
-"""Mathematics as Unicode text on one line, and how many columns it takes in a terminal."""
+"""Writes mathematics as one line of Unicode text, and computes its width in a terminal."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ from lagrangian.write.expression_tree import (
 
 _SUBSCRIPTS = dict(zip("0123456789", "₀₁₂₃₄₅₆₇₈₉", strict=True))
 _RUNNING = {"i": "ᵢ", "j": "ⱼ"}
-"""Indices that run: ξᵢ is any of ξ₁, ξ₂, …"""
+"""Running indices: ξᵢ is any of ξ₁, ξ₂, …"""
 _SUPERSCRIPTS = dict(zip("0123456789−+n", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺ⁿ", strict=True))
 _DOTS = ("", "\u0307", "\u0308", "\u20db")
 _VULGAR = {(1, 2): "½", (1, 3): "⅓", (2, 3): "⅔", (1, 4): "¼", (3, 4): "¾", (1, 5): "⅕", (1, 6): "⅙", (1, 8): "⅛"}
@@ -38,7 +38,7 @@ _SIGNS = {"plus": " + ", "minus": " − ", "negative": "−", "gap": " "}
 
 
 def columns(text: str) -> int:
-    """How many columns of a terminal a text takes: none for combining marks, two for wide East Asian letters."""
+    """The width of a text in a terminal: combining marks take no column, wide East Asian letters two."""
     total = 0
     for c in text:
         if not (unicodedata.combining(c) or unicodedata.category(c) in ("Mn", "Me", "Cf")):
@@ -52,7 +52,7 @@ def unicode(math: Math) -> str:
 
 
 def join(pieces: Iterable[Glyph]) -> str:
-    """Return tokens as one line; a sign at its beginning stands close."""
+    """Return tokens as one line; there is no space after a sign at its beginning."""
     text = "".join(token(p) for p in pieces)
     return unicodedata.normalize("NFC", text.removeprefix(" "))
 
@@ -119,7 +119,7 @@ def _letter(math: Letter) -> str:
 
 
 def _dotted(name: str, dots: int) -> str:
-    """A name with its dots on the first letter, as on a letter with a subscript: żs."""
+    """A name with its dots over the first letter, as for a letter with a subscript: żs."""
     return name[:1] + _DOTS[dots] + name[1:]
 
 
@@ -131,7 +131,7 @@ def _part(part: str) -> str:
 
 
 def bold(text: str) -> str:
-    """Return the text in Unicode's bold mathematical letters."""
+    """Return the text in the bold mathematical letters of Unicode."""
     return "".join(_bold(c) for c in text)
 
 
@@ -148,9 +148,9 @@ def _bold(c: str) -> str:
 
 
 def subscript(part: str) -> str | None:
-    """Return the part in subscript characters where it is a number or a running index, else None.
+    """Return a part in subscript characters if it is a number or a running index, otherwise None.
 
-    Letters are not set small even where Unicode could: it has an ₐ for L_a, but nothing for the L_b beside it.
+    Letters are never set as subscripts, even where Unicode could: it has an ₐ for L_a, but nothing for L_b beside it.
     """
     if part in _RUNNING:
         return _RUNNING[part]

@@ -1,4 +1,4 @@
-"""Pieces of HTML for notebooks: a system, a run, a step of a derivation, its ledger."""
+"""HTML for notebooks: a system, a run, a step of a derivation, its ledger."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def system_view(model: Model, words: str) -> str:
-    """Return a system: its symbols with their values, the elements, and what is to be known of it."""
+    """Return a system: its symbols with their values, its elements and its notices."""
     rows = [(element.title, element.ledger) for element in model.elements]
     elements = Section("elements", ("Elements",), (_table(("element", "booked in"), rows),))
     said = Section("summary", ("Description",), (Paragraph((words,)),))

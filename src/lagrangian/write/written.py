@@ -1,4 +1,4 @@
-"""Results that can be written out: one report, and every format of it."""
+"""The base class of results that can be written in several formats."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from lagrangian.write.report import report_fragment, write_report
 
 
 class Written(Brief):
-    """What has a report can be written: as text, Markdown, LaTeX, HTML, and plain data."""
+    """A result with a report, which can be written as text, Markdown, LaTeX, HTML and plain data."""
 
     def report(self) -> Report[Model]:
-        """Return the report: words, formulas, tables."""
+        """Return the report of this result: words, formulas and tables."""
         raise TypeError(f"{type(self).__name__} has no report")
 
     def to_text(self, *, notation: Notation = "lecture", full: bool = False, width: int = 80) -> str:
@@ -28,7 +28,7 @@ class Written(Brief):
         return write_report(self.report(), "markdown", notation=notation, full=full)
 
     def to_latex(self, *, notation: Notation = "lecture", full: bool = False) -> str:
-        """Return a LaTeX article that compiles as it is."""
+        """Return a complete LaTeX article."""
         return write_report(self.report(), "latex", notation=notation, full=full)
 
     def to_html(self, *, notation: Notation = "lecture", full: bool = False) -> str:
@@ -36,7 +36,7 @@ class Written(Brief):
         return write_report(self.report(), "html", notation=notation, full=full)
 
     def to_dict(self) -> dict[str, Any]:
-        """Return plain data for JSON."""
+        """Return plain data that can be written as JSON."""
         return dict(self.report().data)
 
     def to_json(self) -> str:
@@ -47,9 +47,9 @@ class Written(Brief):
         return report_fragment(self.report())
 
     def __str__(self) -> str:
-        """Read as text."""
+        """Return the result as text."""
         return self.to_text()
 
     def __repr__(self) -> str:
-        """Say what it is of; ``print`` shows it all."""
+        """Return the title in angle brackets; ``print`` shows the whole result."""
         return cut(f"<{self.report().title}>")

@@ -1,7 +1,7 @@
-"""The misconceptions, the likelier ones first: a file each, and the file's name is the name.
+"""The known mistakes, likely ones first; each has a file of the same name.
 
-Of several that explain an answer equally well, the first of this list is told. What is particular comes before what is
-general, and whole elements before single terms.
+If several explain an answer equally well, the first in this list is reported. Specific mistakes come before general
+ones, and mistakes about whole elements before those about single terms.
 """
 
 from types import ModuleType
@@ -126,9 +126,9 @@ MISCONCEPTIONS: tuple[ModuleType, ...] = (
     sign_of_a_term,
     term_forgotten,
 )
-"""Every misconception, in the order in which it is believed."""
+"""All misconceptions, the most likely first."""
 
 GENERAL = frozenset({"sign_of_a_term", "term_forgotten", "one_side_scaled"})
-"""Names that say little: two of them together explain anything."""
+"""Mistakes that are so general that two of them together explain any answer."""
 
 __all__ = ["GENERAL", "MISCONCEPTIONS", "Ingredients", "Misconception", "Variant"]

@@ -1,4 +1,4 @@
-"""A length or radius that comes with the square of a rate, not squared itself: ½ m L θ̇²."""
+"""A length or radius that belongs with the square of a rate is not squared: ½ m L θ̇² for ½ m L² θ̇²."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from lagrangian.check.misconceptions.base import Ingredients, Variant, letters
 from lagrangian.page.formula import Name, text
 
 STEP = 2
-WHY = text("The velocity is Lθ̇ and the deflection Lθ, and it is squared as a whole: the arm comes squared as well.")
+WHY = text("The velocity is Lθ̇ and the deflection Lθ, and the whole is squared: the arm is squared as well.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every body and every spring, with each parameter that stands squared in its energy."""
+    """Yield every body and every spring with each parameter that is squared in its energy."""
     for body in s.bodies:
         parts = [s.kinetic(body)]
         parts += [s.rotation(body), s.translation(body)] if s.rotation(body) != 0 else []
@@ -27,7 +27,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
 
 
 def _unsquared(energy: sp.Expr) -> Iterator[tuple[sp.Expr, sp.Expr]]:
-    """c₀ + c₁ p + c₂ p² with c₂ p in place of c₂ p²: the change, for every p; c₂ (1 − p²) besides."""
+    """For each p in c₀ + c₁ p + c₂ p², the change if c₂ p replaces c₂ p²; also c₂ (1 − p²)."""
     for p in letters(energy):
         if not (energy * p**2).has(p):
             yield p, energy * (p - 1)

@@ -1,7 +1,8 @@
-"""What a misconception is: one deliberate mistake, and what it adds to the energies, the forces and the equations.
+"""The definition of a misconception: one deliberate mistake, and what it adds to energies, forces and equations.
 
-Lagrange's equations are linear in T*, V and Ξ, so that a system derived with a mistake differs from the right one by
-what the mistake adds:  wrong row i = right row i + d/dt ∂ΔT/∂ξ̇_i − ∂ΔT/∂ξ_i + ∂ΔV/∂ξ_i − ΔΞ_i + Δrow_i.
+Lagrange's equations are linear in T*, V and Ξ. Therefore a system that is derived with a mistake differs from the right
+one only by the contribution of the mistake: wrong row i = right row i + d/dt ∂ΔT/∂ξ̇_i − ∂ΔT/∂ξ_i + ∂ΔV/∂ξ_i − ΔΞ_i +
+Δrow_i.
 """
 
 from __future__ import annotations
@@ -20,18 +21,18 @@ from lagrangian.model import Action, Coordinate, Element, Gravity, Model, RigidB
 from lagrangian.page.formula import Text
 
 MOST_PIECES = 120
-"""Terms of one equation that are looked at."""
+"""The largest number of terms of one equation that are considered."""
 ENERGIES = frozenset({"T", "V", "L", "Xi"})
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Variant:
-    """One way to make a mistake in one system: what it adds, and what the person did, in words.
+    """One way to make a mistake in one system: what it adds, and a description of what was done.
 
-    ``T`` and ``V`` are what it adds to the energies, ``only`` the equations that feel it (all unless given); ``Xi``
-    what it adds to the generalized forces and ``rows`` to the left-hand sides, by the number of the coordinate.
-    ``stated`` are the lines of an answer that show it beside the equations. Of two variants that explain an answer
-    the one with less ``doubt`` is told.
+    ``T`` and ``V`` are added to the energies, in the equations ``only`` (all unless given). ``Xi`` is added to the
+    generalized forces and ``rows`` to the left-hand sides, by the index of the coordinate. ``stated`` are the kinds of
+    lines in which it is visible besides the equations. If two variants explain an answer, the one with less ``doubt``
+    is reported.
     """
 
     what: Text
@@ -47,19 +48,19 @@ class Variant:
 
 
 class Misconception(Protocol):
-    """A module of this folder: the step it belongs to, why it is wrong, and its variants in a system."""
+    """A module in this folder: the step to which the mistake belongs, why it is wrong, and its variants in a system."""
 
     STEP: int
     WHY: Text
 
     @property
     def wrong(self) -> Callable[[Ingredients], Iterator[Variant]]:
-        """Every way to make this mistake in a system."""
+        """Yield every way to make this mistake in a system."""
         ...
 
 
 class Ingredients:
-    """What a system's equations are made of, as a misconception takes it apart; definitions are written out."""
+    """The ingredients of a system's equations that misconceptions change; definitions are written out."""
 
     def __init__(self, derivation: Derived) -> None:
         self.derivation = derivation
@@ -72,13 +73,13 @@ class Ingredients:
         self._memo: dict[Any, Any] = {}
 
     def kept(self, key: Any, make: Callable[[], Any]) -> Any:
-        """What ``make`` makes, worked out once for every key."""
+        """Return the result of ``make``, computed once for every key."""
         if key not in self._memo:
             self._memo[key] = make()
         return self._memo[key]
 
     def expand(self, expr: Any) -> sp.Expr:
-        """An expression with definitions written out."""
+        """An expression with its definitions written out."""
         return self.model.expand(sp.sympify(expr), constants=True)
 
     @cached_property
@@ -107,22 +108,22 @@ class Ingredients:
         return self.model.bodies
 
     def position(self, body: Any) -> tuple[sp.Expr, ...]:
-        """Where a body is, in the fixed axes."""
+        """The position of a body along the fixed axes."""
         return tuple(self.expand(x) for x in self.model.position(body.at))
 
     def parent(self, body: Any) -> tuple[sp.Expr, ...]:
-        """Where the point is from which a body's place is measured."""
+        """The point from which the position of a body is measured."""
         zero = (sp.S.Zero,) * self.model.dimension
         if body.at.parent is None or body.at.parent.is_origin:
             return zero
         return tuple(self.expand(x) for x in self.model.position(body.at.parent))
 
     def velocity(self, body: Any) -> tuple[sp.Expr, ...]:
-        """How fast a body's centre of mass moves, in the fixed axes."""
+        """The velocity of a body's centre of mass along the fixed axes."""
         return self.kept(("v", body), lambda: tuple(self.rate(x) for x in self.position(body)))
 
     def omega(self, body: Any) -> tuple[sp.Expr, ...]:
-        """A rigid body's angular velocity; nothing for a particle."""
+        """The angular velocity of a rigid body; nothing for a particle."""
         if ("w", body) not in self._memo:
             rigid = isinstance(body, RigidBody)
             self._memo["w", body] = tuple(map(self.expand, body.angular_velocity(self.model))) if rigid else ()
@@ -139,18 +140,18 @@ class Ingredients:
         return self.kept(("J", body), lambda: self.rotating(body, self.omega(body)))
 
     def rotating(self, body: RigidBody, omega: tuple[sp.Expr, ...]) -> sp.Expr:
-        """½ ωᵀ I ω with another ω."""
+        """½ ωᵀ I ω with a different ω."""
         w = sp.Matrix(omega)
         return self.expand((w.T * body.inertia * w)[0] / 2)
 
     def kinetic(self, element: Element) -> sp.Expr:
-        """An element's share of T*."""
+        """The contribution of an element to T*."""
         if element.is_body:
             return self.translation(element) + self.rotation(element)
         return self.expand(element.kinetic(self.model))
 
     def weights(self) -> Iterator[tuple[Gravity, Any, sp.Expr]]:
-        """Gravity, body and m g h for every body that gravity pulls; heights that do not move are left out."""
+        """Gravity, body and m g h for every body on which gravity acts; constant heights are omitted."""
         if "weights" not in self._memo:
             every = [
                 (element, body, self.expand(energy))
@@ -162,7 +163,7 @@ class Ingredients:
         yield from self._memo["weights"]
 
     def springs(self) -> Iterator[tuple[Spring, sp.Expr, sp.Expr]]:
-        """Spring, extension δ − δ₀ and energy for every spring."""
+        """The spring, its extension δ − δ₀ and its energy, for every spring."""
         for element in self.model.elements:
             if isinstance(element, Spring):
                 yield (
@@ -178,7 +179,7 @@ class Ingredients:
 
     @cached_property
     def resisting(self) -> tuple[Element, ...]:
-        """Dampers, and forces that are made of rates alone, which damp as well."""
+        """Dampers, and forces that depend only on rates, which also damp."""
         inputs = [u.symbol for u in self.model.inputs]
         found: list[Element] = []
         for element in self.acting:
@@ -189,7 +190,7 @@ class Ingredients:
         return tuple(found)
 
     def actions(self, element: Element) -> tuple[Action, ...]:
-        """An element's actions by virtual work."""
+        """The actions of an element, for virtual work."""
         return element.works(self.model)
 
     def xi(self, actions: tuple[Action, ...], i: int) -> sp.Expr:
@@ -197,7 +198,7 @@ class Ingredients:
         return self.expand(sp.Add(*[a.effort * sp.diff(a.rate, self.v[i]) for a in actions]))
 
     def shares(self, element: Element) -> dict[int, sp.Expr]:
-        """What an element adds to every Ξ, where it adds anything."""
+        """The contribution of an element to every Ξ to which it contributes."""
         if ("Xi", element) not in self._memo:
             actions = self.actions(element)
             found = {i: self.xi(actions, i) for i in range(self.n)}
@@ -205,35 +206,35 @@ class Ingredients:
         return self._memo["Xi", element]
 
     def coupling(self, body: Any, j: int, k: int) -> tuple[sp.Expr, sp.Expr]:
-        """∂²T/∂ξ̇_j∂ξ̇_k of a body's translation and of its rotation: m ∂v/∂ξ̇_j · ∂v/∂ξ̇_k, and the same with I and ω."""
+        """∂²T/∂ξ̇_j∂ξ̇_k of a body's translation, m ∂v/∂ξ̇_j · ∂v/∂ξ̇_k, and of its rotation, the same with I and ω."""
         slopes = self._slopes(body)
         (vj, wj), (vk, wk) = slopes[j], slopes[k]
         turned = (wj.T * body.inertia * wk)[0] if wj is not None and wk is not None else sp.S.Zero
         return self.expand(body.mass) * vj.dot(vk), self.expand(turned)
 
     def _slopes(self, body: Any) -> list[tuple[sp.Matrix, sp.Matrix | None]]:
-        """∂v/∂ξ̇ and ∂ω/∂ξ̇ of every coordinate."""
+        """∂v/∂ξ̇ and ∂ω/∂ξ̇ for every coordinate."""
         if ("slopes", body) not in self._memo:
             velocity, omega = sp.Matrix(self.velocity(body)), sp.Matrix(self.omega(body))
             self._memo["slopes", body] = [(velocity.diff(v), omega.diff(v) if omega else None) for v in self.v]
         return self._memo["slopes", body]
 
     def rate(self, expr: sp.Expr) -> sp.Expr:
-        """d/dt."""
+        """The time derivative d/dt."""
         return cast("sp.Expr", sp.diff(expr, time))
 
     def moves(self, expr: sp.Expr) -> bool:
-        """Whether a coordinate stands in an expression."""
+        """Whether an expression contains a coordinate."""
         return expr.has(*self.q)
 
     def angles(self, expr: sp.Expr) -> list[sp.Expr]:
-        """What sines and cosines are taken of, where it moves."""
+        """The arguments of sines and cosines that depend on coordinates."""
         found = {cast("sp.Expr", f.args[0]) for f in expr.atoms(sp.sin, sp.cos)}
         return sorted((a for a in found if a.has(AppliedUndef)), key=sp.default_sort_key)
 
 
 def put(expr: Any, table: Mapping[Any, Any]) -> sp.Expr:
-    """An expression with symbols exchanged for others, all at once."""
+    """Return an expression in which symbols are replaced by others, all at once."""
     return cast("sp.Expr", expr.xreplace(dict(table)))
 
 
@@ -244,7 +245,7 @@ def letters(expr: sp.Expr) -> list[Any]:
 
 @dataclass(frozen=True)
 class Piece:
-    """A term of an equation, on the left-hand side: the equation's number, the term, and how it is shown."""
+    """A term of an equation on the left-hand side: the index of the equation, the term, and how it is displayed."""
 
     row: int
     expr: sp.Expr
@@ -252,7 +253,7 @@ class Piece:
 
 
 def pieces(s: Ingredients) -> list[Piece]:
-    """The terms of the equations: as they are read, multiplied out, and with cos(a − b) written out."""
+    """The terms of the equations: as displayed, expanded, and with cos(a − b) expanded."""
     return s.kept("pieces", lambda: list(_pieces(s)))
 
 
@@ -269,7 +270,7 @@ def _pieces(s: Ingredients) -> Iterator[Piece]:
 
 
 def _addends(s: Ingredients, term: sp.Expr) -> Iterator[sp.Expr]:
-    """The terms of a term: multiplied out, with sums of angles written out, and split by sin² + cos² = 1."""
+    """The terms of a term: expanded, with sums of angles expanded, and split by sin² + cos² = 1."""
     expanded = bounded.expand(term)
     yield from sp.Add.make_args(expanded)
     if expanded.has(sp.sin, sp.cos):
@@ -288,5 +289,5 @@ def half_square(mass: sp.Expr, velocity: tuple[sp.Expr, ...]) -> sp.Expr:
 
 
 def negative(forces: Mapping[int, sp.Expr], times: Any = 1) -> dict[int, sp.Expr]:
-    """The forces with their sign turned, times a factor."""
+    """The forces with the opposite sign, times a factor."""
     return {i: -times * x for i, x in forces.items()}

@@ -1,4 +1,4 @@
-"""A prescribed motion left out of the velocities."""
+"""A prescribed motion is left out of the velocities."""
 
 from __future__ import annotations
 
@@ -8,11 +8,14 @@ from lagrangian.check.misconceptions.base import Ingredients, Variant, half_squa
 from lagrangian.page.formula import text
 
 STEP = 2
-WHY = text("A velocity is d/dt of a position: what moves by itself in time, such as a shaken pivot, is part of it.")
+WHY = text(
+    "A velocity is d/dt of a position: a motion that is prescribed in time, such as that of a shaken pivot, is "
+    "part of it."
+)
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every body whose velocity does not vanish when all rates do."""
+    """Yield every body whose velocity does not vanish when all rates do."""
     for body in s.bodies:
         zero = dict.fromkeys(s.v, 0)
         velocity = s.velocity(body)

@@ -1,4 +1,4 @@
-"""A child's mass left out of its parent's equation."""
+"""The mass of a child is left out of the equation of its parent."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from lagrangian.check.misconceptions.base import Ingredients, Variant
 from lagrangian.page.formula import text
 
 STEP = 5
-WHY = text("The box of a parent includes all its children: what rides along has to be moved, too.")
+WHY = text("The box of a parent includes all its children: what is carried along has to be moved, too.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every body that several coordinates move, missing in one equation: its inertia, then its weight as well."""
+    """Yield every body that several coordinates move, left out of one equation: its inertia, then also its weight."""
     for body in s.bodies:
         energy = s.kinetic(body)
         moving = [i for i, v in enumerate(s.v) if energy.has(v)]

@@ -1,4 +1,4 @@
-"""The factor 2 of a Coriolis term missing."""
+"""The factor 2 of a Coriolis term is missing."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ WHY = text("d/dt (r²θ̇) = r²θ̈ + 2rṙθ̇: the derivative of a square bri
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Half of the products of two rates: in every equation, and in each one."""
+    """Halve the products of two rates: in all equations, and in each one."""
     products = {i: velocity_terms(s, i)[1] for i in range(s.n)}
     held = {i: x for i, x in products.items() if x != 0}
     if len(held) > 1:

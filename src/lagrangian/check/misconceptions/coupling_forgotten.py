@@ -1,4 +1,4 @@
-"""The acceleration of another coordinate left out of an equation."""
+"""The acceleration of another coordinate is left out of an equation."""
 
 from __future__ import annotations
 
@@ -9,12 +9,13 @@ from lagrangian.page.formula import text
 
 STEP = 5
 WHY = text(
-    "∂L/∂ξ̇ often holds several rates, and d/dt makes an acceleration of each: coordinates are coupled by inertia."
+    "∂L/∂ξ̇ often contains several rates, and d/dt turns each of them into an acceleration: coordinates are "
+    "coupled by inertia."
 )
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Each coupling in one equation, in both, and all of them."""
+    """Yield each coupling in one equation, each in both, and all of them."""
     every = {}
     for i in range(s.n):
         for j in range(i + 1, s.n):
@@ -31,4 +32,4 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             what = text(s.a[i], " and ", s.a[j], " are not coupled in your equations.")
             yield Variant(what=what, rows={i: one, j: other})
     if every:
-        yield Variant(what=text("Every equation holds its own acceleration alone."), rows=every)
+        yield Variant(what=text("Every equation contains only its own acceleration."), rows=every)

@@ -1,4 +1,4 @@
-"""The cross term of a square forgotten: (a + b)² taken for a² + b²."""
+"""The cross term of a square is forgotten: a² + b² for (a + b)²."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ WHY = text("A sum is squared as a whole: (a + b)² = a² + 2ab + b², and veloci
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every body without the products of different rates, and all of them; the rotation with and without."""
+    """Drop the products of different rates for every body, and for all; with and without the rotation."""
     every = sp.S.Zero
     for body in s.bodies:
         translation, rotation = _cross(s, body)
@@ -31,7 +31,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
 
 
 def _cross(s: Ingredients, body: Any) -> tuple[sp.Expr, sp.Expr]:
-    """The parts of ½mv² and ½Jω² with products of different rates: Σ_{j<k} ∂²T/∂ξ̇_j∂ξ̇_k ξ̇_j ξ̇_k."""
+    """The terms of ½mv² and ½Jω² with products of different rates: Σ_{j<k} ∂²T/∂ξ̇_j∂ξ̇_k ξ̇_j ξ̇_k."""
     translation: list[sp.Expr] = []
     rotation: list[sp.Expr] = []
     for j in range(s.n):

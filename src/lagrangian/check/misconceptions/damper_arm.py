@@ -1,4 +1,4 @@
-"""A damper without its arm: bLθ̇ or bθ̇ where bL²θ̇ belongs."""
+"""A damper lacks its arm: bLθ̇ or bθ̇ instead of bL²θ̇."""
 
 from __future__ import annotations
 
@@ -13,13 +13,13 @@ from lagrangian.page.formula import text
 
 STEP = 6
 WHY = text(
-    "The damper mimics a spring in its place: one arm makes the rate of its ends, Lθ̇, another turns its force into a "
-    "torque. Both count: bL²θ̇."
+    "The damper mimics a spring in its place: one arm gives the rate of its ends, Lθ̇, and another turns its "
+    "force into a torque. Both count: bL²θ̇."
 )
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every damper with each length in its share once, or not at all."""
+    """Yield every damper in which a length occurs once, or not at all, in its contribution."""
     for element in s.acting:
         if not isinstance(element, Damper):
             continue

@@ -1,4 +1,4 @@
-"""−½bξ̇: the half of Rayleigh's function left in the force."""
+"""−½bξ̇: the factor ½ of Rayleigh's function is left in the force."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ WHY = text("D = ½bδ̇² is differentiated by the rate: the force is bδ̇, wit
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every damper with half its force."""
+    """Halve the force of every damper."""
     for element in s.resisting:
         what = text(f"{element.title[:1].upper() + element.title[1:]} adds half its force to ", Name("Xi"), ".")
         shares = s.shares(element)

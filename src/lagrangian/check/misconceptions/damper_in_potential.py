@@ -1,4 +1,4 @@
-"""A damper counted in V, as if it stored energy."""
+"""A damper is counted in V, as if it stored energy."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from lagrangian.model import Damper
 from lagrangian.page.formula import Name, text
 
 STEP = 3
-WHY = text("A damper stores nothing: it has no potential energy, and belongs to Ξ alone.")
+WHY = text("A damper stores nothing: it has no potential energy, and belongs only to Ξ.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """½ b δ² in V, ½ b δ̇² in V; in place of its Ξ or beside it."""
+    """Add ½ b δ² or ½ b δ̇² to V, instead of the damper's Ξ or in addition to it."""
     for element in s.acting:
         if not isinstance(element, Damper) or element.b is None:
             continue

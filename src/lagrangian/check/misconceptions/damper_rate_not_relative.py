@@ -1,4 +1,4 @@
-"""A damper between two bodies whose force is made of the rate of one of them."""
+"""The force of a damper between two bodies is computed from the rate of only one of them."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ WHY = text("The force of a damper is b times the rate of its own deflection: the
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every linear damper: force of one rate on both ends; the rates added; the rate of another coordinate."""
+    """For every linear damper: a force from one rate on both ends, the sum of the rates, or the rate of another
+    coordinate."""
     for element in s.acting:
         if not isinstance(element, Damper) or element.b is None:
             continue
@@ -35,7 +36,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
 
 
 def _in_one(s: Ingredients, element: Damper, other: sp.Expr, change: dict[int, sp.Expr]) -> Iterator[Variant]:
-    """The same made in one equation only, where the damper acts in several."""
+    """The same in one equation only, if the damper acts in several."""
     felt = [i for i, x in change.items() if x != 0]
     rate, where = s.expand(element.rate(s.model)), " in the equation of "
     for i in felt if len(felt) > 1 else ():

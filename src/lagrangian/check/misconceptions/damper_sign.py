@@ -1,4 +1,4 @@
-"""The sign of a damper turned: it would drive the motion."""
+"""A damper has the wrong sign, so that it would drive the motion."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ WHY = text("A damper takes energy out: its Ξ is −bξ̇ on the right, or +bξ�
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every damper, whole, in each equation, and its coupling alone; all dampers together."""
+    """Reverse every damper: completely, in each equation, or only its coupling; and all dampers together."""
     dampers = s.resisting
     every: dict[int, object] = {}
     for element in dampers:

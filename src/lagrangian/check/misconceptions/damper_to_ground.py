@@ -1,4 +1,4 @@
-"""A damper between two bodies taken as one between a body and the ground."""
+"""A damper between two bodies is treated as one between a body and the ground."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ WHY = text("A damper between two bodies feels the rate of one relative to the ot
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every linear damper whose rate holds several rates: one of them alone, for one body or as force on both."""
+    """For every linear damper with several rates: only one of them, for one body or as a force on both."""
     for element in s.acting:
         if not isinstance(element, Damper) or element.b is None:
             continue

@@ -1,4 +1,4 @@
-"""A force or torque of several terms with one of them left out, as a motor without its back-EMF."""
+"""One term of a force or torque is left out, such as the back-EMF of a motor."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from lagrangian.page.formula import text
 
 STEP = 6
 WHY = text(
-    "What acts on the motion is every term of a force: a motor that turns also takes away the torque of its back-EMF, "
+    "Every term of a force acts on the motion: a motor that turns also takes away the torque of its back-EMF, "
     "and a term in a rate is a force as well."
 )
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every share without one of its terms, where it is no question of direction."""
+    """Drop one term of every contribution, unless the term is only a component."""
     for element in s.acting:
         for i, x in s.shares(element).items():
             pieces = sp.Add.make_args(bounded.expand(x))

@@ -1,4 +1,4 @@
-"""An element left out altogether."""
+"""An element is left out completely."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from lagrangian.model import Gravity
 from lagrangian.page.formula import text
 
 STEP = 2
-WHY = text("Every element belongs to exactly one of T*, V and Ξ: go through the sketch and book each once.")
+WHY = text("Every element belongs to exactly one of T*, V and Ξ: go through the sketch and count each once.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every element; every body with its weight; every element in one equation alone."""
+    """Drop every element, every body with its weight, and every element in one equation only."""
     weight: dict[object, object] = {}
     for _, body, V in s.weights():
         weight[body] = weight.get(body, 0) + V  # type: ignore[operator]

@@ -1,4 +1,4 @@
-"""An element counted twice."""
+"""An element is counted twice."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ WHY = text("Every element belongs to exactly one of T*, V and Ξ, once: what is 
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every spring, weight, force and torque twice."""
+    """Count every spring, weight, force and torque twice."""
     for spring, _, V in s.springs():
         yield Variant(
             what=text(f"{spring.title[:1].upper() + spring.title[1:]} is counted twice."), V=V, element=spring

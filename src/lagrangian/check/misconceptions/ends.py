@@ -1,4 +1,4 @@
-"""The two ends of a pair of forces, as the box rule sees them."""
+"""The two ends of a pair of forces, as in the box rule."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from lagrangian.model import Action, Element
 
 
 def both_ends(s: Ingredients, element: Element) -> Iterator[tuple[Action, Action]]:
-    """(one end, the other), and the other way round, where an element acts on two things that move."""
+    """Yield (one end, the other) and the reverse, if an element acts on two things that move."""
     ends = [a for a in find_ends(s.model, element) if a.rate != 0]
     groups: dict[object, list[Action]] = {}
     for end in ends:

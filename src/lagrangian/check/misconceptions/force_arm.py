@@ -1,4 +1,4 @@
-"""A generalized force without the arm (or the direction) that turns the force into it."""
+"""A generalized force lacks the arm (or the direction) that converts the force."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ WHY = text("Ξ = F·∂r/∂ξ: for an angle, that is the force times its arm, a
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every share of a force as the force itself; without its angle; without each length."""
+    """Replace every contribution of a force by the force itself; drop its angle; drop each length."""
     for element in s.acting:
         if element.resists:
             continue

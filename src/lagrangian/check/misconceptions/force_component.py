@@ -1,4 +1,4 @@
-"""A force counted whole where only one component of it does work, or a component left out."""
+"""A force is counted completely although only one component does work, or a component is left out."""
 
 from __future__ import annotations
 
@@ -11,11 +11,14 @@ from lagrangian.check.misconceptions.base import Ingredients, Variant, put
 from lagrangian.page.formula import text
 
 STEP = 6
-WHY = text("Only the part of a force along the motion does work: F cos of the angle between them, times the way.")
+WHY = text(
+    "Only the part of a force along the motion does work: F times the cosine of the angle between them, times the "
+    "distance."
+)
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every share with its sines and cosines left out, and without one of its terms."""
+    """Drop the sines and cosines of every contribution, and drop one of its terms."""
     for element in s.acting:
         for i, x in s.shares(element).items():
             trig = dict.fromkeys(x.atoms(sp.sin, sp.cos), sp.S.One)

@@ -1,4 +1,4 @@
-"""The sign of a force or torque turned."""
+"""A force or torque has the wrong sign."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from lagrangian.check.misconceptions.base import Ingredients, Variant, negative
 from lagrangian.page.formula import text
 
 STEP = 6
-WHY = text("A force counts positive in Ξ where it pushes towards greater ξ.")
+WHY = text("A force counts positive in Ξ if it pushes towards larger ξ.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every force and torque, whole and in each equation."""
+    """Reverse every force and torque, completely and in each equation."""
     for element in s.acting:
         if element in s.resisting:
             continue

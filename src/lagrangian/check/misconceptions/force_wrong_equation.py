@@ -1,4 +1,4 @@
-"""A force counted in the Ξ of another coordinate."""
+"""A force is counted in the Ξ of another coordinate."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from lagrangian.page.formula import Name, text
 
 STEP = 6
 WHY = text(
-    "Ξ_i collects what acts on the box of everything that moves when only ξ_i does: wiggle one coordinate, and see "
+    "Ξ_i contains the forces on the box of everything that moves when only ξ_i does: wiggle one coordinate, and see "
     "which forces do work."
 )
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every element's share of one Ξ moved to another, with both signs; the shares of two Ξ exchanged."""
+    """Move every contribution to one Ξ to another, with both signs; exchange the contributions to two Ξ."""
     for element in s.acting:
         shares = s.shares(element)
         for i, j in permutations(range(s.n), 2):

@@ -1,4 +1,4 @@
-"""−∂L/∂ξ dropped where T* depends on the coordinate."""
+"""−∂L/∂ξ is dropped although T* depends on the coordinate."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ WHY = text("The left-hand side is d/dt ∂L/∂ξ̇ − ∂L/∂ξ, and T* often
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """∂T*/∂ξ in every equation and in each one; the whole ∂L/∂ξ in each one and in all."""
+    """Drop ∂T*/∂ξ in all equations and in each one; drop the whole ∂L/∂ξ in each one and in all."""
     slopes = [s.T.diff(q) for q in s.q]
     whole = [(s.T - s.V).diff(q) for q in s.q]
     L = sp.Symbol("L")

@@ -1,4 +1,4 @@
-"""+∂L/∂ξ in place of −∂L/∂ξ."""
+"""+∂L/∂ξ instead of −∂L/∂ξ."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ WHY = text("The left-hand side is d/dt ∂L/∂ξ̇ minus ∂L/∂ξ.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """∂T*/∂ξ with the other sign, and all of ∂L/∂ξ: in every equation, and in each one."""
+    """Reverse ∂T*/∂ξ, and the whole ∂L/∂ξ: in all equations, and in each one."""
     L = sp.Symbol("L")
     for energy in (s.T - s.V, s.T):
         slopes = [energy.diff(q) for q in s.q]

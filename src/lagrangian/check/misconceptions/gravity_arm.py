@@ -1,4 +1,4 @@
-"""The height of another point of the body: its end in place of its centre of mass, or half the way."""
+"""The height is that of another point of the body: of its end instead of its centre of mass, or half the distance."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ WHY = text("h is the height of the centre of mass: for a uniform rod that is hal
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every weight with twice and with half the distance from the parent; without the arm at all."""
+    """Compute every weight with twice and with half the distance from the parent, and without the arm."""
     for gravity, body, V in s.weights():
         n = [s.expand(x) for x in gravity.direction]
         own = sp.Add(*[-a * (x - p) for a, x, p in zip(n, s.position(body), s.parent(body), strict=True)])

@@ -1,4 +1,4 @@
-"""Gravity left out of V."""
+"""Gravity is left out of V."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ WHY = text("V includes the mgh of every particle in a gravitational field.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """All weights, then every body's alone."""
+    """Drop all weights, then that of every single body."""
     weights = list(s.weights())
     if len(weights) > 1:
         total = sp.Add(*[V for _, _, V in weights])

@@ -1,4 +1,4 @@
-"""The sign of a height turned: V = −m g h."""
+"""The height has the wrong sign: V = −m g h."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ WHY = text("V = mgh grows with the height h, measured upwards from any fixed lev
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """All weights, then every body's alone."""
+    """Reverse all weights, then that of every single body."""
     weights = list(s.weights())
     if len(weights) > 1:
         total = sp.Add(*[V for _, _, V in weights])

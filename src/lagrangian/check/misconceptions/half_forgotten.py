@@ -1,4 +1,4 @@
-"""T* = m v² in place of ½ m v²."""
+"""T* = m v² instead of ½ m v²."""
 
 from __future__ import annotations
 
@@ -10,11 +10,14 @@ from lagrangian.check.misconceptions.base import Ingredients, Variant
 from lagrangian.page.formula import Name, text
 
 STEP = 2
-WHY = text("Kinetic energy is one-half mass times velocity-squared, and one-half J times angular velocity squared.")
+WHY = text(
+    "The kinetic co-energy is one half of the mass times the velocity squared, plus one half of J times the "
+    "angular velocity squared."
+)
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every body, its translation and its rotation apart, and all together."""
+    """For every body, for its translation and its rotation separately, and for all bodies."""
     for body in s.bodies:
         translation, rotation = s.translation(body), s.rotation(body)
         if rotation != 0:
@@ -26,4 +29,4 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             what = text("The ½ of ", Name("T*"), f" of {body.title} is missing.")
             yield Variant(what=what, T=translation + rotation, element=body)
     if len(s.bodies) > 1 or any(x != 0 for x in (s.V, *s.Xi)):
-        yield Variant(what=text("The ½ of every energy of motion is missing."), T=s.T + sp.S.Zero)
+        yield Variant(what=text("The ½ is missing in every kinetic energy."), T=s.T + sp.S.Zero)

@@ -1,4 +1,4 @@
-"""The height of a child measured from its parent, which moves."""
+"""The height of a child is measured from its parent, which moves."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from lagrangian.check.misconceptions.base import Ingredients, Variant
 from lagrangian.page.formula import text
 
 STEP = 3
-WHY = text("The height h is relative to any arbitrary, but fixed, reference: a parent that moves is none.")
+WHY = text("The height h is relative to an arbitrary but fixed reference; a parent that moves is not fixed.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every body that hangs on something that moves up or down; and every coordinate left out of a height."""
+    """For every body attached to something that moves up or down; and with every coordinate left out of a height."""
     for gravity, body, V in s.weights():
         n = [s.expand(x) for x in gravity.direction]
         carried = sp.Add(*[-a * p for a, p in zip(n, s.parent(body), strict=True)])

@@ -1,4 +1,4 @@
-"""J about the pivot, and ½mv² of the centre of mass as well: the same motion counted twice."""
+"""J about the pivot is used in addition to ½mv² of the centre of mass: the same motion is counted twice."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from lagrangian.page.formula import text
 
 STEP = 2
 WHY = text(
-    "J is the moment of inertia about the centre of mass, always; the motion of the centre of mass has its own ½mv². "
-    "J about the pivot holds m d² already."
+    "J is always the moment of inertia about the centre of mass; the motion of the centre of mass has its own "
+    "½mv². J about the pivot already contains m d²."
 )
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every rigid body with J + m d² about where it is hung, beside its ½mv²."""
+    """For every rigid body, J + m d² about its pivot in addition to its ½mv²."""
     for body in s.bodies:
         omega = s.omega(body)
         if not omega:
@@ -36,7 +36,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
 
 
 def _arms(s: Ingredients, body: object) -> list[sp.Expr]:
-    """The squared distances of the centre of mass from what it is hung on that do not move."""
+    """The squared distances of the centre of mass from points of attachment that are constant."""
     away = sp.Add(*[(a - b) ** 2 for a, b in zip(s.position(body), s.parent(body), strict=True)])
     slopes = [sp.Add(*[sp.diff(x, q) ** 2 for x in s.position(body)]) for q in s.q]
     found: list[Any] = [_constant(s, d) for d in (away, *slopes)]
@@ -44,6 +44,6 @@ def _arms(s: Ingredients, body: object) -> list[sp.Expr]:
 
 
 def _constant(s: Ingredients, expr: sp.Expr) -> sp.Expr | None:
-    """The expression at one place, where it is the same everywhere; None where it is not."""
+    """The constant value of an expression; None if it is not constant."""
     slope = CompiledExpressions([sp.diff(expr, time)]).at(States(s.model, 2))
     return put(expr, dict.fromkeys(s.q, sp.S.Zero)) if np.abs(slope).max() < 1e-9 else None

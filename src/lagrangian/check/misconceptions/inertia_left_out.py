@@ -1,4 +1,4 @@
-"""∂L/∂ξ̇ not differentiated in time at all, or its partial derivative taken."""
+"""∂L/∂ξ̇ is not differentiated in time at all, or only its partial derivative is taken."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ WHY = text("d/dt ∂L/∂ξ̇ is a total derivative: every rate in ∂L/∂ξ̇ 
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """∂/∂t in place of d/dt, which leaves no inertia; ∂L/∂ξ̇ itself in place of its derivative."""
+    """∂/∂t instead of d/dt, which leaves no inertia; ∂L/∂ξ̇ itself instead of its derivative."""
     rates = [s.rate(p) for p in s.momenta]
     hidden = {x: sp.Dummy() for x in (*s.a, *s.v, *s.q)}
     back = {d: x for x, d in hidden.items()}

@@ -1,4 +1,4 @@
-"""A force put into every equation."""
+"""A force is put into every equation."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ WHY = text("A force belongs to Ξ_i only where it does work when ξ_i alone move
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """The share of one Ξ in all of them."""
+    """Use the contribution to one Ξ in all of them."""
     if s.n < 2:
         return
     for element in s.acting:

@@ -1,4 +1,4 @@
-"""Two masses (or inertias) taken for each other."""
+"""Two masses (or inertias) are confused."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ WHY = text("Every particle has its own mass, with the velocity and the height of
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every pair of bodies: masses exchanged, or one's mass in the other's energy of motion or weight."""
+    """For every pair of bodies: exchange the masses, or use one mass in the other's kinetic energy or weight."""
     for a, b in combinations(s.bodies, 2):
         m, M = s.expand(a.mass), s.expand(b.mass)
         if m == M or m == 0 or M == 0:
@@ -32,7 +32,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
                 what=text(f"The masses of {a.title} and {b.title} are exchanged in ", Name("V"), "."), V=dV, element=a
             )
         for one, own, other in ((a, m, M), (b, M, m)):
-            what = text(f"The energy of motion of {one.title} has the mass ", other, " in place of ", own, ".")
+            what = text(f"The kinetic energy of {one.title} has the mass ", other, " in place of ", own, ".")
             yield Variant(what=what, T=(other - own) * unit[one], element=one)
             if one in height:
                 what = text(f"The weight of {one.title} has the mass ", other, " in place of ", own, ".")

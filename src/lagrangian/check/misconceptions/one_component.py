@@ -1,4 +1,4 @@
-"""The square of a velocity made of one component alone."""
+"""The square of a velocity lacks a component."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ WHY = text("Every mass has ½m(ẋ² + ẏ²): all components of its velocity co
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every body without one of its components."""
+    """Drop one component of the velocity of every body."""
     for body in s.bodies:
         velocity = s.velocity(body)
         moving = [k for k, v in enumerate(velocity) if v != 0]

@@ -1,4 +1,4 @@
-"""One side of an equation multiplied or divided, the other not."""
+"""Only one side of an equation is multiplied or divided."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ WHY = text("An equation stays true only when every term on both sides is multipl
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every inertia term, and every Ξ, times or divided by 2 or by a parameter of the equation's own inertia."""
+    """Multiply or divide the inertia terms, or Ξ, of every equation by 2 or by a parameter of its inertia."""
     for i in range(s.n):
         own = s.momenta[i].diff(s.v[i])
         rest = s.rate(s.momenta[i]) - s.T.diff(s.q[i])

@@ -1,4 +1,4 @@
-"""Two parameters of one kind taken for each other: L₁ for L₂, k₁ for k₂."""
+"""Two parameters of the same kind are confused: L₁ for L₂, k₁ for k₂."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from lagrangian.page.formula import Name, text
 from lagrangian.page.plain import plain
 
 STEP = 2
-WHY = text("Every element has its own length, stiffness or damping; stay with the letters of the sketch.")
+WHY = text("Every element has its own length, stiffness or damping; keep to the letters of the sketch.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every pair of parameters with one first letter: exchanged everywhere, or one for the other."""
+    """For every pair of parameters with the same first letter: exchange them everywhere, or use one for the other."""
     symbols = [p.symbol for p in s.model.parameters]
     for p, q in combinations(symbols, 2):
         if p.name[0].lower() != q.name[0].lower():

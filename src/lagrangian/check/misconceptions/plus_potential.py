@@ -12,7 +12,7 @@ WHY = text("The Lagrangian is kinetic minus potential energy.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """The whole of V with the other sign; as one line, L alone shows it."""
+    """Reverse the whole of V; of the stated lines, only L shows it."""
     if s.moves(s.V):
         right = Terms((Name("T*"), Minus(Name("V"))))
         what = text("You took ", Name("L"), " = ", Terms((Name("T*"), Name("V"))), " in place of ", right, ".")

@@ -1,4 +1,4 @@
-"""L = T*: the potential energy left out of the Lagrangian."""
+"""L = T*: the potential energy is left out of the Lagrangian."""
 
 from __future__ import annotations
 
@@ -12,6 +12,6 @@ WHY = text("The Lagrangian is kinetic minus potential energy; springs and weight
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """No V at all."""
+    """Drop all of V."""
     if s.moves(s.V):
         yield Variant(what=text(Name("V"), " is missing in ", Name("L"), "."), V=-s.V)

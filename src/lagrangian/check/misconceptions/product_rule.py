@@ -1,4 +1,4 @@
-"""d/dt of a product taken of the rate alone: what stands before it, such as cos θ, changes in time as well."""
+"""d/dt of a product is applied only to the rate: the factors before it, such as cos θ, also change in time."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ WHY = text(
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """In every equation, in each one, and with the rates of other coordinates alone forgotten."""
+    """In all equations, in each one, and forgotten only for the rates of other coordinates."""
     lost = [_lost(s, p, range(s.n)) for p in s.momenta]
     if sum(x != 0 for x in lost) > 1:
         what = text("The factors before the rates were not differentiated in time: the product rule is missing.")
@@ -39,5 +39,5 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
 
 
 def _lost(s: Ingredients, momentum: sp.Expr, by: object) -> sp.Expr:
-    """Σ_k ∂p/∂ξ_k ξ̇_k: what d/dt of the factors adds."""
+    """Σ_k ∂p/∂ξ_k ξ̇_k: the part of d/dt that comes from the factors."""
     return sp.Add(*[momentum.diff(s.q[k]) * s.v[k] for k in by])  # type: ignore[attr-defined]

@@ -1,4 +1,4 @@
-"""A force between two bodies counted on one of them alone."""
+"""A force between two bodies is counted on only one of them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ WHY = text("What pushes two bodies apart acts on both, with opposite signs; so d
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every pair without one of its ends; every share of one Ξ missing where there are two of opposite sign."""
+    """Drop one end of every pair; drop each contribution to a Ξ if there are two of opposite sign."""
     for element in s.acting:
         shares = s.shares(element)
         for kept, lost in both_ends(s, element):

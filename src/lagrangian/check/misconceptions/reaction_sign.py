@@ -1,4 +1,4 @@
-"""Both ends of a pair of forces with the same sign."""
+"""Both ends of a pair of forces have the same sign."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ WHY = text("Action and reaction are opposite: +F on one body is −F on the othe
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every pair with the sign of one end turned; every share of two opposite ones turned."""
+    """Reverse one end of every pair; reverse each of two opposite contributions."""
     for element in s.acting:
         for _, turned in both_ends(s, element):
             what = text(f"The reaction of {element.title} on ", *turned.on, " has the wrong sign.")

@@ -1,4 +1,4 @@
-"""The rate of a relative angle taken for the body's own: θ̇₂ where θ̇₁ + θ̇₂ turns it."""
+"""The rate of a relative angle is taken for that of the body: θ̇₂ for θ̇₁ + θ̇₂."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ WHY = text("A relative angle is measured from its parent, so that the body turns
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every body turned by a sum of coordinates, with only one of the rates: in v, in ω, in both."""
+    """For every body that is turned by a sum of coordinates: only one of the rates, in v, in ω, or in both."""
     for body in s.bodies:
         for k, q in enumerate(s.q):
             moved = _velocity(s, body, q)
@@ -29,7 +29,8 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
 
 
 def _velocity(s: Ingredients, body: object, q: sp.Expr) -> tuple[sp.Expr, ...]:
-    """The velocity when every sum of angles with ``q`` in it turned with its rate alone; () where there is no sum."""
+    """The velocity if every sum of angles that contains ``q`` turned only with the rate of ``q``; () if there is no
+    sum."""
     position = s.position(body)
     sums = [a for x in position for a in s.angles(x) if a.has(q) and sum(a.has(p) for p in s.q) > 1]
     if not sums:

@@ -1,4 +1,4 @@
-"""The speed relative to the parent put into T* where the total velocity belongs."""
+"""The speed relative to the parent is used in T* instead of the total velocity."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from lagrangian.page.formula import Name, text
 
 STEP = 2
 WHY = text(
-    "Be careful: the total velocity counts. A body on a relative coordinate is carried by its parent, and its velocity "
-    "is the parent's and its own together."
+    "Be careful: the total velocity counts. A body on a relative coordinate is carried by its parent, and its "
+    "velocity is the sum of the parent's and its own."
 )
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every body whose velocity holds several rates, with the velocity that one of them, or all but one, would give."""
+    """For every body whose velocity contains several rates: the velocity from one of them, or from all but one."""
     for body in s.bodies:
         yield from _alone(s, body)
         yield from _carried(s, body)
 
 
 def _alone(s: Ingredients, body: Any) -> Iterator[Variant]:
-    """The velocity that one rate alone would give, or all but one."""
+    """The velocity that results from one rate only, or from all but one."""
     velocity = s.velocity(body)
     rates = [v for v in s.v if any(x.has(v) for x in velocity)]
     if all(sum(x.has(v) for v in rates) < 2 for x in velocity):
@@ -40,7 +40,7 @@ def _alone(s: Ingredients, body: Any) -> Iterator[Variant]:
             Name("T*"),
             " holds ",
             *_listed(keep),
-            " alone: the speed relative to what carries it instead of the total one.",
+            " alone: the speed relative to its parent instead of the total one.",
         )
         yield Variant(what=what, T=change, element=body)
         if s.omega(body):
@@ -49,9 +49,9 @@ def _alone(s: Ingredients, body: Any) -> Iterator[Variant]:
 
 
 def _carried(s: Ingredients, body: Any) -> Iterator[Variant]:
-    """The velocity beside what the body hangs on, and beside every other body."""
+    """The velocity relative to the parent of the body, and relative to every other body."""
     own = s.velocity(body)
-    others = [(tuple(s.rate(x) for x in s.parent(body)), "what it is hung on", 0)]
+    others = [(tuple(s.rate(x) for x in s.parent(body)), "its parent", 0)]
     others += [(s.velocity(b), b.title, 1) for b in s.bodies if b is not body]
     for other, words, doubt in others:
         if any(x != 0 for x in other) and other != own:

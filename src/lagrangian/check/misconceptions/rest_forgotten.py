@@ -1,4 +1,4 @@
-"""The rest length of a spring forgotten."""
+"""The rest length of a spring is forgotten."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ WHY = text("The energy of a spring is proportional to the square of its deflecti
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every spring with a rest length; with its sign turned, too."""
+    """Drop the rest length of every spring that has one; also reverse its sign."""
     for spring, extension, V in s.springs():
         rest = s.expand(spring.rest)
         if rest == 0:

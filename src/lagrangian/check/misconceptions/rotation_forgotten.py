@@ -1,4 +1,4 @@
-"""A rigid body treated as a point: ½Jω² forgotten."""
+"""A rigid body is treated as a point: ½Jω² is forgotten."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ WHY = text("Track the velocity of the centre of mass as well as the angular velo
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every rigid body without its rotation, and all of them."""
+    """Drop the rotation of every rigid body, and of all of them."""
     every = [(body, s.rotation(body)) for body in s.bodies if s.rotation(body) != 0]
     for body, energy in every:
         yield Variant(what=text(f"½Jω² of {body.title} is missing."), T=-energy, element=body)

@@ -1,4 +1,4 @@
-"""The sign of one term of an equation turned."""
+"""One term of an equation has the wrong sign."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ WHY = text("A sign was lost on the way: differentiate this term once more, and m
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every readable term of every equation."""
+    """Reverse every readable term of every equation."""
     for p in pieces(s):
         what = text("In the equation of ", s.q[p.row], " the term ", p.shown, " has the wrong sign.")
         yield Variant(what=what, rows={p.row: -2 * p.expr}, coordinate=p.row, stated=frozenset())

@@ -1,4 +1,4 @@
-"""Sine and cosine exchanged in a height, a deflection or a force."""
+"""Sine and cosine are exchanged in a height, a deflection or a force."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from lagrangian.page.formula import Name, text
 
 STEP = 3
 WHY = text(
-    "Look where the angle is measured from: along that line stands the cosine, across it the sine. "
+    "Look where the angle is measured from: the component along that line has the cosine, the one across it the sine. "
     "Try a special position, such as an angle of zero."
 )
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every weight, every spring, all of V, all of T* and every force with sin for cos; with both signs of it."""
+    """Exchange sin and cos, with both signs, in every weight, every spring, all of V, all of T* and every force."""
     pieces = [(gravity, V, f"the weight of {body.title}") for gravity, body, V in s.weights()]
     pieces += [(spring, V, f"the energy of {spring.title}") for spring, _, V in s.springs()]
     for element, V, words in pieces:
@@ -28,7 +28,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     for body in s.bodies:
         own = s.kinetic(body)
         for other in _swapped(own):
-            what = text(f"Sine and cosine are exchanged in the energy of motion of {body.title}.")
+            what = text(f"Sine and cosine are exchanged in the kinetic energy of {body.title}.")
             yield Variant(what=what, T=other - own, element=body)
     yield from _in_rows(s)
     for element in s.acting:
@@ -41,7 +41,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
 
 
 def _in_rows(s: Ingredients) -> Iterator[Variant]:
-    """One term of one equation."""
+    """Exchange them in one term of one equation."""
     for i, row in enumerate(s.derivation.terms):
         for term in row:
             expr = s.expand(term.expr) * (-1 if term.kind == "input" else 1)
@@ -53,7 +53,7 @@ def _in_rows(s: Ingredients) -> Iterator[Variant]:
 
 
 def _swapped(expr: sp.Expr) -> tuple[sp.Expr, ...]:
-    """The expression with sine for cosine and cosine for sine, and with the sign turned; nothing without any."""
+    """The expression with sine and cosine exchanged, also with the opposite sign; nothing if it contains neither."""
     table: dict[sp.Expr, sp.Expr] = {}
     for f in expr.atoms(sp.sin, sp.cos):
         table[f] = sp.cos(f.args[0]) if isinstance(f, sp.sin) else sp.sin(f.args[0])

@@ -1,4 +1,4 @@
-"""sin θ taken for θ: the equations of small motions only."""
+"""sin θ is replaced by θ, which gives only the equations of small motions."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from lagrangian.check.misconceptions.base import Ingredients, Variant, put
 from lagrangian.page.formula import text
 
 STEP = 5
-WHY = text("sin θ ≈ θ and cos θ ≈ 1 hold near θ = 0 alone; the equations of motion hold everywhere.")
+WHY = text("sin θ ≈ θ and cos θ ≈ 1 hold only near θ = 0; the equations of motion hold everywhere.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """In V, in the whole of every equation, and with the products of small quantities dropped."""
+    """In V, in all equations completely, and with products of small quantities dropped."""
     what = text("sin θ was replaced by θ, as if the motion were small.")
     table = {f: _small(f, quadratic=True) for f in s.V.atoms(sp.sin, sp.cos) if s.moves(f)}
     if table:

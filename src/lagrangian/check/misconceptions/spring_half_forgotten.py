@@ -1,4 +1,4 @@
-"""V = k δ² in place of ½ k δ², so that its force comes out twice."""
+"""V = k δ² instead of ½ k δ², so that the force is twice too large."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ WHY = text("A spring stores ½k(x − x₀)²: the ½ makes its force kx.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every spring, and all of them; and with the half applied twice."""
+    """For every spring, and for all of them; also with the factor ½ applied twice."""
     springs = list(s.springs())
     for spring, _, V in springs:
         yield Variant(what=text(f"The ½ in the energy of {spring.title} is missing."), V=V, element=spring)

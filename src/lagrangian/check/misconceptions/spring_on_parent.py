@@ -1,4 +1,4 @@
-"""A spring on a relative coordinate counted in its parent's equation, too."""
+"""A spring on a relative coordinate is also counted in the equation of the parent."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from lagrangian.page.formula import text
 
 STEP = 5
 WHY = text(
-    "V holds the relative coordinate alone, so that its derivative by the parent's coordinate is zero: moving the "
+    "V contains only the relative coordinate, so its derivative by the parent's coordinate is zero: moving the "
     "parent carries both ends of the spring along and does not stretch it."
 )
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """The force of a spring in an equation whose coordinate does not stretch it, with both signs."""
+    """Add the force of a spring to an equation whose coordinate does not stretch it, with both signs."""
     for spring, _, V in s.springs():
         slopes = {i: V.diff(q) for i, q in enumerate(s.q)}
         for i, x in slopes.items():

@@ -1,4 +1,4 @@
-"""The deflection of a spring made of the wrong coordinates."""
+"""The deflection of a spring is computed from the wrong coordinates."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from lagrangian.page.formula import text
 
 STEP = 3
 WHY = text(
-    "The deflection is what changes the length of the spring. Where a coordinate is relative, the deflection of a "
-    "spring to the parent is that coordinate alone; where both are absolute, it is their difference."
+    "The deflection is the change of the spring's length. If a coordinate is relative, the deflection of a spring "
+    "to the parent is just that coordinate; if both are absolute, it is their difference."
 )
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every linear spring on a linear deflection: the sign of one coordinate turned, one added, one for another."""
+    """For every linear spring with a linear deflection: reverse, add or replace a coordinate."""
     for spring, extension, V in s.springs():
         if spring.k is None or any(extension.diff(q).has(*s.q) for q in s.q):
             continue

@@ -1,4 +1,4 @@
-"""The sign of a spring turned."""
+"""A spring has the wrong sign."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ WHY = text("A stretched or compressed spring stores energy: ½kx² is positive, 
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every spring, then its force in one equation alone."""
+    """Reverse every spring, then its force in one equation only."""
     for spring, _, V in s.springs():
         what = text(f"The energy of {spring.title} has the wrong sign in ", Name("V"), ".")
         yield Variant(what=what, V=-2 * V, element=spring)

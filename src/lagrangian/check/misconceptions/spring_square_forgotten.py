@@ -1,4 +1,4 @@
-"""V = ½ k δ: the deflection not squared."""
+"""V = ½ k δ: the deflection is not squared."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ WHY = text("The potential energy of a spring is proportional to the square of it
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every linear spring; with and without the half."""
+    """For every linear spring; with and without the factor ½."""
     for spring, extension, V in s.springs():
         if spring.k is None:
             continue

@@ -1,4 +1,4 @@
-"""A spring between two bodies taken as one between a body and the ground."""
+"""A spring between two bodies is treated as one between a body and the ground."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ WHY = text("Be careful: the Δx of a spring between two bodies is the motion of 
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every linear spring with one coordinate of its deflection alone, or with a relative one made absolute."""
+    """For every linear spring: only one coordinate of its deflection, or a relative coordinate made absolute."""
     for spring, extension, V in s.springs():
         held = [q for q in s.q if extension.has(q)]
         if spring.k is None or not held:

@@ -1,4 +1,4 @@
-"""One term of an equation left out, or with a factor of two too much or too little."""
+"""One term of an equation is left out, or is wrong by a factor of two."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ WHY = text("Go through ∂L/∂ξ̇, its d/dt and ∂L/∂ξ once more, term by 
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every readable term of every equation: gone, halved, doubled."""
+    """Drop, halve and double every readable term of every equation."""
     for p in pieces(s):
         for share, words in (
             (sp.Integer(-1), "is missing"),

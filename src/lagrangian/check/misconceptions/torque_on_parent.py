@@ -1,4 +1,4 @@
-"""A force or torque on a relative coordinate counted on the parent, too."""
+"""A force or torque on a relative coordinate is also counted on the parent."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from lagrangian.page.formula import Name, text
 
 STEP = 6
 WHY = text(
-    "The box of the parent includes its children: a force between parent and child lies inside it with both ends, and "
-    "cancels. Only with absolute coordinates does the parent's Ξ get the reaction."
+    "The box of the parent includes its children: both ends of a force between parent and child are inside it, so "
+    "the force cancels. The parent's Ξ contains the reaction only if the coordinates are absolute."
 )
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """The share of one Ξ added to another one that has none, with both signs."""
+    """Add the contribution to one Ξ to another that has none, with both signs."""
     for element in s.acting:
         shares = s.shares(element)
         for i, x in shares.items():

@@ -1,4 +1,4 @@
-"""A rigid body that only turns: ½mv² of its centre of mass forgotten."""
+"""½mv² of the centre of mass of a rigid body is forgotten."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from lagrangian.check.misconceptions.base import Ingredients, Variant
 from lagrangian.page.formula import text
 
 STEP = 2
-WHY = text("J is about the centre of mass; where the centre of mass itself moves, its ½mv² counts as well.")
+WHY = text("J is about the centre of mass; if the centre of mass itself moves, its ½mv² counts as well.")
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every rigid body without the motion of its centre of mass."""
+    """Drop the motion of the centre of mass of every rigid body."""
     for body in s.bodies:
         if s.rotation(body) != 0 and s.translation(body) != 0:
             yield Variant(what=text(f"½mv² of {body.title} is missing."), T=-s.translation(body), element=body)

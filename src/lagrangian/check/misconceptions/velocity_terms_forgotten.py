@@ -1,4 +1,4 @@
-"""Centrifugal or Coriolis terms left out."""
+"""Centrifugal or Coriolis terms are left out."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from lagrangian.page.formula import text
 
 STEP = 5
 WHY = text(
-    "Where T* depends on the coordinates, the equations hold squares of rates (centrifugal terms) and products of two "
+    "If T* depends on the coordinates, the equations contain squares of rates (centrifugal terms) and products of two "
     "rates (Coriolis terms)."
 )
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """All, the squares, the products: everywhere and in each equation; the products with half their factor."""
+    """Drop all of them, the squares, or the products, everywhere and in each equation; halve the products."""
     squares, products = zip(*[velocity_terms(s, i) for i in range(s.n)], strict=True)
     both = tuple(a + b for a, b in zip(squares, products, strict=True))
     kinds = ((both, "products of rates"), (squares, "centrifugal terms"), (products, "Coriolis terms"))
@@ -33,7 +33,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
 
 
 def velocity_terms(s: Ingredients, i: int) -> tuple[sp.Expr, sp.Expr]:
-    """Worked out once, see `_velocity_terms`."""
+    """The result of `_velocity_terms`, computed once."""
     return s.kept(("velocity terms", i), lambda: _velocity_terms(s, i))
 
 

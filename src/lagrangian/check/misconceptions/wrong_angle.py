@@ -1,4 +1,4 @@
-"""Another angle in a cosine or sine of T*: θ₁ + θ₂ for θ₁ − θ₂, or one angle for the difference."""
+"""A cosine or sine in T* has the wrong angle: θ₁ + θ₂ for θ₁ − θ₂, or one angle for the difference."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ WHY = text(
 
 
 def wrong(s: Ingredients) -> Iterator[Variant]:
-    """Every angle of T* and of V, with others in its place."""
+    """Replace every angle of T* and of V by others."""
     for energy, key in ((s.T, "T"), (s.V, "V")):
         for angle in s.angles(energy):
             for other in _others(s, angle):
@@ -33,7 +33,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
 
 
 def _others(s: Ingredients, angle: sp.Expr) -> list[sp.Expr]:
-    """The angle with the sign of one coordinate turned, without it, or with another one added or subtracted."""
+    """The angle with the sign of one coordinate reversed, without it, or with another one added or subtracted."""
     found: list[sp.Expr] = []
     turning = [q for q in s.q if any(a.has(q) for a in (*s.angles(s.T), *s.angles(s.V)))]
     held = [q for q in turning if angle.has(q)]

@@ -1,4 +1,4 @@
-"""Answers that people typed or wrote in LaTeX: equations, energies, generalized forces, whole hand derivations."""
+"""Reads answers in plain text or LaTeX: equations, energies, generalized forces, whole derivations by hand."""
 
 from lagrangian.check.reading.answer import Answer, AnswerLine, Kind, Unknown
 from lagrangian.check.reading.placeholders import ENERGIES, generalized_force

@@ -1,4 +1,4 @@
-"""What an answer says, line by line, as SymPy."""
+"""The content of an answer, line by line, as SymPy."""
 
 from __future__ import annotations
 
@@ -28,9 +28,10 @@ Kind: TypeAlias = Literal[
 
 @dataclass(frozen=True)
 class AnswerLine:
-    """One thing that is stated. ``lhs`` and ``rhs`` are both sides as written; ``lhs`` is None where the line says what
-    ``kind`` (and ``name``) is. Names that the person defined are written out; the model's definitions stay named.
-    ``place`` is where the line begins and ``text`` how it was written.
+    """One statement of an answer. ``lhs`` and ``rhs`` are the two sides as written; ``lhs`` is None if the left side
+    only names the quantity that ``kind`` (and ``name``) describe. Names that the answer defines are written out;
+    definitions of the model keep their names. ``place`` is where the line begins, and ``text`` is the line as it was
+    written.
     """
 
     kind: Kind
@@ -42,15 +43,16 @@ class AnswerLine:
 
     @property
     def residual(self) -> sp.Expr:
-        """Left minus right; the right-hand side alone where there is no left one."""
+        """Left minus right; the right-hand side alone if there is no left-hand side."""
         return self.rhs if self.lhs is None else self.lhs - self.rhs
 
 
 @dataclass(frozen=True)
 class Unknown:
-    """A name the model has not: how it was written, its symbol in the lines, where it stands first, what was meant.
+    """A name that the model does not have: its spelling, its symbol in the lines, its first place, and its probable
+    meaning.
 
-    The symbol is a function of time where the answer differentiates it. ``suggestion`` is a sentence or None.
+    The symbol is a function of time if the answer differentiates it. ``suggestion`` is a sentence or None.
     """
 
     name: str
@@ -61,7 +63,7 @@ class Unknown:
 
 @dataclass(frozen=True)
 class Answer:
-    """A whole answer in the order it was written."""
+    """A whole answer, in the order in which it was written."""
 
     lines: tuple[AnswerLine, ...]
     notation: Literal["text", "latex"]

@@ -1,7 +1,7 @@
-r"""Answers in LaTeX: one statement of mathematics. Products may be implicit; ``mgL`` is split into the model's names.
+r"""Parses one statement of an answer in LaTeX. Products may be implicit; ``mgL`` is split into names of the model.
 
-A function without parentheses takes the next factor, with the numbers before it: ``\sin 2\theta \dot\theta`` is
-sin(2θ) θ̇; a constant followed by t is one factor there: ``\cos\omega t``.
+A function without parentheses applies to the next factor, with the numbers before it: ``\sin 2\theta \dot\theta`` is
+sin(2θ) θ̇. A constant followed by t counts as one factor there: ``\cos\omega t``.
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ _INVERSE = {"sin": "asin", "cos": "acos", "tan": "atan", "sinh": "asinh", "cosh"
 
 
 class LatexParser(LatexFractions):
-    """Reads one statement."""
+    """Parses one statement."""
 
     def __init__(self, source: Source, known: Callable[[str], bool], misspelled: Callable[[str], bool]) -> None:
         super().__init__(source, known, misspelled)
         self._bars = 0
 
     def side_by_side(self) -> bool:
-        """Any operand may follow another one; two numbers may not."""
+        """Any operand may follow another; a number may not follow a number."""
         if self.next.kind == "number" and self.i and self.tokens[self.i - 1].kind == "number":
             two = f"{self.tokens[self.i - 1].text} {self.next.text}"
             raise self.source.error(
@@ -43,7 +43,7 @@ class LatexParser(LatexFractions):
         return self.next.kind in _BEGINS or (self.next.kind == "|" and not self._bars)
 
     def stopped(self, wants_operand: bool) -> ParseError:
-        """Say what is wrong at the next token."""
+        """Raise the error that explains what is wrong at the next token."""
         if (error := self.unclosed()) is not None:
             return error
         token = self.next
@@ -79,7 +79,7 @@ class LatexParser(LatexFractions):
         return self._powered(self._atom(), start)
 
     def _powered(self, made: Tree, start: int) -> Tree:
-        """What may stand on top of an operand: primes, powers, a transposition."""
+        """Read what follows an operand: primes, powers, a transposition."""
         raised = False
         while True:
             if (primes := self.accept("primes")) is not None:
@@ -96,7 +96,7 @@ class LatexParser(LatexFractions):
                 return made
 
     def _transposed(self) -> bool:
-        """Whether ^T or ^\\top comes next; goes past it."""
+        r"""Whether ^T or ^\top is next; if so, consume it."""
         texts = [x.text for x in self.tokens[self.i + 1 : self.i + 4]]
         for form in (["T"], ["top"], ["intercal"], ["{", "T", "}"], ["{", "top", "}"]):
             if texts[: len(form)] == form:
@@ -105,7 +105,7 @@ class LatexParser(LatexFractions):
         return False
 
     def _argument(self) -> Tree:
-        """A group in braces, or one token: what stands behind ^, \\frac, \\sqrt."""
+        r"""Read a group in braces, or one token: the argument of ^, \frac, \sqrt."""
         if self.next.kind == "{":
             return self._closed("}")
         if self.next.kind in ("number", "fraction"):
@@ -121,7 +121,7 @@ class LatexParser(LatexFractions):
         raise self.stopped(True)
 
     def _closed(self, closing: str) -> Tree:
-        """A bracket and what closes it."""
+        """Read a bracket up to its closing bracket."""
         start = self.take().start
         self.deeper(start)
         bars, self._bars = self._bars, 0
@@ -184,7 +184,7 @@ class LatexParser(LatexFractions):
     # -- symbols -----------------------------------------------------------------------------------------------------
 
     def _symbol(self) -> Tree:
-        """A name with its subscript, dots, primes and powers, or a product that dots stand over."""
+        """Read a name with its subscript, dots, primes and powers, or a product under dots."""
         start = self.next.start
         if self.next.kind == "accent" and (over := self._dots_over_more()) is not None:
             return self._powered(over, start)
@@ -220,7 +220,7 @@ class LatexParser(LatexFractions):
         return self._powered(made, start) if self.next.kind == "raised" else made
 
     def _dots_over_more(self) -> Tree | None:
-        """Dots over a bracket or a product in braces; None where they stand over one symbol."""
+        """Read dots over a bracket or over a product in braces; return None if they are over a single symbol."""
         at = self.i
         if self.ahead().kind != "{":
             return None
@@ -243,7 +243,7 @@ class LatexParser(LatexFractions):
     # -- functions and fractions -------------------------------------------------------------------------------------
 
     def _function(self, token: AnswerToken) -> Tree:
-        """A function with its power and its argument, in brackets or not."""
+        """Read a function with its power and its argument, with or without brackets."""
         exponent: Node = None
         called = token.text
         if self.accept("^"):
@@ -283,7 +283,7 @@ class LatexParser(LatexFractions):
         return [self._bare_argument(token)]
 
     def _bare_argument(self, token: AnswerToken) -> Tree:
-        """Numbers, then one factor; a constant and t are one factor."""
+        """Read numbers, then one factor; a constant and t count as one factor."""
         start = self.next.start
         children: list[Node] = []
         while True:
@@ -332,7 +332,7 @@ class LatexParser(LatexFractions):
         )
 
     def _says_symmetric(self) -> bool:
-        """Whether the matrix that was begun says "sym." in place of its lower half."""
+        """Whether the current matrix contains "sym." instead of its lower half."""
         depth = 0
         for token in self.tokens[self.i :]:
             depth += (token.kind == "begin") - (token.kind == "end_")
@@ -343,13 +343,13 @@ class LatexParser(LatexFractions):
         return False
 
     def _entry(self, symmetric: bool) -> Tree | None:
-        """An entry of a matrix; None for one that is left empty because the matrix is symmetric."""
+        """Read an entry of a matrix; None for one that is left empty because the matrix is symmetric."""
         if symmetric and (self.accept("sym") or self.next.kind in ("&", "rowsep", "end_")):
             return None
         return self.sum()
 
     def _mirrored(self, rows: list[list[Tree | None]], i: int, j: int, token: AnswerToken) -> Tree:
-        """The entry in row i and column j, or for an empty one that on the other side of the diagonal."""
+        """The entry in row i and column j; for an empty one, the entry on the other side of the diagonal."""
         entry = rows[i][j]
         if entry is None and j < i and i < len(rows[j]):
             entry = rows[j][i]

@@ -1,4 +1,4 @@
-r"""Fractions in LaTeX, and the derivatives that are written as fractions: d/dt, d²x/dt², ∂L/∂ẋ."""
+r"""Reads fractions in LaTeX, and derivatives that are written as fractions: d/dt, d²x/dt², ∂L/∂ẋ."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from lagrangian.check.reading.parser import AnswerToken
 
 _ENERGIES = frozenset("TVLDℒ")
 CLOSING = {"(": ")", "[": "]", "{": "}"}
-"""Brackets and what closes them."""
+"""Opening brackets, with their closing brackets."""
 
 
 class LatexFractions(LatexSymbols):
@@ -21,7 +21,7 @@ class LatexFractions(LatexSymbols):
 
     @abstractmethod
     def _symbol(self) -> Tree:
-        """Read a name with all that belongs to it."""
+        """Read a name with its subscript, dots, primes and powers."""
 
     @abstractmethod
     def _argument(self) -> Tree:
@@ -29,10 +29,10 @@ class LatexFractions(LatexSymbols):
 
     @abstractmethod
     def _closed(self, closing: str) -> Tree:
-        """Read a bracket and what closes it."""
+        """Read a bracket up to its closing bracket."""
 
     def _frac(self, token: AnswerToken) -> Tree:
-        """A fraction; d/dt, d²x/dt² and ∂L/∂ẋ are written as ones."""
+        """Read a fraction, which may be a derivative: d/dt, d²x/dt² and ∂L/∂ẋ."""
         top, bottom = self._parts()
         order = _differential_of_time(bottom)
         if order and _begins_with_d(top):
@@ -43,7 +43,7 @@ class LatexFractions(LatexSymbols):
         return node("product", token.start, over, leaf("OPERATOR", "/", token.start), under)
 
     def _part(self) -> Tree:
-        """One argument of a fraction: a group, or one token, one digit of a number."""
+        """Read one argument of a fraction: a group, or one token, or one digit of a number."""
         if self.next.kind == "number" and len(self.next.text) > 1:
             whole = self.next
             first = replace(whole, text=whole.text[0], end=whole.start + 1)
@@ -51,7 +51,7 @@ class LatexFractions(LatexSymbols):
         return self._argument()
 
     def _parts(self) -> tuple[list[AnswerToken], list[AnswerToken]]:
-        """The tokens of numerator and denominator, without going past them."""
+        """The tokens of numerator and denominator, without consuming them."""
         found: list[list[AnswerToken]] = []
         at = self.i
         for _ in range(2):
@@ -99,7 +99,7 @@ class LatexFractions(LatexSymbols):
         return node("rate", token.start, inner, order)
 
     def _differentiated(self) -> Tree:
-        """What d/dt acts on: a bracket, or all factors that follow."""
+        """Read what d/dt applies to: a bracket, or all factors that follow."""
         if self.next.kind in ("(", "[", "{"):
             return self._closed(CLOSING[self.next.kind])
         self.deeper(self.next.start)
@@ -120,7 +120,7 @@ class LatexFractions(LatexSymbols):
         return node("partial", token.start, leaf("NAME", _energy(energy), token.start), by)
 
     def _after_d(self) -> Tree:
-        """The symbol behind ∂ or d in one part of a fraction."""
+        """The symbol after ∂ or d in one part of a fraction."""
         if not self.accept("{"):
             raise self.stopped(True)
         if self.next.kind == "letters" and len(self.next.text) > 1:
@@ -137,7 +137,7 @@ class LatexFractions(LatexSymbols):
         return self._symbol()
 
     def _partial_inline(self, token: AnswerToken) -> Tree:
-        """∂L/∂ẋ on one line."""
+        """Read ∂L/∂ẋ written on one line."""
         energy = self._symbol()
         if not (self.accept("over") and self.accept("partial")):
             raise self.source.error(

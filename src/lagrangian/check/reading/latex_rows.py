@@ -1,4 +1,4 @@
-"""LaTeX cut into statements: mathematics found among the words, environments opened, rows and their continuations."""
+"""Splits LaTeX into statements: finds mathematics among words, opens environments, joins rows that continue."""
 
 from __future__ import annotations
 
@@ -54,7 +54,7 @@ _CUT = re.compile(r"[,;](?!\w)|\\q?quad(?![A-Za-z])|\x00")
 
 
 def latex_rows(text: str) -> list[AnswerRow]:
-    """Return the statements of an answer in LaTeX; words around the mathematics are left out."""
+    """Return the statements of an answer in LaTeX; words around the mathematics are ignored."""
     text = _COMMENT.sub(lambda m: " " * len(m.group()), text)
     found = list(_mathematics(text))
     if not found:
@@ -68,7 +68,7 @@ def latex_rows(text: str) -> list[AnswerRow]:
 
 
 def _mathematics(text: str) -> Iterator[tuple[int, str]]:
-    """The pieces between the marks of mathematics, with where each begins."""
+    """The pieces of mathematics between delimiters, with the place where each begins."""
     at, missing = 0, set[str]()
     while (match := _OPENING.search(text, at)) is not None:
         closing = _CLOSING.get(match.group(), f"\\end{{{match['kind']}}}")
@@ -82,7 +82,7 @@ def _mathematics(text: str) -> Iterator[tuple[int, str]]:
 
 
 def _statements(text: str, start: int, *, lines: bool) -> list[AnswerRow]:
-    """The statements of one piece of mathematics; ``lines``: a line's end may end a statement."""
+    """The statements of one piece of mathematics; ``lines``: the end of a line may end a statement."""
     text = _SYSTEM.sub(lambda m: m["rows"].rjust(m.end("rows") - m.start()).ljust(len(m.group())), text)
     for form in (_WRAPPER, _NOTE):
         text = form.sub(lambda m: " " * len(m.group()), text)
@@ -101,7 +101,7 @@ def _statements(text: str, start: int, *, lines: bool) -> list[AnswerRow]:
 
 
 def _without_words(text: str) -> str:
-    """Replace words by a mark and spaces; a short word that may be a name stays."""
+    """Replace words by a mark and spaces, except a short word that may be a name."""
     at = 0
     while (match := _WORDS.search(text, at)) is not None:
         end = _closing(text, match.end())
@@ -115,7 +115,7 @@ def _without_words(text: str) -> str:
 
 
 def _unboxed(text: str) -> str:
-    r"""Blank out every ``\boxed{`` and the brace that closes it."""
+    r"""Blank out every ``\boxed{`` and its closing brace."""
     if "\\boxed" not in text and "\\fbox" not in text and "\\ensuremath" not in text:
         return text
     letters, boxes = list(text), list[bool]()
@@ -129,7 +129,7 @@ def _unboxed(text: str) -> str:
 
 
 def _closing(text: str, start: int) -> int:
-    """Where the brace that was opened before ``start`` has closed."""
+    """The position where the brace that was opened before ``start`` is closed."""
     depth, at = 1, start
     while at < len(text) and depth:
         if text[at] == "\\":
@@ -141,7 +141,7 @@ def _closing(text: str, start: int) -> int:
 
 
 def _cut(text: str, lines: bool) -> list[tuple[int, str, bool]]:
-    """Pieces between row separators outside braces and matrices, whether each begins after an explicit one."""
+    """The pieces between row separators outside braces and matrices, and whether each follows an explicit separator."""
     cuts: list[tuple[int, int, bool]] = [(0, 0, True)]
     depth = matrices = 0
     for match in _MARK.finditer(text):
@@ -157,7 +157,7 @@ def _cut(text: str, lines: bool) -> list[tuple[int, str, bool]]:
 
 
 def _labels(piece: str) -> str:
-    """Blank out arrows, and numbers of equations before and behind."""
+    """Blank out arrows, and numbers of equations before and after a statement."""
     for form in (_ARROW, _NUMBER_BEFORE):
         if match := form.match(piece):
             piece = blank(piece, 0, match.end())
@@ -170,17 +170,17 @@ def _labels(piece: str) -> str:
 
 
 def _content_end(piece: str) -> int:
-    """Where spacing, alignment marks and words begin that only follow."""
+    """The position where only spacing, alignment marks and words follow."""
     return max((m.end() for m in _PIECE.finditer(piece) if m["content"] is not None), default=0)
 
 
 def _content(piece: str) -> bool:
-    """Whether anything but spacing and punctuation stands there."""
+    """Whether there is anything but spacing and punctuation."""
     return any(m["content"] not in (None, ".", ",", ";") for m in _PIECE.finditer(piece))
 
 
 def _continues(before: str, piece: str, hard: bool) -> bool:
-    """Whether a row goes on with the one before it."""
+    """Whether a row continues the previous one."""
     if _STARTS.match(piece) or (hard and _INDENTED.match(piece)) or incomplete(before.replace("&", " ").rstrip("\\ ,")):
         return True
     return bool(_MINUS.match(piece)) and (("=" in before) != ("=" in piece))
@@ -196,7 +196,7 @@ def _tidy(row: AnswerRow) -> AnswerRow:
 
 
 def _outer(text: str) -> str:
-    """Blank out the & that align rows, not those of matrices."""
+    """Blank out the & that align rows, but not those inside matrices."""
     matrices, letters = 0, list(text)
     for match in re.finditer(r"\\begin|\\end|&", text):
         if match.group() == "&":
@@ -208,9 +208,9 @@ def _outer(text: str) -> str:
 
 
 def _parts(row: AnswerRow) -> list[AnswerRow]:
-    """Split a row at commas, wide spaces and words outside brackets, where every piece states something."""
+    """Split a row at commas, wide spaces and words outside brackets, if every piece is a statement."""
     if any("\x00" in side and not _content(side) for side in row.text.split("=")):
-        return []  # one side is words: a remark
+        return []  # one side consists of words: a remark
     depth, cuts = 0, [(0, 0)]
     for match in re.finditer(rf"[(\[{{}}\])]|\\begin|\\end|{_CUT.pattern}", row.text):
         mark = match.group()

@@ -1,6 +1,6 @@
-r"""Symbols in LaTeX: letters with subscripts, dots and stars; a run of letters is split into known names.
+r"""Reads symbols in LaTeX: letters with subscripts, dots and stars; a run of letters is split into known names.
 
-A run that no known names make up, and that is nearly one of them, is a name that was misspelled.
+A run that cannot be split into known names, but is similar to one, is a misspelled name.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from lagrangian.read.letters import normal
 class LatexSymbols(Parser):
     """The part of the parser that reads names.
 
-    ``known`` says whether a name means something, ``misspelled`` whether a run of letters is nearly a name.
+    ``known`` says whether a name has a meaning, ``misspelled`` whether a run of letters is similar to a name.
     """
 
     def __init__(self, source: Source, known: Callable[[str], bool], misspelled: Callable[[str], bool]) -> None:
@@ -25,7 +25,7 @@ class LatexSymbols(Parser):
         self.known, self.misspelled = known, misspelled
 
     def _base(self) -> tuple[str, int, int]:
-        """A letter, a Greek one, a word, dotted or decorated: its name, its dots, where it begins."""
+        """Read a Latin or Greek letter or a word, dotted or decorated: its name, its dots, and where it begins."""
         token = self.take()
         if token.kind in ("accent", "decoration"):
             self.deeper(token.start)
@@ -53,14 +53,15 @@ class LatexSymbols(Parser):
         return token.text, 0, token.start
 
     def _digits_belong(self, token: AnswerToken) -> bool:
-        """Whether the number right behind a letter is part of its name: x1."""
+        """Whether the number directly after a letter is part of its name: x1."""
         behind = self.next
         if behind.kind != "number" or behind.start != token.end or not behind.text.isdigit():
             return False
         return self.known(token.text + behind.text) or not self.known(token.text)
 
     def _first_name(self, token: AnswerToken) -> int:
-        """How many letters of a run are its first name: the longest that is known with what follows it, else one."""
+        """The length of the first name in a run of letters: the longest known name together with what follows,
+        otherwise 1."""
         run = token.text
         ending = ""
         if self.ahead().kind == "_":
@@ -81,7 +82,7 @@ class LatexSymbols(Parser):
         return 1
 
     def _cut(self, length: int) -> None:
-        """Cut the run of letters that comes next after ``length`` of them."""
+        """Split the next run of letters after ``length`` of them."""
         token = self.next
         if length < len(token.text):
             middle = token.start + length
@@ -89,7 +90,7 @@ class LatexSymbols(Parser):
             self.tokens[self.i : self.i + 1] = [first, replace(token, text=token.text[length:], start=middle)]
 
     def _subscript(self) -> str:
-        """The letters and digits behind _, written one after the other; long ones in braces."""
+        """Read the letters and digits after _, joined; long ones are in braces."""
         underscore = self.take()
         if self.next.kind != "{":
             if self.next.kind not in ("letters", "number", "symbol", "upright"):
@@ -114,7 +115,7 @@ class LatexSymbols(Parser):
                 return text
 
     def _raised_primes(self) -> int:
-        """The primes in ^\\prime or ^{\\prime\\prime}; goes past them."""
+        r"""Count and consume the primes in ^\prime or ^{\prime\prime}."""
         at = self.i + 1
         braced = self.tokens[at].kind == "{"
         at += braced
@@ -127,7 +128,8 @@ class LatexSymbols(Parser):
         return count
 
     def _depends(self, base: str) -> int:
-        """How many tokens say what a quantity depends on, and no product: V(θ) = …, C(q, q̇); 0 where none do."""
+        """The number of tokens that are the arguments of a quantity, not a factor: V(θ) = …, C(q, q̇); 0 if there are
+        none."""
         if self.next.kind != "(":
             return 0
         plain, commas, end = True, 0, self.i + 1
@@ -153,7 +155,7 @@ class LatexSymbols(Parser):
         return end + 1 - self.i if commas or stated or base.startswith("bold ") else 0
 
     def _starred(self) -> bool:
-        """Whether ^* comes next, as in T^*; goes past it."""
+        """Whether ^* is next, as in T^*; if so, consume it."""
         texts = [x.text for x in self.tokens[self.i + 1 : self.i + 4]]
         for form in (["*"], ["ast"], ["star"], ["{", "*", "}"], ["{", "ast", "}"], ["{", "star", "}"]):
             if texts[: len(form)] == form:
@@ -162,5 +164,5 @@ class LatexSymbols(Parser):
         return False
 
     def _of_time(self) -> bool:
-        """Whether (t) comes next: \\theta(t)."""
+        r"""Whether (t) is next: \theta(t)."""
         return [x.text for x in self.tokens[self.i : self.i + 3]] == ["(", "t", ")"]

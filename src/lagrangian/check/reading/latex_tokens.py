@@ -1,4 +1,4 @@
-"""LaTeX mathematics as tokens: what only lays out is left out, what writes a symbol becomes one."""
+"""Splits LaTeX mathematics into tokens; layout commands are ignored, and commands for a symbol become one token."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from lagrangian.read.functions import ALIASES
 from lagrangian.read.letters import GREEK
 
 MATRICES = frozenset(f"{kind}matrix{star}" for kind in ("", "p", "b", "B", "small") for star in ("", "*")) | {"array"}
-"""Environments that are matrices."""
+"""The environments of matrices."""
 
 SYMMETRIC = "\x01"
-"""The mark that stands for the word "sym." in a matrix."""
+"""The mark that replaces the word "sym." in a matrix."""
 
 _TOKEN = re.compile(
     r"""
@@ -67,7 +67,7 @@ _PAIRS |= {"intercal": "top"}
 
 
 def tokenize(source: Source) -> list[AnswerToken]:
-    """Return the tokens of a statement in LaTeX; kinds are those of `PlainParser` where they mean the same."""
+    """Return the tokens of a statement in LaTeX; kinds with the same meaning as in `PlainParser` have the same name."""
     tokens: list[AnswerToken] = []
     for match in _TOKEN.finditer(source.text):
         kind, start, end = str(match.lastgroup), match.start(), match.end()
@@ -101,7 +101,7 @@ def tokenize(source: Source) -> list[AnswerToken]:
 
 
 def _command(name: str, source: Source, start: int) -> tuple[str, str]:
-    """The kind and text of a command."""
+    """The kind and the text of a command."""
     name = _VARIANTS.get(name, name)
     function = ALIASES.get(name, name)
     if name in _SKIPPED:
@@ -127,7 +127,7 @@ def _command(name: str, source: Source, start: int) -> tuple[str, str]:
 
 
 def _word(text: str, source: Source, start: int) -> tuple[str, str]:
-    r"""The kind and text of upright letters: ``\mathrm{rod}``, ``\operatorname{sign}``, ``\text{d}``."""
+    r"""The kind and the text of upright letters: ``\mathrm{rod}``, ``\operatorname{sign}``, ``\text{d}``."""
     plain = text.replace(r"\_", "_").replace(" ", "").replace("~", "")
     function = ALIASES.get(plain, plain)
     if function in FUNCTIONS:

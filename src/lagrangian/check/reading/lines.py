@@ -1,4 +1,4 @@
-"""From statements to lines: what each one states, in which order names become known."""
+"""Converts statements to lines: determines what each one states, and the order in which names are defined."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key, undotted
 
 MAX_CHAIN = 20
-"""Most definitions, each further down than the one that needs it, that are followed."""
+"""The largest number of definitions that may each need the one below it."""
 
 
 @dataclass(frozen=True)
 class Statement:
-    """The syntax trees between the equal signs of a statement, and its text."""
+    """The syntax trees between the equals signs of a statement, and its text."""
 
     sides: tuple[Tree, ...]
     source: Source
@@ -35,7 +35,7 @@ class Statement:
 
 @dataclass(frozen=True)
 class Subject:
-    """What a statement is about: its kind, the name that goes with it, the token, the order of a rate, a square."""
+    """The subject of a statement: its kind, its name, the token, the order of a rate, and whether it is squared."""
 
     kind: Kind
     name: str | None = None
@@ -70,7 +70,7 @@ class Lines:
         return tuple(line for i in range(len(statements)) for line in self._made[i])
 
     def _look_ahead(self, base: str) -> None:
-        """Read the definition of a name that stands further down."""
+        """Read the definition of a name that comes later in the answer."""
         at = self._waiting.pop(base, None)
         if at is None or at in self._made or self._chain >= MAX_CHAIN:
             return
@@ -81,7 +81,7 @@ class Lines:
     def _line(self, i: int) -> None:
         if i in self._made:
             return
-        self._made[i] = []  # a definition that needs itself finds its own name unknown
+        self._made[i] = []  # a definition that refers to itself finds its own name unknown
         statement = self._statements[i]
         sides = list(statement.sides)
         subject, sides = self._turned(sides)
@@ -90,13 +90,13 @@ class Lines:
             self._waiting.pop(key(undotted(subject.token)[0]), None)
         before = set(self.names.unknown)
         lines = self._about(subject, sides, reader) if subject else self._equations(sides, reader)
-        if all(line.kind == "statement" for line in lines):  # a general truth may use letters of its own: ξ_i
+        if all(line.kind == "statement" for line in lines):  # a general statement may use its own letters: ξ_i
             for new in set(self.names.unknown) - before:
                 del self.names.unknown[new]
         self._made[i] = lines
 
     def _turned(self, sides: list[Tree]) -> tuple[Subject | None, list[Tree]]:
-        """The subject of a statement and its sides, the subject first: on the left, on the right, a Ξ anywhere."""
+        """The subject of a statement and its sides, the subject first; it may be on the left or right, a Ξ anywhere."""
         if len(sides) == 1:
             return None, sides
         subjects = [self._subject(side) for side in sides]
@@ -109,7 +109,7 @@ class Lines:
     # -- what a statement is about -----------------------------------------------------------------------------------
 
     def _subject(self, side: Tree) -> Subject | None:
-        """What a statement is about where this is its left-hand side; None: it is an equation."""
+        """The subject of a statement with this left-hand side; None if it is an equation."""
         if (found := only_name(side)) is not None:
             return self._named(*found)
         if (token := squared_name(side)) is not None and not self._taken(token):
@@ -117,7 +117,7 @@ class Lines:
         return self._derivative_of_energy(inside(side))
 
     def _left_side(self, side: Tree) -> Subject | None:
-        """d/dt ∂L/∂ξ̇ − ∂L/∂ξ, in words of L alone."""
+        """Recognize d/dt ∂L/∂ξ̇ − ∂L/∂ξ, written with L alone."""
         side = inside(side)
         terms = [inside(x) for x in side.children if isinstance(x, Tree)] if side.data == "sum" else []
         if len(terms) != 2 or [str(x) for x in side.children if isinstance(x, Token)] != ["-"]:
@@ -128,7 +128,7 @@ class Lines:
         return Subject("left", first.name) if first.name == second.name else None
 
     def _taken(self, token: Token) -> bool:
-        """Whether a name is the model's, or spells out the rate of one: theta1_ddot."""
+        """Whether a name belongs to the model, or spells out the rate of one of its names: theta1_ddot."""
         scope = self.names.scope
         return bool(scope.meanings(token)[0]) or any(scope.meanings(stem)[0] for _, stem in spelled_rates(token))
 
@@ -149,7 +149,7 @@ class Lines:
         return None if self._taken(token) or token in ("t", "pi") else Subject("definition", str(token), token)
 
     def _derivative_of_energy(self, side: Node) -> Subject | None:
-        """∂L/∂ξ, ∂L/∂ξ̇ and d/dt ∂L/∂ξ̇ alone on one side."""
+        """Recognize ∂L/∂ξ, ∂L/∂ξ̇ and d/dt ∂L/∂ξ̇ alone on one side."""
         if not isinstance(side, Tree):
             return None
         if side.data == "rate" and side.children[1] == 1:
@@ -189,7 +189,7 @@ class Lines:
         if kind in ENERGIES:
             self.names.stated[kind] = value
             if subject.token is not None and energy_of(subject.token, self.model) is None:
-                self.names.define(subject.token, value)  # K, P: energies only where a line says so
+                self.names.define(subject.token, value)  # K, P are energies only if a line says so
         elif kind == "definition":
             assert subject.token is not None
             if self._is_equation(subject, value):
@@ -203,7 +203,7 @@ class Lines:
         return self._make(kind, lhs, value, name, sides[0], side, reader)
 
     def _is_equation(self, subject: Subject, value: sp.Expr) -> bool:
-        """Whether a new name alone on a side is no definition: nothing else uses it, and it equals accelerations."""
+        """Whether a new name alone on a side is not a definition: nothing else uses it, and it equals accelerations."""
         assert subject.token is not None
         if subject.order or subject.square or self.names.occurs(subject.token) > 1:
             return False
@@ -217,7 +217,7 @@ class Lines:
             self.names.define(subject.token, sp.sqrt(value) if subject.square else value)
 
     def _matrix_of(self, subject: Subject, value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:
-        """A named matrix: the column of all Ξ states each of them; any other is kept for the lines that use it."""
+        """Read a named matrix: a column of all Ξ states each of them; any other is stored for the lines that use it."""
         token = subject.token
         if token is None or subject.order or subject.kind in ENERGIES:
             reader.fail("a single quantity cannot equal a matrix", side, fix="write one equation per line")
@@ -261,7 +261,7 @@ class Lines:
         return self._make(kind, left, right, None, a, b, reader)
 
     def _change(self, token: Token, value: sp.Expr) -> bool:
-        """Whether a line gives a coordinate of the model in new ones: x2 = x1 + s, with s unknown to the model."""
+        """Whether a line expresses a coordinate of the model in new ones: x2 = x1 + s, where the model has no s."""
         names, dots = self.names.scope.meanings(token)
         if dots or len(names) != 1 or names[0] not in {c.name for c in self.model.coordinates}:
             return False
@@ -272,14 +272,14 @@ class Lines:
     def _make(
         kind: Kind, lhs: sp.Expr | None, rhs: sp.Expr, name: str | None, a: Tree, b: Tree, reader: Meaning
     ) -> AnswerLine:
-        """The line; it begins where the first of its sides does."""
+        """Make the line; its place is that of its first side."""
         source = reader.source
         start = min(start_of(a), start_of(b))
         return AnswerLine(kind, lhs, rhs, name, source.at(start), " ".join(source.text.split()))
 
 
 def _general(value: sp.Expr) -> bool:
-    """Whether energies or variations that have no value here stand in it."""
+    """Whether an expression contains energies or variations that have no value."""
     return any(is_placeholder(x) and not is_force(x) for x in value.atoms(AppliedUndef))
 
 

@@ -1,4 +1,4 @@
-"""From an answer's syntax tree to SymPy: derivatives and matrices on top of `lagrangian.read.expression`."""
+"""Converts the syntax tree of an answer to SymPy: `lagrangian.read.expression`, with derivatives and matrices."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from lagrangian.read.expression import MAX_ORDER, ExpressionReader
 from lagrangian.read.letters import key, undotted
 
 MAX_SIZE = 20_000
-"""Most nodes of all definitions written out in one answer."""
+"""The largest number of nodes of all expanded definitions in one answer."""
 
 MAX_DERIVED = 120_000
-"""Most nodes of all derivatives in one answer, before terms are put together."""
+"""The largest number of nodes of all derivatives in one answer, before terms are collected."""
 
 MAX_ENTRIES = 400
-"""Most entries of a matrix."""
+"""The largest number of entries of a matrix."""
 
 
 class Meaning(ExpressionReader):
-    """Reads the trees of one statement; ``budget`` is shared by the whole answer."""
+    """Evaluates the trees of one statement; ``budget`` is shared by the whole answer."""
 
     def __init__(self, source: Source, names: Names, budget: ReadingBudget) -> None:
         super().__init__(source, names.scope)
@@ -36,13 +36,13 @@ class Meaning(ExpressionReader):
         self._done: dict[int, Value] = {}
 
     def value(self, node: Node) -> Value:
-        """The expression or matrix of a node, worked out once."""
+        """The expression or matrix of a node, computed once."""
         if id(node) not in self._done:
             self._done[id(node)] = super().value(node)
         return self._done[id(node)]
 
     def finite(self, value: Value, node: Node) -> sp.Expr:
-        """Return a value that is a finite number or expression."""
+        """Return a value if it is a finite number or expression; raise an error otherwise."""
         if value.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
             self.fail("its value is not finite", node, fix="look for a division by zero", code="E705")
         return value
@@ -56,7 +56,7 @@ class Meaning(ExpressionReader):
         return found, value, dots
 
     def _name(self, node: Node) -> Value:
-        """A name; a rate that was given a value of its own has that value."""
+        """The value of a name; a rate that was given its own value has that value."""
         token, primes = node.children
         base, dots = undotted(token)
         order = dots + len(primes or "")
@@ -92,7 +92,7 @@ class Meaning(ExpressionReader):
         return value
 
     def _differentiated(self, value: Value, by: sp.Expr, node: Node) -> Value:
-        """The derivative; what it takes is known before it is worked out."""
+        """The derivative; its cost is checked before it is computed."""
         if (value, by) not in self.names.derivatives:
             if not self.budget.affords_derivative(value):
                 self.fail(
@@ -105,7 +105,7 @@ class Meaning(ExpressionReader):
         return self.names.derivatives[value, by]
 
     def _partial(self, node: Node) -> sp.Expr:
-        """∂L/∂ξ or ∂L/∂ξ̇; of an energy that was not given it stays as it is, and so it does by a general ξ_i."""
+        """∂L/∂ξ or ∂L/∂ξ̇; it is left unevaluated for an energy without a value, and for a general ξ_i."""
         what, by = node.children
         kind = {"ℒ": "L"}.get(what, str(what))
         energy = self.names.energy(kind)
@@ -182,7 +182,7 @@ class Meaning(ExpressionReader):
         for operator, child, value in values:
             if operator is not None and operator == "/":
                 if isinstance(value, MatrixBase) or value.is_zero:
-                    self.fail("a matrix can be divided by a number that is not 0 only", child)
+                    self.fail("a matrix can be divided only by a number that is not 0", child)
                 value = 1 / value
             both = isinstance(total, MatrixBase) and isinstance(value, MatrixBase)
             if both and total.shape[1] != value.shape[0]:
@@ -209,7 +209,7 @@ class Meaning(ExpressionReader):
 
 
 class ReadingBudget:
-    """Counts the nodes of expressions as trees, shared parts as often as they stand there."""
+    """A limit on the nodes of expressions as trees, in which shared parts count as often as they occur."""
 
     def __init__(self, size: int = MAX_SIZE) -> None:
         self.left = size
@@ -218,15 +218,17 @@ class ReadingBudget:
         self._slopes: dict[sp.Basic, int] = {}
 
     def spend(self, value: Value) -> bool:
-        """Take the size of a value out of the budget; False where it is not enough."""
+        """Subtract the size of a value; return False if too little is left."""
         parts = value.flat() if isinstance(value, MatrixBase) else [value]
         self.left -= sum(self.size(x) for x in parts)
         return self.left >= 0
 
     def affords_derivative(self, value: Value) -> bool:
-        """Take what a derivative costs out of the budget: its nodes before anything is put together.
+        """Subtract the cost of a derivative, which is its number of nodes before terms are collected; False if too
+        little is left.
 
-        A sum costs its terms' derivatives, a product of n factors n products, anything else itself and what is inside.
+        A sum costs the derivatives of its terms, a product of n factors n products, anything else itself and the
+        derivative of what is inside.
         """
         parts = value.flat() if isinstance(value, MatrixBase) else [value]
         self.derived -= sum(self._slope(x) for x in parts)
@@ -248,7 +250,7 @@ class ReadingBudget:
 
     @staticmethod
     def _inner_first(expr: sp.Basic, known: dict[sp.Basic, int]) -> Iterator[sp.Basic]:
-        """The parts of an expression that are not known, inner ones first."""
+        """The parts of an expression whose size is not known, inner ones first."""
         stack = [expr]
         while stack:
             part = stack[-1]

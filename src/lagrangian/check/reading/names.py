@@ -1,4 +1,4 @@
-"""What the names of one answer mean: the model's, the person's own, energies and Ξ; what is unknown is noted."""
+"""The meaning of the names in one answer: symbols of the model, the answer's own names, energies and Ξ, or unknown."""
 
 from __future__ import annotations
 
@@ -25,20 +25,21 @@ from lagrangian.read.scope import Scope, rate_stems
 
 MAX_NAME = 64
 MAX_UNKNOWN = 100
-"""Most names of an answer that neither the model nor the answer itself defines."""
+"""The largest number of unknown names in an answer."""
 
 MAX_HINTS = 20
-"""Most unknown names that near misses are looked up for."""
+"""The largest number of unknown names for which a suggestion is sought."""
 
 SHORTEST_NEAR, NEAR = 4, 0.8
-"""Fewest letters of a name that can be misspelled in LaTeX, where letters side by side are a product, and how near."""
+"""In LaTeX, where adjacent letters are a product: the fewest letters of a misspelled name, and the required
+similarity."""
 
 Value = Any
-"""An expression, or a matrix of them."""
+"""An expression, or a matrix of expressions."""
 
 
 class Names:
-    """A table of names that grows as the answer is read, line by line."""
+    """The names and their meanings, which are added as the answer is read, line by line."""
 
     def __init__(self, model: Model) -> None:
         self.model = model
@@ -55,7 +56,7 @@ class Names:
     # -- before the meaning ----------------------------------------------------------------------------------------
 
     def gather(self, trees: Iterable[Tree]) -> None:
-        """Note which names stand in the trees, and which of them are differentiated somewhere."""
+        """Record which names occur in the trees, and which of them are differentiated anywhere."""
         for tree in trees:
             for token, changing in _names(tree):
                 base, dots = undotted(token)
@@ -66,7 +67,7 @@ class Names:
             self._moving.update(key(stem) for _, stem in rate_stems(base) if key(stem) in self._seen)
 
     def known(self, written: str) -> bool:
-        """Whether a name means something already."""
+        """Whether a name already has a meaning."""
         base, _ = undotted(written)
         return bool(
             self.scope.meanings(written)[0]
@@ -77,28 +78,28 @@ class Names:
         )
 
     def misspelled(self, run: str) -> bool:
-        """Whether a run of letters is nearly a name of the model, and no product of known ones."""
+        """Whether a run of letters is similar to a name of the model and is not a product of known names."""
         near = len(run) >= SHORTEST_NEAR and not self.known(run) and not self._factors(run)
         return near and bool(get_close_matches(run, self.scope, n=1, cutoff=NEAR))
 
     def occurs(self, written: str) -> int:
-        """How often a name stands in the answer."""
+        """How often a name occurs in the answer."""
         return self._seen[key(undotted(written)[0])]
 
     def moves(self, written: str) -> bool:
-        """Whether a name is differentiated by time somewhere in the answer."""
+        """Whether a name is differentiated by time anywhere in the answer."""
         return key(undotted(written)[0]) in self._moving
 
     # -- meaning -----------------------------------------------------------------------------------------------------
 
     def define(self, written: str, value: Value) -> None:
-        """Give a name of the person's own its meaning."""
+        """Give a name of the answer its meaning."""
         self.own[key(undotted(written)[0])] = (str(written), value)
 
     def meaning(self, token: Token, source: Source) -> tuple[str, Value, int]:
-        """Return the name that is meant, its value and its number of dots. An unknown one is noted, not refused.
+        """Return the name, its value and its number of dots. An unknown name is recorded; it is not an error.
 
-        A name that the answer defines further down ("where h = …") is looked up there, by ``later``.
+        ``later`` looks up a name that the answer defines further down ("where h = …").
         """
         names, dots = self.scope.meanings(token)
         if len(names) > 1:
@@ -124,7 +125,7 @@ class Names:
             return "pi", sp.pi, dots
         if base == "t":
             return "t", time, dots
-        if base.startswith("bold "):  # a letter in bold type that stands for no matrix of this answer
+        if base.startswith("bold "):  # a bold letter that is not a matrix of this answer
             if not self.scope.meanings(base[5:])[0]:
                 return base, vector(base[5:]), dots
             return self.meaning(Token("NAME", base[5:], start_pos=start_of(token)), source)
@@ -134,18 +135,18 @@ class Names:
         return self._noted(base, token, source), self.unknown[key(base)].symbol, dots
 
     def energy(self, kind: str) -> sp.Expr | None:
-        """An energy as the answer stated it so far; the Lagrangian also from T* and V."""
+        """An energy as stated so far; the Lagrangian also from T* and V."""
         if kind == "L" and "L" not in self.stated and {"T", "V"} <= self.stated.keys():
             return self.stated["T"] - self.stated["V"]
         return self.stated.get(kind)
 
     def is_unknown(self, symbol: sp.Basic) -> bool:
-        """Whether a symbol, or what it is the rate of, is unknown to the model."""
+        """Whether a symbol, or the symbol of which it is the rate, is unknown to the model."""
         of = symbol.args[0] if isinstance(symbol, sp.Derivative) else symbol
         return any(u.symbol == of for u in self.unknown.values())
 
     def _rate_of(self, stem: str) -> tuple[str, Value] | None:
-        """What changes with time and is called ``stem``."""
+        """The symbol or function that depends on time and is called ``stem``."""
         names, _ = self.scope.meanings(stem)
         if len(names) == 1 and self.scope[names[0]].has(AppliedUndef):
             return names[0], self.scope[names[0]]
@@ -156,7 +157,7 @@ class Names:
         return None
 
     def _hint(self, base: str) -> str | None:
-        """What was probably meant: a product without *, a shorter spelling, a near miss."""
+        """A suggestion for an unknown name: a product without *, a shorter spelling, or a similar name."""
         if len(parts := self._factors(base)) > 1:
             return f"Write {'*'.join(parts)} for a product."
         head, digits = re.fullmatch(r"(.*?)_?(\d*)", spelled(base), re.DOTALL).groups()  # type: ignore[union-attr]
@@ -166,7 +167,7 @@ class Names:
         return self.scope.hint(base) or did_you_mean(spelled(base).swapcase(), self.scope)
 
     def _factors(self, base: str) -> list[str]:
-        """The known names that a word is made of, the longest first; empty where it is not."""
+        """The known names of which a word consists, the longest first; empty if it does not."""
         parts: list[str] = []
         at = 0
         while at < len(base):
@@ -183,7 +184,7 @@ class Names:
             raise source.error(what, start_of(token), fix=f"names have at most {MAX_NAME}", code="E703")
         if key(base) not in self.unknown:
             if len(self.unknown) >= MAX_UNKNOWN:
-                what = f"more than {MAX_UNKNOWN} names that the system has not"
+                what = f"more than {MAX_UNKNOWN} names that the system does not have"
                 raise source.error(what, start_of(token), fix="use the names of the system", code="E703")
             spelling = spelled(base)
             symbol: sp.Expr = moving_symbol(spelling) if key(base) in self._moving else sp.Symbol(spelling)
@@ -195,7 +196,8 @@ class Names:
 
 
 def spelled_rates(base: str) -> Iterator[tuple[int, str]]:
-    """The orders and names that a spelled-out derivative can mean, xdd and xd among them."""
+    """The orders and names that a spelled-out derivative can mean: xdd is the second derivative of x or the first of
+    xd."""
     yield from rate_stems(base)
     for suffix, order in (("dd", 2), ("d", 1)):
         if base.endswith(suffix) and len(base) > len(suffix):
@@ -203,7 +205,7 @@ def spelled_rates(base: str) -> Iterator[tuple[int, str]]:
 
 
 def _names(tree: Tree) -> Iterator[tuple[Token, bool]]:
-    """Every name of a tree, and whether it is differentiated by time there."""
+    """The names in a tree, and whether each is differentiated by time there."""
     stack: list[tuple[Node, bool]] = [(tree, False)]
     while stack:
         item, changing = stack.pop()

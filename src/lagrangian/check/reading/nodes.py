@@ -1,7 +1,7 @@
-"""The syntax tree of an answer: lark's nodes, named as in ``expression.lark``, with a few more.
+"""The syntax tree of an answer: lark's nodes, named as in ``expression.lark``, and a few more.
 
 rate        (x1 + x2)', d/dt(…), diff(…, t):   what is differentiated, and how often
-partial     ∂L/∂ξ̇, diff(L, x1'):               what, and by what (a name)
+partial     ∂L/∂ξ̇, diff(L, x1'):               what is differentiated, and by which name
 matrix      rows of entries;  transpose  of one
 power_of    sin²(x): the call, and the exponent
 """
@@ -15,19 +15,19 @@ from lark import Token, Tree
 from lark.tree import Meta
 
 Node: TypeAlias = Any
-"""A tree or one of its tokens; lark's own types say no more of a node's children."""
+"""A tree or one of its tokens; lark's own types are no more specific about the children of a node."""
 
 MAX_DEPTH = 50
-"""Deepest nesting of brackets, fractions, roots and dots over brackets."""
+"""The deepest nesting of brackets, fractions, roots and dots over brackets."""
 
 
 def leaf(kind: str, text: str, start: int) -> Token:
-    """Return a token that knows where it stands."""
+    """Return a token with its place."""
     return Token(kind, text, start_pos=start)
 
 
 def node(kind: str, start: int, *children: Node) -> Tree:
-    """Return a node that knows where it begins."""
+    """Return a node with the place where it begins."""
     meta = Meta()
     meta.start_pos, meta.empty = start, False
     return Tree(kind, list(children), meta)
@@ -49,7 +49,7 @@ def name(text: str, start: int, primes: int = 0) -> Tree:
 
 
 def wrapped(kind: str, start: int, child: Tree) -> Tree:
-    """Return a node around one other; its own token keeps it from being taken for a mere wrapping."""
+    """Return a node around another; its own token distinguishes it from a node that only wraps another."""
     return node(kind, start, leaf("MARK", kind, start), child)
 
 
@@ -59,7 +59,7 @@ def matrix(start: int, rows: Sequence[Sequence[Tree]]) -> Tree:
 
 
 def inside(tree: Node) -> Node:
-    """Return what is left of a tree when nodes that only wrap another are taken off."""
+    """Return the innermost tree when nodes that only wrap another are removed."""
     while isinstance(tree, Tree) and tree.data in ("sum", "product", "signed", "power", "postfix"):
         inner = [c for c in tree.children if c is not None]
         if len(inner) != 1:
@@ -69,7 +69,7 @@ def inside(tree: Node) -> Node:
 
 
 def squared_name(tree: Node) -> Token | None:
-    """Return the name where a tree is the square of one: v^2, v²."""
+    """Return the name if a tree is the square of a name: v^2, v²."""
     tree = inside(tree)
     if not isinstance(tree, Tree) or tree.data not in ("power", "postfix"):
         return None
@@ -81,7 +81,7 @@ def squared_name(tree: Node) -> Token | None:
 
 
 def only_name(tree: Node) -> tuple[Token, int] | None:
-    """Return the name and its primes where a tree is one name and nothing else, whatever wraps it."""
+    """Return the name and its primes if a tree is only a name, however it is wrapped."""
     tree = inside(tree)
     if not isinstance(tree, Tree) or tree.data != "name":
         return None

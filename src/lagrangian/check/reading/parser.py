@@ -1,6 +1,6 @@
-"""Sums, products and powers, in whatever notation: a parser by recursive descent, its depth bounded.
+"""A recursive-descent parser of sums, products and powers in any notation, with bounded depth.
 
-A notation's parser says what its tokens are, what an operand is, and whether two operands side by side are a product.
+The parser of a notation defines its tokens, its operands, and whether two adjacent operands are a product.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from lagrangian.quantities.source import Source
 
 @dataclass(frozen=True, slots=True)
 class AnswerToken:
-    """A piece of the text: its kind, itself, where it begins and ends."""
+    """A piece of the text: its kind, its text, and where it begins and ends."""
 
     kind: str
     text: str
@@ -26,32 +26,32 @@ class AnswerToken:
 
 
 class Parser(ABC):
-    """Reads one statement. ``tokens`` ends with one of kind ``end``."""
+    """Parses one statement. ``tokens`` ends with a token of kind ``end``."""
 
     def __init__(self, source: Source, tokens: list[AnswerToken]) -> None:
         self.source, self.tokens = source, tokens
         self.i = 0
         self.opened: list[int] = []
 
-    # -- what a notation says ------------------------------------------------------------------------------------
+    # -- defined by each notation --------------------------------------------------------------------------------
 
     @abstractmethod
     def operand(self) -> Tree:
-        """Read a number, a name, a call, a bracket, with its powers and primes."""
+        """Read a number, a name, a call or a bracket, with its powers and primes."""
 
     @abstractmethod
     def side_by_side(self) -> bool:
-        """Whether the next token begins another factor of the product without an operator."""
+        """Whether the next token begins another factor of a product that has no operator."""
 
     @abstractmethod
     def stopped(self, wants_operand: bool) -> ParseError:
-        """Return the error for a text that cannot go on at the next token."""
+        """Return the error for a text that cannot continue with the next token."""
 
     # -- tokens ----------------------------------------------------------------------------------------------------
 
     @property
     def next(self) -> AnswerToken:
-        """The token that comes next."""
+        """The next token, without consuming it."""
         return self.tokens[self.i]
 
     def ahead(self, count: int = 1) -> AnswerToken:
@@ -59,17 +59,17 @@ class Parser(ABC):
         return self.tokens[min(self.i + count, len(self.tokens) - 1)]
 
     def take(self) -> AnswerToken:
-        """Return the next token and go past it."""
+        """Return the next token and consume it."""
         token = self.next
         self.i = min(self.i + 1, len(self.tokens) - 1)
         return token
 
     def accept(self, *kinds: str) -> AnswerToken | None:
-        """Go past the next token where it is of these kinds."""
+        """Consume the next token if it is of one of these kinds."""
         return self.take() if self.next.kind in kinds else None
 
     def deeper(self, start: int) -> None:
-        """Note a bracket that opens, and refuse too many inside each other."""
+        """Count an opening bracket; raise an error if brackets are nested too deep."""
         self.opened.append(start)
         if len(self.opened) > MAX_DEPTH:
             raise self.source.error(
@@ -80,7 +80,7 @@ class Parser(ABC):
             )
 
     def unclosed(self) -> ParseError | None:
-        """Return the error for a bracket that is open where the side ends."""
+        """Return the error for a bracket that is still open at the end of a side."""
         if not self.opened or self.next.kind not in ("=", "end"):
             return None
         at = self.opened[-1]
@@ -91,7 +91,7 @@ class Parser(ABC):
     # -- grammar ---------------------------------------------------------------------------------------------------
 
     def sides(self) -> list[Tree]:
-        """Read sums with = between them, to the end."""
+        """Read sums with = between them, up to the end."""
         found = [self.sum()]
         while self.accept("="):
             found.append(self.sum())
@@ -108,7 +108,7 @@ class Parser(ABC):
         return node("sum", start, *children)
 
     def product(self) -> Tree:
-        """Read signed (operator signed)*, the operator left out where the notation allows it."""
+        """Read signed (operator signed)*; the operator may be omitted if the notation allows it."""
         start = self.next.start
         children: list[Node] = [self.operand()]
         while True:

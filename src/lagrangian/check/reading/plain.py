@@ -71,18 +71,18 @@ def tokenize(text: str) -> list[AnswerToken]:
 
 
 class PlainParser(Parser):
-    """Reads one statement of plain text; an implicit product is an error that says so, but between matrices."""
+    """Parses one statement of plain text; an implicit product is an error that says so, except between matrices."""
 
     def __init__(self, source: Source) -> None:
         super().__init__(source, tokenize(source.text))
 
     def side_by_side(self) -> bool:
-        """Only matrices may stand next to each other."""
+        """Only matrices may be next to each other without an operator."""
         before = self.tokens[self.i - 1].kind if self.i else "end"
         return self.next.kind == "[" and before == "]"
 
     def stopped(self, wants_operand: bool) -> ParseError:
-        """Say what is wrong at the next token."""
+        """Raise the error that explains what is wrong at the next token."""
         token = self.next
         if (error := self.unclosed()) is not None:
             return error
@@ -97,13 +97,13 @@ class PlainParser(Parser):
     # -- operands --------------------------------------------------------------------------------------------------
 
     def operand(self) -> Tree:
-        """Read a postfix and the powers on top of it."""
+        """Read a postfix expression and its powers."""
         start = self.next.start
         children: list[Node] = [self._postfix()]
         while (power := self.accept("power")) is not None:
             if self.next.kind == "name" and self.next.text == "T" and self.tokens[self.i - 2].kind == "]":
                 self.take()
-                continue  # a list in brackets is a column already
+                continue  # a list in brackets is already a column
             children += [leaf("POWER", "^", power.start), self._sign(), self._postfix()]
         return node("power", start, *children)
 
@@ -121,7 +121,7 @@ class PlainParser(Parser):
                 return made
 
     def _of_time(self) -> bool:
-        """Whether (t) comes next: x1''(t) is x1''."""
+        """Whether (t) is next: x1''(t) is x1''."""
         return [x.text for x in self.tokens[self.i : self.i + 3]] == ["(", "t", ")"]
 
     def _primed(self, made: Tree, primes: AnswerToken) -> Tree:
@@ -178,7 +178,7 @@ class PlainParser(Parser):
         return inner
 
     def _matrix(self) -> Tree:
-        """[a, b; c, d], [[a, b], [c, d]]; a plain list is a column; one entry is itself."""
+        """Read [a, b; c, d] or [[a, b], [c, d]]; a plain list is a column; a single entry is itself."""
         start = self.take().start
         self.deeper(start)
         rows: list[list[Tree]] = [[]]
@@ -243,7 +243,7 @@ class PlainParser(Parser):
         return self._condition() if self._compares(self.i) else self.sum()
 
     def _compares(self, at: int) -> bool:
-        """Whether a comparison stands before the argument or bracket that begins here ends."""
+        """Whether there is a comparison before the end of the argument or bracket that begins here."""
         depth = 0
         for token in self.tokens[at:]:
             depth += (token.kind in "([") - (token.kind in ")]")
@@ -254,7 +254,7 @@ class PlainParser(Parser):
         return False
 
     def _condition(self) -> Tree:
-        """Conditions joined by or, each of them of others joined by and."""
+        """Read conditions joined by or, each of which consists of conditions joined by and."""
         return self._joined("condition", ("or", "|", "||", "∨"), self._conjunction)
 
     def _conjunction(self) -> Tree:
@@ -269,7 +269,7 @@ class PlainParser(Parser):
         return node(kind, start, *children)
 
     def _truth(self) -> Tree:
-        """A comparison, a condition in brackets, or the negation of one."""
+        """Read a comparison, a condition in brackets, or the negation of one."""
         token = self.next
         if token.text in ("not", "~", "¬"):
             self.take()
@@ -293,7 +293,7 @@ class PlainParser(Parser):
         return node("comparison", token.start, left, leaf("RELATION", relation.text, relation.start), self.sum())
 
     def _powered_call(self, token: AnswerToken) -> Tree:
-        """sin^2(x), sin²(x)."""
+        """Read sin^2(x) or sin²(x)."""
         at = self.i
         raised = self.take()
         sign = self.accept("minus") if raised.kind == "power" else None
@@ -316,7 +316,7 @@ class PlainParser(Parser):
         return node("power", token.start, call, power, None, number(exponent, raised.start))
 
     def _d_of_bracket(self, token: AnswerToken) -> Tree | None:
-        """d(…)/dt; None where no /dt follows."""
+        """Read d(…)/dt; None if no /dt follows."""
         at = self.i
         inner = self._bracket()
         if self.next.kind == "over" and self.ahead().kind == "name" and self.ahead().text == "dt":
@@ -327,7 +327,7 @@ class PlainParser(Parser):
         return None
 
     def _differentiated(self, token: AnswerToken) -> Tree:
-        """diff(x, t), diff(x, t, 2), diff(x, t, t), Derivative(x(t), (t, 2)), diff(L, x')."""
+        """Read diff(x, t), diff(x, t, 2), diff(x, t, t), Derivative(x(t), (t, 2)) or diff(L, x')."""
         start = self.take().start
         self.deeper(start)
         made = self.sum()

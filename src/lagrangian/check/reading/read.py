@@ -1,4 +1,4 @@
-"""From a whole answer to its lines: which notation, which statements, what each of them states."""
+"""Reads a whole answer: recognizes the notation, splits it into statements, and converts these to lines."""
 
 from __future__ import annotations
 
@@ -18,17 +18,18 @@ from lagrangian.model import Model
 from lagrangian.quantities.source import Source
 
 MAX_ANSWER = 60_000
-"""Longest answer that is read, in characters."""
+"""The largest number of characters of an answer."""
 
 _LATEX = re.compile(r"\\[A-Za-z(\[\\]|\$|[_^]\{")
 
 
 def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
-    """Return what an answer to ``model`` says, line by line.
+    """Return the content of an answer to ``model``, line by line.
 
-    ``text`` is plain text in the grammar of model files or LaTeX; ``name`` is its file's name, for messages. Names that
-    the model has not are in ``unknown`` of the answer, not errors. Nothing of the text is run; sizes, depths and
-    exponents are bounded. Raises `ParseError` with line, column, caret and what was expected there.
+    ``text`` is LaTeX, or plain text in the grammar of model files; ``name`` is the name of its file, for messages.
+    Names that the model does not have are listed in ``unknown`` of the answer; they are not errors. Nothing in the text
+    is executed; sizes, depths and exponents are bounded. Raises `ParseError` with line, column, caret and what was
+    expected there.
     """
     source = Source(text, "the answer", Place(name) if name else None)
     source.check_text(MAX_ANSWER, "an equation, such as m*x'' + k*x = F")
@@ -48,7 +49,7 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
 
 
 def _parsed(source: Source, row: AnswerRow, parser: Callable[[Source], Parser]) -> Statement:
-    """Parse one statement; its places are those of the whole answer."""
+    """Parse one statement; its places refer to the whole answer."""
     start = row.start + len(row.text) - len(row.text.lstrip())
     own = Source(row.text.strip(), source.what, source.place, lambda offset: source.at(start + offset))
     return Statement(tuple(parser(own).sides()), own)

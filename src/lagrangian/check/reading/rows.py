@@ -1,4 +1,4 @@
-"""An answer cut into statements: lines and their continuations, comments, numbers and labels before or after them."""
+"""Splits an answer in plain text into statements: continued lines, comments, and numbers or labels around them."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from itertools import pairwise
 from lagrangian.model.names import FUNCTIONS
 
 MAX_STATEMENTS = 500
-"""Most statements in one answer."""
+"""The largest number of statements in one answer."""
 
 
 @dataclass(frozen=True, slots=True)
 class AnswerRow:
-    """A statement: ``text`` begins at ``start`` of the answer, with comments and labels blanked out."""
+    """A statement: ``text`` begins at ``start`` of the answer; comments and labels in it are blanked out."""
 
     start: int
     text: str
@@ -52,7 +52,7 @@ _GOES_ON = re.compile(r"\s*(?:\.\.\.|…)")
 
 
 def blank(text: str, start: int, end: int) -> str:
-    """Return the text with [start, end) replaced by as many spaces, so that every place stays where it was."""
+    """Return the text with [start, end) replaced by as many spaces, so that all places stay the same."""
     return text[:start] + " " * (end - start) + text[end:]
 
 
@@ -69,7 +69,7 @@ def plain_rows(text: str) -> list[AnswerRow]:
             bare = _GOES_ON.sub(lambda m: " " * len(m.group()), bare, count=1)
             head = _DOTTED.sub(lambda m: " " * len(m.group()), open_row.text)
             if (repeated := _PLUS_END.search(head)) is not None and _PLUS_START.match(bare):
-                head = blank(head, repeated.start(), len(head))  # "a + …" goes on with "… + b"
+                head = blank(head, repeated.start(), len(head))  # "a + …" continues with "… + b"
             gap = offset - open_row.start - len(head)
             rows[-1] = open_row = AnswerRow(open_row.start, head + " " * gap + _after(bare))
         elif (stripped := _before(bare)).strip() and not plain_words(stripped):
@@ -97,7 +97,7 @@ def _without_lead(row: AnswerRow) -> AnswerRow:
 
 
 def _after(line: str) -> str:
-    """Blank out the number of an equation behind it, and a full stop."""
+    """Blank out the number of an equation after it, and a full stop."""
     for form in (_TAIL, _TRAIL, _AFTER, _TAIL):
         if match := form.search(line):
             line = blank(line, match.start(), len(line))
@@ -105,13 +105,13 @@ def _after(line: str) -> str:
 
 
 def plain_words(line: str) -> bool:
-    """Whether a line is words: nothing in it that an expression or equation has."""
+    """Whether a line consists of words, without anything found in an expression or equation."""
     words = re.findall(r"[^\W\d_]{2,}", line)
     return len(words) >= 2 and not _STATEMENT_SIGN.search(line) and not FUNCTIONS & set(words)
 
 
 def _remark(part: str) -> bool:
-    """Whether a part of a line is words: "with the stretch s,"."""
+    """Whether a part of a line consists of words: "with the stretch s,"."""
     words = re.findall(r"[^\W\d_]+", part)
     return "=" not in part and any(w.lower() in _ENGLISH for w in words) and not FUNCTIONS & set(words)
 
@@ -125,12 +125,12 @@ def _continues(before: str, line: str) -> bool:
 
 
 def incomplete(text: str) -> bool:
-    """Whether something must follow: an operator stands at the end, or a bracket is open."""
+    """Whether the statement must continue: it ends with an operator, or a bracket is open."""
     return bool(_OPEN_END.search(text)) or sum((c in "([") - (c in ")]") for c in text) > 0
 
 
 def pieces(row: AnswerRow, separators: str, *, always: bool = False) -> list[AnswerRow]:
-    """Split a row at separators outside brackets, unless ``always`` only where every piece has an =."""
+    """Split a row at separators outside brackets; unless ``always``, only if every piece contains an =."""
     cuts, depth = [-1], 0
     for i, c in enumerate(row.text):
         depth += (c in "([{") - (c in ")]}")

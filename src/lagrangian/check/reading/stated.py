@@ -1,7 +1,7 @@
-"""The names of what a derivation states: T*, V, L, D, a Ξ, a momentum; each gives way to a symbol of the model.
+"""The names of quantities that a derivation states: T*, V, L, D, a Ξ, a momentum; symbols of the model have precedence.
 
-L is a length in many systems and the Lagrangian in every derivation: a line ``L = …`` states the Lagrangian, since a
-parameter has its value already, and everywhere else L is what the model says.
+L is a length in many systems and the Lagrangian in every derivation. A line ``L = …`` states the Lagrangian, because a
+parameter already has its value; everywhere else L means what the model says.
 """
 
 from __future__ import annotations
@@ -31,17 +31,18 @@ ENERGY_NAMES = {
     "ℱ": "D",
     "R": "D",
 }
-"""How people call the energies, without underscores."""
+"""Common names of the energies, without underscores."""
 
 _CAREFUL = frozenset(["K", "P", "R", "U"])
-"""Letters that are taken for an energy only where a line states them."""
+"""Letters that are read as an energy only if a line states them."""
 
 _FORCE = re.compile(r"(?P<letter>Xi|Q|tau)_?\(?(?P<index>\w*)\)?\Z")
 _MOMENTUM = re.compile(r"p_?(?P<index>\w+)\Z")
 
 
 def energy_of(name: str, model: Model, *, lhs: bool = False) -> str | None:
-    """Return which energy a name is, "T", "V", "L" or "D", or None. ``lhs``: the name stands alone left of an =."""
+    """Return the energy that a name means, "T", "V", "L" or "D", or None. ``lhs``: the name is alone on the left of
+    an =."""
     plain = str(name).replace("_", "")
     kind = ENERGY_NAMES.get(plain) or ENERGY_NAMES.get(normal(plain))
     if kind is None or (not lhs and plain in _CAREFUL):
@@ -54,14 +55,14 @@ def energy_of(name: str, model: Model, *, lhs: bool = False) -> str | None:
 
 
 def force_of(name: str, model: Model) -> str | None:
-    """Return the coordinate whose generalized force a name is: Xi_x1, Ξ₁, Q_theta, τ₁; None where it is none."""
+    """Return the coordinate whose generalized force a name is: Xi_x1, Ξ₁, Q_theta, τ₁; None if it is not one."""
     if find(name, model.symbols):
         return None
     match = _FORCE.match(spelled(name))
     if match is None:
         return None
     if match["letter"] == "tau" and (not match["index"] or any(key(n).startswith("tau") for n in model.symbols)):
-        return None  # a torque is meant
+        return None  # it means a torque
     return _coordinate(match["index"], model)
 
 
@@ -74,7 +75,7 @@ def momentum_of(name: str, model: Model) -> str | None:
 
 
 def _coordinate(index: str, model: Model) -> str | None:
-    """The coordinate of an index: by its name, by its number, by the end of its name; the only one needs none."""
+    """The coordinate of an index: by name, by number, or by the end of its name; a single coordinate needs no index."""
     names = [c.name for c in model.coordinates]
     if not index:
         return names[0] if len(names) == 1 else None
