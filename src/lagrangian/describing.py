@@ -176,10 +176,9 @@ class Described(Constrained):
         """Return a frame that moves and turns freely in space; ``base = floating_frame("base")`` also makes
         ``base.origin``.
 
-        Its coordinates are base_x, base_y, base_z (the origin, in fixed axes) and the quaternion base_qx, base_qy,
-        base_qz, base_qw. Its velocities are base_vx, base_vy, base_vz (of the origin) and base_wx, base_wy, base_wz
-        (angular), both along the frame's own axes. ``base.origin`` is the point base_origin. `compile` can handle such
-        a frame; `derive` cannot.
+        Coordinates: base_x, base_y, base_z (the origin, in fixed axes) and the quaternion base_qx, base_qy, base_qz,
+        base_qw. Velocities: base_vx, base_vy, base_vz (of the origin) and base_wx, base_wy, base_wz (angular), along the
+        frame's own axes. ``base.origin`` is the point base_origin. `compile` supports such a frame; `derive` does not.
         """
         return self._builder.floating_frame(name)
 

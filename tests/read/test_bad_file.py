@@ -58,7 +58,7 @@ BAD = [
     ("truncated header", GOOD + "[[partic", 24, None, ["not TOML"]),
     ("no value", change('m = "1 kg"', "m ="), 7, 4, ["not TOML", "write a value"]),
     ("no quotes", change('k = "40 N/m"', "k = 40 N/m"), 8, None, ["not TOML"]),
-    ("unquoted name", change('m = "1 kg"', "m = kg"), 7, 5, ["not TOML", 'text stands in quotes: "kg"']),
+    ("unquoted name", change('m = "1 kg"', "m = kg"), 7, 5, ["not TOML", 'put text in quotes: "kg"']),
     ("decimal comma bare", change('m = "1 kg"', "m = 1,5"), 7, None, ["not TOML"]),
     ("decimal comma", change("1 kg", "1,5 kg"), 7, 7, ["parameter 'm'", "cannot read '1,5' as a number", "1.5"]),
     ("unknown unit", change("1 kg", "1 kgg"), 7, 8, ["parameter 'm'", "unknown unit 'kgg'", "Did you mean 'kg'?"]),

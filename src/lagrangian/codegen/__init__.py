@@ -1,4 +1,4 @@
-"""Program → Kernel: machine code through LLVM, C99 and NumPy sources."""
+"""Compiles a Program to machine code with LLVM, or exports it as C99 or NumPy source."""
 
 from __future__ import annotations
 
@@ -40,12 +40,13 @@ def compile(
     threads: int | None = None,
     keep: bool = True,
 ) -> Kernel:
-    """Compile ``program``; machine code is made at the first call of each kind (one state, many, a parameter set each).
+    """Compile ``program``; machine code is made at the first call of each kind (one state, many, one parameter set
+    each).
 
-    ``hoist``: groups that stay the same over many states; what depends on them alone is computed once a set.
-    ``optional``: groups that may be left out, with the value their entries then have.
-    ``lanes``: states computed side by side in a batch (1, 2, 4, 8; the machine's widest unless given).
-    ``threads``: cores used for a large batch (all unless given). ``keep``: keep the code on disk between runs.
+    ``hoist``: groups that are the same for many states; what depends only on them is computed once per set.
+    ``optional``: groups that may be omitted, with the values that their entries then have. ``lanes``: the number of
+    states computed side by side in a batch (1, 2, 4, 8; by default as many as the processor can). ``threads``: the
+    number of cores for a large batch (by default all). ``keep``: cache the code on disk.
 
     >>> from lagrangian.graph import Graph, Output, Program
     >>> g = Graph()
@@ -58,7 +59,7 @@ def compile(
     array([[4.],
            [2.]])
     """
-    from . import native  # here LLVM is loaded: source code is written without it
+    from . import native  # imported here because exporting source code does not need LLVM
     from .build import Build, Options
     from .kernel import Kernel
 

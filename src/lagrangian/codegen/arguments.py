@@ -1,8 +1,8 @@
-"""What callers hand over → arrays a kernel can read, or an error that says what would be right.
+"""Converts the arguments of a kernel to arrays that it can read, or raises an error with a remedy.
 
-A *group* of inputs (``q``, ``v``, ``u``, ``p``, ``t``) is an array of shape ``(..., n)``, entries in declared order,
-or a mapping from entry names to numbers or arrays of shape ``(...)``. The group of time, ``t``, is a number or an
-array of shape ``(...)``.
+A *group* of inputs (``q``, ``v``, ``u``, ``p``, ``t``) is an array of shape ``(..., n)`` with the entries in declared
+order, or a mapping from entry names to numbers or arrays of shape ``(...)``. The group of time, ``t``, is a number or
+an array of shape ``(...)``.
 """
 
 from __future__ import annotations
@@ -21,18 +21,18 @@ from lagrangian.errors import RunError, did_you_mean
 
 FLOAT = np.dtype(np.float64)
 NOUNS = {"q": "coordinate", "v": "velocity", "a": "acceleration", "x": "state", "p": "parameter"}
-PLAIN = frozenset((float, int, np.float64))  # no booleans, no text
-SHOWN = 12  # names listed in a message before "…"
+PLAIN = frozenset((float, int, np.float64))  # neither booleans nor text
+SHOWN = 12  # the number of names that a message lists before "…"
 
 
 def is_scalar(group: str, entries: Sequence[str]) -> bool:
-    """Whether a group's arrays have the shape (...) of the states, without an axis for entries: time alone."""
+    """Whether the arrays of a group have the shape (...) of the states, without an axis for entries: only time does."""
     return group == "t" and len(entries) == 1
 
 
 @dataclass(frozen=True)
 class InputGroup:
-    """One group of inputs: its name, its entries, and the values entries take when not given (None: must be given)."""
+    """A group of inputs: its name, its entries, and their default values (None: a value must be given)."""
 
     name: str
     entries: tuple[str, ...]
@@ -40,16 +40,16 @@ class InputGroup:
 
     @property
     def scalar(self) -> bool:
-        """Whether arrays of this group have no axis for entries: time has none."""
+        """Whether arrays of this group have no axis for entries, as for time."""
         return is_scalar(self.name, self.entries)
 
     @property
     def noun(self) -> str:
-        """What an entry is called in a message."""
+        """The word for an entry in a message."""
         return NOUNS.get(self.name, "input")
 
     def array(self, given: Any) -> NDArray[np.float64]:
-        """``given`` as an array of shape ``(..., n)``."""
+        """Return ``given`` as an array of shape ``(..., n)``."""
         if given is None:
             return self._standard
         if isinstance(given, Mapping):
@@ -77,7 +77,7 @@ class InputGroup:
         return made
 
     def _filled(self, given: Mapping[Any, Any]) -> NDArray[np.float64]:
-        """The array of a mapping, completed from the defaults."""
+        """The array of a mapping, completed by the defaults."""
         named = {str(name): value for name, value in given.items()}
         for name in named:
             if name not in self.entries:
@@ -104,14 +104,14 @@ class InputGroup:
 
 
 def numbers(given: Any, what: str) -> NDArray[np.float64]:
-    """``given`` as float64, if nothing is lost: no text, no complex numbers, nothing masked."""
+    """Return ``given`` as float64 if nothing is lost: no text, no complex numbers, no masked entries."""
     if type(given) is np.ndarray and given.dtype is FLOAT:
         return given
     try:
         array = np.asarray(given)
     except ValueError as cause:
         raise RunError(f"{what} is ragged: its rows have different lengths", code="E501") from cause
-    # nothing can be masked before numpy.ma is loaded, and loading it takes longer than compiling two links
+    # nothing can be masked unless numpy.ma is loaded, and loading it takes longer than compiling two links
     if "numpy.ma" in sys.modules and np.ma.is_masked(given):
         raise RunError(f"{what} has masked entries", code="E502", fix="fill them, or leave those states out")
     if array.dtype == object:
@@ -122,7 +122,7 @@ def numbers(given: Any, what: str) -> NDArray[np.float64]:
 
 
 def _unboxed(array: NDArray[Any], what: str) -> NDArray[np.float64]:
-    """Numbers that NumPy keeps as objects (fractions, SymPy numbers, large integers), one by one."""
+    """Convert numbers that NumPy stores as objects (fractions, SymPy numbers, large integers) one by one."""
     for item in array.flat:
         if isinstance(item, str | bytes | complex) or not hasattr(item, "__float__"):
             raise RunError(f"{what} must be real numbers (got {type(item).__name__} {item!r:.40})", code="E501")
@@ -133,12 +133,13 @@ def _unboxed(array: NDArray[Any], what: str) -> NDArray[np.float64]:
 
 
 def listed(names: tuple[str, ...]) -> str:
-    """Names in a message, the first few of many."""
+    """Names for a message; of many, only the first few."""
     return ", ".join(names[:SHOWN]) + (", …" if len(names) > SHOWN else "")
 
 
 def rows(array: NDArray[np.float64], lead: tuple[int, ...]) -> NDArray[np.float64]:
-    """``array``, of shape (..., n), as (states, n) with the leading shape broadcast: a view where strides allow."""
+    """Return ``array`` of shape (..., n) as (states, n), with the leading shape broadcast; a view if the strides
+    allow it."""
     flags = array.flags
     if array.shape[:-1] == lead and flags.c_contiguous and flags.aligned:
         return array if array.ndim == 2 else array.reshape(math.prod(lead), array.shape[-1])
@@ -153,7 +154,7 @@ def rows(array: NDArray[np.float64], lead: tuple[int, ...]) -> NDArray[np.float6
 
 
 def _merged(full: NDArray[np.float64], axes: int) -> NDArray[np.float64] | None:
-    """Leading axes as one axis without copying, if one stride walks them all."""
+    """Combine the leading axes into one without copying, if a single stride covers them."""
     count, stride = 1, 0
     for length, step in zip(reversed(full.shape[:axes]), reversed(full.strides[:axes]), strict=True):
         if length == 1:
@@ -168,7 +169,7 @@ def _merged(full: NDArray[np.float64], axes: int) -> NDArray[np.float64] | None:
 
 
 def where(lead: tuple[int, ...], state: int) -> str:
-    """Which state, in a message; nothing for a single one."""
+    """The index of the state for a message; empty for a single state."""
     if not lead:
         return ""
     index = tuple(int(k) for k in np.unravel_index(state, lead))
@@ -176,7 +177,7 @@ def where(lead: tuple[int, ...], state: int) -> str:
 
 
 def not_finite_input(group: InputGroup, row: NDArray[np.float64], at: str) -> RunError | None:
-    """The error for the first entry of a row that is NaN or infinite, if any."""
+    """The error for the first entry of a row that is NaN or infinite, if there is one."""
     if np.isfinite(row).all():
         return None
     for name, value in zip(group.entries, row, strict=True):

@@ -1,4 +1,5 @@
-"""A call for many states: arrays become a table of addresses, ranges of states go to the cores, results are checked."""
+"""Calls for many states: arrays become a table of addresses, cores compute ranges of states, and results are
+checked."""
 
 from __future__ import annotations
 
@@ -22,19 +23,20 @@ Shapes = Mapping[str, tuple[int, ...]]  # outputs by name
 
 @dataclass(frozen=True)
 class Engine:
-    """One of a program's ``batch`` functions: its groups of inputs in the order of its table, and what it needs."""
+    """One of a program's ``batch`` functions: its groups of inputs in the order of the table, and its requirements."""
 
     call: Callable[[int | bytes, int, int, int], int]
     groups: tuple[InputGroup, ...]
     outputs: Shapes
     lanes: int
     work: int  # doubles of work space
-    cost: int  # operations a state, roughly
-    owner: object  # what keeps the code in memory
-    spaces: list[tuple[int, Array]] = field(default_factory=list)  # work areas not in use, with their addresses
+    cost: int  # approximate number of operations per state
+    owner: object  # keeps the code in memory
+    spaces: list[tuple[int, Array]] = field(default_factory=list)  # free work areas with their addresses
 
     def run(self, table: int | bytes, count: int, threads: int | None) -> int:
-        """Compute states 0 … count − 1 on as many cores as that is worth; return −1, or where something is not finite.
+        """Compute states 0 … count − 1 on a suitable number of cores; return −1, or the index of a state that is not
+        finite.
 
         ``count`` is at least ``lanes``.
         """
@@ -55,10 +57,10 @@ class Engine:
 
 
 class Batch:
-    """A call for the states in certain arrays, all checks of shapes and types done; calling it computes and checks
+    """A call for the states in certain arrays, after all checks of shapes and types; calling it computes and checks
     values.
 
-    The arrays are read at every call. Without ``out`` each batch has its own results, overwritten by its next call.
+    The arrays are read at every call. Without ``out``, each batch has its own results, which its next call overwrites.
     """
 
     def __init__(
@@ -78,25 +80,25 @@ class Batch:
         self.inputs, self._direct = [rows(a, lead) for a in given], self._results
         if self._count == 0:
             return
-        if self._count < engine.lanes:  # machine code wants full lanes: the last state fills them
+        if self._count < engine.lanes:  # machine code needs full lanes: the last state is repeated to fill them
             fill = np.minimum(np.arange(engine.lanes), self._count - 1)
             self.inputs = [a[fill] for a in self.inputs]
             self._direct = [np.empty((engine.lanes, r.shape[1])) for r in self._results]
         entries = [n for a in (*self.inputs, *self._direct) for n in (address(a), *a.strides)]
         self._table = np.array([*entries, 0 if shared is None else address(shared)], np.int64)
         self._at = address(self._table)
-        self._views: list[Any] = []  # of what is returned, where that is computed in place
+        self._views: list[Any] = []  # the returned arrays that are computed in place
         if out is None and self.direct and lead:
             shapes = engine.outputs.values()
             self._views = [r.reshape(*lead, *shape) for r, shape in zip(self._results, shapes, strict=True)]
 
     @property
     def direct(self) -> bool:
-        """Whether the arrays handed over are read in place, so that a later call sees what they hold then."""
+        """Whether the given arrays are read in place, so that a later call sees changes in them."""
         return self._count >= self._engine.lanes
 
     def _home(self, name: str, given: Sequence[Array]) -> Array:
-        """Where an output is computed, as (states, size): in the target itself if that can be."""
+        """The array in which an output is computed, as (states, size): the target itself if possible."""
         size, final = math.prod(self._engine.outputs[name]), self._finals[name]
         if final is None or not (final.flags.c_contiguous and final.flags.aligned):
             return np.empty((self._count, size))
@@ -105,7 +107,7 @@ class Batch:
         return final.reshape(self._count, size)
 
     def __call__(self) -> Any:
-        """Compute; return the output, or a dict of the outputs. ``out`` is written before anything is raised."""
+        """Compute; return the output, or a dict of the outputs. ``out`` is written even if an error is raised."""
         bad = -1
         if self._count:
             engine, count = self._engine, self._count
@@ -143,7 +145,7 @@ class Batch:
 
 
 def targets(outputs: Shapes, out: Any, lead: tuple[int, ...]) -> dict[str, Array]:
-    """The arrays to write to, by output, checked."""
+    """The arrays to write to, by output, after checks."""
     named = out if isinstance(out, Mapping) else {next(iter(outputs)): out} if len(outputs) == 1 else {}
     if set(named) != set(outputs):
         raise RunError("out does not fit", code="E501", fix=f"give arrays for {', '.join(outputs)}")
@@ -160,7 +162,7 @@ def targets(outputs: Shapes, out: Any, lead: tuple[int, ...]) -> dict[str, Array
 def trouble(
     groups: Sequence[InputGroup], inputs: Sequence[Array], outputs: Shapes, results: Sequence[Array], at: str
 ) -> RunError | None:
-    """The error for the first number of a state that is not finite, inputs first; None if all are."""
+    """The error for the first number of a state that is not finite, inputs first; None if all are finite."""
     for group, row in zip(groups, inputs, strict=True):
         if found := not_finite_input(group, row, at):
             return found

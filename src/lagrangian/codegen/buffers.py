@@ -19,12 +19,12 @@ from .sizes import Sizes
 
 @dataclass(frozen=True)
 class RawFunction:
-    """A tape's function for callers in machine code: ``void f(double *in, double *shared, double *out, double
+    """The function of a tape for callers in machine code: ``void f(double *in, double *shared, double *out, double
     *scratch)``.
 
-    ``in``, ``out`` and ``scratch`` hold ``lanes`` doubles a slot, one system a lane, ``shared`` one; blocks are
-    aligned to ``8 lanes`` bytes and do not overlap. ``in`` holds the groups that are not hoisted, one after the
-    other; ``out`` the outputs. The other fields count slots. ``owner`` keeps the code in memory.
+    ``in``, ``out`` and ``scratch`` hold ``lanes`` doubles per slot, one for each system; ``shared`` holds one. Blocks
+    are aligned to ``8 lanes`` bytes and do not overlap. ``in`` contains the groups that are not hoisted, one after
+    another; ``out`` contains the outputs. The other fields are numbers of slots. ``owner`` keeps the code in memory.
     """
 
     address: int
@@ -37,7 +37,8 @@ class RawFunction:
 
 
 class Look:
-    """A function ``i64 look(ptr rows, i64 count)`` of machine code: 0, or `DOUBTFUL` where values need a closer look.
+    """A function ``i64 look(ptr rows, i64 count)`` in machine code that returns 0, or `DOUBTFUL` if values need a
+    closer look.
 
     ``owner`` keeps the code in memory.
     """
@@ -51,7 +52,7 @@ class Look:
 
 
 class Slot:
-    """Where a group of inputs stands in a call, and what may stand there."""
+    """The position of a group of inputs in a call, and the values that are accepted there."""
 
     __slots__ = ("address", "default", "pack", "pick", "place", "places", "scalar", "shape", "size", "values")
 
@@ -65,12 +66,12 @@ class Slot:
         self.address = None if self.default is None else address(self.default)
 
     def plain(self, given: Any) -> Sequence[float] | None:
-        """The numbers of a list, or of a mapping, one an entry; None for whatever needs a closer look."""
+        """The numbers in a list or a mapping, one for each entry; None if they need a closer look."""
         kind = type(given)
         if kind is dict and len(given) == self.size:
             try:
                 given = self.pick(given)
-            except KeyError:  # instead of this entry there is an unknown one
+            except KeyError:  # there is an unknown entry instead of this one
                 return None
         elif kind is dict:
             filled: list[Any] = list(self.values)
@@ -91,7 +92,7 @@ class Slot:
 
 
 def _picking(names: Sequence[str]) -> Callable[[Any], Sequence[Any]]:
-    """What takes the values of all names out of a mapping, in that order."""
+    """A function that takes the values of all names out of a mapping, in order."""
     if len(names) == 1:
         (only,) = names
         return lambda given: (given[only],)
@@ -99,14 +100,14 @@ def _picking(names: Sequence[str]) -> Callable[[Any], Sequence[Any]]:
 
 
 Row: TypeAlias = tuple[Slot, NDArray[np.float64], int]
-"""A group of inputs, where a stage holds one row of it, and the address of that."""
+"""A group of inputs, the array in which a stage holds one row of it, and the address of this array."""
 
 
 class Stage:
-    """The blocks of one call for one state, and the table of their addresses that the machine code is handed.
+    """The blocks for one call with one state, and the table of their addresses that is passed to machine code.
 
-    ``own`` is a shared block for parameters that are handed over with a state: those of the bytes ``key``. ``parts``
-    are what is written before a call: place, array, shape (None for a single number), default (None: must be given;
+    ``own`` is a shared block for parameters that are passed with a state: those with the bytes ``key``. ``parts`` are
+    written before a call: position, array, shape (None for a single number), default (None: a value must be given;
     `NOTHING`: no numbers at all), `Slot.plain`. ``reads`` return new copies of the outputs.
     """
 
@@ -136,25 +137,25 @@ class Stage:
             start += size
 
     def share(self, shared: NDArray[np.float64]) -> None:
-        """Point the table at a shared block."""
+        """Set the address of the shared block in the table."""
         self.shared, self.table[1] = shared, address(shared)
 
     def ask(self, look: Look) -> None:
-        """Have hoisted values looked at by machine code from now on."""
+        """Let machine code examine hoisted values from now on."""
         self.look, self.table[6] = look, look.address
 
 
 def aligned(count: int) -> NDArray[np.float64]:
-    """Uninitialised doubles that start at a multiple of 64 bytes."""
+    """Uninitialized doubles that start at a multiple of 64 bytes."""
     raw = np.empty(8 * count + 64, np.uint8)
     start = -address(raw) % 64
     return raw[start : start + 8 * count].view(FLOAT)
 
 
 def address(array: NDArray[Any]) -> int:
-    """Where an array's first element is."""
+    """The address of an array's first element."""
     try:
-        return ctypes.addressof(_CHARACTER(array))  # a quarter of the time of the other way
+        return ctypes.addressof(_CHARACTER(array))  # a quarter of the time of the other method
     except (TypeError, ValueError):  # read-only, strided, or empty
         return array.__array_interface__["data"][0]
 

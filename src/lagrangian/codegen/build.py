@@ -1,6 +1,6 @@
-"""Program → machine code: which functions go into which module, and how a module is found again on disk.
+"""Compiles a Program to machine code: its functions and modules, and the cache of modules on disk.
 
-A program becomes up to three modules, each built when first wanted:
+A program becomes up to three modules, each built when it is first needed:
 
 * ``single``: one state, scalar code; ``batch``: many states, ``lanes`` at a time, one parameter set;
 * ``sweep``: many states, each with its own parameter set.
@@ -33,24 +33,24 @@ if TYPE_CHECKING:
     from lagrangian.graph import Program
 
 _log = logging.getLogger(__name__)
-MAX_INLINE_OPERATIONS = 125  # operations per lane up to which a body is printed into the batch's loop …
-SIDE_BY_SIDE = 2  # … for so many blocks of states at once: while one waits for a result, another computes
-LEVEL = 2  # LLVM's code generation effort; straight-line code gains nothing measurable above it
+MAX_INLINE_OPERATIONS = 125  # a body with at most this many operations per lane is printed into the loop of the batch …
+SIDE_BY_SIDE = 2  # … for this many blocks of states at once: while one waits for a result, another computes
+LEVEL = 2  # LLVM's optimization level; higher levels gain nothing measurable for straight-line code
 
 
 @dataclass(frozen=True)
 class Options:
-    """What, beside the program, decides the machine code."""
+    """The options that, together with the program, determine the machine code."""
 
     lanes: int
     hoist: tuple[str, ...] = ("p",)
-    chunk: int | None = None  # operations in one function; None: by the length of the program
+    chunk: int | None = None  # operations in one function; None: depends on the length of the program
     level: int = LEVEL
-    keep: bool = True  # on disk, between runs
+    keep: bool = True  # cached on disk
 
 
 class Build:
-    """A program's machine code, module by module."""
+    """The machine code of a program, module by module."""
 
     def __init__(self, program: Program, options: Options, target: Target) -> None:
         self.program, self.options, self.target = program, options, target
@@ -70,7 +70,7 @@ class Build:
 
     @property
     def sizes(self) -> driver.Sizes:
-        """How many numbers each block holds; known without lowering when the code came from disk."""
+        """The sizes of the blocks; for cached code they are known without lowering."""
         with self._lock:
             if self._sizes is None:
                 low, program = self.lowered, self.program
@@ -86,11 +86,11 @@ class Build:
 
     @property
     def ready(self) -> frozenset[str]:
-        """The kinds of module that are in memory."""
+        """The kinds of module that are already in memory."""
         return frozenset(self._loaded)
 
     def loaded(self, kind: str) -> native.Loaded:
-        """The module of that kind, from memory, from disk, or made now."""
+        """The module of a kind, from memory, from disk, or compiled now."""
         found = self._loaded.get(kind)
         if found is None:
             with self._lock:
@@ -119,14 +119,14 @@ class Build:
 
     @property
     def key(self) -> str:
-        """A name for this program, these options, this machine and this version of the printer."""
+        """A key for this program, these options, this machine and this version of the printer."""
         with self._lock:
             if self._key is None:
                 self._key = fingerprint(self.program, self.options, self.target)
             return self._key
 
     def text(self, kind: str) -> str:
-        """The LLVM IR of the module of that kind."""
+        """The LLVM IR of the module of a kind."""
         module, lanes = Module(self.target), self.options.lanes
         if kind == "single":
             self.emit_tapes(module, 1)
@@ -146,7 +146,7 @@ class Build:
 
     @property
     def short(self) -> PackedLoop | None:
-        """The body, where it is short enough for the batch's own loop."""
+        """The body, if it is short enough to be printed into the batch's own loop."""
         body, lanes = self.lowered.body, self.options.lanes
         fits = lanes > 1 and sum(self.sizes.groups) and body.operations <= MAX_INLINE_OPERATIONS * lanes
         return PackedLoop(body, SIDE_BY_SIDE) if fits else None
@@ -159,10 +159,10 @@ class Build:
         emit(module, f"body_{lanes}", low.body, lanes, own_shared=own_shared, chunk=chunk)
 
     def extended(self, name: str, printer: Callable[[Module, Build], None]) -> native.Loaded:
-        """A module of somebody else's making, kept and found again like the others.
+        """A module with additional functions, compiled and cached like the others.
 
-        ``printer`` prints functions that call ``body_…`` (see :meth:`emit_tapes`), an integrator for instance. ``name``
-        stands for the text it prints: two printers, or two versions of one, must not share it.
+        ``printer`` prints functions that call ``body_…`` (see :meth:`emit_tapes`), such as an integrator. ``name``
+        identifies the printed text: different printers, or versions of one, must have different names.
         """
         with self._lock:
             kind = "x" + hashlib.sha256(name.encode()).hexdigest()[:24]
@@ -173,14 +173,14 @@ class Build:
 
 
 def _sizes(head: bytes) -> driver.Sizes:
-    """Read back what ``asdict`` wrote."""
+    """Restore what ``asdict`` wrote."""
     n = json.loads(head)
     return driver.Sizes(tuple(n["groups"]), tuple(n["hoisted"]), n["shared"], tuple(n["outputs"]), n["scratch"])
 
 
 @cache
 def _printer_version() -> str:
-    """A sum over this room's sources and LLVM's version: any change in either may change the code."""
+    """A checksum of the sources in this package and LLVM's version, because a change in either may change the code."""
     total = hashlib.sha256(f"{llvmlite.__version__} {native.llvm.llvm_version_info}".encode())
     for source in sorted(Path(__file__).parent.glob("*.py")):
         total.update(source.read_bytes())
@@ -188,7 +188,7 @@ def _printer_version() -> str:
 
 
 def fingerprint(program: Program, options: Options, target: Target) -> str:
-    """SHA-256 of all that decides the machine code. Nodes that no output needs, and all names, do not count."""
+    """SHA-256 of everything that determines the machine code; names, and nodes that no output needs, are ignored."""
     nodes = program.graph.nodes
     order = reached(program.graph, program.ids)
     position = {i: k for k, i in enumerate(order)}

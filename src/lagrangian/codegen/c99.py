@@ -1,4 +1,4 @@
-"""Program → C99: one source file and its header, no allocation, nothing but ``math.h``."""
+"""Exports a Program as C99: one source file and its header, without allocation, using only ``math.h``."""
 
 from __future__ import annotations
 
@@ -40,10 +40,10 @@ LIBRARY = frozenset({"sqrt", "sin", "cos", "exp", "log", "asin", "acos", "atan",
 
 
 def to_c(program: Program, *, name: str | None = None) -> tuple[str, str]:
-    """C source and header of ``program``: ``void name(const double *in_q, …, double *out_a, …)``.
+    """Return C source and header of ``program``: ``void name(const double *in_q, …, double *out_a, …)``.
 
-    One argument a group of inputs, in the program's order, then one an output, row by row. ``name``: the function's,
-    and the header's (``name.h``); ``lg_`` and the program's name unless given.
+    There is one argument for each group of inputs, in the program's order, then one for each output, row by row.
+    ``name`` is that of the function and the header (``name.h``); by default ``lg_`` and the program's name.
     """
     function = name if name is not None else "lg_" + word(program.name)
     if not (function.isascii() and function.isidentifier()):
@@ -94,7 +94,7 @@ def _header(program: Program, function: str, signature: str, inputs: list, outpu
 
 
 class _Writer:
-    """Prints a tape as C statements, in functions that hand values on through an array where it is long."""
+    """Prints a tape as C statements, in several functions if it is long; these pass values on in an array."""
 
     def __init__(
         self,
@@ -113,7 +113,7 @@ class _Writer:
             self.targets.setdefault(i, []).append(target)
 
     def functions(self, signature: str) -> list[str]:
-        """The whole of the source after its includes."""
+        """The whole source after its includes."""
         unused = [f"  (void){name};" for name in self.passed]
         chunks = self.cut.chunks
         if len(chunks) == 1:
@@ -154,7 +154,7 @@ class _Writer:
         return INFIX[op[0]].format(*words)
 
     def operand(self, i: int, here: set[int] | frozenset[int]) -> str:
-        """An entry as an operand: a local, an element of an argument, a number, or a value handed on."""
+        """An entry as an operand: a local variable, an element of an argument, a number, or a value passed on."""
         op = self.tape.ops[i]
         if op[0] == "const":
             return literal(op[1])
@@ -167,7 +167,7 @@ class _Writer:
 
 
 def literal(x: float) -> str:
-    """A double that reads back exactly; negative ones in parentheses."""
+    """A literal that is read back exactly as the same double; negative ones are in parentheses."""
     if math.isnan(x):
         return "NAN"
     text = "INFINITY" if math.isinf(x) else repr(float(abs(x)))

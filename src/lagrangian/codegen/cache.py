@@ -1,12 +1,12 @@
-"""Object code kept on disk between runs.
+"""A cache of object code on disk.
 
-One file an object: a magic line, the SHA-256 of what follows, then the object code. Files are written beside their
-place and renamed into it, so that readers and other writers never see half a file; one that does not match its sum is
-taken for absent and written again. A directory that cannot be used (read-only, somebody else's, full) means that
-nothing is kept: compiling then takes its full time, and that is all.
+There is one file per object: a magic line, the SHA-256 of the rest, and the object code. A file is written under a
+temporary name and then renamed, so that nobody sees an incomplete file; one whose checksum is wrong is ignored and
+written again. If the directory cannot be used (read-only, owned by somebody else, full), nothing is cached: compiling
+then always takes its full time.
 
-The directory is ``LAGRANGIAN_CACHE_DIR`` (a relative one counts from the working directory), or the user's cache
-directory; the empty text turns keeping off.
+The directory is ``LAGRANGIAN_CACHE_DIR`` (a relative path starts at the working directory), or the user's cache
+directory; an empty value turns the cache off.
 """
 
 from __future__ import annotations
@@ -21,12 +21,12 @@ import platformdirs
 
 MAGIC = b"lagrangian object 1\n"
 SUM = 32  # bytes of a SHA-256
-LIMIT = 256 * 2**20  # bytes kept in all; the least recently written go first
-_room: dict[Path, int] = {}  # bytes this process may write to a directory before it looks again what is there
+LIMIT = 256 * 2**20  # limit on the total number of bytes; the files written least recently are removed first
+_room: dict[Path, int] = {}  # bytes that this process may write before it checks the total size again
 
 
 def directory() -> Path | None:
-    """Where object code is kept, or None if keeping is turned off."""
+    """The directory of the cache, or None if it is turned off."""
     named = os.environ.get("LAGRANGIAN_CACHE_DIR")
     if named is not None:
         return Path(named).expanduser().absolute() if named else None
@@ -34,13 +34,13 @@ def directory() -> Path | None:
 
 
 def read(key: str) -> bytes | None:
-    """The object code kept under ``key``, or None if there is none that is whole."""
+    """The object code stored under ``key``, or None if there is no complete one."""
     place = directory()
     if place is None or not _ours(place):
         return None
     try:
         content = (place / f"{key}.o").read_bytes()
-    except OSError:  # not there, or not readable: both mean "compile it"
+    except OSError:  # missing or unreadable: in both cases it is compiled
         return None
     code = content[len(MAGIC) + SUM :]
     whole = content.startswith(MAGIC) and content[len(MAGIC) : len(MAGIC) + SUM] == hashlib.sha256(code).digest()
@@ -48,7 +48,7 @@ def read(key: str) -> bytes | None:
 
 
 def write(key: str, code: bytes) -> bool:
-    """Keep object code under ``key``; False if the directory cannot be used."""
+    """Store object code under ``key``; return False if the directory cannot be used."""
     place = directory()
     if place is None:
         return False
@@ -61,7 +61,7 @@ def write(key: str, code: bytes) -> bool:
         with os.fdopen(handle, "wb") as file:
             file.write(MAGIC + hashlib.sha256(code).digest() + code)
         Path(beside).replace(place / f"{key}.o")
-    except OSError:  # the promise of this module: no cache, no complaint
+    except OSError:  # without a usable cache everything still works
         if beside is not None:
             with contextlib.suppress(OSError):
                 Path(beside).unlink()
@@ -73,7 +73,7 @@ def write(key: str, code: bytes) -> bool:
 
 
 def _ours(place: Path) -> bool:
-    """Whether nobody else can put files there: code read from it is run."""
+    """Whether nobody else can write files there, because code from it is executed."""
     if os.name != "posix":
         return place.is_dir()
     try:
@@ -84,8 +84,9 @@ def _ours(place: Path) -> bool:
 
 
 def _trim(place: Path) -> int:
-    """Remove the oldest files while all together exceed the limit; return after how many bytes to look again."""
-    with contextlib.suppress(OSError):  # another process may be trimming too
+    """Remove the oldest files while the total exceeds the limit; return how many bytes may be written before the next
+    check."""
+    with contextlib.suppress(OSError):  # another process may be trimming as well
         files = [(entry.stat(), entry) for entry in place.iterdir()]
         total = sum(status.st_size for status, _ in files)
         for status, entry in sorted(files, key=lambda pair: pair[0].st_mtime):

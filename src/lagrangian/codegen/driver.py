@@ -1,16 +1,16 @@
-"""What stands around a tape's functions: one state from Python, and ranges of states in strided arrays.
+"""Functions around those of a tape: for one state from Python, and for ranges of states in strided arrays.
 
 ``i64 single(ptr table)``: the table holds the addresses of the in, shared, out and scratch blocks. Returns 0, or 1 if
-an input or an output is not finite. ``i64 parameters(ptr table)``: three more addresses, of the hoisted inputs, of the
-shared block that is made of them, and of a function ``i64 look(ptr rows, i64 count)``, or 0 for none. Returns 0, 1 if a
-hoisted input is not finite, 2 if the function returns that because it is in doubt about them, 3 for both.
-``i64 both(ptr table)``: parameters, then single; every bit that one of them returns.
+an input or an output is not finite. ``i64 parameters(ptr table)``: three more addresses: of the hoisted inputs, of the
+shared block that is computed from them, and of a function ``i64 look(ptr rows, i64 count)``, or 0 for none. Returns 0,
+1 if a hoisted input is not finite, 2 if the function returns this because they need a closer look, 3 for both. ``i64
+both(ptr table)``: parameters, then single; the result contains the bits that either returns.
 
-``i64 batch(ptr table, i64 start, i64 stop, ptr work)``: states start … stop − 1, ``lanes`` at a time. The table
-holds, for each input group, each hoisted group (if every state has its own) and each output, an address and two
-strides in bytes, from state to state and from entry to entry; then the address of the shared block. Returns the first
-state of the first block that holds something not finite, or −1. The last block is filled by repeating the last state,
-so every state goes through the same code, wherever a range begins and ends.
+``i64 batch(ptr table, i64 start, i64 stop, ptr work)``: states start … stop − 1, ``lanes`` at a time. The table holds,
+for each input group, each hoisted group (if every state has its own) and each output, an address and two strides in
+bytes, from state to state and from entry to entry; then the address of the shared block. Returns the first state of the
+first block with a number that is not finite, or −1. The last block is filled by repeating the last state, so that every
+state is computed by the same code, wherever a range begins and ends.
 """
 
 from __future__ import annotations
@@ -71,8 +71,8 @@ def emit_parameters(module: Module, sizes: Sizes, prologue: str = "prologue_1") 
 def emit_signs(module: Module, sizes: Sizes, above: int, body: str = "body_1") -> None:
     """Print ``i64 signs(ptr rows, i64 count)`` around the scalar body.
 
-    It returns 0 if for every row (there is at least one) the first ``above`` outputs are above 0, the others not below,
-    and all finite; else `DOUBTFUL`.
+    It returns 0 if, for each of at least one row, the first ``above`` outputs are positive, the others are not
+    negative, and all are finite; otherwise it returns `DOUBTFUL`.
     """
     count = sum(sizes.outputs)
     lines = [
@@ -127,7 +127,7 @@ entry:
   ret i64 %answer
 }"""
 
-# The greatest magnitude among n numbers, compared as bits: NaN and infinity are above everything finite.
+# The largest magnitude among n numbers, compared as bits: NaN and infinity are larger than everything finite.
 _GREATEST = f"""define internal i64 @greatest(ptr %x, i64 %n) noinline nounwind {{
 entry:
   %some = icmp sgt i64 %n, 0
@@ -158,9 +158,9 @@ def emit_batch(
     prologue: str,
     short: PackedLoop | None = None,
 ) -> None:
-    """Print ``batch`` around the ``lanes`` wide ``body``, and around ``prologue`` where every state has its own.
+    """Print ``batch`` around the ``body`` of ``lanes`` systems, and around ``prologue`` if every state has its own.
 
-    With ``short`` a loop for packed arrays goes first, as far as it gets (`packed`).
+    With ``short``, a loop for packed arrays comes first and processes as many states as it can (see `packed_loop`).
     """
     f = Function(module, lanes)
     at = _blocks(f, sizes, own_shared)
@@ -170,13 +170,15 @@ def emit_batch(
     shared = at["own"] if own_shared else _entry(f, "ptr", 3 * len(arrays))
     module.declare("llvm.smin.i64", "i64", ["i64", "i64"])
     last = f.put(f"sub i64 %stop, {lanes}")
-    before = [("entry", "%start", "-1")]  # where the loop is entered from, at which state, and what is known to be bad
+    before = [
+        ("entry", "%start", "-1")
+    ]  # where the loop is entered from, at which state, and the first state known not to be finite
     if short is None:
         f.do("br label %loop")
     else:
         before.append(emit_packed(f, short, sizes, arrays, at, shared))
     f.label("loop")
-    start_of_loop = len(f.lines)  # its phis name values and a block printed below
+    start_of_loop = len(f.lines)  # its phis use values and a block that are printed below
     f.do(f"%state = call i64 @llvm.smin.i64(i64 %next, i64 {last})")
     f.do("%begin = icmp eq i64 %next, %from")
     moves = _Moves(f)
@@ -205,7 +207,7 @@ def emit_batch(
 
 
 def _blocks(f: Function, sizes: Sizes, own_shared: bool) -> dict[str, str]:
-    """The addresses of the blocks in the work space, one after the other."""
+    """The addresses of the blocks in the work space, one after another."""
     counts = {"in": sum(sizes.groups), "out": sum(sizes.outputs), "scratch": sizes.scratch}
     if own_shared:
         counts |= {"early": sum(sizes.hoisted), "own": sizes.shared}
@@ -217,14 +219,15 @@ def _blocks(f: Function, sizes: Sizes, own_shared: bool) -> dict[str, str]:
 
 
 class _Moves:
-    """The moves of one turn of the loop; ``trouble`` is their sum of 0·x, ``label`` the basic block being printed."""
+    """The copies in one iteration of the loop; ``trouble`` is their sum of 0·x, ``label`` the current basic block."""
 
     def __init__(self, f: Function) -> None:
         self.f, self.label = f, "loop"
         self.trouble = Value(f, f.constant(0.0))
 
     def gather(self, arrays: Sequence[Array], counts: Sequence[int], block: str) -> None:
-        """Arrays → a block; an array that is the same for all states only in a range's first turn."""
+        """Copy arrays to a block; an array that is the same for all states is copied only in the first iteration of a
+        range."""
         f = self.f
         for call, row in self._calls(arrays, counts, block, gather=True):
             wanted = f.put(f"or i1 %begin, {f.put(f'icmp ne i64 {row}, 0')}")
@@ -239,14 +242,14 @@ class _Moves:
             self.trouble = self.trouble + Value(f, answer)
 
     def scatter(self, arrays: Sequence[Array], counts: Sequence[int], block: str) -> None:
-        """A block → arrays."""
+        """Copy a block to arrays."""
         for call, _ in self._calls(arrays, counts, block, gather=False):
             self.trouble = self.trouble + Value(self.f, self.f.put(call))
 
     def _calls(
         self, arrays: Sequence[Array], counts: Sequence[int], block: str, *, gather: bool
     ) -> Iterator[tuple[str, str]]:
-        """For each array, the text of the call that moves it, and its stride from state to state."""
+        """For each array, the text of the call that copies it, and its stride from state to state."""
         f, slot = self.f, 0
         for (base, row, step), count in zip(arrays, counts, strict=False):
             if count:
@@ -258,10 +261,10 @@ class _Moves:
 
 
 def _entry(f: Function, kind: str, index: int) -> str:
-    """Entry ``index`` of the table."""
+    """Load entry ``index`` of the table."""
     return f.put(f"load {kind}, ptr {f.put(f'getelementptr i64, ptr %table, i64 {index}')}")
 
 
 def _array(f: Function, k: int) -> Array:
-    """Address and strides of the k-th array of the table."""
+    """Load address and strides of the k-th array of the table."""
     return _entry(f, "ptr", 3 * k), _entry(f, "i64", 3 * k + 1), _entry(f, "i64", 3 * k + 2)

@@ -1,10 +1,10 @@
-"""Elementary functions in LLVM IR: branch-free, the same code for one number and for a vector of lanes.
+"""Elementary functions in LLVM IR, without branches, with the same code for a single number and for a vector.
 
-``sincos``, ``exp``, ``log`` and ``atan2`` are written out here; ``sinh``, ``cosh`` and ``tanh`` follow from ``exp``,
-``asin``, ``acos`` and ``atan`` from ``atan2``; the others call the C library lane by lane. Each is one function of
-the module, printed on first use.
+``sincos``, ``exp``, ``log`` and ``atan2`` are implemented here; ``sinh``, ``cosh`` and ``tanh`` are computed from
+``exp``, ``asin``, ``acos`` and ``atan`` from ``atan2``; the others call the C library lane by lane. Each is a function
+of the module that is printed when it is first used.
 
-The digits come from ``minimax.py``; with z = r²
+The coefficients are computed by ``minimax.py``; with z = r²
 
     sin r = r + r z S(z)     cos r = 1 − z/2 + z² C(z)     |r| ≤ π/4
     exp r = 1 + r + r² E(r)                                |r| ≤ ln 2 / 2
@@ -35,7 +35,7 @@ HALF_PI = (1.5707963267948966, 6.123233995736766e-17, -1.4973849048591698e-33)  
 HALF_PI_SHORT = (1.5707963267341256, 6.077100506303966e-11, 2.0222662487111665e-21, 8.4784276603689e-32)
 LN2 = (0.6931471806019545, -4.2009150726810846e-11)  # their sum is ln 2; n·LN2[0] is exact for |n| < 2^21
 
-SHIFT = 6755399441055744.0  # 1.5·2⁵²: adding it rounds to a whole number and leaves that number in the low bits
+SHIFT = 6755399441055744.0  # 1.5·2⁵²: adding it rounds to a whole number, which is then in the low bits
 SIGN = -(1 << 63)
 SHIFT_BITS = 0x4338000000000000
 LIBM = ("sin", "cos", "pow", "asinh", "acosh", "atanh")  # the order of the table of addresses
@@ -45,10 +45,11 @@ LANEWISE = ("pow", "asinh", "acosh", "atanh")
 def sincos(module: Module, lanes: int) -> str:
     """The symbol of ``{sin x, cos x} = sincos(x)``: at most 2 ulp for |x| ≤ 10⁶.
 
-    n = round(2x/π), r = x − n π/2 by Cody and Waite's method: π/2 is held in three parts and each subtraction is one
-    fused operation, so what is lost is half an ulp of r. (Without fused operations: four short parts, whose products
-    with n are exact, and the rounding of the second subtraction carried on.) The quadrant n mod 4 swaps the two and
-    sets signs. Arguments beyond the reduction's reach, infinities and NaN are left to the C library.
+    n = round(2x/π), r = x − n π/2 by Cody and Waite's method: π/2 is split into three parts and each subtraction is one
+    fused operation, so the error is half an ulp of r. (Without fused operations there are four short parts, whose
+    products with n are exact, and the rounding error of the second subtraction is carried on.) The quadrant n mod 4
+    swaps sine and cosine and determines the signs. Arguments out of range, infinities and NaN are passed to the C
+    library.
     """
     name = f"sincos_{lanes}"
     if module.defines(name):
@@ -75,7 +76,7 @@ def sincos(module: Module, lanes: int) -> str:
     f.label("near")
     _return_two(f, s, c)
 
-    f.label("far")  # a lane's result must not depend on what stands beside it
+    f.label("far")  # the result in a lane must not depend on its neighbours
     if lanes > module.target.lanes:
         _return_two(f, *_by_halves(f, x))
     else:
@@ -86,7 +87,7 @@ def sincos(module: Module, lanes: int) -> str:
 
 
 def _by_halves(f: Function, x: Value) -> tuple[Value, Value]:
-    """Sine and cosine of more lanes than a register has, half by half."""
+    """Sine and cosine of more lanes than a register has, computed in two halves."""
     half = f.widened(f.lanes // 2)
     symbol, pair = sincos(f.module, half.lanes), f"{{ {half.real}, {half.real} }}"
     found = [f.put(f"call {pair} {symbol}({half.real} {part.name})") for part in (f.part(x, half, k) for k in range(2))]
@@ -102,14 +103,14 @@ def _reduced(f: Function, x: Value, n: Value) -> Value:
             r = f.fma(n, -part, r)
         return r
     first, second, third, fourth = HALF_PI_SHORT
-    near = x - n * first  # exact, as is n·second
+    near = x - n * first  # exact, and so is n·second
     r = near - n * second
     lost = (near - r) - n * second
     return r - (n * third + n * fourth - lost)
 
 
 def _poly6(f: Function, z: Value, zz: Value, c: tuple[float, ...]) -> Value:
-    """``Σ c_k z^k``, six terms, with z² at hand."""
+    """``Σ c_k z^k`` with six terms, for known z²."""
     low, middle, high = (f.fma(z, c[k + 1], c[k]) for k in (0, 2, 4))
     return f.fma(zz, f.fma(zz, high, middle), low)
 
@@ -121,7 +122,7 @@ def _return_two(f: Function, a: Value, b: Value) -> None:
 
 
 def function(module: Module, name: str, lanes: int) -> str:
-    """The symbol of an elementary function: ours, or the C library's lane by lane."""
+    """The symbol of an elementary function: our own, or the C library's for each lane."""
     symbol = f"{name}_{lanes}"
     if module.defines(symbol):
         return "@" + symbol
@@ -135,9 +136,9 @@ def function(module: Module, name: str, lanes: int) -> str:
 
 
 def _lanewise(f: Function, index: int, arguments: list[Value]) -> Value:
-    """Entry ``index`` of the table of C functions, called for each lane.
+    """Call entry ``index`` of the table of C functions for each lane.
 
-    The table is reached through memory, not by name: no linker has to find the C library, on any system.
+    The table is accessed through memory, not by name, so that no linker has to find the C library on any system.
     """
     table = f.put("load ptr, ptr @libm")
     callee = f.put(f"load ptr, ptr {f.put(f'getelementptr ptr, ptr {table}, i64 {index}')}")
@@ -149,7 +150,8 @@ def _lanewise(f: Function, index: int, arguments: list[Value]) -> Value:
 
 
 def _exp(f: Function, x: Value) -> Value:
-    """``exp x = 2^n exp r``, n = round(x / ln 2); 2^n in two factors, so that results below 2^−1022 round once."""
+    """``exp x = 2^n exp r``, n = round(x / ln 2); 2^n is split into two factors, so that results below 2^−1022 round
+    once."""
     x = f.select(f.compare("olt", x, -746.0), -746.0, x)
     excess, n = _exp_parts(f, x)
     value = excess + 1.0
@@ -160,7 +162,7 @@ def _exp(f: Function, x: Value) -> Value:
 
 
 def _exp_parts(f: Function, x: Value) -> tuple[Value, str]:
-    """``exp r − 1`` and n of ``x = n ln 2 + r``; beyond 711 all that is made of them overflows, so x stops there."""
+    """``exp r − 1`` and n of ``x = n ln 2 + r``; above 711 all results overflow, so x is limited to that."""
     x = f.select(f.compare("ogt", x, 711.0), 711.0, x)
     turned = f.fma(x, 1 / math.log(2), SHIFT)
     n = turned - SHIFT
@@ -195,7 +197,7 @@ def _cosh(f: Function, x: Value) -> Value:
 
 
 def _tanh(f: Function, x: Value) -> Value:
-    """``tanh |x| = e/(e + 2)``, e = exp 2|x| − 1, with the sign of x; 1 from |x| = 22 on."""
+    """``tanh |x| = e/(e + 2)``, e = exp 2|x| − 1, with the sign of x; 1 for |x| ≥ 22."""
     size = f.intrinsic("fabs", x)
     size = f.select(f.compare("ogt", size, 22.0), 22.0, size)
     eighth = _eighth(f, size + size)
@@ -228,8 +230,8 @@ def _atan2(f: Function, y: Value, x: Value) -> Value:
     """The angle of (x, y): with t = min/max of the magnitudes, atan t by A, or π/4 + atan((t − 1)/(t + 1)) beyond tan
     π/8.
 
-    One division: numerator and denominator are chosen before it. Two zeros give 0 or ±π by their signs, two
-    infinities odd multiples of π/4, as in C.
+    There is only one division, because numerator and denominator are chosen before it. Two zeros give 0 or ±π depending
+    on their signs, and two infinities odd multiples of π/4, as in C.
     """
     ax, ay = f.intrinsic("fabs", x), f.intrinsic("fabs", y)
     steep = f.compare("ogt", ay, ax)
@@ -257,7 +259,7 @@ def _atan(f: Function, x: Value) -> Value:
 
 
 def _leg(f: Function, x: Value) -> Value:
-    """``√(1 − x²)`` without cancellation near |x| = 1; NaN beyond."""
+    """``√(1 − x²)`` without cancellation near |x| = 1; NaN for |x| > 1."""
     return f.intrinsic("sqrt", (1.0 - x) * (x + 1.0))
 
 

@@ -18,12 +18,12 @@ from .elementary import sincos
 from .ir import Function, Module, Value
 from .tape import FLAGS, LEAVES, Op, Tape, operands
 
-WHOLE = 2000  # operations that still go into one function: what a value costs to hand on is saved
+WHOLE = 2000  # a tape with at most this many operations is one function: no values have to be passed on
 CHUNK = 1000  # operations in each of several functions …
-MAX_SHARED_LENGTH = 10_000  # … up to this length; beyond it
-MIN_SHARED_LENGTH = 300  # gives a few per cent of speed for a third of LLVM's time
+MAX_SHARED_LENGTH = 10_000  # … up to this length; beyond it,
+MIN_SHARED_LENGTH = 300  # this gives a few per cent of speed for a third of LLVM's time
 
-COMPANY = 64  # angles whose sines and cosines are computed in a row in vector code
+COMPANY = 64  # angles whose sines and cosines are computed consecutively in vector code
 
 ARITHMETIC = {"add": "fadd", "sub": "fsub", "mul": "fmul", "div": "fdiv"}
 COMPARISON = {"lt": "olt", "le": "ole", "eq": "oeq"}
@@ -34,7 +34,8 @@ CALLS = frozenset(
 
 @dataclass
 class Chunk:
-    """A stretch of a tape that becomes one function: entries computed, and scratch slots written (entry → slot)."""
+    """A part of a tape that becomes one function: the computed entries, and the scratch slots written (entry →
+    slot)."""
 
     members: list[int]
     written: dict[int, int] = field(default_factory=dict)
@@ -42,7 +43,7 @@ class Chunk:
 
 @dataclass
 class Plan:
-    """How a tape is cut: its chunks, where entries that cross chunks are kept, and how many slots that takes."""
+    """How a tape is split: its chunks, the slots of entries that several chunks use, and the number of slots."""
 
     chunks: list[Chunk]
     slots: dict[int, int]
@@ -50,7 +51,7 @@ class Plan:
 
 
 def plan(tape: Tape, chunk: int | None = None) -> Plan:
-    """Cut a tape into chunks of equal length; a scratch slot is used again once its last reader's chunk is over."""
+    """Split a tape into chunks of equal length; a scratch slot is reused after the chunk of its last reader."""
     computed = [i for i, op in enumerate(tape.ops) if op[0] not in LEAVES]
     if chunk is None:
         chunk = WHOLE if len(computed) <= WHOLE else CHUNK if len(computed) <= MAX_SHARED_LENGTH else MIN_SHARED_LENGTH
@@ -84,9 +85,9 @@ def plan(tape: Tape, chunk: int | None = None) -> Plan:
 def emit(
     module: Module, name: str, tape: Tape, lanes: int, *, own_shared: bool = False, chunk: int | None = None
 ) -> int:
-    """Print a tape as the function ``name``; return how many scratch slots it wants.
+    """Print a tape as the function ``name``; return the number of scratch slots that it needs.
 
-    ``own_shared``: the shared block holds ``lanes`` doubles a slot, as in a sweep with a parameter set per lane.
+    ``own_shared``: the shared block has ``lanes`` doubles per slot, as in a sweep with a parameter set for each lane.
     """
     cut = plan(tape, chunk)
     stores: dict[int, list[int]] = {}
@@ -114,9 +115,9 @@ def emit(
 def emit_inline(
     f: Function, tape: Tape, inputs: Mapping[int, Value], shared: str, *, own_shared: bool = False
 ) -> list[Value]:
-    """Print a whole tape into ``f``, its ``in`` slots read from registers; return its outputs.
+    """Print a whole tape into ``f``, with its ``in`` slots in registers; return its outputs.
 
-    ``shared`` is the address of the shared block. For short tapes in other people's loops.
+    ``shared`` is the address of the shared block. It is used for short tapes inside loops of other functions.
     """
     printer = _Printer(f.module, f.lanes, tape, plan(tape, max(1, len(tape.ops))), own_shared)
     printer.f, printer.shared = f, shared
@@ -126,16 +127,16 @@ def emit_inline(
 
 
 def attributes(lanes: int) -> str:
-    """What LLVM is told of a function that computes in so many lanes."""
-    # Wide vectors are asked for by name: some processors' tuning avoids them. No call to a stack probe: on Windows that
-    # would be a symbol somebody has to provide, and frames here are far smaller than the guard's reach. The stack is
-    # aligned to a vector: what registers have no room for would otherwise straddle two cache lines, each and every one.
+    """The LLVM attributes of a function that computes in this many lanes."""
+    # Wide vectors are requested explicitly, because the tuning of some processors avoids them. There is no call of a
+    # stack probe: on Windows it would be a symbol that somebody has to provide, and frames here are far smaller than
+    # the guard page. The stack is aligned to a vector: otherwise every spilled register would straddle two cache lines.
     aligned = f" alignstack({8 * lanes})" if lanes > 2 else ""
     return f'nounwind "prefer-vector-width"="{lanes * 64}" "no-stack-arg-probe"{aligned}'
 
 
 class _Printer:
-    """Prints the entries of one chunk; leaves and values of earlier chunks are loaded at their first use."""
+    """Prints the entries of one chunk; leaves and values of earlier chunks are loaded when they are first used."""
 
     def __init__(self, module: Module, lanes: int, tape: Tape, cut: Plan, own_shared: bool) -> None:
         self.f = Function(module, lanes)
@@ -165,14 +166,14 @@ class _Printer:
                         self.f.store(Value(self.f, self.name(i)), "%out", slot)
 
     def name(self, i: int) -> str:
-        """The operand that holds entry i as a number."""
+        """The operand for entry i as a number."""
         found = self.names.get(i)
         if found is None:
             found = self.names[i] = self._fetch(i)
         return found
 
     def flag(self, i: int) -> str:
-        """The operand that holds entry i as a truth value."""
+        """The operand for entry i as a truth value."""
         if i not in self.flags:
             self.flags[i] = self.f.compare("une", Value(self.f, self.name(i)), 0.0)
         return self.flags[i]
@@ -237,9 +238,9 @@ class _Printer:
         return Value(f, f.put(f"call {f.real} {symbol}({passed})"))
 
     def _turn(self, group: list[int]) -> None:
-        """Sines and cosines whose angles are known by now.
+        """Print the sines and cosines whose angles are known at this point.
 
-        Single numbers are packed into vectors, one call for several.
+        Single numbers are packed into vectors, so that one call computes several.
         """
         f, ops = self.f, self.tape.ops
         angles = list(dict.fromkeys(ops[i][1] for i in group))
@@ -262,7 +263,7 @@ class _Printer:
         return f.put(f"extractvalue {pair} {both}, 0"), f.put(f"extractvalue {pair} {both}, 1")
 
     def _packed(self, angles: list[int], width: int) -> dict[int, tuple[str, str]]:
-        """One vector call for up to ``width`` scalar angles; unused lanes repeat the first."""
+        """One vector call for up to ``width`` scalar angles; unused lanes repeat the first angle."""
         if width == 1:
             return {angles[0]: self._pair(self.f, self.name(angles[0]))}
         wide = self.f.widened(width)
@@ -273,18 +274,19 @@ class _Printer:
 
 
 def _angles_together(ops: list[Op], members: list[int], company: int) -> list[int | list[int]]:
-    """The order in which a chunk is printed: tape order, but sines and cosines in groups of up to ``company`` angles.
+    """The order in which a chunk is printed: that of the tape, but with sines and cosines in groups of up to
+    ``company`` angles.
 
-    A group stands where its first member stands; what its other angles need is computed before it. Its angles must not
-    depend on sines or cosines not yet there. So single numbers find company to share a vector call with, and a call,
-    which saves the values alive around it, comes less often.
+    A group is at the place of its first member, and everything that its other angles need is computed before it. Its
+    angles must not depend on sines or cosines that are not yet computed. In this way scalar angles can share a vector
+    call, and there are fewer calls, each of which saves the live registers.
     """
     turning = [i for i in members if ops[i][0] in ("sin", "cos")]
     here, done = set(members), set()
     order: list[int | list[int]] = []
 
     def missing(i: int) -> set[int] | None:
-        """What entry i still needs; None if a sine or cosine is among it."""
+        """What entry i still needs; None if this includes a sine or cosine."""
         found: set[int] = set()
         stack = [ops[i][1]]
         while stack:

@@ -1,7 +1,7 @@
-"""LLVM IR as text: a module, its functions, and values that print the instruction when an operator is applied.
+"""LLVM IR as text: a module, its functions, and values that print an instruction when an operator is applied.
 
-Everything is straight-line ``double`` or ``<lanes x double>`` code. No fast-math flag is ever set: where a product and
-a sum are to be one rounding, :meth:`Function.fma` says so, so that scalar and vector code round alike.
+Everything is straight-line code on ``double`` or ``<lanes x double>``. No fast-math flag is ever set: where a product
+and a sum should be rounded only once, :meth:`Function.fma` says so, so that scalar and vector code round alike.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from itertools import count
 
-BIND = "bind_libm"  # every module has this function: it is handed the table of C functions once, after loading
+BIND = "bind_libm"  # every module has this function, which receives the table of C functions once, after loading
 LIBM_TABLE = f"""@libm = internal global ptr null
 define void @{BIND}(ptr %table) {{
   store ptr %table, ptr @libm
@@ -20,38 +20,38 @@ define void @{BIND}(ptr %table) {{
 
 
 def hexadecimal(x: float) -> str:
-    """A double as LLVM spells it exactly: ``0x`` and the 16 digits of its bits."""
+    """A double as LLVM writes it exactly: ``0x`` and the 16 hexadecimal digits of its bits."""
     return f"0x{struct.unpack('<Q', struct.pack('<d', x))[0]:016X}"
 
 
 def shuffle_mask(indices: Iterable[int]) -> str:
-    """A shuffle's mask."""
+    """The mask of a shuffle."""
     numbers = list(indices)
     return f"<{len(numbers)} x i32> <" + ", ".join(f"i32 {k}" for k in numbers) + ">"
 
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """What the printed code may rely on: the machine's name for the compiler, fused multiply-add, vector width."""
+    """What the printed code may rely on: the name of the machine for the compiler, fused multiply-add, vector width."""
 
     triple: str
     cpu: str
     features: str
     fma: bool
     lanes: int  # doubles in the widest vector register
-    splat: bool  # the assembler reads ``splat (double c)`` (LLVM 19 and later)
+    splat: bool  # whether the assembler reads ``splat (double c)`` (LLVM 19 and later)
 
 
 @dataclass
 class Module:
-    """The text of one LLVM module: intrinsics declared and helper functions printed once, on first need."""
+    """The text of an LLVM module; intrinsics and helper functions are printed once, when they are first needed."""
 
     target: Target
     _declared: dict[str, str] = field(default_factory=dict)
     _functions: dict[str, str] = field(default_factory=dict)
 
     def declare(self, name: str, result: str, arguments: Sequence[str]) -> str:
-        """Make the intrinsic ``name`` known; return its symbol."""
+        """Declare the intrinsic ``name``; return its symbol."""
         if name not in self._declared:
             self._declared[name] = f"declare {result} @{name}({', '.join(arguments)})"
         return "@" + name
@@ -61,17 +61,17 @@ class Module:
         self._functions[name] = text
 
     def defines(self, name: str) -> bool:
-        """Tell whether a function of this name is there."""
+        """Whether a function of this name exists."""
         return name in self._functions
 
     def text(self) -> str:
-        """The whole module, with the pointer to the table of C functions and the function that sets it."""
+        """The whole module, including the pointer to the table of C functions and the function that sets it."""
         head = f'target triple = "{self.target.triple}"'
         return "\n".join([head, LIBM_TABLE, *self._declared.values(), *self._functions.values(), ""])
 
 
 class Value:
-    """A number in a register; arithmetic on it prints an instruction. Plain floats become constants of every lane."""
+    """A number in a register; arithmetic on it prints an instruction. Plain floats become constants in every lane."""
 
     __slots__ = ("function", "name")
 
@@ -120,13 +120,13 @@ class Function:
         self._numbers = count(1)
 
     def widened(self, lanes: int) -> Function:
-        """A view that prints vector code of another width into this same function."""
+        """A view that prints vector code of another width into the same function."""
         other = Function(self.module, lanes)
         other.lines, other._numbers = self.lines, self._numbers
         return other
 
     def vector(self, element: str) -> str:
-        """The type that holds one ``element`` a lane."""
+        """The type with one ``element`` per lane."""
         return element if self.lanes == 1 else f"<{self.lanes} x {element}>"
 
     def put(self, instruction: str) -> str:
@@ -162,7 +162,7 @@ class Function:
         return "<" + ", ".join([f"{element} {text}"] * self.lanes) + ">"
 
     def operand(self, x: Value | float) -> str:
-        """What stands for ``x`` in an instruction."""
+        """The operand for ``x`` in an instruction."""
         return x.name if isinstance(x, Value) else self.constant(x)
 
     # Arithmetic --------------------------------------------------------------------------------------------------
@@ -172,7 +172,7 @@ class Function:
         return Value(self, self.put(f"{operation} {self.real} {self.operand(a)}, {self.operand(b)}"))
 
     def fma(self, a: Value | float, b: Value | float, c: Value | float) -> Value:
-        """``a b + c``, rounded once where the machine can, twice elsewhere."""
+        """``a b + c``, rounded once if the machine supports it, otherwise twice."""
         if not self.module.target.fma:
             return self.binary("fadd", self.binary("fmul", a, b), c)
         return self.intrinsic("fma", a, b, c)
@@ -184,9 +184,9 @@ class Function:
         return Value(self, self.put(f"call {self.real} {symbol}({passed})"))
 
     def polynomial(self, x: Value, coefficients: Sequence[float]) -> Value:
-        """``Σ c_k x^k`` by Estrin's scheme: pairs first, then pairs of pairs with x², x⁴ ….
+        """``Σ c_k x^k`` by Estrin's scheme: first pairs, then pairs of pairs with x², x⁴ ….
 
-        Half the depth of Horner.
+        It has half the depth of Horner's scheme.
         """
         terms: list[Value | float] = list(coefficients)
         power = x
@@ -203,12 +203,12 @@ class Function:
     def compare(self, condition: str, a: Value | float, b: Value | float) -> str:
         """A truth value per lane.
 
-        ``condition`` is LLVM's: ``olt``, ``ole``, ``oeq`` are false when an operand is NaN.
+        ``condition`` is LLVM's: ``olt``, ``ole``, ``oeq`` are false if an operand is NaN.
         """
         return self.put(f"fcmp {condition} {self.real} {self.operand(a)}, {self.operand(b)}")
 
     def select(self, flag: str, a: Value | float, b: Value | float) -> Value:
-        """``a`` where the flag holds, else ``b``."""
+        """``a`` where the flag holds, otherwise ``b``."""
         chosen = f"select {self.flag} {flag}, {self.real} {self.operand(a)}, {self.real} {self.operand(b)}"
         return Value(self, self.put(chosen))
 
@@ -234,7 +234,7 @@ class Function:
         return self.put(f"{operation} {self.whole} {a}, {other}")
 
     def all_lanes(self, flag: str) -> str:
-        """One truth value: the flag holds in every lane."""
+        """A single truth value: whether the flag holds in every lane."""
         if self.lanes == 1:
             return flag
         symbol = self.module.declare(f"llvm.vector.reduce.and.v{self.lanes}i1", "i1", [self.flag])
@@ -275,14 +275,14 @@ class Function:
         )
 
     def part(self, x: Value, narrow: Function, k: int) -> Value:
-        """Lanes of the k-th piece of a vector as one of a narrower function's."""
+        """The k-th piece of a vector, as a vector for a narrower function."""
         if narrow.lanes == self.lanes:
             return Value(narrow, x.name)
         mask = shuffle_mask(range(k * narrow.lanes, (k + 1) * narrow.lanes))
         return Value(narrow, self.put(f"shufflevector {self.real} {x.name}, {self.real} poison, {mask}"))
 
     def joined(self, names: Sequence[str], wide: Function) -> Value:
-        """Vectors, two to the power of something, as one vector of a wider function's."""
+        """A power of two of vectors, joined to one vector for a wider function."""
         lanes, pieces = self.lanes, list(names)
         while len(pieces) > 1:
             kind, mask = f"<{lanes} x double>", shuffle_mask(range(2 * lanes))
@@ -294,7 +294,8 @@ class Function:
         return Value(wide, pieces[0])
 
     def load(self, base: str, index: int, *, uniform: bool = False) -> Value:
-        """Slot ``index`` of a block of numbers: ``lanes`` doubles a slot, or one double for all lanes if uniform."""
+        """Load slot ``index`` of a block of numbers: ``lanes`` doubles per slot, or one double for all lanes if
+        uniform."""
         if uniform or self.lanes == 1:
             address = self.put(f"getelementptr double, ptr {base}, i64 {index}")
             return self.broadcast(self.put(f"load double, ptr {address}, align 8"))
@@ -302,11 +303,11 @@ class Function:
         return Value(self, self.put(f"load {self.real}, ptr {address}, align {8 * self.lanes}"))
 
     def store(self, x: Value | float, base: str, index: int) -> None:
-        """Write slot ``index`` of a block of numbers, ``lanes`` doubles a slot."""
+        """Write slot ``index`` of a block of numbers, ``lanes`` doubles per slot."""
         address = self.put(f"getelementptr {self.real}, ptr {base}, i64 {index}")
         self.do(f"store {self.real} {self.operand(x)}, ptr {address}, align {8 * self.lanes}")
 
     def finish(self, name: str, result: str, arguments: str, attributes: str = "") -> None:
-        """Close the function and hand it to the module."""
+        """Close the function and add it to the module."""
         head = f"define {result} @{name}({arguments}) {attributes} {{".replace("  ", " ")
         self.module.define(name, "\n".join([head, "entry:", *self.lines, "}"]))

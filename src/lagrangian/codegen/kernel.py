@@ -28,29 +28,29 @@ if TYPE_CHECKING:
     from .ir import Module
 
 _BATCH = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64, ctypes.c_int64, ctypes.c_void_p)
-# A short state takes less time than handing the interpreter's lock over and back: there `single` keeps it.
+# For a short state, releasing and reacquiring the interpreter's lock would take longer: `single` keeps it.
 _SINGLE_SHORT = ctypes.PYFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)
 _SINGLE_LONG = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_void_p)
 
-LONG_KERNEL_NODES = 20_000  # nodes from which one state is long
-REMEMBERED = 64  # parameter sets whose shared block is kept
+LONG_KERNEL_NODES = 20_000  # number of nodes from which a state counts as long
+REMEMBERED = 64  # number of parameter sets whose shared block is cached
 
 
 def _rebuilt(program: Program, options: Options, optional: Mapping[str, float], threads: int | None) -> Kernel:
-    """A kernel sent from another process, perhaps another machine: compiled here, for what is here."""
+    """Restore a kernel that was sent from another process, perhaps another machine: it is compiled for this machine."""
     return Kernel(Build(program, options, native.host()), optional=optional, threads=threads)
 
 
 class Kernel:
     """A compiled program: arrays in, arrays out.
 
-    Call it with the groups in the program's order, or by name; each of shape ``(..., n)``, leading shapes broadcast
-    together; a group can also be a mapping from entry names to values. One output comes back as an array of shape
-    ``(..., *shape)``, several as a dict of such arrays. ``out`` (an array, or a dict of arrays) is written to and
-    returned. Nothing else that is handed over is written to. Kernels can be called from several threads at once.
+    Call it with the groups in the program's order, or by name. Each has the shape ``(..., n)``, and leading shapes are
+    broadcast together; a group can also be a mapping from entry names to values. A single output is returned as an
+    array of shape ``(..., *shape)``, several as a dict of such arrays. ``out`` (an array, or a dict of arrays) is
+    filled and returned. No other argument is modified. Several threads may call a kernel at once.
 
-    Raises :class:`~lagrangian.errors.RunError` where a shape or a type is wrong, a name is unknown or missing, or a
-    value is not finite, in or out.
+    Raises :class:`~lagrangian.errors.RunError` if a shape or a type is wrong, a name is unknown or missing, or an input
+    or output is not finite.
     """
 
     def __init__(self, build: Build, *, optional: Mapping[str, float], threads: int | None) -> None:
@@ -83,9 +83,10 @@ class Kernel:
 
     @property
     def admit(self) -> Callable[[Array], Look | None] | None:
-        """What looks at hoisted values, (..., n), before they are used, and may raise.
+        """The function that checks hoisted values, (..., n), before they are used, and may raise an error.
 
-        It may return machine code that looks at single rows from then on; what that is sure of is not shown again.
+        It may return machine code that checks single rows from then on; rows that this code accepts are not checked
+        again.
         """
         return self._quick.admit
 
@@ -95,16 +96,16 @@ class Kernel:
 
     @property
     def operations(self) -> int:
-        """Operations a state takes; a fused product and sum, a division, a call each count as one."""
+        """The number of operations per state; a fused product and sum, a division, and a call count as one each."""
         return self.build.lowered.body.operations
 
     @property
     def parameter_operations(self) -> int:
-        """Operations a parameter set takes, once."""
+        """The number of operations per parameter set."""
         return self.build.lowered.prologue.operations
 
     def __call__(self, *given: Any, out: Any = None, **named: Any) -> Any:
-        """Evaluate; see the class."""
+        """Evaluate the program; see the class."""
         if named:
             given = tuple(self._assigned(given, named))
         missing = len(self._groups) - len(given)
@@ -114,10 +115,10 @@ class Kernel:
                 return answer
         return self._general(self._assigned(given, {}), out)
 
-    # Everything else ---------------------------------------------------------------------------------------------
+    # Everything else -----------------------------------------------------------------------------------------------
 
     def _assigned(self, given: Sequence[Any], named: Mapping[str, Any]) -> list[Any]:
-        """One argument a group, None where nothing was given."""
+        """One argument for each group, None if it was not given."""
         names = [g.name for g in self._groups]
         if len(given) > len(names):
             raise RunError(f"{len(given)} arrays for {len(names)} groups", code="E501", fix=f"give {', '.join(names)}")
@@ -153,7 +154,7 @@ class Kernel:
         return arrays, lead, shared
 
     def _lead(self, arrays: list[Array]) -> tuple[int, ...]:
-        """The leading shape that all groups broadcast to."""
+        """The leading shape to which all groups are broadcast."""
         shapes = {a.shape[:-1] for a in arrays} - {()}
         try:
             return shapes.pop() if len(shapes) == 1 else np.broadcast_shapes(*shapes)
@@ -166,7 +167,7 @@ class Kernel:
             ) from cause
 
     def _shared_block(self, early: list[Array]) -> Array:
-        """The prologue's results for one parameter set; the latest few sets are remembered."""
+        """The results of the prologue for one parameter set; those of the most recent sets are cached."""
         key = b"".join(a.tobytes() for a in early)
         found = self._blocks.get(key)
         if found is not None:
@@ -190,7 +191,7 @@ class Kernel:
         return shared
 
     def _stage(self) -> Stage:
-        """A stage; there is machine code for its parameters then."""
+        """A stage for a call; machine code for its parameters exists then."""
         quick = self._quick
         if quick.parameters is absent:
             quick.parameters = self._entry("batch" if "batch" in self.build.ready else "single", "parameters")
@@ -198,12 +199,12 @@ class Kernel:
         return quick.stage()
 
     def _entry(self, kind: str, name: str) -> Entry:
-        """A function of a module of that kind, to be called with the table of a stage."""
+        """A function in the module of a kind, to be called with the table of a stage."""
         long = len(self.program.graph.nodes) > LONG_KERNEL_NODES
         return (_SINGLE_LONG if long else _SINGLE_SHORT)(self.build.loaded(kind).address(name))
 
     def _one(self, late: list[Array], shared: Array) -> Any:
-        """One state."""
+        """Evaluate one state."""
         quick = self._quick
         if quick.single is absent:
             quick.both, quick.single = self._entry("single", "both"), self._entry("single", "single")
@@ -221,8 +222,8 @@ class Kernel:
         return answer
 
     def _many(self, arrays: list[Array], lead: tuple[int, ...], shared: Array | None, out: Any) -> Batch:
-        """Any number of states."""
-        if math.prod(lead) == 0:  # nothing will be computed: no code is needed
+        """Evaluate any number of states."""
+        if math.prod(lead) == 0:  # nothing is computed, so no code is needed
             engine = Engine(lambda *_: -1, (), self._outputs, self.lanes, 0, 0, None)
         else:
             engine = self._engine("batch" if shared is not None else "sweep")
@@ -231,7 +232,7 @@ class Kernel:
         return Batch(engine, given, lead, shared=shared, out=out, threads=self.threads)
 
     def _engine(self, kind: str) -> Engine:
-        """The machine code for many states that share a parameter set (``batch``) or have one each (``sweep``)."""
+        """The machine code for many states with a common parameter set (``batch``) or with one each (``sweep``)."""
         found = self._engines.get(kind)
         if found is None:
             order = self._state_groups if kind == "batch" else self._state_groups + self._hoisted_groups
@@ -248,11 +249,11 @@ class Kernel:
         return found
 
     def prepared(self, *given: Any, out: Any = None, **named: Any) -> Batch:
-        """A call for certain float64 arrays with everything but the arithmetic done: ``batch()`` computes from what
-        they hold.
+        """A call for certain float64 arrays with everything but the arithmetic prepared: ``batch()`` computes from
+        their contents.
 
-        For loops that evaluate the same arrays over and over. Parameters are those of now, unless each state has its
-        own. There must be at least ``lanes`` states, and leading axes that one stride can walk.
+        It is meant for loops that evaluate the same arrays many times. The current parameters are used, unless each
+        state has its own. There must be at least ``lanes`` states, and a single stride must cover the leading axes.
         """
         slots = self._assigned(given, named)
         arrays, lead, shared = self._understood(slots)
@@ -283,8 +284,8 @@ class Kernel:
         return RawFunction(code.address(name), lanes, sum(s.groups), s.shared, sum(s.outputs), s.scratch, code)
 
     def signs(self, above: int) -> Look:
-        """A look at the one group of a program, none hoisted: are its first ``above`` outputs above 0, the others not
-        below?
+        """A check of the only group of a program: are its first ``above`` outputs positive and the others not
+        negative?
         """
 
         def printer(module: Module, build: Build) -> None:
@@ -295,7 +296,7 @@ class Kernel:
         return Look(code.address("signs"), code)
 
     def shared(self, *early: Any) -> Array:
-        """The shared block of a parameter set (of values for the hoisted groups), for :meth:`raw` functions."""
+        """The shared block of a parameter set (values of the hoisted groups), for :meth:`raw` functions."""
         given = [*early, *[None] * (len(self._hoisted_groups) - len(early))]
         rows = [self._groups[k].array(x).reshape(-1) for k, x in zip(self._hoisted_groups, given, strict=True)]
         block = self._shared_block(rows).view()
@@ -304,4 +305,4 @@ class Kernel:
 
 
 def _never(_: Sequence[Any]) -> None:
-    """The quick way where there is none."""
+    """Return None: there is no quick way."""

@@ -1,6 +1,6 @@
-"""Names in generated sources: identifiers are ours, and what people called things appears in comments only.
+"""Names in generated source: identifiers are our own, and names given by users appear only in comments.
 
-A coordinate may be called ``x``, ``int`` or ``*/ system("…")``; as a comment it can neither collide nor end the
+A coordinate may be called ``x``, ``int`` or ``*/ system("…")``; in a comment it can neither collide nor end the
 comment.
 """
 
@@ -13,16 +13,18 @@ QUIET = re.compile(r"[^A-Za-z0-9_'.,:;+=()\[\]^ -]", re.ASCII)
 
 
 def comment(text: str) -> str:
-    """``text`` in characters that mean nothing in a comment of any language; letters beyond ASCII become ``U+03B8``."""
+    """``text`` in characters that have no meaning in comments of any language; letters beyond ASCII become
+    ``U+03B8``."""
     quiet = QUIET.sub(lambda match: f"U+{ord(match[0]):04X}" if ord(match[0]) > 126 else "_", text)
     return quiet if len(quiet) <= 60 else quiet[:57] + "..."
 
 
 def identifier(prefix: str, name: str, index: int) -> str:
-    """``prefix`` with ``name`` if that is a plain word, else with ``index``; distinct names give distinct results."""
+    """``prefix`` with ``name`` if this is a plain word, otherwise with ``index``; distinct names give distinct
+    results."""
     return f"{prefix}{name}" if WORD.fullmatch(name) else f"{prefix}{index}"
 
 
 def word(text: str) -> str:
-    """``text`` as one word of an identifier: what is neither a letter nor a digit becomes an underscore."""
+    """``text`` as part of an identifier: everything except letters and digits becomes an underscore."""
     return re.sub(r"[^A-Za-z0-9]+", "_", text)[:40].strip("_") or "program"

@@ -1,7 +1,6 @@
-"""The digits of the elementary functions: minimax polynomials by Remez' exchange, in multiple precision.
+"""The coefficients of the elementary functions: minimax polynomials by Remez' exchange, in multiple precision.
 
-``python -m lagrangian.codegen.minimax`` prints the table that ``elementary.py`` holds. Nothing at run time imports
-this.
+``python -m lagrangian.codegen.minimax`` prints the table in ``elementary.py``. This module is not imported at run time.
 
 A polynomial P of degree n is the best approximation of f on [a, b] under the weight w exactly when the weighted error
 ``w(x) (f(x) − P(x))`` takes its greatest magnitude at n + 2 points with alternating signs (Chebyshev); Remez' iteration
@@ -17,12 +16,12 @@ from typing import Any
 import mpmath
 from mpmath import mp, mpf
 
-Real = Any  # mpmath's number; its classes carry no types
+Real = Any  # mpmath's number; its classes have no types
 DIGITS = 60
 
 
 def remez(f: Callable[[Real], Real], weight: Callable[[Real], Real], a: Real, b: Real, degree: int) -> list[Real]:
-    """Coefficients ``[c0, …, c_degree]`` that minimise the greatest ``|weight(x) (f(x) − Σ c_k x^k)|`` on [a, b]."""
+    """Coefficients ``[c0, …, c_degree]`` that minimize the largest ``|weight(x) (f(x) − Σ c_k x^k)|`` on [a, b]."""
     count = degree + 2
     points = [(a + b) / 2 - (b - a) / 2 * mpmath.cos(mp.pi * k / (count - 1)) for k in range(count)]
     coefficients: list[Real] = []
@@ -50,7 +49,8 @@ def horner(coefficients: list[Real], x: Real) -> Real:
 
 
 def _extremes(error: Callable[[Real], Real], a: Real, b: Real, points: list[Real]) -> list[Real]:
-    """Move each point but the last to the extreme of ``error`` between its neighbours' midpoints, by golden section."""
+    """Move each point except the last to the extremum of ``error`` between the midpoints to its neighbours, by golden
+    section."""
     ratio = (mpmath.sqrt(5) - 1) / 2
     moved = []
     for k in range(len(points) - 1):
@@ -69,7 +69,7 @@ def _extremes(error: Callable[[Real], Real], a: Real, b: Real, points: list[Real
 def greatest_error(
     f: Callable[[Real], Real], weight: Callable[[Real], Real], a: Real, b: Real, coefficients: list[float]
 ) -> float:
-    """The greatest weighted error of a polynomial with these coefficients on a grid of [a, b]."""
+    """The largest weighted error of a polynomial with these coefficients on a grid of [a, b]."""
     exact = [mpf(c) for c in coefficients]
     grid = [a + (b - a) * mpf(k) / 400 for k in range(1, 400)]
     return float(max(abs(weight(x) * (f(x) - horner(exact, x))) for x in grid))
@@ -87,14 +87,13 @@ def split(value: Real, bits: list[int]) -> list[float]:
 
 
 def targets() -> dict[str, tuple[Callable[[Real], Real], Callable[[Real], Real], Real, Real, int]]:
-    """What each polynomial approximates: function, weight, interval, degree. Weights make errors relative to the
-    result.
+    """The function, weight, interval and degree of each polynomial. The weights make errors relative to the result.
 
-    With z = r²: sin r = r + r z S(z), cos r = 1 − z/2 + z² C(z), atan r = r + r z A(z), 2 atanh r = 2r + r z L(z);
-    exp r = 1 + r + r² E(r). The weights vanish at 0, where Remez' exchange has no extreme to find, so the intervals
-    start a little beside it.
+    With z = r²: sin r = r + r z S(z), cos r = 1 − z/2 + z² C(z), atan r = r + r z A(z), 2 atanh r = 2r + r z L(z); exp
+    r = 1 + r + r² E(r). The weights vanish at 0, where Remez' exchange cannot find an extremum, so the intervals begin
+    slightly above 0.
     """
-    root, late = mpmath.sqrt, 1 + mpf(2) ** -20  # reduced arguments overshoot by the rounding of the quotient
+    root, late = mpmath.sqrt, 1 + mpf(2) ** -20  # reduced arguments exceed the interval by the rounding of the quotient
     quarter, eighth = (mp.pi / 4 * late) ** 2, mpmath.tan(mp.pi / 8) ** 2
     ratio = (3 - 2 * root(mpf(2))) ** 2  # ((m − 1)/(m + 1))² at m = √2
     half = mpmath.log(2) / 2 * late

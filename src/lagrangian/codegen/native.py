@@ -1,6 +1,6 @@
-"""The machine underneath: what the host can do, IR text to object code, object code to addresses that can be called.
+"""The machine: its capabilities, compiling IR text to object code, and loading object code.
 
-llvmlite carries LLVM; nothing else is needed on the user's machine.
+llvmlite contains LLVM; nothing else is needed on the user's machine.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ except ImportError:
 from .elementary import LIBM
 from .ir import BIND, Target
 
-_lock = threading.RLock()  # LLVM's global state (targets, engines) is set up by one thread at a time
+_lock = threading.RLock()  # LLVM's global state (targets, engines) must be set up by one thread at a time
 
 
 OLD = tuple(int(part) for part in llvmlite.__version__.split(".")[:2]) < (0, 45)  # LLVM 15
@@ -33,8 +33,8 @@ OLD = tuple(int(part) for part in llvmlite.__version__.split(".")[:2]) < (0, 45)
 
 @cache
 def _ready() -> None:
-    """Start LLVM's compiler for this machine."""
-    if OLD:  # later ones start themselves, and refuse to be told
+    """Initialize LLVM for this machine."""
+    if OLD:  # later versions initialize themselves, and raise an error here
         llvm.initialize()
     llvm.initialize_native_target()
     llvm.initialize_native_asmprinter()
@@ -42,48 +42,48 @@ def _ready() -> None:
 
 @cache
 def host() -> Target:
-    """This machine: its name, its features, and the widest vector of doubles it has."""
+    """The name of this machine, its features, and its widest vector of doubles."""
     with _lock:
         _ready()
         features = llvm.get_host_cpu_features()
-        # On Windows, too, what LLVM loads into memory is an ELF object.
+        # Even on Windows, LLVM loads ELF objects into memory.
         triple = llvm.get_process_triple() + ("-elf" if os.name == "nt" else "")
         flags = features.flatten()
     arm = triple.startswith(("aarch64", "arm64"))
     lanes = 8 if features.get("avx512f") and features.get("avx512dq") else 4 if features.get("avx2") else 2
-    # The features are the host's; the instruction scheduler gets the generation's common model: where both were tried
-    # its code was as fast as with the processor's own model, made in a quarter less time, and LLVM knows it even where
-    # it does not yet know the processor.
+    # The features are those of the host, but the instruction scheduler uses the common model of the generation: in
+    # tests, this code was as fast as with the processor's own model, was compiled in a quarter less time, and LLVM
+    # knows the common model even if it does not yet know the processor.
     cpu = {8: "x86-64-v4", 4: "x86-64-v3", 2: "x86-64"}[lanes] if triple.startswith("x86_64") else ""
     return Target(triple, cpu, flags, bool(arm or features.get("fma")), lanes, llvm.llvm_version_info[0] >= 19)
 
 
 def machine(target: Target, level: int) -> llvm.TargetMachine:
-    """LLVM's code generator for ``target`` at optimisation level 0–3."""
+    """LLVM's code generator for ``target`` at optimization level 0–3."""
     with _lock:
         _ready()
-        # Position independent and small: constants are operands relative to the instruction pointer. The memory manager
-        # asked for in `load` keeps all sections of an object within reach.
+        # Position-independent small code: constants are addressed relative to the instruction pointer. The memory
+        # manager requested in `load` keeps all sections of an object within reach.
         return llvm.Target.from_triple(target.triple).create_target_machine(
             cpu=target.cpu, features=target.features, opt=level, reloc="pic", codemodel="small", jit=True
         )
 
 
 def _context() -> llvm.ContextRef:
-    """A context of our own: others' modules in this process, and their kind of pointers, stay apart."""
-    if OLD:  # pointers without a pointee's type must be asked for
+    """A separate context, so that other users of LLVM in this process, and their kind of pointers, do not interfere."""
+    if OLD:  # opaque pointers must be requested
         return llvm.context.ContextRef(llvm.ffi.lib.LLVMPY_ContextCreate(True))
     return llvm.create_context()
 
 
 @cache
 def _lasting_context() -> llvm.ContextRef:
-    """The context of the empty modules that engines are built around; it must outlive them all."""
+    """The context of the empty modules around which engines are built; it must outlive all of them."""
     return _context()
 
 
 def object_code(text: str, target: Target, level: int) -> bytes:
-    """Compile IR text. The text is our own; LLVM's refusal of it is a defect here, so its RuntimeError goes through."""
+    """Compile IR text. The text is our own, so LLVM's RuntimeError for invalid text is a bug here and is not caught."""
     with _lock:
         _ready()
         context = _context()
@@ -96,7 +96,7 @@ def object_code(text: str, target: Target, level: int) -> bytes:
 
 
 class Loaded:
-    """Object code in memory; it lives as long as this object does."""
+    """Object code in memory, which exists as long as this object."""
 
     def __init__(self, code: bytes, target: Target) -> None:
         with _lock:
@@ -109,7 +109,7 @@ class Loaded:
         bind(libm_table())
 
     def address(self, name: str) -> int:
-        """Where the function ``name`` starts."""
+        """The address of the function ``name``."""
         with _lock:
             found = self._engine.get_function_address(name)
         if not found:
@@ -117,12 +117,12 @@ class Loaded:
         return found
 
 
-_tables: list[ctypes.Array[ctypes.c_void_p]] = []  # compiled code points here: kept for the life of the process
+_tables: list[ctypes.Array[ctypes.c_void_p]] = []  # compiled code refers to it, so it lives as long as the process
 
 
 @cache
 def libm_table() -> int:
-    """Address of the table of C functions, in the order of :data:`~lagrangian.codegen.elementary.LIBM`."""
+    """The address of the table of C functions, in the order of :data:`~lagrangian.codegen.elementary.LIBM`."""
     library = _c_library()
     table = (ctypes.c_void_p * len(LIBM))()
     for k, name in enumerate(LIBM):
@@ -132,7 +132,7 @@ def libm_table() -> int:
 
 
 def _c_library() -> ctypes.CDLL:
-    """The C library's mathematical half."""
+    """The mathematical functions of the C library."""
     names = ["ucrtbase", "msvcrt"] if os.name == "nt" else [None, "libm.so.6"]
     for name in names:
         try:

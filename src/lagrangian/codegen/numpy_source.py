@@ -1,4 +1,4 @@
-"""Program → NumPy: a Python function to read and to run with nothing but NumPy, vectorised over leading dimensions."""
+"""Exports a Program as a Python function that uses only NumPy and is vectorized over leading dimensions."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from .tape import Op
 if TYPE_CHECKING:
     from lagrangian.graph import Program
 
-WIDTH = 88  # a node used once stands inside the expression that uses it while the line stays this short
+WIDTH = 88  # a node that is used once is written inside the expression that uses it if the line stays this short
 
-# operation → (text, how tightly it binds, how tightly each operand must bind); 9 is an atom
+# operation → (text, its precedence, the precedence that each operand needs); 9 is an atom
 INFIX: dict[str, tuple[str, int, tuple[int, ...]]] = {
     "add": ("{0} + {1}", 4, (4, 5)),
     "sub": ("{0} - {1}", 4, (4, 5)),
@@ -41,9 +41,9 @@ CALLS = {
 
 
 def to_numpy(program: Program, *, name: str | None = None) -> str:
-    """Python source of ``program`` as a function of one array a group, each of shape (..., n).
+    """Python source of ``program`` as a function of one array per group, each of shape (..., n).
 
-    ``name``: the function's; the program's name unless given.
+    ``name`` is the name of the function; by default the program's name.
     """
     function = name if name is not None else word(program.name)
     if not function.isidentifier() or not function.isascii() or keyword.iskeyword(function):
@@ -74,7 +74,7 @@ def to_numpy(program: Program, *, name: str | None = None) -> str:
 
 
 def _parameters(program: Program) -> list[str]:
-    """The declared values of the parameters as a constant, where all are known."""
+    """The declared values of the parameters as a constant, if all are known."""
     entries = program.inputs.get("p", ())
     values = [program.defaults.get(e) for e in entries]
     if not entries or None in values:
@@ -84,7 +84,7 @@ def _parameters(program: Program) -> list[str]:
 
 
 def _arguments(groups: list[tuple[str, str, tuple[str, ...]]], parameters: bool) -> str:
-    """The function's parameters; the last ones have a default where nothing or the declared values can stand."""
+    """The parameters of the function; the last ones have a default if they may be omitted."""
     words: list[str] = []
     optional = True
     for c, group, entries in reversed(groups):
@@ -120,7 +120,7 @@ def _preparation(program: Program, groups: list[tuple[str, str, tuple[str, ...]]
 
 
 def _body(program: Program) -> tuple[list[str], dict[int, str]]:
-    """Assignments, and the text that stands for each output node."""
+    """The assignments, and the text for each output node."""
     nodes = program.graph.nodes
     wanted = program.ids
     uses: dict[int, int] = {}
@@ -145,7 +145,7 @@ def _body(program: Program) -> tuple[list[str], dict[int, str]]:
 
 
 def _expression(node: Op, text: dict[int, tuple[str, int]], letters: dict[str, str]) -> tuple[str, int]:
-    """The text of a node and how tightly it binds."""
+    """The text of a node, and its precedence."""
     kind = node[0]
     if kind == "const":
         return _literal(node[1])

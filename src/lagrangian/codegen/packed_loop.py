@@ -1,7 +1,7 @@
-"""A batch's loop for states packed without gaps: a short tape's numbers never leave the registers.
+"""The loop of a batch for contiguous states, in which the numbers of a short tape stay in registers.
 
-Where every array holds its rows one after the other, or one row for all states, W states' rows are n·W numbers in a
-row: they are loaded as whole vectors and sorted into one vector an entry by shuffles.
+If every array contains its rows one after another, or one row for all states, then the rows of W states are n·W
+consecutive numbers: they are loaded as whole vectors and rearranged by shuffles into one vector per entry.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ if TYPE_CHECKING:
     from .sizes import Array, Sizes
     from .tape import Tape
 
-MAX_SORTED_ENTRIES = 4  # entries up to which whole vectors are sorted; beyond, rows are transposed tile by tile
+MAX_SORTED_ENTRIES = 4  # up to this many entries, whole vectors are rearranged; rows with more are transposed in tiles
 
 
 def load(f: Function, base: str, n: int) -> list[Value]:
-    """``n`` entries of W rows that lie one after the other at ``base``: one vector an entry."""
+    """Load ``n`` entries of W consecutive rows at ``base``, as one vector per entry."""
     if n > MAX_SORTED_ENTRIES:
         mover = Transposer(f, _rows(f, base, n), gather=True)
         found: dict[int, str] = {}
@@ -36,7 +36,7 @@ def load(f: Function, base: str, n: int) -> list[Value]:
 
 
 def store(f: Function, base: str, values: Sequence[Value]) -> None:
-    """The reverse of `load`."""
+    """Store, the reverse of `load`."""
     n = len(values)
     if n > MAX_SORTED_ENTRIES:
         mover = Transposer(f, _rows(f, base, n), gather=False)
@@ -59,7 +59,8 @@ def _vector(f: Function, base: str, k: int) -> str:
 
 
 def _sorted(f: Function, sources: Sequence[str], spots: Sequence[tuple[int, int]]) -> Value:
-    """The vector whose lane l is lane ``spots[l][1]`` of source ``spots[l][0]``, one source merged after another."""
+    """The vector whose lane l is lane ``spots[l][1]`` of source ``spots[l][0]``, merged from one source after
+    another."""
     used = sorted({source for source, _ in spots})
     x = sources[used[0]]
     first = [lane if source == used[0] else 0 for source, lane in spots]
@@ -80,7 +81,7 @@ def _sorted(f: Function, sources: Sequence[str], spots: Sequence[tuple[int, int]
 
 @dataclass(frozen=True)
 class PackedLoop:
-    """A tape short enough to be printed into the loop, ``blocks`` × W states in one turn."""
+    """A tape that is short enough to be printed into the loop, for ``blocks`` × W states per iteration."""
 
     tape: Tape
     blocks: int = 1
@@ -89,9 +90,10 @@ class PackedLoop:
 def emit_packed(
     f: Function, short: PackedLoop, sizes: Sizes, arrays: Sequence[Array], at: dict[str, str], shared: str
 ) -> tuple[str, str, str]:
-    """Print the loop for packed arrays, taken where there is one full turn; then the block ``loop`` or ``end`` follows.
+    """Print the loop for packed arrays, used if there is at least one full iteration; the block ``loop`` or ``end``
+    follows.
 
-    Returns where it comes from: the label, the next state, and the first state found not finite or −1.
+    Return where control comes from: the label, the next state, and the first state that is not finite, or −1.
     """
     states = short.blocks * f.lanes
     inputs, outputs = arrays[: len(sizes.groups)], arrays[len(sizes.groups) :]
@@ -105,7 +107,7 @@ def emit_packed(
     bases = _repeated(f, inputs, sizes.groups, at["in"])
     f.do("br label %fast")
     f.label("fast")
-    start_of_loop = len(f.lines)  # its phis name values printed below
+    start_of_loop = len(f.lines)  # its phis use values that are printed below
     firsts = [f.put(f"add i64 %turn, {k * f.lanes}") for k in range(short.blocks)]
     read = [_read(f, bases, sizes.groups, state) for state in firsts]
     wide = f.widened(states)
@@ -136,7 +138,7 @@ def _and(f: Function, a: str, b: str) -> str:
 
 
 def _packed(f: Function, array: Array, n: int, *, still: bool) -> str:
-    """Whether rows of ``n`` lie one after the other, or (``still``) there is one for all states."""
+    """Whether rows of ``n`` are contiguous or (``still``) there is one row for all states."""
     _, row, step = array
     fits = f.put(f"icmp eq i64 {row}, {8 * n}")
     if still:
@@ -145,7 +147,7 @@ def _packed(f: Function, array: Array, n: int, *, still: bool) -> str:
 
 
 def _repeated(f: Function, arrays: Sequence[Array], counts: Sequence[int], block: str) -> list[tuple[str, str]]:
-    """Base and stride of every input; one row for all states is repeated W times into ``block`` and read from there."""
+    """Base and stride of every input; one row for all states is copied W times into ``block`` and read from there."""
     found: list[tuple[str, str]] = []
     slot = 0
     for (base, row, _), n in zip(arrays, counts, strict=True):
@@ -164,7 +166,7 @@ def _repeated(f: Function, arrays: Sequence[Array], counts: Sequence[int], block
 
 
 def _read(f: Function, bases: Sequence[tuple[str, str]], counts: Sequence[int], state: str) -> list[Value]:
-    """The inputs of W states from ``state`` on."""
+    """Read the inputs of W states from ``state`` on."""
     found: list[Value] = []
     for (base, row), n in zip(bases, counts, strict=True):
         if n:
@@ -173,7 +175,7 @@ def _read(f: Function, bases: Sequence[tuple[str, str]], counts: Sequence[int], 
 
 
 def _write(f: Function, arrays: Sequence[Array], counts: Sequence[int], state: str, values: Sequence[Value]) -> None:
-    """The outputs of W states from ``state`` on."""
+    """Write the outputs of W states from ``state`` on."""
     done = 0
     for (base, row, _), n in zip(arrays, counts, strict=True):
         if n:

@@ -1,9 +1,10 @@
-"""The quick ways into a kernel: what needs no closer look reaches the machine code with as little Python as can be.
+"""The quick way into a kernel: arguments that need no closer look reach the machine code with as little Python as
+possible.
 
-One state, and many states that stand in arrays. Whatever else is handed over is answered by None: the kernel then takes
-the way that converts, broadcasts, and explains what is wrong. A call here is as safe as there: every number is
-checked, results are new arrays, and several threads may call at once. What is written out in one piece here, or asked
-twice in other words, is so for the sake of time.
+It handles one state, and many states in arrays. For all other arguments it returns None, and the kernel takes the
+general way, which converts, broadcasts, and explains errors. A quick call is as safe as a general one: every number is
+checked, results are new arrays, and several threads may call at once. Some code here is long or repeated because that
+is faster.
 """
 
 from __future__ import annotations
@@ -25,15 +26,15 @@ from .driver import NOT_FINITE
 from .sizes import Sizes
 
 Entry: TypeAlias = Callable[[Any], int]
-"""A function of machine code that is handed the table of a stage; 0 where all is well."""
+"""A function in machine code that is called with the table of a stage; it returns 0 if everything is finite."""
 
 _WORD = 8  # bytes of a number
 _PACKED = {n: struct.Struct(f"{n}q").pack for n in range(1, 64, 3)}
-"""Tables as the machine code reads them, by the number of their entries."""
+"""Tables as machine code reads them, by the number of their entries."""
 
 
 class Quick:
-    """The quick ways into one kernel, and what they find ready: stages, shared blocks, machine code.
+    """The quick way into one kernel, with its stages, shared blocks and machine code.
 
     ``owner`` keeps the machine code in memory. At most one group is hoisted.
     """
@@ -47,14 +48,14 @@ class Quick:
         threads: int | None,
         owner: object,
     ) -> None:
-        self.stages: list[Stage] = []  # not in use
-        self.sizes: Sizes | None = None  # there is machine code as soon as they are known
+        self.stages: list[Stage] = []  # free
+        self.sizes: Sizes | None = None  # whether machine code exists once they are known
         self.single: Entry = absent
         self.both: Entry = absent
         self.parameters: Entry = absent
         self.engines: dict[str, Engine] = {}
-        self.standard: Array | None = None  # the shared block of the default parameters, once used
-        self.admit: Callable[[Array], Look | None] | None = None  # looks at hoisted values before their use; may raise
+        self.standard: Array | None = None  # the shared block of the default parameters, after its first use
+        self.admit: Callable[[Array], Look | None] | None = None  # checks hoisted values before their use
         self._threads, self._owner = threads, owner
         self._hoisted_groups = Slot(early[0], groups[early[0]]) if early else None
         self._state_groups = [Slot(k, groups[k]) for k in late]
@@ -64,10 +65,10 @@ class Quick:
         self._sizes = [(shape, _WORD * math.prod(shape)) for shape in outputs.values()]
 
     def __call__(self, given: Sequence[Any]) -> Any:
-        """The answer to a call with something, or None, for each group; None if anything needs a closer look."""
+        """The result of a call with a value, or None, for each group; None if anything needs a closer look."""
         try:
             stage = self.stages.pop()
-        except IndexError:  # no machine code yet, or other threads have them all
+        except IndexError:  # there is no machine code yet, or other threads use all stages
             if self.sizes is None:
                 return None
             stage = self.stage()
@@ -101,7 +102,7 @@ class Quick:
                     if stage.shared is not self.standard:
                         stage.share(self.standard)
                     bad = self.single(stage.where)
-        except OverflowError:  # an integer beyond all floats
+        except OverflowError:  # an integer larger than all floats
             bad = 1
         answer = None if bad else stage.reads[0]() if self._alone else self.answer(stage)
         if bad and self._lead_at is not None:
@@ -112,9 +113,9 @@ class Quick:
         return answer
 
     def _own(self, stage: Stage, early: Any, known: Entry, new: Entry) -> int:
-        """Call machine code with a stage's own shared block made of these parameters; not 0 if they need a closer look.
+        """Call machine code with a stage's own shared block for these parameters; not 0 if they need a closer look.
 
-        ``known`` is called if that is what the block is made of, ``new``, which makes it, if not.
+        ``known`` is called if the block already contains them; otherwise ``new``, which computes it.
         """
         slot = self._hoisted_groups
         assert slot is not None
@@ -128,7 +129,7 @@ class Quick:
                 return NOT_FINITE
             try:
                 key = slot.pack(*early)
-            except struct.error:  # an integer beyond all floats
+            except struct.error:  # an integer larger than all floats
                 return NOT_FINITE
         if stage.shared is not stage.own:
             stage.share(stage.own)
@@ -147,7 +148,7 @@ class Quick:
         return 0
 
     def stage(self) -> Stage:
-        """A stage for one state: one that is not in use, or a new one."""
+        """A stage for one state: a free one, or a new one."""
         try:
             return self.stages.pop()
         except IndexError:
@@ -164,7 +165,8 @@ class Quick:
         return answers
 
     def _many(self, stage: Stage, given: Sequence[Any], lead: tuple[int, ...]) -> Any:
-        """Many states in arrays of one leading shape, or with one row for all of them, which the stage then holds."""
+        """Evaluate many states in arrays of one leading shape; an argument may have one row for all states, held in the
+        stage."""
         slot, rows, engine = self._hoisted_groups, stage.rows, self.engines.get("batch")
         early = None if slot is None else given[slot.place]
         if slot is None or early is None:
@@ -202,13 +204,13 @@ class Quick:
         lead: tuple[int, ...],
         count: int,
     ) -> Any:
-        """As many states as lanes, or more."""
+        """Evaluate at least as many states as lanes."""
         entries: list[int] = []
         try:
             for slot, part, place in rows:
                 if not _reads(entries, slot, part, place, given[slot.place], lead):
                     return None
-        except OverflowError:  # an integer beyond all floats
+        except OverflowError:  # an integer larger than all floats
             return None
         results = []
         for shape, size in self._sizes:
@@ -218,20 +220,20 @@ class Quick:
         entries.append(stage.table[1] or 0)
         pack = _PACKED.get(len(entries))
         if pack is None or engine.run(pack(*entries), count, self._threads) >= 0:
-            return None  # something is not finite: where, is for the other way to find
+            return None  # something is not finite: the general way finds out where
         return results[0] if self._alone else dict(zip(self._outputs, results, strict=True))
 
 
 def _filled(
     rows: Sequence[Row], given: Sequence[Any], lead: tuple[int, ...], count: int, lanes: int
 ) -> list[Any] | None:
-    """Fewer states than the machine code computes side by side, filled up by the last; None if that cannot be."""
+    """Evaluate fewer states than lanes, filled up by repeating the last; None if that is not possible."""
     filled = list(given)
     for slot, _, _ in rows:
         array, size = given[slot.place], () if slot.scalar else slot.shape
         if type(array) is ndarray and array.shape == lead + size and array.dtype == FLOAT:
             filled[slot.place] = array.reshape(count, *size).take(_filling(count, lanes), 0)
-        elif type(array) is ndarray and array.shape != slot.shape:  # it might fit what is filled up
+        elif type(array) is ndarray and array.shape != slot.shape:  # it might match the filled shape by accident
             return None
     return filled
 
@@ -239,7 +241,7 @@ def _filled(
 def _reads(entries: list[int], slot: Slot, part: Array, place: int, given: Any, lead: tuple[int, ...]) -> bool:
     """Add a group of inputs to a table: its address, and strides in bytes; False if it needs a closer look.
 
-    Numbers that stand in no array are written to ``part``, at the address ``place``.
+    Numbers that are not in an array are written to ``part``, whose address is ``place``.
     """
     if type(given) is not ndarray:
         if given is None:
@@ -275,15 +277,15 @@ def _reads(entries: list[int], slot: Slot, part: Array, place: int, given: Any, 
 
 @cache
 def _filling(count: int, lanes: int) -> NDArray[np.intp]:
-    """Which of ``count`` states stands in which lane."""
+    """The state, among ``count``, for each lane."""
     return np.minimum(np.arange(lanes), count - 1)
 
 
 def absent(_: Any) -> int:
-    """Machine code that is not there yet."""
+    """A stand-in for machine code that does not exist yet."""
     return NOT_FINITE
 
 
 def _made(_: Any) -> int:
-    """Nothing more to do."""
+    """Do nothing, because everything is done."""
     return 0

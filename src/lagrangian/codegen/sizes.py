@@ -1,4 +1,4 @@
-"""How many numbers the blocks of a kernel hold, and how its arrays are named in machine code."""
+"""The sizes of the blocks of a kernel, and the operands of an array in machine code."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ Array = tuple[str, str, str]
 
 @dataclass(frozen=True)
 class Sizes:
-    """How many numbers the blocks hold.
+    """The numbers of values in the blocks.
 
     Inputs by group, hoisted inputs by group, shared slots, outputs by array, scratch.
     """
@@ -22,7 +22,7 @@ class Sizes:
     scratch: int
 
     def work(self, lanes: int, own_shared: bool) -> int:
-        """How many doubles of work space ``batch`` wants, its blocks one after the other."""
+        """The number of doubles of work space that ``batch`` needs, with its blocks one after another."""
         blocks = sum(self.groups) + sum(self.outputs) + self.scratch
         if own_shared:
             blocks += sum(self.hoisted) + self.shared

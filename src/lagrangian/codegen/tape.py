@@ -1,12 +1,13 @@
-"""Program → tapes: what is computed once per parameter set, what for every state, in operations near the machine's.
+"""Converts a Program to tapes: what is computed per parameter set, and what per state, in operations close to the
+machine's.
 
 A tape is a list of operations on earlier entries, like the graph, with these differences:
 
-* a node that depends on the hoisted group alone (the parameters) belongs to the *prologue*; the *body* reads it from
+* a node that depends only on the hoisted group (the parameters) belongs to the *prologue*; the *body* reads it from
   a shared slot;
-* a division by a constant, by something shared, or repeated by one divisor, is a product with the reciprocal;
-* a product used once, in a sum, is one fused operation; small powers are products; tan is sin/cos;
-* what no output needs is gone, and sin and cos of one angle stand next to each other.
+* a division by a constant, by something shared, or repeated with one divisor becomes a product with the reciprocal;
+* a product that is used once, in a sum, becomes one fused operation; small powers are products; tan is sin/cos;
+* nodes that no output needs are removed, and sin and cos of the same angle are adjacent.
 """
 
 from __future__ import annotations
@@ -26,15 +27,16 @@ Op = tuple[Any, ...]
 
 LEAVES = frozenset({"const", "in", "shared"})
 FLAGS = frozenset({"lt", "le", "eq", "and", "or", "not"})
-POWER_BY_PRODUCTS = 64  # greatest |n| for which x^n is spelled out: 2 log2 n products, relative error below n ulp
+POWER_BY_PRODUCTS = 64  # largest |n| for x^n as products: 2 log2 n of them, relative error below n ulp
 
 
 @dataclass
 class Tape:
-    """Operations and which of them are the outputs.
+    """Operations, and which of them are the outputs.
 
-    Operands are positions in ``ops``. Leaves: ``("const", c)``, ``("in", slot)``, ``("shared", slot)``. Beside the
-    graph's operations: ``("fma", a, b, c)`` = ab + c, ``("fms", …)`` = ab − c, ``("fnma", …)`` = c − ab.
+    Operands are positions in ``ops``. Leaves: ``("const", c)``, ``("in", slot)``, ``("shared", slot)``. In addition to
+    the operations of the graph there are ``("fma", a, b, c)`` = ab + c, ``("fms", …)`` = ab − c, ``("fnma", …)`` = c −
+    ab.
     """
 
     ops: list[Op] = field(default_factory=list)
@@ -42,7 +44,7 @@ class Tape:
 
     @property
     def operations(self) -> int:
-        """How many entries compute something; a fused product and sum counts as one."""
+        """The number of entries that compute something; a fused product and sum counts as one."""
         return sum(op[0] not in LEAVES for op in self.ops)
 
 
@@ -50,8 +52,8 @@ class Tape:
 class Lowered:
     """A program as two tapes.
 
-    ``prologue``: hoisted inputs → shared slots. ``body``: other inputs and shared slots → outputs, all outputs one
-    after the other. ``groups`` are the body's input groups in slot order, ``hoisted`` the prologue's.
+    ``prologue``: hoisted inputs → shared slots. ``body``: other inputs and shared slots → outputs, one after another.
+    ``groups`` are the body's input groups in the order of the slots, ``hoisted`` those of the prologue.
     """
 
     prologue: Tape
@@ -61,12 +63,12 @@ class Lowered:
 
 
 def operands(op: Op) -> tuple[int, ...]:
-    """The positions an operation reads."""
+    """The positions that an operation reads."""
     return () if op[0] in LEAVES else op[1:]
 
 
 class _Builder:
-    """A tape under construction, with equal operations made once."""
+    """A tape under construction, in which equal operations are made only once."""
 
     def __init__(self) -> None:
         self.ops: list[Op] = []
@@ -104,7 +106,7 @@ class _Builder:
 
 
 def lower(program: Program, hoist: Iterable[str] = ("p",)) -> Lowered:
-    """Split ``program`` and bring it near the machine.
+    """Split ``program`` and convert it to operations close to the machine's.
 
     ``hoist`` names the groups that are constant over many states; without any, the prologue is empty.
     """
@@ -147,7 +149,7 @@ def lower(program: Program, hoist: Iterable[str] = ("p",)) -> Lowered:
         for k in sources(node):
             if k in first and not (node[0] == "div" and k == node[2]):
                 second[k] = share(first[k])
-        if node[0] == "div" and node[2] in first:  # x / y = x · (1/y), the reciprocal taken once
+        if node[0] == "div" and node[2] in first:  # x / y = x · (1/y), with the reciprocal computed once
             inverse = share(_inverse(prologue, first[node[2]]))
             second[i] = _scaled(body, second[node[1]], inverse)
         else:
@@ -161,7 +163,7 @@ def lower(program: Program, hoist: Iterable[str] = ("p",)) -> Lowered:
 
 
 def _scaled(builder: _Builder, a: int, b: int) -> int:
-    """``a b``, or b alone where a is 1."""
+    """``a b``, or just b if a is 1."""
     return b if builder.ops[a] == ("const", 1.0) else builder.add("mul", *sorted((a, b)))
 
 
@@ -173,7 +175,7 @@ def _inverse(builder: _Builder, a: int) -> int:
 
 
 def _slots(program: Program, groups: Iterable[str]) -> dict[tuple[str, int], int]:
-    """(group, index) → slot, the groups one after the other."""
+    """(group, index) → slot, with the groups one after another."""
     slots: dict[tuple[str, int], int] = {}
     for group in groups:
         for index in range(len(program.inputs[group])):
@@ -216,7 +218,7 @@ def _power(builder: _Builder, base: int, n: int) -> int:
 
 
 def _constant_power(builder: _Builder, base: int, exponent: float) -> int:
-    """``base^exponent``: whole and half exponents without a call, ``x^(n/2) = √x x^((n−1)/2)``."""
+    """``base^exponent``; whole and half exponents need no call: ``x^(n/2) = √x x^((n−1)/2)``."""
     if exponent.is_integer() and abs(exponent) <= POWER_BY_PRODUCTS:
         return _power(builder, base, int(exponent))
     twice = 2 * exponent
@@ -230,7 +232,7 @@ def _constant_power(builder: _Builder, base: int, exponent: float) -> int:
 
 
 def finished(ops: list[Op], outputs: list[int]) -> Tape:
-    """Fuse, drop what is unused, put sin beside cos, and number anew."""
+    """Fuse operations, remove unused ones, place sin beside cos, and renumber."""
     ops = _fused(ops, outputs)
     seen = set(outputs)
     for i in range(len(ops) - 1, -1, -1):
@@ -257,7 +259,7 @@ def finished(ops: list[Op], outputs: list[int]) -> Tape:
 
 
 def _fused(ops: list[Op], outputs: list[int]) -> list[Op]:
-    """Turn ``ab + c``, ``ab − c`` and ``c − ab`` into one operation where the product has no other use."""
+    """Turn ``ab + c``, ``ab − c`` and ``c − ab`` into one operation if the product has no other use."""
     uses = [0] * len(ops)
     for op in ops:
         for k in operands(op):

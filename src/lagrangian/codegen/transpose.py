@@ -1,9 +1,9 @@
-"""Between strided arrays and blocks: many states' rows become one vector an entry, and back.
+"""Copies between strided arrays and blocks: the rows of many states become one vector per entry, and back.
 
-Arrays hold a state's entries side by side, blocks hold an entry's states side by side: a transposition. Rows that are
-contiguous are transposed W × W in registers, W the number of lanes and, for what is left of a row, smaller powers of
-two; pieces overlap where a row's length is no multiple, so nothing outside a row is touched. Any other stride goes
-number by number.
+Arrays hold the entries of a state side by side; blocks hold the states of an entry side by side. So copying is a
+transposition. Contiguous rows are transposed W × W in registers, where W is the number of lanes and, for the rest of a
+row, a smaller power of two. Pieces overlap if the length of a row is not a multiple, so nothing outside a row is
+touched. With any other stride, numbers are copied one by one.
 """
 
 from __future__ import annotations
@@ -13,14 +13,15 @@ from collections.abc import Callable
 from .ir import Function, Module, Value, shuffle_mask
 
 SUMS = 4
-"""Sums of 0·x kept side by side: a single one would wait for itself longer than the moves take."""
+"""The number of sums of 0·x that are computed side by side: a single one would wait for itself longer than the copies
+take."""
 
 
 def emit_move(module: Module, lanes: int, n: int, *, gather: bool) -> str:
     """Print ``gather`` (array → block) or ``scatter`` (block → array) for rows of ``n`` entries; return its symbol.
 
-    Signature: ``(ptr base, i64 row, i64 step, ptr block)``; lane l is the row at ``base + l row``, its entries
-    ``step`` bytes apart. Returns Σ 0·x in every lane: zero exactly if every number is finite.
+    Signature: ``(ptr base, i64 row, i64 step, ptr block)``; lane l is the row at ``base + l row``, with entries
+    ``step`` bytes apart. It returns Σ 0·x in every lane, which is zero exactly if every number is finite.
     """
     name = f"{'gather' if gather else 'scatter'}_{lanes}_{n}"
     if module.defines(name):
@@ -47,13 +48,13 @@ def emit_move(module: Module, lanes: int, n: int, *, gather: bool) -> str:
 
 
 class Transposer:
-    """Prints the two ways through a move; ``rows`` are the addresses of the lanes' rows."""
+    """Prints the two kinds of copies; ``rows`` are the addresses of the lanes' rows."""
 
     def __init__(self, f: Function, rows: list[str], gather: bool) -> None:
         self.f, self.rows, self.gather = f, rows, gather
 
     def contiguous(self, n: int) -> None:
-        """Rows without gaps: full transpositions in a loop, then the rest in one or two smaller ones."""
+        """Contiguous rows: full transpositions in a loop, then the rest in one or two smaller ones."""
         f, lanes = self.f, self.f.lanes
         full = n // lanes
         total = Value(f, f.constant(0.0))
@@ -61,7 +62,7 @@ class Transposer:
             f.do("br label %tiles")
             f.label("tiles")
             f.do("%tile = phi i64 [0, %near], [%nexttile, %tiles]")
-            start_of_sum = len(f.lines)  # the second phi names a value printed below
+            start_of_sum = len(f.lines)  # the second phi uses a value that is printed below
             total = self.tile("%tile", lanes, Value(f, "%tilesum"))
             f.lines.insert(
                 start_of_sum, f"  %tilesum = phi {f.real} [{f.constant(0.0)}, %near], [{total.name}, %tiles]"
@@ -91,7 +92,7 @@ class Transposer:
         return found
 
     def tile(self, first: str, width: int, total: Value) -> Value:
-        """Move entries ``first`` … ``first + width − 1`` of every row; return the sum carried on."""
+        """Copy entries ``first`` … ``first + width − 1`` of every row; return the new sum."""
         f = self.f
         slots = []
         for k in range(width):
@@ -107,14 +108,14 @@ class Transposer:
         return self.noted(vectors, total)
 
     def lifted(self, first: str, width: int) -> list[str]:
-        """Entries ``first`` … of the rows, one vector an entry."""
+        """Load entries ``first`` … of the rows, as one vector per entry."""
         f = self.f
         kind = "double" if width == 1 else f"<{width} x double>"
         pieces = [f.put(f"load {kind}, ptr {place}, align 8") for place in self._places(first)]
         return self.transposed(self.joined(pieces, width), width)
 
     def dropped(self, first: str, width: int, vectors: list[str]) -> None:
-        """Vectors into entries ``first`` … of the rows."""
+        """Store vectors as entries ``first`` … of the rows."""
         f = self.f
         kind = "double" if width == 1 else f"<{width} x double>"
         parts = self.parted(self.transposed(vectors, width), width)
@@ -125,7 +126,7 @@ class Transposer:
         return [self.f.put(f"getelementptr double, ptr {row}, i64 {first}") for row in self.rows]
 
     def noted(self, vectors: list[str], total: Value) -> Value:
-        """``total`` + Σ 0·x, as a few sums side by side."""
+        """``total`` + Σ 0·x, as several sums side by side."""
         f = self.f
         sums = [total]
         for k, x in enumerate(vectors):
@@ -138,7 +139,7 @@ class Transposer:
         return sums[0]
 
     def joined(self, pieces: list[str], width: int) -> list[str]:
-        """Vector k: the pieces of rows k, k + width, k + 2 width … one after the other."""
+        """Vector k consists of the pieces of rows k, k + width, k + 2 width …, one after another."""
         f = self.f
         if width == 1:
             return [f.gathered(pieces).name]
@@ -146,7 +147,7 @@ class Transposer:
         return [narrow.joined(pieces[k::width], f).name for k in range(width)]
 
     def parted(self, vectors: list[str], width: int) -> list[str]:
-        """The reverse of :meth:`joined`: one piece a row."""
+        """The reverse of :meth:`joined`: one piece per row."""
         f = self.f
         if width == 1:
             return [f.lane(Value(f, vectors[0]), k) for k in range(f.lanes)]
@@ -162,7 +163,8 @@ class Transposer:
         return pieces
 
     def transposed(self, vectors: list[str], width: int) -> list[str]:
-        """Transpose every width × width tile across the vectors: log2 width rounds of exchanging halves, quarters, …"""
+        """Transpose every width × width tile across the vectors, in log2 width rounds that exchange halves,
+        quarters, …."""
         f = self.f
         vectors = list(vectors)
         stride = 1
@@ -177,7 +179,8 @@ class Transposer:
         return vectors
 
     def side_by_side(self, n: int) -> None:
-        """States next to each other, as in Fortran order or in rows of one entry: whole vectors, entry by entry."""
+        """States next to each other, as in Fortran order or in rows of one entry: whole vectors are copied, entry by
+        entry."""
         f = self.f
 
         def move(slot: str) -> Value:
@@ -191,7 +194,7 @@ class Transposer:
         self._entries(n, "beside", "side", move)
 
     def strided(self, n: int) -> None:
-        """Any strides: entry by entry, lane by lane."""
+        """Any strides: numbers are copied entry by entry and lane by lane."""
         f = self.f
 
         def move(slot: str) -> Value:
@@ -208,13 +211,14 @@ class Transposer:
         self._entries(n, "far", "step", move)
 
     def _entries(self, n: int, entry: str, name: str, move: Callable[[str], Value]) -> None:
-        """A loop over entries after the block ``entry``; ``move`` prints one, ``%<name>offset`` bytes into a row."""
+        """A loop over entries after the block ``entry``; ``move`` prints one copy, ``%<name>offset`` bytes into a
+        row."""
         f = self.f
         f.do(f"br label %{name}loop")
         f.label(f"{name}loop")
         f.do(f"%{name}k = phi i64 [0, %{entry}], [%{name}next, %{name}loop]")
         f.do(f"%{name}offset = phi i64 [0, %{entry}], [%{name}ahead, %{name}loop]")
-        start_of_sum = len(f.lines)  # the third phi names a value printed below
+        start_of_sum = len(f.lines)  # the third phi uses a value that is printed below
         x = move(f.put(f"getelementptr {f.real}, ptr %block, i64 %{name}k"))
         total = f.fma(x, 0.0, Value(f, f"%{name}sum"))
         phi = f"  %{name}sum = phi {f.real} [{f.constant(0.0)}, %{entry}], [{total.name}, %{name}loop]"

@@ -1,7 +1,7 @@
-"""Ranges of states over the machine's cores.
+"""Distributes ranges of states over the cores of the machine.
 
-Kernels release the interpreter's lock, so threads are enough. A state's result does not depend on which range
-it falls into; cutting only changes who computes it.
+Kernels release the interpreter's lock, so threads are sufficient. The result of a state does not depend on the range in
+which it is computed.
 """
 
 from __future__ import annotations
@@ -11,29 +11,30 @@ import threading
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 
-GRAIN = 200_000  # operations worth a thread: some tens of microseconds
-PARTS = 4  # ranges per thread, so that an interrupted one does not keep all waiting
+GRAIN = 200_000  # operations that are worth a thread: some tens of microseconds
+PARTS = 4  # ranges per thread, so that an interrupted one does not delay all
 
 _pool: ThreadPoolExecutor | None = None
 _lock = threading.Lock()
 
 
 def cores() -> int:
-    """How many cores this process may use."""
+    """The number of cores that this process may use."""
     if hasattr(os, "sched_getaffinity"):
         return len(os.sched_getaffinity(0))
     return os.cpu_count() or 1
 
 
 def alone(count: int, cost: int, threads: int | None) -> bool:
-    """Whether so many states of that cost are not worth a second thread, or may not have one."""
+    """Whether this many states of this cost are computed by one thread only."""
     return threads == 1 or count * max(1, cost) // GRAIN < 2
 
 
 def over(count: int, step: int, cost: int, threads: int | None, task: Callable[[int, int], int]) -> int:
-    """Call ``task(start, stop)`` over ranges that cover 0 … count − 1; return the least answer that is not −1, or −1.
+    """Call ``task(start, stop)`` over ranges that cover 0 … count − 1; return the smallest result other than −1, else
+    −1.
 
-    Ranges begin at multiples of ``step``. ``cost`` is the number of operations of one state; ``threads`` None: all
+    Ranges begin at multiples of ``step``. ``cost`` is the number of operations per state; ``threads`` None means all
     cores.
     """
     if alone(count, cost, threads):
@@ -72,7 +73,7 @@ def _executor() -> ThreadPoolExecutor:
 
 
 def _forget() -> None:
-    """After a fork the child has the pool's record but none of its threads."""
+    """After a fork, the child has the record of the pool but none of its threads."""
     global _pool, _lock
     _pool, _lock = None, threading.Lock()
 

@@ -1,4 +1,4 @@
-"""Reading what people wrote: expressions and model files; and writing model files."""
+"""Reads expressions and model files; writes model files."""
 
 from typing import TYPE_CHECKING
 

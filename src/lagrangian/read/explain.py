@@ -1,4 +1,4 @@
-"""Why a text is not an expression, and what would be."""
+"""Explains why a text is not an expression, and what to write instead."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ _QUOTES = frozenset("'\"`‘’“”′″")
 
 
 def explain(source: Source, offset: int, wants_operand: bool) -> ParseError:
-    """Return the error for a text whose parse stopped at ``offset``, where an operand or an operator was wanted."""
+    """Return the error for a text whose parse stopped at ``offset``, where an operand or an operator was expected."""
     text = source.text
     rest = text[offset:]
     before = text[:offset].rstrip()
@@ -171,14 +171,14 @@ def _no_operand(source: Source, offset: int, before: str, rest: str) -> ParseErr
 
 
 def _is_quantity(before: str, left: str, rest: str) -> bool:
-    """Whether the text is one number and then a unit: ``10 kg``, ``-5 N/m``."""
+    """Whether the text is a number followed by a unit: ``10 kg``, ``-5 N/m``."""
     if before.lstrip("+-− ") != left or not re.fullmatch(_NUMBER, left):
         return False
     return all(unit in BEFORE_WORDS for unit in _WORD.findall(rest))
 
 
 def _no_operator(source: Source, offset: int, before: str, rest: str) -> ParseError:
-    """Two operands side by side, or a character that is none of the grammar's."""
+    """The error for two operands side by side, or for a character that is not in the grammar."""
     left_match = re.search(r"(?:[\w.]|[\u0307\u0308])+['’′″]*\Z", before)
     left = left_match.group() if left_match else before[-1:]
     word = _WORD.match(rest)
@@ -220,7 +220,7 @@ def _no_operator(source: Source, offset: int, before: str, rest: str) -> ParseEr
         if number and not word and re.fullmatch(_NUMBER, left):
             fix = f"write one number, or a product: {left}*{shown_right}"
             return source.error(
-                f"two numbers stand next to each other, {shown(left)} and {shown(shown_right)}", offset, fix=fix
+                f"two numbers are next to each other, {shown(left)} and {shown(shown_right)}", offset, fix=fix
             )
         left = "(…)" if left == ")" else left
         pair = f"{left}{'' if touching else ' '}{shown_right}"

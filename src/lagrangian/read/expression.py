@@ -1,7 +1,7 @@
-"""From an expression's syntax tree to SymPy, built from the tree alone: the text is never run.
+"""Converts the syntax tree of an expression to SymPy; the text is never executed.
 
 Decimal numbers become exact rationals (0.5 → 1/2). ``x'`` and ``x''`` are the rate and the acceleration of a name that
-changes with time. Sizes are bounded before anything is computed: numbers by their bits, powers by their exponent.
+changes with time. Sizes are limited before anything is computed: numbers by their bits, powers by their exponent.
 """
 
 from __future__ import annotations
@@ -25,21 +25,21 @@ from lagrangian.read.grammar import parse
 from lagrangian.read.scope import Scope
 
 MAX_EXPONENT = 100
-"""Largest power, as a number: x^100."""
+"""The largest exponent of a power: x^100."""
 
 MAX_BITS = 4096
-"""Largest number, numerator or denominator, in bits (about 1200 decimal digits)."""
+"""The largest number of bits of a numerator or denominator (about 1200 decimal digits)."""
 
 MAX_TOWER = 10
-"""Most powers on top of each other: a^b^c has two."""
+"""The largest number of stacked powers: a^b^c has two."""
 
 MAX_ROOTS = 50
-"""Most roots of numbers in one text: SymPy compares each with every other."""
+"""The largest number of roots of numbers in one text: SymPy compares each with every other."""
 
 MAX_DIGITS = 60
 MAX_DECIMAL_EXPONENT = 308
 MAX_ORDER = 2
-"""Highest derivative a prime can mean: the acceleration."""
+"""The highest derivative that primes can mean: the acceleration."""
 
 _POWER_DIGITS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+")
 _FRACTIONS = {c: sp.Rational(p, q) for c, p, q in (("¼", 1, 4), ("½", 1, 2), ("¾", 3, 4), ("⅐", 1, 7), ("⅑", 1, 9))}
@@ -61,17 +61,17 @@ _RELATIONS = {
 
 
 Node: TypeAlias = Any
-"""A node of lark's tree or one of its tokens; lark's own types say no more of a node's children."""
+"""A node of lark's tree or one of its tokens; lark's own types are no more specific about children."""
 
 
 def parse_expression(
     text: str, scope: Mapping[str, sp.Basic], *, place: Place | None = None, what: str = "expression"
 ) -> sp.Expr:
-    """Return the SymPy expression that ``text`` writes.
+    """Return the SymPy expression that ``text`` describes.
 
-    ``scope`` maps names to SymPy objects; a coordinate is a function of time, so that ``x'`` is its rate. ``what`` says
-    what is read (``"k of spring 's1'"``) and ``place`` where its first character stands. ``t`` is time and ``pi`` the
-    circle's constant. Raises `ParseError` with line, column, what is wrong and what would be right.
+    ``scope`` maps names to SymPy objects; a coordinate is a function of time, so that ``x'`` is its rate. ``what``
+    describes the text (``"k of spring 's1'"``), and ``place`` is the place of its first character. ``t`` is time and
+    ``pi`` the number π. Raises `ParseError` with line, column, what is wrong and how to fix it.
 
     >>> from sympy.physics.vector import dynamicsymbols
     >>> scope = {"theta": dynamicsymbols("theta"), "m": sp.Symbol("m"), "L": sp.Symbol("L")}
@@ -82,7 +82,7 @@ def parse_expression(
 
 
 def read_source(source: Source, scope: Mapping[str, sp.Basic]) -> sp.Expr:
-    """Return the SymPy expression of a text that knows its place."""
+    """Return the SymPy expression of a `Source`."""
     names = scope if isinstance(scope, Scope) else Scope(scope)
     value = ExpressionReader(source, names).value(parse(source))
     if value.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
@@ -91,20 +91,20 @@ def read_source(source: Source, scope: Mapping[str, sp.Basic]) -> sp.Expr:
 
 
 class ExpressionReader:
-    """Walks a syntax tree; every method takes a node and returns what it means."""
+    """Evaluates a syntax tree; every method takes a node and returns its meaning."""
 
     def __init__(self, source: Source, scope: Scope) -> None:
         self.source, self.scope = source, scope
         self.roots = 0
 
     def fail(self, message: str, node: Node, *, fix: str | None = None, code: CodeText = "E701") -> NoReturn:
-        """Raise the error that points at a node."""
+        """Raise an error at the place of a node."""
         raise self.source.error(message, _start(node), fix=fix, code=code)
 
     def value(self, node: Node) -> sp.Expr:
-        """The number or expression of any node but a condition."""
+        """The number or expression of any node that is not a condition."""
         while len(inner := [c for c in node.children if c is not None]) == 1 and isinstance(inner[0], Tree):
-            node = inner[0]  # a node with nothing of its own: a sum of one product of one power ...
+            node = inner[0]  # a node that only wraps another: a sum of one product of one power ...
         if node.data in ("condition", "conjunction", "negation", "comparison"):
             self.fail(
                 "found a condition where a value is expected",
@@ -131,7 +131,7 @@ class ExpressionReader:
 
     def _product(self, node: Node) -> sp.Expr:
         first, *rest = node.children
-        number: sp.Expr = sp.S.One  # numbers are multiplied one by one, so that a long product stays bounded
+        number: sp.Expr = sp.S.One  # numbers are multiplied one by one, so that the size of a long product is checked
         factors: list[sp.Expr] = []
         for operator, child in ((None, first), *zip(rest[::2], rest[1::2], strict=True)):
             factor = self.value(child)
@@ -146,11 +146,14 @@ class ExpressionReader:
         return self._bounded(sp.Mul(number, *factors), node)
 
     def _power(self, node: Node) -> sp.Expr:
-        """a^b^c = a^(b^c), from the right."""
+        """a^b^c = a^(b^c), evaluated from the right."""
         *rest, last = node.children
         if len(rest) > 3 * MAX_TOWER:
             self.fail(
-                f"more than {MAX_TOWER} powers stand on top of each other", node, fix="use parentheses", code="E703"
+                f"more than {MAX_TOWER} powers are stacked on top of each other",
+                node,
+                fix="use parentheses",
+                code="E703",
             )
         value = self.value(last)
         while rest:
@@ -257,7 +260,7 @@ class ExpressionReader:
         return value
 
     def _meaning(self, token: Any) -> tuple[str, sp.Expr, int]:
-        """The name that is meant, its object, and the number of dots over it."""
+        """The name that is meant, its object, and the number of dots on it."""
         names, dots = self.scope.meanings(token)
         if len(names) == 1:
             value = self.scope[names[0]]
@@ -318,7 +321,7 @@ class ExpressionReader:
         self.fail(f"unknown function {shown(token)}", token, fix=fix, code="E402")
 
     def _piecewise(self, token: Any, arguments: list[Node]) -> sp.Expr:
-        """piecewise(condition, value, condition, value, ..., otherwise)."""
+        """Read piecewise(condition, value, condition, value, ..., otherwise)."""
         form = "write piecewise(condition, value, ..., otherwise)"
         if len(arguments) < 3 or len(arguments) % 2 == 0:
             what = f"piecewise takes an odd number of arguments, at least 3 (got {len(arguments)})"
@@ -331,11 +334,11 @@ class ExpressionReader:
         pairs.append((self.value(arguments[-1]), sp.true))
         if pairs[0][1] == sp.true:
             return pairs[0][0]
-        # not evaluated: SymPy's proofs about the conditions have no bound on time
+        # not evaluated: SymPy's proofs about conditions may take unlimited time
         return sp.Piecewise(*pairs[: 1 + next(i for i, p in enumerate(pairs) if p[1] == sp.true)], evaluate=False)
 
     def condition(self, node: Node) -> Boolean:
-        """The truth of a condition's node."""
+        """The truth value of the node of a condition."""
         while len(inner := [c for c in node.children if c is not None]) == 1 and isinstance(inner[0], Tree):
             node = inner[0]
         if node.data == "comparison":

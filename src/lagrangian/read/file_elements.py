@@ -1,4 +1,4 @@
-"""From an element's table in the file to the element; one method for every way to write a field."""
+"""Reads the table of an element in a model file; there is a method for each way to write a field."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from lagrangian.read.file_reading import Reading
 
 STANDARD_GRAVITY = 9.81
-"""[m/s²] The parameter g unless the file declares it."""
+"""The default value [m/s²] of the parameter g, if the file does not declare it."""
 
 
 class _Reader:
-    """Reads the fields of one element's table, each by the way it is written."""
+    """Reads the fields of one element's table, each in its own format."""
 
     def __init__(
         self, loader: Reading, geometry: Geometry, kind: type[Element], table: Any, path: Path, at: Path | None
@@ -33,47 +33,47 @@ class _Reader:
         self.single = at
 
     def where(self, key: str) -> Path:
-        """The path of a field; a whole element that is one value of [energies] is its own field."""
+        """The path of a field; an element that is a single value of [energies] is its own field."""
         return (*self.path, key) if self.single is None else self.single
 
     def expression(self, key: str, value: Any, entry: Entry) -> Any:
-        """An expression."""
+        """Read an expression."""
         return self.loader.expression(value, self.where(key), f"{key} of {self.title}", entry.local)
 
     def vector(self, key: str, value: Any, entry: Entry) -> Any:
-        """A list of expressions."""
+        """Read a list of expressions."""
         return self.loader.vector(value, self.where(key), f"the {key} of {self.title}")
 
     def expression_or_vector(self, key: str, value: Any, entry: Entry) -> Any:
-        """An expression or a list of them."""
+        """Read an expression or a list of expressions."""
         return (self.vector if isinstance(value, list) else self.expression)(key, value, entry)
 
     def point(self, key: str, value: Any, entry: Entry) -> Any:
-        """A point, or its name."""
+        """Read a point, or the name of one."""
         return self.geometry.point(value, self.where(key))
 
     def points(self, key: str, value: Any, entry: Entry) -> Any:
-        """The names of the points that an element joins."""
+        """Read the names of the points that an element connects."""
         path = self.where(key)
         return tuple(self.geometry.named_point(name, (*path, i)) for i, name in enumerate(value))
 
     def frame(self, key: str, value: Any, entry: Entry) -> Any:
-        """The name of a frame."""
+        """Read the name of a frame."""
         return self.geometry.frame(value, self.where(key))
 
     def frame_or_angle(self, key: str, value: Any, entry: Entry) -> Any:
-        """The name of a frame, or an angle."""
+        """Read the name of a frame, or an angle."""
         return self.geometry.frame_or_angle(value, self.where(key), f"{key} of {self.title}")
 
     def body_frame(self, key: str, value: Any, entry: Entry) -> Any:
-        """The name of a frame, or the angle of one that is made for a body."""
+        """Read the name of a frame, or an angle for which a frame is made."""
         found = self.frame_or_angle(key, value, entry)
         if isinstance(found, Frame):
             return found
         return self.loader.builder.frame(None, found, place=self.loader.index.of_value(self.where(key)))
 
     def inertia(self, key: str, value: Any, entry: Entry) -> Any:
-        """A moment of inertia, three principal ones or three rows."""
+        """Read a moment of inertia, three principal moments or three rows."""
         if not isinstance(value, list):
             return self.expression(key, value, entry)
         path, what = self.where(key), f"the {key} of {self.title}"
@@ -85,7 +85,7 @@ class _Reader:
         ]
 
     def coordinate(self, key: str, value: Any, entry: Entry) -> Any:
-        """The name of a coordinate, or of a velocity of a floating frame."""
+        """Read the name of a coordinate, or of a velocity of a floating frame."""
         coordinates = {c: self.loader.scope[c] for c in self.loader.generalized_names}
         found = [n for n in self.loader.scope.meanings(value)[0] if n in coordinates]
         if len(found) != 1:
@@ -99,12 +99,12 @@ class _Reader:
         return coordinates[found[0]]
 
     def frames(self, key: str, value: Any, entry: Entry) -> Any:
-        """The names of one frame or two."""
+        """Read the names of one frame or two."""
         path = self.where(key)
         return tuple(self.geometry.frame(name, (*path, i)) for i, name in enumerate(value))
 
     def body(self, key: str, value: Any, entry: Entry) -> Any:
-        """A rigid body, by its name; bodies are read before what holds them together."""
+        """Read the name of a rigid body; bodies are read before the constraints on them."""
         bodies = {e.name: e for e in self.loader.builder.elements if isinstance(e, RigidBody)}
         if value not in bodies:
             raise ParseError(
@@ -117,7 +117,7 @@ class _Reader:
         return bodies[value]
 
     def directions(self, key: str, value: Any, entry: Entry) -> Any:
-        """A vector, or a list of them."""
+        """Read a vector, or a list of vectors."""
         path, what = self.where(key), f"the {key} of {self.title}"
         if not isinstance(value[0], list):
             return self.loader.vector(value, path, what)
@@ -133,7 +133,7 @@ class _Reader:
         return tuple(self.loader.vector(x, (*path, i), what) for i, x in enumerate(value))
 
     def strength_of_gravity(self, key: str, value: Any, entry: Entry) -> Any:
-        """An expression; the parameter g where it is left out."""
+        """Read an expression; the default is the parameter g."""
         if value is None:
             return self.loader.builder.standard_gravity(STANDARD_GRAVITY)
         return self.expression(key, value, entry)
@@ -159,7 +159,7 @@ _FIELDS: dict[FieldKind, Callable[[_Reader, str, Any, Entry], Any]] = {
 
 
 def add_element(loader: Reading, geometry: Geometry, kind: str, table: Any, path: Path, at: Path | None = None) -> None:
-    """Read one element and add it; ``at`` is given where a whole element is one value of the file."""
+    """Read one element and add it; ``at`` is given if the whole element is a single value in the file."""
     made = REGISTRY[kind]
     reader = _Reader(loader, geometry, made, table, path, at)
     for key, entry in made.entries.items():

@@ -1,4 +1,4 @@
-"""Frames of a model file that float: they bring coordinates, so they are declared among these."""
+"""Floating frames of a model file, which are declared together with the coordinates because they have their own."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 class FloatingFrames:
-    """The floating frames of one file, each waiting for the coordinate, or the frame, that it comes ``after``."""
+    """The floating frames of one file, each of which waits for the coordinate or frame that it comes ``after``."""
 
     def __init__(self, loader: Reading, geometry: Geometry) -> None:
         self.loader, self.geometry = loader, geometry
@@ -49,7 +49,7 @@ class FloatingFrames:
             self.declare(frame.name)
 
     def finish(self) -> None:
-        """Refuse frames that come after what there is not."""
+        """Raise an error for frames that come after something that does not exist."""
         for number, after in self.waiting.items():
             tables = self.loader.file.frame
             known = [*self.loader.file.coordinates, *(t.name for t in tables if t.floating)]

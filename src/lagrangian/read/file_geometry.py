@@ -1,7 +1,7 @@
 """Points and frames of a model file.
 
-They are made when they are first needed, so that a frame may be measured from a point and a point in a frame; a circle
-of such references is refused.
+They are made when they are first needed, so a frame may refer to a point and a point to a frame; a circle of references
+is an error.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from lagrangian.read.file_reading import Reading
 
 MAX_CHAIN = 200
-"""Most points and frames that are defined in one chain, each from the one before in an order other than the file's."""
+"""The largest number of points and frames that may each depend on one that comes later in the file."""
 
 _WORD = re.compile(r"[^\W\d]\w*")
 
@@ -33,7 +33,7 @@ class Geometry:
     def __init__(self, loader: Reading) -> None:
         self.loader, self.file, self.index, self.data = loader, loader.file, loader.index, loader.data
         self.points: dict[str, Point] = {"origin": loader.builder.origin}
-        self.frames: dict[str, Frame] = {}  # those that float are there from the start, with their origins
+        self.frames: dict[str, Frame] = {}  # floating frames and their origins already exist
         self.frame_numbers: dict[str, int] = {}
         self.making: list[str] = []
 
@@ -74,7 +74,7 @@ class Geometry:
         self.making.append(what)
 
     def named_point(self, name: str, path: Path) -> Point:
-        """Return the point of that name; ``path`` is where it is referred to."""
+        """Return the point with a name; ``path`` is the place that refers to it."""
         if name in self.points:
             return self.points[name]
         if name not in self.file.points:
@@ -86,7 +86,7 @@ class Geometry:
         return self.points[name]
 
     def point(self, value: Any, path: Path) -> Point:
-        """Return a point that is named, or written on the spot."""
+        """Return a point that is given by name or inline."""
         return self.named_point(value, path) if isinstance(value, str) else self._point(value, path, None)
 
     def _point(self, value: Any, path: Path, name: str | None) -> Point:
@@ -103,7 +103,7 @@ class Geometry:
         )
 
     def frame(self, name: str, path: Path) -> Frame:
-        """Return the frame of that name; ``path`` is where it is referred to."""
+        """Return the frame with a name; ``path`` is the place that refers to it."""
         if name in self.frames:
             return self.frames[name]
         if name not in self.frame_numbers:
@@ -132,7 +132,7 @@ class Geometry:
         return self.frames[name]
 
     def frame_or_angle(self, value: Any, path: Path, what: str) -> Frame | sp.Expr:
-        """Return the frame of that name, or else the expression of an angle."""
+        """Return the frame with a name, or otherwise the expression of an angle."""
         if isinstance(value, str):
             name = value.strip()
             if name in self.frame_numbers:

@@ -1,4 +1,4 @@
-"""From a model file to a `Builder`: names first, then geometry, then elements in the order of the file."""
+"""Reads a model file into a `Builder`: names first, then geometry, then elements in the order of the file."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def _unreadable(name: str, what: str, fix: str) -> ModelError:
 
 
 def loads(text: str, name: str | None = None) -> Builder:
-    """Return the description in the text of a model file; ``name`` stands for the file in messages."""
+    """Return the description in the text of a model file; messages use ``name`` as the name of the file."""
     return Loader(text, name or "<text>").build()
 
 
@@ -61,7 +61,7 @@ class Loader(Reading):
         self.geometry = Geometry(self)
 
     def build(self) -> Builder:
-        """Read every section, in an order in which each finds what it refers to."""
+        """Read all sections, in an order in which each finds what it refers to."""
         self._coordinates()
         self._parameters()
         self._inputs()
@@ -75,7 +75,7 @@ class Loader(Reading):
     # -- names --------------------------------------------------------------------------------------------------
 
     def _coordinates(self) -> None:
-        """Declare the coordinates, those of floating frames where they belong among them."""
+        """Declare the coordinates; those of floating frames at their places among them."""
         floating = FloatingFrames(self, self.geometry)
         floating.declare(None)
         for name, value in self.file.coordinates.items():
@@ -136,7 +136,7 @@ class Loader(Reading):
         return float(value), None
 
     def _unit(self, unit: str | None, path: Path) -> str | None:
-        """Return a unit after a look at whether it is one."""
+        """Return a unit after checking that it is one."""
         if unit is None:
             return None
         place = self.index.source(path, unit, "").place
@@ -156,7 +156,7 @@ class Loader(Reading):
             self.scope.add(made.name, made.symbol)
 
     def _look_alikes(self) -> None:
-        """Refuse two names that a reader takes for one: θ1 and theta1, а (Cyrillic) and a."""
+        """Raise an error for two names that look alike to a reader: θ1 and theta1, а (Cyrillic) and a."""
         seen: dict[str, tuple[str, str]] = {}
         sections: tuple[tuple[str, Mapping[str, Any]], ...] = (
             ("coordinates", self.file.coordinates),
@@ -191,7 +191,8 @@ class Loader(Reading):
             self.scope.add(made.name, made.symbol)
 
     def _not_in_order(self, name: str, later: str) -> NoReturn:
-        """A definition refers to itself or to a later one: a circle, or only the wrong order."""
+        """Raise the error for a definition that refers to itself or to a later one: a circle, or only the wrong
+        order."""
         table = {n: [w for w in _WORD.findall(v) if w in self.file.define] for n, v in self._texts().items()}
         trail = _circle(table, name)
         place = self.index.of_value(("define", name))
@@ -251,7 +252,7 @@ class Loader(Reading):
     # -- simulation ---------------------------------------------------------------------------------------------
 
     def _simulate(self) -> None:
-        """Check what stands under [simulate] and keep it as it was written."""
+        """Check the contents of [simulate] and store them as written."""
         table = self.file.simulate
         if table is None:
             return
@@ -296,7 +297,7 @@ class Loader(Reading):
 
 
 def _circle(table: Mapping[str, list[str]], start: str) -> list[str]:
-    """Return a circle of references that starts and ends at ``start``, or nothing."""
+    """Return a circle of references that starts and ends at ``start``, or an empty list."""
     trail, seen = [(start, iter(table.get(start, ())))], {start}
     while trail:
         for name in trail[-1][1]:

@@ -1,4 +1,4 @@
-"""A model file that is being read: its text, the description so far, and every name declared so far."""
+"""A model file while it is read: its text, the description so far, and the names declared so far."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ from lagrangian.read.validate import read_toml
 
 
 class Reading:
-    """One file; ``scope`` holds every name declared so far, ``builder`` what was described so far."""
+    """The state of reading one file; ``scope`` contains the names declared so far, ``builder`` the description so
+    far."""
 
     def __init__(self, text: str, name: str) -> None:
         self.file, self.data, self.index = read_toml(text, name)
@@ -34,7 +35,7 @@ class Reading:
         raise ParseError("the name of the system is empty", place=place, fix='name = "two-link arm"', code="E401")
 
     def placed(self, make: Callable[[], Any], place: Place, element: str | None = None) -> Any:
-        """Call ``make``; an error that does not know its place gets this one."""
+        """Call ``make``; an error without a place gets this one."""
         try:
             return make()
         except ModelError as error:
@@ -44,7 +45,8 @@ class Reading:
             raise
 
     def expression(self, value: Any, path: Path, what: str, local: tuple[sp.Symbol, ...] = ()) -> sp.Expr:
-        """Return the SymPy expression of a text or number at a path; ``local`` are names of this expression alone."""
+        """Return the SymPy expression of a text or number at a path; only this expression may use the names in
+        ``local``."""
         if not isinstance(value, str):
             return self.placed(lambda: as_expr(_whole(value), what), self.index.of_value(path))
         scope = self.scope.extended({s.name: s for s in local}) if local else self.scope
@@ -56,5 +58,5 @@ class Reading:
 
 
 def _whole(value: float) -> int | float:
-    """Return a whole number as an integer, so that it is shown without a point."""
+    """Return a whole number as an integer, so that it is displayed without a decimal point."""
     return int(value) if float(value).is_integer() else value

@@ -1,7 +1,7 @@
-"""From a `Model` to the text of a model file that reads back as the same system.
+"""Writes a `Model` as a model file that is read back as the same system.
 
-Elements keep their order and their names. A point that was never named is written where it is used when that is one
-place only, and gets a name (``P1``, ``P2`` …) otherwise; a frame without a name gets one (``F1`` …).
+Elements keep their order and their names. A point without a name is written inline if it is used only once; otherwise
+it gets a name (``P1``, ``P2`` …). A frame without a name gets one (``F1`` …).
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ _ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\t": "\\t", "\r": "\\r", "\b
 def dumps(model: Model) -> str:
     """Return the model as the text of a model file.
 
-    Raises `ModelError` where an expression holds what the grammar of model files has no word for.
+    Raises `ModelError` if an expression contains something that the grammar of model files cannot express.
     """
     return _Writer(model).text()
 
@@ -43,10 +43,10 @@ class _Writer:
         self.frames = self._frame_names()
         self.points = self._point_names()
 
-    # -- what needs a name --------------------------------------------------------------------------------------
+    # -- names for points and frames --------------------------------------------------------------------------------
 
     def _all_points(self) -> list[Point]:
-        """Every point, parents before children, the named ones in their order."""
+        """All points, parents before children, the named ones in their order."""
         found: dict[int, Point] = {}
 
         def visit(point: Point) -> None:
@@ -104,7 +104,7 @@ class _Writer:
         return _named(frames, "F", {f.name for f in frames if f.name})
 
     def _point_names(self) -> dict[int, str]:
-        """Names for the points that have one, or that something else hangs on or uses twice."""
+        """Names for the points that have one, or that are used by several others."""
         points = self._all_points()
         uses: Counter[int] = Counter()
         joined: set[int] = set()
@@ -123,7 +123,7 @@ class _Writer:
     # -- values -------------------------------------------------------------------------------------------------
 
     def expression(self, expr: sp.Expr, what: str, local: tuple[sp.Symbol, ...] = ()) -> str:
-        """Return an expression as a TOML value, after a look at whether it reads back as the same."""
+        """Return an expression as a TOML value, after checking that it is read back as the same."""
         if expr.is_Integer and abs(expr) < 10**15:
             return str(expr)
         text = plain(expr)
@@ -155,7 +155,7 @@ class _Writer:
         return self.offset(point, what)
 
     def offset(self, point: Point, what: str) -> str:
-        """Return what a point is: a list, or a table with what it is measured from."""
+        """Return the offset of a point: a list, or a table with the point from which it is measured."""
         assert point.parent is not None
         offset = self.vector(point.offset, what)
         default = point.frame.origin if point.frame is not None else self.model.origin
@@ -169,7 +169,7 @@ class _Writer:
     # -- the file -----------------------------------------------------------------------------------------------
 
     def text(self) -> str:
-        """Write every section."""
+        """Write all sections."""
         model = self.model
         self.lines = [f"name = {_text(model.name)}"]
         floating = {c.name for f in model.floating if f.floating for c in f.floating.coordinates}
@@ -223,7 +223,7 @@ class _Writer:
         return [("after", _text(frames.get(before.name) or before.name))]
 
     def _element(self, element: Element) -> None:
-        """Write an element: its fields in their order, those that were not given left out."""
+        """Write an element: its fields in their order, without those that were not given."""
         rows = [("name", _text(element.name))]
         for key, entry in element.entries.items():
             value = getattr(element, key)
@@ -259,7 +259,7 @@ class _Writer:
 
 
 def _named(things: Iterable[Any], letter: str, taken: set[str]) -> dict[int, str]:
-    """Give every thing its own name, or else the letter and a number that is free."""
+    """Give every item a unique name: its own, or a letter with the next free number."""
     names: dict[int, str] = {}
     number = 0
     for thing in things:
@@ -292,7 +292,7 @@ def _input(description: str, unit: str | None) -> str:
 
 
 def _parameter(parameter: Parameter) -> str:
-    """Return a parameter as short as it can be told: 2.0, "2.0 kg", or a table."""
+    """Return a parameter in the shortest form: 2.0, "2.0 kg", or a table."""
     value, unit = parameter.value, parameter.unit
     short = None if value is None else repr(value) if unit is None else _text(_with_unit(value, unit))
     if not parameter.description and short is not None:
@@ -306,7 +306,7 @@ def _parameter(parameter: Parameter) -> str:
 
 
 def _with_unit(value: float, unit: str) -> str:
-    """Return an SI value in a unit, with digits that read back as exactly the same value."""
+    """Return an SI value in a unit, with digits that are read back as exactly the same value."""
     exact = Fraction(value) / parse_unit(unit).factor
     candidates = [repr(float(f"{float(exact):.{digits}g}")) for digits in (6, 12, 15, 16, 17)]
     near = float(exact)

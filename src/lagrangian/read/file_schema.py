@@ -1,4 +1,4 @@
-"""The model file as pydantic models: they validate what was read and publish the JSON Schema that editors use."""
+"""The model file as pydantic models, which validate files and produce the JSON Schema for editors."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from lagrangian.model.elements import FieldKind
 
 
 def _form(value: object) -> str | None:
-    """Which of the ways to write a value was taken."""
+    """The form in which a value was written."""
     if isinstance(value, bool):
         return None
     if isinstance(value, str):
@@ -64,7 +64,7 @@ class CoordinateTable(_Table):
 
     description: str = Field("", description="What it measures, and from where.")
     unit: str | None = Field(None, description="Its unit, such as 'm' or 'rad'.")
-    positive: bool = Field(False, description="It is a distance known to be above 0: sqrt(r^2) is r.")
+    positive: bool = Field(False, description="It is a distance that is always positive: sqrt(r^2) is r.")
 
 
 class ParameterTable(_Table):
@@ -83,7 +83,7 @@ class InputTable(_Table):
 
 
 class PointTable(_Table):
-    """A point, by its offset from another point, in the axes of a frame."""
+    """A point, by its offset from another point, along the axes of a frame."""
 
     offset: Vector = Field(description="Two components in the plane, three in space.")
     from_: str | None = Field(None, alias="from", description="The point it is measured from; the origin if left out.")
@@ -93,7 +93,7 @@ class PointTable(_Table):
 _Point: TypeAlias = Annotated[PointTable, Tag("table")]
 PointValue: TypeAlias = Annotated[_List | _Point, _ByForm]
 PointReference: TypeAlias = Annotated[_Text | _List | _Point, _ByForm]
-"""The name of a point, or the point itself."""
+"""The name of a point, or an inline point."""
 
 
 class FrameTable(_Table):
@@ -121,7 +121,7 @@ class FrameTable(_Table):
 
 
 class ElementTable(_Table):
-    """What every element may have."""
+    """The fields that every element may have."""
 
     name: str = Field("", description="The element's name, its own in the system.")
 
@@ -146,7 +146,7 @@ _TYPES: dict[FieldKind, Any] = {
 
 
 def _table(owner: type[Element]) -> type[ElementTable]:
-    """The table of a kind of element, or of a family of kinds that share their fields."""
+    """The table of a kind of element, or of a family of kinds with the same fields."""
     given: dict[str, Any] = {}
     for key, entry in owner.entries.items():
         form = _TYPES[entry.kind] if entry.default is not None else _TYPES[entry.kind] | None
@@ -167,11 +167,11 @@ def _tables() -> dict[str, type[ElementTable]]:
 
 
 TABLES = _tables()
-"""The table of every kind of element, by the name of the kind."""
+"""The table of every kind of element, by its name."""
 
 
 class EnergiesTable(_Table):
-    """Energies of the whole system, for those who have them already."""
+    """Energies of the whole system, if they are already known."""
 
     T: Expression | None = Field(None, description="Kinetic co-energy T*.")
     V: Expression | None = Field(None, description="Potential energy.")
@@ -195,7 +195,7 @@ Input: TypeAlias = Annotated[_Text | Annotated[InputTable, Tag("table")], _ByFor
 
 
 class _Described(_Table):
-    """What stands before the elements."""
+    """The sections before the elements."""
 
     name: str = Field(description="The system's name.")
     coordinates: dict[str, Coordinate] = Field(

@@ -1,4 +1,4 @@
-"""The functions of the expression grammar: how many arguments each takes and which SymPy function it is."""
+"""The functions in expressions: their number of arguments, and the SymPy function."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from lagrangian import bounded
 
 @dataclass(frozen=True)
 class Known:
-    """A function: what SymPy calls it and how many arguments it takes (``most`` None: any number)."""
+    """A function: its SymPy function and its number of arguments (``most`` None: any number)."""
 
     make: Callable[..., sp.Expr]
     least: int = 1
@@ -21,7 +21,7 @@ class Known:
 
 
 def _extremum(function: type[sp.Max] | type[sp.Min]) -> Callable[..., sp.Expr]:
-    """Return a maximum or minimum that compares its arguments only while they are few: SymPy's takes O(n²) proofs."""
+    """Return a maximum or minimum whose arguments SymPy compares only if there are few: it takes O(n²) proofs."""
 
     def make(*args: sp.Expr) -> sp.Expr:
         count = sum(len(a.args) if isinstance(a, (sp.Max, sp.Min)) else 1 for a in args)
@@ -55,7 +55,7 @@ FUNCTIONS: dict[str, Known] = {
     "min": Known(_extremum(sp.Min), 1, 32),
     "max": Known(_extremum(sp.Max), 1, 32),
 }
-"""Every function but ``piecewise``, whose arguments are conditions and values in turn."""
+"""Every function except ``piecewise``, whose arguments alternate between conditions and values."""
 
 ALIASES = {
     "arcsin": "asin",
@@ -90,4 +90,4 @@ ALIASES = {
     "deg2rad": "pi/180*x",
     "radians": "pi/180*x",
 }
-"""What people of other languages write, and what to write here."""
+"""Names in other languages, and what to write here."""

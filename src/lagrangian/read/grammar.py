@@ -1,7 +1,7 @@
-"""From text to a syntax tree, with an explanation where the text is not in the grammar.
+"""Parses text to a syntax tree, and explains the error if the text is not in the grammar.
 
-The grammar is ``expression.lark``, parsed by LALR(1): no recursion, time linear in the length. The tree's depth is
-bounded by the depth of the brackets, which is bounded here.
+The grammar is ``expression.lark``, parsed by LALR(1): no recursion, linear time. The depth of the tree is limited by
+that of the brackets, which is limited here.
 """
 
 from __future__ import annotations
@@ -15,10 +15,10 @@ from lagrangian.quantities.source import Source
 from lagrangian.read.explain import explain
 
 MAX_CHARACTERS = 50_000
-"""Longest expression that is read."""
+"""The largest number of characters of an expression."""
 
 MAX_DEPTH = 50
-"""Deepest nesting of parentheses."""
+"""The deepest nesting of parentheses."""
 
 
 @cache
@@ -28,9 +28,9 @@ def _parser() -> Lark:
 
 
 def parse(source: Source) -> Tree:
-    """Return the syntax tree of an expression; every node knows its offset (``meta.start_pos``).
+    """Return the syntax tree of an expression; every node has its offset (``meta.start_pos``).
 
-    Raises `ParseError` with line, column, what was found there and what would be right.
+    Raises `ParseError` with line, column, what was found there and how to fix it.
     """
     source.check_text(MAX_CHARACTERS, "an expression, such as m*g*L")
     _check_depth(source)

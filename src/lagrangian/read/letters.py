@@ -1,12 +1,12 @@
-"""How a name may be written: Greek letters or their spelling, subscripts or digits, dots or primes.
+"""The spellings of a name: Greek letters or their names, subscripts or digits, dots or primes.
 
-A name is looked up exactly first (in Unicode's compatibility form NFKC, so ``θ₁`` is ``θ1``). Where that finds nothing,
-a Greek letter and its spelling are the same, and so are a subscript with and without its underscore:
+A name is first looked up exactly (in Unicode's compatibility form NFKC, so ``θ₁`` is ``θ1``). If this finds nothing, a
+Greek letter and its name are equivalent, and so are subscripts with and without an underscore:
 
     θ₁ = θ1 = θ_1 = theta1 = theta_1,      Lₐ = La = L_a
 
-Dots stand on a name's first letter or on its last one: ẋ, θ̈₁, x1̇. A letter that carries such a mark in an ordinary
-language (ä, ż) is taken as a dotted letter only where no name is written with it.
+Dots may be on the first letter of a name or on its last: ẋ, θ̈₁, x1̇. A letter that has such a mark in a natural
+language (ä, ż) is read as a dotted letter only if no name is written with it.
 """
 
 from __future__ import annotations
@@ -41,13 +41,13 @@ GREEK = {
     "ψ": "psi",
     "ω": "omega",
 }
-"""Small Greek letters and how they are spelled; the capitals are spelled with a capital."""
+"""Small Greek letters and their names; the names of capitals are capitalized."""
 
 SPELLED = GREEK | {letter.upper(): word.capitalize() for letter, word in GREEK.items() if letter != "ς"}
 _SPELL = str.maketrans(SPELLED)
 
 DOTS = {"\u0307": 1, "\u0308": 2, "\u20db": 3, "\u20dc": 4}
-"""Combining marks above a letter, and how many dots each has."""
+"""Combining marks above a letter, and the number of dots that each means."""
 
 # Letters of other scripts that look like a Latin one: Cyrillic, Greek capitals, and the dotless i.
 _LATIN_TWINS = str.maketrans(
@@ -57,7 +57,7 @@ _LATIN_TWINS = str.maketrans(
 
 
 def normal(name: str) -> str:
-    """Return the name in the form it is looked up by: NFKC."""
+    """Return the name in the form in which it is looked up: NFKC."""
     return unicodedata.normalize("NFKC", name)
 
 
@@ -67,17 +67,17 @@ def spelled(name: str) -> str:
 
 
 def key(name: str) -> str:
-    """Return what two ways of writing one name share: Greek spelled out, underscores left out."""
+    """Return the common form of equivalent spellings: Greek spelled out, without underscores."""
     return spelled(name).replace("_", "").replace("lamda", "lambda")
 
 
 def twin(name: str) -> str:
-    """Return the name with letters of other scripts replaced by the Latin letters they look like."""
+    """Return the name with letters of other scripts replaced by the Latin letters that they resemble."""
     return normal(name).translate(_LATIN_TWINS)
 
 
 def undotted(name: str) -> tuple[str, int]:
-    """Split off the dots over the first or the last letter: ``θ̈₁`` → (``θ₁``, 2); other names come back with 0."""
+    """Remove the dots over the first or the last letter: ``θ̈₁`` → (``θ₁``, 2); for other names the number is 0."""
     letters = unicodedata.normalize("NFD", name)
     marks = [i for i, c in enumerate(letters) if c in DOTS]
     if not marks:
@@ -90,7 +90,7 @@ def undotted(name: str) -> tuple[str, int]:
 
 
 def find(name: str, known: Iterable[str]) -> list[str]:
-    """Return the names among ``known`` that ``name`` can mean: the exact one alone, else all that share its key."""
+    """Return the names among ``known`` that ``name`` can mean: the exact one alone, otherwise all equivalent ones."""
     names = list(known)
     exact = [k for k in names if normal(k) == normal(name)]
     if exact:

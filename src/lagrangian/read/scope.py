@@ -1,4 +1,4 @@
-"""The names an expression may use, found however they are written."""
+"""The names that an expression may use, in any spelling."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _RATE_PREFIXES = (("dd", 2), ("d", 1))
 
 
 class Scope(Mapping[str, sp.Basic]):
-    """Names with their SymPy objects. A lookup knows the ways a name can be written (`lagrangian.read.letters`)."""
+    """Names with their SymPy objects; a name is found in any of its spellings (`lagrangian.read.letters`)."""
 
     def __init__(self, names: Mapping[str, sp.Basic] | None = None) -> None:
         self._names: dict[str, sp.Basic] = {}
@@ -24,7 +24,7 @@ class Scope(Mapping[str, sp.Basic]):
             self.add(name, value)
 
     def add(self, name: str, value: sp.Basic) -> None:
-        """Add a name, or give it another meaning."""
+        """Add a name, or give it a new meaning."""
         name = normal(name)
         if name not in self._names:
             self._by_key.setdefault(key(name), []).append(name)
@@ -44,7 +44,7 @@ class Scope(Mapping[str, sp.Basic]):
         return len(self._names)
 
     def meanings(self, written: str) -> tuple[list[str], int]:
-        """Return the names that ``written`` can mean and its number of dots: none, one, or several (ambiguous)."""
+        """Return the names that ``written`` can mean (none, one, or several) and its number of dots."""
         name = normal(written)
         if name in self._names:
             return [name], 0
@@ -56,7 +56,7 @@ class Scope(Mapping[str, sp.Basic]):
         return (same if len(same) == 1 else list(found)), dots
 
     def hint(self, written: str) -> str | None:
-        """Say what was probably meant by a name that is unknown."""
+        """Return a suggestion for an unknown name."""
         base, _ = undotted(written)
         for order, stem in rate_stems(base):
             if stem in self._names:
@@ -71,7 +71,7 @@ class Scope(Mapping[str, sp.Basic]):
 
 
 def rate_stems(name: str) -> Iterator[tuple[int, str]]:
-    """The orders and names that a spelled-out derivative can mean: ``x1_ddot`` is the acceleration of ``x1``."""
+    """Yield the orders and names that a spelled-out derivative can mean: ``x1_ddot`` is the acceleration of ``x1``."""
     for suffix, order in _RATE_SUFFIXES:
         if name.endswith(suffix) and len(name) > len(suffix):
             yield order, name.removesuffix(suffix)

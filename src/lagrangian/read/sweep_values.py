@@ -23,24 +23,24 @@ from lagrangian.quantities.source import Source, printable, shown
 
 MAX_CHARACTERS = 10_000
 MAX_COUNT = 10_000_000
-"""Most values of one range."""
+"""The largest number of values in one range."""
 
 LAWS = {"normal": 2, "uniform": 2, "lognormal": 2}
-"""Distributions, and how many numbers each takes."""
+"""The distributions, and their numbers of parameters."""
 
 SPACINGS = ("lin", "log")
 Part: TypeAlias = Callable[[int, int], Source]
-"""A piece of the whole text, from one character to another, that knows its place."""
+"""A piece of the whole text, from one character to another, with its place."""
 
 EXAMPLE = "k=10:100:50, k=10,20,40 or k~normal(40,2)"
 
 
 @dataclass(frozen=True)
 class Spread:
-    """What was written of ``name``: ``kind`` is "range", "list" or a distribution; ``numbers`` are as they stand.
+    """The values given for ``name``: ``kind`` is "range", "list" or a distribution; ``numbers`` are as written.
 
-    A range has two numbers, ``count`` values and is spaced evenly in the value or, with ``log``, in its logarithm.
-    ``text`` is what was written behind the name; ``source`` points at it in messages.
+    A range has two numbers and ``count`` values, which are evenly spaced or, with ``log``, evenly spaced in the
+    logarithm. ``text`` is the part after the name; ``source`` gives its place in messages.
     """
 
     name: str
@@ -53,14 +53,14 @@ class Spread:
 
     @property
     def drawn(self) -> bool:
-        """Whether values are drawn from a distribution."""
+        """Whether the values are drawn from a distribution."""
         return self.kind in LAWS
 
 
 def parse_spread(text: str) -> Spread:
-    """Return what ``text`` writes of a name and its values: ``"k=10:100:50"``, ``"b~normal(1, 0.1)"``.
+    """Return the values that ``text`` describes, with their name: ``"k=10:100:50"``, ``"b~normal(1, 0.1)"``.
 
-    Raises `ParseError` with a caret and what would be right.
+    Raises `ParseError` with a caret and a remedy.
 
     >>> parse_spread("k=10 N/m : 100 N/m : 4").count
     4
@@ -75,7 +75,7 @@ def parse_spread(text: str) -> Spread:
 
 
 def parse_values(name: str, text: str) -> Spread:
-    """Return what ``text`` writes of the values of ``name``, known already: ``"10:100:50"``, ``"normal(1, 0.1)"``."""
+    """Return the values of ``name`` that ``text`` describes: ``"10:100:50"``, ``"normal(1, 0.1)"``."""
     Source(text, f"values of '{name}'").check_text(MAX_CHARACTERS, "10:100:50")
     start = len(text) - len(text.lstrip(" \t\n=~"))
     return _spread(name, text.lstrip().startswith("~"), text, start)
@@ -183,7 +183,7 @@ def _law(name: str, source: Source, part: Part, start: int, law: re.Match[str] |
 
 
 def _fits(source: Source, kind: str, numbers: tuple[Quantity, ...], pieces: list[tuple[int, int]]) -> None:
-    """Refuse numbers that make no distribution."""
+    """Raise an error for numbers that are not valid for a distribution."""
     a, b = (n.value for n in numbers)
     if kind == "lognormal":
         if not all(n.is_bare for n in numbers):
@@ -204,7 +204,7 @@ def _fits(source: Source, kind: str, numbers: tuple[Quantity, ...], pieces: list
 
 
 def _same_units(source: Source, numbers: tuple[Quantity, ...]) -> None:
-    """Numbers all carry a unit of one dimension, or none does: 10:50 mm would be 10 m to 50 mm."""
+    """Check that all numbers have a unit of one dimension, or none has: 10:50 mm would be 10 m to 50 mm."""
     for n in numbers[1:]:
         if n.is_bare != numbers[0].is_bare and 0 not in (n.value, numbers[0].value):
             raise source.error(

@@ -1,8 +1,8 @@
-"""Where every key and value of a TOML text stands.
+"""Finds the place of every key and value in a TOML text.
 
-`tomllib` gives values without places. This walks the same text, which `tomllib` accepted before, and notes for each
-path (``("spring", 0, "k")``) where its key and its value start. Where the walk cannot follow, it stops; what it found
-stays.
+`tomllib` returns values without places. This module reads the same text, after `tomllib` accepted it, and records for
+each path (``("spring", 0, "k")``) where its key and its value begin. If it meets something unknown, it stops, and what
+it has found remains.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ _JOINED = re.compile(r"\\[ \t]*\n\s*")
 
 @dataclass(frozen=True)
 class Spot:
-    """Offsets in the text: of the key (or of the header of a table), of the value and, for a string, of its inside."""
+    """Offsets in the text: of the key (or of the header of a table), of the value and, for a string, of its content."""
 
     key: int
     value: int
@@ -39,11 +39,11 @@ class Spot:
 
 
 class _Lost(Exception):
-    """The walk met something it does not know."""
+    """Something unknown was met."""
 
 
 class Index:
-    """The places in one file. ``duplicates`` are keys met twice: (path, first offset, second offset)."""
+    """The places in one file. ``duplicates`` are keys that occur twice: (path, first offset, second offset)."""
 
     def __init__(self, text: str, file: str) -> None:
         self.text, self.file = text, file
@@ -73,16 +73,16 @@ class Index:
         return Place(self.file, low + 1, offset - start + 1, printable(line))
 
     def of_key(self, path: Path) -> Place:
-        """Return the place of a key, or of the nearest table around it that is known."""
+        """Return the place of a key, or of the innermost surrounding table that is known."""
         return self.place(self._nearest(path).key)
 
     def of_value(self, path: Path) -> Place:
-        """Return the place of a value, or of the nearest thing around it that is known."""
+        """Return the place of a value, or of the innermost surrounding item that is known."""
         spot = self.spots.get(path)
         return self.of_key(path) if spot is None else self.place(spot.value)
 
     def offset(self, path: Path) -> int:
-        """Return where a key stands, for putting things into the file's order."""
+        """Return the offset of a key, for sorting in the order of the file."""
         return self._nearest(path).key
 
     def _nearest(self, path: Path) -> Spot:
@@ -102,7 +102,7 @@ class Index:
             return Source(text, what, self.place(start), lambda i: self.place(offsets[min(i, len(offsets) - 1)]))
         return Source(text, what, self.place(start), lambda i: self.place(start + i))
 
-    # -- the walk -----------------------------------------------------------------------------------------------
+    # -- reading ------------------------------------------------------------------------------------------------
 
     def _walk(self) -> None:
         at, table = 0, ()
@@ -126,7 +126,7 @@ class Index:
                 at = self._pair(table, at)
 
     def _resolve(self, keys: Sequence[str]) -> Path:
-        """The path of a header, with the number of the last element of every array of tables in it."""
+        """The path of a header, in which every array of tables has the number of its last element."""
         path: Path = ()
         for key in keys:
             path = (*path, key)
@@ -230,11 +230,11 @@ def _character(escape: str) -> str:
 
 
 def _offsets(raw: str, start: int) -> list[int]:
-    """The offset in the file of each character of a string that holds escapes, and of its end."""
+    """The offset in the file of each character of a string with escapes, and of its end."""
     offsets: list[int] = []
     at = 0
     while at < len(raw):
-        if (joined := _JOINED.match(raw, at)) is not None:  # a backslash at the end of a line swallows the break
+        if (joined := _JOINED.match(raw, at)) is not None:  # a backslash at the end of a line removes the line break
             at = joined.end()
             continue
         offsets.append(start + at)

@@ -1,4 +1,4 @@
-"""From the bytes of a model file to validated data, with every error placed in the file."""
+"""Converts the bytes of a model file to validated data; every error has its place in the file."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from lagrangian.read.file_schema import ModelFile
 from lagrangian.read.toml_index import Index, Path
 
 MAX_BYTES = 1 << 20
-"""Largest model file, in bytes (1 MiB)."""
+"""The largest size of a model file in bytes (1 MiB)."""
 
 MAX_NESTING = 12
 _STRINGS = re.compile(
@@ -28,7 +28,7 @@ _WORDS = {"text": "text", "number": "a number", "list": "a list", "table": "a ta
 
 
 def decode(data: bytes, name: str) -> str:
-    """Return the text of a file's bytes; refuse what is too large, binary or not UTF-8."""
+    """Return the text of a file; raise an error if it is too large, binary or not UTF-8."""
     if len(data) > MAX_BYTES:
         raise ParseError(
             f"the file is larger than {MAX_BYTES} bytes",
@@ -39,7 +39,7 @@ def decode(data: bytes, name: str) -> str:
     if b"\0" in data:
         line = data.count(b"\n", 0, data.index(b"\0")) + 1
         raise ParseError(
-            "the file is binary, not text (it holds a zero byte)",
+            "the file is binary, not text (it contains a zero byte)",
             place=Place(name, line, 1),
             fix="give a model file in TOML; UTF-16 text must be saved as UTF-8",
             code="E702",
@@ -81,7 +81,7 @@ def read_toml(text: str, name: str) -> tuple[ModelFile, dict[str, Any], Index]:
 
 
 def _check_nesting(text: str, name: str) -> None:
-    """Refuse brackets and dotted keys that are nested deeply, before anything recursive sees them."""
+    """Raise an error for deeply nested brackets and dotted keys, before any recursive function sees them."""
     bare = _STRINGS.sub(lambda m: "s" + " " * (len(m.group()) - 1) if "\n" not in m.group() else m.group(), text)
     depth = 0
     for match in re.finditer(r"[\[\]{}\n]", bare):
@@ -115,7 +115,7 @@ def _parse(text: str, name: str) -> tuple[dict[str, Any], Index]:
         data = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
         raise _toml_error(str(error), text, name) from None
-    except ValueError:  # Python reads no integer of more than 4300 digits
+    except ValueError:  # Python does not read integers of more than 4300 digits
         digits = re.search(r"[0-9_]{1000,}", text)
         raise ParseError(
             "the number has too many digits",
@@ -153,7 +153,7 @@ def _toml_error(message: str, text: str, name: str) -> ParseError:
             return ParseError(
                 f"cannot read {shown(value)} as a number", place=at, fix=f"write {value.replace(',', '.')}", code="E406"
             )
-        fix = f'text stands in quotes: "{value[:40]}"' if value else "write a value after ="
+        fix = f'put text in quotes: "{value[:40]}"' if value else "write a value after ="
     return ParseError(f"this is not TOML: {what[:1].lower()}{what[1:]}", place=at, fix=fix, code="E701")
 
 
@@ -236,7 +236,7 @@ def _wanted(error: Any) -> str:
 
 
 def _path(location: tuple[str | int, ...], data: Any) -> Path:
-    """The keys of an error's location without pydantic's own words for the branch of a union."""
+    """The keys of an error's location, without pydantic's own names for branches of a union."""
     path: list[str | int] = []
     at = data
     for i, part in enumerate(location):
@@ -258,7 +258,7 @@ def _get(data: Any, path: Path) -> Any:
 
 
 def _label(path: Path) -> str:
-    """A value's place in words: ``offset[1]``, ``the section [points]``."""
+    """The place of a value in words: ``offset[1]``, ``the section [points]``."""
     if len(path) == 1:
         return f"the section {shown(str(path[0]))}" if path[0] != "name" else "the name of the system"
     words = [str(p) for p in path if isinstance(p, str)][-1]
@@ -269,7 +269,7 @@ def _label(path: Path) -> str:
 
 
 def owner(path: Path, data: dict[str, Any]) -> str:
-    """What a path belongs to, in words: ``particle 'cart 1'``, ``the point 'A'``."""
+    """The element or section to which a path belongs, in words: ``particle 'cart 1'``, ``the point 'A'``."""
     if len(path) < 2:
         return ""
     section = str(path[0])
