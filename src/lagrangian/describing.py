@@ -177,8 +177,8 @@ class Described(Constrained):
         ``base.origin``.
 
         Coordinates: base_x, base_y, base_z (the origin, in fixed axes) and the quaternion base_qx, base_qy, base_qz,
-        base_qw. Velocities: base_vx, base_vy, base_vz (of the origin) and base_wx, base_wy, base_wz (angular), along the
-        frame's own axes. ``base.origin`` is the point base_origin. `compile` supports such a frame; `derive` does not.
+        base_qw. Velocities: base_vx, base_vy, base_vz (of the origin) and base_wx, base_wy, base_wz (angular), along
+        the frame's axes. ``base.origin`` is the point base_origin. `compile` supports such a frame; `derive` does not.
         """
         return self._builder.floating_frame(name)
 

@@ -62,7 +62,7 @@ BAD = [
     ("decimal comma bare", change('m = "1 kg"', "m = 1,5"), 7, None, ["not TOML"]),
     ("decimal comma", change("1 kg", "1,5 kg"), 7, 7, ["parameter 'm'", "cannot read '1,5' as a number", "1.5"]),
     ("unknown unit", change("1 kg", "1 kgg"), 7, 8, ["parameter 'm'", "unknown unit 'kgg'", "Did you mean 'kg'?"]),
-    ("no number", change("1 kg", "kg"), 7, 6, ["number must come first"]),
+    ("no number", change("1 kg", "kg"), 7, 6, ["number is expected first"]),
     ("empty quantity", change("1 kg", ""), 7, 6, ["empty"]),
     ("nan text", change('"1 kg"', '"nan"'), 7, 6, ["finite number (got nan)", "E101"]),
     ("nan", change('"1 kg"', "nan"), 7, 5, ["'m' must be a finite number (got nan)", "E101"]),
