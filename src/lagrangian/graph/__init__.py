@@ -5,6 +5,7 @@ from lagrangian.graph.bounds import bends, bounds, states_read
 from lagrangian.graph.evaluate import evaluate
 from lagrangian.graph.from_sympy import from_sympy, unknown_part
 from lagrangian.graph.graph import Graph, operands
+from lagrangian.graph.prime_point import NotAlgebraic, PrimePoint
 from lagrangian.graph.program import Count, Output, Program, count_operations, count_program, reached
 from lagrangian.graph.replace import copied, replaced
 from lagrangian.graph.scalar import Scalar
@@ -13,7 +14,9 @@ from lagrangian.graph.to_sympy import to_sympy
 __all__ = [
     "Count",
     "Graph",
+    "NotAlgebraic",
     "Output",
+    "PrimePoint",
     "Program",
     "Scalar",
     "Tangents",

@@ -1,0 +1,123 @@
+"""Rows in the order given: which say something new, which say again what others say, which contradict others."""
+
+# mpmath has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false
+
+from __future__ import annotations
+
+import random
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import mpmath
+
+from lagrangian.derive.constraints.pfaffian import Form, Sheet
+from lagrangian.derive.constraints.spans import DIGITS, Place, evaluated
+from lagrangian.graph import reached
+
+STARTS = 6
+"""Points from which a position that satisfies the rows before is looked for."""
+
+STEPS = 60
+"""Newton steps from one of them."""
+
+
+@dataclass(frozen=True)
+class RedundantRow:
+    """A row that adds nothing, and the rows that say it already."""
+
+    name: str
+    repeats: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Sorted:
+    """The independent rows, and what became of the others; ``unsure`` are names of rows said again by rates alone."""
+
+    kept: list[Form]
+    redundant: list[RedundantRow]
+    contradictions: list[RedundantRow]
+    unsure: list[str]
+
+
+def sort_rows(sheet: Sheet, place: Place, given: Sequence[Form]) -> Sorted:
+    """Return which rows are independent for all q, t and parameters.
+
+    A row whose coefficients of the rates depend on those before is redundant where its right-hand side follows too, and
+    contradicts them where it does not. Rows of positions with the same rates must also agree in the positions.
+    """
+    rates, whole = place.span(), place.span()
+    found = Sorted([], [], [], [])
+    for k, form in enumerate(given):
+        names = rates.made_of(form.coefficients[:-1])
+        if names is None:
+            rates.take(k, form.coefficients[:-1])
+            whole.take(k, form.coefficients)
+            found.kept.append(form)
+            continue
+        repeated = [given[i] for i in names]
+        said = RedundantRow(form.name, tuple(f.name for f in repeated))
+        if whole.made_of(form.coefficients) is None:
+            found.contradictions.append(said)
+            continue
+        agrees = _agrees(sheet, place, form, repeated)
+        if agrees is None:
+            found.unsure.append(form.name)
+        (found.contradictions if agrees is False else found.redundant).append(said)
+    return found
+
+
+def _agrees(sheet: Sheet, place: Place, form: Form, repeated: Sequence[Form]) -> bool | None:
+    """Whether f = 0 wherever the rows that it repeats are satisfied; None where no such position was found.
+
+    On their positions f is constant, for df is a combination of theirs. A row of rates cannot disagree.
+    """
+    if form.position is None or any(f.position is None for f in repeated):
+        return True
+    if not place.nonzero([form.position])[0]:
+        return True
+    others = [f.position for f in repeated if f.position is not None]
+    for start in range(STARTS):
+        value = _at_satisfied(sheet, form.position, others, start)
+        if value is not None:
+            return value
+    return None
+
+
+def _at_satisfied(sheet: Sheet, position: int, others: list[int], start: int) -> bool | None:
+    """Whether ``position`` is zero at a position where the others are, found by Newton's method from a random start."""
+    graph, draw = sheet.graph, random.Random(start)
+    slopes = [sheet.differential(f)[:-1] for f in others]
+    wanted = [position, *others, *(x for row in slopes for x in row)]
+    inputs = [i for i in reached(graph, wanted) if graph.nodes[i][0] == "input"]
+    with mpmath.workdps(DIGITS):
+        values: dict[int, Any] = {}
+        for i in inputs:
+            number = sheet.numbers.get(i)
+            values[i] = (
+                +mpmath.pi
+                if i == sheet.pi
+                else mpmath.mpf(draw.randrange(10**DIGITS)) / 10**DIGITS + mpmath.mpf("0.3")
+                if number is None
+                else mpmath.mpf(number.numerator) / number.denominator
+            )
+        columns = sheet.columns[:-1]
+        for _ in range(STEPS):
+            found = evaluated(sheet, wanted, values)
+            if not all(mpmath.isfinite(x) for x in found):
+                return None
+            residual = mpmath.matrix(found[1 : 1 + len(others)])
+            if mpmath.norm(residual) < mpmath.mpf(10) ** -40:
+                return bool(abs(found[0]) < mpmath.mpf(10) ** -30)
+            width = len(columns)
+            flat = found[1 + len(others) :]
+            slope = mpmath.matrix([flat[k * width : (k + 1) * width] for k in range(len(others))])
+            try:
+                step = slope.T * mpmath.lu_solve(slope * slope.T, residual)
+            except ZeroDivisionError:
+                return None
+            for k, column in enumerate(columns):
+                values[column] = values.get(column, mpmath.mpf(0)) - step[k]
+    return None

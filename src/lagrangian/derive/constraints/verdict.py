@@ -1,0 +1,203 @@
+"""Holonomic, or nonholonomic by how many, or undecided: the verdict on a system's constraints."""
+
+# mpmath has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import mpmath
+import sympy as sp
+
+from lagrangian.derive.constraints.brackets import MAX_NODES, Closure, closure
+from lagrangian.derive.constraints.elimination import fields, kernel, solved
+from lagrangian.derive.constraints.integrals import TRIED, Integral, Search
+from lagrangian.derive.constraints.pfaffian import Form, HasRow, Sheet, Variables, combined, forms
+from lagrangian.derive.constraints.rows import RedundantRow, Sorted, sort_rows
+from lagrangian.derive.constraints.spans import ExactPlace, FloatPlace, OutsideError, Place, UnclearError
+from lagrangian.viewed import Brief
+
+__all__ = ["Integral", "RedundantRow", "Verdict", "judge"]
+
+
+@dataclass(frozen=True, eq=False)
+class Verdict(Brief):
+    """What the constraints of a system do.
+
+    ``independent`` are the names of the rows that say something new, in order. ``growth`` are the dimensions of what
+    can be reached: at once (#DDOF), with brackets of depth 2, 3, …; the last is #GC where ``complete``. ``integrals``
+    are the surfaces f = constant that were found, ``missing`` is how many more there are. ``exact`` is False where
+    numbers of 50 digits decided; ``notes`` say what is to be known of that. ``special`` is another verdict where the
+    parameters' given values change it.
+    """
+
+    independent: tuple[str, ...]
+    redundant: tuple[RedundantRow, ...]
+    contradictions: tuple[RedundantRow, ...]
+    growth: tuple[int, ...]
+    complete: bool
+    exact: bool = True
+    integrals: tuple[Integral, ...] = ()
+    missing: int = 0
+    notes: tuple[str, ...] = ()
+    special: Verdict | None = None
+
+    @property
+    def holonomic(self) -> bool | None:
+        """Whether #GC = #DDOF; None where that is undecided."""
+        return False if len(self.growth) > 1 else True if self.complete else None
+
+    @property
+    def DDOF(self) -> int:
+        """The differential degrees of freedom: rates that can be chosen freely at an instant."""
+        return self.growth[0]
+
+    @property
+    def GC(self) -> int | None:
+        """The generalized coordinates that it takes to describe every configuration that can be reached, if known."""
+        return self.growth[-1] if self.complete else None
+
+    @property
+    def degree(self) -> int:
+        """#GC − #DDOF, as far as it was followed: the system is nonholonomic by that many."""
+        return self.growth[-1] - self.growth[0]
+
+    def __str__(self) -> str:
+        """Read as ``nonholonomic by 2: #DDOF = 2, #GC = 4, growth (2, 3, 4)``."""
+        ends = f"#DDOF = {self.DDOF}"
+        if self.holonomic is None:
+            return f"undecided beyond depth {len(self.growth)}: {ends}"
+        if self.holonomic:
+            return f"holonomic: #GC = #DDOF = {self.DDOF}"
+        least = "" if self.complete else "at least "
+        count = f"#GC = {self.GC}" if self.complete else f"#GC ≥ {self.growth[-1]}"
+        return f"nonholonomic by {least}{self.degree}: {ends}, {count}, growth {self.growth}"
+
+
+def judge(
+    rows: Sequence[HasRow],
+    coordinates: Sequence[sp.Expr],
+    time: sp.Symbol,
+    *,
+    values: Mapping[Any, Any] | None = None,
+    limit: int = MAX_NODES,
+) -> Verdict:
+    """Decide what constraints do to a system: redundant rows, contradictions, holonomic or not, and integrals.
+
+    Rows A(q, t) q̇ + a0(q, t) = 0 are differential forms over (q, t); the fields that satisfy them are closed under
+    brackets. Ranks are exact, in a prime field, with parameters generic; ``values`` (rational, by symbol) are tried as
+    well. ``limit`` bounds the nodes that brackets may make. Raises `ModelError` for a row that is not linear in the
+    rates.
+    """
+    variables = Variables(tuple(coordinates), time)
+    generic = _judged(rows, variables, None, limit)
+    if not values or not any(row.rate.has(*values) for row in rows):
+        return generic
+    given = _judged(rows, variables, values, limit)
+    same = (given.growth, given.independent, len(given.contradictions)) == (
+        generic.growth,
+        generic.independent,
+        len(generic.contradictions),
+    )
+    return generic if same else replace(generic, special=given)
+
+
+def _judged(rows: Sequence[HasRow], variables: Variables, values: Mapping[Any, Any] | None, limit: int) -> Verdict:
+    sheet = Sheet(variables)
+    given = forms(sheet, rows, values)
+    try:
+        return _Judge(sheet, ExactPlace(sheet), limit).verdict(given)
+    except OutsideError as error:
+        why = f"not decided exactly, because of {error}"
+    try:
+        # a kink has sides: the verdict is that of the side on which the motion reaches most
+        sides = [
+            _Judge(sheet, FloatPlace(sheet, seed=seed), limit).verdict(given, search=False) for seed in range(SIDES)
+        ]
+        growths = [side.growth for side in sides]
+        best = max(range(SIDES), key=lambda k: (growths[k][-1], -k))
+        place = FloatPlace(sheet, seed=best)
+        found = _Judge(sheet, place, limit).verdict(given)
+    except UnclearError as error:
+        n = len(variables.coordinates)
+        return Verdict((), (), (), (n,), complete=False, exact=False, notes=(f"{why}: {error}",))
+    least, most = mpmath.nstr(place.smallest, 2), mpmath.nstr(place.largest, 2)
+    gap = (
+        f"{why}: ranks were taken with 50 digits at random points instead. Of unit vectors that count as "
+        f"independent at least {least} was left, of the others at most {most}"
+    )
+    sided: tuple[str, ...] = ()
+    if len(set(growths)) > 1:
+        sided = (f"the growth differs from region to region: {', '.join(map(str, sorted(set(growths))))}",)
+    return replace(found, exact=False, notes=(gap, *sided, *found.notes))
+
+
+SIDES = 8
+"""Random points at which growths are compared where kinks make regions."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Judge:
+    sheet: Sheet
+    place: Place
+    limit: int
+
+    def verdict(self, given: Sequence[Form], *, search: bool = True) -> Verdict:
+        n = len(self.sheet.variables.coordinates)
+        rows = sort_rows(self.sheet, self.place, given)
+        names = tuple(form.name for form in rows.kept)
+        notes = [
+            f"whether the positions of '{name}' agree with those of the rows that it repeats was not decided: no "
+            "position was found that satisfies these"
+            for name in rows.unsure
+        ]
+        found = Verdict(names, tuple(rows.redundant), tuple(rows.contradictions), (n - len(names),), complete=True)
+        if rows.contradictions or not rows.kept:
+            return replace(found, notes=tuple(notes))
+        if all(form.position is not None for form in rows.kept):
+            seeker = Search(self.sheet, self.place, rows.kept, len(names))
+            seeker.positions()
+            return replace(found, integrals=tuple(seeker.found), notes=tuple(notes))
+        return self._closed(found, rows, notes, search)
+
+    def _closed(self, found: Verdict, rows: Sorted, notes: list[str], search: bool) -> Verdict:
+        """The verdict where rows of velocities have to be looked at."""
+        width = len(self.sheet.columns)
+        solution = solved(self.sheet, self.place, [list(form.coefficients) for form in rows.kept], range(width - 1))
+        space = closure(self.sheet, self.place, fields(self.sheet, solution), limit=self.limit)
+        if not space.complete:
+            notes.append(
+                f"brackets were followed to depth {space.depth}: the next would take more than {self.limit} operations"
+            )
+        if not search:
+            return replace(found, growth=space.growth, complete=space.complete)
+        surfaces = width - 1 - space.growth[-1]
+        seeker = Search(self.sheet, self.place, rows.kept, surfaces)
+        seeker.positions()
+        if not seeker.done:
+            seeker.look([form.coefficients for form in rows.kept if form.position is None])
+        if space.complete and not seeker.done:
+            seeker.look(solution.rows)
+        if space.complete and not seeker.done and space.brackets:
+            seeker.look(self._annihilator(solution.rows, solution.pivots, space))
+        missing = surfaces - len(seeker.found) if space.complete else 0
+        if missing:
+            notes.append(f"no elementary integral was found for {missing} of {surfaces} (tried: {', '.join(TRIED)})")
+        return replace(
+            found,
+            growth=space.growth,
+            complete=space.complete,
+            integrals=tuple(seeker.found),
+            missing=missing,
+            notes=tuple(notes),
+        )
+
+    def _annihilator(self, rows: list[list[int]], pivots: list[int], space: Closure) -> list[list[int]]:
+        """The combinations of solved rows that are zero on the brackets too: they are integrable together."""
+        shares = [[bracket[k] for k in pivots] for bracket in space.brackets]
+        basis = kernel(self.sheet, self.place, shares, len(pivots), range(len(pivots)))
+        left = [combined(self.sheet.graph, factors, rows) for factors in basis]
+        return solved(self.sheet, self.place, left, range(len(self.sheet.columns) - 1)).rows if left else []
