@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 import sympy as sp
 
-from lagrangian.derive.constraints import Verdict, judge
+from lagrangian.derive.constraints import Holonomy, judge
 from lagrangian.errors import ModelError
 from lagrangian.model import time as t
 
@@ -341,4 +341,4 @@ def test_a_row_that_is_linear_once_it_is_multiplied_out_is_taken() -> None:
 def test_a_verdict_reads_in_one_line() -> None:
     assert str(judge(CAR, [x, y, theta, phi], t)) == "nonholonomic by 2: #DDOF = 2, #GC = 4, growth (2, 3, 4)"
     assert str(judge(rates(dx - y * dy), [x, y], t)) == "holonomic: #GC = #DDOF = 1"
-    assert isinstance(judge(KNIFE, [x, y, theta], t), Verdict)
+    assert isinstance(judge(KNIFE, [x, y, theta], t), Holonomy)

@@ -5,6 +5,6 @@ what is redundant or contradictory, `brackets` counts the directions that bracke
 `verdict` puts it together.
 """
 
-from lagrangian.derive.constraints.verdict import Integral, RedundantRow, Verdict, judge
+from lagrangian.derive.constraints.verdict import Holonomy, Integral, RedundantRow, judge
 
-__all__ = ["Integral", "RedundantRow", "Verdict", "judge"]
+__all__ = ["Holonomy", "Integral", "RedundantRow", "judge"]

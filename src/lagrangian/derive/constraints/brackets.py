@@ -12,7 +12,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from lagrangian.derive.constraints.pfaffian import Sheet
-from lagrangian.derive.constraints.spans import Place
+from lagrangian.derive.constraints.spans import GenericPoint
 from lagrangian.graph import Tangents
 
 MAX_NODES = 100_000
@@ -32,7 +32,9 @@ class Closure:
     depth: int
 
 
-def closure(sheet: Sheet, place: Place, generators: Sequence[Sequence[int]], *, limit: int = MAX_NODES) -> Closure:
+def closure(
+    sheet: Sheet, place: GenericPoint, generators: Sequence[Sequence[int]], *, limit: int = MAX_NODES
+) -> Closure:
     """Close the fields under brackets with the generators; a bracket is kept where it raises the rank."""
     graph, width = sheet.graph, len(sheet.columns)
     span = place.span()

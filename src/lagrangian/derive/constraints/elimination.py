@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from lagrangian.derive.constraints.pfaffian import Sheet
-from lagrangian.derive.constraints.spans import Place
+from lagrangian.derive.constraints.spans import GenericPoint
 from lagrangian.graph import operands, reached
 
 
@@ -18,7 +18,7 @@ class Solved:
     pivots: list[int]
 
 
-def solved(sheet: Sheet, place: Place, rows: Sequence[Sequence[int]], columns: Sequence[int]) -> Solved:
+def solved(sheet: Sheet, place: GenericPoint, rows: Sequence[Sequence[int]], columns: Sequence[int]) -> Solved:
     """Return the reduced echelon form of independent rows; only ``columns`` may lead.
 
     Of the entries that are not zero the simplest leads: a number, then what does not move, then what is made of the
@@ -85,7 +85,7 @@ def fields(sheet: Sheet, solution: Solved) -> list[list[int]]:
 
 
 def kernel(
-    sheet: Sheet, place: Place, vectors: Sequence[Sequence[int]], width: int, columns: Sequence[int]
+    sheet: Sheet, place: GenericPoint, vectors: Sequence[Sequence[int]], width: int, columns: Sequence[int]
 ) -> list[list[int]]:
     """Return a basis of the rows c with c · v = 0 for all of the independent ``vectors`` (of ``width`` entries)."""
     graph = sheet.graph

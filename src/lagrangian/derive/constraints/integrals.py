@@ -22,8 +22,8 @@ import sympy as sp
 from sympy.integrals.manualintegrate import manualintegrate
 
 from lagrangian import bounded
-from lagrangian.derive.constraints.pfaffian import Form, Sheet
-from lagrangian.derive.constraints.spans import OutsideError, Place
+from lagrangian.derive.constraints.pfaffian import RowForm, Sheet
+from lagrangian.derive.constraints.spans import GenericPoint, OutsideError
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, gradient, reached
 
@@ -106,10 +106,10 @@ class Curl:
         return True
 
 
-class Search:
+class IntegralSearch:
     """The search for the integrals of a system, until as many are found as there are."""
 
-    def __init__(self, sheet: Sheet, place: Place, kept: Sequence[Form], wanted: int) -> None:
+    def __init__(self, sheet: Sheet, place: GenericPoint, kept: Sequence[RowForm], wanted: int) -> None:
         self.sheet, self.place, self.kept, self.wanted = sheet, place, kept, wanted
         self.found: list[Integral] = []
         self._rows, self._span = place.span(), place.span()

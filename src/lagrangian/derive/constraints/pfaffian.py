@@ -106,7 +106,7 @@ def _spread_arguments(expr: sp.Expr) -> sp.Expr:
 
 
 @dataclass(frozen=True, eq=False)
-class Form:
+class RowForm:
     """A row as a one-form: its coefficients over (q, t), and the node of f where it is the differential of f."""
 
     name: str
@@ -114,12 +114,12 @@ class Form:
     position: int | None = None
 
 
-def forms(sheet: Sheet, rows: Iterable[HasRow], values: Mapping[Any, Any] | None = None) -> list[Form]:
+def forms(sheet: Sheet, rows: Iterable[HasRow], values: Mapping[Any, Any] | None = None) -> list[RowForm]:
     """Return the rows as one-forms; ``values`` are put in the place of parameters.
 
     Raises `ModelError` for a row that is not linear in the rates.
     """
-    found: list[Form] = []
+    found: list[RowForm] = []
     for row in rows:
         rate = cast("sp.Expr", row.rate.xreplace(dict(values)) if values else row.rate)
         f = row.position
@@ -129,9 +129,9 @@ def forms(sheet: Sheet, rows: Iterable[HasRow], values: Mapping[Any, Any] | None
     return found
 
 
-def _form(sheet: Sheet, name: str, rate: sp.Expr, position: int | None) -> Form:
+def _form(sheet: Sheet, name: str, rate: sp.Expr, position: int | None) -> RowForm:
     if position is not None:
-        return Form(name, tuple(sheet.differential(position)), position)
+        return RowForm(name, tuple(sheet.differential(position)), position)
     graph = sheet.graph
     node = sheet.node(rate)
     slopes = gradient(graph, node, sheet.rates)
@@ -148,7 +148,7 @@ def _form(sheet: Sheet, name: str, rate: sp.Expr, position: int | None) -> Form:
                 code="E301",
             )
     (rest,) = replaced(graph, [node], dict.fromkeys(sheet.rates, graph.zero))
-    return Form(name, (*slopes, rest))
+    return RowForm(name, (*slopes, rest))
 
 
 def combined(graph: Graph, factors: Sequence[int], rows: Sequence[Sequence[int]]) -> list[int]:

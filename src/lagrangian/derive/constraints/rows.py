@@ -13,8 +13,8 @@ from typing import Any
 
 import mpmath
 
-from lagrangian.derive.constraints.pfaffian import Form, Sheet
-from lagrangian.derive.constraints.spans import DIGITS, Place, evaluated
+from lagrangian.derive.constraints.pfaffian import RowForm, Sheet
+from lagrangian.derive.constraints.spans import DIGITS, GenericPoint, evaluated
 from lagrangian.graph import reached
 
 STARTS = 6
@@ -36,13 +36,13 @@ class RedundantRow:
 class Sorted:
     """The independent rows, and what became of the others; ``unsure`` are names of rows said again by rates alone."""
 
-    kept: list[Form]
+    kept: list[RowForm]
     redundant: list[RedundantRow]
     contradictions: list[RedundantRow]
     unsure: list[str]
 
 
-def sort_rows(sheet: Sheet, place: Place, given: Sequence[Form]) -> Sorted:
+def sort_rows(sheet: Sheet, place: GenericPoint, given: Sequence[RowForm]) -> Sorted:
     """Return which rows are independent for all q, t and parameters.
 
     A row whose coefficients of the rates depend on those before is redundant where its right-hand side follows too, and
@@ -69,7 +69,7 @@ def sort_rows(sheet: Sheet, place: Place, given: Sequence[Form]) -> Sorted:
     return found
 
 
-def _agrees(sheet: Sheet, place: Place, form: Form, repeated: Sequence[Form]) -> bool | None:
+def _agrees(sheet: Sheet, place: GenericPoint, form: RowForm, repeated: Sequence[RowForm]) -> bool | None:
     """Whether f = 0 wherever the rows that it repeats are satisfied; None where no such position was found.
 
     On their positions f is constant, for df is a combination of theirs. A row of rates cannot disagree.

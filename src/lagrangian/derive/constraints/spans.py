@@ -32,7 +32,7 @@ class UnclearError(Exception):
     """Even 50 digits do not tell whether a vector depends on others."""
 
 
-class Place(ABC):
+class GenericPoint(ABC):
     """A generic point: where vectors of nodes are compared."""
 
     exact: bool
@@ -66,7 +66,7 @@ class Span(ABC):
         """Return the rank."""
 
 
-class ExactPlace(Place):
+class ExactPlace(GenericPoint):
     """A point of a prime field. Raises `OutsideError` where the graph holds what a field does not have."""
 
     exact = True
@@ -134,7 +134,7 @@ class _ExactSpan(Span):
         return row
 
 
-class FloatPlace(Place):
+class FloatPlace(GenericPoint):
     """A point with random real coordinates of 50 digits.
 
     ``smallest`` is the least that was left of an independent unit vector, ``largest`` the most of a dependent one: the

@@ -14,17 +14,17 @@ import sympy as sp
 
 from lagrangian.derive.constraints.brackets import MAX_NODES, Closure, closure
 from lagrangian.derive.constraints.elimination import fields, kernel, solved
-from lagrangian.derive.constraints.integrals import TRIED, Integral, Search
-from lagrangian.derive.constraints.pfaffian import Form, HasRow, Sheet, Variables, combined, forms
+from lagrangian.derive.constraints.integrals import TRIED, Integral, IntegralSearch
+from lagrangian.derive.constraints.pfaffian import HasRow, RowForm, Sheet, Variables, combined, forms
 from lagrangian.derive.constraints.rows import RedundantRow, Sorted, sort_rows
-from lagrangian.derive.constraints.spans import ExactPlace, FloatPlace, OutsideError, Place, UnclearError
+from lagrangian.derive.constraints.spans import ExactPlace, FloatPlace, GenericPoint, OutsideError, UnclearError
 from lagrangian.viewed import Brief
 
-__all__ = ["Integral", "RedundantRow", "Verdict", "judge"]
+__all__ = ["Holonomy", "Integral", "RedundantRow", "judge"]
 
 
 @dataclass(frozen=True, eq=False)
-class Verdict(Brief):
+class Holonomy(Brief):
     """What the constraints of a system do.
 
     ``independent`` are the names of the rows that say something new, in order. ``growth`` are the dimensions of what
@@ -43,7 +43,7 @@ class Verdict(Brief):
     integrals: tuple[Integral, ...] = ()
     missing: int = 0
     notes: tuple[str, ...] = ()
-    special: Verdict | None = None
+    special: Holonomy | None = None
 
     @property
     def holonomic(self) -> bool | None:
@@ -84,7 +84,7 @@ def judge(
     *,
     values: Mapping[Any, Any] | None = None,
     limit: int = MAX_NODES,
-) -> Verdict:
+) -> Holonomy:
     """Decide what constraints do to a system: redundant rows, contradictions, holonomic or not, and integrals.
 
     Rows A(q, t) q̇ + a0(q, t) = 0 are differential forms over (q, t); the fields that satisfy them are closed under
@@ -105,7 +105,7 @@ def judge(
     return generic if same else replace(generic, special=given)
 
 
-def _judged(rows: Sequence[HasRow], variables: Variables, values: Mapping[Any, Any] | None, limit: int) -> Verdict:
+def _judged(rows: Sequence[HasRow], variables: Variables, values: Mapping[Any, Any] | None, limit: int) -> Holonomy:
     sheet = Sheet(variables)
     given = forms(sheet, rows, values)
     try:
@@ -123,7 +123,7 @@ def _judged(rows: Sequence[HasRow], variables: Variables, values: Mapping[Any, A
         found = _Judge(sheet, place, limit).verdict(given)
     except UnclearError as error:
         n = len(variables.coordinates)
-        return Verdict((), (), (), (n,), complete=False, exact=False, notes=(f"{why}: {error}",))
+        return Holonomy((), (), (), (n,), complete=False, exact=False, notes=(f"{why}: {error}",))
     least, most = mpmath.nstr(place.smallest, 2), mpmath.nstr(place.largest, 2)
     gap = (
         f"{why}: ranks were taken with 50 digits at random points instead. Of unit vectors that count as "
@@ -142,10 +142,10 @@ SIDES = 8
 @dataclass(frozen=True, eq=False)
 class _Judge:
     sheet: Sheet
-    place: Place
+    place: GenericPoint
     limit: int
 
-    def verdict(self, given: Sequence[Form], *, search: bool = True) -> Verdict:
+    def verdict(self, given: Sequence[RowForm], *, search: bool = True) -> Holonomy:
         n = len(self.sheet.variables.coordinates)
         rows = sort_rows(self.sheet, self.place, given)
         names = tuple(form.name for form in rows.kept)
@@ -154,16 +154,16 @@ class _Judge:
             "position was found that satisfies these"
             for name in rows.unsure
         ]
-        found = Verdict(names, tuple(rows.redundant), tuple(rows.contradictions), (n - len(names),), complete=True)
+        found = Holonomy(names, tuple(rows.redundant), tuple(rows.contradictions), (n - len(names),), complete=True)
         if rows.contradictions or not rows.kept:
             return replace(found, notes=tuple(notes))
         if all(form.position is not None for form in rows.kept):
-            seeker = Search(self.sheet, self.place, rows.kept, len(names))
+            seeker = IntegralSearch(self.sheet, self.place, rows.kept, len(names))
             seeker.positions()
             return replace(found, integrals=tuple(seeker.found), notes=tuple(notes))
         return self._closed(found, rows, notes, search)
 
-    def _closed(self, found: Verdict, rows: Sorted, notes: list[str], search: bool) -> Verdict:
+    def _closed(self, found: Holonomy, rows: Sorted, notes: list[str], search: bool) -> Holonomy:
         """The verdict where rows of velocities have to be looked at."""
         width = len(self.sheet.columns)
         solution = solved(self.sheet, self.place, [list(form.coefficients) for form in rows.kept], range(width - 1))
@@ -175,7 +175,7 @@ class _Judge:
         if not search:
             return replace(found, growth=space.growth, complete=space.complete)
         surfaces = width - 1 - space.growth[-1]
-        seeker = Search(self.sheet, self.place, rows.kept, surfaces)
+        seeker = IntegralSearch(self.sheet, self.place, rows.kept, surfaces)
         seeker.positions()
         if not seeker.done:
             seeker.look([form.coefficients for form in rows.kept if form.position is None])
