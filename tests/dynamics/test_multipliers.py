@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 from closed_loops import values
 
+from effort import at_most
 from lagrangian.dynamics.multipliers import DependentRow
+from lagrangian.graph import count_operations
 
 SYSTEMS = {
     "slider-crank": mechanisms.slider_crank,
@@ -109,3 +111,39 @@ def test_a_bicycle_rolls():
         assert np.abs(got["c"] - numbers.rows(q, v)[1][order]).max() < 1e-13
         assert np.abs(got["vdot"] - vdot).max() < 1e-11 * (1 + np.abs(vdot).max())
         assert np.abs(got["lam"] - lam[order]).max() < 1e-11 * (1 + np.abs(lam).max())
+
+
+# operations of v̇ and λ, parameters hoisted
+OPERATIONS = {
+    "slider-crank": (mechanisms.slider_crank, 81),
+    "four-bar": (mechanisms.four_bar, 162),
+    "five-bar": (mechanisms.five_bar, 171),
+    "sleigh": (mechanisms.sleigh, 50),
+    "disc": (mechanisms.rolling_disc, 161),
+    "bicycle": (mechanisms_in_space.bicycle, 1880),
+}
+
+
+def operations(m):
+    return count_operations(m.graph, [*m.constrained.vdot, *m.constrained.multipliers], hoist=["p"]).operations
+
+
+@pytest.mark.parametrize("name", OPERATIONS)
+def test_constrained_accelerations_take_few_operations(name):
+    build, bound = OPERATIONS[name]
+    assert operations(build()[0]) <= bound
+
+
+def test_a_ladder_of_loops_takes_operations_in_proportion_to_its_length():
+    five, ten, twenty = (operations(mechanisms.ladder(count)[0]) for count in (5, 10, 20))
+    assert twenty - ten == 2 * (ten - five) and ten <= 3601
+
+
+def test_a_long_ladder_is_built_in_proportion_to_its_length():
+    efforts = []
+    for count in (25, 50):
+        m = mechanisms.ladder(count)[0]
+        with at_most(4_000_000) as effort:
+            m.forward()
+        efforts.append(effort.calls)
+    assert efforts[1] < 2.2 * efforts[0]

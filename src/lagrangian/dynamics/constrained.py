@@ -14,7 +14,7 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 
 from lagrangian.dynamics.guard import LEAST_MARGIN
-from lagrangian.dynamics.mechanics import DENSE, Mechanics
+from lagrangian.dynamics.mechanics import Mechanics
 from lagrangian.dynamics.multipliers import Problem, RowSolution
 from lagrangian.dynamics.ordering import cheapest_solution
 from lagrangian.dynamics.rows import ConstraintRow
@@ -67,7 +67,7 @@ def _correction(
     nothing = zeros(m.graph, len(m.v))
 
     def problems() -> Iterator[Problem]:
-        for links in m.groupings if len(m.v) <= DENSE else m.groupings[:1]:
+        for links in m.distinct_groupings:
             yield from m.problems(links, [], asked, nothing, held, strict=False)
 
     return cheapest_solution(problems(), multipliers=False)

@@ -321,11 +321,21 @@ class Mechanics:
         return cheapest_solution(self._constrained_problems())
 
     def _constrained_problems(self) -> Iterator[Problem]:
-        zero = zeros(self.graph, len(self.v))
-        for links in self.groupings if len(zero) <= DENSE else self.groupings[:1]:
-            for free in (False, True) if self.motion.free_rates() else (False,):
+        zero, few = zeros(self.graph, len(self.v)), len(self.v) <= SMALL
+        references = ((False, True) if few else (True,)) if self.motion.free_rates() else (False,)
+        for links in self.distinct_groupings:
+            for free in references:
                 acc = self.accelerations(zero, free=free)
                 yield from self.problems(links, self.missing(acc, links), self.row_accelerations(acc), acc.vdot)
+
+    @cached_property
+    def distinct_groupings(self) -> list[list[AnyLink]]:
+        """The groupings worth trying where there are rows: of large systems the bodies as they are."""
+        kept: list[list[AnyLink]] = []
+        for links in self.groupings if len(self.v) <= SMALL else self.groupings[:1]:
+            if links not in kept:
+                kept.append(links)
+        return kept
 
     def row_accelerations(self, acc: Accelerations) -> list[tuple[ConstraintRow, int]]:
         """Every row with its γ: how fast it changes at given accelerations."""
@@ -355,22 +365,18 @@ class Mechanics:
         if len(self.v) <= DENSE:
             gathered = dict(zip(self.v, self.gathered(pairs), strict=True))
             ways.append((self._dense, gathered, False))
-        attached: list[AttachedRow] = []
-        for row, value in rows:
-            node, negative = self._bare(row.rate)
-            attached.append(AttachedRow(row, node, self.graph.negative if negative else self.graph.one, value))
+        attached = [AttachedRow.of(self.graph, row, value) for row, value in rows]
         nodes = [a.node for a in attached]
         rates = [v for i, v in enumerate(self.v) if i not in fixed]
         for form, linear, exchange in ways:
             seeds = list(dict.fromkeys((*form.rows, *linear, *nodes)))
             tape = make_tape(self.graph, seeds, rates, {*form.rows, *nodes} if exchange else None)
+            if exchange and not tape.exchanged:
+                continue  # the next one is the same
             moving = form if len(rates) == len(self.v) else form.without(set(form.rows).difference(tape.order))
             yield Problem(
-                self.graph, tape, moving, linear, attached, self.v, reference, self._named, self._constant, strict
+                self.graph, tape, moving, linear, attached, self.v, reference, self._named, self.motion.constant, strict
             )
-
-    def _constant(self, node: int) -> bool:
-        return self.motion.constant([node])
 
     @cached_property
     def _dense(self) -> Quadratic:

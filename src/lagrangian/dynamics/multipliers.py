@@ -53,6 +53,13 @@ class AttachedRow:
     sign: int
     value: int
 
+    @classmethod
+    def of(cls, graph: Graph, row: ConstraintRow, value: int) -> AttachedRow:
+        """A row with its rate's own node, whatever its sign."""
+        node = graph.nodes[row.rate]
+        negative = node[0] == "neg"
+        return cls(row, node[1] if negative else row.rate, graph.negative if negative else graph.one, value)
+
 
 @dataclass(frozen=True)
 class Problem:
@@ -69,7 +76,7 @@ class Problem:
     rates: Sequence[int]
     reference: Sequence[int]
     names: Mapping[int, str]
-    constant: Callable[[int], bool]
+    constant: Callable[[Sequence[int]], bool]
     strict: bool = True
 
 
@@ -163,7 +170,7 @@ class RowElimination(Elimination):
         found = [
             key
             for key, a in rows.get(k, {}).items()
-            if key < 0 and key not in rows[key] and self.problem.constant(a) and self.is_open(key)
+            if key < 0 and key not in rows[key] and self.problem.constant([a]) and self.is_open(key)
         ]
         return min(found, key=lambda key: (len(rows[key]), -key), default=None)
 

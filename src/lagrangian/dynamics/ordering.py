@@ -11,6 +11,9 @@ from collections.abc import Iterable, Iterator
 from lagrangian.dynamics.multipliers import Problem, RowElimination, RowSolution
 from lagrangian.graph import Graph, count_operations
 
+FEW = 12
+"""Up to so many rates the orders are tried without the pairs of rule 2 as well."""
+
 MOST_FREE = 60
 """Up to so many rates the cheapest step is looked for at every step."""
 
@@ -89,7 +92,7 @@ def solutions(problem: Problem) -> Iterator[RowSolution]:
     for way in ways:
         with_pairs = way(problem, pairs=True)
         yield with_pairs
-        if any(x == problem.graph.one for x in with_pairs.margins):
+        if len(problem.rates) <= FEW and any(x == problem.graph.one for x in with_pairs.margins):
             yield way(problem, pairs=False)
 
 
