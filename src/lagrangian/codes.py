@@ -180,6 +180,21 @@ class Code(StrEnum):
         "workers that do not respond",
         "The connection to a scheduler or its workers was lost, or they run another version.",
     )
+    E507 = (
+        "E507",
+        "steps too long for the constraints",
+        "A notice: steps of that length leave the constraints by so much that what is corrected is not small.",
+    )
+    E508 = (
+        "E508",
+        "constraints that depend on each other",
+        "A notice: there or near there a constraint follows from others, and the system can move in more ways.",
+    )
+    E509 = (
+        "E509",
+        "a reset that breaks a constraint",
+        "The state after an event must satisfy every constraint, and its rates too.",
+    )
     E521 = (
         "E521",
         "not an equilibrium",
@@ -220,7 +235,8 @@ class Code(StrEnum):
 CodeText = Literal[
     "E101", "E102", "E103", "E104", "E105", "E106", "E107", "E201", "E202", "E203", "E210", "E301", "E302", "E304",
     "E305", "E308", "E401", "E402", "E403", "E404", "E405", "E406", "E408", "E409", "E410", "E412", "E413", "E414",
-    "E415", "E416", "E417", "E418", "E419", "E501", "E502", "E503", "E504", "E505", "E506", "E521", "E522", "E523",
+    "E415", "E416", "E417", "E418", "E419", "E501", "E502", "E503", "E504", "E505", "E506", "E507", "E508", "E509",
+    "E521", "E522", "E523",
     "E524", "E525", "E601", "E701", "E702", "E703", "E704", "E705", "E801", "E802", "E803", "E804",
 ]  # fmt: skip
 """The codes as literal texts: a type checker rejects any other code where an error is made."""

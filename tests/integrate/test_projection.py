@@ -167,6 +167,11 @@ def test_a_start_beside_the_rows_is_brought_to_them():
     assert run.drift.velocity_before[0] < 1e-9
 
 
+def test_a_start_far_from_the_rows_takes_more_steps():
+    run = solver_of("rod", "dop853").solve([2.0, 0.5, 0.0, 0.0], [0.0, 0.1, 0.2])
+    assert off(problem_of("rod"), run.states[0, 1:]) < 1e-14 and run.drift.position_after[0] < 1e-14
+
+
 def leaving():
     """ẋ = 1 along a row x = 0 that it does not keep."""
     g = Graph()

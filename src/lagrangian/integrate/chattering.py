@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from lagrangian.codegen import Kernel, compile
 from lagrangian.errors import RunError
 from lagrangian.graph import Output, Program, jacobian, jvp, operands, reached
+from lagrangian.integrate.guards import guards
 
 Array = NDArray[np.float64]
 
@@ -47,8 +48,11 @@ def jumps(program: Program) -> list[tuple[int, int]]:
         node = nodes[i]
         state[i] = node[:2] == ("input", "x") or any(state[k] for k in operands(node))
     found: dict[tuple[int, int], None] = {}
+    _, conditions = guards(program)
     for i in live:
         node = nodes[i]
+        if i in conditions:
+            continue
         if node[0] in ("sign", "abs") and state[node[1]]:
             found[node[1], graph.zero] = None
         elif node[0] in ("lt", "le") and (state[node[1]] or state[node[2]]):

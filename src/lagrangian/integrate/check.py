@@ -13,6 +13,7 @@ from lagrangian.codegen.arguments import InputGroup, numbers
 from lagrangian.errors import RunError
 from lagrangian.graph import Program, reached
 
+from .guards import guards
 from .methods.jets import KINKS
 from .methods.method import Method
 from .methods.printer import UNROLLED
@@ -104,7 +105,9 @@ def suits(method: Method, program: Program) -> None:
     if not method.expands:
         return
     nodes = [program.graph.nodes[i] for i in reached(program.graph, program.ids)]
-    kinks = sorted({node[0] for node in nodes} & KINKS)
+    guarding, conditions = guards(program)
+    live = set(reached(program.graph, program.ids)) - guarding - conditions
+    kinks = sorted({program.graph.nodes[i][0] for i in live} & KINKS)
     if kinks:
         raise RunError(
             f"method '{method.name}' needs a smooth right-hand side, and '{program.name}' has {', '.join(kinks)}",

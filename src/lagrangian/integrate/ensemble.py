@@ -83,9 +83,13 @@ def solver_of(study: Study, threads: int | None) -> Any:
     from lagrangian.integrate import Solver
 
     def made() -> Any:
-        return Solver(study.program, study.method, events=study.events, threads=threads)
+        given = {"events": study.events, "projection": study.projection}
+        return Solver(study.program, study.method, threads=threads, **given)
 
-    return made() if study.events is not None else study.program.remembered(("solver", study.method, threads), made)
+    if study.events is not None:
+        return made()
+    corrects = None if study.projection is None else study.projection.corrects
+    return study.program.remembered(("solver", study.method, threads, corrects), made)
 
 
 def carry_out(

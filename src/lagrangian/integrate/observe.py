@@ -20,6 +20,7 @@ from lagrangian.codegen.workers import over
 from lagrangian.errors import RunError
 from lagrangian.integrate.design import Rows
 from lagrangian.integrate.fitness import Fitness
+from lagrangian.integrate.projection import BREAKS, Drift, Projection
 from lagrangian.integrate.status import RunStatus
 
 if TYPE_CHECKING:
@@ -71,6 +72,15 @@ class EventsKept:
     times: int
 
 
+DRIFTED = {
+    "drift position": ("position_before",),
+    "drift velocity": ("velocity_before",),
+    "drift left": ("position_after", "velocity_after"),
+    "drift margin": ("margin",),
+}
+"""What is kept of every run with a projection: the greatest of these of its `Drift`."""
+
+
 def _kernel(program: Program, **optional: float) -> Kernel:
     """The code of a program, made once."""
     return program.remembered("kernel", lambda: compile(program, optional=optional, threads=1))
@@ -81,9 +91,9 @@ class Study:
     """What is done with every run of an ensemble; small, and can be sent to another process.
 
     ``program`` is x, u, p, t → ẋ; ``outputs`` a program over the same groups with one number an output; ``times`` (S,)
-    the samples. ``signals`` are inputs that change with time, the same for all runs. ``canonical``: where
-    ``program`` is over [q; p], the programs x → p and [q; p] → v. A run whose parameters ``fitness`` refuses is not
-    begun. ``options`` go to the solver as they are (rtol, atol, step, …).
+    the samples. ``projection`` keeps runs on their rows. ``signals`` are inputs that change with time, the same for all
+    runs. ``canonical``: where ``program`` is over [q; p], the programs x → p and [q; p] → v. A run whose parameters
+    ``fitness`` refuses is not begun. ``options`` go to the solver as they are (rtol, atol, step, …).
     """
 
     program: Program
@@ -92,6 +102,7 @@ class Study:
     outputs: Program
     kept: tuple[Kept, ...]
     events: Any = None
+    projection: Projection | None = None
     events_kept: tuple[EventsKept, ...] = ()
     signals: Any = None
     canonical: tuple[Program, Program] | None = None
@@ -122,6 +133,8 @@ class Study:
         for e in self.events_kept:
             made[f"count {e.name}"] = ("int32", ())
             made[f"time {e.name}"] = ("float64", (e.times,) if e.times > 1 else ())
+        if self.projection is not None:
+            made |= dict.fromkeys(DRIFTED, ("float64", ()))
         made["reached"] = ("float64", ())
         made["status"] = ("int8", ())
         return made
@@ -186,6 +199,8 @@ class Study:
         solution = solver.solve(self._started(rows), times, u=u, p=rows.p, store=self.whole, **self.options)
         made: Values = {n: np.empty((len(rows), *shape), dtype) for n, (dtype, shape) in self.fields().items()}
         made["status"][:], made["reached"][:] = solution.status, solution.reached
+        if solution.drift is not None:
+            self._drifted(solution, made)
         self._events(solution, made)
         size = max(LEAST, STATES // (len(self.times) if self.whole else 1))  # runs that are observed together
 
@@ -195,7 +210,7 @@ class Study:
             return -1
 
         over(len(rows), size, 50 * (len(self.times) if self.whole else 1), threads, reduced)
-        failed = _lost(solution.status)
+        failed = _lost(made["status"])
         for k in self.kept:
             made[k.name][failed] = np.nan
         return made
@@ -278,6 +293,15 @@ class Study:
             if trouble.code != NOT_FINITE:
                 raise
         return {name: values[:runs] for name, values in out.items()}
+
+    def _drifted(self, solution: Any, made: Values) -> None:
+        """How far the runs came from their rows; those that an event sent elsewhere have failed."""
+        drift: Drift = solution.drift
+        for name, fields in DRIFTED.items():
+            found = [getattr(drift, field) for field in fields]
+            made[name][:] = np.maximum.reduce(found)
+        broken = np.maximum(drift.reset_position, drift.reset_velocity) > BREAKS
+        made["status"][broken & (solution.status >= 0)] = RunStatus.BROKEN
 
     def _events(self, solution: Any, made: Values) -> None:
         """Counts and first times of the events that are kept."""

@@ -1,7 +1,7 @@
 """Rows that a motion keeps, and the steps that bring a state back to them; what drift there was.
 
 A method keeps f(q, t) = 0 and A(q, t) v + a₀ = 0 to its tolerance alone. After a step the state is projected: one
-Newton step on positions (a second where the first leaves more than `CLOSED`), then a linear one on velocities. Here
+Newton step on positions (more where it leaves more than `CLOSED`), then a linear one on velocities. Here
 nothing is known of how a correction is found: two programs say it.
 """
 
@@ -18,10 +18,20 @@ from lagrangian.graph import Graph, Output, Program, copied, replaced
 Array = NDArray[np.float64]
 
 CLOSED = 1e-12
-"""Largest residual of a position row, in parts of its scale, that is left without a second step."""
+"""Largest residual of a position row, in parts of its scale, that is left without a further step."""
+
+MORE_STEPS = 8
+"""Further steps on positions at most: a step of a run needs none, a start beside the rows some."""
 
 ROUNDING = 2.0**-43
 """Residuals, in parts of their scale, up to which a correction says nothing of a step's error."""
+
+
+NEARLY_DEPENDENT = 1e-6
+"""Margin below which a correction says nothing of a step's error: it grows as the margin's root falls."""
+
+BREAKS = 1e-6
+"""Residual of a row, in parts of its scale, beyond which an event's state contradicts it."""
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ import math
 import time as clock
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -277,14 +277,14 @@ class _March:
         end = solver.t
         hits = [] if self.crossings is None else self.crossings.between(self.t, end, dense, leg.u, leg.asked)
         for hit in hits:
-            if self.ground is not None and hit.after is not None:
-                hit = replace(hit, after=self.ground.reset(hit.time, hit.after, leg.u))
             self.hits.append(hit)
             crowded = len(self.hits) >= self.bounds.max_events and not hit.terminal
             if hit.terminal or hit.after is not None or crowded:
                 self._store(dense, hit.time)
                 stuck = hit.after is not None and hit.time <= self.t and self.steps > 1  # the first may be at the start
                 self.t, self.x = hit.time, hit.before if hit.after is None else hit.after
+                if self.ground is not None and hit.after is not None and np.all(np.isfinite(hit.after)):
+                    self.x = self.ground.reset(hit.time, hit.after, leg.u)
                 if hit.terminal:
                     self.status = RunStatus.TERMINAL
                 elif not np.all(np.isfinite(self.x)):

@@ -22,7 +22,19 @@ from numpy.typing import NDArray
 from lagrangian.codegen import Kernel, compile
 from lagrangian.errors import RunError
 from lagrangian.graph import Program
-from lagrangian.integrate.projection import CLOSED, MARGIN, MARGIN_TIME, RESET, ROUNDING, SEEN, START, Drift, Projection
+from lagrangian.integrate.projection import (
+    CLOSED,
+    MARGIN,
+    MARGIN_TIME,
+    MORE_STEPS,
+    NEARLY_DEPENDENT,
+    RESET,
+    ROUNDING,
+    SEEN,
+    START,
+    Drift,
+    Projection,
+)
 
 Array = NDArray[np.float64]
 Control = Callable[[float, Array], Array]
@@ -62,7 +74,9 @@ class Projected:
             found = self._at(self._landing, t, x, u)
             if self._approach is None:
                 first = float(found["rest"])
-            elif found["rest"] > CLOSED:
+            for _ in range(0 if self._approach is None else MORE_STEPS):
+                if self._approach is None or not found["rest"] > CLOSED:
+                    break
                 x = x + self._at(self._approach, t, x, u)["dx"]
                 found = self._at(self._landing, t, x, u)
         except RunError as trouble:
@@ -107,7 +121,7 @@ class Projected:
         change = moved - solver.y
         scale = self.atol + self.rtol * np.maximum(np.abs(before), np.abs(moved))
         size = float(np.sqrt(np.mean((change / scale) ** 2)))
-        if np.isfinite(size) and seen["before"] <= ROUNDING and seen["gap"] <= ROUNDING:
+        if np.isfinite(size) and (max(seen["before"], seen["gap"]) <= ROUNDING or seen["margin"] < NEARLY_DEPENDENT):
             size = 0.0
         if not size <= 1.0:
             return size, False

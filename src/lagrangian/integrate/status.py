@@ -32,5 +32,6 @@ class RunStatus(IntEnum):
     CHATTERS = -8, "the motion sticks where a force jumps: steps get ever shorter, or jump to and fro"
     CROWDED = -9, "the limit on the number of events was reached"
     BLIND = -10, "the condition of an event is not a number"
+    BROKEN = -11, "an event leaves a state that breaks a constraint"
     LOST = -127, "its results are damaged"
     NOT_RUN = -128, "not run yet"

@@ -85,6 +85,8 @@ def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
                 "a condition with a value wherever the run gets to, such as sqrt(max(x, 0)) for sqrt(x), or a terminal "
                 "event where it has none any more"
             )
+        case RunStatus.BROKEN:
+            return said, "a reset that leaves rates with which the constraints hold"
         case RunStatus.LATE:
             over = f"[E505] the time allowed for computing was over after {outcome.steps} steps"
             return over, Advice("a larger ", Argument("timeout"))

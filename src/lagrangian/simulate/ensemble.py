@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.errors import NoSuchEntry, RunError, did_you_mean
+from lagrangian.integrate.observe import DRIFTED
 from lagrangian.integrate.status import RunStatus
 from lagrangian.integrate.stored import Stored
 from lagrangian.simulate.plot import check_no_file
@@ -129,6 +130,15 @@ class Ensemble(Mapping[str, NDArray[Any]]):
         """The number of runs."""
         return int(np.prod(self.shape))
 
+    @property
+    def drift(self) -> Mapping[str, NDArray[np.float64]]:
+        """How far every run came from its constraints, arrays by name; empty for a system without any.
+
+        ``position`` and ``velocity``: the largest residuals at the ends of steps before they are corrected; ``left``:
+        the largest afterwards; ``margin``: by how much the constraints are independent, at least.
+        """
+        return Entries({name.split()[1]: self[name] for name in self if name in DRIFTED}, "drift")
+
     # -- how it went --------------------------------------------------------------------------------------------
 
     @property
@@ -172,7 +182,7 @@ class Ensemble(Mapping[str, NDArray[Any]]):
         axes = " × ".join(f"{d} {n}" for d, n in zip(self.dims, self.shape, strict=True))
         sizes = f" ({axes})" if axes else ""
         ends = ", ".join(f"{n} {words}" for words, n in self.counts.items())
-        kept = ", ".join(n for n in self if n not in ("status", "reached"))
+        kept = ", ".join(n for n in self if n not in ("status", "reached", *DRIFTED))
         said = "".join(f"; notice: {notice}" for notice in self.notices)
         return cut(
             f"<Ensemble {self.name!r}: {self.count} runs{sizes}, {self.settings['method']}; {ends}; {kept}{said}>"
@@ -240,7 +250,7 @@ class Ensemble(Mapping[str, NDArray[Any]]):
         drawn = names or tuple(
             n
             for n in self
-            if self._dims[n] == self.dims and n not in ("status", "reached") and "count" not in n.split()
+            if self._dims[n] == self.dims and n not in ("status", "reached", *DRIFTED) and "count" not in n.split()
         )
         if not drawn:
             raise RunError("none of the results is a single number per run", fix='reduce=("final", "max")', code="E501")

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from lagrangian import codegen as machine
 from lagrangian import dynamics
 from lagrangian.graph import Output, Program, jacobian
-from lagrangian.integrate import Events, RunStatus, Signals, Solver
+from lagrangian.integrate import Events, Projection, RunStatus, Signals, Solver
 from lagrangian.integrate.crossings import Crossings, Hit
 from lagrangian.integrate.scipy_methods import IMPLICIT, SCIPY, Bounds, Outcome, integrate_scipy
 from lagrangian.model import Model
@@ -50,6 +50,7 @@ class Task:
     step: float | None
     events: tuple[Event, ...]
     bounds: Bounds
+    project: bool = True
 
     @property
     def size(self) -> int:
@@ -100,6 +101,24 @@ def right_hand_side(model: Model, drive: InputSignals, *, canonical: bool = Fals
     return remembered(model, key, lambda: make(model, drive.feedback, supply=True))
 
 
+def projection(model: Model, rates: Program, *, project: bool) -> Projection | None:
+    """What keeps the states of ``rates`` on the constraints, or measures how far they are off; None without any."""
+    if not model.constraints:
+        return None
+    (found,) = remembered(model, "projection", lambda: (dynamics.projection(model),))
+    if found == (None, None):
+        return None
+    return Projection(*(None if program is None else _beside(program, rates) for program in found), corrects=project)
+
+
+def _beside(program: Program, rates: Program) -> Program:
+    """A projection for the groups of a right-hand side, which may have more states, such as the energy supplied."""
+    g, dx = program.graph, program.outputs["dx"]
+    more = len(rates.inputs["x"]) - len(dx.ids)
+    outputs = {**program.outputs, "dx": Output((*dx.ids, *[g.zero] * more), (len(dx.ids) + more,))}
+    return Program(program.name, g, {**rates.inputs, "t": ("t",)}, outputs, program.defaults)
+
+
 def _event_key(task: Task) -> Any:
     return tuple((e.expression, e.direction, e.terminal, frozenset(e.reset.items())) for e in task.events)
 
@@ -133,9 +152,10 @@ def _by_machine(task: Task) -> Outcome:
                 tuple(e.terminal for e in task.events),
                 tuple(bool(e.reset) for e in task.events),
             )
-        return Solver(program, task.method, events=events)
+        rows = projection(task.model, program, project=task.project)
+        return Solver(program, task.method, events=events, projection=rows)
 
-    key = ("solver", task.method, frozenset(drive.feedback.items()), _event_key(task))
+    key = ("solver", task.method, frozenset(drive.feedback.items()), _event_key(task), task.project)
     solver: Solver = remembered(task.model, key, make)
     start, end = float(times[0]), float(times[-1])
     u = drive.at(times[:1], task.x0[np.newaxis])[0] if drive.constant else Signals(*drive.pieces(start, end))
@@ -168,6 +188,7 @@ def _by_machine(task: Task) -> Outcome:
         int(found.evaluations[0]),
         _hits(task, found),
         "" if status >= 0 else status.message,
+        found.drift,
     )
     return resets.ended(outcome, task.states, [e.title for e in task.events])
 
@@ -251,5 +272,6 @@ def _by_scipy(task: Task) -> Outcome:
         rtol=task.rtol,
         atol=task.atol,
         bounds=task.bounds,
+        projection=projection(model, program, project=task.project),
     )
     return resets.ended(outcome, task.states, [e.title for e in task.events])

@@ -17,9 +17,10 @@ from lagrangian.integrate import METHODS, Events, Signals
 from lagrangian.integrate.observe import REDUCTIONS, EventsKept, Kept, Study
 from lagrangian.model import Model
 from lagrangian.page.plain import plain
+from lagrangian.simulate.drift import check_method
 from lagrangian.simulate.events import listed_events
 from lagrangian.simulate.inputs import InputSignals
-from lagrangian.simulate.integrating import SYMPLECTIC, remembered
+from lagrangian.simulate.integrating import SYMPLECTIC, projection, remembered
 from lagrangian.simulate.settings import DEFAULT, RunSettings
 from lagrangian.simulate.variation import TAKEN
 
@@ -61,11 +62,13 @@ def study_of(
         raise RunError(f"method '{method}' is one of SciPy's, which are not for ensembles", fix=fix, code="E402")
     expressions, kept = _kept(model, recording.outputs, recording.reduce)
     events, events_kept = _events(model, settings, recording, drive)
+    check_method(model, method)
     signals = None if drive.constant else Signals(*drive.pieces(float(times[0]), float(times[-1])))
     canonical, feedback = method in SYMPLECTIC, frozenset(drive.feedback.items())
     make = dynamics.canonical if canonical else dynamics.closed
+    rates = remembered(model, ("runs", canonical, feedback), lambda: make(model, drive.feedback))
     study = Study(
-        program=remembered(model, ("runs", canonical, feedback), lambda: make(model, drive.feedback)),
+        program=rates,
         method=method,
         times=times,
         outputs=remembered(
@@ -76,6 +79,7 @@ def study_of(
         kept=kept,
         events=events,
         events_kept=events_kept,
+        projection=projection(model, rates, project=settings.project),
         signals=signals,
         canonical=remembered(model, "canonical", lambda: (dynamics.momenta(model), dynamics.velocities(model)))
         if canonical

@@ -19,6 +19,7 @@ from lagrangian.calls import TRAJECTORY, Guided
 from lagrangian.errors import ModelError, NoSuchEntry, Notice, did_you_mean
 from lagrangian.integrate.status import RunStatus
 from lagrangian.model import Element, Model, Point, as_expr
+from lagrangian.simulate.drift import RunDrift
 from lagrangian.simulate.integrating import remembered
 from lagrangian.viewed import Brief, Entries
 
@@ -104,6 +105,7 @@ class Recorded(Guided):
     jumps: Array
     settings: Mapping[str, Any]
     notices: tuple[Notice, ...] = ()
+    drift: RunDrift | None = None
 
     # -- quantities ---------------------------------------------------------------------------------------------
 

@@ -61,6 +61,7 @@ class RunSettings:
     rtol: float = 1e-9
     atol: float = 1e-12
     events: Sequence[Event] | Event = ()
+    project: bool = True
     max_step: float | str = math.inf
     max_steps: int = 10_000_000
     max_events: int = 100_000
@@ -212,6 +213,12 @@ def _tolerance(value: Any, what: str) -> float:
     return real
 
 
+def _truth(value: Any, what: str) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        raise RunError(f"{what} is True or False (got {value!r:.30})", code="E501")
+    return bool(value)
+
+
 def _duration(value: Any, what: str) -> float:
     if isinstance(value, (tuple, list)) and len(value) == 2:
         raise RunError(
@@ -252,6 +259,7 @@ _CHECKS: dict[str, Callable[[Any, str], Any]] = {
     "step": _positive,
     "rtol": _tolerance,
     "atol": _tolerance,
+    "project": _truth,
     "events": lambda value, _: listed_events(value),
     "max_step": _positive,
     "max_steps": whole,

@@ -19,6 +19,7 @@ from lagrangian.integrate import METHODS
 from lagrangian.integrate.crossings import Hit
 from lagrangian.integrate.scipy_methods import SCIPY, Bounds, Outcome
 from lagrangian.model import Model
+from lagrangian.simulate import drift
 from lagrangian.simulate.admission import check_masses
 from lagrangian.simulate.diagnosis import message
 from lagrangian.simulate.disagreement import disagreement
@@ -64,6 +65,7 @@ def simulate(
     instants = settings.instants(model, len(program.inputs["x"]))
     check_covers(drive, float(instants[0]), float(instants[-1]))
     name = _method(settings.method, drive)
+    drift.check_method(model, name)
     rtol, atol = settings.of_a_step()
     longest = float(settings.max_step)
     p = given.parameter_values(params)
@@ -81,9 +83,12 @@ def simulate(
         None if settings.step is None else float(settings.step),
         listed_events(settings.events),
         Bounds(settings.max_steps, settings.max_events, longest, settings.timeout),
+        settings.project,
     )
-    made = _trajectory(task, run(task), {"rtol": settings.rtol, "atol": settings.atol})
-    made.notices = (*notices, *(_undecided(task) if made.success else ()))  # a failed run has its own message
+    outcome = drift.ended(run(task), task)
+    made = _trajectory(task, outcome, {"rtol": settings.rtol, "atol": settings.atol})
+    said = drift.notices(task, outcome)
+    made.notices = (*notices, *(_undecided(task) if made.success else ()), *said)  # a failed run has its own message
     return _judged(made)
 
 
@@ -188,6 +193,7 @@ def _trajectory(task: Task, outcome: Outcome, settings: Mapping[str, Any]) -> Tr
         supplied=x[:, n] if x.shape[1] > n else np.zeros(len(t)),
         jumps=_jumps(task, outcome.hits, t, n, after_last=further),
         settings=dict(settings),
+        drift=None if outcome.drift is None else drift.RunDrift.of_run(outcome.drift),
     )
 
 

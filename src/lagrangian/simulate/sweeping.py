@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from lagrangian.advice import Advice
 from lagrangian.errors import RunError
 from lagrangian.graph import Program
+from lagrangian.integrate import Projection
 from lagrangian.integrate.chunks import FEW, Portions, cut
 from lagrangian.integrate.design import Design
 from lagrangian.integrate.ensemble import Executor, Here, Memory, Progress, carry_out
@@ -27,6 +28,7 @@ from lagrangian.integrate.store import ChunkPlan, Variable, create, resume
 from lagrangian.model import Model
 from lagrangian.page.plain import plain
 from lagrangian.simulate.admission import check_masses, fitness
+from lagrangian.simulate.drift import of_runs
 from lagrangian.simulate.ensemble import Ensemble
 from lagrangian.simulate.inputs import InputSignals, check_covers, driving
 from lagrangian.simulate.integrating import remembered
@@ -48,6 +50,14 @@ OPTIONS = tuple(
 
 MAX_CHUNK_BYTES = 2**30
 """The largest size of a chunk on disk in bytes: compressors accept at most 2 GiB at a time."""
+
+DRIFT_WORDS = {
+    "drift position": "largest residual of a constraint on positions at the end of a step, before correction",
+    "drift velocity": "largest residual of a constraint on velocities at the end of a step, before correction",
+    "drift left": "largest residual of a constraint after correction",
+    "drift margin": "least margin by which the constraints are independent",
+}
+"""What is kept of every run of a system with constraints."""
 
 MOST_MEMORY = 0.5
 """The fraction of the machine's memory that results without a store may take."""
@@ -139,15 +149,23 @@ def _done(
     plan = _plan(model, varying, study, expressions, portions, task)
     if execution.store is None:
         made = _in_memory(study, design, plan, executor, execution.progress)
-        made.notices = said
+        made.notices = (*said, *_drifted(made, study))
         return made
     path = Path(execution.store)
     again = execution.resume and path.exists()
     with resume(path, plan) if again else create(path, plan, overwrite=execution.overwrite) as sink:
         carry_out(study, design, sink.portions, sink, executor=executor, progress=execution.progress)
     made = Ensemble.of_store(path)
-    made.notices = (*said, *sink.notices)
+    made.notices = (*said, *sink.notices, *_drifted(made, study))
     return made
+
+
+def _drifted(made: Ensemble, study: Study) -> tuple[str, ...]:
+    """What is to be said of how far the runs came from their constraints."""
+    if study.projection is None:
+        return ()
+    found = (made[name] for name in ("drift position", "drift velocity", "drift margin"))
+    return of_runs(study.method, study.projection.corrects, *found)
 
 
 def _in_memory(
@@ -259,6 +277,8 @@ def _words(made_of: Mapping[str, tuple[Kept, str]], name: str) -> dict[str, Any]
         return {"long_name": words, **({"units": unit} if unit else {})}
     if name == "status":
         return {"long_name": "how the run ended: 0 its end, 1 a terminal event, negative a failure, -128 not run yet"}
+    if name in DRIFT_WORDS:
+        return {"long_name": DRIFT_WORDS[name]}
     if name == "reached":
         return {"long_name": "time of the last state", "units": "s"}
     return {"long_name": name, **({"units": "s"} if name.startswith("time ") else {})}
@@ -282,6 +302,7 @@ def _task(model: Model, varying: Varying, drive: InputSignals, study: Study) -> 
         "kept": [k.name for k in study.kept],
         "outputs": digest(study.outputs),
         "events": "none" if study.events is None else _events(study),
+        **({} if study.projection is None else {"projection": _projection(study.projection)}),
     }
 
 
@@ -295,6 +316,11 @@ def _events(study: Study) -> str:
     e = study.events
     named = [f"{kept.name} {kept.times}" for kept in study.events_kept]
     return f"{named} #{_hash(repr((e.direction, e.terminal, e.reset, digest(e.program))).encode())}"
+
+
+def _projection(projection: Projection) -> str:
+    """What decides how runs are kept on their constraints."""
+    return f"{projection.corrects} {[digest(program) for program in projection.programs]}"
 
 
 def _source(source: Any) -> Any:

@@ -40,6 +40,7 @@ class Jets:
         self.sums = Sums(f)
         self.still: list[bool] = []  # series that do not change in time
         self.rules: list[Callable[[int], None]] = []
+        self.conditions: dict[int, tuple[int, int]] = {}  # by the series that stands for one: what is compared
         self._weighted: dict[int, list[Maybe]] = {}
         self._reciprocals: dict[int, Value] = {}
         self.place: list[int] = []  # of each tape entry among the series
@@ -307,9 +308,31 @@ class Jets:
                 return self.power(*at, constant=self.tape.ops[op[2]][0] == "const")
             case "atan2":
                 return self.angle(*at)
+        if kind == "lt":  # of a guard, which does not change within a step: see `integrate.guards`
+            found = self._new(lambda n: None)
+            self.conditions[found] = at[0], at[1]
+            return found
+        if kind == "select":
+            return self._chosen(*at)
         if kind in KINKS:
             raise KeyError(f"operation {kind!r} has no series")
         return self._function(kind, at[0])
+
+    def _chosen(self, condition: int, a: int, b: int) -> int:
+        """One of two series, as the condition between the values now decides."""
+        flags: list[str] = []
+        zero = Value(self.f, self.f.constant(0.0))
+
+        def rule(n: int) -> Maybe:
+            if not flags:
+                left, right = self.conditions[condition]
+                flags.append(self.f.compare("olt", self.first(left), self.first(right)))
+            x, y = self.get(a, n), self.get(b, n)
+            if x is None and y is None:
+                return None
+            return self.f.select(flags[0], zero if x is None else x, zero if y is None else y)
+
+        return self._new(rule, a, b)
 
     def _opposite(self, a: int) -> int:
         """The series −a."""

@@ -5,7 +5,18 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from lagrangian.codegen.ir import Value
-from lagrangian.integrate.projection import CLOSED, DRIFT, MARGIN, MARGIN_TIME, RESET, ROUNDING, SEEN, START
+from lagrangian.integrate.projection import (
+    CLOSED,
+    DRIFT,
+    MARGIN,
+    MARGIN_TIME,
+    MORE_STEPS,
+    NEARLY_DEPENDENT,
+    RESET,
+    ROUNDING,
+    SEEN,
+    START,
+)
 
 from . import memory_layout as at
 from .evaluate import Tapes
@@ -42,7 +53,8 @@ class Projector:
         self.landing = self._tapes(landing, "landing", own)
         self.tells = "margin" in landing.outputs
         self.first, self.second = p.reserve(p.size + 1), p.reserve(p.size + len(SEEN))
-        self.moved, self.gap, self.size, self.shrunk = p.block(), p.reserve(1), p.reserve(1), p.reserve(1)
+        self.moved = p.block()
+        self.gap, self.size, self.shrunk, self.rounds = (p.reserve(1) for _ in range(4))
         self.worst = p.reserve(len(DRIFT))
 
     def _tapes(self, program: Program, name: str, own: bool) -> Tapes:
@@ -83,8 +95,13 @@ class Projector:
             self._add(self.first, x, flag, lost)
         self._land(t, u, x)
         if self.approach is not None:
-            again = f.logic("and", flag, f.compare("ogt", self._seen("rest"), CLOSED))
-            with p.when(p.any(again)):
+            p.store(0.0, self.rounds)
+            with p.forever() as leave:
+                rounds = p.load(self.rounds)
+                again = f.logic("and", flag, f.compare("ogt", self._seen("rest"), CLOSED))
+                again = f.logic("and", again, f.compare("olt", rounds, float(MORE_STEPS)))
+                leave(f.put(f"xor i1 {p.any(again)}, true"))
+                p.store(rounds + 1.0, self.rounds)
                 self.approach.evaluate(self.approach_shared, {"x": x, "u": u}, t, self.first)
                 self._add(self.first, x, again, lost)
                 self._land(t, u, x)
@@ -145,10 +162,11 @@ class Projector:
         size = f.intrinsic("sqrt", total * (1.0 / p.size))
         gap, speed, rest = p.load(self.gap), self._seen("gap"), self._seen("left")
         small = f.logic("and", f.compare("ole", gap, ROUNDING), f.compare("ole", speed, ROUNDING))
-        small = f.logic("and", small, f.compare("olt", size, float("inf")))
+        if self.tells:
+            small = f.logic("or", small, f.compare("olt", self._seen("margin"), NEARLY_DEPENDENT))
         error = p.load(self.size)
         greater = f.select(f.logic("or", small, f.compare("ole", size, error)), error, size)
-        greater = f.fma(gap + speed + rest, 0.0, greater)  # 0·gap: what is not finite shows
+        greater = f.fma(gap + speed + rest + size, 0.0, greater)  # 0·gap: what is not finite shows
         p.store(f.select(good, greater, error), self.size)
 
     def _read(self, home: Vec) -> Vec:

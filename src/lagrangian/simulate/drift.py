@@ -1,0 +1,171 @@
+"""How far a run came from its constraints, and what is to be said of that."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, fields, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian import dynamics
+from lagrangian.codes import Code
+from lagrangian.errors import Notice, RunError
+from lagrangian.graph import Program, evaluate
+from lagrangian.integrate import METHODS, Drift, RunStatus
+from lagrangian.integrate.projection import BREAKS
+from lagrangian.integrate.scipy_methods import Outcome
+from lagrangian.model import Model
+from lagrangian.model.rows import rows_of
+from lagrangian.simulate.integrating import SYMPLECTIC, Task, remembered
+from lagrangian.viewed import Brief
+
+Array = NDArray[np.float64]
+
+LARGEST = 1e-6
+"""Largest residual that a step may have before it is corrected, and nothing is said."""
+
+CLOSE = 1e-6
+"""Margin below which a run comes close to a position where constraints depend on each other."""
+
+DEPENDENT = 1e-9
+"""Margin below which a row depends on others wherever it stays so."""
+
+WHERE = "constraints"
+"""What notices of a run's constraints are about."""
+
+
+@dataclass(frozen=True)
+class RunDrift(Brief):
+    """How far a run came from its constraints: the largest |f| of rows on positions and |A v + a₀| of all rows.
+
+    ``…_before`` and ``…_after``: at the ends of steps, before and after the state is projected onto the constraints;
+    equal with ``project=False``. ``margin`` is the least sin² of the angle between one row and the span of the others,
+    measured by M⁻¹, and ``margin_time`` [s] when it was least.
+    """
+
+    position_before: float
+    position_after: float
+    velocity_before: float
+    velocity_after: float
+    margin: float
+    margin_time: float
+
+    @classmethod
+    def of_run(cls, drift: Drift, run: int = 0) -> RunDrift:
+        """That of one run among many."""
+        return cls(*(float(getattr(drift, f.name)[run]) for f in fields(cls)))
+
+    def __str__(self) -> str:
+        """Read as ``constraints kept to 2.2e-16 (positions) and 4.4e-16 (velocities)``."""
+        return f"constraints kept to {self.position_after:.1e} (positions) and {self.velocity_after:.1e} (velocities)"
+
+
+def notices(task: Task, outcome: Outcome) -> tuple[Notice, ...]:
+    """What is to be known of a run of a system with constraints."""
+    if outcome.drift is None:
+        return ()
+    drift = RunDrift.of_run(outcome.drift)
+    return (*_too_long(task.method, max(drift.position_before, drift.velocity_before), task.project),
+            *_close(task, outcome, drift))  # fmt: skip
+
+
+def of_runs(method: str, project: bool, position: Array, velocity: Array, margin: Array) -> tuple[str, ...]:
+    """What is to be known of many runs, from what each drifted before correction and its least margin."""
+    largest = max((float(np.nanmax(a)) for a in (position, velocity) if np.isfinite(a).any()), default=0.0)
+    said = [str(notice) for notice in _too_long(method, largest, project)]
+    near = np.flatnonzero((margin.ravel() < CLOSE) & (margin.ravel() >= DEPENDENT))
+    if len(near):
+        text = f"{len(near)} runs come within a margin of {CLOSE:g} of a position where a constraint depends on others"
+        said.append(str(Notice(Code.E508, WHERE, text)))
+    return tuple(said)
+
+
+def _too_long(method: str, largest: float, project: bool) -> tuple[Notice, ...]:
+    if method not in METHODS or METHODS[method].adaptive or not largest > LARGEST:
+        return ()
+    if not project:
+        return (Notice(Code.E507, WHERE, f"they are missed by up to {largest:.2g} (SI units) without projection"),)
+    text = f"steps miss them by up to {largest:.2g} (SI units) before they are corrected: use a shorter step"
+    return (Notice(Code.E507, WHERE, text),)
+
+
+def _close(task: Task, outcome: Outcome, drift: RunDrift) -> tuple[Notice, ...]:
+    """Where in the run rows depend on others: near one time, or throughout."""
+    if not drift.margin < CLOSE or not len(outcome.times):
+        return ()
+    nearest = int(np.argmin(np.abs(outcome.times - drift.margin_time)))
+    rows = rows_of(task.model)
+    there, first = (_margins(task, outcome, k) for k in (nearest, 0))
+    always = [row.name for row, a, b in zip(rows, there, first, strict=True) if a < DEPENDENT and b < DEPENDENT]
+    if always:
+        names = " and ".join(f"'{name}'" for name in always)
+        text = f"{names} follow{'s' if len(always) == 1 else ''} from the others here: multipliers are not unique"
+        return (Notice(Code.E508, WHERE, text),)
+    row = rows[int(np.argmin(there))]
+    angle = math.sqrt(max(drift.margin, 0.0))
+    text = (
+        f"at t = {drift.margin_time:.4g} s '{row.element.name}' comes within {angle:.2g} rad "
+        "of a position where the system can move in more than one way"
+    )
+    return (Notice(Code.E508, WHERE, text),)
+
+
+def _margins(task: Task, outcome: Outcome, k: int) -> Array:
+    found = _at(task.model, dynamics.multipliers, task, outcome.times[k], outcome.states[k])
+    return np.array(found["margins"], float)
+
+
+def _at(model: Model, make: object, task: Task, t: float, x: Array) -> dict[str, list[float]]:
+    """The outputs of a program of a model's constraints at a state."""
+    name = getattr(make, "__name__", "")
+    program: Program = remembered(model, ("constraints", name), lambda: make(model))  # type: ignore[operator]
+    n, size = len(model.coordinates), task.size
+    given = {"q": x[:n], "v": x[n:size], "u": np.zeros(len(model.inputs)), "p": task.p, "t": [t]}
+    return evaluate(program, {g: list(map(float, values)) for g, values in given.items()})  # type: ignore[return-value]
+
+
+# -- the border of a run ----------------------------------------------------------------------------------------
+
+
+def check_method(model: Model, method: str) -> None:
+    """Raise `RunError` for a symplectic method of a system with constraints."""
+    if model.constraints and method in SYMPLECTIC:
+        raise RunError(
+            f"method '{method}' integrates momenta, which constraints do not leave independent",
+            fix="use 'dop853', which keeps the energy of a constrained system to its tolerance, or 'rk4' with a step",
+            code="E501",
+        )
+
+
+def ended(outcome: Outcome, task: Task) -> Outcome:
+    """Return the outcome cut at the first event whose reset leaves rates or positions that break a constraint."""
+    drift = outcome.drift
+    broken = drift is not None and max(drift.reset_position[0], drift.reset_velocity[0]) > BREAKS
+    for k, hit in enumerate(outcome.hits if broken else ()):
+        if hit.after is None or not (said := _breaks(task, hit.time, hit.after)):
+            continue
+        kept = int(np.searchsorted(outcome.times, hit.time, side="right"))
+        return replace(
+            outcome,
+            times=outcome.times[:kept],
+            states=outcome.states[:kept],
+            status=RunStatus.BROKEN,
+            reached=hit.time,
+            final=hit.before,
+            hits=[*outcome.hits[:k], replace(hit, after=None)],
+            reason=f"[E509] the reset of event '{task.events[hit.index].title}' breaks {said}",
+        )
+    return outcome
+
+
+def _breaks(task: Task, t: float, x: Array) -> str:
+    """Which row a state breaks, and by how much."""
+    found = _at(task.model, dynamics.residual, task, t, x)
+    rows = rows_of(task.model)
+    positions: Sequence[str] = [row.name for row in rows if row.position is not None]
+    values = [(abs(f), f"'{name}': it is off by {f:.4g}") for f, name in zip(found["f"], positions, strict=True)]
+    values += [(abs(c), f"'{r.name}': its rate is {c:.4g}") for c, r in zip(found["Av"], rows, strict=True)]
+    size, said = max(values, default=(0.0, ""))
+    return f"the constraint {said}" if size > BREAKS else ""
