@@ -26,8 +26,9 @@ class Trajectory(Recorded):
     ``t`` (S,) are the times [s], ``y`` (n_states, S) the states x = [q; v] in declared order, ``states`` their names.
     ``run["theta1"]``, ``run["theta1'"]``, ``run["theta1''"]`` and ``run[expression]`` are arrays (S,), in SI units.
     ``success`` says whether the run reached its end (or a terminal event), and ``message`` how it ended; a run that
-    failed contains the results up to that time. ``notices`` are those of the system with these parameters. ``drift``
-    is how far it was from its constraints (None without any), ``nfev`` the number of evaluations of the right-hand side, ``method`` the integration method.
+    failed contains the results up to that time. ``notices`` are those of the system with these parameters. ``drift`` is
+    how far it was from its constraints (None without any), ``nfev`` the number of evaluations of the right-hand side,
+    ``method`` the integration method.
     """
 
     def to_xarray(self) -> xarray.Dataset:
