@@ -91,7 +91,7 @@ def _is_root(f: sp.Basic) -> bool:
 
 def _squares(base: sp.Expr) -> tuple[sp.Expr, list[tuple[sp.Expr, int]]] | None:
     """A positive number and factors with even powers whose product is the base; None if it is not a square."""
-    if sp.count_ops(base) > LONGEST or not base.free_symbols or not base.is_polynomial(*_letters(base)):
+    if bounded.operations(base) > LONGEST or not base.free_symbols or not base.is_polynomial(*_letters(base)):
         return None
     number, parts = _factors(base)
     if not number.is_positive or any(power % 2 for _, power in parts):
@@ -127,7 +127,7 @@ def _singular(M: sp.Matrix, states: States, q: Sequence[sp.Expr]) -> Iterator[sp
     tried: dict[sp.Expr, None] = {}
     for i in range(M.rows):
         entry: Any = M[i, i]
-        if entry.has(*q) and sp.count_ops(entry) <= LONGEST:
+        if entry.has(*q) and bounded.operations(entry) <= LONGEST:
             tried |= {part: None for part, _ in _factors(entry)[1] if any(_slope(part, x) in (1, -1) for x in q)}
     for p in tried:
         of = [x for x in q if p.has(x)]

@@ -268,7 +268,7 @@ def _only(truth: Reference, i: int, factor: sp.Expr) -> tuple[sp.Expr, ...]:
 
 def terms_of(expr: sp.Expr) -> int:
     """How many operations an expression has."""
-    return int(sp.count_ops(expr))
+    return bounded.operations(expr)
 
 
 def ratio(form: Form, right: Form, *, unlike: float = 1.0) -> tuple[sp.Expr, int] | None:

@@ -8,6 +8,7 @@ from typing import Any, cast
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.compare.rows import ComparedSystem, Difference, EquationRow, ParameterDifference, Rewritten
 from lagrangian.compare.words import commas, recipe, symbols, within
 from lagrangian.coordinates import Change
@@ -177,7 +178,7 @@ class _Shown:
         for i in range(max(map(len, forces))):
             cells = [self.expr(s, x[i]) if i < len(x) else None for s, x in zip(sides, forces, strict=True)]
             rows.append((Name("Xi", str(i + 1)), cells))
-        if max(int(sp.count_ops(x)) for _, cells in rows for x in cells if x is not None) <= MAX_TABLE_OPERATIONS:
+        if max(bounded.operations(x) for _, cells in rows for x in cells if x is not None) <= MAX_TABLE_OPERATIONS:
             table = [(text("coordinates"), *(text(*self.listed(s)) for s in sides))]
             table += [(text(n), *(text("none") if x is None else text(x) for x in cells)) for n, cells in rows]
             return [Table((text(""), text("(A)"), text("(B)")), tuple(table))]

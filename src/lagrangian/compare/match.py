@@ -170,7 +170,7 @@ def _linear(p: Vector, q: Vector, unknown: set[Any]) -> list[sp.Expr]:
     found = []
     for x, y in zip(p, q, strict=True):
         mine = x.free_symbols & unknown
-        if not mine or sp.count_ops(x) > MAX_OPERATIONS:
+        if not mine or bounded.operations(x) > MAX_OPERATIONS:
             continue
         slopes = [sp.diff(x, u) for u in mine]
         if any(s.free_symbols & unknown for s in slopes):
@@ -187,7 +187,7 @@ def _linear(p: Vector, q: Vector, unknown: set[Any]) -> list[sp.Expr]:
 
 def _turned(p: Vector, q: Vector, unknown: set[Any], moving: set[Any]) -> list[sp.Expr]:
     """α = ±β + k π/2 if the unknowns occur only in sines and cosines of a single angle α."""
-    if any(sp.count_ops(x) > MAX_OPERATIONS for x in (*p, *q)):
+    if any(bounded.operations(x) > MAX_OPERATIONS for x in (*p, *q)):
         return []
     angles = {_upright(f.args[0]) for x in p for f in x.atoms(sp.sin, sp.cos) if f.free_symbols & unknown}
     if len(angles) != 1:

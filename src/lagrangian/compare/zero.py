@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import mpmath
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach
 from lagrangian.derive.sampling import DIGITS, CompiledExpressions, States
 from lagrangian.errors import ModelError
@@ -37,7 +38,7 @@ class Zero:
 
     def form(self, expr: sp.Expr) -> Form | None:
         """The normal form, or None if it would be too long."""
-        if int(sp.count_ops(expr)) > LONGEST:
+        if bounded.operations(expr) > LONGEST:
             return None
         try:
             return self.algebra.form(expr)

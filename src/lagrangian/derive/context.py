@@ -7,6 +7,7 @@ from functools import cached_property
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.derive.algebra import Algebra, Form, Term
 from lagrangian.derive.wiggle import Wiggle
 from lagrangian.model import Model
@@ -55,13 +56,13 @@ class Context:
 
 def fit(expr: sp.Expr) -> Left:
     """Return the expression, or its summary where it is too long to read."""
-    operations = int(sp.count_ops(expr))
+    operations = bounded.operations(expr)
     return expr if operations <= READABLE else Elided(expr, operations)
 
 
 def fit_terms(terms: tuple[sp.Expr, ...]) -> Left:
     """Return the sum in this order, or its summary where it is too long to read."""
-    operations = sum(int(sp.count_ops(t)) for t in terms)
+    operations = sum(bounded.operations(t) for t in terms)
     if operations <= READABLE:
         return Terms(terms)
     return Elided(sp.Add(*terms, evaluate=False) if terms else sp.S.Zero, operations, terms)

@@ -7,6 +7,7 @@ from typing import cast
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import READABLE, Context, fit_terms
 from lagrangian.derive.derived import LedgerRow, Origin
@@ -171,7 +172,7 @@ def _shown(matrix: sp.ImmutableMatrix, column: tuple[Left, ...] = (), *, symmetr
         return sp.S.Zero
     entries = [[cast("sp.Expr", matrix[i, j]) for j in range(matrix.cols)] for i in range(matrix.rows)]
     rows: tuple[tuple[Left, ...], ...] = tuple((x,) for x in column) if column else tuple(map(tuple, entries))
-    operations = sum(int(sp.count_ops(x)) for row in entries for x in row)
+    operations = sum(bounded.operations(x) for row in entries for x in row)
     whole = Matrix(rows, symmetric)
     return whole if operations <= READABLE else Elided(whole, operations)
 

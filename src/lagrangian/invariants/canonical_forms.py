@@ -8,6 +8,7 @@ from typing import Any, cast
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.model import Model
 from lagrangian.page.formula import Check, Elided, Formula, Item, Left, Matrix, Name, Partial, Terms, formula, text
 from lagrangian.page.plain import plain
@@ -76,13 +77,13 @@ LONGEST = 200
 def _sum(expr: sp.Expr) -> Left:
     """The terms of a sum, or its summary if it is too long to read."""
     terms = tuple(cast("sp.Expr", term) for term in expr.as_ordered_terms())
-    operations = int(sp.count_ops(expr))
+    operations = bounded.operations(expr)
     return Terms(terms) if operations <= LONGEST else Elided(expr, operations, terms)
 
 
 def _by_mass(found: Hamiltonian) -> list[Item]:
     """H = ½ pᵀ M⁻¹ p + V with M and V, if H itself is too long to read and equals T* + V."""
-    if not found.is_total or int(sp.count_ops(found.H)) <= LONGEST:
+    if not found.is_total or bounded.operations(found.H) <= LONGEST:
         return []
     rates = [c.rate for c in found.model.coordinates]
     M = Matrix(tuple(tuple(_entry(sp.diff(p, v)) for v in rates) for p in found.definitions.values()))

@@ -65,6 +65,7 @@ class Algebra:
         self.writer = Writer(self.generators)
         for expr in expressions:
             self.writer.learn(self.form(expr))
+        self.generators.forget()
 
     def spend(self, operations: int) -> None:
         """Count operations on terms; a term is as long as there are letters. Raises `OutOfReach` past `WORK`."""

@@ -88,6 +88,7 @@ class Generators:
         self._moving: dict[int, int] = {}
         self._trig: dict[Harmonic, sp.Expr] = {}
         self._costs: dict[int, int] = {}
+        self._bases: dict[int, sp.Expr] = {}
         self.writing = WRITING
         self._coordinates = frozenset(coordinates)
         self.placeholders: dict[sp.Expr, sp.Expr] = {}
@@ -301,6 +302,10 @@ class Generators:
         found = {i for m in monomials for i, _ in digits(m) if not isinstance(self.table[i], Symbolic)}
         return tuple(self.table[i].expr for i in sorted(found))
 
+    def forget(self) -> None:
+        """Forget how roots are written: other sums of parameters are letters now."""
+        self._bases.clear()
+
     def affords(self, operations: int) -> bool:
         """Count operations of a search for a shorter way of writing; False where none are left, for good."""
         self.writing -= operations
@@ -313,14 +318,16 @@ class Generators:
     def cost(self, i: int) -> int:
         """Return the operations inside a generator, every symbol, rate and acceleration counted as one name."""
         if i not in self._costs:
-            self._costs[i] = int(sp.count_ops(bounded.replaced(self.table[i].expr, self.placeholders)))
+            self._costs[i] = bounded.operations(bounded.replaced(self.table[i].expr, self.placeholders))
         return self._costs[i]
 
     def power(self, i: int, exponent: int) -> sp.Expr:
         """Return generator i to a power."""
         entry = self.table[i]
         if isinstance(entry, Root):
-            return cast("sp.Expr", entry.base.expr() ** sp.Rational(exponent, entry.q))
+            if i not in self._bases:
+                self._bases[i] = entry.base.expr()
+            return cast("sp.Expr", self._bases[i] ** sp.Rational(exponent, entry.q))
         return cast("sp.Expr", entry.expr**exponent)
 
     def expr(self, monomial: int) -> sp.Expr:

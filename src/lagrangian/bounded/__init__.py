@@ -1,0 +1,49 @@
+"""SymPy's general routines within bounds: sizes are predicted before anything is expanded, and searches are counted.
+
+Expanded, an expression may be exponentially longer than it was when written: (a + b + c)^50, sixty definitions that
+each use another twice, a chain of frames in space. So the size of a result is predicted from the structure of an
+expression. Beyond `MAX_OPERATIONS` the expression is left as it is (`expand`) or refused (`diff`, `written_out`). The
+cost of a search for a closed form or a common factor cannot be predicted: `searched` counts the calls that it makes and
+gives up after `CALLS`. Both count operations, so the answer does not depend on how fast or how busy a machine is.
+"""
+
+from lagrangian.bounded.operations import operations
+from lagrangian.bounded.parts import rebuilt, replaced
+from lagrangian.bounded.searches import absolute, cancel, searched, simplify, together, trigsimp
+from lagrangian.bounded.sizes import (
+    MAX_OPERATIONS,
+    TERMS,
+    Budget,
+    TooLarge,
+    check_size,
+    names,
+    size,
+    terms,
+)
+from lagrangian.bounded.slopes import diff
+from lagrangian.bounded.writing import expand, expand_angles, is_one, written_out
+
+__all__ = [
+    "MAX_OPERATIONS",
+    "TERMS",
+    "Budget",
+    "TooLarge",
+    "absolute",
+    "cancel",
+    "check_size",
+    "diff",
+    "expand",
+    "expand_angles",
+    "is_one",
+    "names",
+    "operations",
+    "rebuilt",
+    "replaced",
+    "searched",
+    "simplify",
+    "size",
+    "terms",
+    "together",
+    "trigsimp",
+    "written_out",
+]

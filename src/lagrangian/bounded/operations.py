@@ -1,0 +1,64 @@
+"""How many operations a person reads in an expression: SymPy's count, shared parts counted once."""
+
+from __future__ import annotations
+
+from typing import Any, cast
+
+import sympy as sp
+from sympy.core.operations import LatticeOp
+
+
+def operations(expr: sp.Basic) -> int:
+    """Return what ``sympy.count_ops`` counts: −, /, and as many + and · as there are operands less one.
+
+    A part that stands in many places is looked at once; SymPy looks at it in every place.
+    """
+    known: dict[sp.Basic, int] = {}
+    stack: list[sp.Basic] = [expr]
+    parts: dict[sp.Basic, tuple[int, list[Any]]] = {}
+    while stack:
+        node = stack[-1]
+        if node in known:
+            stack.pop()
+        elif node in parts:
+            own, below = parts.pop(stack.pop())
+            known[node] = own + sum(known[part] for part in below)
+        else:
+            own, below = parts[node] = _looked_at(cast("Any", node))
+            stack += [part for part in below if part not in known]
+    return known[expr]
+
+
+def _looked_at(node: Any) -> tuple[int, list[Any]]:
+    """The operations that a node itself counts as, and the parts that are looked at next."""
+    own = 0
+    if node.is_Rational:
+        return (0 if node is sp.S.One else int(node.p < 0) + int(node.q != 1)), []
+    if node.is_Mul:
+        if _negative(node):
+            own += 1
+            node = node.as_two_terms()[1] if node.args[0] is sp.S.NegativeOne else -node
+        over, under = sp.fraction(node)
+        if over.is_Integer:
+            return own + 1 + int(bool(over < 0)), [under]
+        if under is not sp.S.One:
+            return own + 1, [over] if under.is_Integer else [under, over]
+    elif node.is_Add:
+        negative = [_negative(term) for term in node.args]
+        parts = [-term if minus else term for term, minus in zip(node.args, negative, strict=True)]
+        return len(parts) - 1 + int(all(negative)), parts
+    if node.is_Pow and node.exp is sp.S.NegativeOne:
+        return own + 1, [node.base]
+    if node is sp.S.Exp1:
+        return own + 1, []
+    if node.is_Mul or isinstance(node, LatticeOp):
+        own += len(node.args) - 1
+    elif node.args and (node.is_Pow or node.is_Function or isinstance(node, sp.Derivative)):
+        own += 1
+    return own, [] if node.is_Symbol else list(node.args)
+
+
+def _negative(term: Any) -> bool:
+    """Whether a term is written with a minus."""
+    coefficient = term.args[0] if term.is_Mul else term
+    return bool(coefficient.is_Number and coefficient.is_extended_negative)

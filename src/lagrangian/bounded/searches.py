@@ -1,0 +1,90 @@
+"""SymPy's searches, counted in calls and given up past a number of them."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable
+from inspect import CO_GENERATOR
+from typing import Any, TypeVar, cast
+
+import sympy as sp
+from sympy.core.cache import clear_cache
+
+from lagrangian.bounded.sizes import MAX_OPERATIONS, TERMS, size, terms
+
+T = TypeVar("T")
+
+CALLS = 300_000
+"""The number of calls after which a search of SymPy is abandoned; textbook examples need less than a tenth."""
+
+PROOFS = 10_000
+"""The number of calls after which the sign of an argument is left undecided; x² + 1 takes a hundredth of it."""
+
+
+class _SpentError(BaseException):
+    """All calls are spent. Not an `Exception`, so that no routine on the way catches it."""
+
+
+def searched(routine: Callable[..., T], *arguments: Any, calls: int = CALLS) -> T | None:
+    """Return the result of one of SymPy's routines, or None if it makes more than ``calls`` calls."""
+    left = calls
+
+    def count(frame: Any, event: str, argument: Any) -> None:
+        nonlocal left
+        if event == "call":
+            left -= 1
+            # an exception raised while a generator is closed is lost, and Python would stop counting
+            if left < 0 and not frame.f_code.co_flags & CO_GENERATOR:
+                raise _SpentError
+
+    before = sys.getprofile()
+    sys.setprofile(count)
+    try:
+        return routine(*arguments)
+    except _SpentError:
+        clear_cache()  # unfinished results in SymPy's cache must not be used later
+        return None
+    except RecursionError:
+        return None
+    finally:
+        if before is None or callable(before):
+            sys.setprofile(before)
+        else:  # the standard library's profiler is not a function, and starts itself again
+            sys.setprofile(None)
+            before.enable()
+
+
+def absolute(function: Callable[..., Any], argument: sp.Expr) -> sp.Expr:
+    """Return abs or sign of a real number, unevaluated if SymPy would split it into real and imaginary parts."""
+    value = searched(function, argument, calls=PROOFS)
+    split = value is None or value.has(sp.re, sp.im, sp.arg, sp.conjugate)
+    return cast("sp.Expr", function(argument, evaluate=False) if split else value)
+
+
+def cancel(expr: sp.Expr) -> sp.Expr:
+    """Return a quotient without common factors, or the expression unchanged if the search takes too long."""
+    return _found(sp.cancel, expr)
+
+
+def together(expr: sp.Expr) -> sp.Expr:
+    """Return an expression over one denominator, or unchanged if that takes too long."""
+    return _found(sp.together, expr)
+
+
+def simplify(expr: sp.Expr) -> sp.Expr:
+    """Return the expression as SymPy simplifies it, or unchanged if that takes too long."""
+    return _found(sp.simplify, expr)
+
+
+def trigsimp(expr: sp.Expr) -> sp.Expr:
+    """Return an expression with fewer sines and cosines, or unchanged if SymPy searches too long."""
+    return _found(sp.trigsimp, expr)
+
+
+def _found(routine: Callable[[Any], Any], expr: sp.Expr) -> sp.Expr:
+    if not expr.args:
+        return expr
+    if terms(expr) > TERMS or size(expr) > MAX_OPERATIONS:
+        return expr
+    answer = searched(routine, expr)
+    return expr if answer is None else cast("sp.Expr", answer)

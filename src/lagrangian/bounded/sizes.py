@@ -1,0 +1,133 @@
+"""How long expressions are, and would be: predicted from their structure, what is shared met once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from math import comb
+from typing import Any, cast
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian.errors import ModelError
+
+MAX_OPERATIONS = 20_000
+"""The largest number of operations of an expanded expression."""
+
+TERMS = 3_000
+"""The largest number of terms of an expansion."""
+
+BEYOND = 10**30
+"""Where predictions stop counting: far above every limit."""
+
+
+class TooLarge(ModelError):
+    """An expression would be too long when expanded."""
+
+
+class Budget:
+    """A number of operations that may still be made; it is a count, so that results do not depend on the machine."""
+
+    def __init__(self, limit: int, error: Callable[[int], BaseException]) -> None:
+        self.limit = self.left = limit
+        self._error = error
+
+    def spend(self, operations: int) -> None:
+        """Subtract operations; raise an error if none are left."""
+        self.left -= operations
+        if self.left < 0:
+            raise self._error(self.limit)
+
+
+def each(expr: sp.Basic) -> Iterator[sp.Basic]:
+    """Yield every part of an expression once, its own parts before it; shared parts are visited once."""
+    done: set[int] = set()
+    stack: list[tuple[sp.Basic, bool]] = [(expr, False)]
+    while stack:
+        node, ready = stack.pop()
+        if id(node) in done:
+            continue
+        if ready or not node.args or isinstance(node, (AppliedUndef, sp.Derivative)):
+            done.add(id(node))
+            yield node
+        else:
+            stack.append((node, True))
+            stack += [(a, False) for a in node.args]
+
+
+def size(expr: sp.Basic, names: Mapping[Any, int] | None = None) -> int:
+    """Return how many operands and operations an expression has when written out.
+
+    A shared part counts as often as it occurs. ``names`` maps symbols to the size of what they stand for.
+    """
+    found: dict[int, int] = {}
+    for node in each(expr):
+        if names and node in names:
+            found[id(node)] = names[node]
+        elif isinstance(node, sp.Derivative):
+            own = names.get(node.expr, 1) if names else 1
+            found[id(node)] = own if own == 1 else min(own * (own + 1), BEYOND)  # the product rule: one term per factor
+        elif not node.args or isinstance(node, AppliedUndef):
+            found[id(node)] = 1
+        else:
+            found[id(node)] = min(1 + sum(found[id(a)] for a in node.args), BEYOND)
+    return found[id(expr)]
+
+
+def names(expr: sp.Basic) -> set[sp.Basic]:
+    """Return the symbols, functions of time and derivatives in an expression; shared parts are visited once."""
+    found = {node for node in each(expr) if isinstance(node, (sp.Symbol, AppliedUndef, sp.Derivative))}
+    return found | {node.expr for node in found if isinstance(node, sp.Derivative)}
+
+
+def terms(expr: sp.Basic, *, angles: bool = False) -> int:
+    """Return an upper bound on the number of terms in the longest sum that expanding an expression makes.
+
+    With ``angles``, sines and cosines of sums and multiples are expanded, too: cos(a − 2b) has up to 2·3 terms.
+    """
+    found: dict[int, int] = {}
+    longest = 1
+    for node in each(expr):
+        inner = [found[id(a)] for a in node.args] if not isinstance(node, (AppliedUndef, sp.Derivative)) else []
+        count = 1
+        if isinstance(node, sp.Add):
+            count = sum(inner)
+        elif isinstance(node, sp.Mul):
+            for n in inner:
+                count = min(count * n, BEYOND)
+        elif isinstance(node, sp.Pow) and isinstance(node.exp, sp.Integer):
+            power = abs(int(node.exp))
+            raised = inner[0] if inner[0] == 1 else min(comb(min(inner[0], 10**6) + power - 1, power), BEYOND)
+            count, longest = (raised, longest) if node.exp > 0 else (1, max(longest, raised))  # so does a denominator
+        elif angles and isinstance(node, (sp.sin, sp.cos)):
+            for addend in sp.Add.make_args(cast("sp.Expr", node.args[0])):
+                count = min(count * (1 + abs(int(addend.as_coeff_Mul()[0]))), BEYOND)
+        found[id(node)] = count
+        longest = max(longest, count)
+    return longest
+
+
+def slope_size(expr: sp.Basic) -> int:
+    """Return an upper bound on the size of the derivative of an expression."""
+    sizes: dict[int, int] = {}
+    found: dict[int, int] = {}
+    for node in each(expr):
+        if not node.args or isinstance(node, (AppliedUndef, sp.Derivative)):
+            sizes[id(node)] = found[id(node)] = 1
+            continue
+        own = sizes[id(node)] = min(1 + sum(sizes[id(a)] for a in node.args), BEYOND)
+        below = sum(found[id(a)] for a in node.args)
+        found[id(node)] = min(below if isinstance(node, sp.Add) else below + own * len(node.args), BEYOND)
+    return found[id(expr)]
+
+
+def check_size(count: int, what: str) -> None:
+    """Raise an error if an expression is longer than `MAX_OPERATIONS`; ``what`` is the subject of the sentence."""
+    if count > MAX_OPERATIONS:
+        many = f"{float(count):.0e}" if count < BEYOND else "more than 1e30"
+        raise TooLarge(
+            f"{what} has {many} operations once it is written out",
+            fix=f"at most {MAX_OPERATIONS}: refer to each definition fewer times, or describe the system by points and "
+            "frames",
+            code="E601",
+        )
