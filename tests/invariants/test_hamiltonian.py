@@ -205,5 +205,6 @@ def test_pages_of_long_hamiltonians_keep_to_their_width(name: str) -> None:
 def test_what_is_too_long_to_read_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(bounded.sizes, "MAX_OPERATIONS", 20)
     for form in (built_in("double-pendulum").hamiltonian, built_in("spinning-top").routhian):
-        with pytest.raises(RunError, match="is too long to write out: one of its expressions has"):
+        with pytest.raises(RunError, match="is too long to write out: one of its expressions has") as caught:
             form()
+        assert caught.value.code == "E523" and caught.value.fix

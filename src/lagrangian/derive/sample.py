@@ -65,8 +65,23 @@ class Sampler:
                 yield state, values
                 if found == count:
                     return
+        culprit = without_value(self._model)
+        whose = f"{culprit} has" if culprit else f"the expressions of system '{self._model.name}' have"
         raise ModelError(
-            f"the expressions of system '{self._model.name}' have no finite value at any of {TRIES} random states",
+            f"{whose} no finite real value at any of {TRIES} random states",
             fix="check square roots, logarithms and divisions for arguments that are never allowed",
             code="E503",
         )
+
+
+def without_value(model: Model, *, values: bool = False) -> str | None:
+    """The first element whose energy or force has no finite real value at any random state, in words.
+
+    With ``values``, parameters that have a value keep it.
+    """
+    for element in model.elements:
+        acting = [x for action in element.works(model) for x in (action.effort, action.rate)]
+        sampler = Sampler(model, [element.kinetic(model), element.potential(model), *acting], values=values)
+        if not any(all(map(math.isfinite, sampler.at(sampler.draw(k)))) for k in range(TRIES)):
+            return element.title
+    return None

@@ -44,7 +44,11 @@ def hamiltonian(model: Model) -> Hamiltonian:
         slopes = [summed([d for p in pieces for d in p.diff(q)]) + potential.diff(q).expr() for q in system.q]
         bounded.check_size(max(bounded.size(x) for x in (H, *rates, *slopes)), "one of its expressions")
     except TooLarge as trouble:
-        raise RunError(f"H is too long to write out: {trouble.what}", code="E523") from trouble
+        raise RunError(
+            f"H is too long to write out: {trouble.what}",
+            fix="describe the system by points and frames instead of long expressions, or in other coordinates",
+            code="E523",
+        ) from trouble
     in_momenta = dict(zip(system.v, rates, strict=True))
     forces = [cast("sp.Expr", f.expr().xreplace(in_momenta)) for f in system.forces]
     pushes = [f - s for f, s in zip(forces, slopes, strict=True)]

@@ -61,7 +61,11 @@ def routhian(model: Model, ignorable: Sequence[Any] | None = None) -> Routhian:
         longest = max(bounded.size(x) for x in (*solved, effective, *(cast("sp.Expr", e.lhs) for e in equations)))
         bounded.check_size(longest, "one of its expressions")
     except TooLarge as trouble:
-        raise RunError(f"R is too long to write out: {trouble.what}", code="E523") from trouble
+        raise RunError(
+            f"R is too long to write out: {trouble.what}",
+            fix="describe the system by points and frames instead of long expressions, or in other coordinates",
+            code="E523",
+        ) from trouble
     R = polynomial.expr() - summed(pieces)
     return Routhian(
         model=model,

@@ -147,6 +147,7 @@ def _figures(derivation: Derived, states: int, seed: int) -> _Figures:
     exprs += [*derivation.generalized_forces.flat(), *(c.acceleration for c in model.coordinates)]
     exprs += [*(c.rate for c in model.coordinates), *(c.symbol for c in model.coordinates)]
     exprs += [*(p.symbol for p in model.parameters), *(u.symbol for u in model.inputs)]
+    exprs += [derivation.T, derivation.V]  # a constant in V is in no equation, and may have no value all the same
     sampler = Sampler(model, exprs)
     program = _program(derivation, sampler)
     routes = (dynamics.inverse(model), dynamics.inverse_from_lagrangian(model))

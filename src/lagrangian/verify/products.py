@@ -23,6 +23,7 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian import dynamics
+from lagrangian.derive.sample import without_value
 from lagrangian.errors import Error
 from lagrangian.graph import Graph, Output, Program, hessian
 from lagrangian.model import Model
@@ -102,7 +103,9 @@ def verify_products(
     try:
         compiled = _compiled(model, functions, program, found)
     except Error as error:  # a compiled function refused a state at which its formulas are finite
-        return (Check(text("every compiled function can be evaluated"), False, str(error)),)
+        culprit = without_value(model, values=True)
+        why = f"{culprit} has no finite real value with the values that parameters have" if culprit else str(error)
+        return (Check(text("every compiled function can be evaluated"), False, why),)
     _log.info("verifying: the exported sources and the linearization")
     written = exported(program, functions.exported, sources, found)
     return (*compiled, *written, slopes(model, functions.rhs, found))

@@ -8,6 +8,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from lagrangian.derive.sample import without_value
 from lagrangian.errors import ModelError
 from lagrangian.graph import Program, evaluate
 from lagrangian.model import Model
@@ -71,8 +72,10 @@ def random_states(model: Model, forward: Program, count: int, seed: int) -> Iter
             count -= 1
             yield state
         elif (missed := missed + 1) > TRIES:
+            culprit = without_value(model, values=True)
+            whose = f"{culprit} has no finite real value" if culprit else f"system '{model.name}' has none"
             raise ModelError(
-                f"the accelerations of system '{model.name}' are not finite at any of {TRIES} random states",
+                f"there are no finite accelerations at any of {TRIES} random states: {whose}",
                 fix="check square roots, logarithms and divisions for arguments that are never allowed",
                 code="E503",
             )
