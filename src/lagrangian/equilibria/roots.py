@@ -66,6 +66,7 @@ class Search:
         h, K = self._scaled(q)
         cost = (h**2).sum(axis=1)
         for _ in range(STEPS):
+            # one damped step from every point at once; points that improve move and reduce their damping
             trial = q.copy()
             trial[:, self.seek] += self._step(h, K, damping) * self.width[self.seek]
             h2, K2 = self._scaled(trial)
@@ -84,6 +85,7 @@ class Search:
 
     @staticmethod
     def _step(h: Array, K: Array, damping: Array) -> Array:
+        # normal equations (KᵀK + μ diag KᵀK) s = −Kᵀh, with a floor for vanishing columns
         square = np.einsum("sij,sik->sjk", K, K)
         diagonal = np.einsum("sjj->sj", square)
         floor = 1e-12 * diagonal.max(axis=1, initial=0.0)[:, None] + 1e-300

@@ -1,4 +1,4 @@
-"""Program → trajectories: integrators in machine code, events, ensembles. Knows no mechanics."""
+"""Integrates Programs: integrators in machine code, events, ensembles; without any mechanics."""
 
 from typing import TYPE_CHECKING
 

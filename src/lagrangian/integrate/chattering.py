@@ -1,12 +1,12 @@
-"""Runs that stick where ẋ jumps: no step is short enough there, and no number of them gets through.
+"""Detects runs that stick where ẋ jumps: no step is short enough there, however many are made.
 
-A surface is s(x, u, p, t) = 0, s = a − b, where the right-hand side may jump: sign s, |s|, or a condition a < b. Where
-ẋ leads to the surface from both of its sides,
+A surface is s(x, u, p, t) = 0, s = a − b, where the right-hand side may jump: sign s, |s|, or a condition a < b. If ẋ
+leads to the surface from both of its sides,
 
     ṡ < 0 for s > 0 and ṡ > 0 for s < 0,        ṡ = ∇s·f + ∂s/∂t,
 
 the motion cannot leave it: it slides along it, or rests (A. F. Filippov, Differential Equations with Discontinuous
-Righthand Sides, 1988, section 4). A method jumps to and fro across it in steps that get ever shorter.
+Righthand Sides, 1988, section 4). A method jumps to and fro across it in steps that become ever shorter.
 """
 
 from __future__ import annotations
@@ -25,22 +25,23 @@ from lagrangian.integrate.guards import guards
 Array = NDArray[np.float64]
 
 LEAST = 256
-"""Fewest steps between two looks at how a run gets on."""
+"""The smallest number of steps between two checks of a run's progress."""
 
 NEAR = 1e-6
-"""Part of a run's time within which a state must be carried to a surface to count as on it."""
+"""A state counts as on a surface if ẋ carries it there within this fraction of the run's time."""
 
 ASIDE = 1e-9
-"""Part of the state by which one looks aside of a surface, at least."""
+"""The smallest relative distance from a surface at which its sides are examined."""
 
 RESTS = 1e-3
-"""Part of the speed towards a surface below which a state moves so little along its normal that it rests."""
+"""If the speed along its normal is below this fraction of the speed towards a surface, a state rests on it."""
 
 TROUBLE = ("E502", "E503")
 
 
 def jumps(program: Program) -> list[tuple[int, int]]:
-    """The pairs (a, b) of nodes whose order can make the right-hand side jump (s/|s| does), and that read the state."""
+    """The pairs (a, b) of nodes whose order can make the right-hand side jump (as in s/|s|) and that depend on the
+    state."""
     graph, nodes = program.graph, program.graph.nodes
     live = reached(graph, program.ids)
     state: dict[int, bool] = {}
@@ -62,14 +63,14 @@ def jumps(program: Program) -> list[tuple[int, int]]:
 
 @dataclass
 class Pace:
-    """How far a run had got at the last look: its time, and the steps it had tried."""
+    """The progress of a run at the last check: its time, and the number of steps tried."""
 
     time: float
     tried: int = 0
 
 
 class Sticking:
-    """Tells whether a run of ``rates`` sticks where its right-hand side jumps; false where there is no such place."""
+    """Decides whether a run of ``rates`` sticks where its right-hand side jumps; false if it nowhere jumps."""
 
     def __init__(self, rates: Program) -> None:
         self.rates, self.pairs = rates, jumps(rates)
@@ -81,7 +82,8 @@ class Sticking:
         return bool(self.pairs)
 
     def hopeless(self, pace: Pace, time: float, tried: int, end: float, most: int) -> bool:
-        """Whether at the pace since the last look the steps that are left do not reach the end; note this look."""
+        """Whether, at the pace since the last check, the remaining steps do not reach the end; this becomes the last
+        check."""
         steps = tried - pace.tried
         if steps < LEAST:
             return False
@@ -95,9 +97,9 @@ class Sticking:
     def among(self, x: Array, u: Array, p: Array, t: Array, reach: float, step: float = 0.0) -> NDArray[np.bool_]:
         """Which of the states x (n, nx) at times t (n,) stick to a surface; u and p are rows (n, …), or one for all.
 
-        ``reach`` [s]: within that time ẋ must carry a state to the surface, or a step of length ``step`` carry it there
-        that began on the other side. What rests exactly on the surface does not stick, nor does a state beside which
-        nothing is finite.
+        ``reach`` [s]: a state is on a surface if ẋ carries it there within this time, or if a step of length ``step``
+        that began on the other side does. A state that rests exactly on the surface does not stick, nor does one with
+        no finite values beside it.
         """
         field, surfaces = self._kernels()
         x = np.ascontiguousarray(x)

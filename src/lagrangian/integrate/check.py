@@ -1,4 +1,4 @@
-"""What a caller hands to a solver, checked: arrays of the right shapes, or an error that says what would be right."""
+"""Checks the arguments of a solver: arrays of the right shapes, or an error with a remedy."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ from .methods.printer import UNROLLED
 Array = NDArray[np.float64]
 
 EXPANDED = 400
-"""Operations of the longest right-hand side that is expanded in series."""
+"""The largest number of operations of a right-hand side that is expanded in series."""
 
 FAR = 1e15
-"""Most steps that a fixed step length may ask for between two stop points."""
+"""The largest number of steps of fixed length between two stop points."""
 
 
 def finite(array: Array, what: str, names: Sequence[str] = ()) -> Array:
-    """The array, in C order, if every number in it is finite."""
+    """The array in C order, if every number in it is finite."""
     if not np.all(np.isfinite(array)):
         where = np.argwhere(~np.isfinite(array))[0]
         entry = f"'{names[where[-1]]}' " if names else ""
@@ -38,7 +38,7 @@ def finite(array: Array, what: str, names: Sequence[str] = ()) -> Array:
 
 
 def rows(group: InputGroup, given: Any, what: str) -> Array:
-    """One row for all runs, or one a run: (n,) or (N, n)."""
+    """One row for all runs, or one for each run: (n,) or (N, n)."""
     array = group.array(given)
     if array.ndim > 2:
         raise RunError(f"{what} has {array.ndim} axes", code="E501", fix=f"one row, or (runs, {len(group.entries)})")
@@ -46,7 +46,7 @@ def rows(group: InputGroup, given: Any, what: str) -> Array:
 
 
 def instants(given: Any) -> Array:
-    """Requested times, at least two, strictly increasing."""
+    """Requested times: at least two, strictly increasing."""
     times = finite(numbers(given, "times"), "a requested time")
     if times.ndim != 1 or len(times) < 2:
         raise RunError(
@@ -63,7 +63,7 @@ def instants(given: Any) -> Array:
 
 
 def number(given: Any, what: str, *, positive: bool = True, infinite: bool = False) -> float:
-    """One number, greater than zero (or not less, unless ``positive``)."""
+    """A number greater than zero (or, unless ``positive``, not less than zero)."""
     array = numbers(given, what)
     value = float(array) if array.ndim == 0 else math.nan
     if math.isnan(value) or (math.isinf(value) and not infinite) or value < 0 or (positive and value == 0):
@@ -80,7 +80,7 @@ def whole(given: Any, what: str) -> int:
 
 
 def step_length(step: Any, times: Array) -> float:
-    """A fixed step's length, no shorter than what the run's time can resolve."""
+    """The length of a fixed step, if time has enough resolution for it."""
     length = number(step, "step")
     if (times[-1] - times[0]) / length > FAR:
         raise RunError(f"a step of {length:g} is too short for a run of {times[-1] - times[0]:g}", code="E501")
@@ -101,7 +101,7 @@ def tolerances(rtol: Any, atol: Any, size: int) -> tuple[float, Array]:
 
 
 def suits(method: Method, program: Program) -> None:
-    """Raise where a method that expands the motion cannot serve a right-hand side."""
+    """Raise an error if a method that expands the motion cannot be used for a right-hand side."""
     if not method.expands:
         return
     nodes = [program.graph.nodes[i] for i in reached(program.graph, program.ids)]
@@ -123,12 +123,12 @@ def suits(method: Method, program: Program) -> None:
 
 
 def lanes_wanted(lanes: int | None) -> None:
-    """Raise unless the number of lanes is one there is code for."""
+    """Raise an error unless there is code for this number of lanes."""
     if lanes is not None and (type(lanes) is not int or lanes not in (1, 2, 4, 8, 16)):
         raise RunError(f"lanes must be 1, 2, 4, 8 or 16 (got {lanes!r})", code="E501")
 
 
 def threads_wanted(threads: int | None) -> None:
-    """Raise unless the number of threads is one."""
+    """Raise an error unless the number of threads is valid."""
     if threads is not None and (type(threads) is not int or threads < 1):
         raise RunError(f"threads must be a whole number, at least 1 (got {threads!r})", code="E501")

@@ -1,10 +1,10 @@
-"""What makes a store of results trustworthy: checksums of all that is relied on, and a mark for every chunk.
+"""Checksums of everything in a store of results, and a mark for every chunk, so that damage is detected.
 
-The root document ``zarr.json`` holds a *seal*: checksums of each of our attributes and of the metadata of each array.
-Every chunk of a result ends with its own checksum (crc32c), and the array ``done`` holds a *mark* for every chunk of
-every result, made of the seal, the result's name, the chunk's number and that checksum, and of a checksum of the whole
-file: a chunk that is missing, cut off, or of another place, another result or another store does not fit its mark. The
-first half of a mark is checked without reading the file.
+The root document ``zarr.json`` contains a *seal*: checksums of each of our attributes and of the metadata of each
+array. Every chunk of a result ends with its own checksum (crc32c). The array ``done`` contains a *mark* for every chunk
+of every result, computed from the seal, the name of the result, the number of the chunk and that checksum, and from a
+checksum of the whole file. A chunk that is missing, truncated, or from another place, result or store does not match
+its mark. The first half of a mark is checked without reading the file.
 """
 
 from __future__ import annotations
@@ -29,10 +29,10 @@ KEY = "lagrangian"
 DONE = "done"
 ROOT = "zarr.json"
 CHECKSUM = 4
-"""Bytes at the end of a chunk's file that hold its checksum."""
+"""The number of bytes at the end of a chunk's file that contain its checksum."""
 
 RESUME, OVERWRITE = Argument("resume", "True"), Argument("overwrite", "True")
-"""What is done about a store that is there."""
+"""The remedy for a store that exists but cannot be used."""
 AGAIN = Advice("restore it from a copy, or start anew with ", OVERWRITE)
 
 Marks = NDArray[np.uint64]
@@ -40,7 +40,8 @@ Marks = NDArray[np.uint64]
 
 @dataclass(frozen=True)
 class StoreDocument:
-    """The checked root document of a store: ``kept`` is what its maker wrote, ``arrays`` the metadata of its arrays."""
+    """The root document of a store after checks: ``kept`` is what its creator wrote, ``arrays`` the metadata of its
+    arrays."""
 
     path: Path
     kept: Mapping[str, Any]
@@ -53,17 +54,17 @@ class StoreDocument:
 
     @property
     def portions(self) -> Portions:
-        """How the results are cut into chunks."""
+        """How the results are divided into chunks."""
         block = tuple(self.kept["block"])
         return Portions(tuple(self.arrays["status"]["shape"][: len(block)]), block)
 
     @property
     def marks_file(self) -> Path:
-        """The file of the marks: one of 8 bytes for every result of every chunk, 0 where it is not there."""
+        """The file of the marks, with 8 bytes for every result of every chunk, which are 0 if it is not done."""
         return self.path / DONE / "c" / "0"
 
     def marks(self, data: bytes) -> Marks:
-        """The marks in a file's bytes (chunks, results), those that are cut off as 0."""
+        """The marks in the bytes of the file (chunks, results); missing ones are 0."""
         shape = (len(self.portions), len(self.results))
         whole = data[: 8 * shape[0] * shape[1]]
         return np.frombuffer(whole.ljust(8 * shape[0] * shape[1], b"\0"), "<u8").astype(np.uint64).reshape(shape)
@@ -76,13 +77,13 @@ class StoreDocument:
         return self.path.joinpath(name, "c", *map(str, place))
 
     def mark(self, name: str, index: int) -> int:
-        """The mark of a chunk as it is on disk: where it belongs and its stored checksum, then its bytes' checksum."""
+        """The mark of a chunk on disk: from its place and its stored checksum, then from the checksum of its bytes."""
         data = self.chunk(name, index).read_bytes()
         return self._place(name, index, len(data), data[-CHECKSUM:]) << 32 | zlib.crc32(data)
 
     def _place(self, name: str, index: int, size: int, end: bytes) -> int:
         said = canonical([self.kept["seal"]["seal"], name, index, size]) + end
-        return 1 | int.from_bytes(hashlib.blake2b(said, digest_size=4).digest(), "little")  # never 0: that is not done
+        return 1 | int.from_bytes(hashlib.blake2b(said, digest_size=4).digest(), "little")  # 0 means "not done"
 
     def _fits(self, name: str, index: int, mark: int, every_byte: bool) -> bool:
         try:
@@ -96,9 +97,10 @@ class StoreDocument:
             return False
 
     def unfit(self, marks: Marks, names: Iterable[str] = (), *, every_byte: bool = False) -> dict[int, str]:
-        """The finished chunks with a file (of the results ``names``, or all) that does not fit its mark, and which.
+        """The finished chunks of which a file (of the results ``names``, or of all) does not match its mark, and these
+        files.
 
-        Presence, length and the checksum stored in the file are looked at, or ``every_byte`` of it.
+        Existence, length and stored checksum of the files are checked, or, with ``every_byte``, the whole content.
         """
         lost: dict[int, str] = {}
         columns = [(self.results.index(name), name) for name in names or self.results]
@@ -118,7 +120,7 @@ def finished(marks: Marks) -> NDArray[np.bool_]:
 
 
 def open_document(path: Path) -> StoreDocument:
-    """Read and check the root document of a store; raises `Error` where there is none, and `RunError` for damage."""
+    """Read and check the root document of a store; raise `Error` if there is none, and `RunError` if it is damaged."""
     if not path.exists():
         raise Error(f"there is no '{path}'", fix=Advice("start without ", RESUME), code="E801")
     root = parsed(path)
@@ -148,9 +150,9 @@ def open_document(path: Path) -> StoreDocument:
 
 
 def seal(root: Mapping[str, Any]) -> dict[str, str]:
-    """A checksum of everything in a root document that is relied on, by its name; ``seal`` is that of all of them.
+    """Checksums of everything important in a root document, by name; ``seal`` is the checksum of all of them.
 
-    Attributes that someone added beside ours are left out.
+    Attributes that somebody added are ignored.
     """
     kept = _at(root, "attributes", KEY)
     said: dict[str, Any] = {f"{KEY}.{k}": v for k, v in kept.items() if k not in ("seal", "task")}
@@ -179,24 +181,24 @@ def _members(kept: Mapping[str, Any]) -> list[str]:
 
 
 def _at(data: Any, *keys: str) -> dict[str, Any]:
-    """The mapping at nested keys; an empty one where there is none."""
+    """The mapping at nested keys; an empty one if there is none."""
     for key in keys:
         data = data.get(key) if isinstance(data, dict) else None
     return data if isinstance(data, dict) else {}
 
 
 def canonical(data: Any) -> bytes:
-    """Plain data as bytes: the same for the same data, in whatever order mappings are."""
+    """Plain data as bytes, which do not depend on the order of mappings."""
     return json.dumps(data, sort_keys=True, separators=(",", ":")).encode()
 
 
 def checksum(data: bytes) -> str:
-    """A checksum of 16 digits."""
+    """A checksum of 16 hexadecimal digits."""
     return hashlib.blake2b(data, digest_size=8).hexdigest()
 
 
 def parsed(path: Path) -> dict[str, Any] | None:
-    """The root document of a Zarr group as plain data, or None where it is not there or cannot be read."""
+    """The root document of a Zarr group as plain data, or None if it is missing or cannot be read."""
     try:
         root = json.loads((path / ROOT).read_bytes())
     except (FileNotFoundError, NotADirectoryError, ValueError, RecursionError):
@@ -205,7 +207,7 @@ def parsed(path: Path) -> dict[str, Any] | None:
 
 
 def found(path: Path) -> str:
-    """In words, what stands at a path that is not a store of ours."""
+    """A description of what is at a path that is not one of our stores."""
     if path.is_file():
         return "it is a file"
     if not path.is_dir():

@@ -1,7 +1,7 @@
-"""An ensemble cut into chunks: consecutive runs that are also a box of the ensemble's shape.
+"""Divides an ensemble into chunks: consecutive runs that also form a box in the ensemble's shape.
 
-Shape (…, n_a, …, n_last): a chunk holds part of axis a and all of the axes behind it, for one place along the axes
-before. It is therefore at once a range of runs and, exactly, one chunk of an array on disk.
+With the shape (…, n_a, …, n_last), a chunk contains part of axis a and all of the later axes, for one position along
+the earlier axes. So it is both a range of runs and exactly one chunk of an array on disk.
 """
 
 from __future__ import annotations
@@ -12,36 +12,36 @@ from dataclasses import dataclass
 import numpy as np
 
 MEMORY = 256 * 2**20
-"""Bytes of trajectories that are held at a time unless told otherwise."""
+"""The default limit on the bytes of trajectories in memory."""
 
 FEW, FEWEST, MOST = 128, 256, 1 << 18
-"""About how many chunks there shall be at least, the fewest runs worth a chunk then, and the most in one."""
+"""The approximate smallest number of chunks, the fewest runs for which this is worthwhile, and the most in a chunk."""
 
 
 @dataclass(frozen=True)
 class Portions:
-    """The chunks of ``shape``: each a box of ``block``, cut at the edges."""
+    """The chunks of ``shape``: each is a box of ``block``, smaller at the edges."""
 
     shape: tuple[int, ...]
     block: tuple[int, ...]
 
     @property
     def grid(self) -> tuple[int, ...]:
-        """How many chunks there are along each axis."""
+        """The number of chunks along each axis."""
         return tuple(-(-n // b) for n, b in zip(self.shape, self.block, strict=True))
 
     def __len__(self) -> int:
         return math.prod(self.grid)
 
     def box(self, index: int) -> tuple[slice, ...]:
-        """Where the runs of a chunk stand in the ensemble's shape."""
+        """The position of a chunk's runs in the ensemble's shape."""
         place = np.unravel_index(index, self.grid) if self.grid else ()
         return tuple(
             slice(int(k) * b, min(n, (int(k) + 1) * b)) for k, b, n in zip(place, self.block, self.shape, strict=True)
         )
 
     def range(self, index: int) -> tuple[int, int]:
-        """The first run of a chunk, and the one behind its last."""
+        """The index of the first run of a chunk, and the index after its last."""
         box = self.box(index)
         start = 0
         for part, n in zip(box, self.shape, strict=True):
@@ -50,10 +50,10 @@ class Portions:
 
 
 def cut(shape: tuple[int, ...], bytes_per_run: int, *, memory: int = MEMORY, held: int = 1, few: int = FEW) -> Portions:
-    """Chunks of ``shape`` so that ``held`` of them together take at most ``memory`` bytes.
+    """Divide ``shape`` into chunks, so that ``held`` of them together take at most ``memory`` bytes.
 
-    Chunks are no larger than that a kill loses little: a large ensemble has at least about ``few``. Results do not
-    depend on how they are cut.
+    Chunks are small enough that little is lost if the process is killed: a large ensemble has at least about ``few``.
+    Results do not depend on the division.
     """
     count = math.prod(shape)
     fits = max(1, memory // (held * bytes_per_run))

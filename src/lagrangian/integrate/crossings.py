@@ -1,6 +1,6 @@
-"""Zero crossings of event functions on a step's dense output, for runs made step by step in Python.
+"""Finds zero crossings of event functions on a step's dense output, for runs that are made step by step in Python.
 
-A step is cut into pieces as in the machine code (``integrators/pieces.py``), all pieces of one length together.
+A step is divided into pieces as in the machine code (``methods/pieces.py``), all pieces of one length together.
 """
 
 from __future__ import annotations
@@ -21,24 +21,26 @@ Array = NDArray[np.float64]
 Control = Callable[[float, Array], Array]
 
 DEGREE = 12
-"""The highest degree of a polynomial inside a step (LSODA's)."""
+"""The highest degree of a polynomial inside a step (that of LSODA)."""
 
 ASKED = 16
-"""Places in a step at which a function is looked at that reads an input which is a Python function."""
+"""The number of places in a step at which a function is evaluated if it depends on an input that is a Python
+function."""
 
 NEAREST = 60
-"""After an event its function is 0: it is looked at after h/2^60, h/2^59, … of the next step to see where it goes."""
+"""After an event its function is 0: it is evaluated at h/2^60, h/2^59, … of the next step to find its direction."""
 
 MANY = 1 << 14
-"""Pieces of a step that are looked at, at first: all of one length together, they take little time."""
+"""The initial number of pieces of a step: all of one length are examined together, which is fast."""
 
 AHEAD = 1e-8
-"""How far along ẋ, in seconds, a function is looked at to see where it is bound after its event."""
+"""The time [s] along ẋ at which a function is evaluated to find its direction after its event."""
 
 
 @dataclass(frozen=True)
 class Hit:
-    """An event that happened: its number, time, the state before it, and after it where it changes the state."""
+    """An event that happened: its number, its time, the state before it and, if it changes the state, the state
+    after it."""
 
     index: int
     time: float
@@ -50,12 +52,11 @@ class Hit:
 class Crossings:
     """Watches functions g along a run.
 
-    ``program`` has the outputs ``g`` (ne,) and, with resets, ``after`` (ne, nx); ``kernel`` evaluates it.
-
-    ``side`` is the sign each g had last, 0 right after its own event: it then has to leave zero before it can cross.
-    ``settled`` is the number of an event whose state change sends its function back, but so weakly that it would cross
-    again within one step, unseen: what touches has come to rest there. ``blind`` is the last time with a number for
-    every g, once there is one.
+    ``program`` has the outputs ``g`` (ne,) and, with resets, ``after`` (ne, nx); ``kernel`` evaluates it. ``side`` is
+    the last sign of each g, or 0 directly after its own event: it must then leave zero before it can cross again.
+    ``settled`` is the number of an event whose reset sends its function back so weakly that it would cross again
+    unnoticed within one step: the bodies that touch have come to rest. ``blind`` is the last time at which every g is a
+    number, once one of them is NaN.
     """
 
     def __init__(
@@ -72,7 +73,7 @@ class Crossings:
         count = len(self.direction)
         self.side: Array = np.zeros(count)
         self.came_from: Array = np.zeros(count)  # the side before the last event of each
-        self.bound: Array = np.zeros(count)  # the side it is bound for after it
+        self.bound: Array = np.zeros(count)  # the side to which it moves afterwards
         self.last = np.full(count, -np.inf)  # its time
         self.settled: int | None = None
         self.blind: float | None = None
@@ -87,7 +88,8 @@ class Crossings:
         self.driven = {nodes[i][2] for i in guards if nodes[i][:2] == ("input", "u")}
 
     def start(self, t: float, x: Array, u: Control, field: Control) -> None:
-        """Look at the functions where a stretch of ẋ = field(t, x) begins; one that just had its event may leave 0."""
+        """Evaluate the functions at the beginning of an interval with ẋ = field(t, x); one that just had its event may
+        leave 0."""
         self.field = field
         g = self._g(t, x, u)
         if np.isnan(g).any():
@@ -102,20 +104,21 @@ class Crossings:
             self.side = np.where(through, -toward, self.side)
 
     def _heading(self, t: float, x: Array, u: Control) -> Array:
-        """The sides the functions are bound for from a state, along ẋ."""
+        """The sides to which the functions move from a state, along ẋ."""
         rate = self.field(t, x)
         return np.sign(self._g(t + AHEAD, x + AHEAD * rate, u)) if np.all(np.isfinite(rate)) else self.side
 
     def _pressed(self, t: float, x: Array, u: Control) -> Array:
-        """The sides the functions are bound for from a state in which they rest: along ẋ of a little later."""
+        """The sides to which the functions move from a state in which they rest, along ẋ of a slightly later time."""
         later = self.field(t, x + AHEAD * self.field(t, x))
         return np.sign(self._g(t + AHEAD, x + AHEAD * later, u)) if np.all(np.isfinite(later)) else self.side
 
     def between(self, start: float, end: float, dense: Any, u: Control, asked: Sequence[int] = ()) -> list[Hit]:
-        """The events of a step in order of time, up to and with the first that stops the run or changes the state.
+        """The events of a step in order of time, up to the first that stops the run or changes the state.
 
         ``asked``: the inputs that are Python functions; the others are linear in time.
         """
+        # places at which signs are compared; more of them near the start while a function is still 0
         fractions = self._pieces(start, end, dense, u, asked)
         if not self.side.all():
             fractions = np.concatenate([2.0 ** -np.arange(NEAREST, 2, -1), fractions])
@@ -123,6 +126,7 @@ class Crossings:
         sent = (self.last == start) & np.array(self.reset) & (self.bound != -self.came_from)
         before, found = start, []
         for place in places[places > start]:
+            # signs at this place; if a function is NaN there, go only as far as all are numbers
             now = np.sign(self._g(place, dense(place), u))
             if np.isnan(now).any():
                 clear, place = self._edge(before, place, dense, u)
@@ -132,9 +136,10 @@ class Crossings:
             if place == places[-1] and astray.any():
                 self.settled = int(np.flatnonzero(astray)[0])
                 return found
+            # events between the two places, up to one that ends the step
             for hit in self._crossed(before, place, now, dense, u):
                 if hit.after is not None and self._heading(hit.time, hit.before, u)[hit.index] == self.side[hit.index]:
-                    self.settled = hit.index  # the crossing is finer than the dense output
+                    self.settled = hit.index  # the crossing is finer than the resolution of the dense output
                     return found
                 found.append(hit)
                 if hit.terminal or hit.after is not None:
@@ -147,12 +152,14 @@ class Crossings:
         return found
 
     def _pieces(self, start: float, end: float, dense: Any, u: Control, asked: Sequence[int]) -> Array:
-        """The ends of pieces, as parts of the step, so short that no function crosses zero twice in one."""
+        """The ends of pieces, as fractions of the step, so short that no function crosses zero twice in one."""
+        # the states inside the step as polynomials on [−1, 1], through Chebyshev points
         z = np.cos(np.pi * (np.arange(DEGREE + 1) + 0.5) / (DEGREE + 1))
         middle, half = (start + end) / 2, (end - start) / 2
         powers = np.linalg.solve(np.vander(z, increasing=True), dense(middle + half * z)[self.read].T)
         inputs = [u(t, dense(t)) if self.driven else np.zeros(self.inputs) for t in (start, end)]
         ends: list[Array] = []
+        # halve all unsettled pieces until each is settled, or too many have been examined
         low, high, count = np.array([-1.0]), np.array([1.0]), 0
         while len(low) and count + len(low) <= self.most:
             count += len(low)
@@ -171,10 +178,11 @@ class Crossings:
     def _proved(
         self, low: Array, high: Array, powers: Array, at: tuple[float, float], inputs: Sequence[Array]
     ) -> NDArray[np.bool_]:
-        """On which stretches of the step, from −1 to 1, no function can cross zero twice."""
+        """The pieces of the step, from −1 to 1, in which it is proved that no function crosses zero twice."""
         centre, r = (low + high) / 2, (high - low) / 2
         value, rate, bend = (np.zeros((len(low), len(self.read))) for _ in range(3))
         third, z, far = np.zeros_like(value), centre[:, None], (np.abs(centre) + r)[:, None]
+        # Horner's scheme with two derivatives, and a bound of the third derivative
         for j in range(DEGREE, -1, -1):
             bend, rate, value = bend * z + rate, rate * z + value, value * z + powers[j]
             if j > 2:
@@ -204,13 +212,13 @@ class Crossings:
         return hits
 
     def _edge(self, a: float, b: float, dense: Any, u: Control) -> tuple[float, float]:
-        """The last time from a on at which every g is a number, and the next at which one is none, as at b."""
+        """The last time from a on at which every g is a number, and the next at which one is NaN, as it is at b."""
         while a < (half := a + (b - a) / 2) < b:
             a, b = (a, half) if np.isnan(self._g(half, dense(half), u)).any() else (half, b)
         return a, b
 
     def _located(self, k: int, a: float, b: float, dense: Any, u: Control) -> float:
-        """The time in (a, b] at which function k is 0, to the last bits."""
+        """The time in (a, b] at which function k is 0, to the last bit."""
 
         from scipy.optimize import brentq
 

@@ -1,8 +1,8 @@
-"""Which runs an ensemble consists of: every run's initial state, inputs and parameters, made when they are needed.
+"""Determines the runs of an ensemble: every run's initial state, inputs and parameters, which are made when needed.
 
 Runs are numbered 0 … count − 1 in C order over a shape, such as (50, 20, 1000) for two axes of a grid and 1000 samples.
-An entry of a run is a constant, comes from an array that broadcasts to the shape, or is drawn from a distribution by
-the run's place along the last axis. Nothing of the size of the whole is kept.
+An entry of a run is a constant, comes from an array that is broadcast to the shape, or is drawn from a distribution;
+the draw depends on the run's position along the last axis. Nothing of the size of the whole ensemble is stored.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ from lagrangian.errors import RunError
 Array: TypeAlias = NDArray[np.float64]
 
 MOST_RUNS = 10**12
-"""Most runs of one ensemble: what is beyond is a slip of a zero or two."""
+"""The largest number of runs in an ensemble; more is probably a typing mistake."""
 
 GROUPS = ("x", "u", "p")
-_WORDS = 4  # 64-bit words that one step of Philox's counter gives
+_WORDS = 4  # number of 64-bit words for each step of Philox's counter
 
 
 def _normal(u: Array, mean: float, deviation: float) -> Array:
@@ -46,19 +46,20 @@ LAWS: Mapping[str, Callable[[Array, float, float], Array]] = {
     "uniform": _uniform,  # lowest, highest
     "lognormal": _lognormal,  # mean and standard deviation of the logarithm
 }
-"""Distributions by name, as quantile functions: share 0 < u < 1 → the value below which u of all draws lie.
+"""Distributions by name as quantile functions: 0 < u < 1 → the value below which a fraction u of all draws lies.
 
-Their two numbers mean what they mean in NumPy.
+Their two parameters have the same meaning as in NumPy.
 """
 
 
 @dataclass(frozen=True)
 class RandomColumn:
-    """Draws of one entry: sample k of seed s is the same number in whatever order and portions samples are asked for.
+    """Random draws of one entry: sample k for seed s is always the same number, in whatever order samples are
+    requested.
 
-    Philox counts through the samples (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", 2011), keyed by the
-    seed and the entry's name, so that another drawn entry changes nothing of this one; a word becomes u = (w + ½)/2⁵³
-    of its upper 53 bits, and u a value by the law's quantile function.
+    Philox counts through the samples (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", 2011), with a key
+    made from the seed and the entry's name, so that another entry that is drawn does not affect this one. A word w
+    becomes u = (w + ½)/2⁵³ from its upper 53 bits, and the quantile function of the distribution gives the value.
     """
 
     name: str
@@ -68,7 +69,7 @@ class RandomColumn:
     seed: int
 
     def sample(self, index: NDArray[np.int64]) -> Array:
-        """The values of the samples in ``index``, which lie close together or fill whole ranges."""
+        """The values of the samples in ``index``, which are close together or fill whole ranges."""
         if index.size == 0:
             return np.empty(0)
         first = int(index.min()) // _WORDS
@@ -82,7 +83,7 @@ class RandomColumn:
 
 @dataclass(frozen=True)
 class DesignColumn:
-    """Entry ``index`` of a group ("x", "u", "p") and where its values come from: an array, or draws."""
+    """Entry ``index`` of a group ("x", "u", "p") and the source of its values: an array, or draws."""
 
     group: str
     index: int
@@ -92,7 +93,7 @@ class DesignColumn:
 
 @dataclass(frozen=True)
 class Rows:
-    """The runs of a range: x (n, nx); u (nu,) or (n, nu); p (np,) or (n, np), one dimension where all runs agree."""
+    """The runs of a range: x (n, nx); u (nu,) or (n, nu); p (np,) or (n, np), with one dimension if all runs agree."""
 
     x: Array
     u: Array
@@ -104,9 +105,9 @@ class Rows:
 
 @dataclass(frozen=True)
 class Design:
-    """Runs over ``shape``, its axes named ``dims``: constants ``base`` by group, and the columns that vary.
+    """Runs over ``shape`` with axes named ``dims``: constants ``base`` by group, and the columns that vary.
 
-    Raises `RunError` where an array does not broadcast to the shape, a number is not finite, or there are no runs.
+    Raises `RunError` if an array cannot be broadcast to the shape, if a number is not finite, or if there are no runs.
     """
 
     dims: tuple[str, ...]
@@ -144,7 +145,7 @@ class Design:
             raise RunError(f"'{name}' is {values[tuple(where)]}{at}", code="E502", fix="give finite numbers")
 
     def values(self, column: DesignColumn, start: int, stop: int) -> Array:
-        """What a column holds in runs start … stop − 1."""
+        """The values of a column in runs start … stop − 1."""
         index: Any = np.unravel_index(np.arange(start, stop), self.shape) if self.shape else ()
         if isinstance(column.source, RandomColumn):
             drawn = column.source.sample(index[-1])

@@ -1,7 +1,7 @@
-"""Many runs: an ensemble worked through chunk by chunk.
+"""Computes an ensemble of runs, chunk by chunk.
 
-What comes out does not depend on the chunks, on the order they are done in, or on the number of threads: a run knows
-its own row of the design and nothing of its neighbours.
+The results do not depend on the chunks, on their order, or on the number of threads, because a run depends only on its
+own row of the design.
 """
 
 from __future__ import annotations
@@ -19,29 +19,29 @@ from lagrangian.integrate.design import Design
 from lagrangian.integrate.observe import Study, Values
 
 Progress = Callable[[int, int], None]
-"""Called with the number of runs done and of all runs, after every chunk."""
+"""A callback that receives the number of finished runs and the number of all runs after every chunk."""
 
 
 class Sink(Protocol):
-    """Where results go: arrays in memory, or a store on disk. ``done`` says which chunks are there already."""
+    """A destination of results: arrays in memory, or a store on disk. ``done`` says which chunks exist already."""
 
     done: NDArray[np.bool_]
 
     def write(self, index: int, box: tuple[slice, ...], values: Values) -> None:
-        """Keep the results of chunk ``index``, whose runs stand at ``box``."""
+        """Store the results of chunk ``index``, whose runs are at ``box``."""
         ...
 
 
 class Executor(Protocol):
-    """Who computes: it takes chunks from ``portions`` and gives their results in any order."""
+    """Something that computes: it takes chunks from ``portions`` and returns their results in any order."""
 
     def __call__(self, study: Study, design: Design, portions: Portions, todo: Iterable[int]) -> Iterator[Any]:
-        """Pairs (chunk, values)."""
+        """Yield pairs (chunk, values)."""
         ...
 
 
 class Memory:
-    """A sink of plain arrays over the ensemble's shape."""
+    """A sink that consists of plain arrays over the ensemble's shape."""
 
     def __init__(self, study: Study, portions: Portions) -> None:
         self.done = np.zeros(len(portions), bool)
@@ -57,21 +57,21 @@ class Memory:
                 ) from None
 
     def write(self, index: int, box: tuple[slice, ...], values: Values) -> None:
-        """Put the results of a chunk in their place."""
+        """Copy the results of a chunk to their place."""
         for name, array in self.arrays.items():
-            target = array[(*box, ...)]  # an array even where there are no axes
+            target = array[(*box, ...)]  # an array even if there are no axes
             target[...] = values[name].reshape(target.shape)
         self.done[index] = True
 
 
 class Here:
-    """Chunks are computed one after the other in this process, each by ``threads`` threads (all cores unless given)."""
+    """Computes chunks one after another in this process, each with ``threads`` threads (by default all cores)."""
 
     def __init__(self, threads: int | None = None) -> None:
         self.threads = threads
 
     def __call__(self, study: Study, design: Design, portions: Portions, todo: Iterable[int]) -> Iterator[Any]:
-        """Pairs (chunk, values), as they are finished."""
+        """Yield pairs (chunk, values), as they are finished."""
         solver = None
         for index in todo:
             solver = solver or solver_of(study, self.threads)
@@ -79,7 +79,7 @@ class Here:
 
 
 def solver_of(study: Study, threads: int | None) -> Any:
-    """The solver of a study."""
+    """The solver for a study."""
     from lagrangian.integrate import Solver
 
     def made() -> Any:
@@ -101,7 +101,7 @@ def carry_out(
     executor: Executor | None = None,
     progress: Progress | None = None,
 ) -> None:
-    """Do every chunk that the sink does not have, and hand it over as soon as it is done."""
+    """Compute every chunk that the sink does not have, and store it as soon as it is finished."""
     todo = np.flatnonzero(~sink.done).tolist()
     finished = sum(stop - start for start, stop in map(portions.range, np.flatnonzero(sink.done).tolist()))
     if progress is not None:

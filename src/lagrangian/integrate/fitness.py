@@ -1,4 +1,4 @@
-"""Which parameter sets can be run: masses above 0, and a mass matrix that is positive definite."""
+"""Decides which parameter sets are possible: positive masses, and a positive definite mass matrix."""
 
 from __future__ import annotations
 
@@ -19,22 +19,23 @@ Array: TypeAlias = NDArray[np.float64]
 NOT_FINITE = "E503"
 
 ROUNDING = 1e-9
-"""Share of the largest eigenvalue below which a smallest one that is negative counts as 0."""
+"""A negative smallest eigenvalue counts as 0 if it is below this fraction of the largest."""
 
 MAX_SETS_IN_PYTHON = 4
-"""Parameter sets up to which no machine code is made."""
+"""Up to this many parameter sets, no machine code is compiled."""
 
 MAX_NUMBERS_ONE_BY_ONE = 100
-"""Numbers up to which it is quicker to look at them one by one."""
+"""Up to this many numbers, it is faster to check them one by one."""
 
 
 @dataclass(frozen=True)
 class Fitness:
-    """How parameter sets are looked at before they are run; small, and can be sent to another process.
+    """How parameter sets are checked before they are run; small, and can be sent to another process.
 
-    ``bodies`` is a program p → ``mass k`` (must be above 0), ``resting mass k`` (not below) and ``inertia k``, (d, d).
-    Where an inertia has a negative eigenvalue, ``metric``, a program q, v, u, p, t → M, decides at the configurations
-    ``states`` (k, n_q): M must have none. These two are there where ``bodies`` has an inertia.
+    ``bodies`` is a program p → ``mass k`` (must be positive), ``resting mass k`` (must not be negative) and ``inertia
+    k``, (d, d). If an inertia has a negative eigenvalue, ``metric``, a program q, v, u, p, t → M, decides at the
+    configurations ``states`` (k, n_q): M must not have a negative eigenvalue there. Both exist if ``bodies`` has an
+    inertia.
     """
 
     bodies: Program
@@ -42,7 +43,7 @@ class Fitness:
     states: Array | None = None
 
     def unfit(self, p: Array) -> NDArray[np.bool_]:
-        """Which of the parameter sets (k, n_p) cannot be run."""
+        """Which of the parameter sets (k, n_p) are impossible."""
         values = _few(self.bodies, p) if len(p) <= MAX_SETS_IN_PYTHON else _computed(self._bodies, {"p": p}, len(p))
         bad, doubtful = np.zeros(len(p), bool), np.zeros(len(p), bool)
         for name, value in values.items():
@@ -59,14 +60,14 @@ class Fitness:
 
     @property
     def look(self) -> Look | None:
-        """What finds parameter sets (k, n_p) to be fit beyond doubt, no slower than states; None if that takes more.
+        """A fast test that accepts only sets (k, n_p) that are certainly possible; None if there is none.
 
-        It asks more than `unfit`: what it leaves in doubt may be fit.
+        Its criterion is stricter than that of `unfit`: a set that it does not accept may be possible.
         """
         return self._look
 
     def _indefinite(self, p: Array) -> NDArray[np.bool_]:
-        """Which parameter sets (k, n_p) give M a negative eigenvalue in one of the states."""
+        """Which parameter sets (k, n_p) lead to a negative eigenvalue of M in one of the states."""
         assert self.metric is not None and self.states is not None
         count = len(self.states)
         q, every = np.tile(self.states, (len(p), 1)), np.repeat(p, count, axis=0)
@@ -81,7 +82,7 @@ class Fitness:
 
     @cached_property
     def _look(self) -> Look | None:
-        """At masses; of an inertia at its leading minors, or at its diagonal where nothing else is in it."""
+        """A program for the masses and, of an inertia, the leading minors (or the diagonal if it is diagonal)."""
         above, rest = [], []
         g = self.bodies.graph
         for name, output in self.bodies.outputs.items():
@@ -120,7 +121,7 @@ def _negative(matrices: Array) -> NDArray[np.bool_]:
 
 
 def _few(program: Program, p: Array) -> dict[str, Array]:
-    """The outputs of a program of parameters alone for a few sets of them, without machine code."""
+    """The outputs of a program of parameters for a few sets of them, without machine code."""
     each = [evaluate(program, {"p": row}) for row in p]
     return {
         name: np.array([row[name] for row in each], float).reshape(len(p), *output.shape)
@@ -129,7 +130,7 @@ def _few(program: Program, p: Array) -> dict[str, Array]:
 
 
 def _computed(kernel: Kernel, groups: Mapping[str, Array], count: int) -> dict[str, Array]:
-    """The outputs of a kernel for ``count`` rows; what is not finite is kept as it is."""
+    """The outputs of a kernel for ``count`` rows; values that are not finite are returned unchanged."""
     out = {name: np.empty((count, *output.shape)) for name, output in kernel.program.outputs.items()}
     try:
         kernel(**groups, out=out)

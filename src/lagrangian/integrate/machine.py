@@ -1,4 +1,4 @@
-"""The machine code of an integrator: made, kept on disk, called."""
+"""The machine code of an integrator: compiling, caching and calling it."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _TAPE = ctypes.CFUNCTYPE(None, *[ctypes.c_void_p] * 4)
 
 @cache
 def _printer_version() -> str:
-    """A sum over this room's sources: any change may change the code."""
+    """A checksum of the sources in this package, because a change in them may change the code."""
     total = hashlib.sha256()
     for source in sorted((Path(__file__).parent / "methods").glob("*.py")):
         total.update(source.read_bytes())
@@ -40,7 +40,7 @@ def _printer_version() -> str:
 
 
 class Machine:
-    """An integrator in memory: what is called, and how much work space it wants."""
+    """An integrator in memory: its function, and the size of its work space."""
 
     def __init__(
         self,
@@ -65,11 +65,11 @@ class Machine:
         self.places = dict(zip(PLACES, rest[len(_BLOCKS) :], strict=True))
 
     def space(self) -> NDArray[np.float64]:
-        """Work space for a range of runs, every lane empty."""
+        """Work space for a range of runs, with empty lanes."""
         return aligned_to(8 * self.variant.lanes, self.slots * self.variant.lanes)
 
     def shared(self, p: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
-        """What follows from one parameter set for all runs, for the table."""
+        """The results that depend only on one parameter set for all runs, for the table."""
         blocks = {}
         for (entry, name), count in zip(_BLOCKS.items(), self._shared, strict=True):
             block = blocks[entry] = aligned(count)
@@ -93,7 +93,7 @@ _BLOCKS = {
 
 
 def _fingerprint(events: Events | None, build: Build) -> str:
-    """What stands for the events in the name of the code."""
+    """A text that identifies the events in the key of the code."""
     if events is None:
         return ""
     what = (events.direction, events.terminal, events.reset)
@@ -101,7 +101,7 @@ def _fingerprint(events: Events | None, build: Build) -> str:
 
 
 def _projected(projection: Projection | None, build: Build) -> str:
-    """What stands for the projection in the name of the code."""
+    """A text that identifies the projection in the key of the code."""
     if projection is None:
         return ""
     known = (
@@ -112,7 +112,7 @@ def _projected(projection: Projection | None, build: Build) -> str:
 
 
 def aligned_to(size: int, count: int) -> NDArray[np.float64]:
-    """Zeros that start at a multiple of ``size`` bytes, at least a cache line."""
+    """Zeros that start at a multiple of ``size`` bytes, which is at least a cache line."""
     size = max(size, 64)
     raw = np.zeros(8 * count + size, np.uint8)
     start = -address(raw) % size
@@ -120,5 +120,5 @@ def aligned_to(size: int, count: int) -> NDArray[np.float64]:
 
 
 def build_of(program: Program, lanes: int, keep: bool) -> Build:
-    """The build that the modules of a program's integrators belong to."""
+    """The build of the modules for a program's integrators."""
     return Build(program, Options(lanes, ("p",), keep=keep), native.host())

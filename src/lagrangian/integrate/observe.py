@@ -1,7 +1,7 @@
-"""What is done with a run of an ensemble: how it is integrated, and which few numbers are kept of it.
+"""What is done with the runs of an ensemble: how they are integrated, and which few numbers of them are stored.
 
-A run is sampled at the times asked for; expressions are evaluated along it by compiled code; what is kept of each is
-a reduction over time, or the samples themselves. Everything here treats a chunk of runs at once.
+A run is sampled at the requested times, and compiled code evaluates expressions along it. Of each expression, a
+reduction over time or the samples themselves are stored. Everything here is computed for a chunk of runs at once.
 """
 
 from __future__ import annotations
@@ -29,15 +29,15 @@ if TYPE_CHECKING:
 Array: TypeAlias = NDArray[np.float64]
 Values: TypeAlias = dict[str, NDArray[Any]]
 
-STATES = 1 << 15  # states that are observed together
-LEAST = 8  # and no fewer, so that machine code never pads
-LOGGED = 3  # copies of an event's numbers at a time: as logged, in order, and run by run
-MANY = 1000  # events of a run that memory is left for; few runs have more
+STATES = 1 << 15  # number of states that are observed together
+LEAST = 8  # the smallest number, so that machine code never has to pad
+LOGGED = 3  # copies of an event's numbers in memory: as logged, in order, and run by run
+MANY = 1000  # number of events of a run for which memory is reserved; few runs have more
 NOT_FINITE = "E503"
 
 
 def _mean(y: Array, t: Array) -> Array:
-    """Time average by the trapezoidal rule: (1/(t₁ − t₀)) ∫ y dt."""
+    """The mean over time by the trapezoidal rule: (1/(t₁ − t₀)) ∫ y dt."""
     length = t[..., -1] - t[..., 0]
     area = np.trapezoid(y, t, axis=-1) if hasattr(np, "trapezoid") else np.trapz(y, t, axis=-1)  # type: ignore
     return np.where(length > 0, area / np.where(length > 0, length, 1.0), y[..., 0])
@@ -51,12 +51,12 @@ REDUCTIONS: Mapping[str, Callable[[Array, Array], Array]] = {
     "rms": lambda y, t: np.sqrt(_mean(y * y, t)),
     "range": lambda y, _: y.max(axis=-1) - y.min(axis=-1),
 }
-"""What can be kept of an expression y (n, S) at times t (S,) or (n, S), by name."""
+"""The reductions of an expression y (n, S) at times t (S,) or (n, S), by name."""
 
 
 @dataclass(frozen=True)
 class Kept:
-    """One result of every run: ``name``, the output ``of`` which it is made, and the reduction (None: the samples)."""
+    """A result of every run: ``name``, the output ``of`` which it is made, and the reduction (None: the samples)."""
 
     name: str
     of: str
@@ -65,7 +65,7 @@ class Kept:
 
 @dataclass(frozen=True)
 class EventsKept:
-    """Of event ``index``: how often it happened, and when for the first ``times`` times."""
+    """The count of event ``index``, and its first ``times`` times."""
 
     name: str
     index: int
@@ -82,7 +82,7 @@ DRIFTED = {
 
 
 def _kernel(program: Program, **optional: float) -> Kernel:
-    """The code of a program, made once."""
+    """The code of a program, compiled once."""
     return program.remembered("kernel", lambda: compile(program, optional=optional, threads=1))
 
 
@@ -90,10 +90,11 @@ def _kernel(program: Program, **optional: float) -> Kernel:
 class Study:
     """What is done with every run of an ensemble; small, and can be sent to another process.
 
-    ``program`` is x, u, p, t → ẋ; ``outputs`` a program over the same groups with one number an output; ``times`` (S,)
-    the samples. ``projection`` keeps runs on their rows. ``signals`` are inputs that change with time, the same for all
-    runs. ``canonical``: where ``program`` is over [q; p], the programs x → p and [q; p] → v. A run whose parameters
-    ``fitness`` refuses is not begun. ``options`` go to the solver as they are (rtol, atol, step, …).
+    ``program`` is x, u, p, t → ẋ; ``outputs`` is a program over the same groups, each of whose outputs is one number;
+    ``times`` (S,) are those of the samples. ``projection`` keeps runs on their rows. ``signals`` are inputs that change
+    with time and are the same for all runs. ``canonical``: if ``program`` is over [q; p], the programs x → p and
+    [q; p] → v. A run whose parameters ``fitness`` refuses is not started. ``options`` are passed to the solver (rtol,
+    atol, step, …).
     """
 
     program: Program
@@ -116,7 +117,7 @@ class Study:
 
     @property
     def bytes_per_run(self) -> int:
-        """Memory that one run of a chunk takes, roughly: its samples, what is kept of it, and its events."""
+        """The approximate memory for one run of a chunk: its samples, its results, and its events."""
         samples = len(self.times) if self.whole else 1
         stored = sum(1 if k.reduction else len(self.times) for k in self.kept)
         stored += sum(1 + e.times for e in self.events_kept)
@@ -126,7 +127,7 @@ class Study:
         return 8 * (samples * states + stored + states + 8)
 
     def fields(self) -> dict[str, tuple[str, tuple[int, ...]]]:
-        """What `run` gives by name: type, and shape behind the axis of runs."""
+        """The results of `run` by name: type, and shape after the axis of runs."""
         made: dict[str, tuple[str, tuple[int, ...]]] = {}
         for k in self.kept:
             made[k.name] = ("float64", () if k.reduction else (len(self.times),))
@@ -141,20 +142,20 @@ class Study:
 
     @cached_property
     def _kernel(self) -> Kernel | None:
-        """The code of the outputs; None where each is an entry of the state and nothing needs computing."""
+        """The code of the outputs; None if each is an entry of the state, so that nothing has to be computed."""
         if all(entry is not None for entry in self._entries.values()):
             return None
         return _kernel(self.outputs)
 
     @cached_property
     def _transforms(self) -> tuple[Kernel, Kernel]:
-        """The code that turns velocities into momenta, and momenta into velocities."""
+        """The code that converts velocities to momenta, and momenta to velocities."""
         assert self.canonical is not None
         return _kernel(self.canonical[0], u=0.0), _kernel(self.canonical[1], u=0.0)
 
     @cached_property
     def _entries(self) -> dict[str, int | None]:
-        """For each output the entry of x that it is, if it is nothing else."""
+        """For each output, the entry of x that it is, if it is nothing else."""
         nodes = self.outputs.graph.nodes
         first = {name: nodes[output.ids[0]] for name, output in self.outputs.outputs.items()}
         return {name: node[2] if node[:2] == ("input", "x") else None for name, node in first.items()}
@@ -163,10 +164,10 @@ class Study:
         return {k: v for k, v in self.__dict__.items() if not k.startswith("_")}
 
     def run(self, solver: Any, rows: Rows, threads: int | None = None) -> Values:
-        """Integrate the runs in ``rows`` and keep of them what is wanted: arrays (n, …) by name.
+        """Integrate the runs in ``rows`` and return their results: arrays (n, …) by name.
 
-        A run that fails keeps NaN everywhere and its status. A run that a terminal event ends, or events that
-        accumulate, is reduced over what it reached.
+        A failed run has its status and NaN results. If a terminal event ends a run, or its events accumulate, the
+        results are taken over the part that was simulated.
         """
         unfit = self._unfit(rows)
         if unfit.any():
@@ -174,13 +175,13 @@ class Study:
         return self._all(solver, rows, threads)
 
     def _unfit(self, rows: Rows) -> NDArray[np.bool_]:
-        """Which runs have parameters that no system can have."""
+        """Which runs have impossible parameters."""
         if self.fitness is None:
             return np.zeros(len(rows), bool)
         return self.fitness.unfit(np.ascontiguousarray(np.broadcast_to(rows.p, (len(rows), rows.p.shape[-1]))))
 
     def _without(self, unfit: NDArray[np.bool_], solver: Any, rows: Rows, threads: int | None) -> Values:
-        """The runs that are fit, among those that are not."""
+        """Compute the possible runs among those that are not."""
         made: Values = {}
         for name, (dtype, shape) in self.fields().items():
             made[name] = np.full((len(rows), *shape), np.nan if dtype == "float64" else 0, dtype)
@@ -193,7 +194,7 @@ class Study:
         return made
 
     def _all(self, solver: Any, rows: Rows, threads: int | None) -> Values:
-        """All runs in ``rows``."""
+        """Compute all runs in ``rows``."""
         u = self.signals if self.signals is not None else rows.u
         times = self.times if self.whole else self.times[[0, -1]]
         solution = solver.solve(self._started(rows), times, u=u, p=rows.p, store=self.whole, **self.options)
@@ -216,7 +217,7 @@ class Study:
         return made
 
     def _reduced(self, solution: Any, rows: Rows, part: slice, made: Values) -> None:
-        """What is kept of the runs in ``part``."""
+        """The results of the runs in ``part``."""
         states, times, beyond = self._samples(solution, rows, part)
         y = self._observed(states, times, rows, part)
         for k in self.kept:
@@ -228,8 +229,8 @@ class Study:
     def _samples(self, solution: Any, rows: Rows, part: slice) -> tuple[Array, Array, NDArray[np.bool_] | None]:
         """States (n, S, nx), times (S,) or (n, S), and which samples lie beyond the end of their run.
 
-        Behind its end a run stands still in its last state: maxima and averages over time then need to know nothing.
-        A run that failed stands in its first state, so that everything observed is finite; it is dropped later.
+        After its end, a run keeps its last state, so that maxima and averages over time need no special case. A failed
+        run keeps its first state, so that everything observed is finite; its results are dropped later.
         """
         status, reached = solution.status[part], solution.reached[part]
         failed = _lost(status)
@@ -250,12 +251,12 @@ class Study:
         return states, times, beyond
 
     def _with_velocities(self, states: Array, times: Array, rows: Rows, part: slice) -> Array:
-        """[q; p] as [q; v]."""
+        """[q; p] converted to [q; v]."""
         v = self._evaluated(self._transforms[1], states, None, times, rows, part)["v"]
         return np.concatenate([states[..., : states.shape[-1] - v.shape[-1]], v], axis=-1)
 
     def _started(self, rows: Rows) -> Array:
-        """The initial states as they are integrated."""
+        """The initial states in the variables that are integrated."""
         if self.canonical is None:
             return rows.x
         x = rows.x[:, None, :]
@@ -272,7 +273,7 @@ class Study:
     def _evaluated(
         self, kernel: Kernel, states: Array, u: Array | None, times: Array, rows: Rows, part: slice
     ) -> dict[str, Array]:
-        """The outputs of a kernel along each run, (n, S, …); what is not finite is kept as it is."""
+        """The outputs of a kernel along each run, (n, S, …); values that are not finite are returned unchanged."""
         runs, samples = states.shape[:2]
         fill = max(0, math.ceil(LEAST / samples) - runs)
 
@@ -289,7 +290,7 @@ class Study:
         out = {name: np.empty((*lead, *o.shape)) for name, o in kernel.program.outputs.items()}
         try:
             kernel(x=padded(states), u=u, p=p, t=t, out=out)
-        except RunError as trouble:  # every state is computed all the same
+        except RunError as trouble:  # every state is computed in any case
             if trouble.code != NOT_FINITE:
                 raise
         return {name: values[:runs] for name, values in out.items()}
@@ -304,7 +305,7 @@ class Study:
         made["status"][broken & (solution.status >= 0)] = RunStatus.BROKEN
 
     def _events(self, solution: Any, made: Values) -> None:
-        """Counts and first times of the events that are kept."""
+        """The counts and first times of the events that are stored."""
         for e in self.events_kept:
             mine = solution.event_index == e.index
             made[f"count {e.name}"][:] = mine.sum(axis=1)
@@ -317,11 +318,12 @@ class Study:
 
 
 def _lost(status: NDArray[Any]) -> NDArray[np.bool_]:
-    """Which runs keep nothing: those that failed, but for those whose events accumulate, whose motion is over."""
+    """Which runs have no results: those that failed, except those whose events accumulate, because their motion is
+    over."""
     return (status < 0) & (status != RunStatus.ZENO)
 
 
 def signals_at(signals: Any, times: Array) -> Array:
-    """Piecewise linear inputs at ``times`` (…), shape (…, nu); at a knot the piece that begins there."""
+    """Piecewise linear inputs at ``times`` (…), shape (…, nu); at a knot, those of the piece that begins there."""
     k = np.searchsorted(signals.knots, times, side="right") - 1
     return signals.start[k] + signals.slope[k] * (times - signals.knots[k])[..., None]

@@ -1,4 +1,4 @@
-"""What an integrator is handed beside a right-hand side: inputs as functions of time, and events."""
+"""Inputs as functions of time, and events: what an integrator needs besides a right-hand side."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Signals:
 
     On ``[knots[k], knots[k+1])`` it is ``u(t) = start[k] + slope[k]·(t − knots[k])``; the last piece has no end.
     ``knots`` (K,) increase strictly and begin no later than the run; ``start`` and ``slope`` are (K, nu). A step never
-    crosses a knot, so that the order of a method is kept where an input jumps or bends.
+    crosses a knot, so that a method keeps its order where an input jumps or bends.
     """
 
     knots: Array
@@ -27,7 +27,7 @@ class Signals:
     slope: Array
 
     def checked(self, count: int, begin: float) -> Signals:
-        """The same with float64 arrays in C order, or a `RunError` that says what does not fit."""
+        """Return the same signals as float64 arrays in C order, or raise `RunError` for shapes that do not fit."""
         knots, start, slope = (np.ascontiguousarray(a, float) for a in (self.knots, self.start, self.slope))
         if knots.ndim != 1 or not len(knots) or np.any(~np.isfinite(knots)) or np.any(np.diff(knots) <= 0):
             raise RunError(
@@ -48,11 +48,11 @@ class Signals:
 
 @dataclass(frozen=True)
 class Events:
-    """Functions g of time and state whose zeros are looked for, over the groups x, u, p, t of the right-hand side.
+    """Functions g of time and state whose zeros are events, over the groups x, u, p, t of the right-hand side.
 
-    ``program`` has the output ``g`` (ne,) and, if any event resets, ``after`` (ne, nx): the state after event k.
-    ``direction``: +1 where g rises, −1 where it falls, 0 both. ``terminal``: the run ends there. ``reset``: the state
-    is replaced by ``after[k]`` and the integration begins anew.
+    ``program`` has the output ``g`` (ne,) and, if any event resets the state, ``after`` (ne, nx): the state after event
+    k. ``direction``: +1 if g rises, −1 if it falls, 0 both. ``terminal``: the run ends there. ``reset``: the state is
+    replaced by ``after[k]``, and the integration restarts.
     """
 
     program: Program
@@ -61,7 +61,7 @@ class Events:
     reset: tuple[bool, ...]
 
     def checked(self, rates: Program) -> Events:
-        """The same, or a `RunError` that says what does not fit the right-hand side ``rates``."""
+        """Return the same events, or raise `RunError` if they do not fit the right-hand side ``rates``."""
         outputs, size = self.program.outputs, len(rates.inputs["x"])
         for group, names in self.program.inputs.items():
             if names and tuple(names) != tuple(rates.inputs.get(group, ("t",) if group == "t" else ())):

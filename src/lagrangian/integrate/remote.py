@@ -1,8 +1,8 @@
-"""An ensemble over several machines: chunks are tasks of Dask's distributed scheduler.
+"""Computes an ensemble on several machines: chunks are tasks of Dask's distributed scheduler.
 
-Every worker compiles the study itself, once, for its own processor. A task carries its rows, so that it can be done by
-anyone at any time: what a worker that dies had under way, or had done and not handed over, is done again by another.
-Results come to this process, which alone writes.
+Every worker compiles the study itself, once, for its own processor. A task contains its rows, so any worker can compute
+it at any time: if a worker dies, another repeats what it was computing or had not yet delivered. The results return to
+this process, which alone writes them.
 """
 
 from __future__ import annotations
@@ -26,20 +26,20 @@ from lagrangian.integrate.observe import Study, Values
 from lagrangian.integrate.store import RESUME
 
 PATIENCE = 30.0
-"""Seconds to wait for the scheduler and a first worker."""
+"""The time [s] to wait for the scheduler and a first worker."""
 
 AHEAD = 2
-"""Tasks under way for each thread of the workers, so that none waits for this process."""
+"""The number of scheduled tasks for each thread of the workers, so that none waits for this process."""
 
 REMEMBERED = 4
-"""Studies that a worker keeps compiled."""
+"""The number of compiled studies that a worker caches."""
 
 _known: OrderedDict[str, tuple[Study, Any]] = OrderedDict()
 _lock = threading.Lock()
 
 
 def work(key: str, packed: bytes, version: str, rows: Rows) -> Values:
-    """One chunk, in a worker; the study in ``packed`` is compiled when its ``key`` is met first."""
+    """Compute one chunk in a worker; the study in ``packed`` is compiled when its ``key`` is first seen."""
     if version != (own := _version()):
         raise RunError(
             f"a worker runs lagrangian {own}, but this process runs {version}",
@@ -61,10 +61,10 @@ def _version() -> str:
 
 
 class Dask:
-    """Chunks are computed by the workers of a scheduler: its address, such as ``tcp://host:8786``, or a client.
+    """Computes chunks with the workers of a scheduler, given by its address, such as ``tcp://host:8786``, or a client.
 
-    ``held`` is how many chunks a worker has in memory at a time, ``threads`` how many threads all workers have.
-    Raises `MissingExtra` where distributed is not installed, `RunError` where nobody answers.
+    ``held`` is the number of chunks that a worker has in memory at a time, ``threads`` the number of threads of all
+    workers. Raises `MissingExtra` if distributed is not installed, and `RunError` if the scheduler does not respond.
     """
 
     def __init__(self, scheduler: Any) -> None:
@@ -100,12 +100,12 @@ class Dask:
         self.held, self.threads = max(threads), sum(threads)
 
     def close(self) -> None:
-        """Let go of the scheduler; a client that was handed over is left as it is."""
+        """Disconnect from the scheduler; a client that the user passed stays open."""
         if self._own:
             self.client.close()
 
     def __call__(self, study: Study, design: Design, portions: Portions, todo: Iterable[int]) -> Iterator[Any]:
-        """Pairs (chunk, values), as they come back."""
+        """Yield pairs (chunk, values), as they arrive."""
         packed = pickle.dumps(study)
         head = (hashlib.blake2b(packed, digest_size=16).hexdigest(), packed, _version())
         waiting, done = iter(todo), self._lib.as_completed(loop=self.client.loop)
@@ -124,12 +124,12 @@ class Dask:
                 yield running.pop(future), values
                 feed()
         finally:
-            with contextlib.suppress(Exception):  # the scheduler may be gone: then there is nothing to call off
+            with contextlib.suppress(Exception):  # the scheduler may be lost: then there is nothing to cancel
                 self.client.cancel(list(running))
             self.close()
 
     def _result(self, future: Any) -> Values:
-        """What a worker computed; where nobody could, why."""
+        """The result from a worker; if no worker could compute it, the error."""
         try:
             return future.result()
         except Error:

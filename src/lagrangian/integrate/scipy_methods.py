@@ -1,8 +1,8 @@
-"""SciPy's solvers over a compiled right-hand side and a compiled analytic Jacobian, step by step.
+"""SciPy's solvers with a compiled right-hand side and a compiled analytic Jacobian, step by step.
 
-For stiff systems (``Radau``, ``BDF``, ``LSODA``), for inputs that are Python functions, and for whoever trusts these
-more. Each step is taken here, so that what was reached is kept whatever ends the run: an event, a state that is not
-finite, a step that cannot get smaller, a bound on steps or time.
+They are meant for stiff systems (``Radau``, ``BDF``, ``LSODA``), for inputs that are Python functions, and for
+comparison. Each step is made here, so that the results up to then remain whatever ends the run: an event, a state that
+is not finite, a step that cannot become smaller, a limit on steps or time.
 """
 
 from __future__ import annotations
@@ -29,21 +29,21 @@ Array = NDArray[np.float64]
 Control = Callable[[float, Array], Array]
 
 SCIPY = ("RK45", "RK23", "DOP853", "Radau", "BDF", "LSODA")
-"""SciPy's methods by the names that `scipy.integrate.solve_ivp` gives them."""
+"""SciPy's methods by their names in `scipy.integrate.solve_ivp`."""
 
 IMPLICIT = frozenset({"Radau", "BDF", "LSODA"})
-"""Those that use a Jacobian."""
+"""The methods that use a Jacobian."""
 
 LEAST_STEP = 2.0**-50
-"""Part of t below which no step is tried."""
+"""The smallest step that is tried, relative to t."""
 
 MAX_NOT_FINITE = 1000
-"""Evaluations without a finite result, one after another, after which a solver is not asked to try a smaller step."""
+"""After this many consecutive evaluations without a finite result, a solver does not try a smaller step."""
 
 
 @dataclass(frozen=True)
 class Interval:
-    """A stretch of time up to ``end`` on which the inputs u(t, x) are linear in time, but for those ``asked``."""
+    """An interval of time up to ``end`` on which all inputs u(t, x), except those ``asked``, are linear in time."""
 
     end: float
     u: Control
@@ -73,7 +73,7 @@ class Outcome:
 
 @dataclass
 class Bounds:
-    """What ends a run that does not end by itself: steps, events, and seconds of computing."""
+    """Limits that end a run: numbers of steps and events, and seconds of computing."""
 
     max_steps: int = 10_000_000
     max_events: int = 100_000
@@ -82,11 +82,12 @@ class Bounds:
 
 
 class _NotFiniteError(Exception):
-    """The right-hand side is not finite, however small the step."""
+    """The right-hand side is not finite, however small the step is."""
 
 
 class _Field:
-    """f(t, x) and its Jacobian for SciPy, counting; what is not finite is NaN there, so that the step gets smaller."""
+    """f(t, x) and its Jacobian for SciPy, with counters; values that are not finite become NaN, so that the step is
+    reduced."""
 
     def __init__(self, rhs: Any, jacobian: Any, p: Array, nx: int) -> None:
         self.rhs, self.jacobian, self.p = rhs, jacobian, p
@@ -94,7 +95,7 @@ class _Field:
         self.why = ""  # the latest evaluation that was not finite
         self.nothing = np.full(nx, np.nan)
         self.u: Control = lambda t, x: np.empty(0)
-        self.last = math.inf  # the time that evaluations at the end of a stretch are for
+        self.last = math.inf  # the time to use in evaluations at the end of an interval
 
     def __call__(self, t: float, x: Array) -> Array:
         self.evaluations += 1
@@ -104,7 +105,7 @@ class _Field:
         except RunError as error:
             if error.code not in ("E502", "E503"):
                 raise
-            if not self.trouble:  # the first is the cause, what follows it only hears of it
+            if not self.trouble:  # the first error is the cause; later ones are only consequences
                 self.why = f"[{error.code}] {error.what}"
             self.trouble += 1
             if self.trouble > MAX_NOT_FINITE:
@@ -149,7 +150,7 @@ def integrate_scipy(
     field = _Field(rhs, jacobian, p, len(x0))
     march = _March(method, field, x0, times, crossings, rtol, atol, bounds or Bounds(), ground)
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # LSODA warns of what its return code says as well
+        warnings.simplefilter("ignore")  # LSODA warns about what its return code also says
         try:
             for leg in legs:
                 if not march.over(leg):
@@ -164,7 +165,7 @@ def integrate_scipy(
 
 
 class _March:
-    """One run while it is made."""
+    """A run while it is computed."""
 
     def __init__(
         self,
@@ -178,7 +179,7 @@ class _March:
         bounds: Bounds,
         ground: Projected | None = None,
     ) -> None:
-        from scipy import integrate  # takes longer to load than most runs: commands that run nothing do without
+        from scipy import integrate  # imported here because it takes longer to load than most runs need
 
         self.make: Callable[..., Any] = getattr(integrate, method)
         self.f, self.crossings, self.bounds, self.ground = f, crossings, bounds, ground
@@ -195,12 +196,13 @@ class _March:
         self.sticking: Sticking | None = None
 
     def over(self, leg: Interval) -> bool:
-        """March over a leg; return whether to go on after it."""
+        """Integrate over an interval; return whether to continue after it."""
         self.f.u, self.f.last = leg.u, max(leg.end - MARGIN * abs(leg.end), self.t)
         if self.ground is not None and self.steps == 0:
             self.x = self.ground.begin(self.t, self.x, leg.u)
         shorter: float | None = None
         while self.t < leg.end:
+            # a new solver at the start, after an event that changes the state, and for a shorter step
             if self.crossings is not None:
                 self.crossings.start(self.t, self.x, leg.u, self.f)
                 if self.crossings.blind is not None:
@@ -212,6 +214,7 @@ class _March:
             while solver.status == "running" and not jumped:
                 if not self._within_bounds() or self.sticks(leg):
                     return False
+                # one step of SciPy's solver
                 words = solver.step()
                 self.steps += 1
                 if solver.status == "failed":
@@ -221,6 +224,7 @@ class _March:
                     self.status, self.reason = RunStatus.NOT_FINITE, "the state is not finite after this step"
                     return False
                 dense = solver.dense_output()
+                # its end is projected; if the correction exceeds the tolerance, a shorter step is tried
                 if self.ground is not None:
                     dense = self.ground.along(dense, leg.u)
                     size, anew = self.ground.settle(solver, self.x, leg.u)
@@ -273,7 +277,8 @@ class _March:
         self.reason = self.f.why if broken else (words or "").strip().rstrip(".")
 
     def _advance(self, solver: Any, dense: Any, leg: Interval) -> bool:
-        """Take in one step up to its end, or to an event that stops or changes the state; return whether it did."""
+        """Process one step up to its end, or to an event that stops the run or changes the state; return whether one
+        did."""
         end = solver.t
         hits = [] if self.crossings is None else self.crossings.between(self.t, end, dense, leg.u, leg.asked)
         for hit in hits:
@@ -281,7 +286,9 @@ class _March:
             crowded = len(self.hits) >= self.bounds.max_events and not hit.terminal
             if hit.terminal or hit.after is not None or crowded:
                 self._store(dense, hit.time)
-                stuck = hit.after is not None and hit.time <= self.t and self.steps > 1  # the first may be at the start
+                stuck = (
+                    hit.after is not None and hit.time <= self.t and self.steps > 1
+                )  # the first event may be at the start
                 self.t, self.x = hit.time, hit.before if hit.after is None else hit.after
                 if self.ground is not None and hit.after is not None and np.all(np.isfinite(hit.after)):
                     self.x = self.ground.reset(hit.time, hit.after, leg.u)
@@ -306,7 +313,7 @@ class _March:
         self._store(dense, end)
         self.t, self.x = end, solver.y
         if self.stored and self.times[self.stored - 1] == end:
-            self.states[self.stored - 1] = solver.y  # the step's own end, not the polynomial's
+            self.states[self.stored - 1] = solver.y  # the step's own end, not the value of the polynomial
         return False
 
     def _store(self, dense: Any, until: float) -> None:
@@ -316,7 +323,7 @@ class _March:
             self.stored = upto
 
     def outcome(self) -> Outcome:
-        """What there is now."""
+        """The outcome so far."""
         return Outcome(
             self.times[: self.stored],
             self.states[: self.stored],

@@ -1,4 +1,4 @@
-"""What comes back from an integration."""
+"""The result of an integration."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Solver: a right-hand side and a method, compiled together; arrays of initial states in, runs out."""
+"""Solver: a right-hand side and a method, compiled together; it integrates arrays of initial states."""
 
 from __future__ import annotations
 
@@ -36,13 +36,13 @@ _log = logging.getLogger(__name__)
 Array = NDArray[np.float64]
 
 BUDGET = 50_000_000
-"""Operations, of a vector of runs at a time, between two looks at the clock: some hundredths of a second."""
+"""The number of operations, each for a vector of runs, between two checks of the clock: some hundredths of a second."""
 
 OFTEN = 16
-"""How much sooner the next look at the clock comes where the right-hand side jumps and a run may stick."""
+"""By what factor the clock is checked more often if the right-hand side jumps, so that a run may stick."""
 
 ROWS = 4096
-"""Samples of a run with fixed steps that are looked at together."""
+"""The number of samples of a run with fixed steps that are examined together."""
 
 MAX_PAIRED_NODES = 300
 """Nodes of the longest program of which two vectors of runs are computed together."""
@@ -51,15 +51,15 @@ GROUPS = frozenset({"x", "u", "p", "t"})
 
 
 class Solver:
-    """Integrates ``ẋ = f(x, u, p, t)`` by a method whose steps are printed around f in one piece of machine code.
+    """Integrates ``ẋ = f(x, u, p, t)`` by a method whose steps are compiled together with f.
 
-    ``program`` has the groups ``x`` (nx), ``u`` (nu), ``p`` (np) and ``t``, as far as it needs them, and one output of
-    shape (nx,). ``method`` is a name in `METHODS`. Many runs are computed ``lanes`` side by side (1, 2, 4, 8, 16; what
-    is fastest here unless given), each with its own time and step length, on ``threads`` cores (all unless given). A
-    run's result depends neither on its company nor on the number of threads. ``keep``: keep the code on disk.
-    ``projection``: every accepted step's end, every state inside a step that is handed out, and every state that events
-    leave or change satisfies its rows; a step of an adaptive method whose correction is beyond the tolerances is
-    rejected. The state at the start is projected too, and the first sample is as it was given.
+    ``program`` has the groups ``x`` (nx), ``u`` (nu), ``p`` (np) and ``t`` if it needs them, and one output of shape
+    (nx,). ``method`` is a name in `METHODS`. ``lanes`` runs are computed side by side (1, 2, 4, 8, 16; by default the
+    fastest number here), each with its own time and step size, on ``threads`` cores (by default all). The result of a
+    run depends neither on the runs beside it nor on the number of threads. ``keep``: cache the code on disk.
+    ``projection``: its rows are satisfied at the end of every accepted step, by every state inside a step that is
+    returned, and by every state that events leave or change; an adaptive method rejects a step whose correction exceeds
+    the tolerances. The initial state is projected too, but the first sample is the state as given.
 
     >>> from lagrangian.graph import Graph, Output, Program
     >>> g = Graph()
@@ -71,7 +71,7 @@ class Solver:
            [-0.023951,  0.958552],
            [-0.99895 , -0.042033]])
 
-    Raises `RunError` where the program, the method or the events do not fit together.
+    Raises `RunError` if the program, the method or the events do not fit together.
     """
 
     def __init__(
@@ -115,11 +115,11 @@ class Solver:
         }
 
     def __repr__(self) -> str:
-        """Say what there is."""
+        """Name the program and the method."""
         return f"<Solver {self.program.name!r} by {self.method.name}>"
 
     def __reduce__(self) -> Any:
-        """A solver sent to another process is compiled there."""
+        """A solver that is sent to another process is compiled there."""
         given = (self.program, self.method.name, self.events, self.projection, self._lanes, self.threads, self._keep)
         return _rebuilt, given
 
@@ -141,20 +141,20 @@ class Solver:
     ) -> Solution:
         """Integrate from ``x0`` (nx,) or (N, nx) at ``times[0]``; return the states at ``times`` (S,).
 
-        ``u``: constant inputs, (nu,) or (N, nu), or `Signals`. ``p``: parameters, (np,) or (N, np); None: the
-        program's defaults. ``rtol``, ``atol``: an adaptive method keeps its estimate of a step's error below
+        ``u``: constant inputs, (nu,) or (N, nu), or `Signals`. ``p``: parameters, (np,) or (N, np); None means the
+        defaults of the program. ``rtol``, ``atol``: an adaptive method keeps its estimate of the error of a step below
         ``atol + rtol |x|``. ``step``: the longest step of a method with fixed steps; stop points (requested times,
-        knots of the inputs) are met exactly by equal steps between them. ``max_steps``, ``max_events``: a run ends
-        there. ``deadline`` [s]: all runs end after that time of computing. ``store=False``: only final states.
+        knots of the inputs) are met exactly by equal steps between them. ``max_steps``, ``max_events``: limits that end
+        a run. ``deadline`` [s]: all runs end after this computing time. ``store=False``: return only final states.
 
-        Raises `RunError` where something does not fit; what fails on the way ends a run with a status (`RunStatus`).
+        Raises `RunError` if an argument does not fit; a failure during a run ends it with a status (`RunStatus`).
         """
         task = _Task(self, x0, times, u, p, store, rtol)
         task.accuracy(rtol, atol, step, max_steps, max_step, max_events)
         return task.run(None if deadline is None else check.number(deadline, "deadline"))
 
     def machine(self, count: int, own: bool, signals: bool, tolerance: float) -> Machine:
-        """The machine code for so many runs."""
+        """The machine code for this number of runs."""
         method = self.method.suited(tolerance)
         lanes = 1 if count == 1 else self._lanes or self._side_by_side(count)
         variant = IntegratorVariant(lanes, own or lanes == 1, signals, self.events is not None)
@@ -233,7 +233,7 @@ class _Task:
             self.table |= {"knot_start": signals.start, "knot_slope": signals.slope}
 
     def accuracy(self, rtol: Any, atol: Any, step: Any, max_steps: Any, max_step: Any, max_events: Any) -> None:
-        """Check and note what decides step lengths and ends of runs."""
+        """Check and store the settings that determine step sizes and the ends of runs."""
         method, size = self.solver.method, self.final.shape[1]
         relative, absolute = check.tolerances(rtol, atol, size)
         if method.adaptive and step is not None:
@@ -252,7 +252,7 @@ class _Task:
         }
 
     def run(self, deadline: float | None) -> Solution:
-        """Compute."""
+        """Integrate all runs."""
         entries = [self.table.get(name, 0) for name in memory_layout.TABLE]
         self._table = np.empty(len(entries), np.int64)
         for k, x in enumerate(entries):
@@ -281,7 +281,7 @@ class _Task:
         return self._solution()
 
     def _range(self, start: int, stop: int) -> int:
-        """Compute runs start … stop − 1."""
+        """Integrate runs start … stop − 1."""
         space = self.machine.space()
         words = space.view(np.int64)
         words[memory_layout.CURSOR], words[memory_layout.LAST] = start, stop
@@ -302,7 +302,7 @@ class _Task:
         return -1
 
     def _look(self, space: Array, words: NDArray[np.int64], paces: dict[int, Pace]) -> None:
-        """End the runs in the work space that stick and do not get on."""
+        """End the runs in the work space that stick and make no progress."""
         lanes, at, sticking = self.machine.variant.lanes, self.machine.places, self.solver.sticking
         end, most = float(self.times[-1]), int(self.table["max_steps"])
         for lane in range(lanes):
@@ -329,7 +329,7 @@ class _Task:
         return self.solver.sticking.among(x, u, p, t, near, float(self.table["step"]))
 
     def _stuck_at_last(self) -> None:
-        """Of the runs that gave up, those that stick where they stopped have that status."""
+        """Give runs that were abandoned, and stick where they stopped, the status for that."""
         for run in np.flatnonzero(
             np.isin(self.status, (RunStatus.TOO_MANY, RunStatus.UNDERFLOW, RunStatus.NO_CONVERGENCE))
         ):
@@ -337,7 +337,7 @@ class _Task:
                 self.status[run] = RunStatus.CHATTERS
 
     def _stuck_on_the_way(self) -> None:
-        """Steps of one length get through where others stick: such runs end at the first sample that sticks."""
+        """End runs with fixed steps, which always get through, at the first sample at which they stick."""
         for run in np.flatnonzero(self.status != RunStatus.CHATTERS).tolist():
             x, t = self.final[run : run + 1], self.reached[run : run + 1]
             if self.states.shape[1]:
@@ -353,7 +353,7 @@ class _Task:
                     break
 
     def _log(self, words: NDArray[np.int64]) -> Array:
-        """Room for events, told to the machine code."""
+        """Allocate memory for events, and pass it to the machine code."""
         count = 0 if self.solver.events is None else len(self.solver.events.direction)
         room = max(1024, 3 * ROUNDS * count * self.machine.variant.lanes) if count else 0
         log = np.empty((room, 3 + self.final.shape[1]))
@@ -361,7 +361,7 @@ class _Task:
         return log
 
     def _keep(self, words: NDArray[np.int64], log: Array) -> None:
-        """Move the events logged so far out of the way."""
+        """Copy the logged events, so that the log can be used again."""
         if words[memory_layout.LOGGED]:
             self._events.append(log[: words[memory_layout.LOGGED]].copy())
             words[memory_layout.LOGGED] = 0

@@ -15,7 +15,7 @@ class RunStatus(IntEnum):
     message: str
 
     def __new__(cls, value: int, message: str) -> RunStatus:
-        """Make the member, which is the number."""
+        """Make a member, which is the number."""
         made = int.__new__(cls, value)
         made._value_, made.message = value, message
         return made

@@ -1,10 +1,10 @@
-"""Results of an ensemble written to disk, chunk by chunk, so that a kill loses at most the chunks under way.
+"""Writes the results of an ensemble to disk, chunk by chunk, so that a killed process loses only unfinished chunks.
 
-A Zarr group (format 3) with one array a result over the ensemble's shape, coordinates beside them, and the array
-``done`` of marks (`checksums`), plain and uncompressed. A chunk's results are written first, each file
-beside its place and renamed into it, its marks last: a chunk is done or it is not. The group's attributes hold what the
-task is; another task is never carried on in the same store. To go on with a store, all of it is checked first: what is
-damaged is done again.
+A store is a Zarr group (format 3) with an array for each result over the ensemble's shape, the coordinates, and the
+array ``done`` of marks (`checksums`), which is plain and uncompressed. The results of a chunk are written first, each
+file under a temporary name and then renamed; the marks are written last, so a chunk is either done or not. The
+attributes of the group describe the task; a store is never continued with another task. Before a store is continued,
+all of it is checked, and damaged parts are computed again.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ from lagrangian.integrate.stored import explained, fill, library, lost_chunks, o
 
 @dataclass(frozen=True)
 class Variable:
-    """An array of a store: type, names of its axes, shape, and words about it (units, long_name)."""
+    """An array in a store: type, names of its axes, shape, and attributes (units, long_name)."""
 
     dtype: str
     dims: tuple[str, ...]
@@ -58,11 +58,11 @@ class Variable:
 
 @dataclass(frozen=True)
 class ChunkPlan:
-    """What a store will hold.
+    """The contents of a store.
 
-    ``results``: arrays whose first axes are the ensemble's; ``coordinates``: other arrays with their values, given as
-    portions to be written one after the other along the first axis; ``task``: what is done, as plain data: two tasks
-    are the same where this is equal.
+    ``results``: arrays whose first axes are those of the ensemble; ``coordinates``: other arrays with their values, as
+    pieces that are written one after another along the first axis; ``task``: a description as plain data, by which two
+    tasks are compared.
     """
 
     portions: Portions
@@ -73,9 +73,9 @@ class ChunkPlan:
 
 
 class Store:
-    """A sink on disk; use it as a context, so that it is closed. One process at a time may write to it.
+    """A sink on disk; use it in a ``with`` statement, so that it is closed. Only one process at a time may write to it.
 
-    ``done`` (chunks,): which chunks are there. ``notices``: what was damaged and is made good.
+    ``done`` (chunks,): which chunks exist. ``notices``: what was damaged and is repaired.
     """
 
     def __init__(self, document: StoreDocument) -> None:
@@ -87,7 +87,7 @@ class Store:
         self.marks = document.marks(data)
         if len(data) != self.marks.nbytes:
             self.notices.append(f"the list of finished chunks in '{self.path}' had a wrong length")
-            os.ftruncate(self._file, self.marks.nbytes)  # what was cut off is filled with zeros: not done
+            os.ftruncate(self._file, self.marks.nbytes)  # truncated parts are filled with zeros, which means "not done"
         self.done = finished(self.marks)
         self._arrays = opened(document, "r+")
 
@@ -98,7 +98,7 @@ class Store:
         self.close()
 
     def close(self) -> None:
-        """Let go of the store, so that another process may write to it."""
+        """Release the store, so that another process may write to it."""
         if self._file >= 0:
             os.close(self._file)
             self._file = -1
@@ -108,8 +108,8 @@ class Store:
         with explained(self.path, "write", self._kept):
             sizes = tuple(part.stop - part.start for part in box)
             for name in self.document.results:
-                self.document.chunk(name, index).unlink(missing_ok=True)  # of an end in the middle: never read
-            for name in self.document.results:  # the status last: other readers go by it
+                self.document.chunk(name, index).unlink(missing_ok=True)  # left by an interruption: never read
+            for name in self.document.results:  # status last, because other readers rely on it
                 self._arrays[name][(*box, ...)] = values[name].reshape(*sizes, *values[name].shape[1:])
             self._mark(index, [self.document.mark(name, index) for name in self.document.results])
         self.done[index] = True
@@ -120,7 +120,7 @@ class Store:
         os.write(self._file, self.marks[index].astype("<u8").tobytes())
 
     def mend(self, plan: ChunkPlan) -> None:
-        """Find all that is damaged: chunks are taken as not done, coordinates and metadata written again."""
+        """Find all damage: damaged chunks are marked as not done, coordinates and metadata are written again."""
         with explained(self.path, "repair"):
             self._mend_metadata()
             for name, (_, values) in plan.coordinates.items():
@@ -141,7 +141,7 @@ class Store:
                 self.notices.append(f"'{name}/{ROOT}' in '{self.path}' was damaged: written again")
 
     def _mend_coordinate(self, name: str, values: Iterable[Any]) -> None:
-        """Write a coordinate again where it is not what it was; ``values`` are those of the task."""
+        """Write a damaged coordinate again; ``values`` are those of the task."""
         array, right = self._arrays[name], self.document.kept["coordinates"][name]
         if whole(array, right) is not None:
             return
@@ -162,9 +162,9 @@ class Store:
 
 
 def create(path: Path, plan: ChunkPlan, *, overwrite: bool = False) -> Store:
-    """Make a store at ``path``, whole or not at all; an existing one is replaced only with ``overwrite``.
+    """Make a store at ``path``, completely or not at all; an existing store is replaced only with ``overwrite``.
 
-    Raises `Error` where something else than a store stands there: that is never removed.
+    Raises `Error` if something other than a store exists there: it is never removed.
     """
     library()
     if os.path.lexists(path) and not overwrite:
@@ -198,7 +198,9 @@ def _fill(path: Path, plan: ChunkPlan) -> None:
     zarr = library()
     said = {"format": FORMAT, "block": list(plan.portions.block), "results": list(plan.results), "task": plan.task}
     group = zarr.create_group(path, attributes={**plan.words, KEY: said})
-    squeezed = zarr.codecs.BloscCodec(cname="lz4", clevel=5, shuffle="shuffle")  # of smooth curves: fast, and smallest
+    squeezed = zarr.codecs.BloscCodec(
+        cname="lz4", clevel=5, shuffle="shuffle"
+    )  # for smooth curves: fast, and with the smallest files
     how: dict[str, Any] = {"compressors": [squeezed, zarr.codecs.Crc32cCodec()]}
     for name, variable in plan.results.items():
         extra = variable.shape[len(plan.portions.block) :]
@@ -221,7 +223,7 @@ def _fill(path: Path, plan: ChunkPlan) -> None:
 
 
 def _fill_array(array: Any, values: Iterable[Any]) -> str:
-    """Write portions one after the other along the first axis; return the checksum of them all."""
+    """Write pieces one after another along the first axis; return the checksum of all of them."""
     sums, at = hashlib.blake2b(digest_size=8), 0
     for part in values:
         part = np.asarray(part, array.dtype)
@@ -246,15 +248,15 @@ def _array(group: Any, name: str, variable: Variable, **more: Any) -> Any:
 
 
 def _chunks(shape: tuple[int, ...]) -> tuple[int, ...]:
-    """Chunks of a coordinate: up to a million numbers along its first axis."""
+    """The chunks of a coordinate: up to a million numbers along its first axis."""
     return (max(1, min(shape[0], 1 << 20)), *shape[1:]) if shape else ()
 
 
 def resume(path: Path, plan: ChunkPlan) -> Store:
-    """Open the store at ``path`` to go on with the same task; there must be one, of this task.
+    """Open the store at ``path`` to continue with the same task.
 
-    All of it is checked: damaged chunks are not ``done``, and ``notices`` says how many there are. Raises `RunError`
-    where it holds another task, or is damaged where nothing can be made good.
+    All of it is checked: damaged chunks are not ``done``, and ``notices`` says how many there are. Raises `RunError` if
+    it belongs to another task, or has damage that cannot be repaired.
     """
     library()
     with explained(path, "open"):
@@ -276,14 +278,14 @@ def resume(path: Path, plan: ChunkPlan) -> Store:
 
 
 def _holds(there: Any, metadata: Any) -> bool:
-    """Whether metadata on disk are ours, with attributes that someone added."""
+    """Whether metadata on disk are ours, perhaps with attributes that somebody added."""
     if not isinstance(there, dict) or not isinstance(metadata, dict):
         return there == metadata
     return all(key in there and _holds(there[key], value) for key, value in metadata.items())
 
 
 def differences(before: Mapping[str, Any], now: Mapping[str, Any]) -> list[str]:
-    """What two tasks differ in, in words: ``rtol was 1e-09, is 1e-06``."""
+    """The differences between two tasks in words: ``rtol was 1e-09, is 1e-06``."""
     found = []
     for key in dict.fromkeys([*before, *now]):
         old, new = before.get(key), now.get(key)
@@ -300,7 +302,7 @@ def _short(value: Any) -> str:
 
 
 def _alone(marks: Path) -> int:
-    """Open the list of finished chunks for this process alone; the operating system lets go of it when that ends."""
+    """Lock the list of finished chunks for this process; the operating system releases it when the process ends."""
     path = marks.parents[2]
     with explained(path, "open"):
         marks.parent.mkdir(parents=True, exist_ok=True)
@@ -313,7 +315,9 @@ def _alone(marks: Path) -> int:
         else:
             import msvcrt
 
-            os.lseek(file, 1 << 30, os.SEEK_SET)  # far behind the end: what is locked cannot be read by others
+            os.lseek(
+                file, 1 << 30, os.SEEK_SET
+            )  # far beyond the end of the file, because others cannot read what is locked
             msvcrt.locking(file, msvcrt.LK_NBLCK, 1)  # type: ignore[attr-defined]
     except OSError as trouble:
         os.close(file)
@@ -327,7 +331,7 @@ def _alone(marks: Path) -> int:
 
 
 def _move_away(path: Path, where: Path) -> None:
-    """Move a store that nobody writes to; anything else that stands at its place, or in it, is left alone."""
+    """Move a store that nobody writes to; anything else at its place, or inside it, is left alone."""
     root = None if path.is_symlink() else parsed(path)
     attributes = root.get("attributes") if root is not None else None
     kept = attributes.get(KEY) if isinstance(attributes, dict) else None
@@ -351,7 +355,7 @@ def _move_away(path: Path, where: Path) -> None:
 
 
 def _put(file: Path, data: bytes) -> None:
-    """Write a file whole or not at all."""
+    """Write a file completely or not at all."""
     file.parent.mkdir(parents=True, exist_ok=True)
     beside = file.with_name(f".{file.name}.part")
     beside.write_bytes(data)

@@ -1,6 +1,6 @@
-"""Results read from a store: what a finished chunk holds is what was written, or a named error.
+"""Reads results from a store: a finished chunk contains exactly what was written, or there is a specific error.
 
-`zarr` takes a missing file for values that nobody wrote; here every file is held against its mark first.
+`zarr` treats a missing file as values that nobody wrote; here every file is first compared with its mark.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ from lagrangian.integrate.checksums import AGAIN, DONE, RESUME, StoreDocument, f
 from lagrangian.integrate.status import RunStatus
 
 LISTED = 3
-"""Damaged chunks that are listed."""
+"""The number of damaged chunks that are listed."""
 
 
 def library() -> Any:
-    """The module zarr; raises `MissingExtra` where it is not installed."""
+    """The module zarr; raises `MissingExtra` if it is not installed."""
     try:
         import zarr
     except ImportError:
@@ -40,7 +40,7 @@ def library() -> Any:
 
 @contextlib.contextmanager
 def explained(path: Path, verb: str, kept: Callable[[], str] | None = None) -> Iterator[None]:
-    """Turn what the operating system refuses into an `Error` that says what is safe."""
+    """Convert errors of the operating system to an `Error` that says which results are safe."""
     try:
         yield
     except OSError as trouble:
@@ -51,12 +51,13 @@ def explained(path: Path, verb: str, kept: Callable[[], str] | None = None) -> I
 
 
 def fill(dtype: str, name: str) -> float | int:
-    """What stands where a run has no result."""
+    """The value that stands for a missing result."""
     return np.nan if dtype.startswith("float") else int(RunStatus.NOT_RUN) if name == "status" else -1
 
 
 def opened(document: StoreDocument, mode: str) -> dict[str, Any]:
-    """The arrays of a store. Chunks are written even where they hold the fill value: a missing one is a lost one."""
+    """The arrays of a store. Chunks are written even if they contain only the fill value, so a missing chunk is
+    lost."""
     zarr = library()
     with explained(document.path, "open"), zarr.config.set({"array.write_empty_chunks": True}):
         group = zarr.open_group(document.path, mode=mode, use_consolidated=True)
@@ -73,7 +74,7 @@ def lost_chunks(document: StoreDocument, lost: Mapping[int, str]) -> str:
 
 
 def whole(array: Any, right: str) -> NDArray[Any] | None:
-    """All values of a coordinate, or None where they are not those with that checksum."""
+    """All values of a coordinate, or None if they do not have that checksum."""
     try:
         values = np.asarray(array[...])
     except ValueError:
@@ -83,7 +84,7 @@ def whole(array: Any, right: str) -> NDArray[Any] | None:
 
 @dataclass(frozen=True, eq=False)
 class StoredResult:
-    """One result in a store, read whole with ``[...]``: its fill value where a run is not done or is lost."""
+    """A result in a store; ``[...]`` reads all of it, with the fill value for runs that are not done or lost."""
 
     stored: Stored
     name: str
@@ -91,11 +92,11 @@ class StoredResult:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """The ensemble's shape and the result's own."""
+        """The ensemble's shape followed by that of the result."""
         return tuple(self.array.shape)
 
     def __getitem__(self, _: EllipsisType) -> NDArray[Any]:
-        """Read all values; raises `RunError` where one is not what was written, `Error` where it cannot be read."""
+        """Read all values; raises `RunError` if one is damaged, and `Error` if it cannot be read."""
         with explained(self.stored.document.path, "read"):
             return self._values()
 
@@ -111,7 +112,7 @@ class StoredResult:
             for index in np.flatnonzero(done).tolist():
                 box = (*document.portions.box(index), ...)
                 values[box] = self.array[box]
-        except ValueError:  # a checksum at a chunk's end is not that of what stands before it
+        except ValueError:  # the checksum at the end of a chunk does not match its content
             if lost := document.unfit(marks, [self.name], every_byte=True):
                 raise self.stored.error(lost) from None
             raise
@@ -122,11 +123,11 @@ class StoredResult:
 
 
 class Stored:
-    """What is in a store, as far as it was done when it was opened.
+    """The contents of a store, as far as it was finished when it was opened.
 
-    Opening it checks the metadata, the coordinates, and that every finished chunk is there with the checksum it was
-    written with; reading a result checks the chunks themselves. With ``lost`` every byte is checked, and damaged
-    chunks are left out. Raises `Error` where there is no store, `RunError` (E804) where it is damaged.
+    Opening it checks the metadata, the coordinates, and that every finished chunk exists with the checksum with which
+    it was written; reading a result checks the chunks themselves. With ``lost``, every byte is checked, and damaged
+    chunks are omitted. Raises `Error` if there is no store, and `RunError` (E804) if it is damaged.
     """
 
     def __init__(self, path: Path, *, lost: bool = False) -> None:
@@ -144,15 +145,15 @@ class Stored:
 
     @property
     def results(self) -> dict[str, StoredResult]:
-        """The results, read when they are asked for."""
+        """The results, which are read when they are accessed."""
         return {name: StoredResult(self, name, self.arrays[name]) for name in self.document.results}
 
     def said(self) -> str:
-        """In words, what is damaged."""
+        """A description of the damage."""
         return lost_chunks(self.document, self.lost)
 
     def error(self, lost: Mapping[int, str]) -> RunError:
-        """The error that names what is damaged."""
+        """The error that describes the damage."""
         return RunError(
             lost_chunks(self.document, lost),
             fix=Advice(

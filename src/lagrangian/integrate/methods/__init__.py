@@ -1,4 +1,4 @@
-"""Methods of integration, printed into machine code around a right-hand side."""
+"""Methods of integration, which are printed as machine code around a right-hand side."""
 
 from __future__ import annotations
 
@@ -13,6 +13,6 @@ from .taylor import TAYLOR
 from .tsit5 import TSIT5
 
 METHODS: Mapping[str, Method] = MappingProxyType({m.name: m for m in (RK4, TSIT5, DOP853, GAUSS4, TAYLOR)})
-"""Every method of integration that is printed into machine code, by name."""
+"""All methods of integration that are printed as machine code, by name."""
 
 __all__ = ["METHODS", "Method"]

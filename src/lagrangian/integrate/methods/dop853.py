@@ -1,7 +1,7 @@
-"""Dormand and Prince's method of order 8 with estimates of order 5 and 3, values inside a step of order 7.
+"""Dormand and Prince's method of order 8, with error estimates of orders 5 and 3 and dense output of order 7.
 
-The numbers are those of Hairer's program ``dop853.f``, described in Hairer, Nørsett, Wanner, Solving Ordinary
-Differential Equations I, 2nd ed., section II.5 (estimates: II.10, values inside a step: II.6).
+The coefficients are those of Hairer's program ``dop853.f``, described in Hairer, Nørsett, Wanner, Solving Ordinary
+Differential Equations I, 2nd ed., section II.5 (error estimates: II.10, dense output: II.6).
 """
 
 from lagrangian.codegen.ir import Value
@@ -69,7 +69,7 @@ FIFTH = (
 THIRD = (
     0.2440944881889764, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.7338466882816118, 0.0, 0.0, 0.022058823529411766,
 )  # fmt: skip
-"""Weights of an embedded method of order 3: B minus these weigh its error."""
+"""Weights of an embedded method of order 3: its error is weighted by B minus these."""
 
 MORE_C = (0.1, 0.2, 0.7777777777777778)
 MORE_A = (
@@ -112,10 +112,10 @@ DENSE = (
 
 
 class Dop853(Explicit):
-    """The method with its own measure of error."""
+    """The method, with its own measure of the error."""
 
     def error(self, s: MethodStep) -> Value:
-        """``h |e5|² / √((|e5|² + |e3|²/100) n)``: of order 8, and careful where the two estimates disagree.
+        """``h |e5|² / √((|e5|² + |e3|²/100) n)``: of order 8, and cautious if the two estimates disagree.
 
         The norms are those of the errors divided by the tolerance of each entry.
         """

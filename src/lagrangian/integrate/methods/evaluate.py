@@ -1,4 +1,4 @@
-"""A program's tapes inside an integrator: printed in place where they are short, called where they are long."""
+"""The tapes of a program inside an integrator: printed in place if they are short, called if they are long."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ INLINE = 3000  # operations that may be printed in place, all copies together
 
 
 class Tapes:
-    """A program, parameters hoisted, for the groups x, u, p and t, in whatever order it names them.
+    """A program with hoisted parameters, for the groups x, u, p and t in any order.
 
-    ``own``: every lane has its own parameters, so the shared block has a number a lane.
+    ``own``: every lane has its own parameters, so the shared block has one number per lane.
     """
 
     def __init__(self, p: Printer, program: Program, name: str, *, own: bool, copies: int) -> None:
@@ -42,7 +42,7 @@ class Tapes:
             emit(module, f"{name}_{lanes}", self.low.body, lanes, own_shared=own)
 
     def start(self, name: str, group: str) -> int:
-        """The slot of the first entry of a group among the inputs."""
+        """The slot of the first entry of an input group."""
         found = self.inputs
         for other, size in self.groups.items():
             if other == group:
@@ -51,7 +51,7 @@ class Tapes:
         return found
 
     def named(self, slot: int) -> tuple[str, int]:
-        """The group of an input slot, and its place there."""
+        """The group of an input slot, and the index in it."""
         for group, size in self.groups.items():
             if slot < size:
                 return group, slot
@@ -59,7 +59,7 @@ class Tapes:
         raise IndexError(slot)
 
     def prologue(self, slot: int) -> None:
-        """Print the computation of every lane's shared block from the parameters in ``slot`` and what follows."""
+        """Print the computation of every lane's shared block from the parameters in the slots from ``slot`` on."""
         p = self.p
         given = f"ptr {p.at(slot)}, ptr null, ptr {p.at(self.shared)}, ptr {p.at(self.scratch)}"
         p.f.do(f"call void @{self.name}_prologue_{p.lanes}({given})")
@@ -67,9 +67,9 @@ class Tapes:
     def evaluate(
         self, shared: str, values: Mapping[str, Vec], time: Value, out: int | None = None
     ) -> tuple[Value, ...] | None:
-        """Print the body at certain vectors and a time; return its outputs, or write them to the slots ``out``.
+        """Print the body for given vectors and a time; return its outputs, or write them to the slots ``out``.
 
-        ``shared``: the address of the shared block where it is common to all lanes.
+        ``shared``: the address of the shared block if it is common to all lanes.
         """
         p, f = self.p, self.p.f
         shared = p.at(self.shared) if self.own else shared

@@ -1,16 +1,17 @@
-"""Events: sign changes of g over a step, found on the values inside the step to the last bit of time.
+"""Events: sign changes of g over a step, located on the dense output to the last bit of time.
 
-An event is *armed* with the sign that g had; it has happened where g has the other sign, in a direction that counts.
-"Some armed event has happened by θ" is bisected, so that several events cost no more than one: what is found is the
+An event is *armed* with the last sign of g; it has happened when g has the other sign, in a direction that counts. The
+condition "some armed event has happened by θ" is bisected, so several events cost no more than one: the result is the
 place of a crossing, and every event that crossed there counts.
 
-The state of an event is the last one before it: a reset that turns the motion back leaves it on the side it came from,
-and of two events at one time the other is still to come. After its own reset an event whose g is zero but for rounding
-is armed by the change of g along ẋ. One that happens again before g was ever seen on the armed side accumulates.
+The state of an event is the last one before it: a reset that reverses the motion leaves it on the side from which it
+came, and if two events coincide, the other one is still to come. After its own reset, an event whose g is zero to
+within rounding is armed by the change of g along ẋ. If it happens again before g was ever seen on the armed side,
+events accumulate.
 
-Where some g is not a number the run ends at the last place where all are: the place is bisected like a crossing.
+If some g is NaN, the run ends at the last place where all are numbers: this place is bisected like a crossing.
 
-A step is looked through piece by piece (``pieces.py``), each so short that no function crosses zero twice in it.
+A step is searched piece by piece (``pieces.py``); each piece is so short that no function crosses zero twice in it.
 """
 
 from __future__ import annotations
@@ -37,25 +38,25 @@ if TYPE_CHECKING:
     from .projector import Projector
 
 ROUNDS = 128
-"""Times of events in one step after which the step is cut."""
+"""The number of distinct times of events in one step after which the step is cut."""
 
 SOON = 2.0**-46
-"""Part of t within which two resets count as one time."""
+"""Two resets whose times differ by less than this fraction of t count as simultaneous."""
 
 LOOKAHEAD = 2.0**-10
-"""Part of a step by which one looks ahead for the side that g turns to from 0."""
+"""The fraction of a step by which one looks ahead for the sign that g takes when it leaves 0."""
 
 START, ZERO, TURNED, FIRST = -1.0, 1.0, 2.0, 3.0
-"""Phases of an event: its run begins; g is 0 where a run goes on; its reset was done just now; g is 0 where its run
-begins."""
+"""The phases of an event: its run begins; g is 0 where a run continues; its reset has just been made; g is 0 where its
+run begins."""
 
 RESET, ENDS, ACCUMULATING, CROWDS, BLIND = 1, 2, 3, 4, 5
-"""Why a lane leaves a step: to go on from another state, because a terminal event happened, because changes of the
-state accumulate, because there are more events than a run may have, because some g is not a number."""
+"""Why a lane leaves a step: to continue from another state, because of a terminal event, because changes of the state
+accumulate, because a run has too many events, because some g is NaN."""
 
 
 def parts(events: Events) -> tuple[Program, Program | None]:
-    """The programs of g and, if anything resets, of the states after."""
+    """The programs for g and, if any event resets the state, for the states after events."""
     program = events.program
     made = [
         Program(name, program.graph, program.inputs, {name: program.outputs[name]}, program.defaults)
@@ -66,7 +67,7 @@ def parts(events: Events) -> tuple[Program, Program | None]:
 
 
 class EventDetector:
-    """Prints what looks for events; ``count`` of them."""
+    """Prints the code that detects ``count`` events."""
 
     def __init__(
         self, p: Printer, lanes: Lanes, method: Method, service: LaneScheduler, events: Events,
@@ -91,7 +92,7 @@ class EventDetector:
         )
 
     def prepare(self) -> None:
-        """Print, at the start of the function, what is read from the table."""
+        """Print the code that reads the table, at the start of the function."""
         p = self.p
         self.guard_shared = p.entry(at.TABLE.index("guard_shared"), "ptr")
         self.after_shared = p.entry(at.TABLE.index("after_shared"), "ptr")
@@ -105,19 +106,19 @@ class EventDetector:
         return self.service.compare("sgt", wanted, self.room)
 
     def prologues(self) -> None:
-        """Print what follows from every lane's parameters."""
+        """Print what depends only on the parameters of every lane."""
         for tapes in (self.guard, self.after, self.pieces.tapes):
             if tapes is not None and tapes.own:
                 tapes.prologue(self.lanes.p_in)
 
     def value(self, inputs: Callable[[Value], Vec], t: Value, x: Vec) -> tuple[Value, ...]:
-        """g of every event."""
+        """The value of g for every event."""
         found = self.guard.evaluate(self.guard_shared, {"x": x, "u": inputs(t)}, t)
         assert found is not None
         return found
 
     def arm(self, inputs: Callable[[Value], Vec], rate: Callable[..., Vec], new: str) -> str:
-        """Arm the events of lanes that begin; return where some g is not a number."""
+        """Arm the events of lanes that begin; return where some g is NaN."""
         p, f, lanes = self.p, self.f, self.lanes
         t = p.load(lanes.t)
         doubt = ""
@@ -148,9 +149,10 @@ class EventDetector:
         return self.dark(now)
 
     def _side(self, k: int, here: Value, then: Value, later: Value) -> Value:
-        """What arms an event in doubt: g here and a little further; ``later`` along the ẋ of there, for what rests.
+        """The sign that arms an undecided event, from g here and slightly later; ``later`` uses the ẋ of there, for g
+        at rest.
 
-        An event with a direction in which g moves through 0 where its run begins happens there.
+        An event whose g moves through 0 in its direction at the start of its run happens there.
         """
         p, f = self.p, self.f
         phase, old = p.load(self.phase, k), p.load(self.armed, k)
@@ -169,7 +171,7 @@ class EventDetector:
         return f.select(f.compare("oeq", phase, TURNED), reset, started)
 
     def forget(self, lane: str) -> None:
-        """Print what a lane that takes a new run starts from."""
+        """Print the initial values for a lane with a new run."""
         p = self.p
         for k in range(self.count):
             p.set(f"{START}", self.phase + k, lane)
@@ -178,7 +180,7 @@ class EventDetector:
         p.set("0", self.same, lane, "i64")
 
     def happened(self, k: int, g: Value) -> str:
-        """Where armed event k has happened by the time g is this."""
+        """Where armed event k has happened, given this value of g."""
         f = self.f
         armed, direction = self.p.load(self.armed, k), self.events.direction[k]
         fell = f.logic("and", f.compare("ogt", armed, 0.0), f.compare("ole", g, 0.0))
@@ -186,14 +188,14 @@ class EventDetector:
         return fell if direction < 0 else rose if direction > 0 else f.logic("or", fell, rose)
 
     def some(self, gs: Sequence[Value]) -> str:
-        """Where some armed event has happened, or some g is not a number."""
+        """Where some armed event has happened, or some g is NaN."""
         flag = self.dark(gs)
         for k, g in enumerate(gs):
             flag = self.f.logic("or", flag, self.happened(k, g))
         return flag
 
     def dark(self, gs: Sequence[Value]) -> str:
-        """Where some g is not a number."""
+        """Where some g is NaN."""
         flag = self.f.compare("uno", gs[0], gs[0])
         for g in gs[1:]:
             flag = self.f.logic("or", flag, self.f.compare("uno", g, g))
@@ -204,7 +206,7 @@ class EventDetector:
     def find(
         self, s: MethodStep, coefficients: list[Vec], inputs: Callable[[Value], Vec], good: str, new_t: Value
     ) -> None:
-        """Print the search through a step. Events are logged. Where ``self.cut`` is not 0 afterwards, a lane leaves the
+        """Print the search through a step, which logs events. Where ``self.cut`` is not 0 afterwards, a lane leaves the
         step at the time in ``lanes.end`` with the state in ``self.kept``.
         """
         p, f, lanes, pieces = self.p, self.f, self.lanes, self.pieces
@@ -226,6 +228,7 @@ class EventDetector:
             x, t = place(theta, self.there)
             return self.value(inputs, t, x)
 
+        # the search begins at θ = 0 (low) in every lane
         p.store(new_t, lanes.end)
         p.store(0.0, self.low)
         for slot in (self.cut, self.rounds):
@@ -235,10 +238,12 @@ class EventDetector:
             free = f.logic("and", good, p.whole_is(p.load_whole(self.cut), 0))
             busy = f.logic("and", free, f.compare("olt", p.load(self.low), 1.0))
             leave(f.put(f"xor i1 {p.any(busy)}, true"))
+            # choose the next piece [low, high] of each lane, short enough for at most one crossing
             settled, high = pieces.judged(s, inputs, p.load(self.low), busy)
             p.store(high, self.high)
             self._note(settled, self.settled)
             with p.when(p.any(settled)):
+                # compare the signs at its end; without a crossing, the search continues after the piece
                 gs = values_at(p.load(self.high))
                 settled = self._noted(self.settled)
                 crossed = f.logic("and", settled, self.some(gs))
@@ -252,7 +257,7 @@ class EventDetector:
                     pieces.refresh(busy)
 
     def _pass(self, gs: Sequence[Value], clear: str) -> None:
-        """Arm with what g is at the end of a piece without events, and go on behind it."""
+        """Arm events with the sign of g at the end of a piece without crossings, and continue after it."""
         p, f = self.p, self.f
         for k, g in enumerate(gs):
             armed = p.load(self.armed, k)
@@ -260,7 +265,7 @@ class EventDetector:
         p.store(f.select(clear, p.load(self.high), p.load(self.low)), self.low)
 
     def _locate(self, s: MethodStep, values_at: Callable[[Value], tuple[Value, ...]]) -> None:
-        """Halve the piece in which something happened, in busy lanes, until no time lies between its ends."""
+        """Bisect the piece with a crossing, in busy lanes, until there is no time between its ends."""
         p, f = self.p, self.f
         with p.forever() as found:
             busy = self._noted(self.busy)
@@ -281,8 +286,9 @@ class EventDetector:
         return self.f.opposite(self.p.whole_is(self.p.load_whole(slot), 0))
 
     def _handle(self, place: Callable[[Value, Vec], tuple[Vec, Value]], inputs: Callable[[Value], Vec]) -> None:
-        """At the places found, lane by lane: log, arm anew, reset, end."""
+        """At the crossings found, lane by lane: log the events, arm them again, reset the state, or end the run."""
         p, f = self.p, self.f
+        # just after the crossing: which events have happened, and the new signs of the others
         x, t = place(p.load(self.high), self.beyond)
         busy = self._noted(self.busy)
         gs = self.value(inputs, t, x)
@@ -293,6 +299,7 @@ class EventDetector:
             crossed = f.logic("and", f.logic("and", busy, f.opposite(fired)), f.compare("une", g, 0.0))
             p.store(f.select(crossed, g, armed), self.armed, k)  # it may have crossed the way that does not count
         p.store(t, self.past)
+        # just before the crossing: the state that is logged, and the states after resets
         x, t = place(p.load(self.low), self.there)
         p.store(t, self.when)
         if self.after is not None:
@@ -306,7 +313,7 @@ class EventDetector:
                 self._settle(lane)
 
     def _happen(self, k: int, lane: str) -> None:
-        """Event k in a lane."""
+        """Handle event k in a lane."""
         p, service = self.p, self.service
         if not self.events.reset[k]:
             self._write(k, lane, self.there.slot)
@@ -350,7 +357,7 @@ class EventDetector:
         p.set(service.add(p.get(events, lane, "i64"), 1), events, lane, "i64")
 
     def _settle(self, lane: str) -> None:
-        """After the events of one time in a lane: do they accumulate, is the step to be cut."""
+        """After the events at one time in a lane: decide whether they accumulate, and whether the step is cut."""
         p, f, service = self.p, self.f, self.service
         t = p.get(self.when, lane)
         with p.when(service.compare("eq", p.get(self.cut, lane, "i64"), str(RESET))):

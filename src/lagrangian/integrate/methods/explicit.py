@@ -2,7 +2,7 @@
 
     k_i = f(t + c_i h, x + h Σ_j a_ij k_j)     x_new = x + h Σ b_i k_i     error = h Σ e_i k_i
 
-Entries that are zero cost nothing. Stages are kept in registers while the vectors are short.
+Zero entries cost nothing. Stages are kept in registers if the vectors are short.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ Row = tuple[float, ...]
 
 @dataclass(frozen=True)
 class Tableau:
-    """A method's numbers: nodes c, matrix a (row i holds the i entries before the diagonal), weights b.
+    """The coefficients of a method: nodes c, matrix a (row i has the i entries before the diagonal), weights b.
 
-    ``errors``: weights of error estimates. ``more_c``, ``more_a``: stages that only the values inside a step need;
-    ``dense``: their coefficients F3, F4, … beyond Hermite's, as weights of all stages and, after the regular ones,
-    the derivative at the step's end (see :meth:`Method.interpolant`).
+    ``errors``: weights of the error estimates. ``more_c``, ``more_a``: stages that only the dense output needs;
+    ``dense``: its coefficients F3, F4, … beyond Hermite's, as weights of all stages and, after the regular ones, the
+    derivative at the end of the step (see :meth:`Method.interpolant`).
     """
 
     c: Row
@@ -37,7 +37,7 @@ class Tableau:
 
 
 class Explicit(Method):
-    """A method that is its table."""
+    """A method that is defined by its tableau."""
 
     def __init__(
         self,
@@ -61,7 +61,7 @@ class Explicit(Method):
 
     @property
     def dense_order(self) -> int:
-        """The order of the values between the ends of a step."""
+        """The order of the dense output."""
         return self._dense_order
 
     def trial(self, s: MethodStep) -> Value | None:
@@ -96,7 +96,7 @@ class Explicit(Method):
         return s.rate(s.t + s.h * c if c != 1.0 else s.t + s.h, at)
 
     def error(self, s: MethodStep) -> Value:
-        """The root mean square over the entries of the error divided by its tolerance."""
+        """The root mean square of the entries of the error, each divided by its tolerance."""
         f = s.p.f
         weights = self.table.errors[0]
         used = [(e, k) for e, k in zip(weights, s.stages, strict=False) if e]

@@ -3,9 +3,10 @@
     k_i = f(t + c_i h, x + h Σ_j a_ij k_j)     x_new = x + h (k_1 + k_2)/2
 
 Applied to Hamilton's equations it is a variational integrator (J. E. Marsden, M. West, Acta Numerica 10 (2001)
-357–514): it keeps quadratic invariants, and the energy stays near its first value for exponentially long times. The
-stages are iterated until rounding alone changes them, starting from the last step's polynomial, as what is left of an
-iteration would be a drift (Hairer, Lubich, Wanner, Geometric Numerical Integration, section VIII.6).
+357–514): it conserves quadratic invariants, and the energy stays close to its initial value for exponentially long
+times. The stages are iterated until only rounding changes them, because a remaining error of the iteration would cause
+a drift (Hairer, Lubich, Wanner, Geometric Numerical Integration, section VIII.6). The iteration starts from the
+polynomial of the last step.
 """
 
 from __future__ import annotations
@@ -22,14 +23,14 @@ C = (0.5 - ROOT / 6, 0.5 + ROOT / 6)
 A = ((0.25, 0.25 - ROOT / 6), (0.25 + ROOT / 6, 0.25))
 
 ROUNDS = 100
-"""Iterations after which the stages are given up."""
+"""The largest number of iterations of the stages."""
 
 STAGE_TOLERANCE = 1e-9
-"""Part of the state that the last change of a stage may be where iterations no longer come closer."""
+"""The largest accepted last change of a stage, relative to the state, when iterations no longer come closer."""
 
 
 class Gauss(Method):
-    """The method; the stages of the last step are kept in two vectors of its own."""
+    """The method; it stores the stages of the last step in two vectors of its own."""
 
     name = "gauss4"
     title = "Gauss, two stages, order 4, symplectic, fixed step"
@@ -42,11 +43,11 @@ class Gauss(Method):
 
     @property
     def cost(self) -> int:
-        """Some ten iterations."""
+        """The cost of about ten iterations."""
         return 20
 
     def trial(self, s: MethodStep) -> Value:
-        """Iterate the stages; 1 in lanes where they do not converge, else 0."""
+        """Iterate the stages; return 1 in lanes where they do not converge, else 0."""
         p, f = s.p, s.p.f
         first, second = s.memory
         last, rounds = s.slots
@@ -55,10 +56,12 @@ class Gauss(Method):
             slope = (b - a) * ROOT
             return a + slope, b + slope
 
+        # starting values of the stages: the last step's polynomial, continued
         p.map(ahead, first, second, into=(first, second))
         p.store(math.inf, last)
         p.store(0.0, rounds)
         with p.forever() as leave:
+            # lanes that have not converged; ``last`` is the size of the last change, negative once done
             before, count = p.load(last), p.load(rounds)
             active = f.logic("and", s.running, f.compare("oge", before, 0.0))
             leave(f.put(f"xor i1 {p.any(active)}, true"))
@@ -73,6 +76,7 @@ class Gauss(Method):
             def keep(new: Value, old: Value) -> Value:
                 return f.select(active, new, old)
 
+            # the new stages, and by how much they changed
             (size,) = p.fold(change, [0.0], first, found[0], second, found[1])
             for home, new in zip((first, second), found, strict=True):
                 p.map(keep, new, home, into=(home,))
@@ -93,13 +97,14 @@ class Gauss(Method):
                 total = f.fma(k, k, total)
             return (total,)
 
+        # converged if the last change is at the level of rounding of x and h k
         (scale,) = p.fold(measure, [0.0], s.x, first, second)
         left = -p.load(last) * s.h * s.h
         fine = f.compare("ole", left, scale * STAGE_TOLERANCE**2 + 1e-290)
         return f.select(fine, 0.0, 1.0)
 
     def interpolant(self, s: MethodStep) -> list[Vec]:
-        """Hermite's cubic."""
+        """The coefficients of Hermite's cubic."""
         s.k = s.rate(s.t, s.x, s.k)
         return super().interpolant(s)
 

@@ -1,12 +1,12 @@
-"""Taylor coefficients of a tape: every operation carries its series in time, coefficient by coefficient.
+"""Taylor coefficients of a tape: the time series of every operation is computed coefficient by coefficient.
 
 With normalized coefficients, a(t + τ) = Σ a_n τⁿ:
 
     (ab)_n = Σ a_j b_{n−j}          (a/b)_n = (a_n − Σ_{j≥1} b_j q_{n−j}) / b_0
-    y' = a' w:  y_n = (1/n) Σ_{j≥1} j a_j w_{n−j}       sin, cos, exp, log, … with w a series of their own
+    y' = a' w:  y_n = (1/n) Σ_{j≥1} j a_j w_{n−j}       sin, cos, exp, log, … with w another series
 
-What a sum waits for, the terms with a coefficient of the order itself, comes last in it. The inner terms, Σ over
-0 < j < n, need earlier coefficients alone: for one run they are packed, several sums to a vector (``sums.py``).
+The terms that contain a coefficient of order n itself come last in a sum. The inner terms, Σ over 0 < j < n, need only
+earlier coefficients: for a single run, several such sums are packed into a vector (``sums.py``).
 
 Source: Á. Jorba, M. Zou, Experimental Mathematics 14 (2005) 99–117; R. D. Neidinger, SIAM Review 52 (2010) 545–563.
 """
@@ -23,15 +23,15 @@ from lagrangian.codegen.tape import Tape
 from .sums import Maybe, Side, Sums
 
 KINKS = frozenset({"abs", "sign", "min", "max", "select", "lt", "le", "eq", "and", "or", "not"})
-"""Operations that have no series where they bend."""
+"""Operations that have no series at their kinks."""
 
 
 class Jets:
-    """The series of a tape's entries; ``leaf(i)`` is the list of coefficients of entry i, a constant or an input, and
-    whether there is none beyond.
+    """The series of the entries of a tape. ``leaf(i)`` returns the coefficients of entry i, a constant or an input, and
+    whether all further coefficients are 0.
 
-    ``order(n)`` adds the n-th coefficient of every other entry. The lists of inputs that are states are extended by the
-    caller as their derivatives become known.
+    ``order(n)`` adds the n-th coefficient of every other entry. The caller appends coefficients to the lists of states
+    as their derivatives become known.
     """
 
     def __init__(self, f: Function, tape: Tape, leaf: Callable[[int], tuple[list[Maybe], bool]]) -> None:
@@ -57,7 +57,7 @@ class Jets:
         return len(self.known) - 1
 
     def _new(self, rule: Callable[[int], Maybe], *sources: int) -> int:
-        """A series by a rule that gives its n-th coefficient, made from other series."""
+        """A series defined by a rule for its n-th coefficient from other series."""
         series: list[Maybe] = []
         self.known.append(series)
         self.still.append(all(self.still[k] for k in sources))
@@ -65,7 +65,7 @@ class Jets:
         return len(self.known) - 1
 
     def _inner(self, left: Side, right: Side, *sources: int) -> Callable[[int], Maybe]:
-        """n → ``Σ_{0<j<n} left_j right_{n−j}``; nothing where one of the series ``sources`` does not change."""
+        """n → ``Σ_{0<j<n} left_j right_{n−j}``; nothing if one of the series ``sources`` is constant."""
         if any(self.still[k] for k in sources):
             return lambda n: None
         pair = self.sums.add(left, right)
@@ -75,17 +75,17 @@ class Jets:
         return lambda j: self.get(i, j)
 
     def get(self, i: int, n: int) -> Maybe:
-        """Coefficient n of series i; beyond what a leaf knows it is 0."""
+        """Coefficient n of series i; 0 beyond the coefficients of a leaf."""
         series = self.known[i]
         return series[n] if n < len(series) else None
 
     def first(self, i: int) -> Value:
-        """The value now."""
+        """The current value."""
         found = self.get(i, 0)
         return Value(self.f, self.f.constant(0.0)) if found is None else found
 
     def order(self, n: int) -> None:
-        """Add coefficient n everywhere."""
+        """Add coefficient n of all series."""
         self.sums.begin(n)
         for rule in self.rules:
             rule(n)
@@ -175,7 +175,7 @@ class Jets:
         return self._new(rule, a, b)
 
     def flow(self, start: Callable[[], Value], a: int, w: Callable[[], int], sign: float = 1.0) -> int:
-        """The series of y with ``y' = ± a' w`` and the value now from ``start``; w may depend on y."""
+        """The series of y with ``y' = ± a' w`` and the current value from ``start``; w may depend on y."""
         inner = self._inner(lambda j: self.times_index(a, j), lambda j: self.get(w(), j), a)
 
         def rule(n: int) -> Maybe:
@@ -204,7 +204,7 @@ class Jets:
         return self._new(rule, a)
 
     def call(self, name: str, *arguments: int) -> Value:
-        """An elementary function of the values now."""
+        """An elementary function of the current values."""
         f = self.f
         symbol = function(f.module, name, f.lanes)
         passed = ", ".join(f"{f.real} {self.first(a).name}" for a in arguments)
@@ -235,8 +235,8 @@ class Jets:
         return s, c
 
     def power(self, a: int, b: int, constant: bool) -> int:
-        """The series a^b: ``y' = a' b y/a`` where b is constant, which serves negative a too; else
-        ``y' = (b log a)' y``.
+        """The series a^b: ``y' = a' b y/a`` if b is constant, which is also valid for negative a; otherwise ``y' = (b
+        log a)' y``.
         """
         if constant:
             w = [0]
@@ -281,7 +281,7 @@ class Jets:
         return self.flow(lambda: self.call(name, a), a, lambda: w, -1.0 if name == "acos" else 1.0)
 
     def _entry(self, op: tuple) -> int:
-        """The series of a tape's operation."""
+        """The series of an operation of the tape."""
         kind, at = op[0], [self.place[k] for k in op[1:]]
         match kind:
             case "add" | "sub":

@@ -1,4 +1,4 @@
-"""Lanes whose step is over: the next step, or the service, and why."""
+"""The end of a step in every lane: the next step, or the service, and for what reason."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .printer import Printer
 
 
 class Attended(Protocol):
-    """What this part asks of the loop around it; see `loop.Loop`."""
+    """What this part needs from the loop around it; see `loop.Loop`."""
 
     p: Printer
     f: Function
@@ -25,7 +25,7 @@ class Attended(Protocol):
 
 
 def attend(loop: Attended, running: str, arrived: str, broken: str, code: str) -> None:
-    """Go on with the next step, or to the service where a lane arrived at a stop point or cannot go on."""
+    """Continue with the next step, or with the service if a lane arrived at a stop point or cannot continue."""
     p, f, lanes, watch = loop.p, loop.f, loop.lanes, loop.watch
     tried = f.put(f"add {f.whole} {p.load_whole(lanes.steps)}, {p.load_whole(lanes.rejected)}")
     spent = f.put(f"icmp sge {f.whole} {tried}, {f.whole_broadcast(loop.max_steps)}")

@@ -1,6 +1,6 @@
-"""Lane by lane: what happens at stop points and at the ends of runs, and which run comes next.
+"""The service of single lanes: stop points, the ends of runs, and the next run.
 
-Stop points are the end of the run, the knots of the inputs and, for a fixed step, the requested times.
+Stop points are the end of the run, the knots of the inputs and, for fixed steps, the requested times.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ NEVER = "0x7FF0000000000000"  # +∞
 
 
 class Watching(Protocol):
-    """What looks for events, as far as single lanes are concerned."""
+    """What a lane needs from the detector of events."""
 
     def forget(self, lane: str) -> None:
-        """Print that a lane has seen nothing yet."""
+        """Print that a lane has not seen anything yet."""
         ...
 
     def prologues(self) -> None:
@@ -39,7 +39,7 @@ class Noting(Watching, Protocol):
 
 
 class LaneScheduler:
-    """Prints the part of the loop that looks after single lanes."""
+    """Prints the part of the loop that handles single lanes."""
 
     def __init__(self, p: Printer, lanes: Lanes, method: Method, *, size: int, inputs: int, signals: bool) -> None:
         self.p, self.f, self.lanes, self.method = p, p.f, lanes, method
@@ -47,7 +47,7 @@ class LaneScheduler:
         self.evaluations = method.evaluations  # of the derivative, in every step that is tried
 
     def prepare(self) -> None:
-        """Print, at the start of the function, what is read from the table once."""
+        """Print the code that reads the table, at the start of the function."""
         self._read: dict[str, str] = {}
         pointers = ("times", "states", "final", "status", "reached", "steps", "rejected", "evaluations",
                     "x0", "u", "p", "knots", "knot_start", "knot_slope", "event_count")  # fmt: skip
@@ -87,23 +87,23 @@ class LaneScheduler:
         return self.f.put(f"add i64 {a}, {b}")
 
     def copy_in(self, row: str, slot: int, count: int, lane: str) -> None:
-        """A row of numbers → one lane of ``count`` slots."""
+        """Copy a row of numbers to one lane of ``count`` slots."""
         with self.p.repeat(count) as i:
             self.p.set(self.element(row, i), slot, self.moved(lane, i))
 
     def copy_out(self, slot: int, row: str, count: int, lane: str) -> None:
-        """One lane of ``count`` slots → a row of numbers."""
+        """Copy one lane of ``count`` slots to a row of numbers."""
         with self.p.repeat(count) as i:
             self.put(self.p.get(slot, self.moved(lane, i)), row, i)
 
     def moved(self, lane: str, i: str) -> str:
-        """The lane of slot i further: slots lie ``lanes`` numbers apart."""
+        """The index of the same lane, i slots further: slots are ``lanes`` numbers apart."""
         return self.add(lane, self.f.put(f"mul i64 {i}, {self.p.lanes}"))
 
     # Samples -----------------------------------------------------------------------------------------------------
 
     def write_samples(self) -> None:
-        """Write ``lanes.sampled`` of lanes whose next requested time lies before ``lanes.end``; go on to the time
+        """Write ``lanes.sampled`` for lanes whose next requested time is before ``lanes.end``; advance to the time
         after.
         """
         p, f, lanes = self.p, self.f, self.lanes
@@ -115,7 +115,7 @@ class LaneScheduler:
                 self.write_sample(lane, lanes.sampled.slot)
 
     def write_sample(self, lane: str, slot: int) -> None:
-        """Write a state as a lane's next sample; go on to the requested time after."""
+        """Write a state as the next sample of a lane; advance to the requested time after it."""
         p, f, lanes = self.p, self.f, self.lanes
         sample = p.get(lanes.sample, lane, "i64")
         row = self.row(self["states"], self["states_row"], p.get(lanes.run, lane, "i64"))
@@ -133,11 +133,12 @@ class LaneScheduler:
     # The service itself ------------------------------------------------------------------------------------------
 
     def print(self, tapes: Tapes, watch: Watching | None, project: Noting | None) -> None:
-        """Print the service: at its end the function returns, or goes on to ``begin`` or ``head``."""
+        """Print the service; at its end the function returns, or continues with ``begin`` or ``head``."""
         p, f, lanes = self.p, self.f, self.lanes
         f.label("service")
         quit_now = self.compare("ne", p.word(at.QUIT), "0")
         with p.repeat(p.lanes) as lane:
+            # each lane: time is up, stop point, event, end of the run; an empty lane takes the next run
             late = self.compare("eq", p.get(lanes.state, lane, "i64"), str(at.RUNNING))
             with p.when(f.put(f"and i1 {late}, {quit_now}")):
                 self._end(lane, RunStatus.LATE)
@@ -157,6 +158,7 @@ class LaneScheduler:
                 for other in (watch, project):
                     if other is not None:
                         other.forget(lane)
+        # results that depend only on the parameters, for lanes with a new run
         if tapes.own:
             state = p.load_whole(lanes.state)
             with p.when(p.any(p.whole_is(state, at.NEW))):
@@ -165,6 +167,7 @@ class LaneScheduler:
                     if other is not None:
                         other.prologues()
         state = p.load_whole(lanes.state)
+        # return if all lanes are empty; lanes that begin, or begin anew, go to ``begin``
         fresh = f.logic("or", p.whole_is(state, at.NEW), p.whole_is(state, at.RESTARTED))
         f.do(f"br i1 {p.any(f.opposite(p.whole_is(state, at.EMPTY)))}, label %some, label %none")
         f.label("none")
@@ -177,7 +180,7 @@ class LaneScheduler:
         self.p.set(str(code), self.lanes.code, lane, "i64")
 
     def _stop(self, lane: str, state: int) -> None:
-        """A lane has arrived at its stop point: sample, knot, end of the run, next stop point."""
+        """Handle a lane at its stop point: a sample, a knot or the end of the run; then find the next stop point."""
         p, f, lanes = self.p, self.f, self.lanes
         p.set(str(state), lanes.state, lane, "i64")
         t = p.get(lanes.t, lane)
@@ -195,7 +198,7 @@ class LaneScheduler:
         return self.element(self["times"], self.add(self["samples"], -1))
 
     def next_stop(self, lane: str) -> None:
-        """Find a lane's next stop point; enter the piece of the inputs that begins here."""
+        """Find the next stop point of a lane, and load the piece of the inputs that begins here."""
         p, f, lanes = self.p, self.f, self.lanes
         p.set(self._last_time() if self.method.adaptive else p.get(lanes.next, lane), lanes.stop, lane)
         if self.signals:
@@ -220,7 +223,7 @@ class LaneScheduler:
             self._equal_steps(lane)
 
     def _equal_steps(self, lane: str) -> None:
-        """The way to the stop point in equal steps, no longer than asked for."""
+        """Divide the interval up to the stop point into equal steps, not longer than requested."""
         p, f, lanes = self.p, self.f, self.lanes
         way = f.put(f"fsub double {p.get(lanes.stop, lane)}, {p.get(lanes.t, lane)}")
         ratio = f.put(f"fdiv double {way}, {self['step']}")
@@ -231,7 +234,7 @@ class LaneScheduler:
         p.set(f.put(f"fdiv double {way}, {count}"), lanes.h, lane)
 
     def _finish(self, lane: str, project: Noting | None) -> None:
-        """Write what is known of a lane's run; the lane is empty then."""
+        """Write the results of a lane's run, and make the lane empty."""
         p, f, lanes = self.p, self.f, self.lanes
         assert lanes.x.slot is not None
         run = p.get(lanes.run, lane, "i64")
@@ -254,7 +257,7 @@ class LaneScheduler:
         p.set(str(at.EMPTY), lanes.state, lane, "i64")
 
     def _take(self, lane: str) -> None:
-        """Put the next run into a lane."""
+        """Start the next run in a lane."""
         p, lanes = self.p, self.lanes
         assert lanes.x.slot is not None and lanes.lost.slot is not None
         run = p.word(at.CURSOR)

@@ -1,4 +1,4 @@
-"""Lanes that begin: the derivative there, the first step length, the events armed."""
+"""Lanes that begin: the derivative, the first step size, and arming of the events."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .projector import Projector
 
 
 class Around(Protocol):
-    """What this part asks of the loop around it; see `loop.Loop`."""
+    """What this part needs from the loop around it; see `loop.Loop`."""
 
     p: Printer
     f: Function
@@ -45,13 +45,14 @@ class Around(Protocol):
 
 
 class LaneStart:
-    """Prints the part of the loop that follows the service."""
+    """Prints the part of the loop after the service."""
 
     def __init__(self, loop: Around) -> None:
         self.loop, self.p, self.f, self.lanes, self.method = loop, loop.p, loop.f, loop.lanes, loop.method
 
     def print(self) -> None:
-        """The derivative of lanes that begin or whose right-hand side changed; the first step length of the former."""
+        """Print the derivative for lanes that begin or whose right-hand side changed, and the first step size of the
+        former."""
         p, f, lanes, method = self.p, self.f, self.lanes, self.method
         f.label("begin")
         state = p.load_whole(lanes.state)
@@ -61,6 +62,7 @@ class LaneStart:
         if self.loop.project is not None:
             t = p.load(lanes.t)
             self.loop.project.begin(new, t, self.loop.inputs_at(t))
+        # the derivative at the start, and a first step length for new runs
         if method.follows:
             t = p.load(lanes.t)
             k = self.loop.rate(t, lanes.x, self.loop.new_k)
@@ -81,6 +83,7 @@ class LaneStart:
             self.loop.spend(fresh, 1)
             for block in self.loop.own_blocks:
                 p.map(lambda a, b: f.select(fresh, a, b), k, block, into=(block,))
+        # runs whose derivative or event functions are not finite end at once
         broken, code = f.compare("une", trouble, 0.0), f.integer(RunStatus.NOT_FINITE)
         if self.loop.watch is not None:
             code = p.whole_select(broken, code, f.integer(RunStatus.BLIND))
@@ -95,7 +98,7 @@ class LaneStart:
         f.do("br label %service")
 
     def _first_step(self, t: Value, k: Vec) -> Value:
-        """A first step length from the sizes of x, ẋ and ẍ (Hairer, Nørsett, Wanner I, section II.4)."""
+        """A first step size from the sizes of x, ẋ and ẍ (Hairer, Nørsett, Wanner I, section II.4)."""
         p, f, method = self.p, self.f, self.method
         assert method.error_order is not None
         lanes = self.lanes
@@ -105,6 +108,7 @@ class LaneStart:
             x, k = x / scale, k / scale
             return f.fma(x, x, a), f.fma(k, k, b)
 
+        # h so that an explicit Euler step changes x by 1 % of its size
         d0, d1 = p.fold(sizes, [0.0, 0.0], lanes.x, k, self.loop.atol)
         d0, d1 = (f.intrinsic("sqrt", d * (1.0 / p.size)) for d in (d0, d1))
         small = f.logic("or", f.compare("olt", d0, 1e-5), f.compare("olt", d1, 1e-5))
@@ -112,6 +116,7 @@ class LaneStart:
         (ahead,) = p.map(lambda x, k: f.fma(h, k, x), lanes.x, k, into=self.loop.inlet)
         k2 = self.loop.rate(t + h, ahead)
 
+        # ẍ from the derivative after that step, and h for the order of the method
         def bend(a: Value, x: Value, k: Value, k2: Value, atol: Value) -> tuple[Value]:
             d = (k2 - k) / f.fma(f.intrinsic("fabs", x), self.loop.rtol, atol)
             return (f.fma(d, d, a),)

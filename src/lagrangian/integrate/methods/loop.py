@@ -1,11 +1,11 @@
-"""The loop around a method: every lane has its own run, time and step; lanes that are done take the next run.
+"""The loop around a method: every lane has its own run, time and step; a lane that is done takes the next run.
 
-    head     step length, trial step, error, new state where the step is good
-    inspect  requested times and events inside the step, where there are any
+    head     step size, trial step, error, new state if the step is good
+    inspect  requested times and events inside the step, if there are any
     service  lane by lane: stop points, ends of runs, next runs
-    begin    derivative and first step length of lanes that begin
+    begin    derivative and first step size of lanes that begin
 
-All that lasts from step to step is in the work space, so that the loop can be left and entered again (service).
+Everything that lasts from step to step is in the work space, so the loop can be left and entered again (at service).
 """
 
 from __future__ import annotations
@@ -37,12 +37,12 @@ if TYPE_CHECKING:
 SAFETY = 0.85
 
 RESOLVED = 2.0**-51
-"""Part of t that a step is at least, so that time passes."""
+"""The smallest step as a fraction of t, so that time advances."""
 
 
 @dataclass(frozen=True)
 class IntegratorVariant:
-    """What, beside program and method, decides the machine code of an integrator."""
+    """The options that, besides program and method, determine the machine code of an integrator."""
 
     lanes: int
     own: bool  # every run has its own parameters
@@ -51,7 +51,8 @@ class IntegratorVariant:
 
 
 class Loop:
-    """Prints the function ``run(ptr table, ptr work, i64 budget)`` and ``facts(ptr)``, what Python must know."""
+    """Prints the function ``run(ptr table, ptr work, i64 budget)``, and ``facts(ptr)`` with the sizes that Python
+    needs."""
 
     def __init__(
         self,
@@ -117,7 +118,7 @@ class Loop:
     # The right-hand side -----------------------------------------------------------------------------------------
 
     def inputs_at(self, t: Value) -> Vec:
-        """The inputs u at time t, in every lane."""
+        """The inputs u at time t in every lane."""
         p, lanes = self.p, self.lanes
         if not self.signals or not self.inputs:
             return Vec(slot=lanes.u)
@@ -127,7 +128,8 @@ class Loop:
     def rate(self, t: Value, x: Vec, into: Vec | None = None) -> Vec:
         """The derivative at time t and state x; a long vector is written to ``into``, or to new slots."""
         p, f = self.p, self.p.f
-        if self.signals:  # what switches at a stop point has not switched in a step that ends there
+        # conditions that switch at a stop point must not switch in the step that ends there: stay just before it
+        if self.signals:
             stop = p.load(self.lanes.stop)
             last, first = stop - f.intrinsic("fabs", stop) * at.MARGIN, p.load(self.lanes.knot_time)
             last = f.select(f.compare("olt", last, first), first, last)
@@ -144,6 +146,7 @@ class Loop:
     def _head(self) -> None:
         p, f, lanes = self.p, self.f, self.lanes
         f.label("head")
+        # return to Python when the budget of steps is used up, or when the log of events might overflow
         budget = f.put(f"sub i64 {p.word(at.BUDGET)}, 1")
         p.set_word(budget, at.BUDGET)
         f.do(f"br i1 {f.put(f'icmp slt i64 {budget}, 0')}, label %pause, label %go")
@@ -173,14 +176,15 @@ class Loop:
         )  # fmt: skip
 
     def spend(self, flag: str, count: int) -> None:
-        """Count evaluations beyond those of every step."""
+        """Count evaluations in addition to those of every step."""
         f, extra = self.f, self.lanes.extra
         spent = f.whole_op("mul", f.put(f"zext {f.flag} {flag} to {f.whole}"), count)
         self.p.store_whole(f.put(f"add {f.whole} {self.p.load_whole(extra)}, {spent}"), extra)
 
     def _fixed(self, t: Value, stop: Value, running: str) -> None:
-        """Steps of equal length up to a stop point; ``left`` counts them down."""
+        """A step of equal length up to a stop point; ``left`` counts the remaining steps."""
         p, f, lanes = self.p, self.f, self.lanes
+        # the end of the step is counted back from the stop point, so that rounding does not add up
         h, left = p.load(lanes.h), p.load(lanes.left) - 1.0
         new_t = f.fma(-left, h, stop)
         s = self._step(t, h, running)
@@ -204,8 +208,9 @@ class Loop:
         attend(self, running, arrived, broken, code)
 
     def _adaptive(self, t: Value, stop: Value, running: str) -> None:
-        """A step as long as the last one's error allows, the stop point never crossed."""
+        """A step as long as the last error allows, which never crosses the stop point."""
         p, f, lanes, method = self.p, self.f, self.lanes, self.method
+        # step length: at least what time can resolve, not beyond the stop point, and no tiny last step
         wanted, rest = p.load(lanes.h), stop - t
         least = f.intrinsic("fabs", t) * RESOLVED
         wanted = f.select(f.compare("olt", wanted, least), least, wanted)
@@ -222,6 +227,7 @@ class Loop:
             good = f.logic("and", running, f.compare("ole", error, 1.0))
             self.project.note(new_t, good)
         self._inspect(s, good, new_t)
+        # next step length; a rejected step that can hardly become shorter ends the run
         next_h, finite = self._next_step(h, wanted, error, good)
         bad = f.logic("and", running, f.opposite(good))
         stuck = f.logic("and", bad, f.compare("ole", t + next_h * 0.125, t))
@@ -232,8 +238,9 @@ class Loop:
         attend(self, running, f.logic("and", good, last), stuck, code)
 
     def _expanding(self, t: Value, stop: Value, running: str) -> None:
-        """A step whose length follows from the expansion of the motion about its start."""
+        """A step whose length is determined by the expansion of the motion at its start."""
         p, f, lanes = self.p, self.f, self.lanes
+        # coefficients for time in units of the last step, which give the longest step for the tolerance
         unit, rest = p.load(lanes.h), stop - t
         s = self._step(t, unit, running)
         wanted = self.method.expand(s, lambda states: self._jets(states, t, unit))
@@ -266,7 +273,7 @@ class Loop:
         attend(self, running, arrived, broken, code)
 
     def _settle(self, s: MethodStep, good: str, new_t: Value, error: Value) -> Value:
-        """The end of a step projected, and the derivative there; return what its error is then."""
+        """Project the end of a step, and compute the derivative there; return the error that results."""
         assert self.project is not None
         error = self.project.settle(s, good, self.inputs_at(new_t), new_t, error)
         if self.method.follows and self.project.corrects:
@@ -275,12 +282,12 @@ class Loop:
         return error
 
     def _jets(self, states: list[list[Value]], t: Value, unit: Value) -> Jets:
-        """The series of the right-hand side, the states' coefficients as far as they are known."""
+        """The series of the right-hand side, with the coefficients of the states that are known so far."""
         tapes = self.tapes
         return Jets(self.f, tapes.low.body, lambda i: self._leaf(tapes.low.body.ops[i], states, t, unit))
 
     def _leaf(self, op: tuple, states: list[list[Value]], t: Value, unit: Value) -> tuple[list, bool]:
-        """The coefficients of a constant or an input, for time in units of ``unit``; whether it does not change."""
+        """The coefficients of a constant or an input, for time in units of ``unit``, and whether it is constant."""
         f, p = self.f, self.p
         if op[0] == "const":
             return [Value(f, f.constant(op[1]))], True
@@ -296,9 +303,10 @@ class Loop:
         return ([now, p.load(self.lanes.slope, slot) * unit], False) if self.signals else ([now], True)
 
     def _next_step(self, h: Value, wanted: Value, error: Value, good: str) -> tuple[Value, str]:
-        """The next step's length; and where the error was a number at all."""
+        """The next step size, and where the error is a finite number."""
         p, f, lanes, method = self.p, self.f, self.lanes, self.method
         assert method.error_order is not None
+        # PI control: h (tolerance/error)^(1/order), damped by the previous error, within the method's limits
         low, high = method.limits
         factor = rough_power(f, error, -1.0 / method.error_order) * SAFETY
         if method.memory:
@@ -321,7 +329,7 @@ class Loop:
         return self.f.integer(x)
 
     def _inspect(self, s: MethodStep, good: str, new_t: Value) -> None:
-        """Requested times and events inside the step."""
+        """Handle requested times and events inside the step."""
         p, f, lanes, watch = self.p, self.f, self.lanes, self.watch
         if watch is None and not self.method.adaptive:
             return
@@ -331,6 +339,7 @@ class Loop:
         else:
             p.store_whole(self._constant(0), watch.cut)
         with p.when(p.any(wants)):
+            # the polynomial inside the step is computed only if some lane needs it
             coefficients = self.method.interpolant(s)
             self.spend(wants, self.method.dense_evaluations)
             p.store(new_t, lanes.end)
@@ -342,9 +351,10 @@ class Loop:
             self._samples(s, good, coefficients)
 
     def _commit(self, s: MethodStep, good: str, new_t: Value) -> None:
-        """The new state where the step is good."""
+        """Store the new state if the step is good."""
         p, f, lanes, watch = self.p, self.f, self.lanes, self.watch
         if watch is not None:
+            # a lane that an event stopped inside the step continues from the event's time and state
             stays = p.whole_is(p.load_whole(watch.cut), 0)
             new_t = f.select(stays, new_t, p.load(lanes.end))
             (s.new_x,) = p.map(lambda new, kept: f.select(stays, new, kept), s.new_x, watch.kept, into=(self.new_x,))
@@ -368,7 +378,7 @@ class Loop:
     # Requested times ---------------------------------------------------------------------------------------------
 
     def _samples(self, s: MethodStep, good: str, coefficients: list[Vec]) -> None:
-        """Write the states at the requested times in the step, up to ``lanes.end``."""
+        """Write the states at the requested times inside the step, up to ``lanes.end``."""
         p, f, lanes, method = self.p, self.f, self.lanes, self.method
         p.store_whole(f.put(f"zext {f.flag} {good} to {f.whole}"), lanes.good)
         with p.forever() as leave:

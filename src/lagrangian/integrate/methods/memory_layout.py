@@ -1,4 +1,4 @@
-"""Where things are: the table that Python fills, the head of the work space, and the slots of the lanes."""
+"""The layout of memory: the table that Python fills, the head of the work space, and the slots of the lanes."""
 
 from __future__ import annotations
 
@@ -15,20 +15,21 @@ TABLE = (
 """Entries of the table: addresses, strides in bytes, counts, and ``rtol``, ``step``, ``max_step`` as doubles."""
 
 CURSOR, LAST, LOGGED, BUDGET, QUIT, LOG, ROOM = range(7)
-"""Words of the work space's head: next run, end of the range, events logged, steps left, whether to give up,
-address of the log and how many events it has room for."""
+"""Words of the work space's head: next run, end of the range, number of logged events, steps left, whether to stop,
+address of the log and its capacity."""
 
 EMPTY, NEW, RESTARTED, RUNNING, ENDED, STOPPED, AT_EVENT = range(7)
-"""What a lane does: nothing; begins; goes on after the right-hand side changed; runs; is over; reached a stop point;
-left a step at an event."""
+"""The state of a lane: it has no run; it begins; it continues after a change of the right-hand side; it runs; its run
+is over; it reached a stop point; it left a step at an event."""
 
 DONE, PAUSED, FULL = 0, 1, 2
-"""Why the machine code came back: all runs of the range are over, the budget is spent, the log of events is full."""
+"""Why the machine code returned: all runs of the range are finished, the budget is used up, the log of events is
+full."""
 
 
 @dataclass
 class Lanes:
-    """The slots of a problem's lanes; ``x`` … ``k`` are vectors, the others one slot each."""
+    """The slots of a problem's lanes; ``x`` … ``k`` are vectors, the others have one slot each."""
 
     p: Printer
     inputs: int
@@ -50,13 +51,14 @@ class Lanes:
 
     @property
     def places(self) -> tuple[int, ...]:
-        """The slots that Python looks at between two calls, in the order of `PLACES`."""
+        """The slots that Python examines between two calls, in the order of `PLACES`."""
         assert self.x.slot is not None
         return (self.state, self.code, self.run, self.t, self.steps, self.rejected, self.x.slot)
 
 
 PLACES = ("state", "code", "run", "t", "steps", "rejected", "x")
-"""What `Lanes.places` are."""
+"""The names of `Lanes.places`."""
 
 MARGIN = 2.0**-50
-"""Part of it by which one looks before a stop point in a step that ends there: what switches there has not yet."""
+"""In a step that ends at a stop point, conditions are evaluated by this fraction of t earlier, so that they have not
+switched."""

@@ -1,4 +1,4 @@
-"""What a method of integration is, and what it is given to print one step."""
+"""The base class of integration methods, and the data from which one prints a step."""
 
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ Rate = Callable[..., Vec]  # (t, x, into) → f(t, x)
 class MethodStep:
     """One step in every lane: from ``x`` at ``t``, where the derivative is ``k``, over ``h``.
 
-    ``lost`` is what the sums so far have lost to rounding (Kahan); ``atol`` holds one number an entry, ``rtol`` is one.
+    ``lost`` is what the sums so far have lost to rounding (Kahan); ``atol`` has one number per entry, ``rtol`` is a
+    single number.
     """
 
     p: Printer
@@ -50,7 +51,7 @@ class MethodStep:
     stages: list[Vec] = field(default_factory=list)  # derivatives computed in the step, the first being k
 
     def advance(self, increment: Callable[..., Value], *given: Vec) -> None:
-        """Set ``new_x`` to x plus an increment, the rounding of the sum kept in ``new_lost``."""
+        """Set ``new_x`` to x plus an increment; the rounding error of the sum is stored in ``new_lost``."""
 
         def add(x: Value, lost: Value, *rest: Value) -> tuple[Value, Value]:
             d = increment(*rest) + lost
@@ -67,11 +68,11 @@ class MethodStep:
 
 
 class Method(ABC):
-    """A one-step method: prints a trial step and the polynomial between the ends of a step.
+    """A one-step method: it prints a trial step and the polynomial inside a step.
 
-    ``order``: of the results; ``error_order``: the error estimate is of the order h^error_order, which the step size
-    is chosen by; None for a fixed step. ``evaluations``: of the derivative in a step. ``follows``: the last derivative
-    is that at the step's end and the first of the next step.
+    ``order``: that of the results; ``error_order``: the error estimate, which determines the step size, is proportional
+    to h^error_order; None for fixed steps. ``evaluations``: the number of evaluations of the derivative per step.
+    ``follows``: the last derivative is that at the end of the step, and the first of the next step.
     """
 
     name: str
@@ -91,17 +92,17 @@ class Method(ABC):
 
     @property
     def adaptive(self) -> bool:
-        """Whether the method chooses its steps."""
+        """Whether the method chooses its step size."""
         return self.error_order is not None
 
     @property
     def cost(self) -> int:
-        """What a step costs, in evaluations of the derivative, roughly."""
+        """The approximate cost of a step in evaluations of the derivative."""
         return self.evaluations
 
     @property
     def dense_order(self) -> int:
-        """The order of the values between the ends of a step."""
+        """The order of the dense output."""
         return 3
 
     def expand(self, s: MethodStep, jets: Callable[[list[list[Value]]], Jets]) -> Value:
@@ -109,27 +110,26 @@ class Method(ABC):
         raise TypeError(f"{self.name} does not expand")
 
     def suited(self, tolerance: float) -> Method:
-        """The method for a relative tolerance, where that decides more than the length of steps."""
+        """The method for a relative tolerance, if the tolerance determines more than the step size."""
         return self
 
     @abstractmethod
     def trial(self, s: MethodStep) -> Value | None:
-        """Print a step; return the size of its error, 1 being the tolerance.
+        """Print a step; return the size of its error, where 1 is the tolerance.
 
-        For fixed steps: nothing, or a number that is not 0 where stages do not converge.
-
-        Sets ``s.new_x``, ``s.new_lost`` and, if the method ``follows``, ``s.new_k``.
+        For fixed steps, return nothing, or a number that is not 0 where stages do not converge. It sets ``s.new_x``,
+        ``s.new_lost`` and, if the method ``follows``, ``s.new_k``.
         """
 
     def landed(self, s: MethodStep, k: Vec) -> None:
-        """Take in the derivative at the step's end, which a projection moved."""
+        """Store the derivative at the end of a step that a projection moved."""
         s.new_k = k
 
     def interpolant(self, s: MethodStep) -> list[Vec]:
         """Print what the polynomial inside the step needs, after a trial; return its coefficients.
 
-        The value at t + θ h is ``x + θ (F0 + (1 − θ)(F1 + θ (F2 + (1 − θ)(F3 + …))))``. The first three are Hermite's
-        cubic: Δx, h k − Δx, 2 Δx − h (k + k_new).
+        The value at t + θ h is ``x + θ (F0 + (1 − θ)(F1 + θ (F2 + (1 − θ)(F3 + …))))``. The first three are those of
+        Hermite's cubic: Δx, h k − Δx, 2 Δx − h (k + k_new).
         """
         if not self.follows:
             s.new_k = s.rate(s.t + s.h, s.new_x, s.new_k)
@@ -180,7 +180,8 @@ def _in_powers(given: Sequence[Value]) -> list[list[tuple[float, Value]]]:
 
 
 def rough_power(f: Function, x: Value, exponent: float) -> Value:
-    """``x^exponent`` for x ≥ 0 to about four digits: enough for a step length, and the same in every lane width."""
+    """``x^exponent`` for x ≥ 0 to about four digits: sufficient for a step size, and the same for every number of
+    lanes."""
     bits = f.bits(x)
     whole = f.whole_op("lshr", bits, 52)
     mantissa = f.number(f.whole_op("or", f.whole_op("and", bits, 0xFFFFFFFFFFFFF), 0x3FF0000000000000))

@@ -1,9 +1,9 @@
-"""A step piece by piece: each so short that no function of an event can cross zero twice in it.
+"""Divides a step into pieces, each so short that no event function can cross zero twice in it.
 
-A piece is settled where, for every function g, bounds of g along the polynomial inside the step (`graph.bounds`) leave
-no zero in it, or bounds of g′ no turning point; else its first half comes first. Behind a piece that was proved the
-next one is twice as long. Pieces are no shorter than `MIN_PIECE`; where `MAX_FINE_PIECES` of them, counted from the
-last event, did not get through, no shorter than `COARSE`. All lengths are parts of the step.
+A piece is settled if, for every function g, bounds of g along the dense output (`graph.bounds`) exclude a zero in it,
+or bounds of g′ exclude a turning point; otherwise its first half is examined next. After a piece that was proved, the
+next one is twice as long. Pieces are not shorter than `MIN_PIECE`; after `MAX_FINE_PIECES` of them since the last
+event, they are not shorter than `COARSE`. All lengths are fractions of the step.
 """
 
 from __future__ import annotations
@@ -25,17 +25,17 @@ if TYPE_CHECKING:
     from .lane_scheduler import LaneScheduler
 
 MIN_PIECE = 2.0**-24
-"""The shortest piece: two crossings in one are not seen."""
+"""The shortest piece: two crossings inside one are not noticed."""
 
 COARSE = 2.0**-8
 """The shortest piece once there have been too many."""
 
 MAX_FINE_PIECES = 512
-"""Pieces after the last event from which on none is shorter than `COARSE`."""
+"""The number of pieces since the last event after which none is shorter than `COARSE`."""
 
 
 class Pieces:
-    """Prints how the pieces of a step follow each other."""
+    """Prints the division of a step into pieces."""
 
     def __init__(
         self, p: Printer, lanes: Lanes, method: Method, service: LaneScheduler, guard: Program, *, own: bool
@@ -47,11 +47,11 @@ class Pieces:
         self.terms: list[int] = []
 
     def prepare(self) -> None:
-        """Print, at the start of the function, what is read from the table."""
+        """Print the code that reads the table, at the start of the function."""
         self.shared = self.p.entry(at.TABLE.index("bounds_shared"), "ptr")
 
     def begin(self, s: MethodStep, coefficients: list[Vec]) -> None:
-        """Print what a step starts with: the polynomials of the states that are read, and one piece."""
+        """Print the initial values for a step: the polynomials of the states that are needed, and one piece."""
         p = self.p
         self.terms = []
         for entry in self.read:
@@ -64,20 +64,23 @@ class Pieces:
         p.store(0.0, self.count)
 
     def refresh(self, busy: str) -> None:
-        """Count anew in lanes that just had an event."""
+        """Restart the count in lanes that just had an event."""
         p = self.p
         p.store(self.f.select(busy, 0.0, p.load(self.count)), self.count)
 
     def judged(self, s: MethodStep, inputs: Callable[[Value], Vec], low: Value, busy: str) -> tuple[str, Value]:
-        """Look at the next piece of busy lanes: where it is settled, and its end. What comes next is noted."""
+        """Examine the next piece of busy lanes; return where it is settled, and its end. The length of the next one is
+        stored."""
         p, f = self.p, self.f
         span, count = p.load(self.span), p.load(self.count)
+        # settled if proved, or if the piece cannot become shorter
         high = low + span
         high = f.select(f.compare("olt", high, 1.0), high, 1.0)
         proved = self._proved(s, inputs, low, high)
         least = f.select(f.compare("ogt", count, float(MAX_FINE_PIECES)), COARSE, MIN_PIECE)
         length = high - low
         settled = f.logic("or", proved, f.compare("ole", length, least))
+        # next length: twice as long after a proof, otherwise half
         longer = f.select(proved, span + span, f.select(f.compare("olt", span, least), least, span))
         following = f.select(settled, longer, length * 0.5)
         p.store(f.select(busy, following, span), self.span)
@@ -91,6 +94,7 @@ class Pieces:
         origin = self.method.origin
         z = centre - origin
         far = f.intrinsic("fabs", z) + r
+        # value, derivative and bound of the second derivative of the states at the centre of the piece
         columns = [self._jet(slot, z, far, r) for slot in self.terms]
         names = ("x", "rate", "bend")
         values = {name: Vec(values=column) for name, column in zip(names, zip(*columns, strict=True), strict=False)}
@@ -102,6 +106,7 @@ class Pieces:
             else (zero,) * self.service.inputs
         )
         values |= {"u": inputs(t), "drift": Vec(values=slopes), "stretch": Vec(values=(s.h, r))}
+        # bounds of every g: clear (no zero) or steady (monotonic) everywhere in the piece
         found = self.tapes.evaluate(self.shared, values, t)
         assert found is not None
         half = len(found) // 2
@@ -112,13 +117,14 @@ class Pieces:
         return proved
 
     def _jet(self, slot: int, z: Value, far: Value, r: Value) -> tuple[Value, Value, Value]:
-        """A polynomial at z: value, derivative, and the greatest second derivative within r.
+        """A polynomial at z: its value, its derivative, and a bound of the second derivative within r.
 
         ``far`` ≥ |z| + r bounds the third derivative term by term.
         """
         p, f, n = self.p, self.f, self.degree
         zero = Value(f, f.constant(0.0))
         value, rate, bend, third = p.load(slot, n), zero, zero, zero
+        # Horner's scheme with two derivatives; then the third derivative's terms in absolute value
         for j in range(n - 1, -1, -1):
             bend = f.fma(bend, z, rate)
             rate = f.fma(rate, z, value)

@@ -1,8 +1,8 @@
-"""Structured LLVM IR for integrators: vectors of states, loops, conditions and work space over `lagrangian.codegen.ir`.
+"""Structured LLVM IR for integrators: vectors, loops, conditions and work space on top of `lagrangian.codegen.ir`.
 
-An integrator works on ``lanes`` runs side by side. Its memory is one block, ``%work``, of slots of ``lanes`` doubles;
-entry i of a vector is slot ``base + i``. A short vector lives in registers, entry by entry (``Vec.values``); a long one
-in its slots, and what is done to it is a loop (:meth:`Printer.map`). Both are written down once.
+An integrator computes ``lanes`` runs side by side. Its memory is one block, ``%work``, of slots of ``lanes`` doubles;
+entry i of a vector is slot ``base + i``. A short vector is held in registers, entry by entry (``Vec.values``); a long
+one in its slots, and operations on it are loops (:meth:`Printer.map`). The same code describes both.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ HEAD = 8  # slots of the work space that hold scalars shared with Python
 
 @dataclass(frozen=True)
 class Vec:
-    """A vector with an entry per component of the state: in registers, in slots, or both; or an outside array.
+    """A vector with an entry per component of the state: in registers, in slots, or both; or an external array.
 
     ``pointer``: address of one double per entry, the same for all lanes.
     """
@@ -30,7 +30,7 @@ class Vec:
 
 
 class Printer:
-    """Prints one function ``name(ptr table, ptr work, i64 budget)`` over vectors of ``size`` entries."""
+    """Prints one function ``name(ptr table, ptr work, i64 budget)`` on vectors of ``size`` entries."""
 
     def __init__(self, module: Module, lanes: int, size: int) -> None:
         self.f, self.lanes, self.size = Function(module, lanes), lanes, size
@@ -50,14 +50,14 @@ class Printer:
         return Vec(slot=self.reserve(self.size))
 
     def at(self, slot: int, index: str | int = 0) -> str:
-        """The address of a slot, or of the slot ``index`` further."""
+        """The address of a slot, or of the slot ``index`` positions after it."""
         f = self.f
         if isinstance(index, int):
             return f.put(f"getelementptr {f.real}, ptr %work, i64 {slot + index}")
         return f.put(f"getelementptr {f.real}, ptr %work, i64 {f.put(f'add i64 {index}, {slot}')}")
 
     def load(self, slot: int, index: str | int = 0) -> Value:
-        """The numbers in a slot."""
+        """Load the numbers in a slot."""
         f = self.f
         return Value(f, f.put(f"load {f.real}, ptr {self.at(slot, index)}, align {8 * f.lanes}"))
 
@@ -67,7 +67,7 @@ class Printer:
         f.do(f"store {f.real} {f.operand(x)}, ptr {self.at(slot, index)}, align {8 * f.lanes}")
 
     def load_whole(self, slot: int) -> str:
-        """The 64-bit integers in a slot."""
+        """Load the 64-bit integers in a slot."""
         return self.f.put(f"load {self.f.whole}, ptr {self.at(slot)}, align {8 * self.lanes}")
 
     def store_whole(self, x: str, slot: int) -> None:
@@ -90,15 +90,15 @@ class Printer:
         self.f.do(f"store {kind} {x}, ptr {self.lane_at(slot, lane)}")
 
     def word(self, index: int, kind: str = "i64") -> str:
-        """A scalar of the work space's head."""
+        """Load a scalar in the head of the work space."""
         return self.f.put(f"load {kind}, ptr {self.f.put(f'getelementptr i64, ptr %work, i64 {index}')}")
 
     def set_word(self, x: str, index: int) -> None:
-        """Write an integer of the work space's head."""
+        """Write an integer to the head of the work space."""
         self.f.do(f"store i64 {x}, ptr {self.f.put(f'getelementptr i64, ptr %work, i64 {index}')}")
 
     def entry(self, index: int, kind: str = "i64") -> str:
-        """An entry of the table that Python filled."""
+        """Load an entry of the table that Python filled."""
         return self.f.put(f"load {kind}, ptr {self.f.put(f'getelementptr i64, ptr %table, i64 {index}')}")
 
     # Flow --------------------------------------------------------------------------------------------------------
@@ -109,7 +109,7 @@ class Printer:
 
     @contextmanager
     def when(self, flag: str) -> Iterator[None]:
-        """What is printed inside happens where the one flag holds."""
+        """A context: what is printed inside is executed only if a scalar flag holds."""
         f, k = self.f, self._label()
         f.do(f"br i1 {flag}, label %then{k}, label %join{k}")
         f.label(f"then{k}")
@@ -119,7 +119,7 @@ class Printer:
 
     @contextmanager
     def repeat(self, count: str | int) -> Iterator[str]:
-        """A loop over 0 … count − 1; gives the index."""
+        """A context: a loop over 0 … count − 1 that yields the index."""
         f, k = self.f, self._label()
         f.do(f"br label %before{k}")
         f.label(f"before{k}")
@@ -138,7 +138,7 @@ class Printer:
 
     @contextmanager
     def forever(self) -> Iterator[Callable[[str], None]]:
-        """A loop that is left where the function it gives is called with a flag that holds."""
+        """A context: a loop that ends when the function that it yields is called with a flag that holds."""
         f, k = self.f, self._label()
         exits = 0
 
@@ -155,7 +155,7 @@ class Printer:
         f.label(f"out{k}")
 
     def any(self, flag: str) -> str:
-        """One truth value: the flag holds in some lane."""
+        """A scalar flag: whether a flag holds in some lane."""
         if self.lanes == 1:
             return flag
         bits = self.f.put(f"bitcast {self.f.flag} {flag} to i{self.lanes}")
@@ -192,10 +192,10 @@ class Printer:
     def map(
         self, compute: Callable[..., Value | tuple[Value, ...]], *given: Vec, into: Sequence[Vec] = ()
     ) -> tuple[Vec, ...]:
-        """``compute`` of the entries of the vectors given, entry by entry.
+        """``compute`` applied to the entries of the given vectors, entry by entry.
 
-        Results are written to the vectors ``into``; where vectors live in registers and ``into`` says nothing, they
-        stay there.
+        Results are written to the vectors ``into``; if vectors are in registers and ``into`` is not given, they stay in
+        registers.
         """
         if self.unrolled:
             rows = [_several(compute(*(self.read(v, i) for v in given))) for i in range(self.size)]
@@ -214,7 +214,7 @@ class Printer:
         return tuple(targets)
 
     def fold(self, add: Callable[..., tuple[Value, ...]], start: Sequence[float], *given: Vec) -> tuple[Value, ...]:
-        """``add(sums so far, entries of the vectors given) → sums``, over all entries."""
+        """``add(sums so far, entries of the given vectors) → sums``, over all entries."""
         f = self.f
         sums = tuple(Value(f, f.constant(x)) for x in start)
         if self.unrolled:
@@ -231,7 +231,7 @@ class Printer:
         return tuple(self.load(home) for home in homes)
 
     def weighted(self, pairs: Sequence[tuple[float, Value]]) -> Value:
-        """Σ c x, a fused product and sum each."""
+        """Σ c x, with a fused product and sum for each term."""
         total: Value | None = None
         for c, x in pairs:
             total = x * c if total is None else self.f.fma(x, c, total)

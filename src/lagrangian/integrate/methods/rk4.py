@@ -1,4 +1,4 @@
-"""The classical method of order 4, fixed steps."""
+"""The classical Runge–Kutta method of order 4 with fixed steps."""
 
 from .explicit import Explicit, Tableau
 

@@ -1,4 +1,4 @@
-"""Sums of products of coefficients, many at a time."""
+"""Computes many sums of products of coefficients at a time."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ Side = Callable[[int], Maybe]  # index → coefficient
 class Sums:
     """The inner sums ``Σ_{0<j<n} left_j right_{n−j}`` of many pairs of series.
 
-    With several runs side by side each sum is computed by itself, lane by lane. With one run, vectors hold as many sums
-    as the machine has lanes: fewer instructions, which is what such code is bound by.
+    With several runs side by side, each sum is computed separately, lane by lane. With a single run, vectors hold as
+    many sums as the machine has lanes, because the speed of such code is limited by the number of instructions.
     """
 
     def __init__(self, f: Function) -> None:
@@ -25,12 +25,12 @@ class Sums:
         self._found: dict[int, Maybe] = {}
 
     def add(self, left: Side, right: Side) -> int:
-        """Take up a pair; return its number."""
+        """Add a pair; return its number."""
         self.sides.append((left, right))
         return len(self.sides) - 1
 
     def begin(self, n: int) -> None:
-        """All coefficients below n are known."""
+        """Declare that all coefficients below n are known."""
         self._found.clear()
         if not self.packed or n < 2:
             return
@@ -69,7 +69,7 @@ class Sums:
 
 
 def _dot(f: Function, pairs: Sequence[tuple[Maybe, Maybe]]) -> Maybe:
-    """Σ a b, zeros left out, in two chains so that they overlap."""
+    """Σ a b without zero terms, in two chains that overlap."""
     chains: list[Maybe] = [None, None]
     kept = [(a, b) for a, b in pairs if a is not None and b is not None]
     for k, (a, b) in enumerate(kept):

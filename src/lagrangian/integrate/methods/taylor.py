@@ -1,11 +1,11 @@
-"""Taylor series of the motion itself, of an order that fits the tolerance; the step follows from the last terms.
+"""The Taylor series of the motion, with an order that depends on the tolerance; the last terms determine the step.
 
-The coefficients x_n of x(t + τ s) = Σ x_n τⁿ, s the last step's length, come from the right-hand side by rules for
-every operation (``jets.py``). A step ends where the last two terms meet the tolerance:
+The coefficients x_n of x(t + τ s) = Σ x_n τⁿ, where s is the length of the last step, are computed from the right-hand
+side by rules for every operation (``jets.py``). A step is as long as the last two terms meet the tolerance:
 
-    h = s · min over n ∈ {N − 1, N} of |x_n / (atol + rtol |x|)|^(−1/n), the greatest entry counting
+    h = s · min over n ∈ {N − 1, N} of |x_n / (atol + rtol |x|)|^(−1/n), where the largest entry counts
 
-Values inside a step are those of the same series.
+Values inside a step are computed from the same series.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ from .method import Method, MethodStep, rough_power
 from .printer import Vec
 
 CAUTION = 0.88
-"""The step is that much shorter than the last terms allow: what they do not show is of the next order."""
+"""The factor by which a step is shorter than the last terms allow, because they do not show the next order."""
 
 
 class Taylor(Method):
-    """The method; ``order`` is that of one printed code, chosen by the tolerance."""
+    """The method; ``order`` is that of the compiled code and depends on the tolerance."""
 
     name = "taylor"
     title = "Taylor series, order by the tolerance, adaptive"
@@ -43,12 +43,12 @@ class Taylor(Method):
 
     @property
     def cost(self) -> int:
-        """A product of series takes half the square of the order."""
+        """A product of series costs half the square of the order."""
         return self.order**2 // 2
 
     @property
     def dense_order(self) -> int:
-        """The order of the values between the ends of a step."""
+        """The order of the dense output."""
         return self.order
 
     def expand(self, s: MethodStep, jets: Callable[[list[list[Value]]], Jets]) -> Value:
@@ -58,6 +58,7 @@ class Taylor(Method):
         states: list[list[Value]] = [[p.read(s.x, i)] for i in range(p.size)]
         series = jets(states)
         zero = Value(f, f.constant(0.0))
+        # coefficient n of the right-hand side gives coefficient n + 1 of the states
         for n in range(self.order):
             series.order(n)
             scale = s.h * (1.0 / (n + 1))
@@ -65,6 +66,7 @@ class Taylor(Method):
                 found = series.output(k, n)
                 state.append(zero if found is None else found * scale)
         s.stages = [Vec(values=tuple(state[n] for state in states)) for n in range(1, self.order + 1)]
+        # the step for which each of the last two terms meets the tolerance; the shorter one counts
         shortest: Value | None = None
         for n in (self.order - 1, self.order):
             largest = self._size(s, s.stages[n - 1])
@@ -74,7 +76,7 @@ class Taylor(Method):
         return s.h * (shortest * CAUTION)
 
     def _size(self, s: MethodStep, term: Vec) -> Value:
-        """The greatest of an order's coefficients, in tolerances."""
+        """The largest coefficient of an order, relative to the tolerances."""
         f = s.p.f
 
         def add(most: Value, x: Value, atol: Value, c: Value) -> tuple[Value]:
@@ -97,7 +99,7 @@ class Taylor(Method):
         return total * tau
 
     def interpolant(self, s: MethodStep) -> list[Vec]:
-        """The series' coefficients."""
+        """The coefficients of the series."""
         return s.stages
 
     def between(self, s: MethodStep, coefficients: list[Vec], theta: Value) -> Callable[..., Value]:

@@ -1,4 +1,4 @@
-"""Tsitouras' pair of order 5(4), steps by its error estimate."""
+"""Tsitouras' pair of order 5(4), with step sizes from its error estimate."""
 
 from .explicit import Explicit, Tableau
 
@@ -10,7 +10,7 @@ EMBEDDED = (
 QUARTIC = (
     -1.0530884977290216, 0.1017, 2.490627285651253, -16.548102889244902, 47.37952196281928, -34.87065786149661, 2.5,
 )  # fmt: skip
-"""Coefficients of θ⁴ in the weights b_i(θ) of the values inside a step. Beyond Hermite's cubic they are θ²(1 − θ)²."""
+"""The coefficients of θ⁴ in the weights b_i(θ) of the dense output. Beyond Hermite's cubic they are θ²(1 − θ)²."""
 
 TSIT5 = Explicit(
     "tsit5",
