@@ -1,6 +1,6 @@
-"""From a description to its equations of motion, step by step as in a lecture.
+"""Derives the equations of motion from a description, step by step as in a lecture.
 
-`derive` is the whole: 0 holonomic?, 1 coordinates, 2 T*, 3 V, 4 L, 5 left-hand sides, 6 Ξ, then the equations.
+`derive` does all of it: 0 holonomic?, 1 coordinates, 2 T*, 3 V, 4 L, 5 left-hand sides, 6 Ξ, then the equations.
 """
 
 from lagrangian.derive.derive import derive

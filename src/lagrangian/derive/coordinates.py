@@ -26,7 +26,7 @@ class MeasuredFrom:
 
 
 def coordinates(context: Context) -> Step:
-    """Show that the coordinates are complete and independent, and which are absolute and which relative."""
+    """Show that the coordinates are complete and independent, and which are absolute and which are relative."""
     model, wiggle = context.model, context.wiggle
     n = len(model.coordinates)
     kinds = measured(model)
@@ -70,7 +70,7 @@ def coordinates(context: Context) -> Step:
 
 
 def _note(coordinate: Coordinate, kind: MeasuredFrom) -> Text | None:
-    """What stands beside ξ_i on the checklist: the person's words, and what a relative one is measured from."""
+    """The note beside ξ_i on the checklist: the user's description, and what a relative coordinate is measured from."""
     parts: list[str | Left] = [coordinate.description] if coordinate.description else []
     if kind.to is not None:
         parts += ["; relative to " if parts else "relative to ", kind.to]
@@ -110,12 +110,11 @@ def _listed(elements: list[Element] | tuple[Element, ...]) -> str:
 
 
 def measured(model: Model) -> dict[sp.Expr, MeasuredFrom]:
-    """Work out how every coordinate is measured.
+    """Determine how every coordinate is measured.
 
-    An angle shows itself in the directions of the system (arguments of sine and cosine, angles of frames): where every
-    direction that holds ξ_i holds other coordinates too, ξ_i is measured from them. A length shows itself in a
-    position: ξ_i is relative to ξ_j when the body it moves is carried along by ξ_j, together with one that ξ_i does
-    not move.
+    Angles occur in the directions of the system (arguments of sine and cosine, angles of frames): if every direction
+    that contains ξ_i also contains other coordinates, ξ_i is measured from them. Lengths occur in positions: ξ_i is
+    relative to ξ_j if ξ_j carries along the body that ξ_i moves, together with another that ξ_i does not move.
     """
     symbols: list[sp.Expr] = [c.symbol for c in model.coordinates]
     directions, carried = _directions(model, symbols), _carriers(model, symbols)
@@ -170,7 +169,7 @@ def _frames(model: Model) -> list[Frame]:
 
 
 def _directions(model: Model, symbols: list[sp.Expr]) -> list[tuple[sp.Expr, ...]]:
-    """The sets of coordinates that make up each direction of the system."""
+    """The sets of coordinates that occur in each direction of the system."""
     arguments: list[sp.Expr] = []
     for body in model.bodies:
         for point in _chain(body.at):
@@ -183,7 +182,8 @@ def _directions(model: Model, symbols: list[sp.Expr]) -> list[tuple[sp.Expr, ...
 
 
 def _carriers(model: Model, symbols: list[sp.Expr]) -> dict[sp.Expr, sp.Expr]:
-    """In space: a coordinate of a frame whose parent turns is measured from the nearest coordinate that turns it."""
+    """In space: a coordinate of a frame with a rotating parent is measured from the nearest coordinate that turns
+    it."""
     carried: dict[sp.Expr, sp.Expr] = {}
     for frame in _frames(model):
         if frame.axis is None:
@@ -200,7 +200,7 @@ def _carriers(model: Model, symbols: list[sp.Expr]) -> dict[sp.Expr, sp.Expr]:
 
 
 def _lengths(model: Model, symbols: list[sp.Expr]) -> set[sp.Expr]:
-    """The coordinates that stand in a position outside of any sine or cosine."""
+    """The coordinates that occur in a position outside any sine or cosine."""
     outside: set[sp.Expr] = set()
     for body in model.bodies:
         for x in _where(model, body):
@@ -210,13 +210,13 @@ def _lengths(model: Model, symbols: list[sp.Expr]) -> set[sp.Expr]:
 
 
 def _turns(model: Model, symbols: list[sp.Expr]) -> set[sp.Expr]:
-    """The coordinates that a frame turns by, one for one: angles, even where something rolls along by R φ."""
+    """The coordinates that are the angle of a frame: these are angles, even if something rolls along by R φ."""
     angles = [model.expand(f.total_angle if f.axis is None else f.angle) for f in _frames(model)]
     return {s for s in symbols if any(bounded.diff(a, s) in (1, -1) for a in angles)}
 
 
 def _carried_by(model: Model, s: sp.Expr, symbols: list[sp.Expr], reach: dict[sp.Expr, int]) -> sp.Expr | None:
-    """The nearest coordinate that carries along all that ``s`` moves, and something that ``s`` leaves still."""
+    """The nearest coordinate that carries along everything that ``s`` moves, and something that ``s`` does not move."""
     places = [_where(model, b) for b in model.bodies]
     mine = [p for p in places if any(depends(model, x, s) for x in p)]
     others = [p for p in places if p not in mine]
@@ -231,6 +231,6 @@ def _carried_by(model: Model, s: sp.Expr, symbols: list[sp.Expr], reach: dict[sp
 
 
 def chain_of(relative: Mapping[sp.Expr, sp.Expr | None], symbol: sp.Expr) -> list[sp.Expr]:
-    """The coordinates that are, directly or through others, measured from ``symbol``: its children."""
+    """The coordinates that are measured from ``symbol``, directly or through others: its children."""
     children = [s for s, to in relative.items() if to == symbol]
     return children + [g for c in children for g in chain_of(relative, c)]

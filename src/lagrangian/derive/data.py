@@ -49,8 +49,8 @@ def to_dict(
 ) -> dict[str, Any]:
     """Return the derivation as plain data: dictionaries, lists, text, numbers.
 
-    ``brief`` keeps the items of the one-page checklist; ``full`` writes out the formulas that would be summarised (the
-    results themselves are always whole). Raises `ModelError` for an unknown notation.
+    ``brief`` keeps only the items of the one-page checklist; ``full`` writes out the formulas that would be summarized
+    (the results themselves are always complete). Raises `ModelError` for an unknown notation.
     """
     return _Data(derivation, notation, brief, full).whole()
 

@@ -1,4 +1,4 @@
-"""The derivation, as a table of contents."""
+"""The derivation, from the model to the equations."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ _log = logging.getLogger(__name__)
 def derive(model: Model, *, detail: Detail = "usual") -> Derived:
     """Return the equations of motion of a model and the steps that lead to them.
 
-    d/dt(∂L/∂ξ̇_i) − ∂L/∂ξ_i = Ξ_i with L = T* − V, for every coordinate. ``detail="full"`` writes d/dt out term by term.
-    Raises `ModelError` for coordinates that are dependent or move nothing, by name, and for another ``detail``. Source:
-    the lecture's steps 0 to 6.
+    d/dt(∂L/∂ξ̇_i) − ∂L/∂ξ_i = Ξ_i with L = T* − V, for every coordinate. ``detail="full"`` writes d/dt out term by
+    term. Raises `ModelError`, with their names, for coordinates that are dependent or move nothing, and for an unknown
+    ``detail``. Source: the lecture's steps 0 to 6.
     """
     if detail not in get_args(Detail):
         known = get_args(Detail)
@@ -85,11 +85,11 @@ def derive(model: Model, *, detail: Detail = "usual") -> Derived:
 
 
 SHOWN = 3
-"""Expressions listed in a note."""
+"""The largest number of expressions listed in a note."""
 
 
 def left_as_written(context: Context) -> Iterator[Text]:
-    """What stands in the formulas as it was written, because it is too long as a sum."""
+    """The parts of the formulas that were left as written because they are too long as sums."""
     left = list(context.algebra.reader.left)
     if left:
         listed = [part for expr in left[:SHOWN] for part in (fit(expr), ", ")][:-1]
@@ -100,7 +100,7 @@ def left_as_written(context: Context) -> Iterator[Text]:
 
 
 def _everything(model: Model) -> list[sp.Expr]:
-    """Every energy and every force, for the algebra to choose its angles and symbols from."""
+    """All energies and forces, from which the algebra chooses its angles and symbols."""
     exprs: list[sp.Expr] = []
     for element in model.elements:
         exprs += [element.kinetic(model), element.potential(model)]

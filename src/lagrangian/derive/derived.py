@@ -1,4 +1,4 @@
-"""The data of a derivation: seven steps as data, their results as SymPy, and where every term came from."""
+"""The data of a derivation: the seven steps, their results in SymPy, and the origin of every term."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Step(Brief):
-    """One step of the lecture: what was done, why, what came out, what was checked.
+    """One step of the lecture: what was done and why, the results, and the checks.
 
-    ``items`` are the words, formulas and tables in reading order; ``expressions`` the results by name; ``reasons`` why
-    each result is what it is (in step 6: why each Ξ is what it is).
+    ``items`` are the words, formulas and tables in reading order; ``expressions`` are the results by name; ``reasons``
+    explain each result (in step 6, each Ξ).
     """
 
     number: int
@@ -41,13 +41,13 @@ class Step(Brief):
         return f"<Step {self.number}: {self.title}>"
 
     def _repr_html_(self) -> str | None:
-        """The step as a notebook shows it, where it belongs to a derivation that can be written."""
+        """The step as shown by a notebook, if it belongs to a derivation that can be written."""
         return None if self.view is None else self.view()
 
 
 @dataclass(frozen=True)
 class LedgerRow(Brief):
-    """An element's one place among T*, V and Ξ, with the reason."""
+    """The one place of an element among T*, V and Ξ, with the reason."""
 
     element: str
     column: str
@@ -57,7 +57,8 @@ class LedgerRow(Brief):
 
 @dataclass(frozen=True)
 class Origin(Brief):
-    """Where a term came from: the element, the equation it stands in (a coordinate's name), its share of the term."""
+    """The origin of a term: the element, the equation (named by its coordinate), and the element's share of the
+    term."""
 
     element: Element
     coordinate: str
@@ -65,7 +66,7 @@ class Origin(Brief):
     step: int
 
     def __repr__(self) -> str:
-        """Read in one line, without the element's own fields."""
+        """Return one line, without the fields of the element."""
         return (
             f"Origin({self.element.title}, equation of {self.coordinate}, step {self.step}, share {plain(self.share)})"
         )
@@ -73,13 +74,14 @@ class Origin(Brief):
 
 @dataclass(frozen=True, eq=False)
 class Derived(Brief):
-    """The equations of motion of a model, and how they were found.
+    """The equations of motion of a model, and how they were derived.
 
-    ``steps[0]`` to ``steps[6]`` are the lecture's. ``equations[i]`` is ``Eq(left-hand side, Ξ_i)`` of coordinate i.
-    M ξ̈ + C ξ̇ + G = Ξ holds with ``mass_matrix`` (n×n), ``coriolis_matrix`` (n×n, by Christoffel symbols, so that
-    Ṁ − 2C is skew), ``gravity_vector`` (n×1: ∂V/∂ξ, and what explicit time adds) and ``generalized_forces`` (n×1).
-    ``result`` is the closing section, ``ledger`` books every element once, ``verified`` holds what was checked at the
-    end. ``notes`` say where something could not be made short and why, ``notices`` what is to be known of the system.
+    ``steps[0]`` to ``steps[6]`` are those of the lecture. ``equations[i]`` is ``Eq(left-hand side, Ξ_i)`` for
+    coordinate i. M ξ̈ + C ξ̇ + G = Ξ holds with ``mass_matrix`` (n×n), ``coriolis_matrix`` (n×n, from Christoffel
+    symbols, so that Ṁ − 2C is skew-symmetric), ``gravity_vector`` (n×1: ∂V/∂ξ, and terms from explicit time) and
+    ``generalized_forces`` (n×1). ``result`` is the closing section; ``ledger`` lists every element once; ``verified``
+    contains the checks at the end. ``notes`` say what could not be shortened and why; ``notices`` are those of the
+    system.
     """
 
     model: Model
@@ -107,7 +109,7 @@ class Derived(Brief):
         return tuple(c.symbol for c in self.model.coordinates)
 
     def __repr__(self) -> str:
-        """Say of what it is; ``print`` shows it all."""
+        """Summarize the derivation; ``print`` shows all of it."""
         names = ", ".join(c.name for c in self.model.coordinates)
         n, failed = len(self.model.coordinates), sum(check.holds is False for check in self.verified)
         return cut(
@@ -116,14 +118,14 @@ class Derived(Brief):
         )
 
     def formulas(self) -> tuple[Formula, ...]:
-        """Every formula of every step and of the result, in reading order."""
+        """All formulas of the steps and of the result, in reading order."""
         items = [item for step in self.steps for item in step.items] + list(self.result)
         return tuple(item for item in items if isinstance(item, Formula))
 
     def where(self, term: sp.Expr) -> tuple[Origin, ...]:
-        """Return the elements a term came from, with the equation, the step and each one's share of it.
+        """Return the elements from which a term came, with the equation, the step and the share of each.
 
-        Raises `ModelError` for a term that stands in no equation, and for text.
+        Raises `ModelError` for a term that does not occur in any equation, and for text.
         """
         wanted = as_expr(term, "the term")
         if found := self.shares.where(wanted):

@@ -1,4 +1,4 @@
-"""The two ends of a deflection, found from the geometry: what it is the distance or the angle between."""
+"""Finds the two ends of a deflection in the geometry: the things whose distance or angle it is."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ MAX_QUANTITIES = 200
 
 
 def find_ends(model: Model, element: Element) -> tuple[Action, ...]:
-    """The element's actions end by end; a bare deflection is resolved into the two things it lies between.
+    """The element's actions at each end; a bare deflection is resolved into the two things between which it lies.
 
-    The deflection δ lies between A and B when a coordinate of B minus the same coordinate of A is δ, up to a constant:
-    then +F acts on B and −F on A. Where nothing fits, the deflection itself stays the one end.
+    The deflection δ lies between A and B if a coordinate of B minus the same coordinate of A is δ, up to a constant:
+    then +F acts on B and −F on A. If no pair fits, the deflection itself remains the only end.
     """
     ends = element.ends(model)
     if len(ends) != 1 or ends[0].on != DEFLECTION or ends[0].displacement is None:

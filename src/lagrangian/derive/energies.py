@@ -20,7 +20,7 @@ AXES = ("x", "y", "z")
 
 @dataclass(frozen=True, eq=False)
 class Share:
-    """A piece of T* or V that belongs to one element (and, for gravity, to the body it pulls)."""
+    """A part of T* or V that belongs to one element (and, for gravity, to the body on which it acts)."""
 
     element: Element
     name: Name
@@ -31,7 +31,7 @@ class Share:
 
 
 def indices(model: Model) -> dict[Element, str]:
-    """The subscript of each body's quantities: its number, or its name where the number would mean a coordinate."""
+    """The subscript of each body's quantities: its number, or its name if the number would mean a coordinate."""
     bodies = model.bodies
     numbers = {b: _number_of(b, i) for i, b in enumerate(bodies, 1)}
     if len(bodies) == 1:
@@ -54,7 +54,7 @@ def _number_of(body: Any, position: int) -> str:
 
 
 def shares(model: Model, algebra: Any) -> tuple[Share, ...]:
-    """Every element's pieces of T* and V, each with its normal form."""
+    """The parts of T* and V of every element, each with its normal form."""
     index = indices(model)
     found: list[Share] = []
     for element in model.elements:
@@ -84,7 +84,7 @@ def _pieces(
 
 
 def kinetic(context: Context, pieces: tuple[Share, ...]) -> Step:
-    """T* = Σ ½ m v² + ½ J ω², every body with the velocity of its own centre of mass."""
+    """T* = Σ ½ m v² + ½ J ω², for each body with the velocity of its own centre of mass."""
     model = context.model
     index = indices(model)
     mine = [s for s in pieces if s.column == "T*"]
@@ -120,7 +120,7 @@ def kinetic(context: Context, pieces: tuple[Share, ...]) -> Step:
 
 
 def _plain(context: Context, share: Share) -> Formula:
-    """An energy without a derivation of its own, with what its kind says of that."""
+    """An energy that is given directly, with the note of its kind."""
     note = text(share.element.note) if share.element.note else None
     return formula(share.name, fit(context.readable(share.expr)), note=note)
 
@@ -130,7 +130,7 @@ def _capital(words: str) -> str:
 
 
 def _chain(*sides: Left) -> tuple[Left, ...]:
-    """The sides without repetitions, such as T* = T* where there is one body."""
+    """The sides without repetitions, such as T* = T* for a single body."""
     kept: list[Left] = []
     for side in sides:
         if not kept or side != kept[-1]:
@@ -143,12 +143,12 @@ def _sum(mine: list[Share], base: str) -> Left:
 
 
 def _added(context: Context, mine: list[Share], sign: int = 1) -> Left:
-    """The pieces written out one after another, as a lecture does before it differentiates."""
+    """The parts written out one after another, as in a lecture before differentiation."""
     return fit_terms(tuple(x for s in mine for x in sp.Add.make_args(sign * context.readable(s.expr)) if x != 0))
 
 
 def _motion(context: Context, body: Any, index: dict[Element, str]) -> list[Item]:
-    """Positions and their rates; a point given from another body's place is shown from that one."""
+    """Positions and their rates; a point that is given relative to another body is shown relative to it."""
     model = context.model
     lines: list[Item] = []
     velocity = model.velocity(body.at)
@@ -180,7 +180,7 @@ def _terms(expr: sp.Expr) -> tuple[sp.Expr, ...]:
 
 
 def _from_body(model: Model, body: Any) -> tuple[Any | None, tuple[sp.Expr, ...]]:
-    """Return the body whose place this one's is given from, and the step between them in the fixed axes."""
+    """Return the body relative to which this one's position is given, and the vector between them in fixed axes."""
     origin = model.position(body.at)
     for other in model.bodies:
         if other is not body and body.at.parent is other.at and not other.at.is_origin:
@@ -290,7 +290,7 @@ def _spring(context: Context, spring: Spring, share: Share) -> list[Item]:
 
 
 def _distinct(context: Context, share: Share) -> tuple[Left, ...]:
-    """The simplified energy, where it reads differently from ½ k (…)²."""
+    """The simplified energy, if it looks different from ½ k (…)²."""
     readable = context.readable(share.expr)
     return (fit(readable),) if isinstance(readable, sp.Add) or (readable.is_Mul and _plain_square(readable)) else ()
 

@@ -1,4 +1,4 @@
-"""Step 6: the non-conservative Ξ_i, by virtual work and by the box rule, and the reason for each."""
+"""Step 6: the nonconservative Ξ_i, by virtual work and by the box rule, with the reason for each."""
 
 from __future__ import annotations
 
@@ -35,9 +35,9 @@ from lagrangian.page.formula import (
 
 @dataclass(frozen=True, eq=False)
 class Contribution:
-    """What one element adds to one Ξ_i: by virtual work, by the box, and the box's story in words.
+    """The contribution of one element to one Ξ_i: by virtual work, by the box rule, and the reason in words.
 
-    ``pieces`` is the virtual work action by action, before anything cancels.
+    ``pieces`` is the virtual work of each action, before anything cancels.
     """
 
     element: Element
@@ -49,12 +49,12 @@ class Contribution:
 
     @property
     def resists(self) -> bool:
-        """Whether it is damping, which the final equation carries on the left."""
+        """Whether it is damping, which the final equation has on the left."""
         return self.element.resists
 
 
 def contributions(context: Context) -> tuple[Contribution, ...]:
-    """Every element's share of every Ξ_i, worked out twice."""
+    """The contribution of every element to every Ξ_i, computed in two ways."""
     model, algebra = context.model, context.algebra
     found: list[Contribution] = []
     for element in model.elements:
@@ -75,7 +75,7 @@ def _along(actions: tuple[Action, ...], rate: sp.Expr) -> sp.Expr:
 
 
 def _story(context: Context, element: Element, ends: tuple[Action, ...], index: int, virtual: Form) -> Text:
-    """The box rule in words: which ends lie inside the box of what moves with ξ_i alone."""
+    """The box rule in words: which ends are inside the box of everything that moves with ξ_i alone."""
     c = context.model.coordinates[index]
     inside: list[Words] = []
     outside: list[Words] = []
@@ -101,14 +101,14 @@ def _story(context: Context, element: Element, ends: tuple[Action, ...], index: 
 
 
 def _and(words: list[Words]) -> Words:
-    """Join several with "and"."""
+    """Join several items with "and"."""
     return tuple(part for w in words for part in (*w, " and "))[:-1]
 
 
 def forces(context: Context, found: tuple[Contribution, ...], relative: Mapping[sp.Expr, sp.Expr | None]) -> Step:
     """Every Ξ_i with its table, the dampers by Rayleigh's function and as fake springs, and the reasons.
 
-    ``relative`` tells what each coordinate is measured from, as step 1 found it.
+    ``relative`` says what each coordinate is measured from, as determined in step 1.
     """
     model = context.model
     items: list[Item] = []
@@ -197,7 +197,7 @@ def _product(effort: sp.Expr, what: Left) -> Left:
 def _coordinate(
     context: Context, index: int, mine: list[Contribution], relative: Mapping[sp.Expr, sp.Expr | None]
 ) -> list[Item]:
-    """The box of ξ_i and the table of who is in it."""
+    """The box of ξ_i, and the table of what is inside it."""
     model = context.model
     c = model.coordinates[index]
     moved = context.wiggle.moved[index]
@@ -235,7 +235,7 @@ def _reason(index: int, mine: list[Contribution], value: sp.Expr) -> Text:
 
 
 def _dampers(context: Context, dampers: list[Element], found: tuple[Contribution, ...]) -> tuple[list[Item], bool]:
-    """D = ½ b δ̇² with Ξ_i = −∂D/∂ξ̇_i, and the damper read as a spring whose deflection becomes its rate."""
+    """D = ½ b δ̇² with Ξ_i = −∂D/∂ξ̇_i, and each damper treated as a spring whose deflection becomes its rate."""
     model = context.model
     items: list[Item] = [Heading(text("Dampers, by Rayleigh's function and as fake springs"))]
     holds = True

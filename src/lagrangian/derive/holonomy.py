@@ -15,7 +15,7 @@ from lagrangian.page.formula import Item, Left, Name, formula, text
 def holonomic(context: Context) -> Step:
     """Compare the generalized coordinates with the differential degrees of freedom.
 
-    Without velocity constraints every coordinate can wiggle on its own, so #GC = #DDOF: holonomic.
+    Without velocity constraints, every coordinate can wiggle independently, so #GC = #DDOF: holonomic.
     """
     model = context.model
     n = len(model.coordinates)
@@ -58,6 +58,6 @@ def holonomic(context: Context) -> Step:
 
 
 def _explicit(model: Model, body: Any) -> list[sp.Expr]:
-    """The components of a body's position with the coordinates held, so that only explicit time is left."""
+    """The components of a body's position with constant coordinates, in which only explicit time is left."""
     held = {c.symbol: 0 for c in model.coordinates}
     return [cast("sp.Expr", model.expand(x).subs(list(held.items()))) for x in model.position(body.at)]

@@ -17,12 +17,12 @@ from lagrangian.model import Coordinate, time
 from lagrangian.page.formula import Heading, Item, Minus, Name, Partial, Terms, Total, formula, text
 
 Detail: TypeAlias = Literal["usual", "full"]
-"""How much of step 5 is written: "full" takes d/dt of every term by itself."""
+"""How much of step 5 is written: "full" shows d/dt of every term."""
 
 
 @dataclass(frozen=True, eq=False)
 class LeftSide:
-    """The left-hand side of one coordinate: what each share of T* or V adds to it, and the whole."""
+    """The left-hand side of one coordinate: the contribution of each part of T* or V, and the sum."""
 
     coordinate: Coordinate
     momentum: Form
@@ -33,7 +33,7 @@ class LeftSide:
 
 
 def left_sides(context: Context, pieces: tuple[Share, ...]) -> tuple[LeftSide, ...]:
-    """d/dt(∂L/∂ξ̇_i) − ∂L/∂ξ_i, share by share: L is a sum, and so is every equation."""
+    """d/dt(∂L/∂ξ̇_i) − ∂L/∂ξ_i for each part: L is a sum, and so is every equation."""
     algebra = context.algebra
     sides: list[LeftSide] = []
     for c in context.model.coordinates:
@@ -55,9 +55,9 @@ def left_sides(context: Context, pieces: tuple[Share, ...]) -> tuple[LeftSide, .
 
 
 def left_hand_sides(context: Context, sides: tuple[LeftSide, ...], detail: Detail = "usual") -> Step:
-    """Write out ∂L/∂ξ̇_i, its d/dt, ∂L/∂ξ_i and the left-hand side of every coordinate.
+    """Write out ∂L/∂ξ̇_i, its d/dt, ∂L/∂ξ_i and the left-hand side for every coordinate.
 
-    With ``detail="full"`` d/dt is taken term by term before its result is gathered.
+    With ``detail="full"``, d/dt is shown term by term before the result is collected.
     """
     by_xi = Partial(Name("L"), Name("xi", "i", 1))
     law = Terms((Total(by_xi), Minus(Partial(Name("L"), Name("xi", "i")))))
@@ -115,7 +115,7 @@ def _term_by_term(context: Context, momentum: Form) -> Iterator[Item]:
 
 
 def _has_product_rule(term: sp.Expr) -> bool:
-    """Whether anything but one rate moves in a term."""
+    """Whether anything except a single rate changes with time in a term."""
     rates = [a for a in term.atoms(sp.Derivative) if isinstance(a, sp.Derivative)]
     rest = term.xreplace({a: sp.Dummy() for a in rates})
     return len(rates) != 1 or rest.has(AppliedUndef, time)

@@ -1,6 +1,6 @@
-"""How a derivation is laid out: what is shown, in which order, in which notation; and as every format.
+"""The layout of a derivation: what is shown, in what order and notation, in every format.
 
-`lay_out` makes a Document; `write` renders it. Every function here takes a `Derivation`.
+`lay_out` makes a Document, and `write` renders it. All functions here take a `Derivation`.
 """
 
 from __future__ import annotations
@@ -28,8 +28,8 @@ def lay_out(
 ) -> Document:
     """Lay out a derivation.
 
-    ``brief`` keeps each step's title and what the derivation marked for the one-page checklist; ``full`` writes out
-    what would be summarised for its length; ``details`` puts that under collapsible summaries instead. Raises
+    ``brief`` keeps only the titles of steps and what is marked for the one-page checklist. ``full`` writes out what
+    would be summarized because of its length; ``details`` puts it under collapsible summaries instead. Raises
     `ModelError` for an unknown notation.
     """
     return _Layout(derivation, notation, brief, full, details).document()
@@ -58,11 +58,11 @@ class _Layout(Items):
     # -- sections ---------------------------------------------------------------------------------------------------
 
     def system(self) -> Section:
-        """What was described: the symbols with their meaning, and the definitions."""
+        """The description: the symbols with their meaning, and the definitions."""
         return described(self, self.derivation.model)
 
     def noticed(self) -> Iterator[Paragraph]:
-        """What is to be known of the system, a paragraph each."""
+        """The notices of the system, a paragraph each."""
         for notice in self.derivation.notices:
             yield Paragraph((f"{notice.where}: {notice.text}. [{notice.code}]",), "note")
 
@@ -97,9 +97,9 @@ def to_text(
     full: bool = False,
     width: int = 80,
 ) -> str:
-    """Return the derivation as Unicode text of at most ``width`` columns, where its symbols allow it.
+    """Return the derivation as Unicode text of at most ``width`` columns, unless a single symbol is longer.
 
-    Raises `ModelError` for an unknown notation and a width under 40.
+    Raises `ModelError` for an unknown notation and for a width below 40.
     """
     return text.page(lay_out(derivation, notation=notation, brief=brief, full=full), width)
 
@@ -145,4 +145,4 @@ FORMATS: Mapping[str, Callable[..., str]] = {
     "html": to_html,
     "json": to_json,
 }
-"""Every format's writer: ``FORMATS[name](derivation, notation=…, brief=…, full=…) -> str``."""
+"""The writer for each format: ``FORMATS[name](derivation, notation=…, brief=…, full=…) -> str``."""

@@ -1,4 +1,4 @@
-"""The equations of motion, their matrix form, the energy ledger, and where every term came from."""
+"""The equations of motion, their matrix form, the energy ledger, and the origin of every term."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ from lagrangian.viewed import Brief
 
 @dataclass(frozen=True, eq=False)
 class Shares(Brief):
-    """Every share of every equation, so that a term can be traced to the elements that make it."""
+    """The contributions to every equation, by which a term can be traced to its elements."""
 
     context: Context
     sides: tuple[LeftSide, ...]
@@ -73,7 +73,7 @@ class Equations:
 
 
 def equations(context: Context, sides: tuple[LeftSide, ...], found: tuple[Contribution, ...]) -> Equations:
-    """Put steps 5 and 6 together."""
+    """Combine steps 5 and 6."""
     shares = Shares(context, sides, found)
     lefts, rights, described, equalities = [], [], [], []
     for i, side in enumerate(sides):
@@ -94,7 +94,7 @@ def equations(context: Context, sides: tuple[LeftSide, ...], found: tuple[Contri
 
 @dataclass(frozen=True, eq=False)
 class Matrices:
-    """M ξ̈ + C ξ̇ + G = Ξ; ``rest`` holds the terms of G in the order of the equations."""
+    """M ξ̈ + C ξ̇ + G = Ξ; ``rest`` contains the terms of G in the order of the equations."""
 
     M: sp.ImmutableMatrix
     C: sp.ImmutableMatrix
@@ -106,7 +106,7 @@ class Matrices:
 def matrices(context: Context, sides: tuple[LeftSide, ...], xi_of: dict[sp.Expr, sp.Expr]) -> Matrices:
     """M_ij = ∂²T*/∂ξ̇_i∂ξ̇_j;  C_ij = Σ_k ½ (∂M_ij/∂ξ_k + ∂M_ik/∂ξ_j − ∂M_jk/∂ξ_i) ξ̇_k;  G is the rest.
 
-    Christoffel's symbols make Ṁ − 2C skew-symmetric where M does not hold t.
+    Because of the Christoffel symbols, Ṁ − 2C is skew-symmetric if M does not contain t.
     """
     coordinates, algebra = context.model.coordinates, context.algebra
     n = len(coordinates)
@@ -131,7 +131,7 @@ def matrices(context: Context, sides: tuple[LeftSide, ...], xi_of: dict[sp.Expr,
 
 
 def _christoffel(context: Context, M: list[list[Form]]) -> list[list[Form]]:
-    """C, gathered from the slopes ∂M_ab/∂ξ_k that are there: each stands in C_ab, in C_ak, and in C_ka with a minus."""
+    """C, collected from the nonzero derivatives ∂M_ab/∂ξ_k: each occurs in C_ab, in C_ak, and with a minus in C_ka."""
     coordinates, algebra = context.model.coordinates, context.algebra
     n = len(coordinates)
     halves = [algebra.form(sp.Rational(1, 2) * c.rate) for c in coordinates]
@@ -148,7 +148,7 @@ def _christoffel(context: Context, M: list[list[Form]]) -> list[list[Form]]:
 
 
 def closing(context: Context, eqs: Equations, mats: Matrices) -> tuple[Item, ...]:
-    """The equations of motion, boxed, and the matrix form."""
+    """The boxed equations of motion, and the matrix form."""
     M, C, G, Xi = Name("M"), Name("C"), Name("G"), Name("Xi")
     items: list[Item] = [Heading(text("Equations of motion"))]
     for left, right in zip(eqs.left, eqs.right, strict=True):
@@ -167,7 +167,7 @@ def closing(context: Context, eqs: Equations, mats: Matrices) -> tuple[Item, ...
 
 
 def _shown(matrix: sp.ImmutableMatrix, column: tuple[Left, ...] = (), *, symmetric: bool = False) -> Left:
-    """A matrix for the page, or its column as it is to be written; one of nothing but zeros is 0."""
+    """A matrix for the page, or its column as it will be written; one of only zeros becomes 0."""
     if matrix.is_zero_matrix:
         return sp.S.Zero
     entries = [[cast("sp.Expr", matrix[i, j]) for j in range(matrix.cols)] for i in range(matrix.rows)]
@@ -178,7 +178,7 @@ def _shown(matrix: sp.ImmutableMatrix, column: tuple[Left, ...] = (), *, symmetr
 
 
 def ledger(model: Model, context: Context) -> tuple[LedgerRow, ...]:
-    """Every element exactly once in T*, V or Ξ, with the reason."""
+    """All elements, each exactly once in T*, V or Ξ, with the reason."""
     rows: list[LedgerRow] = []
     for element in model.elements:
         expr: sp.Expr | None = None

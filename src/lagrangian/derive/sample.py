@@ -1,4 +1,4 @@
-"""Numbers for expressions: random states at which ranks are taken and routes compared."""
+"""Evaluates expressions at random states, at which ranks are computed and routes compared."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ from lagrangian.model import Model, time
 from lagrangian.page.plain import plain
 
 TRIES = 60
-"""Random draws before an expression counts as having no value anywhere (a square root of a negative, say)."""
+"""After this many random draws without a finite value, an expression counts as having none anywhere."""
 
 
 class Sampler:
     """Evaluates expressions at random coordinates, rates, accelerations, parameters, inputs and time.
 
-    Everything is drawn from (0.4, 1.6), so that masses and lengths are positive and nothing is special. With
+    Everything is drawn from (0.4, 1.6), so that masses and lengths are positive and there are no special values. With
     ``values``, parameters that have a value keep it.
     """
 
@@ -47,7 +47,7 @@ class Sampler:
         return drawn
 
     def at(self, state: Mapping[sp.Basic, float]) -> list[float]:
-        """The values of the expressions at a state; not-a-number where there is none."""
+        """The values of the expressions at a state; NaN if there is none."""
         try:
             result = evaluate(self._program, {"x": [state[s] for s in self.symbols]})["y"]
         except (ZeroDivisionError, ValueError, OverflowError):
@@ -55,7 +55,7 @@ class Sampler:
         return [float(y) for y in result]
 
     def states(self, count: int, *, seed: int = 1) -> Iterable[tuple[dict[sp.Basic, float], list[float]]]:
-        """``count`` random states at which everything is finite, each with the values there."""
+        """``count`` random states at which everything is finite, each with its values."""
         found = 0
         for attempt in range(TRIES + count):
             state = self.draw(seed * 7919 + attempt)

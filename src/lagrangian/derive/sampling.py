@@ -1,8 +1,8 @@
-"""Expressions at many states at once: fast in doubles to find out, with 50 digits to be sure.
+"""Evaluates expressions at many states at once: quickly in doubles, and with 50 digits to be certain.
 
-The states come in blocks, so that it can be told what a factor depends on: ``SETS`` sets of parameters, in each
-``PLACES`` places (coordinates and time), in each as many motions (rates, accelerations, inputs) as are asked for.
-Every value is a multiple of 2⁻¹², so that a double and 50 digits mean the same state.
+The states are in blocks, so that one can see what a factor depends on: ``SETS`` sets of parameters, each with
+``PLACES`` positions (coordinates and time), each with as many motions (rates, accelerations, inputs) as requested.
+Every value is a multiple of 2⁻¹², so that doubles and 50 digits represent the same state.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 
 
 class Placed(Protocol):
-    """A coordinate that stays on one side; see `sides`."""
+    """A coordinate that is restricted to one side; see `branches` in `check`."""
 
     @property
     def q(self) -> sp.Expr:
@@ -46,10 +46,10 @@ class Placed(Protocol):
 
 
 class States:
-    """Random states in blocks; the value of a symbol at all of them depends on its name alone.
+    """Random states in blocks; the values of a symbol depend only on its name.
 
-    With a ``reach`` what moves is of either sign and of every size up to it: for expressions that are not smooth.
-    What stands for a distance stays on its side; see `sides`.
+    With a ``reach``, moving quantities have either sign and any size up to it, for expressions that are not smooth. A
+    distance stays on its side.
     """
 
     def __init__(self, model: Model, motions: int, *, reach: float = 0.0, sides: Sequence[Placed] = ()) -> None:
@@ -61,7 +61,8 @@ class States:
         self._known: dict[sp.Basic, Array] = {}
 
     def of(self, symbol: sp.Basic) -> Array:
-        """The values of a symbol, shape (size,): constant in a set for parameters, in a place for coordinates."""
+        """The values of a symbol, shape (size,): constant within a set for parameters, within a position for
+        coordinates."""
         if symbol not in self._known:
             self._known[symbol] = self._drawn(symbol)
         return self._known[symbol]
@@ -83,12 +84,12 @@ class States:
         return self.sides[symbol].put(values, self) if symbol in self.sides else values
 
     def blocks(self) -> Iterable[slice]:
-        """The states of each place."""
+        """The states for each position."""
         return (slice(i, i + self.motions) for i in range(0, self.size, self.motions))
 
 
 class CompiledExpressions:
-    """Expressions as one graph, to be evaluated at states."""
+    """Expressions as one graph, for evaluation at states."""
 
     def __init__(self, exprs: Sequence[sp.Expr]) -> None:
         self.graph = Graph()
@@ -126,7 +127,7 @@ class CompiledExpressions:
         return cast("sp.Expr", expr.xreplace(table)) if table else expr
 
     def slopes(self, symbols: Sequence[sp.Basic]) -> CompiledExpressions:
-        """∂expression/∂symbol, expression after expression."""
+        """∂expression/∂symbol for one expression after another."""
         by = [self.input(x) for x in symbols]
         other = CompiledExpressions([])
         other.graph, other.symbols, other.table, other._numbers = self.graph, self.symbols, self.table, self._numbers
@@ -200,7 +201,7 @@ _NUMPY: dict[str, Any] = {
 
 
 def _walk(graph: Graph, ids: Sequence[int], inputs: Sequence[Array], size: int) -> Array:
-    """The values of nodes, every one an array over the states; what has no value is not a number."""
+    """The values of nodes as arrays over the states; NaN if there is no value."""
     value: dict[int, Any] = {}
     with np.errstate(all="ignore"):
         for i in reached(graph, ids):

@@ -1,7 +1,7 @@
-"""What moves when one coordinate wiggles: the rank of the coordinates, and the lecture's boxes.
+"""What moves when one coordinate wiggles: the rank of the coordinates, and the boxes of the lecture.
 
-For every body the columns ∂r/∂ξ_i (and ∂ω/∂ξ̇_i where it can turn) at random states. Their common rank decides whether
-the coordinates are independent; a column that is not zero puts the body into the box of ξ_i.
+The columns ∂r/∂ξ_i (and ∂ω/∂ξ̇_i if it can turn) of every body are computed at random states. Their common rank decides
+whether the coordinates are independent; if a column is not zero, the body is in the box of ξ_i.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ from lagrangian.errors import ModelError
 from lagrangian.model import Element, Frame, Model, RigidBody
 
 SMALL = 1e-9
-"""Relative size under which a singular value or a column counts as zero."""
+"""A singular value or a column below this relative size counts as zero."""
 STATES = 3
 
 
 @dataclass(frozen=True)
 class _Rows:
-    """A block of rows ∂(rate)/∂ξ̇ of one body: ``turning`` for its rotation; ``weight`` what resists the motion."""
+    """A block of rows ∂(rate)/∂ξ̇ of one body: ``turning`` for its rotation; ``weight`` is its mass or inertia."""
 
     body: Element
     turning: bool
@@ -35,10 +35,10 @@ class _Rows:
 
 @dataclass(frozen=True, eq=False)
 class Wiggle:
-    """``moved[i]`` are the bodies in the box of coordinate i.
+    """The result of `study`: ``moved[i]`` are the bodies in the box of coordinate i.
 
-    ``rank`` is the rank of the velocities of all that has mass; it equals the number of coordinates, or `study` has
-    refused the coordinates by name.
+    ``rank`` is the rank of the velocities of everything with mass. It equals the number of coordinates; otherwise
+    `study` has raised an error.
     """
 
     moved: tuple[tuple[Element, ...], ...]
@@ -46,7 +46,8 @@ class Wiggle:
 
 
 def study(model: Model) -> Wiggle:
-    """Return what moves with what; raise `ModelError` for dependent, missing and idle coordinates, by name."""
+    """Return what each coordinate moves; raise `ModelError`, with names, for dependent, missing and idle
+    coordinates."""
     for frame in model.floating:
         _refuse_quaternion(frame)
     blocks = _blocks(model)
@@ -91,7 +92,7 @@ def _blocks(model: Model) -> list[_Rows]:
 
 
 def _split(blocks: Sequence[_Rows], values: np.ndarray, n: int) -> tuple[list[np.ndarray], list[np.ndarray]]:
-    """Cut the flat list of sampled values back into each block's columns, and these times the weight."""
+    """Split the flat list of sampled values into the columns of each block, and these multiplied by the weight."""
     columns, weighted, at = [], [], 0
     for block in blocks:
         rows = len(block.rates)
@@ -123,7 +124,7 @@ def _bodies(blocks: Sequence[_Rows], seen: np.ndarray) -> tuple[Element, ...]:
 
 
 def _refuse_quaternion(frame: Frame) -> None:
-    """Raise the error for coordinates that are dependent as they stand: the four entries of a quaternion."""
+    """Raise the error for the four dependent entries of a quaternion."""
     assert frame.floating is not None
     listed = ", ".join(c.name for c in frame.floating.coordinates[3:])
     raise ModelError(
@@ -170,7 +171,7 @@ def _refuse(model: Model, blocks: Sequence[_Rows], seen: np.ndarray, stacked: np
 
 
 def _null(matrix: np.ndarray) -> np.ndarray:
-    """A null vector with as few entries as found, its largest entry 1."""
+    """A null vector with few nonzero entries, the largest of which is 1."""
     n = matrix.shape[1]
     for size in range(2, n + 1):  # the first columns that depend on each other name the fault most shortly
         for last in range(size - 1, n):
@@ -189,5 +190,5 @@ def _figure(x: float) -> str:
 
 
 def depends(model: Model, expr: sp.Expr, symbol: sp.Expr) -> bool:
-    """Whether ``expr`` changes with a coordinate (decided by its derivative, not by how it is written)."""
+    """Whether ``expr`` changes with a coordinate, decided by its derivative."""
     return expr.has(symbol) and bounded.diff(expr, symbol) != 0

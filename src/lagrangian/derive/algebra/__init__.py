@@ -1,8 +1,8 @@
-"""The algebra under readable equations: an exact normal form, and from it what a textbook prints.
+"""The algebra behind readable equations: an exact normal form, and its conversion to textbook form.
 
-`algebra` is the ring of one system and `form` the trigonometric normal form in it; `reading` takes expressions into it,
-`generators` and `monomials` are what it is made of; `readable` writes it out, with `group`, `factor`, `trig` and `sums`
-to choose the shape.
+`algebra` is the polynomial ring of one system, and `form` is the trigonometric normal form in it. `reading` converts
+expressions to it, using `generators` and `monomials`. `readable` converts it back, and `group`, `factor`, `trig` and
+`sums` choose the shape of the result.
 """
 
 from lagrangian.derive.algebra.algebra import Algebra, equations

@@ -1,4 +1,4 @@
-"""The ring that a system's expressions live in, and Lagrange's equations in it."""
+"""The polynomial ring for the expressions of a system, and Lagrange's equations in it."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from lagrangian.derive.algebra.readable import Writer
 from lagrangian.derive.algebra.reading import FormReader
 
 WORK = 5_000_000
-"""Terms that may be multiplied, added and differentiated for one system; what a book holds takes a hundredth."""
+"""The number of operations on terms for one system; textbook examples need a hundredth of it."""
 
 
 LETTERS = 128
@@ -34,7 +34,7 @@ def _spent(limit: int) -> OutOfReach:
 
 
 class HasCoordinates(Protocol):
-    """What the algebra needs of a model: its coordinates, in order, each with a ``symbol``."""
+    """The requirements of the algebra on a model: its coordinates, in order, each with a ``symbol``."""
 
     @property
     def coordinates(self) -> Collection[HasSymbol]:
@@ -43,7 +43,7 @@ class HasCoordinates(Protocol):
 
 
 class HasSymbol(Protocol):
-    """Something that is written as a symbol."""
+    """Something that has a symbol."""
 
     @property
     def symbol(self) -> sp.Expr:
@@ -52,10 +52,10 @@ class HasSymbol(Protocol):
 
 
 class Algebra:
-    """The ring that a system's expressions live in; built once for the system.
+    """The polynomial ring for the expressions of a system, made once.
 
-    ``model`` gives the coordinates, whose order is the order of terms; ``expressions`` are read first, so that the
-    shape of later results does not depend on who asks first.
+    ``model`` gives the coordinates, whose order is the order of terms. ``expressions`` are converted first, so that the
+    shape of later results does not depend on the order of requests.
     """
 
     def __init__(self, model: HasCoordinates, expressions: Iterable[sp.Expr] = ()) -> None:
@@ -68,15 +68,15 @@ class Algebra:
         self.generators.forget()
 
     def spend(self, operations: int) -> None:
-        """Count operations on terms; a term is as long as there are letters. Raises `OutOfReach` past `WORK`."""
+        """Count operations on terms, whose length is the number of symbols. Raises `OutOfReach` above `WORK`."""
         self.work.spend(operations * (1 + len(self.generators.table) // LETTERS))
 
     def renew(self) -> None:
-        """Begin to count anew: another answer is looked at, another page is written."""
+        """Restart the count, for another answer or another page."""
         self.work.left, self.generators.writing = self.work.limit, WRITING
 
     def form(self, expr: sp.Expr) -> Form:
-        """Return the normal form; raise `OutOfReach` where it would be too long or is not a real expression."""
+        """Return the normal form; raise `OutOfReach` if it would be too long or is not a real expression."""
         return self.reader.form(sp.sympify(expr))
 
     def number(self, value: Packed) -> Form:
@@ -88,7 +88,7 @@ class Algebra:
         return Form(self, {(0, 0): {packed: 1}})
 
     def total(self, forms: Iterable[Form]) -> Form:
-        """Return the sum of any number of forms, 0 of none."""
+        """Return the sum of any number of forms."""
         forms = [f for f in forms if f.parts]
         if not forms:
             return Form(self, {})

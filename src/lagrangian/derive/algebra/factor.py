@@ -1,7 +1,8 @@
-"""Short sums of products: the factored shape of a polynomial, found by trying.
+"""Finds short sums of products, the factored shape of a polynomial, by trial.
 
-A `Tree` is a product  coefficient · monomial · ∏ (sum)^power. Its cost is what ``sympy.count_ops`` would count. Tried
-are the plain sum, SymPy's factorization, and pulling each letter out of the terms that hold it, in turn.
+A `Tree` is a product coefficient · monomial · ∏ (sum)^power. Its cost is what ``sympy.count_ops`` would count. The
+candidates are the plain sum, SymPy's factorization, and the results of factoring each symbol out of the terms that
+contain it.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ WIDE_TERMS = 9
 
 @dataclass(frozen=True, slots=True)
 class Tree:
-    """coefficient · monomial · ∏ sums_i^power_i; a sum is a tuple of trees, in order. ``cost`` in operations."""
+    """coefficient · monomial · ∏ sums_i^power_i; a sum is an ordered tuple of trees. ``cost`` is in operations."""
 
     coefficient: Fraction
     monomial: int
@@ -43,7 +44,7 @@ class Tree:
 
 
 class Shortener:
-    """Finds short trees; ``cost_of`` is the number of operations inside a letter (0 for a symbol, 1 for sin θ)."""
+    """Finds short trees; ``cost_of`` is the number of operations inside a symbol (0 for x, 1 for sin θ)."""
 
     def __init__(self, cost_of: Callable[[int], int], affords: Callable[[int], bool] = lambda _: True) -> None:
         self.cost_of, self.affords = cost_of, affords
@@ -67,11 +68,11 @@ class Shortener:
         return Tree(coefficient, monomial, sums, cost + factors - 1)
 
     def times(self, tree: Tree, coefficient: Fraction, monomial: int) -> Tree:
-        """Return a multiple of a tree; its own sums stay."""
+        """Return a multiple of a tree, with the same sums."""
         return self.product(tree.coefficient * coefficient, tree.monomial + monomial, tree.sums)
 
     def summed(self, trees: Iterable[Tree]) -> Tree:
-        """Return a sum of trees as one tree; a single one stays itself."""
+        """Return a sum of trees as one tree; a single tree is returned unchanged."""
         flat: list[Tree] = []
         for t in trees:
             bare = t.coefficient == 1 and t.monomial == 0 and len(t.sums) == 1 and t.sums[0][1] == 1
@@ -83,9 +84,9 @@ class Shortener:
     # -- searching --------------------------------------------------------------------------------------------------
 
     def short(self, poly: Flat) -> Tree:
-        """Return the shortest tree found for a polynomial that is not zero.
+        """Return the shortest tree that is found for a polynomial other than zero.
 
-        Denominators that only some terms have stay with these terms, J/R² + m, unless (J + m R²)/R² is shorter.
+        Denominators of only some terms stay with these terms, J/R² + m, unless (J + m R²)/R² is shorter.
         """
         best = self._outside(poly, whole=False)
         denominators = {c.denominator for c in poly.values()}
@@ -103,7 +104,7 @@ class Shortener:
         return best
 
     def _outside(self, poly: Flat, *, whole: bool) -> Tree:
-        """Return what all terms have in common times the rest made short."""
+        """Return the common factor of all terms times the rest in short form."""
         coefficient, monomial, rest = primitive(poly, whole=whole)
         if len(rest) == 1:
             return self.product(coefficient, monomial)
@@ -125,7 +126,7 @@ class Shortener:
         return best
 
     def factored(self, poly: Flat) -> Tree | None:
-        """Return the product of the irreducible factors, None where there is one factor beside what all terms share."""
+        """Return the product of the irreducible factors; None if there is only one besides the common factor."""
         coefficient, monomial, rest = primitive(poly, whole=False)
         factors = self._factorized(rest)
         if factors is None:
@@ -158,7 +159,7 @@ class Shortener:
             yield self.summed(self.short(g) for g in groups)
 
     def split(self, poly: Flat, letter: int) -> Tree:
-        """Return letter·(…) + the rest; ``~i`` asks for the terms that are divided by letter i."""
+        """Return symbol·(…) + the rest; ``~i`` selects the terms that are divided by symbol i."""
         i, sign = (letter, 1) if letter >= 0 else (~letter, -1)
         inside: Flat = {}
         outside: Flat = {}
@@ -168,7 +169,7 @@ class Shortener:
         return self.summed(t for t, _ in sorted(parts, key=lambda x: x[1]))
 
     def _factorized(self, poly: Flat) -> list[tuple[Flat, int]] | None:
-        """SymPy's factors with their powers, None where there is nothing to gain."""
+        """SymPy's factors with their powers, None if there is nothing to gain."""
         letters = sorted({i for m in poly for i, _ in digits(m)})
         if len(poly) > FACTOR_TERMS or len(letters) > FACTOR_LETTERS:
             return None
@@ -202,7 +203,7 @@ class Shortener:
 
 @lru_cache(maxsize=4096)
 def _factors(terms: frozenset[tuple[tuple[int, ...], int]], letters: int) -> list[tuple[Flat, int]] | None:
-    """The irreducible factors over the integers, letters numbered 0, 1, …; None where the polynomial is one."""
+    """The irreducible factors over the integers, with symbols numbered 0, 1, …; None if there is only one."""
     shape = dict(terms)
     if min(sum(1 for m in shape if m[k]) for k in range(letters)) == 1 and all(max(m) <= 1 for m in shape):
         lonely = next(k for k in range(letters) if sum(1 for m in shape if m[k]) == 1)
@@ -217,7 +218,7 @@ def _factors(terms: frozenset[tuple[tuple[int, ...], int]], letters: int) -> lis
 
 
 def components(poly: Flat) -> list[Flat]:
-    """Return the parts that have no letter in common, such as (x₁ − x₂)² and (y₁ − y₂)²; no factor spans two."""
+    """Return the parts without common symbols, such as (x₁ − x₂)² and (y₁ − y₂)²; no factor contains symbols of two."""
     parts: list[tuple[set[int], Flat]] = []
     for m, c in poly.items():
         letters, terms = {i for i, _ in digits(m)}, {m: c}
@@ -232,9 +233,9 @@ def components(poly: Flat) -> list[Flat]:
 
 
 def partitions(poly: Flat) -> list[list[Flat]]:
-    """Return ways to deal the terms out by letters of which every term has exactly one, such as L1², L2², L3².
+    """Return groupings of the terms by symbols of which every term contains exactly one, such as L1², L2², L3².
 
-    A family of such letters is grown from each letter of the first term; groups are in the order of their first terms.
+    Such a family of symbols is built from each symbol of the first term; groups are in the order of their first terms.
     """
     holders: dict[tuple[int, int], set[int]] = {}
     for m in poly:
@@ -255,9 +256,9 @@ def partitions(poly: Flat) -> list[list[Flat]]:
 
 
 def primitive(poly: Flat, *, whole: bool = True) -> tuple[Fraction, int, Flat]:
-    """Return coefficient, monomial and the rest, so that the rest has neither in common and mostly plus signs.
+    """Return coefficient, monomial and the rest, which has no common factor and mostly plus signs.
 
-    Of the numbers' denominators what all have is common, of a letter's all only with ``whole``.
+    Common denominators of numbers are always taken out, those of symbols only with ``whole``.
     """
     monomial = common(poly)
     if not whole:
@@ -275,7 +276,7 @@ def primitive(poly: Flat, *, whole: bool = True) -> tuple[Fraction, int, Flat]:
 
 
 def order(monomial: int) -> tuple[tuple[int, int], ...]:
-    """The key that sorts monomials: by their first letter, higher powers first."""
+    """The key that sorts monomials by their first symbol, higher powers first."""
     return tuple((i, -e) for i, e in digits(monomial)) or ((1 << 30, 0),)
 
 

@@ -46,11 +46,11 @@ Rate = Callable[[int], "int | Form | None"]
 
 @dataclass(frozen=True, eq=False)
 class Term:
-    """A readable term of an equation and its kind, judged by what it is a multiple of.
+    """A readable term of an equation, and its kind, which depends on its factors.
 
-    Kinds: "inertia" with an acceleration; "velocity" with a product of rates, or a rate and something else that moves;
-    "damping" with one bare rate; "stiffness" with coordinates and no sine; "gravity" with sines of coordinates, or
-    constant; "input"; "other".
+    Kinds: "inertia" with an acceleration; "velocity" with a product of rates, or a rate and another moving factor;
+    "damping" with a single rate; "stiffness" with coordinates and without sines; "gravity" with sines of coordinates,
+    or constant; "input"; "other".
     """
 
     expr: sp.Expr
@@ -58,13 +58,13 @@ class Term:
 
 
 class Ring(Protocol):
-    """What a form asks of the algebra that it belongs to; see `lagrangian.derive.algebra.algebra.Algebra`."""
+    """The requirements of a form on its algebra; see `lagrangian.derive.algebra.algebra.Algebra`."""
 
     generators: Any
     writer: Any
 
     def spend(self, operations: int) -> None:
-        """Count operations on terms; raise `OutOfReach` where they are too many."""
+        """Count operations on terms; raise `OutOfReach` if there are too many."""
         ...
 
     def form(self, expr: sp.Expr) -> Form:
@@ -89,11 +89,11 @@ class Ring(Protocol):
 
 
 class Form:
-    """One expression in normal form: Σ_h C_h cos(h·a) + S_h sin(h·a), divided by ``den``.
+    """An expression in normal form: Σ_h C_h cos(h·a) + S_h sin(h·a), divided by ``den``.
 
-    ``parts`` holds the polynomials by harmonic, with integer coefficients that have no common divisor with ``den``.
-    Never changed once made; ``==`` decides equality exactly (up to relations among functions it does not know, such
-    as tan = sin/cos, cosh² − sinh² = 1, or √2·√3 = √6).
+    ``parts`` contains the polynomials by harmonic, with integer coefficients that have no common divisor with ``den``.
+    A form never changes; ``==`` decides equality exactly (except for relations between functions that it does not know,
+    such as tan = sin/cos, cosh² − sinh² = 1, or √2·√3 = √6).
     """
 
     __hash__ = None  # type: ignore[assignment] # equality is decided by clearing denominators, so no key stands for it
@@ -159,7 +159,7 @@ class Form:
     __rmul__ = __mul__
 
     def __pow__(self, exponent: int) -> Form:
-        """Raise to a small whole power, not negative."""
+        """Raise to a small nonnegative whole power."""
         if not 0 <= exponent <= LARGEST_EXPONENT:
             raise OutOfReach(f"an exponent of {exponent} is outside 0 … {LARGEST_EXPONENT}")
         result, base = self.algebra.number(1), self
@@ -180,7 +180,7 @@ class Form:
         return self._derived(lambda i: generators.partial(i, g), lambda j: generators.angle_partial(j, g))
 
     def total_derivative(self) -> Form:
-        """Return d/dt: coordinates become rates, rates accelerations, and time runs."""
+        """Return d/dt: coordinates become rates, rates become accelerations, and dt/dt = 1."""
         generators = self.algebra.generators
         return self._derived(generators.rate, generators.angle_rate)
 
@@ -227,12 +227,12 @@ class Form:
 
     @property
     def size(self) -> int:
-        """How many terms it has."""
+        """The number of terms."""
         return sum(len(p) for p in self.parts.values())
 
     @property
     def is_zero(self) -> bool:
-        """Whether it vanishes identically; denominators are cleared to decide it."""
+        """Whether it vanishes identically, which is decided after clearing denominators."""
         form = self
         while form.parts:
             factor = self.algebra.generators.denominators(form)
@@ -248,28 +248,29 @@ class Form:
         raise TypeError("a Form has no truth value; ask for is_zero")
 
     def keys(self) -> frozenset[Key]:
-        """Return what its terms are multiples of: harmonic, and monomial of all that moves; lengths and masses drop."""
+        """Return the variable factors of its terms: the harmonic, and the monomial of everything that moves."""
         moving = self.algebra.generators.moving
         return frozenset((h, moving(m)) for h, p in self.parts.items() for m in p)
 
     def restricted(self, keys: Collection[Key]) -> Form:
-        """Return the terms that are multiples of these keys."""
+        """Return the terms with these variable factors."""
         moving = self.algebra.generators.moving
         parts = {h: {m: c for m, c in p.items() if (h, moving(m)) in keys} for h, p in self.parts.items()}
         return Form(self.algebra, parts, self.den)
 
     def opaque(self) -> tuple[sp.Expr, ...]:
-        """Return the subexpressions that were kept as they are because they are no polynomials in sines and cosines."""
+        """Return the subexpressions that are treated as symbols because they are not polynomials in sines and
+        cosines."""
         return self.algebra.generators.kept(m for p in self.parts.values() for m in p)
 
     # -- reading ----------------------------------------------------------------------------------------------------
 
     def expr(self) -> sp.Expr:
-        """Return the expression as a textbook would write it: the shortest of the shapes that were tried."""
+        """Return the expression in textbook form: the shortest of the shapes that were tried."""
         return self.algebra.writer.expr(self)
 
     def terms(self) -> list[Term]:
-        """Return the readable terms in a textbook's order: inertia, products of rates, damping, stiffness, gravity."""
+        """Return the readable terms in textbook order: inertia, products of rates, damping, stiffness, gravity."""
         return self.algebra.writer.terms(self)
 
     def raw(self) -> sp.Expr:

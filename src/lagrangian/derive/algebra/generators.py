@@ -1,4 +1,4 @@
-"""The letters of the normal form: symbols, roots, functions left as they are, and the angles inside sines."""
+"""The variables of the normal form: symbols, roots, functions treated as symbols, and the angles inside sines."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from lagrangian.derive.algebra.monomials import Packed, digits, multiples, packe
 
 @dataclass(frozen=True, eq=False)
 class Symbolic:
-    """A symbol: time, a parameter, or a function of time with ``order`` dots. ``role`` says which.
+    """A symbol: time, a parameter, or a function of time with ``order`` dots. ``role`` is its meaning.
 
-    Roles: "coordinate", "rate", "acceleration" (and beyond), "input", "time", "parameter".
+    Roles: "coordinate", "rate", "acceleration" (and higher derivatives), "input", "time", "parameter".
     """
 
     time: ClassVar[sp.Symbol] = sp.Symbol("t")
@@ -30,7 +30,7 @@ class Symbolic:
 
 @dataclass(frozen=True, eq=False)
 class Root:
-    """g = b^(1/q) of a form b; with q = 1 it stands for denominators, 1/b being g⁻¹. Relation: g^q = b."""
+    """g = b^(1/q) of a form b; with q = 1 it represents denominators, 1/b being g⁻¹. Relation: g^q = b."""
 
     base: Form
     q: int
@@ -38,13 +38,14 @@ class Root:
 
     @property
     def expr(self) -> sp.Expr:
-        """b^(1/q), the base readable."""
+        """b^(1/q) with the base in readable form."""
         return cast("sp.Expr", self.base.expr() ** sp.Rational(1, self.q))
 
 
 @dataclass(frozen=True, eq=False)
 class Opaque:
-    """A function kept as it is, such as exp(−x/l) or tanh(v/v₀); ``inside`` are the symbols it depends on."""
+    """A function treated as a symbol, such as exp(−x/l) or tanh(v/v₀); ``inside`` are the symbols on which it
+    depends."""
 
     expr: sp.Expr
     inside: tuple[sp.Expr, ...]
@@ -53,7 +54,7 @@ class Opaque:
 
 @dataclass(frozen=True, eq=False)
 class Trig:
-    """A sine or cosine as a letter on the page; forms keep their harmonics and never hold one."""
+    """A sine or cosine as a symbol on the page; forms store harmonics and never contain one."""
 
     harmonic: Harmonic
     expr: sp.Expr
@@ -62,7 +63,7 @@ class Trig:
 
 @dataclass(frozen=True, eq=False)
 class Sum:
-    """A sum of parameters as a letter on the page, such as L_a + L_b; forms keep its letters and never hold one."""
+    """A sum of parameters as a symbol on the page, such as L_a + L_b; forms store its symbols and never contain one."""
 
     expr: sp.Expr
     moving: ClassVar[bool] = False
@@ -75,7 +76,7 @@ Generator = Symbolic | Root | Opaque | Trig | Sum
 
 
 class Generators:
-    """The table of generators and angles of an algebra; it grows as new ones are met."""
+    """The table of generators and angles of an algebra, which grows as new ones are met."""
 
     def __init__(self, algebra: Ring, coordinates: Sequence[sp.Expr]) -> None:
         self.algebra = algebra
@@ -134,7 +135,7 @@ class Generators:
         return self._index[key]
 
     def opaque(self, expr: sp.Expr) -> int:
-        """Return the number of a function that is kept as it is."""
+        """Return the number of a function that is treated as a symbol."""
         if expr not in self._index:
             atoms = _outermost(expr)
             inside = tuple(sorted(atoms, key=self.index))
@@ -144,7 +145,7 @@ class Generators:
         return self._index[expr]
 
     def trig_letter(self, harmonic: Harmonic) -> int:
-        """Return the number of a sine or cosine on the page; of a sine with the sign that SymPy lets stand."""
+        """Return the number of a sine or cosine on the page; a sine has the sign that SymPy preserves."""
         key = ("trig", harmonic)
         if key not in self._index:
             self._index[key] = len(self.table)
@@ -163,13 +164,13 @@ class Generators:
         return self._index[key]
 
     def sign(self, h: Packed) -> int:
-        """Return −1 where SymPy turns sin(h·a) into −sin(−h·a): the sine on the page is the latter."""
+        """Return −1 if SymPy converts sin(h·a) to −sin(−h·a), which is then the sine on the page."""
         return -1 if self.trig((h, 1)).could_extract_minus_sign() else 1
 
     def angle(self, harmonic: Harmonic, monomial: int, scale: Fraction | None = None) -> int:
         """Return the number of the angle that is this one term: a monomial, or a monomial times a sine or cosine.
 
-        ``scale`` belongs to the angle where it is too long a fraction to count its multiples.
+        ``scale`` belongs to the angle if it is too long a fraction for counting multiples.
         """
         key = (harmonic, monomial, scale)
         if key not in self._angle:
@@ -229,7 +230,7 @@ class Generators:
         return _or_none((slope * self.algebra.monomial(unit(i) * (1 - entry.q))).scaled(Fraction(1, entry.q)))
 
     def _opaque_slope(self, entry: Opaque, symbol: sp.Expr) -> Form | None:
-        """SymPy's derivative, the moving symbols replaced by real ones so that |x| differentiates to sign(x)."""
+        """SymPy's derivative, with real symbols for the moving ones, so that |x| has the derivative sign(x)."""
         if symbol not in entry.inside:
             return None
         real = {a: sp.Dummy(f"u{k}", real=True) for k, a in enumerate(entry.inside)}
@@ -238,7 +239,7 @@ class Generators:
         return _or_none(self.algebra.form(cast("sp.Expr", bounded.replaced(slope, back))))
 
     def ramp(self, i: int) -> Form | None:
-        """u where generator i is max(0, u) or min(0, u)."""
+        """u if generator i is max(0, u) or min(0, u)."""
         entry = self.table[i]
         if not (isinstance(entry, Opaque) and isinstance(entry.expr, (sp.Max, sp.Min)) and len(entry.expr.args) == 2):
             return None
@@ -277,7 +278,7 @@ class Generators:
         return any(self.angle_rate(j) is not None for j, _ in multiples(harmonic))
 
     def by_coordinates(self, harmonic: Packed) -> bool:
-        """Whether an angle changes with a coordinate, and not with time alone."""
+        """Whether an angle changes with a coordinate, and not only with time."""
         inside = {
             i for j, _ in multiples(harmonic) for p in self.angles[j].parts.values() for m in p for i, _ in digits(m)
         }
@@ -288,7 +289,7 @@ class Generators:
         return isinstance(entry, Symbolic) and entry.role in ("time", "input")
 
     def denominators(self, form: Form) -> int:
-        """Return the monomial that clears every denominator of a form, 0 where it has none."""
+        """Return the monomial that clears all denominators of a form, 0 if there are none."""
         least: dict[int, int] = {}
         for p in form.parts.values():
             for m in p:
@@ -307,7 +308,7 @@ class Generators:
         self._bases.clear()
 
     def affords(self, operations: int) -> bool:
-        """Count operations of a search for a shorter way of writing; False where none are left, for good."""
+        """Count operations of a search for a shorter form; return False once none are left."""
         self.writing -= operations
         if self.writing < 0:
             self.writing = -1
@@ -316,7 +317,7 @@ class Generators:
     # -- back to SymPy ----------------------------------------------------------------------------------------------
 
     def cost(self, i: int) -> int:
-        """Return the operations inside a generator, every symbol, rate and acceleration counted as one name."""
+        """Return the operations inside a generator, where every symbol, rate and acceleration counts as a name."""
         if i not in self._costs:
             self._costs[i] = bounded.operations(bounded.replaced(self.table[i].expr, self.placeholders))
         return self._costs[i]
@@ -352,7 +353,7 @@ def _or_none(form: Form) -> Form | None:
 
 
 def _simple(form: Form) -> int | Form | None:
-    """A form that is one bare monomial as that monomial, zero as None."""
+    """The monomial of a form that is a single monomial; None for zero."""
     if not form.parts:
         return None
     if form.den == 1 and list(form.parts) == [(0, 0)]:
@@ -363,7 +364,7 @@ def _simple(form: Form) -> int | Form | None:
 
 
 def _outermost(expr: sp.Expr) -> set[sp.Expr]:
-    """The symbols an expression depends on; of a derivative only the whole, of a function of time not its t."""
+    """The symbols on which an expression depends; derivatives as a whole, functions of time without t."""
     found: set[sp.Expr] = set()
     stack: list[sp.Basic] = [expr]
     while stack:

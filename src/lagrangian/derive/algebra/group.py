@@ -1,8 +1,8 @@
-"""The terms of one class, in the best of the groupings that fit it.
+"""Groups the terms of one class in the best possible way.
 
-Inertia is one term an acceleration, (…) ẍ₁ + (…) ẍ₂, or one a harmonic and a sum of accelerations, … (2θ̈₁ + θ̈₂) cos θ₂;
-products of rates are read the same way. Best is what is short, is nested no deeper than a reader can hold, and does not
-spread an acceleration over many places.
+Inertia is written with a term for each acceleration, (…) ẍ₁ + (…) ẍ₂, or with a term for each harmonic and sum of
+accelerations, … (2θ̈₁ + θ̈₂) cos θ₂; products of rates are treated in the same way. The best grouping is short, not
+nested too deeply for a reader, and does not scatter an acceleration over many places.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ Way = list[Tree]
 
 
 def role_of(generators: Generators, letter: int) -> str:
-    """Return "trig", "function", or the role of the symbol; a function of parameters alone is a parameter."""
+    """Return "trig", "function", or the role of the symbol; a function of parameters counts as a parameter."""
     entry = generators.table[letter]
     if isinstance(entry, Symbolic):
         return entry.role
@@ -49,7 +49,7 @@ def role_of(generators: Generators, letter: int) -> str:
 
 
 def letters(tree: Tree) -> set[int]:
-    """Return all letters that occur in a tree."""
+    """Return all symbols that occur in a tree."""
     found = {i for i, _ in digits(tree.monomial)}
     for terms, _ in tree.sums:
         for t in terms:
@@ -58,13 +58,13 @@ def letters(tree: Tree) -> set[int]:
 
 
 class Grouper:
-    """Deals the terms of a class out; ``shortener`` makes each group short."""
+    """Groups the terms of a class; ``shortener`` makes each group short."""
 
     def __init__(self, generators: Generators, shortener: Shortener) -> None:
         self.generators, self.shortener = generators, shortener
 
     def grouped(self, kind: TermKind, poly: Flat, long: bool) -> Way:
-        """Return the terms of one class in the best of the groupings that fit it; of equals, the first."""
+        """Return the terms of one class in the best possible grouping; of equally good ones, the first."""
         if len(poly) == 1:
             return [self.shortener.short(poly)]
         if not self.generators.affords(len(poly) // 10):  # three groupings, each with its parts made short
@@ -82,7 +82,7 @@ class Grouper:
     # -- what is tried ----------------------------------------------------------------------------------------------
 
     def _carried(self, poly: Flat, role: str, long: bool) -> Iterable[Way]:
-        """Terms that are linear in accelerations, or in rates: by each, or by their sums that several masses share."""
+        """Terms that are linear in accelerations, or in rates: grouped by each, or by sums shared by several masses."""
         yield self._sorted(self._entries(poly, role), role)
         if not long:
             return
@@ -111,7 +111,7 @@ class Grouper:
             yield from self._springs(poly, long)
 
     def _springs(self, poly: Flat, _: bool) -> Iterable[Way]:
-        """k (x₁ − x₂) by the spring, or by the coordinate; weak powers first: k x + k₃ x³."""
+        """k (x₁ − x₂), grouped by spring or by coordinate, with low powers first: k x + k₃ x³."""
         for way in (
             self._by(poly, self._but("coordinate", "rate", "input", "function"), merge=True),
             self._whole(poly),
@@ -137,7 +137,7 @@ class Grouper:
     # -- judging ----------------------------------------------------------------------------------------------------
 
     def _best(self, ways: Iterable[Way], kind: TermKind) -> Way:
-        """The way of the lowest cost: operations, and what nesting and scattering are worth."""
+        """The grouping of lowest cost: operations, plus penalties for nesting and scattering."""
 
         def cost(way: Way) -> int:
             total = sum(1 + self._cost(t, kind) for t in way)
@@ -156,12 +156,12 @@ class Grouper:
         return tree.cost + NESTED * max(0, deep - DEEP) + shallow
 
     def _depth(self, tree: Tree) -> int:
-        """How many parentheses stand inside one another; a sum of parameters that is a letter is one."""
+        """The depth of nested parentheses; a sum of parameters that is a symbol counts as one."""
         own = any(isinstance(self.generators.table[i], Sum) for i, _ in digits(tree.monomial))
         return max((1 + max(self._depth(t) for t in terms) for terms, _ in tree.sums), default=int(own))
 
     def _sorted(self, way: Way, role: str) -> Way:
-        """In the order of the accelerations; where they stand in sums, what has no harmonic comes first."""
+        """In the order of the accelerations; sums of these without a harmonic come first."""
 
         def key(tree: Tree) -> tuple[object, ...]:
             own = sorted(i for i in letters(tree) if self.role(i) == role)
@@ -172,14 +172,14 @@ class Grouper:
         return sorted(way, key=key)
 
     def _leading(self, way: Way) -> Way:
-        """A sum does not begin with a minus where another of its terms can be the first."""
+        """Avoid a minus at the beginning of a sum if another of its terms can come first."""
         if way[0].coefficient > 0:
             return way
         first = next((i for i, t in enumerate(way) if t.coefficient > 0), 0)
         return [way[first], *way[:first], *way[first + 1 :]]
 
     def _facing(self, tree: Tree) -> Tree:
-        """The sum 1 − L₀/l, not L₀/l − 1, and g − a ω² cos ωt, with the sign before it."""
+        """The sum 1 − L₀/l, not L₀/l − 1, and g − a ω² cos ωt, with the sign in front of it."""
         for k, (terms, power) in enumerate(tree.sums):
             bare = [t for t in terms if not t.sums and not t.monomial]
             driven = all(self._driven(i) for t in terms for i in letters(t) if self.generators.is_moving(i))
@@ -198,7 +198,8 @@ class Grouper:
     # -- dealing out ------------------------------------------------------------------------------------------------
 
     def _entries(self, poly: Flat, role: str) -> Way:
-        """One term an acceleration, its factor as short as it gets or harmonic by harmonic, as the entries of M are."""
+        """A term for each acceleration, with a factor as short as possible or split by harmonic, as in the entries
+        of M."""
         carries, harmonic = self._only(role), self._only("trig")
         by_carried: dict[int, dict[int, Flat]] = {}
         for m, c in poly.items():
@@ -214,7 +215,7 @@ class Grouper:
         return way
 
     def _shared(self, poly: Flat, role: str) -> Way:
-        """(Σ masses and lengths) · (Σ accelerations), with the same accelerations in one term: never nested."""
+        """(Σ masses and lengths) · (Σ accelerations), with the same accelerations in one term and no nesting."""
         carries = self._only(role)
         by_rest: dict[int, Flat] = {}
         for m, c in poly.items():
@@ -234,7 +235,8 @@ class Grouper:
         return way
 
     def _by(self, poly: Flat, key: Callable[[int], int], *, merge: bool = False) -> Way:
-        """One tree a group, in the order of first terms; with ``merge``, groups that differ by a factor are one."""
+        """One tree per group, in the order of first terms; with ``merge``, groups that differ by a factor are
+        combined."""
         groups: dict[int, Flat] = {}
         for m, c in poly.items():
             groups.setdefault(key(m), {})[m] = c
@@ -249,7 +251,7 @@ class Grouper:
         return [tree for g in sorted(dealt, key=lead) for tree in self._whole(g)]
 
     def _whole(self, poly: Flat, *, spread: bool = False) -> Way:
-        """The best factored sum, each of its terms one term; with ``spread`` what they share is put into each.
+        """The best factored sum, each of whose terms is one term; with ``spread``, the common factor is multiplied in.
 
         k (x₁ − x₂) stays one term; g (m₁ L₁ sin θ₁ + m₂ L₂ sin θ₂) is spread into two.
         """
@@ -264,11 +266,11 @@ class Grouper:
     # -- letters ----------------------------------------------------------------------------------------------------
 
     def role(self, letter: int) -> str:
-        """Return the role of a letter, see `role_of`."""
+        """Return the role of a symbol, see `role_of`."""
         return role_of(self.generators, letter)
 
     def _only(self, *roles: str) -> Callable[[int], int]:
-        """The part of a monomial made of letters with these roles."""
+        """The part of a monomial that consists of symbols with these roles."""
         role = self.role
         return lambda m: int(packed((i, e) for i, e in digits(m) if role(i) in roles))
 
@@ -280,6 +282,6 @@ class Grouper:
         return self.role(letter) in ("trig", "coordinate")
 
     def _driven(self, letter: int) -> bool:
-        """Whether a letter is a sine or cosine that moves with time alone, such as cos ωt."""
+        """Whether a symbol is a sine or cosine that depends only on time, such as cos ωt."""
         entry = self.generators.table[letter]
         return isinstance(entry, Trig) and entry.moving and not self.generators.by_coordinates(entry.harmonic[0])

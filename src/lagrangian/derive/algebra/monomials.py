@@ -1,11 +1,11 @@
 """Monomials and harmonics as single integers, and sparse polynomials over them.
 
 A monomial ∏ g_i^e_i is the integer Σ e_i·2^(16 i) with signed exponents, so that a product of monomials is a sum of
-integers and a Laurent exponent needs nothing special. A harmonic Σ k_j·a_j of angles is packed as the rational number
-Σ k_j·P^j with a prime P, so that adding adds the multiples one by one. Its lowest multiple is known modulo P, and a
-fraction of small numbers is known by its residue: k_0 = a/b where a ≡ b·h (mod P) and |a|, b < √(P/2) (Wang, Guy and
-Davenport, "P-adic reconstruction of rational numbers", SIGSAM Bulletin 16, 1982). The numerator of the packed number
-tells nothing: ½ + ½P is whole.
+integers, and negative exponents need no special treatment. A harmonic Σ k_j·a_j of angles is packed as the rational
+number Σ k_j·P^j with a prime P, so that adding adds the multiples one by one. Its lowest multiple is known modulo P,
+and a fraction of small numbers is known by its residue: k_0 = a/b where a ≡ b·h (mod P) and |a|, b < √(P/2) (Wang, Guy
+and Davenport, "P-adic reconstruction of rational numbers", SIGSAM Bulletin 16, 1982). The denominator of the packed
+number says nothing about them: ½ + ½P is whole.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ def digits(packed: int) -> tuple[tuple[int, int], ...]:
 
 @lru_cache(maxsize=1 << 14)
 def multiples(harmonic: Packed) -> tuple[tuple[int, Packed], ...]:
-    """Return the fields of a harmonic as pairs (angle, multiple); the multiples are fractions where they must be."""
+    """Return the fields of a harmonic as pairs (angle, multiple); multiples are fractions if necessary."""
     found: list[tuple[int, Packed]] = []
     rest, j = Fraction(harmonic), 0
     last = max(abs(rest.numerator), rest.denominator).bit_length() // 60 + 1
@@ -92,12 +92,12 @@ def _fraction(residue: int) -> Fraction:
 
 
 def turn(angle: int) -> int:
-    """Return the harmonic that is angle number ``angle`` once."""
+    """Return the harmonic that consists of angle number ``angle``."""
     return PRIME**angle
 
 
 def whole(number: Packed) -> Packed:
-    """Return an integer where the number is one."""
+    """Return a number as an integer if it is one."""
     return number if isinstance(number, int) else number.numerator if number.denominator == 1 else number
 
 
@@ -110,12 +110,12 @@ def packed(pairs: Iterable[tuple[int, Packed]]) -> Packed:
 
 
 def unit(index: int) -> int:
-    """Return the monomial that is generator ``index`` itself."""
+    """Return the monomial that consists of generator ``index``."""
     return 1 << (BITS * index)
 
 
 def product(p: Poly, q: Poly) -> Poly:
-    """Return p·q; coefficients that cancel are left as zeros for the caller to drop."""
+    """Return p·q; coefficients that cancel are left as zeros, which the caller has to remove."""
     if len(p) > len(q):
         p, q = q, p
     out: Poly = {}
@@ -128,7 +128,7 @@ def product(p: Poly, q: Poly) -> Poly:
 
 
 def content(numbers: Iterable[int]) -> int:
-    """Return the greatest common divisor, 0 of nothing."""
+    """Return the greatest common divisor, 0 for no numbers."""
     g = 0
     for n in numbers:
         g = gcd(g, n)
@@ -138,7 +138,7 @@ def content(numbers: Iterable[int]) -> int:
 
 
 def common(monomials: Iterable[int]) -> int:
-    """Return the monomial that divides all of them: the smallest exponent of every generator, below zero too."""
+    """Return the monomial that divides all of them: the smallest exponent of every generator, even if negative."""
     least: dict[int, int] | None = None
     for m in monomials:
         here = dict(digits(m))

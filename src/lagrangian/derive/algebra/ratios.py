@@ -1,4 +1,4 @@
-"""Quotients of normal forms, and the inverse of a small mass matrix in them, written as a textbook would."""
+"""Quotients of normal forms, and the inverse of a small mass matrix with such entries, in textbook form."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ class FormRatio:
     under: Form
 
     def expr(self) -> sp.Expr:
-        """The quotient, common factors cancelled, as a textbook would write it."""
+        """The quotient in textbook form, after cancelling common factors."""
         return written(self.over.expr() / self.under.expr(), self.over.algebra)
 
 
 def written(expr: sp.Expr, algebra: Ring) -> sp.Expr:
-    """A quotient with common factors cancelled, numerator and denominator each made readable."""
+    """A quotient after cancelling common factors, with readable numerator and denominator."""
     if expr == 0:
         return sp.S.Zero
     over, under = sp.fraction(bounded.cancel(bounded.together(expr)))
@@ -43,7 +43,7 @@ def written(expr: sp.Expr, algebra: Ring) -> sp.Expr:
 
 
 def blocks(matrix: Sequence[Sequence[Form]]) -> list[list[int]]:
-    """The rows of a symmetric matrix that hang together by entries that are not 0."""
+    """The rows of a symmetric matrix that are coupled by nonzero entries."""
     n = len(matrix)
     left, found = list(range(n)), []
     while left:
@@ -78,7 +78,7 @@ def determinant(matrix: Sequence[Sequence[Form]], algebra: Algebra) -> Form:
 def inverse(matrix: Sequence[Sequence[Form]], algebra: Algebra) -> list[list[FormRatio]]:
     """The inverse of a symmetric matrix, block by block: adjugate over determinant.
 
-    Raises `OutOfReach` where a block has more than `MAX_INVERSE_ROWS` rows or its determinant too many terms.
+    Raises `OutOfReach` if a block has more than `MAX_INVERSE_ROWS` rows or its determinant has too many terms.
     """
     n = len(matrix)
     one, zero = algebra.number(1), algebra.number(0)

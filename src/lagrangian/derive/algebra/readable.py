@@ -1,7 +1,7 @@
-"""From the normal form to what a textbook prints.
+"""Converts the normal form to textbook form.
 
-The letters are ordered and dealt out into classes: inertia, products of rates, damping, stiffness, gravity, inputs.
-Each class is grouped by itself, see `group`.
+The terms are sorted and divided into classes: inertia, products of rates, damping, stiffness, gravity, inputs. Each
+class is grouped separately, see `group`.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ KINDS: tuple[TermKind, ...] = get_args(TermKind)
 
 
 def _merge_inputs(classes: dict[str, Flat], home_of: Callable[[int], str]) -> None:
-    """Move bare inputs beside the springs and dampers they act through: k (x − u) is one term."""
+    """Move inputs to the springs and dampers through which they act: k (x − u) is one term."""
     for m, c in list(classes.get("input", {}).items()):
         home = home_of(m)
         if home in classes:
@@ -38,7 +38,7 @@ def _merge_inputs(classes: dict[str, Flat], home_of: Callable[[int], str]) -> No
 
 
 def _with_square(flat: Flat, base: Flat, root: int) -> Flat:
-    """Replace c·base by c·root² wherever all terms of it are there: k (d − l)² / 2 can then be seen as a square."""
+    """Replace c·base by c·root² if all terms of it occur, so that k (d − l)² / 2 is recognized as a square."""
     first, lead_c = min(base.items(), key=lambda x: order(x[0]))
     out = dict(flat)
     for m, c in flat.items():
@@ -51,7 +51,7 @@ def _with_square(flat: Flat, base: Flat, root: int) -> Flat:
 
 
 class Writer:
-    """Writes forms; keeps what it found, since the same sums come again and again."""
+    """Converts forms, and caches the results, because the same sums occur again and again."""
 
     def __init__(self, generators: Generators) -> None:
         self.generators = generators
@@ -60,11 +60,11 @@ class Writer:
         self.sums: list[Flat] = []
 
     def learn(self, form: Form) -> None:
-        """Remember the sums of parameters that a given energy is written with; other forms may be shorter in them."""
+        """Remember the sums of parameters in a given energy; other forms may become shorter with them."""
         self.sums += [s for s in sums_in(form, self.generators) if s not in self.sums][: MAX_SUMS - len(self.sums)]
 
     def expr(self, form: Form) -> sp.Expr:
-        """Return the whole as one expression: by classes, or as one factored product where that is shorter."""
+        """Return the form as one expression: by classes, or as one factored product if that is shorter."""
         if not form.parts:
             return sp.S.Zero
         flat = self._letters(form)
@@ -83,7 +83,7 @@ class Writer:
         return [Term(self.sympy(tree), kind) for kind, tree in self._classes(self._letters(form))]
 
     def _letters(self, form: Form) -> Flat:
-        """The form in letters for the page; l² + x² + h² − 2 l √(x² + h²) with the square of the root put back."""
+        """The form in displayed symbols; in l² + x² + h² − 2 l √(x² + h²), the square of the root is restored."""
         flat = displayed(form, self.generators)
         self.shortener.budget = max(SEARCH, 30 * len(flat))
         for i in {i for m in flat for i, e in digits(m) if e == 1 and i in self.generators.roots}:
@@ -93,13 +93,13 @@ class Writer:
         return with_sums(flat, self.sums, self.generators)
 
     def role(self, letter: int) -> str:
-        """Return the role of a letter, see `role_of`."""
+        """Return the role of a symbol, see `role_of`."""
         return role_of(self.generators, letter)
 
     # -- classes ----------------------------------------------------------------------------------------------------
 
     def _classes(self, flat: Flat) -> list[tuple[TermKind, Tree]]:
-        """Every class made readable; constants go with the stiffness or the gravity, where they make it shorter."""
+        """All classes in readable form; constants are combined with stiffness or gravity if that is shorter."""
         classes: dict[str, Flat] = {}
         for m, c in flat.items():
             classes.setdefault(self.kind(m), {})[m] = c
@@ -125,7 +125,7 @@ class Writer:
         return [(kind, tree) for _, kind, tree in listed]
 
     def _kind_of(self, tree: Tree, kind: TermKind) -> TermKind:
-        """The kind of a finished term: a constant or an input alone is not stiffness, though it was dealt with it."""
+        """The kind of a finished term; a single constant or input is not stiffness, though it was grouped with it."""
         if kind not in ("stiffness", "damping"):
             return kind
         roles = {self.role(i) for i in letters(tree)}
@@ -136,14 +136,14 @@ class Writer:
         return "input" if "input" in roles else "gravity"
 
     def _bare(self, monomial: int) -> Literal["", "damping", "stiffness"]:
-        """Where an input stands alone with parameters: beside "stiffness", its rate beside "damping"; else nowhere."""
+        """The class for an input that is multiplied only by parameters: "stiffness", or "damping" for its rate."""
         moving = [(i, e) for i, e in digits(monomial) if self.role(i) != "parameter"]
         if len(moving) != 1:
             return ""
         return "damping" if isinstance(self.generators.power(moving[0][0], 1), sp.Derivative) else "stiffness"
 
     def kind(self, monomial: int) -> TermKind | Literal["constant"]:
-        """Classify a displayed monomial; what is linear in the rates is dealt with as damping, whatever else moves."""
+        """The class of a displayed monomial; everything linear in the rates is grouped as damping."""
         rates = moving = 0
         trig = place = False
         for i, e in digits(monomial):
@@ -169,7 +169,7 @@ class Writer:
     def _balanced(self, tree: Tree) -> Tree:
         """The tree with its fractions in one style: ½ (J + ¼ m l²), not ⅛ (4 J + m l²).
 
-        A fraction before a parenthesis is the largest of the numbers in it, where that leaves whole numbers and 1/n.
+        The fraction before a parenthesis is the largest of the numbers in it, if that leaves whole numbers and 1/n.
         """
         number, sums = tree.coefficient, []
         for terms, power in tree.sums:

@@ -1,4 +1,4 @@
-"""From SymPy to the normal form: one rule for every kind of node, each subexpression read once."""
+"""Converts SymPy to the normal form: a rule for every kind of node, and each subexpression only once."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ LARGEST_PRODUCT = 10_000
 
 
 class FormReader:
-    """Reads expressions into an algebra; what has been read is remembered."""
+    """Converts expressions to an algebra, and caches the results."""
 
     def __init__(self, algebra: Ring) -> None:
         self.algebra = algebra
@@ -82,10 +82,10 @@ class FormReader:
         return self._inverse(inner, int(exponent.p), int(exponent.q))
 
     def _inverse(self, form: Form, p: int, q: int) -> Form:
-        """form^(p/q) with p/q negative or broken: a number and a monomial come out, the rest is a generator.
+        """form^(p/q) for a negative or fractional p/q: a number and a monomial are taken out, the rest is a generator.
 
-        1/(2 m₁ + 2 m₂) = ½ (m₁ + m₂)⁻¹, √(4x² + 4y²) = 2 √(x² + y²). Out of a root only what is certain to be
-        positive comes: a number that is a perfect power, and coordinates declared positive, √(r² m²) = r √(m²).
+        1/(2 m₁ + 2 m₂) = ½ (m₁ + m₂)⁻¹, √(4x² + 4y²) = 2 √(x² + y²). Only what is certainly positive is taken out of a
+        root: a number that is a perfect power, and coordinates declared positive, √(r² m²) = r √(m²).
         """
         algebra = self.algebra
         if not form.parts:
@@ -117,7 +117,7 @@ class FormReader:
         return algebra.reduced(left * algebra.monomial(unit(generator) * p))
 
     def _distances(self, monomial: int, q: int) -> int:
-        """The q-th root of what a monomial holds of coordinates that are positive, in whole powers."""
+        """The q-th root of the positive coordinates in a monomial, in whole powers."""
         table, found = self.algebra.generators.table, 0
         for i, e in digits(monomial):
             entry = table[i]
@@ -155,14 +155,14 @@ class FormReader:
         return Form(self.algebra, {(abs(h), s): {0: -1 if s and h < 0 else 1}})
 
     def _as_it_is(self, expr: sp.Expr) -> Form:
-        """A product or power that would be too long as a sum is a generator, and remembered for a note."""
+        """A product or power that would be too long as a sum becomes a generator, and is recorded for a note."""
         self.left[expr] = None
         return self._opaque(expr)
 
     # -- the rest ---------------------------------------------------------------------------------------------------
 
     def _opaque(self, expr: sp.Expr) -> Form:
-        """A function of readable arguments is a generator."""
+        """A function of readable arguments becomes a generator."""
         if expr.has(sp.I, sp.zoo, sp.oo, sp.nan, sp.S.NegativeInfinity):
             raise OutOfReach(f"'{expr}' is not a finite real expression")
         generators = self.algebra.generators
@@ -176,7 +176,7 @@ class FormReader:
 
 
 def _terms_of_power(form: Form, exponent: int) -> int:
-    """A bound on the terms of a power: a sine or cosine is two exponentials, and shares them with its fellow."""
+    """A bound on the number of terms of a power: a sine or cosine is two exponentials."""
     exponentials = {(sign * h, m) for (h, _), poly in form.parts.items() for m in poly for sign in (1, -1)}
     return comb(len(exponentials) + exponent - 1, exponent)
 
@@ -186,7 +186,7 @@ def _of_time(expr: sp.Expr) -> bool:
 
 
 def _decimal(number: sp.Float) -> Fraction:
-    """The shortest decimal that is this floating-point number, exactly."""
+    """The shortest decimal that equals this floating-point number exactly."""
     return Fraction(repr(float(number)))
 
 
@@ -195,7 +195,7 @@ def _power_of(number: Fraction, p: int) -> Fraction:
 
 
 def _exact_root(number: Fraction, q: int) -> Fraction | None:
-    """The q-th root where it is rational."""
+    """The q-th root if it is rational."""
     parts = [_integer_root(n, q) for n in (number.numerator, number.denominator)]
     return None if None in parts else Fraction(cast("int", parts[0]), cast("int", parts[1]))
 

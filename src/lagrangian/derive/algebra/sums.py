@@ -1,8 +1,8 @@
-"""Sums of parameters that a system is described with, such as L_a + L_b: where they shorten, they are one letter.
+"""Sums of parameters in the description of a system, such as L_a + L_b, become one symbol if that is shorter.
 
-A mass at the end of link 1 sits at (L_a + L_b) cos θ₁; so m₁ L_a² + m₂ (L_a + L_b)² is read, not
-(m₁ + m₂) L_a² + m₂ L_b (2 L_a + L_b), which is no longer. With S for the sum, L_b = S − L_a is put in and multiplied
-out: what was a product of sums comes back as one.
+If a mass at the end of link 1 is at (L_a + L_b) cos θ₁, then m₁ L_a² + m₂ (L_a + L_b)² is easier to read than (m₁ + m₂)
+L_a² + m₂ L_b (2 L_a + L_b), although not shorter. With S for the sum, L_b = S − L_a is substituted and expanded: what
+was a product of sums becomes one again.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ HIGHEST = 4
 
 
 def sums_in(form: Form, generators: Generators) -> list[Flat]:
-    """Return the sums a + b, a − b of parameters that multiply what moves, themselves or squared."""
+    """Return the sums a + b, a − b of parameters, plain or squared, that multiply moving quantities."""
     found: list[Flat] = []
     for (h, _), poly in form.parts.items():
         groups: dict[int, Flat] = {}
@@ -46,7 +46,7 @@ def sums_in(form: Form, generators: Generators) -> list[Flat]:
 
 
 def _base(poly: Flat, generators: Generators) -> Flat | None:
-    """The polynomial if it is Σ ±a_i, or Σ ±a_i where the polynomial is its square; None where it is neither."""
+    """The polynomial if it is Σ ±a_i, or Σ ±a_i if the polynomial is its square; otherwise None."""
     single = {m: c for m, c in poly.items() if _letter(m, generators) is not None}
     if len(single) == len(poly):
         return poly if 1 < len(poly) <= MAX_LETTERS and all(abs(c) == 1 for c in poly.values()) else None
@@ -64,7 +64,7 @@ def _base(poly: Flat, generators: Generators) -> Flat | None:
 
 
 def _letter(monomial: int, generators: Generators) -> int | None:
-    """The parameter that the monomial is, once; None where it is anything else."""
+    """The parameter of a monomial that is a single parameter; otherwise None."""
     pairs = digits(monomial)
     if len(pairs) != 1 or pairs[0][1] != 1:
         return None
@@ -73,7 +73,7 @@ def _letter(monomial: int, generators: Generators) -> int | None:
 
 
 def with_sums(flat: Flat, sums: Sequence[Flat], generators: Generators) -> Flat:
-    """Return the polynomial with sums as letters in every group of terms with the same motion that is shorter so."""
+    """Return the polynomial with sums as symbols in every group of terms with the same motion that becomes shorter."""
     if not sums or not 1 < len(flat) <= LARGEST_FLAT:
         return flat
     groups: dict[int, Flat] = {}
@@ -86,7 +86,7 @@ def with_sums(flat: Flat, sums: Sequence[Flat], generators: Generators) -> Flat:
 
 
 def _shorter(flat: Flat, sums: Sequence[Flat], generators: Generators) -> Flat:
-    """The polynomial with each of the sums put in where it has fewer terms by that, or as many and simpler ones."""
+    """The polynomial with each of the sums substituted if it then has fewer terms, or as many and simpler ones."""
     best, best_cost = flat, (len(flat), plain_cost(flat, generators))
     for base in sums:
         here, letters = best, {i for m in best for i, _ in digits(m)}
@@ -111,7 +111,8 @@ def _solved(base: Flat, monomial: int, coefficient: Fraction, letter: int) -> Fl
 
 
 def _put_in(flat: Flat, letter: int, value: Flat) -> Flat | None:
-    """Return the polynomial with a sum in place of a letter; None where the letter divides or its power is high."""
+    """Return the polynomial with a sum substituted for a symbol; None if the symbol is in a denominator or has a high
+    power."""
     powers: list[Flat] = [{0: Fraction(1)}]
     out: Flat = {}
     for m, c in flat.items():

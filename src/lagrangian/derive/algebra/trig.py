@@ -1,4 +1,4 @@
-"""Which sines and cosines to show: cos(θ₁ − θ₂) or products, (1 − cos 2θ)/2 or sin²θ, by what is shorter."""
+"""Chooses which sines and cosines to show, whichever is shorter: cos(θ₁ − θ₂) or products, (1 − cos 2θ)/2 or sin²θ."""
 
 from __future__ import annotations
 
@@ -18,11 +18,12 @@ SPLIT_TERMS = 3000
 
 
 def displayed(form: Form, generators: Generators) -> Flat:
-    """Return the form in letters for the page, with the angles split whose splitting makes it shorter.
+    """Return the form in displayed symbols, with those angles split for which that is shorter.
 
-    One choice for the whole, so that sin²θ and sin θ cos θ stand together; but terms with the same rates (or none) go
-    back to harmonics where that is fewer terms, as J − I cos 2ψ against J − I + 2 I sin²ψ. A sum of angles is split as
-    one angle where its double stands: cos(2θ₁ + θ₂) + cos θ₂ is 2 cos θ₁ cos(θ₁ + θ₂) beside cos²(θ₁ + θ₂).
+    There is one choice for the whole form, so that sin²θ and sin θ cos θ occur together. But terms with the same rates
+    (or none) return to harmonics if that gives fewer terms, as J − I cos 2ψ instead of J − I + 2 I sin²ψ. A sum of
+    angles is split as one angle if its double occurs: cos(2θ₁ + θ₂) + cos θ₂ is 2 cos θ₁ cos(θ₁ + θ₂) beside cos²(θ₁ +
+    θ₂).
     """
     split: frozenset[int] = frozenset()
     harmonic = best = _flat(form, generators, split)
@@ -48,7 +49,7 @@ def displayed(form: Form, generators: Generators) -> Flat:
 
 
 def _by_motion(flat: Flat, generators: Generators) -> dict[int, Flat]:
-    """The terms dealt out by the part of their monomials that moves and is no sine or cosine."""
+    """The terms grouped by the moving part of their monomials without sines and cosines."""
     moving, table = generators.moving, generators.table
     groups: dict[int, Flat] = {}
     for m, c in flat.items():
@@ -77,7 +78,7 @@ def _candidates(form: Form) -> list[int]:
 
 
 def _splitting(form: Form, angle: int) -> int:
-    """About the products that splitting by an angle takes: cos kx has k/2 powers, found one after the other."""
+    """The approximate number of products that splitting by an angle needs: cos kx has k/2 powers."""
     pivot = multiples(angle)[-1][0]
     return sum(
         (1 + abs(int(k)) ** 2 // 2) * len(p) for (h, _), p in form.parts.items() for j, k in multiples(h) if j == pivot
@@ -85,7 +86,7 @@ def _splitting(form: Form, angle: int) -> int:
 
 
 def _pivot(harmonic: int) -> tuple[int, int] | None:
-    """The last angle that stands once in a harmonic, with its sign: splitting by the harmonic takes its place."""
+    """The last angle that occurs once in a harmonic, with its sign: the harmonic can replace it."""
     return next(((j, int(k)) for j, k in reversed(multiples(harmonic)) if abs(k) == 1), None)
 
 
@@ -181,7 +182,7 @@ def _plus(p: dict[int, Fraction], q: dict[int, Fraction], sign: int) -> dict[int
 
 
 def _folded(poly: Flat, c: int, s: int) -> Flat:
-    """Replace c² by 1 − s² in every group of terms that gets fewer by it: 1 − c² is s²."""
+    """Replace c² by 1 − s² in every group of terms in which that gives fewer terms: 1 − c² is s²."""
     groups: dict[tuple[int, int], dict[int, Fraction]] = {}
     for m, v in poly.items():
         powers = dict(digits(m))
@@ -203,7 +204,7 @@ def _folded(poly: Flat, c: int, s: int) -> Flat:
 
 
 def plain_cost(poly: Flat, generators: Generators) -> int:
-    """About the operations of the plain sum, term by term."""
+    """The approximate number of operations of the plain sum."""
     total = 0
     for m, c in poly.items():
         total += 1 + (abs(c.numerator) != 1) + (c.denominator != 1)
