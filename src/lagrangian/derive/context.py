@@ -1,4 +1,4 @@
-"""What the steps share: the model, its algebra, what moves with what, and how long a formula may be."""
+"""Data that all steps share: the model, its algebra, what each coordinate moves, and limits on formulas."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ READABLE = 400
 
 @dataclass(frozen=True, eq=False)
 class Context:
-    """Built once for a derivation and handed to every step."""
+    """The shared data, made once for a derivation and passed to every step."""
 
     model: Model
     algebra: Algebra
@@ -37,31 +37,31 @@ class Context:
         return self.algebra.form(expr)
 
     def written(self, form: Form) -> Left:
-        """A form as a sum of readable terms in a textbook's order."""
+        """A form as a sum of readable terms in textbook order."""
         return fit_terms(tuple(t.expr for t in self.terms(form)))
 
     def terms(self, form: Form) -> list[Term]:
-        """The readable terms of a form; one form is read once, however often it is shown."""
+        """The readable terms of a form; each form is converted only once."""
         kept = self._terms.get(id(form))
         if kept is None or kept[0] is not form:
             kept = self._terms[id(form)] = (form, form.terms())
         return kept[1]
 
     def readable(self, expr: sp.Expr) -> sp.Expr:
-        """The expression as a textbook would write it."""
+        """The expression in textbook form."""
         if expr not in self._memo:
             self._memo[expr] = self.algebra.form(expr).expr()
         return self._memo[expr]
 
 
 def fit(expr: sp.Expr) -> Left:
-    """Return the expression, or its summary where it is too long to read."""
+    """Return the expression, or its summary if it is too long to read."""
     operations = bounded.operations(expr)
     return expr if operations <= READABLE else Elided(expr, operations)
 
 
 def fit_terms(terms: tuple[sp.Expr, ...]) -> Left:
-    """Return the sum in this order, or its summary where it is too long to read."""
+    """Return the sum with its terms in this order, or its summary if it is too long to read."""
     operations = sum(bounded.operations(t) for t in terms)
     if operations <= READABLE:
         return Terms(terms)
