@@ -17,11 +17,11 @@ from functools import cached_property
 from lagrangian.dynamics.accelerations import Quadratic, condensed, solve
 from lagrangian.dynamics.axes import Accelerations
 from lagrangian.dynamics.bodies import Bodies
-from lagrangian.dynamics.floating import Float, bracket, transported
+from lagrangian.dynamics.dependent import without_dependent
+from lagrangian.dynamics.floating import Float, transported
 from lagrangian.dynamics.inertia import AnyLink
 from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.multipliers import AttachedRow, Problem, RowSolution
-from lagrangian.dynamics.ordering import cheapest_solution
 from lagrangian.dynamics.rows import ConstraintRow
 from lagrangian.dynamics.tape import make_tape, maximal_linear_nodes, moving_nodes
 from lagrangian.dynamics.vectors import dot, minus, plus, zeros
@@ -232,44 +232,6 @@ class Mechanics:
         g = self.graph
         return vjp(g, list(self.motion.rates), gradient(g, self.potential(), self.q), list(self.v))
 
-    def coriolis(self) -> list[list[int]]:
-        """C by Christoffel's symbols, so that Ṁ − 2C is skew:  C = ½ (Ṁ + P − Pᵀ),  P_ij = ∂(M v)_i/∂q_j.
-
-        Along quasi-velocities q̇ = N u the derivatives are those along the columns of N, P = ∂(M u)/∂q N, and the
-        velocities' brackets join them (Koszul's formula for the connection of M):
-
-            C = ½ (Ṁ + P − Pᵀ + M A − (M A)ᵀ − B),   A = ad_u,   B_ij = (M u)·[e_j, e_i]
-        """
-        g, n = self.graph, len(self.v)
-        M = self.mass_matrix()
-        change = jvp(g, [x for row in M for x in row], dict(zip(self.q, self.motion.rates, strict=True)))
-        momentum = [dot(g, row, self.v) for row in M]
-        columns = self._along_velocities(momentum)
-        total = [[g.add(change[i * n + j], g.sub(columns[j][i], columns[i][j])) for j in range(n)] for i in range(n)]
-        for at in self.floats:
-            own = range(at.v, at.v + 6)
-            basis = [[g.one if i == k else g.zero for i in range(6)] for k in range(6)]
-            u, h = [self.v[i] for i in own], [momentum[i] for i in own]
-            A = [bracket(g, u, e) for e in basis]  # A[j] is column j
-            for j, column in zip(own, A, strict=True):
-                for i in range(n):
-                    x = dot(g, [M[i][k] for k in own], column)
-                    total[i][j] = g.add(total[i][j], x)
-                    total[j][i] = g.sub(total[j][i], x)
-                for i in own:
-                    twist = bracket(g, basis[j - at.v], basis[i - at.v])
-                    total[i][j] = g.sub(total[i][j], dot(g, h, twist))
-        return [[g.mul(g.const(0.5), x) for x in row] for row in total]
-
-    def _along_velocities(self, ids: Sequence[int]) -> list[list[int]]:
-        """The derivatives of nodes that depend on q, with v held, along each velocity: ∂/∂q N e_j."""
-        g = self.graph
-        moved: list[list[int]] = []
-        for v in self.v:
-            along = jvp(g, list(self.motion.rates), {v: g.one})
-            moved.append(jvp(g, ids, {q: x for q, x in zip(self.q, along, strict=True) if x != g.zero}))
-        return moved
-
     def inverse_from_lagrangian(self, vdot: Sequence[int]) -> list[int]:
         """d/dt ∂L/∂v − ∂L/∂q − Ξ of L = T − V, the independent route to `inverse`."""
         g = self.graph
@@ -317,16 +279,22 @@ class Mechanics:
 
     @cached_property
     def constrained(self) -> RowSolution:
-        """v̇ and λ subject to the rows, by the cheapest elimination. Raises `DependentRow` by structure."""
-        return cheapest_solution(self._constrained_problems())
+        """v̇ and λ subject to the rows, by the cheapest elimination; raises `ModelError` where rows contradict."""
+        return self.settled[0]
 
-    def _constrained_problems(self) -> Iterator[Problem]:
+    @cached_property
+    def settled(self) -> tuple[RowSolution, tuple[str, ...]]:
+        """The solution, and the names of rows that say again, whatever the state, what others say."""
+        return without_dependent(self.graph, self.rows, self.v, self._constrained_problems)
+
+    def _constrained_problems(self, rows: Sequence[ConstraintRow]) -> Iterator[Problem]:
         zero, few = zeros(self.graph, len(self.v)), len(self.v) <= SMALL
         references = ((False, True) if few else (True,)) if self.motion.free_rates() else (False,)
         for links in self.distinct_groupings:
             for free in references:
                 acc = self.accelerations(zero, free=free)
-                yield from self.problems(links, self.missing(acc, links), self.row_accelerations(acc), acc.vdot)
+                asked = [pair for pair in self.row_accelerations(acc) if pair[0] in rows]
+                yield from self.problems(links, self.missing(acc, links), asked, acc.vdot)
 
     @cached_property
     def distinct_groupings(self) -> list[list[AnyLink]]:

@@ -16,9 +16,11 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian.codes import Code
+from lagrangian.dynamics.describe import describe
+from lagrangian.dynamics.description import Inputs
 from lagrangian.dynamics.programs import mass_matrix
 from lagrangian.errors import ModelError, Notice
-from lagrangian.graph import Program, evaluate
+from lagrangian.graph import Graph, Program, evaluate
 from lagrangian.model import Gravity, Model, Parameter, RigidBody
 from lagrangian.model.body_checks import Doubt, Numbers, doubt
 
@@ -43,8 +45,22 @@ def notices(model: Model) -> tuple[Notice, ...]:
         negative = [d for d in found if d.negative]
         if negative:
             _decide(model, negative)
-        model._memo["notices"] = (*(Notice(d.code, _where(d.body), _said(d)) for d in found), *_weightless(model))
+        model._memo["notices"] = (
+            *(Notice(d.code, _where(d.body), _said(d)) for d in found),
+            *_weightless(model),
+            *_dependent(model),
+        )
     return model._memo["notices"]
+
+
+def _dependent(model: Model) -> Iterator[Notice]:
+    """Rows that say again what others say; raises `ModelError` (E302) where one contradicts them."""
+    if not model.constraints:
+        return
+    graph = Graph()
+    for name in describe(model, graph, Inputs.of(graph, model)).settled[1]:
+        said = "it says again what the other constraints say, in every position: it is left out, its multiplier is 0"
+        yield Notice(Code.E306, f"constraint '{name}'", said)
 
 
 def _weightless(model: Model) -> Iterator[Notice]:
@@ -58,7 +74,7 @@ def _weightless(model: Model) -> Iterator[Notice]:
             Code.E107, where, "the parameter g is declared, and no gravity uses it: add gravity if bodies have weight"
         )
         return
-    if model.dimension != 2 or any(e.ledger != "T*" for e in model.elements):
+    if model.dimension != 2 or any(e.ledger not in ("T*", "λ") for e in model.elements):
         return
     heights = [model.expand(model.position(body.at)[1]) for body in model.bodies]
     if any(h.has(sp.sin, sp.cos) and h.has(AppliedUndef) for h in heights):

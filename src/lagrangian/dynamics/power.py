@@ -8,6 +8,7 @@ with a signal whose rate nobody knows: it is left out of h, and its force counts
 
 from __future__ import annotations
 
+from lagrangian.dynamics.constrained import drive
 from lagrangian.dynamics.observe import Observed
 from lagrangian.dynamics.programs import _program
 from lagrangian.dynamics.vectors import dot
@@ -55,13 +56,18 @@ def balanced(seen: Observed) -> int:
 
 
 def supplied(seen: Observed) -> int:
-    """P = Ξ·v − ∂L/∂t − ∂V_u/∂q·q̇ of the potentials V_u that read inputs."""
+    """P = Ξ·v − ∂L/∂t − ∂V_u/∂q·q̇ of the potentials V_u that read inputs, and −λ·a₀ of constraints that move.
+
+    On a motion A v = −a₀, so that the forces Aᵀ λ have the power λ·A v = −λ·a₀: none where no row reads time.
+    """
     g, m = seen.graph, seen.mechanics
     total = dot(g, m.gathered(m.efforts), m.v)
     own = g.sub(m.kinetic(), _own_potential(seen))
     total = g.sub(total, gradient(g, own, [seen.inputs.t])[0])
     for driven in _driven(seen):
         total = g.sub(total, dot(g, gradient(g, driven, m.q), m.motion.rates))
+    if m.rows and any(x != g.zero for x in drive(m)):
+        total = g.sub(total, dot(g, m.constrained.multipliers, drive(m)))
     return total
 
 

@@ -19,6 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from lagrangian.dynamics import christoffel
 from lagrangian.dynamics.describe import describe
 from lagrangian.dynamics.description import Inputs
 from lagrangian.dynamics.mechanics import Mechanics
@@ -119,7 +120,7 @@ def potential_force(model: Model) -> Program:
 def coriolis(model: Model) -> Program:
     """q, v, u, p, t → C, shape (n, n), by Christoffel's symbols; Ṁ − 2C is skew."""
     graph, _, m = _start(model)
-    return _program(model, "coriolis", graph, {"C": _matrix(m.coriolis())})
+    return _program(model, "coriolis", graph, {"C": _matrix(christoffel.coriolis(m))})
 
 
 def energy(model: Model) -> Program:

@@ -124,7 +124,7 @@ def _matrices(model: Model) -> Program:
     m = dynamics.describe(model, g, inputs)
     M = [x for row in m.mass_matrix() for x in row]
     along = {**dict(zip(inputs.q, m.motion.rates, strict=True)), inputs.t: g.one}
-    made = {"M": M, "Mdot": jvp(g, M, along), "C": [x for row in m.coriolis() for x in row]}
+    made = {"M": M, "Mdot": jvp(g, M, along), "C": [x for row in coriolis(m) for x in row]}
     made["Xi"] = m.gathered(m.efforts)
     names = dynamics.forward(model).inputs
     return Program("matrices", g, names, {k: Output(tuple(ids), (len(ids),)) for k, ids in made.items()})

@@ -1,0 +1,112 @@
+"""Rows that others imply whatever the state: they are left out, their multipliers 0, or contradict the others.
+
+The elimination finds such a row where its pivot is zero by structure. What the row still asks for there is zero at
+every state if it says again what others say; if not, no motion satisfies all of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.dynamics.multipliers import DependentRow, Problem, RowSolution
+from lagrangian.dynamics.ordering import cheapest_solution
+from lagrangian.dynamics.rows import ConstraintRow
+from lagrangian.errors import ModelError, RunError
+from lagrangian.graph import Graph, Output, Program, evaluate, reached
+
+PLACES = 3
+"""Random states at which a residual is looked at."""
+
+ROUNDING = 1e-8
+"""A residual below this is zero at that state."""
+
+
+def without_dependent(
+    graph: Graph,
+    rows: Sequence[ConstraintRow],
+    v: Sequence[int],
+    problems: Callable[[Sequence[ConstraintRow]], Iterator[Problem]],
+) -> tuple[RowSolution, tuple[str, ...]]:
+    """The cheapest solution subject to the rows that are independent, and the names of those left out.
+
+    Raises `ModelError` (E302) where a row contradicts the others.
+    """
+    kept = list(rows)
+    while True:
+        try:
+            found = cheapest_solution(problems(kept))
+            break
+        except DependentRow as dependent:
+            if not _vanishes(graph, dependent, rows, v):
+                raise _contradiction(dependent.row, rows) from None
+            kept.remove(dependent.row)
+    names = {row.name for row in kept}
+    return _filled(graph, found, [row.name in names for row in rows]), tuple(
+        r.name for r in rows if r.name not in names
+    )
+
+
+def _contradiction(row: ConstraintRow, rows: Sequence[ConstraintRow]) -> ModelError:
+    others = [f"'{other.name}'" for other in rows if other is not row]
+    listed = ", ".join(others[:6]) + (", …" if len(others) > 6 else "")
+    return ModelError(
+        f"the constraint '{row.name}' contradicts {listed}",
+        fix="leave one of them out, or change it: no motion satisfies all of them",
+        code="E302",
+    )
+
+
+def _filled(graph: Graph, found: RowSolution, kept: Sequence[bool]) -> RowSolution:
+    """The solution with places for the rows that were left out: multiplier 0, margin 1, nothing asked for."""
+
+    def spread(ids: Sequence[int], nothing: int) -> list[int]:
+        given = iter(ids)
+        return [next(given) if keep else nothing for keep in kept]
+
+    return RowSolution(
+        found.vdot,
+        spread(found.multipliers, graph.zero),
+        spread(found.margins, graph.one),
+        spread(found.residuals, graph.zero),
+        spread(found.sizes, graph.zero),
+        found.divisors,
+    )
+
+
+def _vanishes(graph: Graph, dependent: DependentRow, rows: Sequence[ConstraintRow], v: Sequence[int]) -> bool:
+    """Whether what the row still asks for is zero at random states whose velocities satisfy all rows.
+
+    If c = Σ α_i c_i of the other rows, then ċ − Σ α_i ċ_i = Σ α̇_i c_i, which is zero where they hold.
+    """
+    ids = [*(row.rate for row in rows), dependent.residual]
+    sizes: dict[str, int] = {}
+    for i in [*reached(graph, ids), *v]:
+        node = graph.nodes[i]
+        if node[0] == "input":
+            sizes[node[1]] = max(sizes.get(node[1], 0), node[2] + 1)
+    names = {group: tuple(f"{group}{k}" for k in range(size)) for group, size in sizes.items()}
+    program = Program("rows", graph, names, {"c": Output(tuple(ids), (len(ids),))}, {})
+    rng = np.random.default_rng(1)
+    return all(_vanishes_at(program, sizes, rng, [graph.nodes[i][1:] for i in v]) for _ in range(PLACES))
+
+
+def _vanishes_at(program: Program, sizes: Mapping[str, int], rng: np.random.Generator, v: Sequence[Any]) -> bool:
+    state = {group: rng.uniform(0.3, 1.4, size) for group, size in sizes.items()}
+
+    def values(velocities: NDArray[np.float64]) -> NDArray[np.float64]:
+        for (group, k), x in zip(v, velocities, strict=True):
+            state[group][k] = x
+        return np.array(evaluate(program, {group: x.tolist() for group, x in state.items()})["c"])
+
+    try:
+        start = values(np.zeros(len(v)))[:-1]
+        A = np.array([values(e)[:-1] - start for e in np.eye(len(v))]).T
+        guess = rng.uniform(0.3, 1.4, len(v))
+        found = values(guess - np.linalg.pinv(A, rcond=1e-9) @ (A @ guess + start))
+    except RunError:  # no value there: nothing is known, so nothing is left out
+        return False
+    return bool(np.abs(found).max() < ROUNDING * (1.0 + np.abs(A).max() + np.abs(start).max()))

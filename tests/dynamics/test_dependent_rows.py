@@ -1,0 +1,78 @@
+"""Rows given twice are left out by name; rows that contradict each other are refused by name."""
+
+import numpy as np
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+from lagrangian.errors import ModelError
+
+
+def bob() -> lg.System:
+    s = lg.System("bob")
+    x, y = s.coordinates("x y")
+    s.parameters("l a", l=2.0, a=1.0)
+    s.particle(1, at=s.point("P", (x, y)))
+    s.gravity()
+    return s
+
+
+def test_a_row_given_twice_is_left_out_by_name() -> None:
+    s = bob()
+    s.constraint(s["x"] - s["l"], name="wall")
+    s.constraint(2 * s["x"] - 2 * s["l"], name="again")
+    (notice,) = s.notices
+    assert notice.code == "E306" and "again" in str(notice)
+    dyn = s.compile()
+    assert dyn.forward([2.0, 0.0], [0.0, 1.0]) == pytest.approx([0.0, -9.81])
+    lam = dyn.multipliers([2.0, 0.0], [0.0, 1.0])
+    assert lam["wall"] == pytest.approx(0.0) and lam["again"] == 0.0
+    assert dyn.margin([2.0, 0.0]) == pytest.approx(1.0)
+
+
+def test_the_third_of_three_rows_on_two_coordinates_is_left_out() -> None:
+    s = bob()
+    x, y = s["x"], s["y"]
+    s.constraint(x, name="a")
+    s.constraint(y, name="b")
+    s.constraint(x - y, name="c")
+    assert [n.where for n in s.notices] == ["constraint 'c'"]
+    dyn = s.compile()
+    assert dyn.forward([0.0, 0.0], [0.0, 0.0]) == pytest.approx([0.0, 0.0])
+    assert dyn.multipliers([0.0, 0.0], [0.0, 0.0])["b"] == pytest.approx(9.81)
+
+
+def test_accelerations_that_contradict_each_other_are_refused_by_name() -> None:
+    s = bob()
+    x = s["x"]
+    s.velocity_constraint(x.diff() - s["a"] * s.t, name="pulled")
+    s.velocity_constraint(x.diff() - 2 * s["a"] * s.t, name="pulled twice")
+    with pytest.raises(ModelError, match="'pulled twice' contradicts 'pulled'") as caught:
+        s.compile()
+    assert caught.value.code == "E302"
+
+
+def test_rates_that_contradict_each_other_are_refused_by_name() -> None:
+    s = bob()
+    s.velocity_constraint(s["x"].diff() - s["a"], name="one")
+    s.velocity_constraint(s["x"].diff() - 2 * s["a"], name="two")
+    with pytest.raises(ModelError, match="'two' contradicts 'one'"):
+        s.compile()
+
+
+def test_positions_that_contradict_each_other_close_nowhere() -> None:
+    s = bob()
+    s.constraint(s["x"] - 1, name="a")
+    s.constraint(s["x"] - 2, name="b")
+    with pytest.raises(lg.Error, match=r"E304.*'b' by 1"):
+        s.compile().assemble(None)
+
+
+def test_power_of_a_constraint_that_moves() -> None:
+    """x = A sin ωt: the drive does the work of ½ m ẋ², and the audit knows it."""
+    s = bob()
+    A, w = s.parameter("A", "0.5 m"), s.parameter("w", "2 rad/s")
+    s.constraint(s["x"] - A * sp.sin(w * s.t), name="drive")
+    run = s.simulate(3.0, initial={"x'": 1.0})
+    assert run.success and run.audit.figure < 1e-9
+    assert run["x"] == pytest.approx(0.5 * np.sin(2 * run.t), abs=1e-9)
