@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian import dynamics
+from lagrangian.dynamics.christoffel import coriolis
 from lagrangian.graph import Graph, Output, Program, jvp, reached
 from lagrangian.model import Model
 from lagrangian.page.formula import Check, Name, text
