@@ -1,6 +1,6 @@
-"""Model → Program: inverse and forward dynamics, mass matrix, energies, by virtual work through the graph.
+"""Converts a Model to Programs, by virtual work on the graph: inverse and forward dynamics, mass matrix, energies.
 
-`Mechanics` over a `Motion` is the layer below, for what is not described by a model.
+`Mechanics` with a `Motion` is the layer below, for systems that are not described by a model.
 """
 
 from lagrangian.dynamics.bodies import Bodies

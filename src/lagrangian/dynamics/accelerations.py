@@ -1,11 +1,12 @@
 """Forward dynamics by eliminating the velocity tape.
 
-Gauss: the accelerations minimise  ½ Σ H_ij v̇_i v̇_j + Σ g_i v̇_i  over all motions the tape allows, where H holds the
-inertias at the bodies' velocity nodes and g the forces that are missing at q̈ = 0. Going backwards over the tape, a
-step v_i = Σ c_ij v_j is substituted (no division) and a rate is minimised out (one reciprocal: its pivot is a Schur
-complement of an inertia, positive wherever the mass matrix is positive definite). One pass forwards then gives every q̈.
-The cost is linear in the tape's length for any fixed number of neighbours; with no tape between the rates and H it is
-the sparse LDLᵀ of the mass matrix. The articulated-body algorithm is the special case of a chain of joints.
+Gauss's principle: the accelerations minimize  ½ Σ H_ij v̇_i v̇_j + Σ g_i v̇_i  over all motions that the tape allows,
+where H contains the inertias at the bodies' velocity nodes and g the missing forces at q̈ = 0. Going backwards over the
+tape, a step v_i = Σ c_ij v_j is substituted (no division) and a rate is eliminated by minimizing (one reciprocal: its
+pivot is a Schur complement of an inertia, positive wherever the mass matrix is positive definite). One pass forwards
+then gives every q̈. The cost is linear in the tape's length for any fixed number of neighbours; with no tape between
+the rates and H it is the sparse LDLᵀ of the mass matrix. The articulated-body algorithm is the special case of a chain
+of joints.
 """
 
 from __future__ import annotations
@@ -46,7 +47,7 @@ class Quadratic:
         self.add(i, k, self.graph.mul(self.graph.const(2.0), h) if i == k else h)
 
     def pop(self, i: int) -> dict[int, int]:
-        """Take row and column i out; return the row."""
+        """Remove row and column i; return the row."""
         row = self.rows.pop(i, {})
         for k in row:
             if k != i:
@@ -54,7 +55,7 @@ class Quadratic:
         return row
 
     def without(self, gone: Collection[int]) -> Quadratic:
-        """A copy without some rows and columns."""
+        """A copy without the given rows and columns."""
         other = self.copy()
         for i in gone:
             other.pop(i)
@@ -69,7 +70,7 @@ class Quadratic:
 
 @dataclass
 class Elimination:
-    """The elimination of one tape: H and one or more linear terms, and how each rate is recovered."""
+    """The elimination of one tape: H, one or more linear terms, and how each rate is recovered."""
 
     graph: Graph
     tape: EliminationTape
@@ -109,7 +110,7 @@ class Elimination:
     def substitute_pair(self, first: int, second: int, a: int, b: int, c: int, s: int) -> None:
         """Replace the rotated pair first = c a + s b, second = c b − s a, using c² + s² = 1.
 
-        With u = s (h₁₁ − h₂₂) + 2 c h₁₂ the block becomes  h_aa = h₁₁ − s u,  h_bb = h₂₂ + s u,  h_ab = c u − h₁₂.
+        With u = s (h₁₁ − h₂₂) + 2 c h₁₂ the block becomes h_aa = h₁₁ − s u, h_bb = h₂₂ + s u, h_ab = c u − h₁₂.
         """
         g, H = self.graph, self.H
         one, two = H.pop(first), H.pop(second)
@@ -128,7 +129,8 @@ class Elimination:
         self.add_linear(b, g.add(g.mul(s, x), g.mul(c, y)))
 
     def minimise(self, k: int, name: str) -> None:
-        """Minimise v̇_k out: v̇_k = −(g_k + Σ_i h_ki v̇_i)/h_kk,  H_ij −= h_ik h_kj/h_kk,  g_i −= h_ik g_k/h_kk."""
+        """Eliminate v̇_k by minimizing: v̇_k = −(g_k + Σ_i h_ki v̇_i)/h_kk,  H_ij −= h_ik h_kj/h_kk,  g_i −= h_ik
+        g_k/h_kk."""
         g = self.graph
         row = self.H.pop(k)
         linear = self.g.pop(k, g.zero)
@@ -142,7 +144,7 @@ class Elimination:
         self.eliminate(k, row, linear, g.div(g.one, pivot))
 
     def eliminate(self, k: int, row: Mapping[int, int], linear: int, inverse: int) -> None:
-        """Take v̇_k = −(linear + Σ_i row_i v̇_i) · inverse out of the form."""
+        """Eliminate v̇_k = −(linear + Σ_i row_i v̇_i) · inverse from the form."""
         g, H = self.graph, self.H
         weights = {i: g.mul(h, inverse) for i, h in row.items()}
         neighbours = list(row)
@@ -153,12 +155,12 @@ class Elimination:
         self.found.append((k, g.neg(g.mul(linear, inverse)), {i: g.neg(w) for i, w in weights.items()}))
 
     def exchange(self, t: int, rate: int, sign: int) -> None:
-        """Take t = p ± rate as the unknown in place of its rate, then rate = ±(t − p)."""
+        """Use t = p ± rate as the unknown instead of its rate; then rate = ±(t − p)."""
         self.hand_over(t, rate, sign)
         self.minimise(t, self.names.get(rate, "?"))
 
     def hand_over(self, t: int, rate: int, sign: int) -> None:
-        """Hand what acts on a rate to t = p ± rate and to p."""
+        """Distribute what acts on a rate to t = p ± rate and to p."""
         g = self.graph
         form = {j: c for j, c in self.tape.forms[t].items() if j != rate}
         load = self.g.pop(rate, g.zero)
@@ -170,7 +172,7 @@ class Elimination:
         self.found.append((rate, g.zero, back))
 
     def run(self, *, minimise: bool = True) -> None:
-        """Go backwards over the tape; without ``minimise`` the rates stay, and H over them is the mass matrix."""
+        """Process the tape backwards; without ``minimise`` the rates stay, and H over them is the mass matrix."""
         tape = self.tape
         done: set[int] = set()
         for i in reversed(tape.order):
@@ -192,7 +194,7 @@ class Elimination:
                 self.minimise(i, self.names.get(i, "?"))
 
     def accelerations(self) -> dict[int, int]:
-        """v̇ of every node, by one pass forwards: v̇ = constant + Σ c_j v̇_j, what was eliminated last coming first."""
+        """v̇ of every node, by one forward pass: v̇ = constant + Σ c_j v̇_j, the last eliminated node first."""
         g = self.graph
         value: dict[int, int] = {}
         for i, constant, form in reversed(self.found):
@@ -212,9 +214,9 @@ def solve(
     rates: Sequence[int],
     names: Mapping[int, str],
 ) -> list[int]:
-    """The accelerations q̈ of ``rates`` that H and g ask for along the tape.
+    """The accelerations q̈ of ``rates`` that follow from H and g along the tape.
 
-    Raises `ModelError` that names the coordinate where a pivot is zero by structure.
+    Raises `ModelError` that names the coordinate if a pivot is structurally zero.
     """
     solver = Elimination(graph, tape, H.copy(), dict(g), names)
     solver.run()
@@ -223,9 +225,9 @@ def solve(
 
 
 def condensed(graph: Graph, tape: EliminationTape, H: Quadratic, rates: Sequence[int]) -> list[list[int]]:
-    """The mass matrix M over ``rates``, row after row: H with every step of the tape substituted.
+    """The mass matrix M over ``rates``, row after row: H after every step of the tape has been substituted.
 
-    Links that move together are summed on the way, as composite bodies.
+    Links that move together are combined on the way, as composite bodies.
     """
     solver = Elimination(graph, tape, H.copy(), {}, {})
     solver.run(minimise=False)

@@ -1,4 +1,4 @@
-"""Axes that turn and places that move: what `Motion` is made of."""
+"""Axes that turn and places that move: the parts of a `Motion`."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from lagrangian.dynamics.vectors import Matrix, Vector
 
 @dataclass(eq=False)
 class Axes:
-    """Axes that turn. ``turn`` is R (own axes → parent's axes), ``own`` the angular velocity against the parent, in
-    these axes; ``axis`` is the number of the coordinate axis of a turn about one. In the plane ``own`` is one number
-    and ``turn`` goes to the fixed axes.
+    """Axes that turn. ``turn`` is R (own axes → parent's axes), and ``own`` is the angular velocity relative to the
+    parent, in these axes; ``axis`` is the number of the coordinate axis for a turn about one. In the plane ``own`` is
+    one number, and ``turn`` leads to the fixed axes.
     """
 
     parent: Axes | None
@@ -25,10 +25,11 @@ class Axes:
 
 @dataclass(eq=False)
 class PlaceMotion:
-    """A place that moves: ``offset`` and its rate in ``axes``, from ``parent``; ``velocity`` in ``axes``.
+    """A place that moves: its ``offset`` from ``parent`` in ``axes``, the rate of the offset, and its ``velocity`` in
+    ``axes``.
 
-    ``slide`` are velocity components against the ground in ``axes``, for a place that floats with quasi-velocities;
-    ``given`` are the axes and components an offset in the plane was given in.
+    ``slide`` are the velocity components relative to the ground in ``axes``, for a floating place with
+    quasi-velocities; ``given`` are the axes and components in which an offset in the plane was given.
     """
 
     parent: PlaceMotion | None
@@ -43,7 +44,7 @@ class PlaceMotion:
 
 @dataclass
 class Accelerations:
-    """α of axes and a of places at v̇; in the plane α is one number and a stands in the fixed axes."""
+    """α of axes and a of places for given v̇; in the plane α is one number, and a is in the fixed axes."""
 
     vdot: Vector
     alpha: dict[Axes, Vector]

@@ -1,7 +1,7 @@
-"""Bodies gathered into links, in every way that may be the cheapest.
+"""Combines bodies to links, in every way that may be the cheapest.
 
-What is rigidly joined is one link. Matter that a turn does not change may be handed to the parent: all that sits on the
-axis of the turn. The equations stay the same, the numbers in them become fewer.
+Rigidly connected bodies form one link. Mass that a turn does not affect, because it is on the axis of the turn, may be
+moved to the parent. The equations stay the same, but contain fewer numbers.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ Plane = dict[tuple[Axes, PlaceMotion], PlaneLink]
 
 
 class Bodies:
-    """The matter of a motion. ``links`` are the bodies as they are; `groupings` are other ways to say the same."""
+    """The mass of a motion. ``links`` are the bodies as described; `groupings` are equivalent arrangements."""
 
     def __init__(self, motion: Motion) -> None:
         self.motion = motion
@@ -24,11 +24,11 @@ class Bodies:
         self._points: list[tuple[PlaceMotion, int]] = []
 
     def add_in_plane(self, axes: Axes, place: PlaceMotion, m: int, J: int) -> None:
-        """A body in the plane: mass m, inertia J about its centre ``place``, turning with ``axes``."""
+        """Add a body in the plane: mass m, inertia J about its centre ``place``, turning with ``axes``."""
         self._put_in_plane(self._plane, axes, place, m, J)
 
     def add(self, axes: Axes, place: PlaceMotion, m: int, central: Matrix) -> None:
-        """A body in space: mass m, centre of mass at ``place``, inertia ``central`` about it in ``axes``."""
+        """Add a body in space: mass m, centre of mass at ``place``, inertia ``central`` about it in ``axes``."""
         motion, g = self.motion, self.motion.graph
         home, turn = motion.base(axes)
         anchor, r = motion.anchor(place, home)
@@ -37,7 +37,7 @@ class Bodies:
         self._space[home, anchor] = matter if old is None else old.plus(g, matter)
 
     def add_point(self, place: PlaceMotion, m: int) -> None:
-        """A point mass."""
+        """Add a point mass."""
         if self.motion.dimension == 2:
             self._points.append((place, m))
         else:
@@ -53,7 +53,7 @@ class Bodies:
 
     @property
     def links(self) -> list[AnyLink]:
-        """The bodies as they are, point masses at their places."""
+        """The bodies as described, with point masses at their places."""
         space: list[AnyLink] = [Link(axes, place, matter) for (axes, place), matter in self._space.items()]
         plane = dict(self._plane)
         for place, m in self._points:
@@ -61,7 +61,7 @@ class Bodies:
         return [*space, *plane.values()]
 
     def groupings(self) -> list[list[AnyLink]]:
-        """The ways worth counting."""
+        """The arrangements that are worth counting."""
         if self.motion.dimension == 3:
             return [self._needles_moved()]
         swung = dict(self._plane)
@@ -71,9 +71,9 @@ class Bodies:
         return [self.links, list(swung.values()), self._centres_moved(swung)]
 
     def _needles_moved(self) -> list[AnyLink]:
-        """In space a turn about axis k does not change m, h_k and Σ_kk: a needle of matter on the axis.
+        """In space a turn about axis k does not affect m, h_k and Σ_kk: a needle of mass on the axis.
 
-        Deepest first it is handed to what carries the place on the axis.
+        Starting with the outermost link, it is moved to the link that carries the place on the axis.
         """
         motion, g = self.motion, self.motion.graph
         kept = dict(self._space)
@@ -99,7 +99,7 @@ class Bodies:
         return [Link(axes, place, matter) for (axes, place), matter in kept.items()]
 
     def _centres_moved(self, links: Plane) -> list[AnyLink]:
-        """In the plane a turn about a place does not change m: the mass is handed to what carries the place."""
+        """In the plane a turn about a place does not affect m: the mass is moved to the link that carries the place."""
         motion, g = self.motion, self.motion.graph
         kept = dict(links)
         number = {place: n for n, place in enumerate(motion.places)}

@@ -1,4 +1,4 @@
-"""Masses and inertias as numbers of the parameters alone."""
+"""A program for masses and inertias that depend only on the parameters."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from lagrangian.model import Model, RigidBody, time
 
 
 def body_numbers(model: Model, names: Iterable[str]) -> Program | None:
-    """p → the masses [kg] and inertias [kg m²] that the parameters ``names`` decide; None where they decide none.
+    """p → the masses [kg] and inertias [kg m²] that depend on the parameters ``names``; None if there are none.
 
-    Outputs are ``mass k`` of bodies that move and ``resting mass k`` of those that only turn, shape (), and
-    ``inertia k``, shape (d, d), k the body's place among the bodies.
+    The outputs are ``mass k`` of bodies that move and ``resting mass k`` of those that only turn, shape (), and
+    ``inertia k``, shape (d, d), where k is the index of the body.
     """
     wanted = set(names)
     symbols = {p.symbol for p in model.parameters if p.name in wanted}

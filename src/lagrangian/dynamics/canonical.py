@@ -1,8 +1,8 @@
-"""Hamilton's equations of a model, in coordinates and momenta, for methods that keep a symplectic structure.
+"""Hamilton's equations of a model, in coordinates and momenta, for symplectic methods.
 
     p = ∂L/∂q̇ = M(q, t) q̇ + b(q, t),    q̇ = M⁻¹ (p − b),    ṗ = ∂L/∂q + Ξ
 
-M⁻¹ is never formed: q̇ comes out of p − b by the elimination along the velocity tape that gives the accelerations.
+M⁻¹ is never formed: q̇ is computed from p − b by the same elimination along the velocity tape as the accelerations.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class Canonical:
 
     @cached_property
     def rates(self) -> list[int]:
-        """v over [q; p]: the entries of x after q are read as momenta."""
+        """v over [q; p], where the entries of x after q are momenta."""
         g, m = self.seen.graph, self.seen.mechanics
         still = dict.fromkeys(m.v, g.zero)
         drift = replaced(g, self.momenta, still)
@@ -65,7 +65,7 @@ class Canonical:
         return m.cheapest(found)
 
     def over_momenta(self, program: Program, states: Sequence[str] = ()) -> Program:
-        """A program over x = [q; v] as one over x = [q; p]."""
+        """Convert a program over x = [q; v] to one over x = [q; p]."""
         at = dict(zip(self.seen.mechanics.v, self.rates, strict=True))
         outputs = {
             name: Output(tuple(replaced(program.graph, out.ids, at)), out.shape)
@@ -107,7 +107,7 @@ def velocities(model: Model) -> Program:
 
 
 def canonical_impacts(model: Model, events: Sequence[Impact], feedback: Feedback, *, supply: bool = False) -> Program:
-    """`lagrangian.dynamics.impacts` over x = [q; p]: velocities after an event become momenta after it."""
+    """`lagrangian.dynamics.impacts` over x = [q; p]: the velocities after an event are converted to momenta."""
     made = Canonical(model)
     seen = made.seen
     g, m = seen.graph, seen.mechanics

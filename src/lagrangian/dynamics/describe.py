@@ -1,7 +1,7 @@
-"""Model → Mechanics: points and frames along their parents, elements as efforts on rates.
+"""Converts a Model to Mechanics: points and frames along their parents, elements as efforts on rates.
 
-SymPy expressions are converted piece by piece, as they were written: a definition or a parent point that many use is
-one node. Elements of a kind that is not known here are taken by what they say of themselves: T*, V and their actions.
+SymPy expressions are converted piece by piece, as they were written, so a definition or a parent point that is used
+several times is one node. Elements of kinds that are not known here are converted from their own T*, V and actions.
 """
 
 from __future__ import annotations
@@ -29,12 +29,12 @@ from lagrangian.model.elements.spring import DELTA
 
 
 def describe(model: Model, graph: Graph, inputs: Inputs) -> Mechanics:
-    """The mechanics of a model over given input nodes. Raises `ModelError` that names the element in question."""
+    """The mechanics of a model over given input nodes. Raises `ModelError` that names the element at fault."""
     return described(model, graph, inputs)[0]
 
 
 def described(model: Model, graph: Graph, inputs: Inputs) -> tuple[Mechanics, Description]:
-    """The mechanics of a model, and where its points and frames went."""
+    """The mechanics of a model, and the nodes of its points and frames."""
     rates, floats = velocities(model, graph, inputs)
     motion = Motion(graph, model.dimension, inputs.q, inputs.v, rates, inputs.t)
     d = Description(model, graph, inputs, motion, _symbols(model, inputs, rates))
@@ -74,7 +74,7 @@ def velocities(model: Model, graph: Graph, inputs: Inputs) -> tuple[list[int], d
 
 
 def moved(model: Model) -> tuple[str, ...]:
-    """For every velocity the name of what moves by it: the coordinate, or the quasi-velocity itself."""
+    """For every velocity the name of what it moves: the coordinate, or the quasi-velocity itself."""
     return tuple(v.name.removesuffix("'") for v in model.velocities)
 
 
@@ -92,7 +92,7 @@ def _symbols(model: Model, inputs: Inputs, rates: Sequence[int]) -> dict[Any, in
 
 
 def _geometry(d: Description, floats: Mapping[Frame, Float]) -> None:
-    """All points and frames that the model names or its elements use, parents first."""
+    """All points and frames that are named in the model or used by its elements, parents first."""
     q, v = d.inputs.q, d.inputs.v
     for frame, at in floats.items():
         d.axes[frame], d.places[frame.origin] = floating_body(d.motion, q[at.q : at.q + 7], v[at.v : at.v + 6])
@@ -182,7 +182,7 @@ def _velocity(d: Description, place: PlaceMotion) -> Vector:
 
 
 def _pull(d: Description, pairs: Pairs, pull: int, delta: tuple[int, int | None, Vector, Vector]) -> None:
-    """Add a pull against a deflection: −pull on δ̇, or −(pull/δ) Δr on Δv."""
+    """Add a pull along a deflection: −pull on δ̇, or −(pull/δ) Δr on Δv."""
     g = d.graph
     length, rate, apart, velocity = delta
     if rate is not None:
@@ -304,7 +304,7 @@ def _generalized_force(d: Description, m: Mechanics, e: Any) -> None:
 
 
 def _any(d: Description, m: Mechanics, e: Any) -> None:
-    """An element by what it says of itself; gravity finds bodies where they were added, so they need their own way."""
+    """Convert an element by its own T*, V and actions; one with mass needs its own function, because of gravity."""
     if e.is_body:
         raise TypeError(f"the kind '{e.kind}' has mass: it needs a function in ELEMENTS, so that gravity pulls it")
     kinetic, potential = e.kinetic(d.model), e.potential(d.model)

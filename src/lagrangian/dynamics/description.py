@@ -1,4 +1,4 @@
-"""A model while it is turned into nodes: the inputs of a program, and where symbols, points and frames went."""
+"""A model during its conversion to nodes: the inputs of a program, and the nodes of symbols, points and frames."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from lagrangian.model import Frame, Model, Point
 
 @dataclass
 class Inputs:
-    """The input nodes of a program over a model: one id a coordinate, velocity, parameter, input, and time."""
+    """The input nodes of a program for a model: one for each coordinate, velocity, parameter, input, and for time."""
 
     q: list[int]
     v: list[int]
@@ -25,7 +25,7 @@ class Inputs:
 
     @classmethod
     def of(cls, graph: Graph, model: Model, *, state: bool = False) -> Inputs:
-        """Groups q, v, u, p, t; with ``state``, x = [q; v] in place of q and v."""
+        """The groups q, v, u, p, t; with ``state``, x = [q; v] instead of q and v."""
         n = len(model.coordinates)
         q = [graph.input("x" if state else "q", i) for i in range(n)]
         v = [graph.input("x", n + i) if state else graph.input("v", i) for i in range(len(model.velocities))]
@@ -36,7 +36,7 @@ class Inputs:
 
 @dataclass
 class Description:
-    """A model while it is turned into nodes."""
+    """A model during its conversion to nodes."""
 
     model: Model
     graph: Graph
@@ -49,7 +49,7 @@ class Description:
     angles: dict[Frame, int] = field(default_factory=dict)
 
     def node(self, expr: Any, local: Mapping[Any, int] | None = None) -> int:
-        """The node of an expression; ``local`` gives meaning to symbols of this expression alone."""
+        """The node of an expression; ``local`` gives the meaning of symbols in this expression only."""
         if local:
             return from_sympy(self.graph, expr, {**self.table, **local})
         return from_sympy(self.graph, expr, self.table, self.memo)

@@ -1,9 +1,9 @@
-"""Feedback compiled in: inputs replaced by expressions of time and state.
+"""Feedback that is compiled in: inputs are replaced by expressions of time and state.
 
-    ẋ = f(x, u, p, t),  u_k = g_k(x, t, p, the inputs that stay free)
+    ẋ = f(x, u, p, t),  u_k = g_k(x, t, p, the remaining inputs)
 
-The replacement is made in the graph, after the equations were solved for the accelerations: an input stays a signal
-from outside for everything that differentiates.
+They are replaced in the graph, after the equations were solved for the accelerations, so an input remains an external
+signal for everything that is differentiated.
 """
 
 from __future__ import annotations
@@ -29,12 +29,11 @@ SUPPLY = "∫ power"
 
 
 def closed(model: Model, feedback: Feedback, *, supply: bool = False) -> Program:
-    """x, u, p, t → ẋ with the inputs in ``feedback`` (by symbol) replaced; those that stay free are the group u.
+    """x, u, p, t → ẋ with the inputs in ``feedback`` (by symbol) replaced; the remaining inputs are the group u.
 
-    With ``supply`` one more state is carried along, the energy supplied since the start, ∫ (Ξ·q̇ − ∂L/∂t) dt
-    (`lagrangian.dynamics.power`); where nothing can be supplied it is left out.
-    Raises `ModelError` for what is no input, for a circle of inputs, and for accelerations in an expression: those
-    depend on the inputs themselves (an algebraic loop).
+    With ``supply`` there is an additional state, the energy supplied since the start, ∫ (Ξ·q̇ − ∂L/∂t) dt (see
+    `lagrangian.dynamics.power`), unless nothing can supply energy. Raises `ModelError` for keys that are not inputs,
+    for circular inputs, and for accelerations in an expression, because these depend on the inputs (an algebraic loop).
     """
     seen = Observed(model)
     ids = [*seen.mechanics.motion.rates, *seen.vdot]
@@ -48,7 +47,7 @@ def closed(model: Model, feedback: Feedback, *, supply: bool = False) -> Program
 
 
 def observe_closed(model: Model, outputs: Mapping[str, sp.Expr | Point], feedback: Feedback) -> Program:
-    """`observe` with inputs replaced as in `closed`; an input in ``feedback`` reads as its expression."""
+    """`observe` with inputs replaced as in `closed`; an input in ``feedback`` has the value of its expression."""
     seen = Observed(model)
     return with_feedback(seen, observed(seen, outputs), feedback, "observe")
 
@@ -68,7 +67,7 @@ def balance_terms_closed(model: Model, feedback: Feedback) -> Program:
 def with_feedback(
     seen: Observed, outputs: Mapping[str, Output], feedback: Feedback, name: str, states: Sequence[str] = ()
 ) -> Program:
-    """The program of ``outputs`` with inputs replaced; ``states`` are the names of states beyond [q; v]."""
+    """The program of ``outputs`` with inputs replaced; ``states`` are the names of states after [q; v]."""
     model, graph = seen.model, seen.graph
     free = [u for u in model.inputs if u.symbol not in feedback]
     known = {graph.input("u", k): graph.input("u", free.index(u)) for k, u in enumerate(model.inputs) if u in free}
@@ -83,7 +82,7 @@ def with_feedback(
 
 
 def _in_order(model: Model, feedback: Feedback) -> list[tuple[Input, sp.Expr]]:
-    """The replaced inputs with their expressions written out, each after those it reads."""
+    """The replaced inputs with their expressions written out, each after those that it depends on."""
     inputs = {u.symbol: u for u in model.inputs}
     waiting: dict[Any, sp.Expr] = {}
     for symbol, given in feedback.items():

@@ -28,14 +28,14 @@ from lagrangian.graph import Graph
 
 @dataclass(frozen=True)
 class Float:
-    """Where a body that floats has its seven coordinates in q and its six velocities in u."""
+    """The positions in q and v of the seven coordinates and six velocities of a floating body."""
 
     q: int
     v: int
 
 
 def quaternion_rotation(g: Graph, e: Sequence[int]) -> Matrix:
-    """R of the quaternion (x, y, z, w), whatever its length: v_fixed = R v_body."""
+    """R of the quaternion (x, y, z, w) of any length: v_fixed = R v_body."""
     x, y, z, w = e
     two = g.div(g.const(2.0), dot(g, e, e))
     X, Y, Z = (g.mul(two, c) for c in (x, y, z))
@@ -64,7 +64,7 @@ def floating_rates(g: Graph, q: Sequence[int], u: Sequence[int]) -> list[int]:
 
 
 def floating_body(motion: Motion, q: Sequence[int], u: Sequence[int]) -> tuple[Axes, PlaceMotion]:
-    """Axes and origin of a body that floats, with q = (p, e) and u = (v, ω) among the motion's coordinates."""
+    """The axes and the origin of a floating body, with q = (p, e) and u = (v, ω) among the motion's coordinates."""
     axes = motion.turned_axes(motion.root, quaternion_rotation(motion.graph, q[3:7]), list(u[3:6]))
     return axes, motion.floating(q[:3], axes, u[:3])
 

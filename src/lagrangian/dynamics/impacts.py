@@ -1,8 +1,8 @@
-"""Events of a moving system: functions whose zeros are looked for, and what they do to the state.
+"""Events of a moving system: functions whose zeros are events, and the changes of the state there.
 
     g_k(x, u, p, t) = 0:  x⁺ = after_k(x⁻, u, p, t)
 
-An impact replaces velocities, say θ̇⁺ = −e θ̇⁻; everything that is not replaced stays as it was.
+An impact replaces velocities, such as θ̇⁺ = −e θ̇⁻; everything that is not replaced stays the same.
 """
 
 from __future__ import annotations
@@ -24,17 +24,17 @@ Impact = tuple[str, sp.Expr, Mapping[Any, sp.Expr]]
 
 
 def impacts(model: Model, events: Sequence[Impact], feedback: Feedback, *, supply: bool = False) -> Program:
-    """x, u, p, t → ``g`` (ne,) and, where an event changes the state, ``after`` (ne, nx): the state after event k.
+    """x, u, p, t → ``g`` (ne,) and, if an event changes the state, ``after`` (ne, nx): the state after event k.
 
-    With ``supply`` x ends with the energy supplied (`lagrangian.dynamics.feedback`), which no event changes.
-    Raises `ModelError` for symbols that are not known and for what is no state.
+    With ``supply``, the last entry of x is the supplied energy (`lagrangian.dynamics.feedback`), which no event
+    changes. Raises `ModelError` for unknown symbols, and for keys that are not states.
     """
     seen = Observed(model)
     return with_feedback(seen, impact_outputs(seen, events, supply), feedback, "events", (SUPPLY,) if supply else ())
 
 
 def impact_outputs(seen: Observed, events: Sequence[Impact], supply: bool) -> dict[str, Output]:
-    """``g`` and ``after`` as outputs over [q; v] and, with ``supply``, the energy supplied."""
+    """``g`` and ``after`` as outputs over [q; v] and, with ``supply``, the supplied energy."""
     model, motion = seen.model, seen.mechanics.motion
     states: dict[Any, int] = {c.symbol: i for i, c in enumerate(model.coordinates)}
     states.update({v.symbol: len(model.coordinates) + i for i, v in enumerate(model.velocities)})

@@ -1,4 +1,4 @@
-"""Bodies as links: what is rigidly joined is one inertia, and what a turn does not change is handed to the parent.
+"""Links: the inertia of rigidly connected bodies; parts that a turn does not affect can be moved to the parent.
 
 In space a link's inertia about its place O, in its own axes, is (m, h, Σ): mass, first moment ∫ρ r and second moment
 ∫ρ r rᵀ, so that I_O = tr Σ · 1 − Σ. With A = [α]× + ω ωᵀ − |ω|² 1 the acceleration at r is a + A r, and
@@ -43,7 +43,7 @@ class Inertia:
         return cls(m, zeros(g, 3), second).shifted(g, centre)
 
     def shifted(self, g: Graph, r: Sequence[int]) -> Inertia:
-        """The same matter about a place from which it sits at r: h + m r, Σ + r hᵀ + h rᵀ + m r rᵀ."""
+        """The same mass about a place from which it is displaced by r: h + m r, Σ + r hᵀ + h rᵀ + m r rᵀ."""
         mr = scaled(g, self.m, r)
         second = [
             [
@@ -59,14 +59,14 @@ class Inertia:
         )
 
     def turned(self, g: Graph, R: Matrix) -> Inertia:
-        """The same matter in axes that R leads to: R h, R Σ Rᵀ."""
+        """The same mass in axes to which R leads: R h, R Σ Rᵀ."""
         second = product(g, product(g, R, self.S), transposed(R))
         return Inertia(
             self.m, times(g, R, self.h), [[second[min(i, j)][max(i, j)] for j in range(3)] for i in range(3)]
         )
 
     def plus(self, g: Graph, other: Inertia) -> Inertia:
-        """Both."""
+        """The sum of both inertias."""
         return Inertia(
             g.add(self.m, other.m),
             plus(g, self.h, other.h),
@@ -87,7 +87,7 @@ class Inertia:
 
 @dataclass
 class Link:
-    """A rigid piece in space: its axes, its place and its inertia about that place in those axes."""
+    """A rigid part in space: its axes, its place, and its inertia about that place in these axes."""
 
     axes: Axes
     place: PlaceMotion
@@ -98,7 +98,7 @@ class Link:
         return motion.turned(self.place.velocity, self.place.axes, self.axes)
 
     def seeds(self, motion: Motion) -> Triples:
-        """The (i, k, h) of T = Σ h v_i v_k over its velocity nodes."""
+        """The entries (i, k, h) of T = Σ h v_i v_k over its velocity nodes."""
         g, v, w = motion.graph, self.velocity(motion), self.axes.omega
         h, tensor, half = self.inertia.h, self.inertia.tensor(g), g.const(0.5)
         triples: Triples = []
@@ -139,7 +139,7 @@ class Link:
 
 @dataclass
 class PlaneLink:
-    """A rigid piece in the plane: ``h`` in its own axes, J about its place; the velocities in the fixed axes."""
+    """A rigid part in the plane: ``h`` in its own axes, J about its place; the velocities are in the fixed axes."""
 
     axes: Axes
     place: PlaceMotion
@@ -148,11 +148,11 @@ class PlaneLink:
     J: int
 
     def plus(self, g: Graph, m: int, h: Vector, J: int) -> PlaneLink:
-        """With more matter."""
+        """The part with additional mass."""
         return PlaneLink(self.axes, self.place, g.add(self.m, m), plus(g, self.h, h), g.add(self.J, J))
 
     def seeds(self, motion: Motion) -> Triples:
-        """The (i, k, h) of T = Σ h v_i v_k: ½ m v² + ω (h_x v_y − h_y v_x) + ½ J ω²."""
+        """The entries (i, k, h) of T = Σ h v_i v_k: ½ m v² + ω (h_x v_y − h_y v_x) + ½ J ω²."""
         g, (vx, vy), w = motion.graph, self.place.velocity, self.axes.omega[0]
         hx, hy = times(g, self.axes.turn, self.h)
         m, J = g.mul(g.const(0.5), self.m), g.mul(g.const(0.5), self.J)

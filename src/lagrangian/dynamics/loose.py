@@ -1,7 +1,7 @@
-"""Configurations where the mass matrix is singular: some combination of rates moves no mass.
+"""Finds combinations of rates that move no mass, for configurations with a singular mass matrix.
 
-M is judged with the unit of every rate taken from the largest mass that it moves here or at a few other configurations:
-kg and kg m² can be compared then, and what is always light beside the rest is not called singular.
+Every rate is scaled by the largest mass that it moves here or at a few other configurations, so that kg and kg m² can
+be compared, and a part that is always light compared with the rest does not count as singular.
 """
 
 from __future__ import annotations
@@ -32,9 +32,9 @@ TAKES_PART = 1e-4
 def loose(
     model: Model, q: Sequence[float], u: Sequence[float], p: Sequence[float], t: float, near: float = ROUNDING
 ) -> str:
-    """What moves no mass at a configuration, in words; empty where M is regular.
+    """The rates that move no mass at a configuration, in words; empty if M is regular.
 
-    ``near``: the least eigenvalue of M, in parts of the greatest one elsewhere, up to which it counts as singular.
+    ``near``: M counts as singular if its smallest eigenvalue is at most this, relative to the largest one elsewhere.
     """
     program = model._memo.get("loose")
     if program is None:
@@ -60,14 +60,14 @@ def loose(
 
 
 def _least(M: Array, size: Array) -> tuple[Array, Array]:
-    """The eigenvalues of M, every rate in its own unit, the least first, and in rows the rates along each."""
+    """The eigenvalues of M with scaled rates, the smallest first, and the corresponding rates in rows."""
     unit = np.sqrt(np.where(size > 0, size, 1.0))
     values, columns = np.linalg.eigh(M / np.outer(unit, unit))
     return values, columns.T / unit
 
 
 def moving_no_mass(velocities: Sequence[str], rows: Array) -> str:
-    """``moving 'a' and 'b' together, 1 : −2, moves no mass``: what the rates in each row say."""
+    """``moving 'a' and 'b' together, 1 : −2, moves no mass``: the rates in each row, in words."""
     names = [name.removesuffix("'") for name in velocities]
     taking = (np.abs(rows) > TAKES_PART * np.abs(rows).max(axis=1, keepdims=True)).any(axis=0)
     involved = np.flatnonzero(taking).tolist()

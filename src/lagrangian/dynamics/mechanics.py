@@ -1,11 +1,11 @@
-"""A mechanical system in the graph, whatever described it.
+"""A mechanical system on the graph, independent of how it was described.
 
-`Mechanics` holds coordinates, velocities, links, efforts and energies as nodes; everything the programs compute follows
-from it. Equations of motion, by virtual work:
+`Mechanics` contains coordinates, velocities, links, efforts and energies as nodes, from which all programs are
+computed. The equations of motion by virtual work are
 
     r_i = Σ_b (inertial force − applied force) · ∂(velocity of b)/∂v_i = 0
 
-which is one reverse pass over the velocities with the forces as cotangents.
+which takes one reverse pass over the velocities, with the forces as cotangents.
 """
 
 from __future__ import annotations
@@ -43,11 +43,11 @@ MANY = 100
 class Mechanics:
     """A mechanical system as nodes of ``graph``.
 
-    ``names`` say what moves by each velocity v; q̇ = ``motion.rates``; ``floats`` are the bodies among them that move by
-    quasi-velocities. ``down`` is the acceleration of gravity in the
-    fixed axes. ``efforts`` are (rate, effort) pairs: their power is Σ rate · effort and Ξ_i = Σ effort · ∂rate/∂v_i.
-    ``stores`` are the (rate, effort) pairs of what is kept in ``potentials``. ``kinetics`` are raw kinetic co-energies,
-    ``losses`` the powers taken by dampers. ``rows`` are the rows of constraints.
+    ``names`` say what each velocity v moves; q̇ = ``motion.rates``; ``floats`` are the bodies that move by
+    quasi-velocities. ``down`` is the acceleration of gravity in the fixed axes. ``efforts`` are (rate, effort) pairs:
+    their power is Σ rate · effort, and Ξ_i = Σ effort · ∂rate/∂v_i. ``stores`` are the (rate, effort) pairs of the
+    energies in ``potentials``. ``kinetics`` are kinetic co-energies that were given directly, ``losses`` the powers
+    that dampers take. ``rows`` are the rows of constraints.
     """
 
     graph: Graph
@@ -75,30 +75,30 @@ class Mechanics:
 
     @cached_property
     def links(self) -> list[AnyLink]:
-        """The bodies as they are."""
+        """The bodies as described."""
         return self.bodies.links
 
     @cached_property
     def groupings(self) -> list[list[AnyLink]]:
-        """Links that move alike: the candidates of every count."""
+        """Equivalent arrangements of links, whose operations are counted."""
         return self.bodies.groupings()
 
     def cheapest(self, candidates: Iterable[list[int]]) -> list[int]:
-        """The nodes that take the fewest operations, parameters hoisted."""
+        """The nodes that need the fewest operations, with hoisted parameters."""
         return min(candidates, key=lambda ids: count_operations(self.graph, ids, hoist=["p"]).operations)
 
     # -- what acts ----------------------------------------------------------------------------------------------
 
     def accelerations(self, vdot: Sequence[int], *, free: bool = False) -> Accelerations:
-        """Accelerations at v̇ = vdot against free fall: the ground accelerates with −g.
+        """Accelerations for v̇ = vdot relative to free fall: the ground accelerates with −g.
 
-        With ``free`` v̇ is chosen where a choice makes components vanish (`Motion.free_rates`).
+        With ``free``, v̇ is chosen so that components vanish if possible (`Motion.free_rates`).
         """
         ground = [self.graph.neg(x) for x in self.down]
         return self.motion.accelerations(vdot, ground, self.motion.free_rates() if free else None)
 
     def raw_inertial(self, vdot: Sequence[int]) -> Pairs:
-        """d/dt ∂T/∂v − ∂T/∂q of raw kinetic co-energies, on the velocities."""
+        """d/dt ∂T/∂v − ∂T/∂q of kinetic co-energies that were given directly, for the velocities."""
         if not self.kinetics:
             return []
         return list(zip(self.v, self._lagrange(self.raw_kinetic, vdot), strict=True))
@@ -116,7 +116,7 @@ class Mechanics:
 
     @property
     def raw_kinetic(self) -> int:
-        """The sum of raw kinetic co-energies."""
+        """The sum of the kinetic co-energies that were given directly."""
         return self._sum(self.kinetics)
 
     def _sum(self, ids: Sequence[int]) -> int:
@@ -126,7 +126,7 @@ class Mechanics:
         return total
 
     def missing(self, acc: Accelerations, links: Sequence[AnyLink]) -> Pairs:
-        """(velocity, force that is missing) at given accelerations: inertial minus applied, weights included."""
+        """Pairs (velocity, missing force) for given accelerations: inertial minus applied, including weights."""
         g = self.graph
         inertial = [pair for link in links for pair in link.wrench(self.motion, acc)]
         applied = [(rate, g.neg(effort)) for rate, effort in (*self.stores, *self.efforts)]
@@ -206,7 +206,7 @@ class Mechanics:
     # -- energies -----------------------------------------------------------------------------------------------
 
     def kinetic(self) -> int:
-        """T* of all bodies as they are, and of the raw energies."""
+        """T* of all bodies as described, plus the kinetic co-energies that were given directly."""
         g = self.graph
         total = self.raw_kinetic
         for link in self.links:
@@ -215,7 +215,7 @@ class Mechanics:
         return total
 
     def potential(self) -> int:
-        """V: the stores, and −m g·r of every link's matter."""
+        """V: the stored energies, and −m g·r for the mass of every link."""
         g, motion = self.graph, self.motion
         total = self._sum(self.potentials)
         if any(x != g.zero for x in self.down):
@@ -228,7 +228,7 @@ class Mechanics:
         return self._sum(self.losses)
 
     def potential_force(self) -> list[int]:
-        """G = ∂V/∂q, on the velocities."""
+        """G = ∂V/∂q, for the velocities."""
         g = self.graph
         return vjp(g, list(self.motion.rates), gradient(g, self.potential(), self.q), list(self.v))
 
@@ -241,7 +241,7 @@ class Mechanics:
     # -- forward dynamics ---------------------------------------------------------------------------------------
 
     def forward(self) -> list[int]:
-        """v̇, by the cheapest of the eliminations: along the tape or of the mass matrix, from either reference."""
+        """v̇, by the cheapest of the eliminations: along the tape or of the mass matrix, with either reference."""
         if self.rows:
             return self.constrained.vdot
         n = len(self.v)
@@ -257,7 +257,7 @@ class Mechanics:
         return self.cheapest(found)
 
     def along_tape(self, links: Sequence[AnyLink], *, free: bool, exchange: bool) -> list[int]:
-        """v̇ = reference + what the elimination of the tape adds to it."""
+        """v̇ = reference + the result of the elimination of the tape."""
         g, H = self.graph, self.inertia(links)
         acc = self.accelerations(zeros(g, len(self.v)), free=free)
         linear = self._linear(self.missing(acc, links))

@@ -1,14 +1,14 @@
-"""What moves, and how fast: axes and places along their parents, in the graph.
+"""The motion of axes and places, computed along their parents on the graph.
 
-In space every vector stands in the axes it is known in, so that a turn about a fixed axis costs four products; in the
-plane all vectors stand in the fixed axes and a turn is its angle. Both speak the same language: `Axes` turn against
-their parent, a `PlaceMotion` is offset from its parent in some axes.
+In space every vector is stored in the axes in which it is known, so a turn about a fixed axis costs four products. In
+the plane all vectors are in the fixed axes, and a turn is just an angle. The classes are the same in both cases: `Axes`
+turn relative to their parent, and a `PlaceMotion` is offset from its parent in some axes.
 
     ω = Rᵀ ω_parent + w           α = Rᵀ α_parent + (Rᵀ ω_parent) × w + ẇ
     v = v_parent + ω × r + ṙ      a = a_parent + α × r + ω × (ω × r) + 2 ω × ṙ + r̈
 
-Accelerations are those seen from the fixed axes, with components in the body's axes. The ground's acceleration is a
-parameter of them: gravity g acts like a ground that accelerates with −g.
+Accelerations are relative to the fixed axes, with components in the body's axes. They depend on the acceleration of the
+ground: gravity g has the same effect as a ground that accelerates with −g.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ from lagrangian.graph import Graph, Tangents, jvp, operands, reached
 class Motion:
     """Axes and places over coordinates q and velocities v with q̇ = rates(q, v); ``dimension`` is 2 or 3.
 
-    ``root`` are the fixed axes, ``ground`` the origin. Add axes and places parents first.
+    ``root`` are the fixed axes, and ``ground`` is the origin. Parents must be added first.
     """
 
     def __init__(
@@ -78,7 +78,8 @@ class Motion:
     # -- building -----------------------------------------------------------------------------------------------
 
     def turned_axes(self, parent: Axes, turn: Matrix, own: Vector, axis: int | None = None) -> Axes:
-        """Axes in space turned by R = ``turn`` from ``parent``, with angular velocity ``own`` against it (own axes)."""
+        """Add axes in space turned by R = ``turn`` from ``parent``, with angular velocity ``own`` relative to it (own
+        axes)."""
         g = self.graph
         omega = plus(g, times(g, transposed(turn), parent.omega), own)
         made = Axes(parent, turn, own, axis, omega, parent.depth + 1, all(w == g.zero for w in own))
@@ -86,7 +87,7 @@ class Motion:
         return made
 
     def turned_about(self, parent: Axes, axis: int, angle: int) -> Axes:
-        """Axes in space turned about the parent's coordinate axis 0, 1 or 2 by ``angle``."""
+        """Add axes in space turned about the parent's coordinate axis 0, 1 or 2 by ``angle``."""
         g = self.graph
         c, s = g.cos(angle), g.sin(angle)
         i, j = (axis + 1) % 3, (axis + 2) % 3
@@ -97,7 +98,7 @@ class Motion:
         return self.turned_axes(parent, turn, own, axis)
 
     def plane_axes(self, parent: Axes, angle: int) -> Axes:
-        """Axes in the plane turned from the fixed axes by ``angle`` (the sum over the parents)."""
+        """Add axes in the plane turned from the fixed axes by ``angle`` (the sum over the parents)."""
         g = self.graph
         c, s = g.cos(angle), g.sin(angle)
         own = self.rate([angle])
@@ -106,7 +107,7 @@ class Motion:
         return made
 
     def place(self, parent: PlaceMotion, axes: Axes, offset: Sequence[int]) -> PlaceMotion:
-        """The place at ``offset``, in ``axes``, from ``parent``."""
+        """Add a place at ``offset``, in ``axes``, from ``parent``."""
         g = self.graph
         if self.dimension == 2:
             step = times(g, axes.turn, offset)
@@ -121,7 +122,7 @@ class Motion:
         return made
 
     def _carried(self, step: Sequence[int]) -> tuple[Axes, Vector]:
-        """The axes that carry a step of fixed length along, and the step in them; the root where there are none."""
+        """The axes that carry a step of constant length, and the step in them; the root if there are none."""
         g = self.graph
         found = swing(g, step)
         if found is None or not self.constant([found.length]):
@@ -136,7 +137,7 @@ class Motion:
         return self._swings[c, s], [found.length, g.zero]
 
     def floating(self, position: Sequence[int], axes: Axes, velocity: Sequence[int]) -> PlaceMotion:
-        """A place at ``position`` (fixed axes) whose velocity has the components ``velocity`` in ``axes``."""
+        """Add a place at ``position`` (fixed axes) whose velocity has the components ``velocity`` in ``axes``."""
         none = zeros(self.graph, self.dimension)
         made = PlaceMotion(self.ground, axes, none, none, list(velocity), list(velocity), list(position))
         self.places.append(made)
@@ -145,7 +146,8 @@ class Motion:
     # -- using --------------------------------------------------------------------------------------------------
 
     def turned(self, x: Sequence[int], source: Axes, target: Axes) -> Vector:
-        """The vector x, with components in ``source``, in ``target``; in the plane everything stands in the root."""
+        """The vector x, with components in ``source``, converted to ``target``; in the plane all vectors are in the
+        root."""
         if source is target or self.dimension == 2:
             return list(x)
         g = self.graph
@@ -179,7 +181,7 @@ class Motion:
         return self._rotation[axes]
 
     def position(self, place: PlaceMotion) -> Vector:
-        """r of a place from the origin, in the fixed axes."""
+        """The position of a place relative to the origin, in the fixed axes."""
         chain: list[PlaceMotion] = []
         at = place
         while at.position is None:
@@ -200,7 +202,7 @@ class Motion:
         return times(self.graph, self.rotation(place.axes), place.offset)
 
     def between(self, start: PlaceMotion, end: PlaceMotion) -> Vector:
-        """r_end − r_start in the fixed axes; what both share cancels before anything is computed."""
+        """r_end − r_start in the fixed axes; steps that both have in common cancel before anything is computed."""
         above: set[PlaceMotion] = set()
         at: PlaceMotion | None = start
         while at is not None:
@@ -223,10 +225,11 @@ class Motion:
     def accelerations(
         self, vdot: Sequence[int], ground: Sequence[int], free: Mapping[int, int] | None = None
     ) -> Accelerations:
-        """All accelerations at v̇ = vdot, with the ground accelerating at ``ground`` (fixed axes).
+        """All accelerations for v̇ = vdot, with the ground accelerating at ``ground`` (fixed axes).
 
-        ``free`` (from `free_rates`) maps velocities to their numbers whose v̇ is instead chosen so that the component of
-        α or a they drive vanishes: the equations are linear in v̇, and from there fewer terms are left.
+        ``free`` (from `free_rates`) maps velocities to their numbers; their v̇ is instead chosen so that the component
+        of α or a that they drive vanishes. This is possible because the equations are linear in v̇, and leaves fewer
+        terms.
         """
         found = Accelerations(list(vdot), {}, {self.ground: list(ground)})
         free = free or {}
@@ -250,7 +253,7 @@ class Motion:
     def _settled(
         self, a: Vector, driven: Vector, change: Sequence[int], found: Accelerations, free: Mapping[int, int]
     ) -> Vector:
-        """a + change, component by component, or 0 where the velocity that drives it is free: then v̇ = ∓a."""
+        """a + change, component by component, or 0 if the velocity that drives it is free: then v̇ = ∓a."""
         g, total = self.graph, []
         for x, drive, c in zip(a, driven, change, strict=True):
             node = g.nodes[drive]
@@ -263,7 +266,7 @@ class Motion:
         return total
 
     def free_rates(self) -> dict[int, int]:
-        """Velocities that drive one component of one thing alone (a joint's own turn or slide) → their number."""
+        """Velocities that drive only one component of one thing (such as a joint's own rotation) → their number."""
         if self.dimension == 2:
             return {}
         nodes = self.graph.nodes
@@ -310,7 +313,7 @@ class Motion:
         return total
 
     def spin(self, axes: Axes, found: Accelerations) -> Matrix:
-        """A = [α]× + ω ωᵀ − |ω|² 1: what a point fixed in ``axes`` at r accelerates by, A r."""
+        """A = [α]× + ω ωᵀ − |ω|² 1: the acceleration of a point fixed in ``axes`` at r is A r."""
         g = self.graph
         x, y, z = axes.omega
         ax, ay, az = found.alpha[axes]
@@ -325,7 +328,7 @@ class Motion:
     # -- questions ----------------------------------------------------------------------------------------------
 
     def constant(self, ids: Sequence[int]) -> bool:
-        """Whether nodes depend on parameters and numbers alone."""
+        """Whether nodes depend only on parameters and numbers."""
         nodes, known = self.graph.nodes, self._fixed
         stack = list(ids)
         while stack:
@@ -340,7 +343,7 @@ class Motion:
         return all(known[i] for i in ids)
 
     def base(self, axes: Axes) -> tuple[Axes, Matrix]:
-        """The nearest axes above (or these) that are not at rest against their parent, and R from ``axes`` to them."""
+        """The nearest axes above (or these) that move relative to their parent, and R from ``axes`` to them."""
         g = self.graph
         turn = identity(g, 3)
         while axes.steady and axes.parent is not None:
@@ -349,7 +352,7 @@ class Motion:
         return axes, turn
 
     def anchor(self, place: PlaceMotion, axes: Axes) -> tuple[PlaceMotion, Vector]:
-        """The farthest place above that is at rest against ``place`` in ``axes``, and r from there, in ``axes``.
+        """The farthest place above that is at rest relative to ``place`` in ``axes``, and r from there, in ``axes``.
 
         In space ``axes`` must be a `base`.
         """

@@ -1,8 +1,8 @@
-"""What is to be known of a system: inertias that no body has, decided by the mass matrix, and gravity left out.
+"""The notices of a system: impossible inertias, judged by the mass matrix, and missing gravity.
 
-T* = ½ Σ m v² + ½ Σ ωᵀ I ω is positive wherever every I is positive semidefinite, whether a body can have it or not.
-Where an I is not, M is looked at in random states: where it stays positive definite the equations can be solved and
-run, else the numbers are refused and those that make it so are named.
+T* = ½ Σ m v² + ½ Σ ωᵀ I ω is positive if every I is positive semidefinite, whether a real body can have it or not. If
+some I is not, M is examined at random states: if it stays positive definite, the equations can be solved and run;
+otherwise the numbers are refused, and the error names those responsible.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ SHOWN = 6
 
 
 def notices(model: Model) -> tuple[Notice, ...]:
-    """Return what is to be known of a system; raises `ModelError` (E106) where an inertia makes M indefinite."""
+    """Return the notices of a system; raise `ModelError` (E106) if an inertia makes M indefinite."""
     if "notices" not in model._memo:
         numbers = Numbers.of_model(model)
         found = [d for d in (doubt(numbers, body) for body in model.bodies) if d is not None]
@@ -64,7 +64,7 @@ def _dependent(model: Model) -> Iterator[Notice]:
 
 
 def _weightless(model: Model) -> Iterator[Notice]:
-    """A system with a g that nothing uses, or whose bodies rise and fall in the plane while nothing at all acts."""
+    """Whether g is declared but not used, or nothing acts on bodies that rise and fall in the plane."""
     if any(isinstance(e, Gravity) for e in model.elements):
         return
     where = f"system '{model.name}'"
@@ -84,7 +84,7 @@ def _weightless(model: Model) -> Iterator[Notice]:
 
 
 def _where(body: RigidBody) -> str:
-    """The body in words, with file and line where a file describes it."""
+    """The body in words, with file and line if it is from a file."""
     if body.place is None or body.place.line is None:
         return body.title
     file = body.place.file or ""
@@ -117,7 +117,7 @@ class _Low:
 
 
 def _decide(model: Model, doubts: Sequence[Doubt]) -> None:
-    """Raise where M has a negative eigenvalue in every drawing of the parameters that have no value."""
+    """Raise an error if M has a negative eigenvalue for every random choice of the parameters without a value."""
     program = mass_matrix(model)
     low: _Low | None = None
     for seed in range(1 if all(p.value is not None for p in model.parameters) else DRAWINGS):
@@ -163,7 +163,8 @@ def _at(program: Program, model: Model, q: list[float], p: list[float]) -> list[
 
 
 def _refused(model: Model, doubts: Sequence[Doubt], low: _Low) -> ModelError:
-    """The error that names what makes M indefinite: the body and the entries of its inertia that lower the energy."""
+    """The error that names the cause of an indefinite M: the body and the entries of its inertia that lower the
+    energy."""
     share, guilty, entries = min(
         ((share, d, entries) for d in doubts for share, entries in [_shares(model, d.body, low)]), key=lambda x: x[0]
     )
@@ -182,7 +183,8 @@ def _refused(model: Model, doubts: Sequence[Doubt], low: _Low) -> ModelError:
 
 
 def _shares(model: Model, body: RigidBody, low: _Low) -> tuple[float, list[str]]:
-    """What a body's inertia adds to M's eigenvalue, and the entries that make it smaller, each with its value."""
+    """The contribution of a body's inertia to the eigenvalue of M, and the entries that make it smaller, with
+    values."""
     size, numbers = body.inertia.rows, Numbers(dict(zip([x.symbol for x in model.parameters], low.p, strict=True)), {})
     pairs = [(i, k) for i in range(size) for k in range(i, size)]
     symbols = {pair: sp.Symbol(f"inertia_{pair[0]}{pair[1]} of {body.name}") for pair in pairs}

@@ -1,7 +1,8 @@
-"""What a run can be asked for: expressions of a moving system as one program over its state.
+"""Programs that evaluate expressions of a moving system for runs.
 
-x = [q; v], inputs u, parameters p and time t go in; coordinates, rates, accelerations (by forward dynamics, only where
-one is asked for), definitions, positions of points and anything made of them come out.
+The inputs are x = [q; v], the inputs u, the parameters p and time t. The outputs may contain coordinates, rates,
+accelerations (from forward dynamics, computed only if needed), definitions, positions of points and anything made of
+these.
 """
 
 from __future__ import annotations
@@ -66,14 +67,14 @@ class Observed:
         return table
 
     def node(self, expr: Any, what: str) -> int:
-        """The node of an expression; ``what`` names it in messages. Raises `ModelError` for what is not known."""
+        """The node of an expression; ``what`` describes it in messages. Raises `ModelError` for unknown symbols."""
         worked = self.plain_derivatives(as_expr(expr, what))
         table = self._accelerated if holds_acceleration(worked, self.model) else self._still
         self._check(worked, table, what)
         return from_sympy(self.graph, worked, table, self._memo)
 
     def plain_derivatives(self, expr: sp.Expr) -> sp.Expr:
-        """The expression with every derivative of more than a symbol worked out."""
+        """The expression with every derivative of anything but a symbol carried out."""
         if any(not isinstance(d.expr, AppliedUndef) for d in expr.atoms(sp.Derivative)):
             return expr.doit(integrals=False, sums=False)  # type: ignore[return-value]
         return expr
@@ -113,16 +114,16 @@ def _symbols_in(expr: sp.Expr) -> set[Any]:
 
 
 def holds_acceleration(expr: sp.Expr, model: Model) -> bool:
-    """Whether a second derivative stands in an expression, or the rate of a quasi-velocity."""
+    """Whether an expression contains a second derivative, or the rate of a quasi-velocity."""
     quasi = {v.symbol for v in model.velocities if not isinstance(v.symbol, sp.Derivative)}
     return any(d.derivative_count >= 2 or d.expr in quasi for d in expr.atoms(sp.Derivative))
 
 
 def observe(model: Model, outputs: Mapping[str, sp.Expr | Point], *, state: bool = True) -> Program:
-    """x, u, p, t → each of ``outputs`` by name: one number an expression, shape (d,) a point's position.
+    """x, u, p, t → each of ``outputs`` by name: one number for an expression, shape (d,) for the position of a point.
 
-    Where not ``state`` q and v stand in place of x. Expressions are made of coordinates, rates, accelerations, inputs,
-    parameters, definitions and t. Raises `ModelError` for a symbol the model does not have.
+    Unless ``state``, q and v replace x. Expressions may contain coordinates, rates, accelerations, inputs, parameters,
+    definitions and t. Raises `ModelError` for a symbol that the model does not have.
     """
     seen = Observed(model, state=state)
     groups = ("x",) if state else ("q", "v")
@@ -130,7 +131,7 @@ def observe(model: Model, outputs: Mapping[str, sp.Expr | Point], *, state: bool
 
 
 def observed(seen: Observed, outputs: Mapping[str, sp.Expr | Point]) -> dict[str, Output]:
-    """The nodes of what is asked for, as outputs."""
+    """The nodes of the requested quantities, as outputs."""
     found: dict[str, Output] = {}
     for name, asked in outputs.items():
         if isinstance(asked, Point):

@@ -1,4 +1,4 @@
-"""Where a point is and how a frame is turned, with their velocities and how these follow from v."""
+"""Programs for the position of a point and the orientation of a frame, with their velocities and Jacobians."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from lagrangian.model import Frame, Model, Point
 def point_program(model: Model, point: Point) -> Program:
     """q, v, u, p, t → position r and velocity ṙ of a point, shape (d,), and J with ṙ = J v + ∂r/∂t, shape (d, n).
 
-    All in the fixed axes. Raises `ModelError` for a point of another system.
+    All are in the fixed axes. Raises `ModelError` for a point of another system.
     """
     _own(model, point, "point")
     graph, inputs, d = _described(replace(model, points=(*model.points, point), _memo={}))
@@ -30,8 +30,8 @@ def point_program(model: Model, point: Point) -> Program:
 def frame_program(model: Model, frame: Frame) -> Program:
     """q, v, u, p, t → rotation R of a frame, (d, d), its angular velocity ω, and J with ω = J v + ω_t.
 
-    R turns components in the frame into components in the fixed axes. ω and J stand in the fixed axes, shapes (3,) and
-    (3, n) in space, () and (n,) in the plane. Raises `ModelError` for a frame of another system.
+    R converts components in the frame to components in the fixed axes. ω and J are in the fixed axes, with shapes (3,)
+    and (3, n) in space, () and (n,) in the plane. Raises `ModelError` for a frame of another system.
     """
     _own(model, frame.origin, "frame")
     graph, inputs, d = _described(replace(model, frames=(*model.frames, frame), _memo={}))
@@ -51,13 +51,13 @@ def _described(model: Model) -> tuple[Graph, Inputs, Description]:
 
 
 def _slopes(graph: Graph, rates: list[int], inputs: Inputs) -> list[list[int]]:
-    """∂rate/∂v, a row a rate."""
+    """∂rate/∂v, with a row for each rate."""
     columns = [jvp(graph, rates, {v: graph.one}) for v in inputs.v]
     return [[column[i] for column in columns] for i in range(len(rates))]
 
 
 def _own(model: Model, point: Point, kind: str) -> None:
-    """Refuse what hangs on the origin of another system."""
+    """Raise an error for anything that depends on the origin of another system."""
     at = point
     while at.parent is not None:
         at = at.parent
@@ -70,7 +70,7 @@ def _own(model: Model, point: Point, kind: str) -> None:
 
 
 def named_place(model: Model, asked: Any, kind: type[Point] | type[Frame]) -> Any:
-    """The point or frame that is asked for by name or by itself; raises `ModelError` where there is none."""
+    """The point or frame that is requested, by name or as an object; raises `ModelError` if there is none."""
     if isinstance(asked, kind):
         return asked
     what = kind.__name__.lower()

@@ -2,8 +2,8 @@
 
     h = q̇·∂L/∂q̇ − L,        dh/dt = Ξ·q̇ − ∂L/∂t
 
-h is T* + V where no motion is prescribed. A potential that reads an input (a winch, a driven spring's end) changes
-with a signal whose rate nobody knows: it is left out of h, and its force counts among those that supply power.
+h is T* + V if no motion is prescribed. A potential that depends on an input (a winch, a driven end of a spring) changes
+with a signal of unknown rate: it is left out of h, and its force counts among those that supply power.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from lagrangian.model import Model
 
 
 def power(model: Model) -> Program:
-    """x, u, p, t → h [J] and P = Ξ·q̇ − ∂L/∂t [W], with dh/dt = P along every motion; T and V [J] beside them."""
+    """x, u, p, t → h [J] and P = Ξ·q̇ − ∂L/∂t [W], with dh/dt = P along every motion; also T and V [J]."""
     seen = Observed(model)
     return _program(model, "power", seen.graph, balance(seen), groups=("x",))
 
@@ -34,7 +34,7 @@ def balance(seen: Observed) -> dict[str, Output]:
 
 
 def balance_terms(seen: Observed) -> dict[str, Output]:
-    """The terms of dh/dt − P at a state and its accelerations by forward dynamics, which add up to 0.
+    """The terms of dh/dt − P at a state, with accelerations from forward dynamics; their sum is 0.
 
     dh/dt = ∂h/∂q·q̇ + ∂h/∂v·v̇ + ∂h/∂t, entry by entry, and −P.
     """
@@ -48,7 +48,7 @@ def balance_terms(seen: Observed) -> dict[str, Output]:
 
 
 def balanced(seen: Observed) -> int:
-    """h = Σ v_i ∂T/∂v_i − T + V, without the potentials that read inputs."""
+    """h = Σ v_i ∂T/∂v_i − T + V, without the potentials that depend on inputs."""
     g, m = seen.graph, seen.mechanics
     T = m.kinetic()
     momenta = gradient(g, T, m.v)
@@ -56,10 +56,7 @@ def balanced(seen: Observed) -> int:
 
 
 def supplied(seen: Observed) -> int:
-    """P = Ξ·v − ∂L/∂t − ∂V_u/∂q·q̇ of the potentials V_u that read inputs, and −λ·a₀ of constraints that move.
-
-    On a motion A v = −a₀, so that the forces Aᵀ λ have the power λ·A v = −λ·a₀: none where no row reads time.
-    """
+    """P = Ξ·v − ∂L/∂t − ∂V_u/∂q·q̇, where V_u are the potentials that depend on inputs."""
     g, m = seen.graph, seen.mechanics
     total = dot(g, m.gathered(m.efforts), m.v)
     own = g.sub(m.kinetic(), _own_potential(seen))
@@ -72,7 +69,7 @@ def supplied(seen: Observed) -> int:
 
 
 def _own_potential(seen: Observed) -> int:
-    """V without what reads inputs."""
+    """V without the potentials that depend on inputs."""
     g = seen.graph
     total = seen.mechanics.potential()
     for driven in _driven(seen):
@@ -81,7 +78,7 @@ def _own_potential(seen: Observed) -> int:
 
 
 def _driven(seen: Observed) -> list[int]:
-    """The potentials that read an input."""
+    """The potentials that depend on inputs."""
     return [V for V in seen.mechanics.potentials if _reads_inputs(seen.graph, V)]
 
 

@@ -1,6 +1,6 @@
-"""What a person described: coordinates, parameters, points, frames and elements, frozen as a `Model`.
+"""The description of a system: coordinates, parameters, points, frames and elements, frozen as a `Model`.
 
-`Builder` collects and checks; `Model` is the constant description that `derive` and `dynamics` read.
+`Builder` collects and checks a description; `Model` is the frozen description that `derive` and `dynamics` read.
 """
 
 from lagrangian.model.builder import Builder

@@ -24,7 +24,7 @@ HIGHEST = 20
 
 
 def antiderivative(law: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
-    """Return ∫₀^x law in closed form, or None where none was found."""
+    """Return ∫₀^x law in closed form, or None if none was found."""
     if not law.has(x):
         return law * x
     if law.has(sp.Abs, sp.sign, sp.Max, sp.Min, sp.Piecewise, sp.Heaviside):
@@ -51,7 +51,7 @@ def _smooth(law: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
 
 
 def _bent(law: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
-    """The integral of a law with kinks, term by term; of one that bends on a line a x + b alone, from there."""
+    """The integral of a law with kinks, term by term; if it has kinks only where a x + b = 0, from there."""
     whole = bounded.expand(_split(law, x))
     found = _by_terms(law, whole, x)
     lines: set[Any] = {a.args[0] for a in whole.atoms(sp.Abs, sp.sign) if found is None and a.has(x)}
@@ -65,7 +65,7 @@ def _bent(law: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
 
 
 def _split(law: sp.Expr, x: sp.Symbol) -> sp.Expr:
-    """The law with |c x| and sign(c x) written |c| |x| and sign(c) sign(x)."""
+    """The law with |c x| and sign(c x) written as |c| |x| and sign(c) sign(x)."""
     table: dict[sp.Expr, sp.Expr] = {}
     for kink in law.atoms(sp.Abs, sp.sign):
         factor, rest = cast("sp.Expr", kink.args[0]).as_independent(x, as_Add=False)
@@ -112,7 +112,7 @@ def _by_euler(law: sp.Expr, x: sp.Symbol, degree: sp.Expr) -> sp.Expr:
 
 
 def _degree(expr: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
-    """n where expr(s x) = s^n expr(x) for every s > 0; None where there is no such n to be seen."""
+    """n if expr(s x) = s^n expr(x) for every s > 0; None if no such n is found."""
     if not expr.has(x):
         return sp.S.Zero
     if expr == x:
@@ -191,7 +191,7 @@ def _by_sign(factor: sp.Expr, line: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
 
 
 def _cases(cases: sp.Piecewise, rest: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
-    """The integral of cases that are split by numbers, in order: each begins where the one before it ends."""
+    """The integral of cases that are separated by numbers, in order: each begins where the previous one ends."""
     edges: list[sp.Expr] = []
     for _, condition in _pairs(cases)[:-1]:
         bound = _upper(condition, x)
@@ -232,7 +232,7 @@ def _upper(condition: Any, x: sp.Symbol) -> sp.Expr | None:
 
 
 def _polynomial(expr: sp.Expr, x: sp.Symbol) -> list[sp.Expr] | None:
-    """The coefficients c₀, c₁, … of a polynomial in x, or None where it is none or too long."""
+    """The coefficients c₀, c₁, … of a polynomial in x, or None if it is not one or is too long."""
     if not expr.is_polynomial(x):
         return None
     found: dict[int, list[sp.Expr]] = {}

@@ -1,11 +1,11 @@
-"""Masses and inertias with the numbers known for them: what no system can have is refused, what no body has is noted.
+"""Checks known values of masses and inertias: impossible ones raise errors, doubtful ones lead to notices.
 
-A mass is above 0. An inertia is held to two laws of bodies:
+A mass must be positive. The principal moments A ≤ B ≤ C of a real body obey two laws:
 
-    principal moments A ≤ B ≤ C:   A + B ≥ C   (E105),   A ≥ 0   (E106)
+    A + B ≥ C   (E105),   A ≥ 0   (E106)
 
-Where the first fails T* is positive all the same, and published data of robots do fail it: that is a doubt, never an
-error. Where the second fails the mass matrix decides (`lagrangian.dynamics.notices`).
+If the first is violated, T* is still positive, and some published data of robots do violate it: that leads to a notice,
+never to an error. If the second is violated, the mass matrix decides (`lagrangian.dynamics.notices`).
 """
 
 # SymPy has no type stubs:
@@ -36,18 +36,18 @@ RELATIVE_TOLERANCE = 1e-9
 
 @dataclass(frozen=True)
 class Numbers:
-    """The values of constant expressions: parameters that have one, and definitions."""
+    """The values of constant expressions: of parameters that have one, and of definitions."""
 
     values: Mapping[Any, float]
     definitions: Mapping[Any, sp.Expr]
 
     @classmethod
     def of_model(cls, model: Model) -> Numbers:
-        """Those that a model declares."""
+        """The values that a model declares."""
         return cls(model.values, {d.symbol: d.expression for d in model.definitions})
 
     def of(self, expr: sp.Expr) -> float | None:
-        """The value of a constant expression, or None while a parameter in it has none."""
+        """The value of a constant expression, or None if a parameter in it has no value."""
         full = written_out(expr, self.definitions)
         if full.free_symbols - self.values.keys():
             return None
@@ -63,7 +63,7 @@ class Numbers:
 
 @dataclass(frozen=True)
 class Doubt:
-    """An inertia that fits no body: which law it breaks (E105 or E106), and in words how."""
+    """An inertia that no real body has: the law that it violates (E105 or E106), and a description."""
 
     body: RigidBody
     code: Code
@@ -76,7 +76,7 @@ class Doubt:
 
 
 def check_body(numbers: Numbers, body: Any) -> None:
-    """Refuse a mass that is not above 0, and numbers that are not finite, as far as values are known."""
+    """Raise an error for a mass that is not positive and for values that are not finite, as far as they are known."""
     mass = numbers.of(body.mass)
     shown = f"mass {body.mass} = {mass:g} kg" if mass is not None and body.mass.free_symbols else f"mass = {mass} kg"
 
@@ -97,7 +97,7 @@ def check_body(numbers: Numbers, body: Any) -> None:
 
 
 def doubt(numbers: Numbers, body: Any) -> Doubt | None:
-    """Return why an inertia fits no body, or None: where it may fit one, as far as values are known."""
+    """Return why no real body has an inertia; None if one may have it, as far as values are known."""
     if not isinstance(body, RigidBody):
         return None
     entries = [numbers.of(x) for x in body.inertia]

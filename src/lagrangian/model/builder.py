@@ -1,4 +1,4 @@
-"""Collects what a person describes, checks every piece as it comes, and freezes it as a `Model`."""
+"""Collects a description, checks every part of it immediately, and freezes it as a `Model`."""
 
 # SymPy has no type stubs:
 # pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
@@ -30,7 +30,7 @@ MAX_ELEMENTS = 100_000
 
 
 class Builder(Declarations):
-    """The description while it grows. Every method checks what it is given and raises `ModelError`."""
+    """A description that is being built. Every method checks its arguments and raises `ModelError`."""
 
     def __init__(self, name: str) -> None:
         if not is_text(name) or not name.strip():
@@ -47,7 +47,7 @@ class Builder(Declarations):
         self._checked: dict[int, Point | Frame] = {}  # once found right, a point and all it hangs on stay right
 
     def __getstate__(self) -> dict[str, Any]:
-        """What a copy is made of: points and frames checked are told by identity, which a copy does not share."""
+        """The state for a copy, without the record of checked points and frames, which are compared by identity."""
         return {**self.__dict__, "_checked": list(self._checked.values()), "_frozen": None}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
@@ -56,7 +56,7 @@ class Builder(Declarations):
     # -- geometry -----------------------------------------------------------------------------------------------
 
     def _fit(self, dimension: int, what: str, place: Place | None) -> None:
-        """Hold every point and frame to one dimension, the first one's."""
+        """Check that all points and frames have the same dimension as the first."""
         if self._dimension is None:
             self._dimension = (dimension, what)
         elif self._dimension[0] != dimension:
@@ -86,7 +86,7 @@ class Builder(Declarations):
         frame: Frame | None = None,
         place: Place | None = None,
     ) -> Point:
-        """Add a named point, at ``offset`` from ``parent`` (the frame's origin, or the origin) in ``frame``'s axes."""
+        """Add a named point at ``offset`` from ``parent`` (the frame's origin, or the origin) in ``frame``'s axes."""
         what = f"point '{name}'" if isinstance(name, str) else "a point"
         if name is not None:
             name = self._claim_place(name, "point", self._points, place)
@@ -135,7 +135,8 @@ class Builder(Declarations):
     def floating_frame(self, name: str, *, place: Place | None = None) -> Frame:
         """Add a frame that floats in space: seven coordinates, six quasi-velocities (`Floating`), and its origin.
 
-        They are named after it: ``name_x``, ``name_qx``, ``name_vx``, ``name_wx`` …, and the point ``name_origin``.
+        Their names begin with that of the frame: ``name_x``, ``name_qx``, ``name_vx``, ``name_wx`` …; the point is
+        ``name_origin``.
         """
         name = self._claim_place(name, "frame", self._frames, place)
         self._fit(3, f"frame '{name}'", place)
@@ -212,7 +213,7 @@ class Builder(Declarations):
     # -- elements -----------------------------------------------------------------------------------------------
 
     def add(self, element: E) -> E:
-        """Check an element, give it a name where it has none, and keep it."""
+        """Check an element, name it if it has no name, and store it."""
         self._frozen = None
         if len(self._elements) >= MAX_ELEMENTS:
             raise ModelError(f"more than {MAX_ELEMENTS} elements", code="E601")
@@ -281,7 +282,7 @@ class Builder(Declarations):
         return tuple(self._elements)
 
     def lookup(self, name: str) -> Any:
-        """Return the symbol of that name, or else the point, frame or element."""
+        """Return the symbol with that name, or else the point, frame or element."""
         if not is_text(name):
             raise ModelError(f"system[…] takes a name (got {type(name).__name__})", fix='system["theta"]', code="E402")
         if (found := self.find(name)) is None:
@@ -290,7 +291,7 @@ class Builder(Declarations):
         return found
 
     def find(self, name: object) -> Any:
-        """Return the symbol of that name, or else the point, frame or element, or None."""
+        """Return the symbol with that name, or else the point, frame or element, or None."""
         found = next((table[name] for table in self._tables if name in table), None)
         return getattr(found, "symbol", found)
 
@@ -305,7 +306,7 @@ class Builder(Declarations):
         return (*symbols, self._points, self._frames, self._element_names)
 
     def summary(self) -> str:
-        """What there is, counted."""
+        """The numbers of parts of each kind, in words."""
         counts = {
             "coordinate": len(self._coordinates),
             "parameter": len(self._parameters),
@@ -317,7 +318,7 @@ class Builder(Declarations):
     # -- the whole ----------------------------------------------------------------------------------------------
 
     def model(self) -> Model:
-        """Freeze the description; refuse one without coordinates or without anything that has mass."""
+        """Freeze the description; raise an error if it has no coordinates or nothing with mass."""
         if self._frozen is not None:
             return self._frozen
         if not self._coordinates:

@@ -1,4 +1,5 @@
-"""What may stand where: rates inside energies, positions that bend, forces on what is not a coordinate."""
+"""Checks what expressions depend on: rates in energies, kinks in positions, forces on something that is no
+coordinate."""
 
 # SymPy has no type stubs:
 # pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
@@ -24,7 +25,7 @@ from lagrangian.page.plain import plain
 def check_use(
     element: Element, use: Use, full: sp.Expr, inputs: Mapping[Any, str], velocities: Mapping[Any, str]
 ) -> None:
-    """Refuse an expression (``full``: definitions written out) that reaches further down than its place allows.
+    """Raise an error if an expression (``full``: with definitions written out) depends on something not allowed there.
 
     ``inputs`` and ``velocities`` (quasi-velocities) are symbols with their names.
     """
@@ -75,7 +76,7 @@ def check_use(
 
 
 def checked_number(name: str, value: object, place: Place | None) -> float | None:
-    """The value of a parameter as a number, or None where it has none; anything else is refused."""
+    """The value of a parameter as a number, or None if it has none; anything else raises an error."""
     if value is None:
         return None
     if isinstance(value, complex) or (isinstance(value, sp.Expr) and not value.is_real):
@@ -94,7 +95,10 @@ def checked_number(name: str, value: object, place: Place | None) -> float | Non
 def check_position(
     full: sp.Expr, where: str, inputs: Mapping[Any, str], velocities: Mapping[Any, str], place: Place | None
 ) -> None:
-    """Refuse a position (``full``: definitions written out) that holds more than coordinates, parameters and time."""
+    """Raise an error if a position contains anything but coordinates, parameters and time.
+
+    ``full`` is the position with definitions written out.
+    """
     rates = [f"{d.expr.func}'" for d in full.atoms(sp.Derivative)]
     for rate in sorted([*rates, *(name for v, name in velocities.items() if full.has(v))]):
         raise ModelError(
@@ -123,7 +127,7 @@ def check_position(
 def check_acted_on(
     element: Element, coordinate: sp.Expr, known: Sequence[Coordinate | Velocity], floats: Sequence[Floating]
 ) -> None:
-    """Refuse an element that acts on what is neither coordinate nor velocity, or on an entry of a quaternion."""
+    """Raise an error if an element acts on an entry of a quaternion, or on neither a coordinate nor a velocity."""
     name = plain(coordinate)
     for floating in floats:
         if coordinate in floating.quaternion:
@@ -145,7 +149,7 @@ def check_acted_on(
 
 
 def check_kind(given: object, kind: type, what: str, place: Place | None) -> None:
-    """Refuse what is not a point or a frame where one must stand."""
+    """Raise an error for anything but a point or a frame where one is expected."""
     if given is not None and not isinstance(given, kind):
         raise ModelError(
             f"{what} must be a {kind.__name__.lower()} of this system (got {type(given).__name__})",

@@ -1,4 +1,4 @@
-"""What a person declares: coordinates, parameters, inputs and definitions, each name once."""
+"""Declared coordinates, parameters, inputs and definitions; every name is declared once."""
 
 # SymPy has no type stubs:
 # pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
@@ -21,7 +21,7 @@ from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, V
 
 
 class Declarations:
-    """The symbols of a description while it grows; a declaration that makes no sense raises `ModelError`."""
+    """The symbols of a description that is being built; an invalid declaration raises `ModelError`."""
 
     def __init__(self) -> None:
         self._coordinates: dict[str, Coordinate] = {}
@@ -69,7 +69,7 @@ class Declarations:
         positive: bool = False,
         place: Place | None = None,
     ) -> Coordinate:
-        """Add a generalized coordinate; ``positive`` where it is a distance that is known to be above 0."""
+        """Add a generalized coordinate; ``positive`` if it is a distance that is always greater than 0."""
         name = self._claim(name, "coordinate", place)
         if positive is not True and positive is not False:
             raise ModelError(
@@ -91,7 +91,7 @@ class Declarations:
         description: str = "",
         place: Place | None = None,
     ) -> Parameter:
-        """Add a constant, with its value in SI units where it has one."""
+        """Add a constant, with its value in SI units if it has one."""
         name = self._claim(name, "parameter", place)
         made = Parameter(name, sp.Symbol(name), checked_number(name, value, place), unit, description, place)
         self._parameters[name] = made
@@ -109,7 +109,7 @@ class Declarations:
         return made
 
     def define(self, name: str, expression: object, *, place: Place | None = None) -> Definition:
-        """Give an expression a name; it stays named. It may use what was declared before it."""
+        """Give an expression a name, which stays visible. It may use what was declared before it."""
         expr = as_expr(expression, f"the definition of '{name}'", place=place)
         name = self._claim(name, "definition", place)
         self._check_known(expr, f"definition '{name}'", place)
@@ -121,7 +121,7 @@ class Declarations:
         return made
 
     def _check_known(self, expr: sp.Expr, where: str, place: Place | None, local: Iterable[sp.Symbol] = ()) -> None:
-        """Refuse a symbol that was not declared, with the nearest name."""
+        """Raise an error, with the nearest name, for a symbol that was not declared."""
         known = self._symbols
         atoms = {*expr.free_symbols, *expr.atoms(AppliedUndef)}
         for atom in sorted(atoms - known - {*local}, key=str):
@@ -141,14 +141,14 @@ class Declarations:
 
     @property
     def _numbers(self) -> Numbers:
-        """The values of constant expressions, as declared so far."""
+        """The values of constant expressions, as far as they are declared."""
         return Numbers(self._values, {d.symbol: d.expression for d in self._definitions.values()})
 
     def _written_out(self, expr: sp.Expr) -> sp.Expr:
         return written_out(expr, {d.symbol: d.expression for d in self._definitions.values()})
 
     def standard_gravity(self, value: float) -> sp.Expr:
-        """Return the parameter g, declared with ``value`` [m/s²] unless the person declared one."""
+        """Return the parameter g; declare it with ``value`` [m/s²] if the user has not."""
         if "g" in self._parameters:
             return self._parameters["g"].symbol
         if "g" in self._definitions:

@@ -1,7 +1,7 @@
-"""Elements that can do nothing: what they act on does not move with any coordinate.
+"""Finds elements that have no effect because no coordinate moves what they act on.
 
-A virtual displacement moves a point only where a coordinate stands in its offsets or in the angles of its frames; what
-hangs on time alone moves, but not virtually, so that no force on it does virtual work.
+A virtual displacement moves a point only if a coordinate occurs in its offsets or in the angles of its frames. A point
+that depends only on time moves, but not virtually, so a force on it does no virtual work.
 """
 
 # SymPy has no type stubs:
@@ -20,7 +20,7 @@ from lagrangian.model.model import Model
 
 
 def check_effect(model: Model) -> None:
-    """Refuse elements that act on nothing that a coordinate moves."""
+    """Raise an error for elements that act on nothing that a coordinate moves."""
     moving = _Moving(model)
     for element in model.elements:
         acts_on = element.acts_on()
@@ -29,7 +29,7 @@ def check_effect(model: Model) -> None:
 
 
 class _Moving:
-    """What moves with a coordinate; points and frames are asked once, along their parents."""
+    """What coordinates move; the results for points and frames are cached along their parents."""
 
     def __init__(self, model: Model) -> None:
         self._live: set[object] = {c.symbol for c in model.coordinates}
@@ -39,7 +39,7 @@ class _Moving:
         self._known: dict[int, bool] = {}
 
     def target(self, target: Point | Frame | sp.Expr | tuple[Point, Point]) -> bool:
-        """Whether a coordinate moves it; of a pair, moves the two apart."""
+        """Whether a coordinate moves it or, for a pair, moves the two apart."""
         if isinstance(target, tuple):
             return self.apart(*target)
         if isinstance(target, Point):
@@ -47,7 +47,7 @@ class _Moving:
         return self.frame(target) if isinstance(target, Frame) else self.expr(target)
 
     def expr(self, expr: sp.Expr) -> bool:
-        """Whether a coordinate stands in it."""
+        """Whether it contains a coordinate."""
         return not self._live.isdisjoint(expr.atoms(AppliedUndef))
 
     def frame(self, frame: Frame | None) -> bool:
@@ -74,7 +74,7 @@ class _Moving:
         return self._known[id(point)]
 
     def apart(self, start: Point, end: Point) -> bool:
-        """Whether a coordinate stands in r_end − r_start, seen from the parent that both hang on."""
+        """Whether r_end − r_start, seen from their common parent, contains a coordinate."""
         above: dict[int, bool] = {}
         at, moved = start, False
         while True:
@@ -91,7 +91,7 @@ class _Moving:
         return moved or above[id(at)]
 
     def _step(self, point: Point) -> bool:
-        """Whether a coordinate stands in the step from its parent."""
+        """Whether the step from its parent contains a coordinate."""
         return any(x != 0 for x in point.offset) and (
             self.frame(point.frame) or any(self.expr(x) for x in point.offset)
         )

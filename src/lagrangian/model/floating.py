@@ -1,10 +1,10 @@
-"""What lets a frame float: seven coordinates with a quaternion among them, and six quasi-velocities.
+"""The variables of a floating frame: seven coordinates, among them a quaternion, and six quasi-velocities.
 
     q = (x, y, z, qx, qy, qz, qw)      u = (vx, vy, vz, wx, wy, wz)
 
-Position of the frame's origin in the fixed axes, and the quaternion, scalar part last, that turns the frame's axes into
-the fixed axes; any length but 0 will do. Velocity of the origin and angular velocity, both with components in the
-frame's own axes. Pinocchio's free-flyer has the same order and axes.
+q contains the position of the frame's origin in the fixed axes, and the quaternion, scalar part last, for the rotation
+from the frame's axes to the fixed axes; it may have any length but 0. u contains the velocity of the origin and the
+angular velocity, both with components in the frame's own axes. Pinocchio's free-flyer uses the same order and axes.
 """
 
 # SymPy has no type stubs:
@@ -23,14 +23,14 @@ from lagrangian.model.symbols import Coordinate, Velocity
 
 @dataclass(frozen=True)
 class Floating:
-    """The coordinates q and the quasi-velocities u of a frame that floats."""
+    """The coordinates q and the quasi-velocities u of a floating frame."""
 
     coordinates: tuple[Coordinate, ...]
     velocities: tuple[Velocity, ...]
 
     @classmethod
     def named(cls, name: str, place: Place | None = None) -> Floating:
-        """Those of the frame ``name``: ``name_x``, ``name_qx``, ``name_vx``, ``name_wx`` and so on."""
+        """The variables of the frame ``name``: ``name_x``, ``name_qx``, ``name_vx``, ``name_wx`` and so on."""
         rows: list[tuple[str, str, str | None]] = [(k, f"{k} of the origin of {name}", "m") for k in "xyz"]
         rows += [(f"q{k}", f"quaternion of {name}, part along {k}", None) for k in "xyz"]
         rows += [("qw", f"quaternion of {name}, scalar part", None)]

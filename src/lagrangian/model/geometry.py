@@ -1,6 +1,6 @@
 """Points relative to points, frames relative to frames.
 
-A point keeps its parent and a frame keeps its parent, so that what they share stays shared:
+A point and a frame store their parents, so that common parts of positions are stored only once:
 
     r_P = r_parent + R_frame · offset,      R_frame = R_parent · R(axis, angle)
 
@@ -40,9 +40,9 @@ MAX_BITS = 1100  # of a numerator or denominator: 5e-324, the least double, has 
 
 
 def as_expr(value: object, what: str, *, place: Place | None = None) -> sp.Expr:
-    """Return a SymPy expression for a number or an expression; text is refused, never parsed here.
+    """Return a SymPy expression for a number or an expression; text raises an error and is never parsed here.
 
-    Decimal numbers become exact rationals (0.1 → 1/10), because equations are shown and compared exactly.
+    Decimal numbers become exact rationals (0.1 → 1/10), because equations are displayed and compared exactly.
     """
     if isinstance(value, sp.Expr):
         expr = value
@@ -79,7 +79,7 @@ def as_expr(value: object, what: str, *, place: Place | None = None) -> sp.Expr:
 
 
 def is_listed(value: object) -> TypeGuard[Sequence[object]]:
-    """Whether it is a tuple, a list or a matrix, not one value."""
+    """Whether it is a tuple, a list or a matrix, rather than a single value."""
     return isinstance(value, (tuple, list, sp.MatrixBase))
 
 
@@ -119,7 +119,7 @@ def as_vector(values: object, what: str, *, place: Place | None = None) -> tuple
 
 @dataclass(frozen=True, eq=False)
 class Point(Brief):
-    """A point, given by an offset from its parent in the axes of a frame (the fixed axes when ``frame`` is None).
+    """A point, given by an offset from its parent along the axes of a frame (the fixed axes if ``frame`` is None).
 
     ``point + (x, y)`` is a new point. The origin has no parent. ``serial`` orders points by creation.
     """
@@ -138,7 +138,7 @@ class Point(Brief):
         return self.parent is None
 
     def __add__(self, offset: object) -> Point:
-        """Return the point at ``offset`` (two or three components, in the fixed axes) from this one."""
+        """Return the point at ``offset`` (two or three components along the fixed axes) from this one."""
         if isinstance(offset, Point):
             raise ModelError(
                 "two points cannot be added",
@@ -157,7 +157,7 @@ class Point(Brief):
 
     @property
     def dimension(self) -> int | None:
-        """2 in the plane, 3 in space, None for an origin nothing was added to."""
+        """2 in the plane, 3 in space, None for an origin to which nothing was added."""
         return len(self.offset) or None
 
     @cached_property
@@ -176,8 +176,8 @@ class Point(Brief):
 class Frame(Brief):
     """Axes turned by ``angle`` from the parent's axes, about ``axis`` (given in the parent's axes; None in the plane).
 
-    ``origin`` is the point that ``frame.point`` measures from; it is the parent's origin unless given. A frame that
-    floats has neither angle nor axis but ``floating``, and its origin moves with it.
+    ``origin`` is the point from which ``frame.point`` measures; by default it is that of the parent. A floating frame
+    has no angle or axis but ``floating``, and its origin moves with it.
     """
 
     name: str | None
@@ -196,9 +196,9 @@ class Frame(Brief):
         return 2 if self.axis is None and self.floating is None else 3
 
     def point(self, *offset: object, at: Point | None = None, name: str | None = None) -> Point:
-        """Return the point whose components are ``offset`` in this frame's axes, from its origin or from ``at``.
+        """Return the point at ``offset`` along this frame's axes, from its origin or from ``at``.
 
-        With a ``name`` it is one of the system's named points, which files, runs and results know.
+        With a ``name`` it is one of the system's named points, which appear in files, runs and results.
         """
         components = as_vector(
             offset[0] if len(offset) == 1 and is_listed(offset[0]) else offset, "the offset of a point"
@@ -215,7 +215,7 @@ class Frame(Brief):
 
     @cached_property
     def local_rotation(self) -> sp.ImmutableMatrix:
-        """R(axis, angle), or that of the quaternion, from this frame's axes to its parent's."""
+        """R(axis, angle), or R of the quaternion, from this frame's axes to its parent's."""
         if self.floating is not None:
             return self.floating.rotation
         c, s = sp.cos(self.angle), sp.sin(self.angle)
@@ -255,8 +255,8 @@ class Frame(Brief):
     def angular_velocity(self) -> tuple[sp.Expr, ...]:
         """The angular velocity: ``(ω,)`` in the plane; in space three components in this frame's own axes.
 
-        ω = Rᵀ ω_parent + n φ̇   (the axis n is the same in the frame's and in its parent's axes); where the frame floats
-        they are its own quasi-velocities.
+        ω = Rᵀ ω_parent + n φ̇   (the axis n is the same in the frame's and in its parent's axes); for a floating
+        frame, the components are its own quasi-velocities.
         """
         if self.floating is not None:
             return self.floating.angular_velocity

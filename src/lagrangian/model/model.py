@@ -22,19 +22,19 @@ from lagrangian.viewed import Brief, cut
 
 
 def written_out(expr: sp.Expr, table: Mapping[Any, Any]) -> sp.Expr:
-    """Return ``expr`` with symbols replaced by their expressions, and the derivatives of those worked out.
+    """Return ``expr`` with symbols replaced by their expressions, and derivatives of these carried out.
 
-    Raises `TooLarge` before anything is written that would be too long.
+    Raises `TooLarge`, before anything is expanded, if the result would be too long.
     """
     return bounded.written_out(expr, table) if table else expr
 
 
 @dataclass(frozen=True, eq=False)
 class Model(Brief):
-    """What was described: constant, complete, checked. `Builder.model` makes one.
+    """A frozen description, complete and checked. It is made by `Builder.model`.
 
     ``points`` and ``frames`` are the named ones, in order; unnamed ones are reached from the elements. ``dimension`` is
-    2 in the plane and 3 in space. ``settings`` holds what a file says of simulation, as plain data.
+    2 in the plane and 3 in space. ``settings`` contains the simulation settings of a file, as plain data.
     """
 
     name: str
@@ -95,7 +95,8 @@ class Model(Brief):
         return {x.name: x.symbol for x in named}
 
     def expand(self, expr: sp.Expr, *, constants: bool = False) -> sp.Expr:
-        """Return ``expr`` with moving definitions written out (and constant ones too, if asked), derivatives done."""
+        """Return ``expr`` with moving definitions written out (constant ones too, if requested), and derivatives
+        carried out."""
         key = ("expand", expr, constants)
         if key not in self._memo:
             table = {d.symbol: d.expression for d in self.definitions if d.moving or constants}
@@ -103,7 +104,8 @@ class Model(Brief):
         return self._memo[key]
 
     def position(self, point: Point) -> tuple[sp.Expr, ...]:
-        """The components of a point's position in the fixed axes, ``dimension`` of them; definitions stay named."""
+        """The components of a point's position in the fixed axes, ``dimension`` of them; definitions keep their
+        names."""
         return point.position or (sp.S.Zero,) * self.dimension
 
     def velocity(self, point: Point) -> tuple[sp.Expr, ...]:
@@ -114,7 +116,7 @@ class Model(Brief):
         return self._memo[key]
 
     def point_words(self, point: Point) -> Words:
-        """The point in words: the body that sits there, else its name, else the ground or its components."""
+        """The point in words: the body at it, else its name, else the ground or its components."""
         if point.is_origin:
             return ("the ground",)
         for body in self.bodies:

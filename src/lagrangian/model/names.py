@@ -1,4 +1,4 @@
-"""Names of symbols: which are allowed, and the one symbol of time."""
+"""The names of symbols: which are allowed, and the common symbol of time."""
 
 # SymPy has no type stubs:
 # pyright: reportMissingTypeStubs=false
@@ -15,7 +15,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian.errors import ModelError, Place
 
 time = sp.Symbol("t")
-"""The symbol of time, the one that SymPy's ``dynamicsymbols`` depend on."""
+"""The symbol of time, on which SymPy's ``dynamicsymbols`` depend."""
 
 
 def moving_symbol(name: str, *, positive: bool = False) -> AppliedUndef:
@@ -60,15 +60,15 @@ _IDENTIFIER = re.compile(r"[^\W\d]\w*\Z")
 
 
 def is_text(value: object) -> TypeGuard[str]:
-    """Whether it is text, as its annotation says; people pass other things."""
+    """Whether a value is text, as its annotation says; users may pass anything."""
     return isinstance(value, str)
 
 
 def check_name(name: str, what: str, *, place: Place | None = None) -> str:
     """Return ``name`` in its normal form (NFKC) or raise `ModelError`.
 
-    A name is a letter (any script) or underscore, then letters, digits and underscores, at most 64 characters.
-    ``what`` says what it names (``"parameter"``).
+    A name is a letter (of any script) or underscore, followed by letters, digits and underscores, at most 64
+    characters. ``what`` is the kind of thing that has the name (``"parameter"``).
     """
     if not is_text(name):
         raise ModelError(f"the name of a {what} must be text (got {type(name).__name__})", place=place, code="E702")

@@ -20,8 +20,8 @@ from lagrangian.viewed import Brief
 class Coordinate(Brief):
     """A generalized coordinate ξ: ``symbol`` is SymPy's ``dynamicsymbols(name)``.
 
-    ``start`` is its value in the configuration from which runs start unless told: 1 for the last entry of a quaternion.
-    One that is ``positive`` is a distance that never vanishes: √(ξ²) is ξ.
+    ``start`` is its default initial value: 1 for the last entry of a quaternion. A ``positive`` coordinate is a
+    distance that is always greater than 0: √(ξ²) simplifies to ξ.
     """
 
     name: str
@@ -45,7 +45,7 @@ class Coordinate(Brief):
 
 @dataclass(frozen=True)
 class Velocity(Brief):
-    """A velocity: the rate of a coordinate, named ``ξ'``, or a quasi-velocity, which is the rate of none.
+    """A velocity: the rate of a coordinate, named ``ξ'``, or a quasi-velocity, which is not the rate of a coordinate.
 
     The symbol of a quasi-velocity is a function of time; ``rate`` is the name of its own rate.
     """
@@ -64,7 +64,7 @@ class Velocity(Brief):
 
 @dataclass(frozen=True)
 class Parameter(Brief):
-    """A constant: a plain SymPy symbol with, perhaps, a value in SI units and the unit it was given in."""
+    """A constant: a plain SymPy symbol, optionally with a value in SI units and the unit in which it was given."""
 
     name: str
     symbol: sp.Symbol
@@ -87,7 +87,7 @@ class Input(Brief):
 
 @dataclass(frozen=True)
 class Definition(Brief):
-    """A named expression; where it holds coordinates or time it is ``moving``, and its symbol a function of t."""
+    """A named expression; if it contains coordinates or time it is ``moving``, and its symbol is a function of t."""
 
     name: str
     symbol: sp.Expr

@@ -1,4 +1,4 @@
-"""What a kind of element answers about its fields and about what it acts on: data that other rooms read."""
+"""What each kind of element states about its fields and what it acts on: data that other packages read."""
 
 # SymPy has no type stubs:
 # pyright: reportMissingTypeStubs=false
@@ -27,7 +27,7 @@ POWER: Unit = (1, 2, -3)
 
 
 class FieldKind(Enum):
-    """How a field is written in a file; the schema, the reader and the writer of files go by it."""
+    """The format of a field in a file, which the schema, the reader and the writer of files use."""
 
     EXPRESSION = auto()
     VECTOR = auto()
@@ -58,10 +58,10 @@ REQUIRED: Any = ...
 
 @dataclass(frozen=True)
 class Entry:
-    """A field of an element: how it is written, what it is, and its default in a file.
+    """A field of an element: its format, its description, and its default in a file.
 
-    ``local`` are symbols that mean something in this expression alone; ``made_from`` is the field that this one follows
-    from where that one is given, so that it is not written.
+    ``local`` are symbols that have a meaning only in this expression. If the field ``made_from`` is given, this one
+    follows from it and is not written.
     """
 
     kind: FieldKind
@@ -75,7 +75,7 @@ class Entry:
 class Measure:
     """The unit that an expression of an element must have: ``unit`` · [along]^power.
 
-    ``along`` is the deflection or coordinate that the element acts along, a length where it is None. With ``local`` the
+    ``along`` is the deflection or coordinate along which the element acts; None means a length. With ``local``, the
     expression is a symbol that has this unit in the measures that follow.
     """
 
@@ -89,7 +89,8 @@ class Measure:
 
 @dataclass(frozen=True)
 class ActsOn:
-    """What an element acts on, and what to say where no coordinate moves any of it; a pair is two ends moved apart."""
+    """What an element acts on, and the message if no coordinate moves any of it; a pair is two ends that are moved
+    apart."""
 
     targets: tuple[Point | Frame | sp.Expr | tuple[Point, Point], ...]
     idle: str
@@ -97,7 +98,7 @@ class ActsOn:
 
 
 def deflected(between: tuple[Point, Point] | None, deflection: sp.Expr) -> ActsOn:
-    """What acts along the distance of two points or along a deflection."""
+    """The target of an element that acts along the distance of two points or along a deflection."""
     if between:
         return ActsOn(
             (between,),

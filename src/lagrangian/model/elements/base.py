@@ -1,4 +1,4 @@
-"""What every element has, and what an element says of its expressions and of its actions."""
+"""The base class of elements, and what an element states about its expressions and its actions."""
 
 # SymPy has no type stubs:
 # pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
@@ -31,7 +31,7 @@ DEFLECTION: Words = ("its deflection",)
 
 
 class Surroundings(Protocol):
-    """What an element asks of the model it stands in."""
+    """What an element needs from its model."""
 
     @property
     def dimension(self) -> int:
@@ -53,11 +53,11 @@ class Surroundings(Protocol):
         ...
 
     def position(self, point: Point) -> tuple[sp.Expr, ...]:
-        """Components in the fixed axes."""
+        """The components of a position in the fixed axes."""
         ...
 
     def velocity(self, point: Point) -> tuple[sp.Expr, ...]:
-        """Components in the fixed axes, written out."""
+        """The components of a velocity in the fixed axes, written out."""
         ...
 
     def point_words(self, point: Point) -> Words:
@@ -74,7 +74,7 @@ class Surroundings(Protocol):
 
 
 class Level(IntEnum):
-    """How far down an expression may reach: parameters only, also positions and time, also rates."""
+    """What an expression may depend on: only parameters, also positions and time, or also rates."""
 
     CONSTANT = 0
     POSITION = 1
@@ -83,9 +83,9 @@ class Level(IntEnum):
 
 @dataclass(frozen=True)
 class Use:
-    """An expression of an element: what it is, how far down it may reach, whether an input may stand in it.
+    """An expression of an element: its description, what it may depend on, and whether it may contain inputs.
 
-    ``key`` is the field it came from; ``local`` are symbols that mean something in this expression alone.
+    ``key`` is the field from which it comes; ``local`` are symbols that have a meaning only in this expression.
     """
 
     key: str
@@ -98,12 +98,11 @@ class Use:
 
 @dataclass(frozen=True)
 class Action:
-    """An effort on something that moves: its power is ``effort · rate`` and Ξ_i = effort · ∂rate/∂ξ̇_i.
+    """An effort on something that moves: its power is ``effort · rate``, and Ξ_i = effort · ∂rate/∂ξ̇_i.
 
-    ``effort`` is a force [N] or torque [N m]; ``rate`` is the velocity [m/s] or angular velocity [rad/s] of what it
-    acts on, in the effort's direction and linear in the rates ξ̇. ``displacement`` is the scalar whose variation is the
-    virtual displacement, where there is one. ``on`` says what is acted on; ``target`` is
-    that point or frame.
+    ``effort`` is a force [N] or torque [N m]. ``rate`` is the velocity [m/s] or angular velocity [rad/s] of what it
+    acts on, in the direction of the effort, and linear in the rates ξ̇. ``displacement`` is the scalar whose variation
+    is the virtual displacement, if there is one. ``on`` describes what it acts on; ``target`` is that point or frame.
     """
 
     effort: sp.Expr
@@ -162,10 +161,10 @@ QUESTIONS_OF = {
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Element(Brief):
-    """A piece of the system. ``name`` is unique in its system; ``place`` is where a file describes it.
+    """A part of the system. ``name`` is unique in its system; ``place`` is its place in a file.
 
-    A subclass with a ``kind`` answers `QUESTIONS` and `QUESTIONS_OF` its ledger; one that does not is refused when it
-    is imported. ``plural``, ``about`` and ``entries`` describe its table in a file.
+    A subclass with a ``kind`` must answer `QUESTIONS` and the `QUESTIONS_OF` its ledger, otherwise importing it raises
+    an error. ``plural``, ``about`` and ``entries`` describe its table in a file.
     """
 
     name: str = ""
@@ -203,49 +202,49 @@ class Element(Brief):
         return f"{kind} '{self.name}'" if is_text(self.name) and self.name else kind
 
     def named(self, name: str) -> Self:
-        """Return the same element under another name."""
+        """Return the same element with another name."""
         other = copy(self)
         other._set(name=name)
         return other
 
     def suggested_name(self) -> str:
-        """A name for an element that was given none: its main symbol, or nothing."""
+        """A name for an element without one: its main symbol, or an empty text."""
         return ""
 
     def uses(self) -> Iterator[Use]:
-        """Every expression in the element, with what may stand in it."""
+        """All expressions in the element, with what each may depend on."""
         raise NotImplementedError
 
     def measures(self, model: Surroundings) -> Iterator[Measure]:
-        """The units that its expressions must have; those of points and frames are asked of themselves."""
+        """The units that its expressions must have, except those of points and frames."""
         raise NotImplementedError
 
     def acts_on(self) -> ActsOn | None:
-        """What it acts on, or None where that is everything or no place at all."""
+        """What it acts on; None if that is everything or no particular place."""
         return None
 
     def points(self) -> Iterator[tuple[str, Point]]:
-        """Every point the element refers to, with the field it came from."""
+        """All points to which the element refers, with the fields from which they come."""
         return iter(())
 
     def frames(self) -> Iterator[tuple[str, Frame]]:
-        """Every frame the element refers to, with the field it came from."""
+        """All frames to which the element refers, with the fields from which they come."""
         return iter(())
 
     def kinetic(self, model: Surroundings) -> sp.Expr:
-        """Its share of the kinetic co-energy T* [J]; zero unless the element moves with mass."""
+        """Its contribution to the kinetic co-energy T* [J]; zero unless the element has moving mass."""
         return sp.S.Zero
 
     def potential(self, model: Surroundings) -> sp.Expr:
-        """Its share of the potential energy V [J]; zero unless it stores energy by position."""
+        """Its contribution to the potential energy V [J]; zero unless it stores energy that depends on position."""
         return sp.S.Zero
 
     def works(self, model: Surroundings) -> tuple[Action, ...]:
-        """Its actions by virtual work, in the fewest terms (a pair of forces is one action on its deflection)."""
+        """Its actions for virtual work, in the fewest terms (a pair of forces is one action on its deflection)."""
         return ()
 
     def ends(self, model: Surroundings) -> tuple[Action, ...]:
-        """The same actions, end by end, as the box rule counts them; the pair is two actions on two bodies."""
+        """The same actions, end by end, as the box rule counts them; a pair is two actions on two bodies."""
         return self.works(model)
 
     def conditions(self, model: Surroundings) -> tuple[Condition, ...]:
@@ -253,14 +252,14 @@ class Element(Brief):
         return ()
 
     def dissipation(self, model: Surroundings) -> sp.Expr | None:
-        """Rayleigh's function D [W], with Ξ_i = −∂D/∂ξ̇_i, or None where the element has none."""
+        """Rayleigh's function D [W], with Ξ_i = −∂D/∂ξ̇_i, or None if the element has none."""
         return None
 
     def _error(self, what: str, *, fix: str | None = None, code: CodeText | None = None) -> ModelError:
         return error_of(self, what, fix=fix, code=code)
 
     def _set(self, **values: object) -> None:
-        """Fill in normalised fields while the frozen object is being made."""
+        """Set normalized fields while the frozen object is being made."""
         for key, value in values.items():
             object.__setattr__(self, key, value)
 
@@ -271,12 +270,12 @@ def error_of(element: Element, what: str, *, fix: str | None = None, code: CodeT
 
 
 def entries_of(value: Any) -> tuple[sp.Expr, ...]:
-    """The entries of a checked value: the components of a vector, or the one value."""
+    """The entries of a checked value: the components of a vector, or the single value."""
     return cast("tuple[sp.Expr, ...]", value) if isinstance(value, tuple) else (value,)
 
 
 def main_symbol(value: sp.Expr) -> str:
-    """The name of the symbol that a value is, or is the negative of; empty where it is neither."""
+    """The name of a value that is a symbol or the negative of one; otherwise an empty text."""
     main = -value if value.could_extract_minus_sign() else value
     return getattr(main, "name", "") if main.is_Symbol or main.is_Function else ""
 
@@ -339,7 +338,7 @@ def pair_ends(model: Surroundings, start: Point, end: Point, effort: sp.Expr) ->
 
 
 def called(element: Element, key: str, law: Callable[[sp.Symbol], object], argument: sp.Symbol) -> object:
-    """What a law given as a function makes of its argument; what the function itself raises is told as ours."""
+    """The result of a law given as a function; an error in the function is reported as one of ours."""
     try:
         return law(argument)
     except Exception as cause:

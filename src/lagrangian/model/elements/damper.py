@@ -36,10 +36,10 @@ RATE = sp.Symbol("rate")
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Damper(Element):
-    """A damper: it pulls its ends with b δ̇, or with its law of ``rate``; Rayleigh's D = ½ b δ̇², Ξ_i = −∂D/∂ξ̇_i.
+    """A damper, which pulls its ends with b δ̇, or by its law of ``rate``; Rayleigh's D = ½ b δ̇², Ξ_i = −∂D/∂ξ̇_i.
 
     δ is the distance of two points (``between``) or an expression in the coordinates (``deflection``; an angle makes it
-    torsional). ``law`` is the pull [N or N m] as an expression in ``rate`` = δ̇. Exactly one of ``b`` and ``law``.
+    torsional). ``law`` is the pull [N or N m] as an expression in ``rate`` = δ̇. Give exactly one of ``b`` and ``law``.
     """
 
     b: Any = None
@@ -79,7 +79,7 @@ class Damper(Element):
         return self.b.name if isinstance(self.b, sp.Symbol) else ""
 
     def uses(self) -> Iterator[Use]:
-        """Coefficient of parameters, deflection of coordinates and time, law of the rate."""
+        """The coefficient (of parameters), the deflection (of coordinates and time), the law (of the rate)."""
         if self.b is not None:
             yield Use("b", "damping coefficient", self.b, Level.CONSTANT)
         if self.law is not None:
@@ -101,12 +101,12 @@ class Damper(Element):
         return deflected(self.between, self.deflection)
 
     def points(self) -> Iterator[tuple[str, Point]]:
-        """Its two ends, where it has them."""
+        """Its two ends, if it has them."""
         for point in self.between or ():
             yield "between", point
 
     def displacement(self, model: Surroundings) -> sp.Expr:
-        """δ [m or rad]; along one fixed line the signed separation serves, for a damper does not know its length."""
+        """δ [m or rad]; along one fixed line it is the signed separation, because only its rate matters."""
         if not self.between:
             return model.expand(self.deflection)
         delta = difference(model, *self.between)

@@ -36,9 +36,9 @@ from lagrangian.model.names import time
 class Force(Element):
     """A force [N]: Ξ_i = Σ F·∂r/∂ξ_i.
 
-    A vector acts ``at`` a point, in the fixed axes or in those of ``axes``; ``reaction`` is the point that feels its
-    opposite. A scalar acts along a deflection, of two points (``between``) or an expression (``deflection``): positive
-    pushes the ends apart.
+    A vector acts ``at`` a point; it is given in the fixed axes or in those of ``axes``, and the opposite force acts on
+    the point ``reaction``. A scalar acts along a deflection, of two points (``between``) or an expression
+    (``deflection``); a positive value pushes the ends apart.
     """
 
     value: Any
@@ -130,7 +130,7 @@ class Force(Element):
         return main_symbol(heads[0]) if len(heads) == 1 else ""
 
     def uses(self) -> Iterator[Use]:
-        """The value may hold anything down to rates; a deflection holds coordinates and time."""
+        """The value may depend on everything down to rates; a deflection on coordinates and time."""
         for v in entries_of(self.value):
             yield Use("value", "value", v, Level.VELOCITY, inputs=True)
         if self.deflection is not None:
@@ -163,7 +163,7 @@ class Force(Element):
             yield "between", point
 
     def frames(self) -> Iterator[tuple[str, Frame]]:
-        """Its axes, where given."""
+        """Its axes, if given."""
         if self.axes is not None:
             yield "axes", self.axes
 

@@ -21,8 +21,8 @@ from lagrangian.model.geometry import Point, as_expr, as_vector
 class Gravity(Element):
     """Gravity g [m/s²] along a direction: V = Σ m g h with h = −n·(r − r_datum) and n the unit direction (down).
 
-    ``datum`` is a fixed point where h = 0; the origin unless given. The direction is a direction: its length does not
-    count.
+    ``datum`` is a fixed point where h = 0; by default the origin. Only the direction of the vector matters, not its
+    length.
     """
 
     direction: Any
@@ -58,20 +58,20 @@ class Gravity(Element):
         return self.g.name if isinstance(self.g, sp.Symbol) else ""
 
     def uses(self) -> Iterator[Use]:
-        """Strength and direction, made of parameters."""
+        """Strength and direction, which may contain only parameters."""
         yield Use("g", "strength g", self.g, Level.CONSTANT)
         for d in self.direction:
             yield Use("direction", "direction", d, Level.CONSTANT)
 
     def measures(self, model: Surroundings) -> Iterator[Measure]:
-        """An acceleration; the direction has no unit that counts."""
+        """An acceleration; the unit of the direction does not matter."""
         yield Measure("strength", self.g, ACCELERATION)
 
     def acts_on(self) -> None:
         """Every mass."""
 
     def points(self) -> Iterator[tuple[str, Point]]:
-        """The datum, where one is given."""
+        """The datum, if it is given."""
         if self.datum is not None:
             yield "datum", self.datum
 
@@ -86,7 +86,7 @@ class Gravity(Element):
         )
 
     def shares(self, model: Surroundings) -> Iterator[tuple[Element, sp.Expr, sp.Expr]]:
-        """For every body: the body, its height h and its m g h."""
+        """For each body: the body, its height h, and its m g h."""
         for body in model.bodies:
             h = self.height(model, body.at)
             yield body, h, body.mass * self.g * h

@@ -55,7 +55,7 @@ class Particle(Element):
         yield Measure("mass", self.mass, MASS)
 
     def points(self) -> Iterator[tuple[str, Point]]:
-        """Where it is."""
+        """Its position."""
         yield "at", self.at
 
     def kinetic(self, model: Surroundings) -> sp.Expr:

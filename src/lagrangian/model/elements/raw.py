@@ -1,4 +1,4 @@
-"""Raw energies and generalized forces, for those who have them already."""
+"""Energies and generalized forces that are given directly."""
 
 # SymPy has no type stubs:
 # pyright: reportMissingTypeStubs=false
@@ -38,7 +38,7 @@ class Energy(Element):
             yield Measure("value", term, self.unit)
 
     def acts_on(self) -> None:
-        """No place of its own."""
+        """It has no place."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -52,7 +52,7 @@ class Potential(Energy):
     note = "as given"
 
     def uses(self) -> Iterator[Use]:
-        """An energy of position."""
+        """An energy that depends on positions and time."""
         yield Use("value", "potential energy V", self.value, Level.POSITION, inputs=True)
 
     def potential(self, model: Surroundings) -> sp.Expr:
@@ -71,7 +71,7 @@ class Kinetic(Energy):
     note = "as given"
 
     def uses(self) -> Iterator[Use]:
-        """An energy of motion."""
+        """An energy that depends on rates."""
         yield Use("value", "kinetic co-energy T*", self.value, Level.VELOCITY)
 
     def kinetic(self, model: Surroundings) -> sp.Expr:
@@ -133,7 +133,7 @@ class GeneralizedForce(Element):
         )
 
     def uses(self) -> Iterator[Use]:
-        """The value may hold anything down to rates."""
+        """The value may depend on everything down to rates."""
         yield Use("value", "value", self.value, Level.VELOCITY, inputs=True)
 
     def measures(self, model: Surroundings) -> Iterator[Measure]:

@@ -20,9 +20,9 @@ from lagrangian.model.geometry import Frame, Point, as_expr, entries, is_listed,
 class RigidBody(Element):
     """A rigid body: T* = ½ m v² + ½ J ω² in the plane, ½ m v² + ½ ωᵀ I ω in space.
 
-    ``at`` is the centre of mass; ``inertia`` [kg m²] is about the centre of mass, always: a scalar in the plane; in
-    space three principal moments or a symmetric 3×3 matrix in the axes of ``frame``, whose off-diagonal entries are
-    the elements of the tensor (−∫xy dm).
+    ``at`` is the centre of mass, and ``inertia`` [kg m²] is always about the centre of mass: a scalar in the plane; in
+    space three principal moments or a symmetric 3×3 matrix in the axes of ``frame``, whose off-diagonal entries are the
+    elements of the tensor (−∫xy dm).
     """
 
     mass: Any
@@ -98,7 +98,7 @@ class RigidBody(Element):
         return tensor
 
     def suggested_name(self) -> str:
-        """The symbol of its mass, else of its inertia."""
+        """The symbol of its mass, or else of its inertia."""
         if isinstance(self.mass, sp.Symbol):
             return self.mass.name
         return self.inertia[0, 0].name if isinstance(self.inertia[0, 0], sp.Symbol) else ""
@@ -124,7 +124,7 @@ class RigidBody(Element):
         yield "frame", self.frame
 
     def angular_velocity(self, model: Surroundings) -> tuple[sp.Expr, ...]:
-        """``(ω,)`` in the plane, three components in the body's axes in space, written out in the coordinates."""
+        """``(ω,)`` in the plane; in space three components in the body's axes; written out in the coordinates."""
         return tuple(model.expand(w) for w in self.frame.angular_velocity)
 
     def kinetic_parts(self, model: Surroundings) -> tuple[sp.Expr, sp.Expr]:

@@ -33,7 +33,7 @@ DELTA = sp.Symbol("delta")
 
 
 def stored(element: Element, law: sp.Expr) -> sp.Expr:
-    """∫₀^δ law, in closed form, or `ModelError` where none was found."""
+    """∫₀^δ law in closed form; raises `ModelError` if none was found."""
     energy = antiderivative(law, DELTA)
     if energy is None:
         raise error_of(
@@ -47,11 +47,11 @@ def stored(element: Element, law: sp.Expr) -> sp.Expr:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Spring(Element):
-    """A spring: V = ½ k (δ − δ₀)², or ∫₀^(δ−δ₀) law, with δ the deflection and δ₀ the rest length.
+    """A spring: V = ½ k (δ − δ₀)², or ∫₀^(δ−δ₀) law, where δ is the deflection and δ₀ the rest length.
 
     δ is the distance of two points (``between``) or an expression in the coordinates (``deflection``; an angle makes it
     torsional). ``law`` is the pull [N or N m] as an expression in ``delta``, the extension; ``energy`` is the stored
-    energy as an expression in ``delta``. Exactly one of ``k``, ``law`` and ``energy`` is given. k may be negative.
+    energy as an expression in ``delta``. Give exactly one of ``k``, ``law`` and ``energy``. k may be negative.
     """
 
     k: Any = None
@@ -103,7 +103,7 @@ class Spring(Element):
         return self.k.name if isinstance(self.k, sp.Symbol) else ""
 
     def uses(self) -> Iterator[Use]:
-        """Stiffness of parameters; deflection and rest length of coordinates, time and inputs; law of the extension."""
+        """The stiffness (of parameters); deflection and rest length (of coordinates, time and inputs); the law."""
         if self.k is not None:
             yield Use("k", "stiffness", self.k, Level.CONSTANT)
         if self.deflection is not None:
@@ -130,7 +130,7 @@ class Spring(Element):
         return deflected(self.between, self.deflection)
 
     def points(self) -> Iterator[tuple[str, Point]]:
-        """Its two ends, where it has them."""
+        """Its two ends, if it has them."""
         for point in self.between or ():
             yield "between", point
 

@@ -22,9 +22,9 @@ from lagrangian.model.names import time
 class Torque(Element):
     """A torque [N m]: Ξ_i = Σ τ·∂φ/∂ξ_i.
 
-    ``on`` is the angle (an expression in the coordinates) or the frame it turns; ``reaction`` is the angle or frame
-    that feels its opposite, the ground when left out. On a frame in space a scalar turns it about the frame's own axis;
-    a vector has three components in the axes of the frame ``axes``, the fixed axes when left out.
+    It acts ``on`` an angle (an expression in the coordinates) or a frame; the opposite torque acts on the angle or
+    frame ``reaction``, by default the ground. On a frame in space, a scalar acts about the frame's own axis; a vector
+    has three components in the axes of the frame ``axes``, by default the fixed axes.
     """
 
     value: Any
@@ -95,7 +95,7 @@ class Torque(Element):
         return main_symbol(self.value) if isinstance(self.value, sp.Expr) else ""
 
     def uses(self) -> Iterator[Use]:
-        """The value may hold anything down to rates; angles hold coordinates and time."""
+        """The value may depend on everything down to rates; angles on coordinates and time."""
         for v in entries_of(self.value):
             yield Use("value", "value", v, Level.VELOCITY, inputs=True)
         for key in ("on", "reaction"):
@@ -112,7 +112,7 @@ class Torque(Element):
                 yield Measure(f"angle ({key})", angle, ANGLE)
 
     def acts_on(self) -> ActsOn:
-        """What it turns, and what feels its opposite."""
+        """What it turns, and the target of the opposite torque."""
         return ActsOn(
             tuple(target for target in (self.on, self.reaction) if target is not None),
             "it does nothing: no coordinate turns what it acts on",
@@ -120,13 +120,13 @@ class Torque(Element):
         )
 
     def frames(self) -> Iterator[tuple[str, Frame]]:
-        """What it turns, and whose axes it is given in."""
+        """The frames that it turns, and the one in whose axes it is given."""
         for key in ("on", "reaction", "axes"):
             if isinstance(getattr(self, key), Frame):
                 yield key, getattr(self, key)
 
     def works(self, model: Surroundings) -> tuple[Action, ...]:
-        """The torque on its angle, its opposite on the reaction's."""
+        """The torque on its angle, and the opposite torque on the reaction's."""
         actions: list[Action] = []
         for sign, target in ((1, self.on), (-1, self.reaction)):
             if target is not None:
