@@ -21,9 +21,12 @@ class Tapes:
     """A program with hoisted parameters, for the groups x, u, p and t in any order.
 
     ``own``: every lane has its own parameters, so the shared block has one number per lane.
+    ``called``: the body is a function too, even if it is short enough to be printed in place.
     """
 
-    def __init__(self, p: Printer, program: Program, name: str, *, own: bool, copies: int) -> None:
+    def __init__(
+        self, p: Printer, program: Program, name: str, *, own: bool, copies: int, called: bool = False
+    ) -> None:
         self.p, self.name, self.own = p, name, own
         self.low = lower(program, ("p",))
         self.groups = {group: len(program.inputs[group]) for group in self.low.groups}
@@ -38,7 +41,7 @@ class Tapes:
             emit(module, f"{name}_prologue_{lanes}", self.low.prologue, lanes, own_shared=own)
         if not own and lanes > 1:
             emit(module, f"{name}_prologue_1", self.low.prologue, 1)
-        if not self.inline:
+        if called or not self.inline:
             emit(module, f"{name}_{lanes}", self.low.body, lanes, own_shared=own)
 
     def start(self, name: str, group: str) -> int:
@@ -65,15 +68,16 @@ class Tapes:
         p.f.do(f"call void @{self.name}_prologue_{p.lanes}({given})")
 
     def evaluate(
-        self, shared: str, values: Mapping[str, Vec], time: Value, out: int | None = None
+        self, shared: str, values: Mapping[str, Vec], time: Value, out: int | None = None, *, call: bool = False
     ) -> tuple[Value, ...] | None:
         """Print the body for given vectors and a time; return its outputs, or write them to the slots ``out``.
 
-        ``shared``: the address of the shared block if it is common to all lanes.
+        ``shared``: the address of the shared block if it is common to all lanes. ``call``: call the body even if it is
+        short; only with ``called``.
         """
         p, f = self.p, self.p.f
         shared = p.at(self.shared) if self.own else shared
-        if self.inline:
+        if self.inline and not call:
             slots: dict[int, Value] = {}
             for group, size in self.groups.items():
                 for k in range(size):

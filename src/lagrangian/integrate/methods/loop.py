@@ -275,7 +275,7 @@ class Loop:
     def _settle(self, s: MethodStep, good: str, new_t: Value, error: Value) -> Value:
         """Project the end of a step, and compute the derivative there; return the error that results."""
         assert self.project is not None
-        error = self.project.settle(s, good, self.inputs_at(new_t), new_t, error)
+        error = self.project.settle(s, good, self.inputs_at(new_t), new_t, error, adaptive=self.method.adaptive)
         if self.method.follows and self.project.corrects:
             self.method.landed(s, s.rate(s.t + s.h, s.new_x, self.new_k))
             self.spend(good, 1)

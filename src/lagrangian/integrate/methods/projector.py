@@ -30,9 +30,6 @@ if TYPE_CHECKING:
     from .lane_scheduler import LaneScheduler
     from .method import MethodStep
 
-CALLED = 1 << 30
-"""Copies that make a program one that is called: the places where states are projected are many."""
-
 SHORTER = 0.5
 """How much shorter a step is tried whose correction was too great, where no error decides the length."""
 
@@ -58,7 +55,7 @@ class Projector:
         self.worst = p.reserve(len(DRIFT))
 
     def _tapes(self, program: Program, name: str, own: bool) -> Tapes:
-        return Tapes(self.p, program, name, own=own and bool(program.inputs.get("p")), copies=CALLED)
+        return Tapes(self.p, program, name, own=own and bool(program.inputs.get("p")), copies=2, called=True)
 
     @property
     def tapes(self) -> tuple[Tapes | None, Tapes]:
@@ -81,7 +78,7 @@ class Projector:
 
     # One state a lane --------------------------------------------------------------------------------------------
 
-    def correct(self, t: Value, u: Vec, x: Vec, flag: str, lost: Vec | None = None) -> None:
+    def correct(self, t: Value, u: Vec, x: Vec, flag: str, lost: Vec | None = None, *, call: bool = True) -> None:
         """Print the projection of the vector in the slots ``x`` in lanes with the flag; the sum of what was added is in
         ``self.moved`` then. ``lost``: what sums have lost to rounding so far.
         """
@@ -90,10 +87,10 @@ class Projector:
         p.map(lambda old: zero, self.moved, into=(self.moved,))
         p.store(zero, self.gap)
         if self.approach is not None:
-            self.approach.evaluate(self.approach_shared, {"x": x, "u": u}, t, self.first)
+            self.approach.evaluate(self.approach_shared, {"x": x, "u": u}, t, self.first, call=call)
             p.store(p.load(self.first, p.size), self.gap)
             self._add(self.first, x, flag, lost)
-        self._land(t, u, x)
+        self._land(t, u, x, call)
         if self.approach is not None:
             p.store(0.0, self.rounds)
             with p.forever() as leave:
@@ -102,16 +99,16 @@ class Projector:
                 again = f.logic("and", again, f.compare("olt", rounds, float(MORE_STEPS)))
                 leave(f.put(f"xor i1 {p.any(again)}, true"))
                 p.store(rounds + 1.0, self.rounds)
-                self.approach.evaluate(self.approach_shared, {"x": x, "u": u}, t, self.first)
+                self.approach.evaluate(self.approach_shared, {"x": x, "u": u}, t, self.first, call=True)
                 self._add(self.first, x, again, lost)
-                self._land(t, u, x)
+                self._land(t, u, x, True)
         else:
             p.store(self._seen("rest"), self.gap)
         if self.corrects:
             self._add(self.second, x, flag, lost)
 
-    def _land(self, t: Value, u: Vec, x: Vec) -> None:
-        self.landing.evaluate(self.landing_shared, {"x": x, "u": u}, t, self.second)
+    def _land(self, t: Value, u: Vec, x: Vec, call: bool) -> None:
+        self.landing.evaluate(self.landing_shared, {"x": x, "u": u}, t, self.second, call=call)
 
     def _seen(self, name: str) -> Value:
         return self.p.load(self.second, self.p.size + SEEN.index(name))
@@ -136,18 +133,21 @@ class Projector:
 
     # The end of a step -------------------------------------------------------------------------------------------
 
-    def settle(self, s: MethodStep, good: str, u: Vec, time: Value, error: Value) -> Value:
+    def settle(self, s: MethodStep, good: str, u: Vec, time: Value, error: Value, *, adaptive: bool) -> Value:
         """Print the projection of a step's end where the step is good; return the greater of its error and the size of
-        the correction, in tolerances; not a number where the projection is none.
+        the correction, in tolerances, and for equal steps 0; not a number where the projection is none.
         """
         p = self.p
         x, lost = self.end, self.lost
         p.store(error, self.size)
         with p.when(p.any(good)):
-            self.correct(time, u, x, good, lost)
-            if self.corrects:
+            self.correct(time, u, x, good, lost, call=False)
+            if self.corrects and adaptive:
                 self._measure(s, x, good)
         s.new_x, s.new_lost = self._read(x), self._read(lost)
+        if self.corrects and not adaptive:
+            (trouble,) = p.fold(lambda total, x: (self.f.fma(x, 0.0, total),), [0.0], s.new_x)
+            return trouble
         return p.load(self.size)
 
     def _measure(self, s: MethodStep, x: Vec, good: str) -> None:
