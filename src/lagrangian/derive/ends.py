@@ -13,7 +13,7 @@ from lagrangian.model import DEFLECTION, Action, Element, Model, Words, time
 
 GROUND: Words = ("the ground",)
 MAX_QUANTITIES = 200
-"""Quantities above which no search is made: the pairs grow with the square."""
+"""With more quantities no search is made, because the number of pairs grows with the square."""
 
 
 def find_ends(model: Model, element: Element) -> tuple[Action, ...]:

@@ -25,9 +25,9 @@ from lagrangian.page.plain import plain
 SETS, PLACES = 2, 3
 DIGITS = 50
 SIZES = 3
-"""Sizes that states with a reach have, each with both signs."""
+"""The number of sizes of states with a reach, each with both signs."""
 EXACT_INTEGER = 2**53
-"""Whole numbers above are no doubles."""
+"""Larger whole numbers are not always exact in doubles."""
 
 Array = NDArray[np.float64]
 

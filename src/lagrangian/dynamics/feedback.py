@@ -25,7 +25,7 @@ from lagrangian.page.plain import plain
 Feedback = Mapping[Any, sp.Expr]
 
 SUPPLY = "∫ power"
-"""The name of the state that sums up the energy supplied; no coordinate can be called so."""
+"""The name of the state that contains the supplied energy; no coordinate can have this name."""
 
 
 def closed(model: Model, feedback: Feedback, *, supply: bool = False) -> Program:

@@ -20,7 +20,7 @@ from lagrangian.model import Model
 from lagrangian.page.plain import plain
 
 Impact = tuple[str, sp.Expr, Mapping[Any, sp.Expr]]
-"""An event: what it is called, its function, and state → value after it."""
+"""An event: its name, its function, and state → value after it."""
 
 
 def impacts(model: Model, events: Sequence[Impact], feedback: Feedback, *, supply: bool = False) -> Program:

@@ -20,13 +20,13 @@ from lagrangian.model import Model
 Array = NDArray[np.float64]
 
 ROUNDING = 1e-13
-"""Least eigenvalue of M, in parts of its greatest among a few configurations, below which M is singular."""
+"""M is singular if its smallest eigenvalue, relative to the largest among a few configurations, is below this."""
 
 OTHERS = 6
-"""Configurations that M is compared with."""
+"""The number of configurations with which M is compared."""
 
 TAKES_PART = 1e-4
-"""Part of the greatest entry from which on a rate belongs to a combination."""
+"""A rate belongs to a combination if its entry is at least this fraction of the largest."""
 
 
 def loose(

@@ -30,13 +30,13 @@ from lagrangian.graph import Graph, count_operations, gradient, hessian, jvp, vj
 Pairs = list[tuple[int, int]]
 
 SMALL = 12
-"""Up to so many velocities the dense way is tried as well."""
+"""Up to this many velocities, the elimination of the dense mass matrix is tried as well."""
 
 DENSE = 24
-"""Up to so many velocities the dense way is tried as well where there are rows."""
+"""Up to this many velocities, it is tried as well if there are rows."""
 
 MANY = 100
-"""Up to so many velocities all ways along the tape are tried; beyond, the one that is best for long chains."""
+"""Up to this many velocities, all ways along the tape are tried; above, only the one that is best for long chains."""
 
 
 @dataclass

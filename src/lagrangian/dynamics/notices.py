@@ -25,16 +25,16 @@ from lagrangian.model import Gravity, Model, Parameter, RigidBody
 from lagrangian.model.body_checks import Doubt, Numbers, doubt
 
 STATES = 20
-"""Random states at which M is looked at, for each drawing of the parameters."""
+"""The number of random states at which M is examined, for each random choice of the parameters."""
 
 DRAWINGS = 5
-"""Drawings of the parameters that have no value."""
+"""The number of random choices of the parameters without a value."""
 
 NEGATIVE = 1e-9
-"""Share of the largest eigenvalue below which the smallest counts as negative, not as rounding."""
+"""The smallest eigenvalue counts as negative, not as rounding, if it is below this fraction of the largest."""
 
 SHOWN = 6
-"""Coordinates and entries listed in a message."""
+"""The largest number of coordinates and entries listed in a message."""
 
 
 def notices(model: Model) -> tuple[Notice, ...]:

@@ -17,10 +17,10 @@ import sympy as sp
 from lagrangian import bounded
 
 MOST_PIECES = 40
-"""Terms and kinks that a law may have."""
+"""The largest number of terms and kinks of a law."""
 
 HIGHEST = 20
-"""The highest power of the extension beside a kink."""
+"""The highest power of the extension in a term with a kink."""
 
 
 def antiderivative(law: sp.Expr, x: sp.Symbol) -> sp.Expr | None:

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from lagrangian.model.model import Model
 
 RELATIVE_TOLERANCE = 1e-9
-"""How far a principal moment may exceed the sum of the other two: rounding of a thin rod's."""
+"""A principal moment may exceed the sum of the other two by this fraction, because of rounding in thin rods."""
 
 
 @dataclass(frozen=True)

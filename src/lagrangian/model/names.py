@@ -50,10 +50,10 @@ FUNCTIONS = frozenset(
         "piecewise",
     ]
 )
-"""Functions of the expression grammar; none of them can be a symbol's name."""
+"""The functions in expressions, which cannot be names of symbols."""
 
 RESERVED = FUNCTIONS | {"t", "pi"}
-"""Names that mean something already: time, the circle's constant, the functions."""
+"""Names that already have a meaning: time, the number π, the functions."""
 
 MAX_LENGTH = 64
 _IDENTIFIER = re.compile(r"[^\W\d]\w*\Z")

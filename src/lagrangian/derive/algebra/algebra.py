@@ -21,7 +21,7 @@ WORK = 5_000_000
 
 
 LETTERS = 128
-"""Letters that a term holds at the price of one operation."""
+"""The number of symbols of a term that cost one operation."""
 
 
 def _spent(limit: int) -> OutOfReach:

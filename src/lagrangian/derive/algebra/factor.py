@@ -21,16 +21,16 @@ Flat = dict[int, Fraction]
 """A polynomial over display letters: packed monomial → rational coefficient."""
 
 FACTOR_TERMS = 16
-"""Sums of more terms are not handed to SymPy's factorization."""
+"""SymPy's factorization is not used for sums with more terms …"""
 FACTOR_LETTERS = 8
-"""Sums in more letters are not either."""
+"""… or with more symbols."""
 SEARCH = 40_000
-"""Terms that one search may look at before it leaves the remaining sums as they are; `Shortener.budget` counts down."""
+"""The number of terms that one search may examine before the remaining sums stay as they are."""
 FACTOR_DEGREES = 14
-"""Nor are sums whose degrees in their letters add up to more."""
+"""… or if the degrees in the symbols add up to more."""
 WIDE = 4
 WIDE_TERMS = 9
-"""Up to this many terms `WIDE` letters are tried to be pulled out first, beyond it the most frequent one."""
+"""Up to this many terms, factoring out each of `WIDE` symbols is tried; above, only the most frequent one."""
 
 
 @dataclass(frozen=True, slots=True)

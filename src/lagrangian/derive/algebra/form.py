@@ -32,7 +32,7 @@ from lagrangian.derive.algebra.monomials import (
 from lagrangian.page.formula import TermKind
 
 LARGEST_FORM = 1_000_000
-"""Terms above which a product is refused: such an expression is beyond reading and beyond memory."""
+"""A product with more terms is refused, because nobody could read it or store it."""
 
 Harmonic = tuple[Packed, int]
 """A packed multiple of the angles, never negative, and 0 for its cosine, 1 for its sine; (0, 0) is the constant 1."""

@@ -70,7 +70,7 @@ class Sum:
 
 
 WRITING = 15_000
-"""Terms that may be looked at while shorter ways of writing are sought for one system."""
+"""The number of terms that the search for shorter forms may examine for one system."""
 
 Generator = Symbolic | Root | Opaque | Trig | Sum
 

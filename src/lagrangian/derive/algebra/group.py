@@ -20,19 +20,19 @@ if TYPE_CHECKING:
     from lagrangian.derive.algebra.generators import Generators
 
 DEEP = 2
-"""Parentheses inside one another that are still read easily."""
+"""The depth of nested parentheses that is still easy to read."""
 NESTED = 4
-"""Operations that a deeper parenthesis is worth."""
+"""The penalty, in operations, for a deeper parenthesis."""
 SHALLOW = 4
-"""Operations that a parenthesis in a parenthesis is worth in terms with rates, which read best one harmonic a term."""
+"""The penalty, in operations, for nesting in terms with rates, which read best with one harmonic per term."""
 SCATTERED = 2
-"""Operations that each place of an acceleration is worth."""
+"""The penalty, in operations, for each place of an acceleration."""
 REPEATED = 2
-"""Operations that each further term with the same rate, outside a sum, is worth in momenta."""
+"""In momenta, the penalty, in operations, for each further term with the same rate outside a sum."""
 MIN_HARMONIC_TERMS = 12
-"""Terms above which inertia is also read by harmonics."""
+"""With more terms, grouping inertia by harmonics is tried, too."""
 VERY_LONG = 150
-"""Terms above which only the groupings that need no search are tried."""
+"""With more terms, only the groupings that need no search are tried."""
 
 Way = list[Tree]
 """One term a tree."""

@@ -18,10 +18,10 @@ from math import gcd
 from lagrangian.bounded import TooLarge
 
 BITS = 16
-"""Bits a field has; exponents and multiples stay far inside ±2^15, see `LARGEST_EXPONENT`."""
+"""The bits of a field; exponents and multiples stay far within ±2^15, see `LARGEST_EXPONENT`."""
 
 LARGEST_EXPONENT = 64
-"""The largest exponent that one power may have; a larger one is left as it was written."""
+"""The largest exponent of a power; a larger one is left as written."""
 
 Packed = int | Fraction
 Poly = dict[int, int]

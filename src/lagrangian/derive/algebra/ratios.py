@@ -13,10 +13,10 @@ from lagrangian.derive.algebra import Algebra, Form, OutOfReach
 from lagrangian.derive.algebra.form import Ring
 
 MAX_INVERSE_ROWS = 4
-"""Rows of a block of M up to which its inverse is written out."""
+"""The inverse of a block of M is written out up to this number of rows."""
 
 TERMS = 3000
-"""Terms of a determinant up to which it is written out."""
+"""A determinant is written out up to this number of terms."""
 
 
 @dataclass(frozen=True, eq=False)

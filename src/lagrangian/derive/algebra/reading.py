@@ -15,17 +15,17 @@ from lagrangian.derive.algebra.generators import Symbolic
 from lagrangian.derive.algebra.monomials import LARGEST_EXPONENT, Packed, common, content, digits, turn, unit, whole
 
 EXACT_TURNS = 12
-"""cos(x + π·p/q) is written out as cos x cos(πp/q) − sin x sin(πp/q) for q up to this, so that thirds cancel."""
+"""cos(x + π·p/q) is expanded to cos x cos(πp/q) − sin x sin(πp/q) for q up to this, so that thirds cancel."""
 
 
 LARGEST_POWER = 20_000
 """A power of a sum that may have more terms is left as it is."""
 
 LARGEST_SQUARE = 500_000
-"""A power whose last square would take more products of terms is left as it is."""
+"""A power whose last squaring would need more products of terms is left as it is."""
 
 LARGEST_PRODUCT = 10_000
-"""A product of sums that would take more products of their terms is left as it is."""
+"""A product of sums that would need more products of their terms is left as it is."""
 
 
 class FormReader:

@@ -20,13 +20,13 @@ if TYPE_CHECKING:
     from lagrangian.derive.algebra.form import Form
 
 MAX_LETTERS = 4
-"""Letters that a sum may have."""
+"""The largest number of symbols of a sum."""
 MAX_SUMS = 12
-"""Sums that are kept; those met first."""
+"""The largest number of sums, of which the first ones are kept."""
 LARGEST_FLAT = 1500
-"""Terms above which a form is left as it is."""
+"""A form with more terms is left as it is."""
 HIGHEST = 4
-"""The highest power of a letter that is put in for."""
+"""The highest power of a symbol for which a sum is substituted."""
 
 
 def sums_in(form: Form, generators: Generators) -> list[Flat]:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from lagrangian.derive.algebra.form import Form, Harmonic
 
 SPLIT_TERMS = 3000
-"""Forms of more terms keep their harmonics."""
+"""Forms with more terms keep their harmonics."""
 
 
 def displayed(form: Form, generators: Generators) -> Flat:

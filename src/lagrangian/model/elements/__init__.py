@@ -40,7 +40,7 @@ REGISTRY: dict[str, type[Element]] = {
     "rolling": Rolling,
     "rope": Rope,
 }
-"""Every kind of element by its name in files and in Python."""
+"""All kinds of elements by their names in files and in Python."""
 
 __all__ = [
     "DEFLECTION",

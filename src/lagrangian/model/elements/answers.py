@@ -37,7 +37,7 @@ class FieldKind(Enum):
     FRAME = auto()
     FRAME_OR_ANGLE = auto()
     BODY_FRAME = auto()
-    """A frame, or in the plane the angle of one that is made for it."""
+    """A frame or, in the plane, an angle for which a frame is made."""
     INERTIA = auto()
     COORDINATE = auto()
     POINTS = auto()
@@ -49,7 +49,7 @@ class FieldKind(Enum):
     DIRECTIONS = auto()
     """A vector, or a list of them."""
     STRENGTH_OF_GRAVITY = auto()
-    """An expression; the parameter g where it is left out."""
+    """An expression; the default is the parameter g."""
 
 
 REQUIRED: Any = ...

@@ -27,7 +27,7 @@ Words: TypeAlias = "tuple[str | sp.Expr, ...]"
 """Words with symbols in them."""
 
 DEFLECTION: Words = ("its deflection",)
-"""What an action is on when its ends are not known apart."""
+"""The target of an action whose ends are not known separately."""
 
 
 class Surroundings(Protocol):
@@ -143,12 +143,12 @@ class Condition:
 
 
 Ledger: TypeAlias = Literal["T*", "V", "Ξ", "λ"]
-"""Where an element is booked: as an energy, as a non-conservative force, or, for a constraint, with its multiplier."""
+"""Where an element is counted: as an energy, as a nonconservative force or, for a constraint, with its multiplier."""
 
 T, V, XI = Name("T*"), Name("V"), Name("Xi")
 
 QUESTIONS = ("kind", "plural", "about", "entries", "ledger", "because", "uses", "measures")
-"""What the house asks every kind of element."""
+"""What every kind of element must define."""
 
 QUESTIONS_OF = {
     "T*": ("kinetic", "is_body", "note"),
@@ -156,7 +156,7 @@ QUESTIONS_OF = {
     "Ξ": ("works", "resists", "acts_on"),
     "λ": ("conditions", "acts_on"),
 }
-"""What it asks besides, by where the kind is booked."""
+"""What it must define in addition, depending on where it is counted."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -176,15 +176,15 @@ class Element(Brief):
     entries: ClassVar[Mapping[str, Entry]]
     ledger: ClassVar[Ledger]
     because: ClassVar[tuple[str | Name, ...]]
-    """Why it is booked there, in words."""
+    """The reason why it is counted there, in words."""
     is_body: ClassVar[bool] = False
-    """Whether it has a ``mass`` at a point ``at``, which gravity pulls."""
+    """Whether it has a ``mass`` at a point ``at``, on which gravity acts."""
     stored: ClassVar[str] = ""
-    """What it does to hold a potential energy, in words."""
+    """How it stores potential energy, in words."""
     note: ClassVar[str] = ""
-    """What stands beside its energy where the page gives it without a derivation."""
+    """The note beside its energy if the page gives it without a derivation."""
     resists: ClassVar[bool] = False
-    """Whether it takes energy out, so that the final equations carry it on the left."""
+    """Whether it takes energy out, so that the final equations have it on the left."""
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
