@@ -11,6 +11,7 @@ if _typing.TYPE_CHECKING:
     from lagrangian.compiled import Compiled
     from lagrangian.derivation import Derivation
     from lagrangian.derive import LedgerRow, Origin, Step
+    from lagrangian.derive.constraints.page import Constraints
     from lagrangian.equilibria.points import Equilibria, Equilibrium
     from lagrangian.errors import Error, MissingExtra, ModelError, Notice, ParseError, Place, RunError
     from lagrangian.invariants.canonical_forms import Hamiltonian, Routhian
@@ -38,6 +39,7 @@ else:
             "compiled": "Compiled",
             "derivation": "Derivation",
             "derive": "LedgerRow Origin Step",
+            "derive.constraints.page": "Constraints",
             "equilibria.points": "Equilibria Equilibrium",
             "errors": "Error MissingExtra ModelError Notice ParseError Place RunError",
             "invariants.canonical_forms": "Hamiltonian Routhian",
@@ -67,6 +69,7 @@ __all__ = [
     "Compiled",
     "Conserved",
     "ConservedQuantities",
+    "Constraints",
     "Derivation",
     "Ensemble",
     "EquationTerm",

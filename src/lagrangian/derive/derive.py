@@ -9,12 +9,13 @@ from typing import get_args
 import sympy as sp
 
 from lagrangian.derive.algebra import Algebra
+from lagrangian.derive.constraints.page import constraints
 from lagrangian.derive.context import Context, fit
 from lagrangian.derive.coordinates import coordinates
 from lagrangian.derive.derived import Derived
 from lagrangian.derive.energies import kinetic, lagrangian, potential, shares
 from lagrangian.derive.forces import contributions, forces
-from lagrangian.derive.holonomy import holonomic
+from lagrangian.derive.holonomy import constrained, holonomic
 from lagrangian.derive.lagrange import Detail, left_hand_sides, left_sides
 from lagrangian.derive.result import Shares, closing, equations, ledger, ledger_items, matrices
 from lagrangian.derive.wiggle import study
@@ -45,7 +46,8 @@ def derive(model: Model, *, detail: Detail = "usual") -> Derived:
     pieces = shares(model, context.algebra)
 
     _log.info("deriving: steps 0 and 1, the generalized coordinates")
-    step0 = holonomic(context)
+    ties = constraints(model, context.readable) if model.constraints else None
+    step0 = holonomic(context) if ties is None else constrained(context, ties)
     step1 = coordinates(context)
     _log.info("deriving: step 2, the kinetic energy")
     step2 = kinetic(context, pieces)
@@ -81,6 +83,7 @@ def derive(model: Model, *, detail: Detail = "usual") -> Derived:
         ledger=book,
         shares=Shares(context, sides, found),
         notes=tuple(left_as_written(context)),
+        constraints=ties,
     )
 
 

@@ -16,6 +16,7 @@ from lagrangian.page.plain import plain
 from lagrangian.viewed import Brief, cut
 
 if TYPE_CHECKING:
+    from lagrangian.derive.constraints.page import Constraints
     from lagrangian.model import Element, Model
 
 
@@ -82,6 +83,7 @@ class Derived(Brief):
     ``generalized_forces`` (n×1). ``result`` is the closing section; ``ledger`` lists every element once; ``verified``
     contains the checks at the end. ``notes`` say what could not be shortened and why; ``notices`` are those of the
     system.
+    ``constraints`` is what step 0 says of the constraints, None for a system without any.
     """
 
     model: Model
@@ -102,6 +104,7 @@ class Derived(Brief):
     verified: tuple[Check, ...] = ()
     notes: tuple[Text, ...] = ()
     notices: tuple[Notice, ...] = ()
+    constraints: Constraints | None = None
 
     @property
     def coordinates(self) -> tuple[sp.Expr, ...]:

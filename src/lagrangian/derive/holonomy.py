@@ -6,10 +6,36 @@ from typing import Any, cast
 
 import sympy as sp
 
+from lagrangian.derive.constraints.page import Constraints
 from lagrangian.derive.context import Context
 from lagrangian.derive.derived import Step
 from lagrangian.model import Model, time
 from lagrangian.page.formula import Item, Left, Name, formula, text
+
+
+def constrained(context: Context, found: Constraints) -> Step:
+    """Compare the generalized coordinates with the differential degrees of freedom that the constraints leave."""
+    h = found.holonomy
+    return Step(
+        0,
+        "Holonomic?",
+        text("Compared the number of generalized coordinates with the differential degrees of freedom."),
+        text(
+            "Lagrange's equations come one by one from wiggling a single coordinate while the others stay fixed. "
+            "Constraints forbid some of these wiggles: which of the three ways below leads on depends on whether they "
+            "can be integrated."
+        ),
+        found.items,
+        {
+            "holonomic": h.holonomic,
+            "GC": h.GC,
+            "DDOF": h.DDOF,
+            "growth": h.growth,
+            "integrals": h.integrals,
+            "redundant": h.redundant,
+        },
+        (text(str(h)),),
+    )
 
 
 def holonomic(context: Context) -> Step:

@@ -198,4 +198,4 @@ def ledger_items(rows: tuple[LedgerRow, ...]) -> tuple[Item, ...]:
 
 
 def _column(column: str) -> Name:
-    return Name({"T*": "T*", "V": "V", "Ξ": "Xi"}[column])
+    return Name({"T*": "T*", "V": "V", "Ξ": "Xi", "λ": "λ"}[column])

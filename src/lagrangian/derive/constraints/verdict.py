@@ -94,22 +94,30 @@ def judge(
     """
     variables = Variables(tuple(coordinates), time)
     generic = _judged(rows, variables, None, limit)
-    if not values or not any(row.rate.has(*values) for row in rows):
+    moving = [row for row in rows if row.position is None]
+    if not values or not any(row.rate.has(*values) for row in moving):
         return generic
-    given = _judged(rows, variables, values, limit)
+    given = _judged(rows, variables, values, limit, search=False)
     same = (given.growth, given.independent, len(given.contradictions)) == (
         generic.growth,
         generic.independent,
         len(generic.contradictions),
     )
-    return generic if same else replace(generic, special=given)
+    return generic if same else replace(generic, special=_judged(rows, variables, values, limit))
 
 
-def _judged(rows: Sequence[HasRow], variables: Variables, values: Mapping[Any, Any] | None, limit: int) -> Holonomy:
+def _judged(
+    rows: Sequence[HasRow],
+    variables: Variables,
+    values: Mapping[Any, Any] | None,
+    limit: int,
+    *,
+    search: bool = True,
+) -> Holonomy:
     sheet = Sheet(variables)
     given = forms(sheet, rows, values)
     try:
-        return _Judge(sheet, ExactPlace(sheet), limit).verdict(given)
+        return _Judge(sheet, ExactPlace(sheet), limit).verdict(given, search=search)
     except OutsideError as error:
         why = f"not decided exactly, because of {error}"
     try:
@@ -120,7 +128,7 @@ def _judged(rows: Sequence[HasRow], variables: Variables, values: Mapping[Any, A
         growths = [side.growth for side in sides]
         best = max(range(SIDES), key=lambda k: (growths[k][-1], -k))
         place = FloatPlace(sheet, seed=best)
-        found = _Judge(sheet, place, limit).verdict(given)
+        found = _Judge(sheet, place, limit).verdict(given, search=search)
     except UnclearError as error:
         n = len(variables.coordinates)
         return Holonomy((), (), (), (n,), complete=False, exact=False, notes=(f"{why}: {error}",))

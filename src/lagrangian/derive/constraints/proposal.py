@@ -1,0 +1,102 @@
+"""Fewer coordinates: what a surface f(q, t) = constant allows to be left out."""
+
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownVariableType=false
+# pyright: reportUnknownArgumentType=false
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from typing import cast
+
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.derive.constraints.integrals import Integral
+from lagrangian.viewed import Brief
+
+ANGLES = ("theta", "alpha", "beta", "phi", "psi", "gamma")
+"""Names for a new angle, in the order in which they are tried."""
+
+
+@dataclass(frozen=True)
+class Proposal(Brief):
+    """Coordinates written by others, so that ``integral`` holds by itself; ``new`` is a coordinate that is added."""
+
+    integral: Integral
+    written: tuple[tuple[sp.Expr, sp.Expr], ...]
+    new: sp.Expr | None = None
+
+
+def proposals(integrals: Sequence[Integral], coordinates: Sequence[sp.Expr], time: sp.Symbol) -> tuple[Proposal, ...]:
+    """Return for every surface one way to leave a coordinate out, where a simple one is seen.
+
+    A coordinate that f holds linearly, with a coefficient that does not move, is written by the others. On a circle
+    (x − a)² + (y − b)² = r² an angle takes the place of both: x = a + r sin θ, y = b − r cos θ.
+    """
+    found: list[Proposal] = []
+    used: set[sp.Expr] = set()
+    taken = {str(getattr(q, "name", q.func)) for q in coordinates}
+    for integral in integrals:
+        free = [q for q in coordinates if q not in used]
+        made = next(_ways(integral, free, coordinates, time, taken), None)
+        if made is not None:
+            found.append(made)
+            used |= {q for q, _ in made.written}
+            taken |= {str(made.new.func)} if made.new is not None else set[str]()
+    return tuple(found)
+
+
+def _ways(
+    integral: Integral, free: Sequence[sp.Expr], coordinates: Sequence[sp.Expr], time: sp.Symbol, taken: set[str]
+) -> Iterator[Proposal]:
+    f = integral.expression
+    level = integral.level if integral.level is not None else sp.Symbol("c")
+    for q in free:
+        slope = bounded.diff(f, q)
+        if slope != 0 and not slope.has(*coordinates, time):
+            value = bounded.expand(bounded.cancel((level - f.subs(q, 0)) / slope))
+            yield Proposal(integral, ((q, value),))
+    if integral.level != 0:
+        return
+    name = next((name for name in ANGLES if name not in taken), None)
+    for x, y in combinations(free, 2):
+        if name is not None and (circle := _circle(f, x, y, coordinates)) is not None:
+            a, b, r = circle
+            angle = cast("sp.Expr", sp.Function(name, real=True)(time))
+            written = ((x, a + r * sp.sin(angle)), (y, b - r * sp.cos(angle)))
+            yield Proposal(integral, written, angle)
+
+
+def _circle(
+    f: sp.Expr, x: sp.Expr, y: sp.Expr, coordinates: Sequence[sp.Expr]
+) -> tuple[sp.Expr, sp.Expr, sp.Expr] | None:
+    """Centre and radius of the circle f = 0 in the plane of x and y, where the radius does not depend on the rest."""
+    roots = [p for p in f.atoms(sp.Pow) if p.exp == sp.Rational(1, 2) and p.has(x, y)]
+    length: sp.Expr | None = None
+    if len(roots) == 1 and not (f - roots[0]).has(x, y):
+        length = roots[0] - f
+        f = cast("sp.Expr", roots[0].base - length**2)
+    if (roots and length is None) or size(f) > 200:
+        return None
+    u, v = sp.symbols("u v", real=True)
+    try:
+        plane = sp.Poly(f.xreplace({x: u, y: v}), u, v)
+    except sp.PolynomialError:
+        return None
+    scale = plane.coeff_monomial(u**2)
+    if plane.total_degree() != 2 or scale == 0 or plane.coeff_monomial(u * v) != 0:
+        return None
+    if bounded.cancel(plane.coeff_monomial(v**2) - scale) != 0:
+        return None
+    a, b = (bounded.cancel(-plane.coeff_monomial(w) / (2 * scale)) for w in (u, v))
+    square = bounded.cancel(a**2 + b**2 - plane.coeff_monomial(1) / scale)
+    r = length if length is not None else cast("sp.Expr", sp.powdenest(sp.sqrt(sp.factor(square)), force=True))
+    return None if r.has(*coordinates) or (square.is_number and not square.is_positive) else (a, b, r)
+
+
+def size(f: sp.Expr) -> int:
+    """Return the operations of an expression."""
+    return bounded.size(f)

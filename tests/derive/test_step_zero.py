@@ -1,0 +1,111 @@
+"""Step 0 of systems with constraints: what the page says, in every format, and what `derivation.constraints` holds."""
+
+import json
+from typing import Any
+
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+from lagrangian.model import time as t
+
+
+def rod() -> lg.System:
+    """A pendulum in x and y, held by a rod."""
+    s = lg.System("pendulum in x, y")
+    x, y = s.coordinates("x y")
+    m, length = s.parameters("m l", m=1.0, l=2.0)
+    bob = s.point("P", (x, y))
+    s.particle(m, at=bob)
+    s.constraint(between=(bob, s.origin), distance=length, name="rod")
+    return s
+
+
+def sled(*more: tuple[str, float]) -> lg.System:
+    """A knife edge, and multiples of its row, by name and factor."""
+    s = lg.System("knife edge")
+    x, y, theta = s.coordinates("x y theta")
+    m, inertia = s.parameters("m J", m=1.0, J=0.5)
+    blade = s.frame(theta, origin=s.point("C", (x, y)), name="blade")
+    s.rigid_body(m, inertia, at=blade.origin, frame=blade, name="sled")
+    row = x.diff(t) * sp.sin(theta) - y.diff(t) * sp.cos(theta)
+    for name, factor in (("edge", 1.0), *more):
+        s.velocity_constraint(row * factor, name=name)
+    return s
+
+
+def disc() -> lg.System:
+    """A disc that rolls upright."""
+    s = lg.System("rolling disc")
+    x, y, phi, psi = s.coordinates("x y phi psi")
+    m, i, k, r = s.parameters("m I K r", m=1.0, I=0.5, K=0.25, r=0.3)
+    speeds = [m * x.diff(t) ** 2, m * y.diff(t) ** 2, i * phi.diff(t) ** 2, k * psi.diff(t) ** 2]
+    s.kinetic(sum(speeds) / 2)
+    s.velocity_constraint(x.diff(t) - r * sp.cos(psi) * phi.diff(t), name="no slip, x")
+    s.velocity_constraint(y.diff(t) - r * sp.sin(psi) * phi.diff(t), name="no slip, y")
+    return s
+
+
+def held(s: lg.System) -> Any:
+    """The constraints of the system's derivation."""
+    found = s.derive().constraints
+    assert found is not None
+    return found
+
+
+def test_a_rod_proposes_an_angle() -> None:
+    found = held(rod())
+    assert (found.holonomic, found.GC, found.DDOF) == (True, 1, 1)
+    (way,) = found.proposals
+    (f,) = [i.expression for i in found.integrals]
+    assert way.new is not None
+    positive = {p.symbol: sp.Symbol(p.name, positive=True) for p in found.model.parameters}
+    assert sp.simplify(f.subs(dict(way.written)).subs(positive)) == 0
+    page = str(found)
+    assert "with x = l sin θ, y = −l cos θ, where θ is a new coordinate, 'rod' holds by" in page
+
+
+def test_a_rolling_disc_is_nonholonomic_by_two() -> None:
+    derivation = disc().derive()
+    data = derivation.steps[0].expressions
+    assert (data["holonomic"], data["GC"], data["DDOF"], data["growth"]) == (False, 4, 2, (2, 3, 4))
+    page = derivation.to_text()
+    assert "the system is nonholonomic by 2" in " ".join(page.split())
+    assert "1. Integrate: impossible" in page
+    assert derivation.constraints is not None
+    assert derivation.constraints.verdict == "nonholonomic by 2: #DDOF = 2, #GC = 4, growth (2, 3, 4)"
+
+
+def test_a_row_given_twice_is_left_out_by_name() -> None:
+    derivation = sled(("again", 2.0)).derive()
+    assert derivation.constraints is not None
+    assert [(r.name, r.repeats) for r in derivation.constraints.holonomy.redundant] == [("again", ("edge",))]
+    (said,) = derivation.constraints.notices()
+    assert str(said) == "[E306] constraint 'again': left out: it says again what 'edge' says"
+    assert "The constraint 'again' is left out" in derivation.to_text()
+
+
+def test_rows_that_contradict_each_other_are_refused_by_name() -> None:
+    s = rod()
+    x, y = (c.symbol for c in s.model.coordinates)
+    s.constraint(x**2 + y**2 - 9 * next(p.symbol for p in s.model.parameters if p.name == "l") ** 2, name="longer rod")
+    with pytest.raises(lg.ModelError, match="'longer rod': it contradicts 'rod'") as caught:
+        s.derive()
+    assert caught.value.code == "E302"
+
+
+@pytest.mark.parametrize("make", [rod, sled, disc])
+def test_every_format_says_the_verdict(make: Any) -> None:
+    found = held(make())
+    for page in (found.to_text(), found.to_markdown(), found.to_latex(), found.to_html(), found._repr_html_()):
+        assert "holonomic" in page
+        assert found.rows[0].name in page
+    data = json.loads(found.to_json())
+    assert data["growth"] == list(found.holonomy.growth)
+    assert [row["name"] for row in data["rows"]] == [row.name for row in found.rows]
+
+
+def test_without_constraints_nothing_is_said_of_them() -> None:
+    derivation = lg.example("cart-pole").derive()
+    assert derivation.constraints is None
+    assert derivation.steps[0].expressions == {"holonomic": True, "GC": 2, "DDOF": 2}
