@@ -81,6 +81,7 @@ def test_a_row_given_twice_is_left_out_by_name() -> None:
     assert derivation.constraints is not None
     assert [(r.name, r.repeats) for r in derivation.constraints.holonomy.redundant] == [("again", ("edge",))]
     (said,) = derivation.constraints.notices()
+    assert len([n for n in derivation.notices if n.code == "E306"]) == 1
     assert str(said) == "[E306] constraint 'again': left out: it says again what 'edge' says"
     assert "The constraint 'again' is left out" in derivation.to_text()
 
