@@ -1,4 +1,4 @@
-"""How many operations a person reads in an expression: SymPy's count, shared parts counted once."""
+"""The number of operations that a reader sees in an expression: SymPy's count, with shared parts visited once."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from sympy.core.operations import LatticeOp
 
 
 def operations(expr: sp.Basic) -> int:
-    """Return what ``sympy.count_ops`` counts: −, /, and as many + and · as there are operands less one.
+    """Return what ``sympy.count_ops`` counts: −, /, and one + or · less than there are operands.
 
-    A part that stands in many places is looked at once; SymPy looks at it in every place.
+    A part that occurs in many places is examined once; SymPy examines it in every place.
     """
     known: dict[sp.Basic, int] = {}
     stack: list[sp.Basic] = [expr]
@@ -30,7 +30,7 @@ def operations(expr: sp.Basic) -> int:
 
 
 def _looked_at(node: Any) -> tuple[int, list[Any]]:
-    """The operations that a node itself counts as, and the parts that are looked at next."""
+    """The operations for which a node itself counts, and the parts to examine next."""
     own = 0
     if node.is_Rational:
         return (0 if node is sp.S.One else int(node.p < 0) + int(node.q != 1)), []
@@ -59,6 +59,6 @@ def _looked_at(node: Any) -> tuple[int, list[Any]]:
 
 
 def _negative(term: Any) -> bool:
-    """Whether a term is written with a minus."""
+    """Whether a term is written with a minus sign."""
     coefficient = term.args[0] if term.is_Mul else term
     return bool(coefficient.is_Number and coefficient.is_extended_negative)

@@ -1,4 +1,4 @@
-"""The parts of an expression exchanged, and no condition proved anew."""
+"""Replaces parts of expressions without letting SymPy prove their conditions again."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""SymPy's searches, counted in calls and given up past a number of them."""
+"""SymPy's searches, which are abandoned after a number of calls."""
 
 from __future__ import annotations
 

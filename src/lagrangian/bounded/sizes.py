@@ -1,4 +1,4 @@
-"""How long expressions are, and would be: predicted from their structure, what is shared met once."""
+"""The sizes of expressions, also of results: predicted from the structure, with shared parts visited once."""
 
 from __future__ import annotations
 

@@ -48,9 +48,9 @@ def _diff(expr: sp.Expr, symbol: Any) -> sp.Expr:
 
 
 def _smooth(expr: sp.Expr, symbol: Any) -> sp.Expr:
-    """SymPy's derivative of an expression without kinks; of a long one by the same rules, shared parts once.
+    """SymPy's derivative of an expression without kinks; of a long one by the same rules, with shared parts once.
 
-    SymPy multiplies the factors of a product one by one for every addend: a product of n factors takes n³ steps.
+    SymPy multiplies the factors of a product one by one for every addend, so a product of n factors takes n³ steps.
     """
     if slope_size(expr) <= LONG:
         return cast("sp.Expr", sp.diff(expr, symbol))
@@ -62,7 +62,7 @@ def _smooth(expr: sp.Expr, symbol: Any) -> sp.Expr:
 
 
 def _slope(node: sp.Expr, found: Mapping[sp.Basic, sp.Expr], symbol: Any) -> sp.Expr:
-    """The derivative of a node whose parts have theirs in ``found``."""
+    """The derivative of a node from those of its parts in ``found``."""
     if not node.args or isinstance(node, (AppliedUndef, sp.Derivative)) or not isinstance(node, sp.Expr):
         return cast("sp.Expr", sp.diff(node, symbol)) if isinstance(node, sp.Expr) else sp.S.Zero
     inner = [found[a] for a in node.args]
@@ -83,7 +83,7 @@ def _slope(node: sp.Expr, found: Mapping[sp.Basic, sp.Expr], symbol: Any) -> sp.
 
 
 def _product(factors: Sequence[Any]) -> sp.Expr:
-    """The product of factors; numbers before a sum go into it, as where factors are multiplied one by one."""
+    """The product of factors; numbers before a sum are multiplied in, as if factors were multiplied one by one."""
     first = sp.S.One
     for k, factor in enumerate(factors):
         first = first * factor

@@ -1,4 +1,4 @@
-"""What stands for something longer written out: sums of products, and definitions."""
+"""Expands expressions within bounds: sums of products, and definitions."""
 
 from __future__ import annotations
 

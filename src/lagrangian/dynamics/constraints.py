@@ -1,8 +1,8 @@
-"""Constraints → rows of nodes: what must be zero, its rate, and its rate's rate where the engine has it already.
+"""Converts constraints to rows of nodes: a quantity that must be zero, its rate, and the rate of its rate.
 
-A closure of two points is measured along the paths from the place that both hang on, so that what they share never
-enters. In space its rows stand in the axes of a body: the velocities there are nodes of the tape already. Where the
-points coincide these rows have the same multipliers as the derivatives of f.
+The distance between two points is measured along the paths from the place that carries both, so that what these have in
+common never enters. In space the rows are in the axes of a body, because the velocities there are already nodes of the
+tape. If the points coincide, these rows have the same multipliers as the derivatives of f.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ def _coincidence(d: Description, s: Any) -> Made:
 
 
 class Closing:
-    """Velocities of two places against the place that both hang on, in the axes of a body."""
+    """The velocities of two places relative to the place that carries both, in the axes of a body."""
 
     def __init__(self, d: Description, start: PlaceMotion, end: PlaceMotion) -> None:
         self.motion, self.graph = d.motion, d.graph
@@ -65,11 +65,11 @@ class Closing:
 
     @property
     def grounded(self) -> bool:
-        """Whether what both hang on is at rest, so that velocities against it are velocities."""
+        """Whether the common place is at rest, so that velocities relative to it are absolute."""
         return self.common.parent is None
 
     def velocity(self, place: PlaceMotion, axes: Axes) -> Vector:
-        """v_place − v_common of axes that do not turn with what both hang on."""
+        """v_place − v_common, for axes that do not rotate with the common place."""
         motion, g = self.motion, self.graph
         if self.grounded:
             return motion.turned(place.velocity, place.axes, axes)
@@ -86,7 +86,7 @@ class Closing:
         return motion.turned(total, at, axes)
 
     def _omega(self, axes: Axes) -> Vector:
-        """ω of axes against those that both places are carried by, in the axes themselves."""
+        """ω of the axes relative to those that carry both places, in the axes themselves."""
         home = self.common.axes
         chain: list[Axes] = []
         at: Axes | None = axes
@@ -101,7 +101,7 @@ class Closing:
         return total
 
     def acceleration(self, axes: Axes, axis: int) -> Callable[[Accelerations], int] | None:
-        """a_start − a_end in ``axes``; None where the two hang on something that moves: then c is differentiated."""
+        """a_start − a_end in ``axes``; None if the common place moves: then c is differentiated."""
         if not self.grounded:
             return None
         motion, g = self.motion, self.graph

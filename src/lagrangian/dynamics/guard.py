@@ -1,10 +1,10 @@
-"""Pivots of multipliers, watched: a row that depends on those before it gets the multiplier 0.
+"""Checks the pivots of multipliers: a row that depends on earlier rows gets the multiplier 0.
 
-In a fixed order the pivot of a multiplier is −s sin² of the angle between its row and the span of the rows before it,
-measured by M⁻¹, where s is the row's own size a M⁻¹ aᵀ. For s stands the sum over the rows of one closure: near a
-position where a loop can move in more than one way a single row's own size goes to zero along with its pivot. A pivot
-that is nothing but rounding means that the row says again what others say. Dividing by it would turn an error of
-1e-9 in the state into one of 1e-3 in the accelerations; a multiplier of 0 is one valid choice, and v̇ is unique.
+In a fixed order, the pivot of a multiplier is −s sin² of the angle, measured by M⁻¹, between its row and the span of
+the earlier rows, where s is the size a M⁻¹ aᵀ of the row. Instead of s, the sum over the rows of one closure is used,
+because near a position where a loop can move in more than one way, the size of a single row goes to zero along with its
+pivot. A pivot at the level of rounding means that the row repeats what others say. Dividing by it would turn an error
+of 1e-9 in the state into one of 1e-3 in the accelerations; a multiplier of 0 is one valid choice, and v̇ is unique.
 """
 
 from __future__ import annotations

@@ -26,10 +26,10 @@ Circle = tuple[int, int]
 
 
 def root(x: int, q: int, p: int) -> int | None:
-    """Return the q-th root of x modulo p, or None where x has none; of several the same one each time.
+    """Return the q-th root of x modulo p, or None if x has none; if there are several, always the same one.
 
-    Square roots are x^((p + 1)/4), which is multiplicative. Another prime q splits p − 1 = q^s m: x^(1/q mod m) is a
-    root but for a factor among the few numbers of order q^s, which are tried in order.
+    Square roots are x^((p + 1)/4), which is multiplicative. For another prime q, p − 1 = q^s m: x^(1/q mod m) is a root
+    except for a factor of order q^s; these few numbers are tried in order.
     """
     for factor in _prime_factors(q):
         found = _square_root(x, p) if factor == 2 else _prime_root(x, factor, p)
@@ -98,7 +98,7 @@ def random_angle(draw: random.Random, p: int) -> Circle:
 
 
 def half_turn(parts: int, p: int) -> Circle | None:
-    """Return the point of the angle π/parts, or None where the field has none.
+    """Return the point of the angle π/parts, or None if the field has none.
 
     It is the one whose multiples have cos 45° = √2/2, cos 30° = √3/2, sin 30° = ½ and cos 36° = (1 + √5)/4. ``parts``
     is a multiple of `QUARTER_DEGREES`.
@@ -132,7 +132,7 @@ def _root_of(x: int, p: int) -> int:
 
 
 class Echelon:
-    """Rows in echelon form modulo p, taken one after the other; each is known as a combination of what was kept."""
+    """Rows in echelon form modulo p, taken one after another, each with the combination of stored rows that it lost."""
 
     def __init__(self, p: int) -> None:
         self.p = p
@@ -148,7 +148,7 @@ class Echelon:
         return [pivot for pivot, _, _ in self._rows]
 
     def reduce(self, row: Sequence[int]) -> tuple[list[int], dict[int, int]]:
-        """Return what is left of a row, and the combination of the kept rows (by their names) that it lost."""
+        """Return what remains of a row, and the combination of the stored rows (by name) that was subtracted."""
         p, left = self.p, [x % self.p for x in row]
         lost: dict[int, int] = {}
         for pivot, kept, made in self._rows:
@@ -159,7 +159,7 @@ class Echelon:
         return left, {name: share for name, share in lost.items() if share}
 
     def take(self, name: int, row: Sequence[int], columns: Sequence[int] | None = None) -> bool:
-        """Keep a row under a name where it is independent; ``columns`` are those that may lead, best first."""
+        """Store a row under a name if it is independent; ``columns`` are those that may lead, best first."""
         left, lost = self.reduce(row)
         pivot = next((k for k in (range(len(left)) if columns is None else columns) if left[k]), None)
         if pivot is None:

@@ -55,28 +55,26 @@ TRANSCENDENTAL = ARCS | {"log", "asinh", "acosh", "atanh"}
 
 @dataclass(frozen=True)
 class NotAlgebraic:
-    """The answer where a graph holds something that no field has: ``operation`` says what."""
+    """The result if a graph contains something that no field has; ``operation`` names it."""
 
     operation: str
 
 
 class _OutsideError(Exception):
-    """An operation that the field does not have."""
+    """An operation that does not exist in the field."""
 
 
 class _AgainError(Exception):
-    """Something is not defined at this point: draw another one."""
+    """Something is not defined at this point, so another point is drawn."""
 
 
 class PrimePoint:
-    """A random point of a prime field at which nodes of a graph are evaluated.
+    """A random point of a prime field, at which nodes of a graph are evaluated.
 
-    ``numbers`` are input nodes that stand for exact numbers, which the constants of a graph, doubles, need not be (what
-    is added to them later counts too);
-    ``pi`` is the input node that stands for π. Another constant is the shortest fraction or decimal that is this
-    double.
-    Values of nodes stay the same until `draws` changes: then a root was missing, and all that was kept of former
-    values has to be asked anew.
+    ``numbers`` are input nodes that stand for exact numbers, because the constants of a graph are doubles (numbers that
+    are added to it later count, too); ``pi`` is the input node for π. Any other constant stands for the shortest
+    fraction or decimal that equals the double. The values of nodes stay the same until `draws` changes: then a root did
+    not exist, a new point was drawn, and all earlier values are invalid.
     """
 
     def __init__(
@@ -93,7 +91,7 @@ class PrimePoint:
         self._start()
 
     def values(self, ids: Sequence[int]) -> list[int] | NotAlgebraic:
-        """The values of nodes, between 0 and `prime`, or what keeps them from having any."""
+        """The values of nodes, between 0 and `prime`, or the reason why they have none."""
         why = "division by zero"
         for _ in range(MAX_DRAWS):
             try:
@@ -225,7 +223,7 @@ class PrimePoint:
         return e
 
     def _common(self, base: int, r: Fraction) -> int:
-        """The number of parts in which a base is counted."""
+        """The denominator in which multiples of a base are counted."""
         self._bases[base] = None
         parts = lcm(self._parts.get(base, QUARTER_DEGREES if base == self._pi else 1), r.denominator)
         if parts != self._parts.get(base):
@@ -252,7 +250,7 @@ class PrimePoint:
         return self._circle[base]
 
     def _arc_point(self, node: Node) -> Circle:
-        """The cosine and the sine of an arc, as they follow from its argument."""
+        """The cosine and the sine of an arc function, computed from its argument."""
         (a, *more) = self._at(operands(node))
         if node[0] in ("asin", "acos"):
             other = self._root((1 - a * a) % self.prime, 2, "a square root")
@@ -270,7 +268,7 @@ class PrimePoint:
         return forms[a]
 
     def _linear(self, a: int) -> list[int]:
-        """The nodes that make up ``a`` by sums and products, operands first."""
+        """The nodes of which ``a`` consists by sums and products, operands first."""
         seen: set[int] = set()
         stack = [a]
         while stack:
@@ -308,7 +306,7 @@ class PrimePoint:
     # -- independence -----------------------------------------------------------------------------------------------
 
     def _prove(self) -> None:
-        """Hold that bases, and logarithms and arcs, have no linear relation with constant coefficients."""
+        """Check that bases, and logarithms and arcs, have no linear relation with constant coefficients."""
         logs = list(self._logs)
         bases = [b for b in self._bases if b not in (self.graph.one, self._pi)]
         if all(self.graph.nodes[b][0] == "input" for b in bases):
@@ -323,7 +321,8 @@ class PrimePoint:
         self._proved = max(self._proved[0], len(bases)), max(self._proved[1], len(logs))
 
     def _independent(self, rows: Iterable[Sequence[int]], otherwise: str) -> None:
-        """Compare functions at as many points as there are: c·f = 0 everywhere only where the rank is less."""
+        """Compare functions at as many points as there are functions: c·f = 0 everywhere only if the rank is
+        smaller."""
         functions = [list(row) for row in rows]
         columns: list[list[int]] = [[] for _ in functions]
         for k in range(len(functions) + 1):
@@ -345,7 +344,7 @@ class PrimePoint:
 
 
 def _exact(x: float) -> Fraction:
-    """The shortest fraction or decimal that is this double."""
+    """The shortest fraction or decimal that equals this double."""
     if x.is_integer():
         return Fraction(x)
     if x != x or x in (float("inf"), float("-inf")):

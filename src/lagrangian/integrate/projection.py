@@ -1,8 +1,8 @@
-"""Rows that a motion keeps, and the steps that bring a state back to them; what drift there was.
+"""Projection: constraint rows that a motion must satisfy, the steps that restore them, and the drift.
 
-A method keeps f(q, t) = 0 and A(q, t) v + a₀ = 0 to its tolerance alone. After a step the state is projected: one
-Newton step on positions (more where it leaves more than `CLOSED`), then a linear one on velocities. Here
-nothing is known of how a correction is found: two programs say it.
+A method satisfies f(q, t) = 0 and A(q, t) v + a₀ = 0 only to its tolerance. After a step the state is projected: one
+Newton step on positions (more if it leaves more than `CLOSED`), then a linear step on velocities. How a correction is
+found is not known here; two programs compute it.
 """
 
 from __future__ import annotations

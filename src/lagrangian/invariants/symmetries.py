@@ -72,7 +72,7 @@ class Symmetry(Brief):
 
     @cached_property
     def rate(self) -> Form:
-        """The rate of the conserved quantity, which is 0."""
+        """The rate at which the conserved quantity changes, which is 0 for a true symmetry."""
         system, algebra = self.system, self.system.algebra
         parts = []
         for d, push, p in zip(self.direction, system.pushes, system.momenta, strict=True):

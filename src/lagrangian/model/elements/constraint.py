@@ -21,9 +21,9 @@ from lagrangian.model.geometry import Frame, Point, as_expr, as_vector, is_liste
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Restriction(Element):
-    """What restricts the motion: rows f(q, t) = 0 or c(q, q̇, t) = 0, each with a multiplier λ.
+    """A restriction of the motion: rows f(q, t) = 0 or c(q, q̇, t) = 0, each with a multiplier λ.
 
-    M v̇ + h = Ξ + Aᵀ λ: λ > 0 acts so as to increase f (or c).
+    M v̇ + h = Ξ + Aᵀ λ: a positive λ acts in the direction that increases f (or c).
     """
 
     ledger: ClassVar[Ledger] = "λ"

@@ -41,7 +41,7 @@ class Joint(Restriction):
             yield "between", point
 
     def acts_on(self) -> ActsOn:
-        """What it joins."""
+        """The points that it connects."""
         return ActsOn(
             (self.between, *(frame for _, frame in self.frames())),
             "it restricts nothing: no coordinate moves what it joins",
@@ -51,7 +51,8 @@ class Joint(Restriction):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class TurningJoint(Joint):
-    """A joint that says how two bodies turn. ``bodies`` are their frames, those of the points where left out."""
+    """A joint that restricts the rotation of two bodies. ``bodies`` are their frames, by default those of the
+    points."""
 
     bodies: Any = None
 
@@ -62,7 +63,7 @@ class TurningJoint(Joint):
 
     @property
     def space(self) -> bool:
-        """Whether it is in space."""
+        """Whether the joint is in space, not in the plane."""
         return dimension_of(*self.between, *(self.bodies or ())) == 3
 
     @property
@@ -96,7 +97,7 @@ def across(along: Direction) -> tuple[Direction, ...]:
 
 
 def same_axes(pair: Pair) -> tuple[Condition, ...]:
-    """The rows that keep two bodies from turning against each other: in space x·y = y·z = z·x = 0."""
+    """The rows that prevent two bodies from rotating relative to each other: in space x·y = y·z = z·x = 0."""
     first, second = pair
     if first.dimension == 2:
         return (SameTurn(first=first, second=second, angle=sp.S.Zero, suffix="turn"),)
@@ -109,9 +110,9 @@ def same_axes(pair: Pair) -> tuple[Condition, ...]:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Pin(TurningJoint):
-    """A pin: two points coincide, and in space the bodies turn against each other about one ``axis`` alone.
+    """A pin: two points coincide and, in space, the bodies rotate relative to each other only about one ``axis``.
 
-    Two rows in the plane, five in space. The axis has the same components in the axes of both bodies.
+    There are two rows in the plane, five in space. The axis has the same components in the axes of both bodies.
     """
 
     axis: Any = None
@@ -161,7 +162,7 @@ class Pin(TurningJoint):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Ball(Joint):
-    """A ball joint: two points coincide, and the bodies turn as they like. Three rows; in the plane it is a pin."""
+    """A ball joint: two points coincide, and the bodies rotate freely. It has three rows; in the plane it is a pin."""
 
     kind: ClassVar[str] = "ball"
     plural = "Ball joints that close loops."
@@ -177,8 +178,8 @@ class Ball(Joint):
 class Slider(TurningJoint):
     """A slider: the first point stays on the line through the second one ``along`` a direction fixed in ``axes``.
 
-    One row in the plane, two in space. With ``bodies`` the two do not turn against each other: one row more in the
-    plane, three in space.
+    There is one row in the plane, two in space. With ``bodies``, these do not rotate relative to each other: one more
+    row in the plane, three in space.
     """
 
     along: Any
@@ -227,7 +228,7 @@ class Slider(TurningJoint):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Weld(TurningJoint):
-    """A weld: two points coincide and the bodies do not turn. Three rows in the plane, six in space."""
+    """A weld: two points coincide, and the bodies do not rotate. It has three rows in the plane, six in space."""
 
     kind: ClassVar[str] = "weld"
     plural = "Welds that close loops."

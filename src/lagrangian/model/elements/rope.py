@@ -19,9 +19,9 @@ from lagrangian.model.geometry import Point, as_expr
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Rope(Restriction):
-    """A taut rope that does not stretch: Σ |r_{k+1} − r_k| = ``length`` over the points that it runs ``through``.
+    """A taut inextensible rope: Σ |r_{k+1} − r_k| = ``length`` over the points that it runs ``through``.
 
-    One row; the tension is −λ. It is held taut: a negative tension says that a real rope would be slack.
+    It has one row, and the tension is −λ. It is kept taut: if the tension is negative, a real rope would be slack.
     """
 
     through: Any
