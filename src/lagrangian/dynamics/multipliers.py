@@ -170,9 +170,18 @@ class RowElimination(Elimination):
         found = [
             key
             for key, a in rows.get(k, {}).items()
-            if key < 0 and key not in rows[key] and self.problem.constant([a]) and self.is_open(key)
+            if key < 0 and key not in rows[key] and self.is_open(key) and self._divides(key, a)
         ]
         return min(found, key=lambda key: (len(rows[key]), -key), default=None)
+
+    def _divides(self, key: int, a: int) -> bool:
+        """Whether a coefficient is a number, or made of parameters in a row where no coefficient is a number."""
+        value = self.graph.value
+        if value(a) is not None:
+            return True
+        if not self.problem.constant([a]):
+            return False
+        return not any(i in self.leaves and value(c) is not None for i, c in self.H.rows[key].items())
 
     # -- steps --------------------------------------------------------------------------------------------------
 

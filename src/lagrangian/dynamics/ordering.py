@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from lagrangian.dynamics.multipliers import Problem, RowElimination, RowSolution
-from lagrangian.graph import Graph, count_operations
+from lagrangian.dynamics.multipliers import DependentRow, Problem, RowElimination, RowSolution
+from lagrangian.errors import ModelError
+from lagrangian.graph import count_operations
 
 FEW = 12
 """Up to so many rates the orders are tried without the pairs of rule 2 as well."""
@@ -86,22 +87,39 @@ def _cost(e: RowElimination, i: int, *, pairs: bool) -> float:
     return parents * (neighbours - 1 + parents)
 
 
-def solutions(problem: Problem) -> Iterator[RowSolution]:
-    """The results in all orders that are worth counting; beyond `MOST_FREE` rates only the tape's."""
+def solutions(problem: Problem) -> Iterator[RowSolution | ModelError]:
+    """The results in all orders that are worth counting, or why there is none; beyond `MOST_FREE` only the tape's."""
     ways = (tape_backwards, cheapest_first) if len(problem.rates) <= MOST_FREE else (tape_backwards,)
     for way in ways:
-        with_pairs = way(problem, pairs=True)
-        yield with_pairs
-        if len(problem.rates) <= FEW and any(x == problem.graph.one for x in with_pairs.margins):
-            yield way(problem, pairs=False)
+        for pairs in (True, False) if len(problem.rates) <= FEW else (True,):
+            try:
+                found = way(problem, pairs=pairs)
+            except DependentRow:
+                raise
+            except ModelError as error:  # a rate without inertia that this order does not find a row for
+                yield error
+                continue
+            yield found
+            if not any(x == problem.graph.one for x in found.margins):
+                break  # without pairs it is the same
 
 
 def cheapest_solution(problems: Iterable[Problem], *, multipliers: bool = True) -> RowSolution:
-    """The result of the fewest operations, parameters hoisted: of v̇ and λ together, or of v̇ alone."""
+    """The result of the fewest operations, parameters hoisted: of v̇ and λ together, or of v̇ alone.
 
-    def cost(found: tuple[Graph, RowSolution]) -> int:
-        graph, solution = found
-        wanted = [*solution.vdot, *solution.multipliers] if multipliers else solution.vdot
-        return count_operations(graph, wanted, hoist=["p"]).operations
-
-    return min(((p.graph, s) for p in problems for s in solutions(p)), key=cost)[1]
+    Raises the `ModelError` of the first order where none comes to an end, and `DependentRow`.
+    """
+    best: tuple[int, RowSolution] | None = None
+    failed: list[ModelError] = []
+    for problem in problems:
+        for found in solutions(problem):
+            if isinstance(found, ModelError):
+                failed.append(found)
+                continue
+            wanted = [*found.vdot, *found.multipliers] if multipliers else found.vdot
+            cost = count_operations(problem.graph, wanted, hoist=["p"]).operations
+            if best is None or cost < best[0]:
+                best = cost, found
+    if best is None:
+        raise failed[0]
+    return best[1]
