@@ -200,9 +200,9 @@ def slip(m, d, expr, name):
     m.rows.append(ConstraintRow(name, name, d.node(expr)))
 
 
-def values(m, q, v, p=(), **wanted):
+def values(m, q, v, p=(), u=(), **wanted):
     """The values of lists of nodes at a state."""
-    given = {"q": list(q), "v": list(v), "p": list(p), "u": [], "t": [0.0]}
+    given = {"q": list(q), "v": list(v), "p": list(p), "u": list(u), "t": [0.0]}
     names = {group: tuple(map(str, range(len(x)))) for group, x in given.items()}
     outputs = {name: Output(tuple(ids), (len(ids),)) for name, ids in wanted.items()}
     return {name: np.array(x) for name, x in evaluate(Program("rows", m.graph, names, outputs), given).items()}

@@ -8,7 +8,7 @@ import pytest
 import sympy as sp
 from closed_loops import values
 from dynamics_models import run
-from floating_trees import QUADRUPED, system
+from floating_trees import QUADRUPED, pinocchio_model, states, system
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -94,25 +94,50 @@ def test_a_coordinate_of_a_floating_frame_can_be_held():
     assert np.abs(turned["c"]).max() == 0 and np.abs(left).max() < np.abs(step["f"]).max()
 
 
-def test_feet_of_a_quadruped_stay():
-    model = system(QUADRUPED, 3).model
+FEET = {4: 0, 7: 1, 10: 2, 13: 3}
+"""Pinocchio's joints whose links end in feet (1 is the floating base), and the numbers of the feet."""
+
+
+def standing(model):
+    """The mechanics of a quadruped whose shins' ends stay where they are, rows in the shins' axes."""
     graph = Graph()
     m, d = described(model, graph, Inputs.of(graph, model))
-    m.efforts.clear()
-    for k, frame in enumerate(list(d.axes)):
-        if k in (3, 6, 9, 12):
-            point = closed_loops.place(m, d, frame.point(0, 0, -0.4, at=frame.origin))
-            c = m.motion.turned(point.velocity, point.axes, m.motion.root)
-            for axis, x, f in zip("xyz", c, m.motion.position(point), strict=True):
-                m.rows.append(ConstraintRow(f"foot {k}.{axis}", f"foot {k}", x, f))
-    assert len(m.rows) == 12
-    rng = np.random.default_rng(4)
-    q, v = rng.uniform(-0.9, 0.9, 19), rng.uniform(-1, 1, 18)
+    frames = list(d.axes)
+    for joint, foot in FEET.items():
+        frame = frames[joint - 1]
+        point = closed_loops.place(m, d, frame.point(0, 0, -0.4, at=frame.origin))
+        for axis, x in zip("xyz", point.velocity, strict=True):
+            m.rows.append(ConstraintRow(f"foot {foot}.{axis}", f"foot {foot}", x))
+    return m
+
+
+def test_a_quadruped_stands_as_in_pinocchio():
+    pin = pytest.importorskip("pinocchio")
+    there, tree = pinocchio_model(pin, QUADRUPED, 3), system(QUADRUPED, 3)
+    m, parameters = standing(tree.model), [x.value for x in tree.model.parameters]
+    for joint in FEET:
+        at = pin.SE3(np.eye(3), np.array([0, 0, -0.4]))
+        there.addFrame(pin.Frame(f"foot {joint}", joint, 0, at, pin.FrameType.OP_FRAME))
+    data = there.createData()
     a, lam = dual(m)
-    p = [x.value for x in model.parameters]
-    got = values(m, q, v, p, a=a, lam=lam, vdot=m.forward(), multipliers=m.constrained.multipliers)
-    assert np.abs(got["a"] - got["vdot"]).max() < 1e-11 * np.abs(got["a"]).max()
-    assert np.abs(got["lam"] - got["multipliers"]).max() < 1e-11 * np.abs(got["lam"]).max()
+    for q, v, u in zip(*states(tree, 3, 5), strict=True):
+        M, h = pin.crba(there, data, q), pin.nonLinearEffects(there, data, q, v)
+        M = np.triu(M) + np.triu(M, 1).T
+        A, gamma = [], []
+        pin.forwardKinematics(there, data, q, v, np.zeros(18))
+        pin.computeJointJacobians(there, data, q)
+        pin.updateFramePlacements(there, data)
+        for joint in FEET:
+            foot = there.getFrameId(f"foot {joint}")
+            A.append(pin.getFrameJacobian(there, data, foot, pin.LOCAL)[:3])
+            gamma.append(pin.getFrameAcceleration(there, data, foot, pin.LOCAL).linear)  # ċ in the shin's own axes
+        A, gamma = np.vstack(A), np.concatenate(gamma)
+        saddle = np.block([[M, -A.T], [A, np.zeros((12, 12))]])
+        expected = np.linalg.solve(saddle, np.r_[u - h, -gamma])
+        got = values(m, q, v, parameters, u, a=a, lam=lam, vdot=m.forward(), multipliers=m.constrained.multipliers)
+        for names, found in ((("a", "vdot"), expected[:18]), (("lam", "multipliers"), expected[18:])):
+            for name in names:
+                assert np.abs(got[name] - found).max() < 1e-11 * np.abs(found).max(), name
 
 
 @sized(200, 15)

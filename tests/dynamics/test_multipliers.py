@@ -70,7 +70,7 @@ def test_a_row_that_depends_on_others_where_the_loop_closes_is_skipped(name):
         assert np.abs(got["vdot"] - vdot).max() < tolerance * size
         skipped = np.abs(got["margins"]) < 1e-11
         assert skipped.sum() == 1 and got["margins"][~skipped].min() > 1e-3
-        assert np.abs(got["lam"][skipped]) < 1e-200
+        assert np.abs(got["lam"][skipped]) < 1e-140
         assert np.abs(got["skipped"]).max() <= 1e-12 * size + 10 * off * size and (got["skipped"][~skipped] == 0).all()
         M, h, A, _ = numbers.equations(*at)
         assert np.abs(M @ got["vdot"] + h - A.T @ got["lam"]).max() < 1e-11 * np.abs(h).max()

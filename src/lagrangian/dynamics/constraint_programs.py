@@ -47,7 +47,7 @@ def multipliers(model: Model, *, redundant: Collection[str] = ()) -> Program:
     found = m.constrained
     counted = [x for row, x in zip(m.rows, found.margins, strict=True) if row.name not in redundant]
     outputs = {
-        "lam": _vector(found.multipliers),
+        "lam": _vector([graph.select(c, x, graph.zero) for c, x in zip(found.regular, found.multipliers, strict=True)]),
         "margin": _number(least(graph, counted)),
         "margins": _vector(found.margins),
         "skipped": _vector(found.residuals),

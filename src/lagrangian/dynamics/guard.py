@@ -17,19 +17,24 @@ from lagrangian.graph import Graph
 LEAST_MARGIN = 1e-11
 """Part of its closure's size below which the pivot of a row is nothing but rounding."""
 
-UNBOUNDED = 1e300
-"""What a pivot that is nothing but rounding is replaced by: its reciprocal acts on nothing, and has a derivative."""
+UNBOUNDED = 1e150
+"""What a pivot that is nothing but rounding is replaced by: its reciprocal acts on nothing, has a derivative, and its
+products are no subnormal numbers, which are slow."""
 
 
 @dataclass
 class Guard:
-    """``closures``: multiplier → the group it is measured with. ``margins`` and ``skipped`` grow as rows are taken."""
+    """``closures``: multiplier → the group it is measured with. What is known of rows grows as they are taken.
+
+    ``margins``; ``skipped``: what a row that is skipped still asks for, else 0; ``regular``: whether it is not skipped.
+    """
 
     graph: Graph
     closures: Mapping[int, str]
     sizes: dict[int, int] = field(default_factory=dict[int, int])
     margins: dict[int, int] = field(default_factory=dict[int, int])
     skipped: dict[int, int] = field(default_factory=dict[int, int])
+    regular: dict[int, int] = field(default_factory=dict[int, int])
 
     def __post_init__(self) -> None:
         """Gather the rows of every closure."""
@@ -53,15 +58,15 @@ class Guard:
         g = self.graph
         size, positive = self.size(row), g.neg(pivot)
         least = g.zero if positive == size else g.mul(g.const(LEAST_MARGIN), size)
-        regular = g.lt(least, positive)
+        regular = self.regular[row] = g.lt(least, positive)
         self.margins[row] = g.select(g.lt(g.zero, size), g.div(positive, size), g.zero)
         self.skipped[row] = g.select(regular, g.zero, residual)
         return g.neg(g.div(g.one, g.select(regular, positive, g.const(UNBOUNDED))))
 
     def leave_out(self, row: int, residual: int) -> None:
         """Take note of a row without any pivot."""
-        self.margins[row], self.skipped[row] = self.graph.zero, residual
+        self.margins[row], self.skipped[row], self.regular[row] = self.graph.zero, residual, self.graph.zero
 
     def certain(self, row: int) -> None:
         """Take note of a row whose pivot cannot vanish."""
-        self.margins[row], self.skipped[row] = self.graph.one, self.graph.zero
+        self.margins[row], self.skipped[row], self.regular[row] = self.graph.one, self.graph.zero, self.graph.one

@@ -82,8 +82,9 @@ class Problem:
 
 @dataclass(frozen=True)
 class RowSolution:
-    """``vdot``, and a node a row of each: λ as `rows` has it, the margin, what a skipped row still asks for (else 0)
-    and the sum of the magnitudes that cancel in it. ``divisors`` are what was divided by unseen, with the rows' names.
+    """``vdot``, and a node a row of each: λ as `rows` has it (of a skipped row nearly 0), the margin, what a skipped
+    row still asks for (else 0), the sum of the magnitudes that cancel in it, and whether it is not skipped.
+    ``divisors`` are what was divided by unseen, with the rows' names.
     """
 
     vdot: list[int]
@@ -91,6 +92,7 @@ class RowSolution:
     margins: list[int]
     residuals: list[int]
     sizes: list[int]
+    regular: list[int]
     divisors: list[tuple[str, int]]
 
 
@@ -300,5 +302,6 @@ class RowElimination(Elimination):
             [guard.margins[key] for key in keys],
             [guard.skipped[key] for key in keys],
             [self.sizes.get(key, g.zero) for key in keys],
+            [guard.regular[key] for key in keys],
             self.divisors,
         )
