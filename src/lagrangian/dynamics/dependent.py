@@ -73,6 +73,7 @@ def _filled(graph: Graph, found: RowSolution, kept: Sequence[bool]) -> RowSoluti
         spread(found.margins, graph.one),
         spread(found.residuals, graph.zero),
         spread(found.sizes, graph.zero),
+        spread(found.regular, graph.zero),
         found.divisors,
     )
 
