@@ -16,6 +16,7 @@ class SlowSolution:
     final: np.ndarray
     event_index: np.ndarray
     event_time: np.ndarray
+    drift: None = None
 
 
 class SlowSolver:
