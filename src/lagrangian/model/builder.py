@@ -278,7 +278,7 @@ class Builder(Declarations):
 
     @property
     def elements(self) -> tuple[Element, ...]:
-        """What was added so far, in order."""
+        """The elements added so far, in order."""
         return tuple(self._elements)
 
     def lookup(self, name: str) -> Any:

@@ -35,7 +35,7 @@ class Declarations:
 
     @property
     def coordinates(self) -> tuple[Coordinate, ...]:
-        """What was declared so far, in order."""
+        """The coordinates declared so far, in order."""
         return tuple(self._coordinates.values())
 
     def _claim(self, name: str, what: str, place: Place | None) -> str:

@@ -63,7 +63,7 @@ class RunDrift(Brief):
 
 
 def notices(task: Task, outcome: Outcome) -> tuple[Notice, ...]:
-    """What is to be known of a run of a system with constraints."""
+    """Return the notices about the constraints of a run."""
     if outcome.drift is None:
         return ()
     drift = RunDrift.of_run(outcome.drift)

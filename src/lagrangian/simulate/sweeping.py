@@ -161,7 +161,7 @@ def _done(
 
 
 def _drifted(made: Ensemble, study: Study) -> tuple[str, ...]:
-    """What is to be said of how far the runs came from their constraints."""
+    """The notice about the drift of the runs from their constraints."""
     if study.projection is None:
         return ()
     found = (made[name] for name in ("drift position", "drift velocity", "drift margin"))
@@ -319,7 +319,7 @@ def _events(study: Study) -> str:
 
 
 def _projection(projection: Projection) -> str:
-    """What decides how runs are kept on their constraints."""
+    """The settings that determine how runs are kept on their constraints."""
     return f"{projection.corrects} {[digest(program) for program in projection.programs]}"
 
 

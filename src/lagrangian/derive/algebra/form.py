@@ -38,7 +38,7 @@ Harmonic = tuple[Packed, int]
 """A packed multiple of the angles, never negative, and 0 for its cosine, 1 for its sine; (0, 0) is the constant 1."""
 
 Key = tuple[Harmonic, int]
-"""What a term is a multiple of: its harmonic and the monomial of all that moves in it."""
+"""The variable part of a term: its harmonic, and the monomial of everything that moves in it."""
 
 Rate = Callable[[int], "int | Form | None"]
 """A derivative's table: index → its derivative as a monomial, as a form, or None where it is zero."""

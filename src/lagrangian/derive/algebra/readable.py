@@ -22,7 +22,7 @@ from lagrangian.derive.algebra.trig import displayed
 from lagrangian.page.formula import TermKind
 
 WRITTEN = 50
-"""What a term costs that is written in SymPy, in products of terms in normal form."""
+"""The cost of writing a term in SymPy, in products of terms in normal form."""
 
 KINDS: tuple[TermKind, ...] = get_args(TermKind)
 """The kinds of terms, in the order in which they are written."""

@@ -31,10 +31,10 @@ class Watching(Protocol):
 
 
 class Noting(Watching, Protocol):
-    """What notes something of every run."""
+    """Something that records data of every run."""
 
     def write(self, lane: str, run: str) -> None:
-        """Print that what was noted of a lane's run is handed over."""
+        """Print the code that stores what was recorded of a lane's run."""
         ...
 
 

@@ -138,7 +138,7 @@ class Condition:
         return bounded.diff(f, time)
 
     def multiplier(self, model: Surroundings) -> Words:
-        """What λ is, in words."""
+        """The meaning of λ, in words."""
         raise NotImplementedError
 
 

@@ -174,7 +174,7 @@ class Constraint(Restriction):
             yield Measure("expression", self.expression, ANGLE, self.expression, 1)
 
     def acts_on(self) -> ActsOn:
-        """What it restricts."""
+        """The points or coordinates that it restricts."""
         if self.between:
             return ActsOn(
                 (self.between,),

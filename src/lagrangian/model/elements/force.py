@@ -130,7 +130,7 @@ class Force(Element):
         return main_symbol(heads[0]) if len(heads) == 1 else ""
 
     def uses(self) -> Iterator[Use]:
-        """The value may depend on everything down to rates; a deflection on coordinates and time."""
+        """The value (of coordinates, rates, inputs, parameters, time); a deflection (of coordinates and time)."""
         for v in entries_of(self.value):
             yield Use("value", "value", v, Level.VELOCITY, inputs=True)
         if self.deflection is not None:

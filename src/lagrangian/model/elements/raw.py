@@ -133,7 +133,7 @@ class GeneralizedForce(Element):
         )
 
     def uses(self) -> Iterator[Use]:
-        """The value may depend on everything down to rates."""
+        """The value, which may contain coordinates, rates, inputs, parameters and time."""
         yield Use("value", "value", self.value, Level.VELOCITY, inputs=True)
 
     def measures(self, model: Surroundings) -> Iterator[Measure]:

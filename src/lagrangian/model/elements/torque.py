@@ -95,7 +95,7 @@ class Torque(Element):
         return main_symbol(self.value) if isinstance(self.value, sp.Expr) else ""
 
     def uses(self) -> Iterator[Use]:
-        """The value may depend on everything down to rates; angles on coordinates and time."""
+        """The value (of coordinates, rates, inputs, parameters, time); angles (of coordinates and time)."""
         for v in entries_of(self.value):
             yield Use("value", "value", v, Level.VELOCITY, inputs=True)
         for key in ("on", "reaction"):
@@ -126,7 +126,7 @@ class Torque(Element):
                 yield key, getattr(self, key)
 
     def works(self, model: Surroundings) -> tuple[Action, ...]:
-        """The torque on its angle, and the opposite torque on the reaction's."""
+        """The torque on its angle, and the opposite torque on the angle of the reaction."""
         actions: list[Action] = []
         for sign, target in ((1, self.on), (-1, self.reaction)):
             if target is not None:
