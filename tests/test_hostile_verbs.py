@@ -4,9 +4,13 @@ from pathlib import Path
 
 import pytest
 
+import lagrangian as lg
 from effort import at_most
+from hostile_answers import answer
 from hostile_models import KINDS, LONGEST, model
+from lagrangian import examples
 from lagrangian.cli import main
+from size import rest_slow
 
 CALLS = 40_000_000
 """Calls of Python functions that a verb may take; twenty seconds are some forty million."""
@@ -25,6 +29,7 @@ VERBS = {
     "sweep": ["sweep", "FILE", "m=1:2:2", "-d", "0.5", "--threads", "1"],
 }
 SEEDS = (0, 2, 9)
+ANSWERS = [*range(14), *range(15, 27)]
 
 
 def check_ends(seed: int, verb: str, folder: Path) -> None:
@@ -47,3 +52,23 @@ def test_hostile_files_are_small_and_the_same_everywhere() -> None:
 @pytest.mark.parametrize("seed", SEEDS)
 def test_every_verb_ends_on_a_hostile_file(seed: int, verb: str, tmp_path: Path) -> None:
     check_ends(seed, verb, tmp_path)
+
+
+FURUTA = lg.loads(examples.text("furuta-pendulum"))
+
+
+def check_answered(seed: int) -> None:
+    """A verdict, or a refusal with its code, after a bounded number of calls."""
+    model = FURUTA.model
+    text = answer(seed, [c.name for c in model.coordinates], [p.name for p in model.parameters])
+    with at_most(CALLS):
+        try:
+            assert FURUTA.check(text).to_text()
+        except lg.Error as error:
+            assert error.code
+
+
+@pytest.mark.parametrize("seed", rest_slow(ANSWERS, {1, 7, 10}))
+def test_a_hostile_answer_is_judged_or_refused(seed: int) -> None:
+    """7: products of values above 1e300."""
+    check_answered(seed)

@@ -8,7 +8,7 @@ from typing import Any, cast
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from lagrangian.bounded.searches import absolute
+from lagrangian.bounded.searches import PROOFS, absolute, searched
 from lagrangian.bounded.sizes import each, size
 
 INSIDE = 50
@@ -35,7 +35,13 @@ def rebuilt(node: sp.Basic, arguments: list[Any]) -> sp.Basic:
     unproved = (sp.Piecewise, sp.core.relational.Relational)
     if isinstance(node, unproved) or (isinstance(node, (sp.Max, sp.Min)) and len(arguments) > 2):
         return node.func(*arguments, evaluate=False)
-    return absolute(node.func, arguments[0]) if isinstance(node, (sp.Abs, sp.sign)) else node.func(*arguments)
+    if isinstance(node, (sp.Abs, sp.sign)):
+        return absolute(node.func, arguments[0])
+    # SymPy tries to prove which argument of a maximum is the larger, and asks for the sign of what a function is of
+    if isinstance(node, (sp.Max, sp.Min, sp.Function)) and not isinstance(node, (sp.sin, sp.cos)):
+        made = searched(node.func, *arguments, calls=PROOFS)
+        return node.func(*arguments, evaluate=False) if made is None else made
+    return node.func(*arguments)
 
 
 def bent(expr: sp.Basic) -> list[sp.Expr]:

@@ -80,11 +80,13 @@ def _beside(truth: Reference, values: Array) -> Array:
 
 def _times(whole: Array, part: Array) -> sp.Expr | None:
     """The rational number c with whole = c · part; None if there is none."""
-    size = float(part @ part)
-    if not np.isfinite(part).all() or size <= 1e-20:
+    largest = float(np.max(np.abs(part), initial=0.0))
+    if not np.isfinite(part).all() or not np.isfinite(whole).all() or largest <= 1e-10:
         return None
-    c = float(whole @ part) / size
-    if np.abs(whole - c * part).max() > DOUBLE_TOLERANCE * np.abs(whole).max():
+    unit = part / largest  # squares of very large values would overflow
+    with np.errstate(over="ignore", invalid="ignore"):
+        c = float(whole @ unit) / float(unit @ unit) / largest
+    if not np.isfinite(c) or np.abs(whole - c * part).max() > DOUBLE_TOLERANCE * np.abs(whole).max():
         return None
     found: Any = sp.Rational(Fraction(c).limit_denominator(64))
     return found if abs(float(found) - c) < 1e-7 * max(1.0, abs(c)) and found != 0 else None

@@ -154,8 +154,12 @@ def harmless(truth: Reference, line: AnsweredLine, rest: sp.Expr) -> Text | None
         if rest.has(*[c.rate for c in coordinates]):
             return None
         return text("up to a constant: the height or length from which it is counted is yours to choose")
-    if line.kind not in ("L", "T", "D") or (line.kind != "D" and np.nanmax(np.abs(left_values(truth, rest))) > 1e-6):
+    if line.kind not in ("L", "T", "D"):
         return None
+    if line.kind != "D":
+        values = np.abs(left_values(truth, rest))
+        if np.isnan(values).all() or np.nanmax(values) > 1e-6:
+            return None
     if line.kind in ("L", "T") and all(zero_everywhere(truth, row) for row in left_sides(truth, rest)):
         held = rest.has(*[c.rate for c in coordinates]) or rest.has(*[c.symbol for c in coordinates])
         if line.kind == "T" and held:
