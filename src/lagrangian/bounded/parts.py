@@ -39,7 +39,7 @@ def rebuilt(node: sp.Basic, arguments: list[Any]) -> sp.Basic:
         return absolute(node.func, arguments[0])
     # SymPy tries to prove which argument of a maximum is the larger, and asks for the sign of what a function is of
     if isinstance(node, (sp.Max, sp.Min, sp.Function)) and not isinstance(node, (sp.sin, sp.cos)):
-        made = searched(node.func, *arguments, calls=PROOFS)
+        made: Any = searched(cast("Any", node.func), *arguments, calls=PROOFS)
         return node.func(*arguments, evaluate=False) if made is None else made
     return node.func(*arguments)
 
