@@ -20,7 +20,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.coordinates import Change
 from lagrangian.derive.sample import Sampler
-from lagrangian.model import Frame, Model, Point, RigidBody, time
+from lagrangian.model import Frame, Model, Point, time
 
 MAX_OPERATIONS = 200
 """The largest number of operations in a component of a position that is used."""
@@ -93,8 +93,8 @@ def _points(a: Model, b: Model) -> Iterator[tuple[Point, Point]]:
 
 def _frames(a: Model, b: Model) -> Iterator[tuple[Frame, Frame]]:
     for x, y in bodies(a, b):
-        if isinstance(x, RigidBody) and isinstance(y, RigidBody):
-            yield x.frame, y.frame
+        if x.axes is not None and y.axes is not None:
+            yield x.axes, y.axes
     named = {f.name: f for f in b.frames}
     for f in a.frames:
         if f.name in named:

@@ -1,5 +1,8 @@
 """Data that all steps share: the model, its algebra, what each coordinate moves, and limits on formulas."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownArgumentType=false
+
 from __future__ import annotations
 
 from dataclasses import dataclass, field
@@ -24,8 +27,8 @@ class Context:
     model: Model
     algebra: Algebra
     wiggle: Wiggle
-    _memo: dict[sp.Expr, sp.Expr] = field(default_factory=dict)
-    _terms: dict[int, tuple[Form, list[Term]]] = field(default_factory=dict)
+    _memo: dict[sp.Expr, sp.Expr] = field(default_factory=dict[sp.Expr, sp.Expr])
+    _terms: dict[int, tuple[Form, list[Term]]] = field(default_factory=dict[int, tuple[Form, list[Term]]])
 
     @cached_property
     def symbols(self) -> tuple[sp.Expr, ...]:

@@ -1,8 +1,11 @@
 """Step 1: generalized coordinates, complete and independent, absolute or relative."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import cast
 
@@ -99,7 +102,7 @@ def _wiggle_words(context: Context, index: int) -> list[str | Left]:
     return list(parts)
 
 
-def _listed(elements: list[Element] | tuple[Element, ...]) -> str:
+def _listed(elements: Sequence[Element]) -> str:
     titles = [e.title for e in elements]
     if len(titles) > 6:
         return f"{titles[0]}, …, {titles[-1]} ({len(titles)} bodies)"
@@ -204,7 +207,7 @@ def _lengths(model: Model, symbols: list[sp.Expr]) -> set[sp.Expr]:
     outside: set[sp.Expr] = set()
     for body in model.bodies:
         for x in _where(model, body):
-            bare = x.replace(lambda e: isinstance(e, (sp.sin, sp.cos)), lambda _: sp.Dummy())
+            bare = bounded.replaced(x, {turning: sp.Dummy() for turning in x.atoms(sp.sin, sp.cos)})
             outside |= {s for s in symbols if bare.has(s)}
     return outside
 

@@ -24,6 +24,9 @@ An item has a "kind": "text" ("text"), "heading" ("text"), "formula" ("plain", "
 elided side also "operations") or "table" ("header", "rows": lists of text).
 """
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
+
 from __future__ import annotations
 
 from collections.abc import Iterable

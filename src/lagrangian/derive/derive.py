@@ -1,5 +1,8 @@
 """The derivation, from the model to the equations."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
+
 from __future__ import annotations
 
 import logging

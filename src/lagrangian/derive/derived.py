@@ -1,5 +1,8 @@
 """The data of a derivation: the seven steps, their results in SymPy, and the origin of every term."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
+
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
@@ -33,7 +36,7 @@ class Step(Brief):
     what: Text
     why: Text
     items: tuple[Item, ...]
-    expressions: Mapping[str, Any] = field(default_factory=dict)
+    expressions: Mapping[str, Any] = field(default_factory=dict[str, Any])
     reasons: tuple[Text, ...] = ()
     checked: tuple[Check, ...] = ()
     view: Callable[[], str] | None = field(default=None, repr=False, compare=False)

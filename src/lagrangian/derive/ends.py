@@ -1,5 +1,8 @@
 """Finds the two ends of a deflection in the geometry: the things whose distance or angle it is."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownArgumentType=false
+
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -56,7 +59,7 @@ def _quantities(model: Model) -> Iterator[tuple[str, Words, sp.Expr]]:
                 seen.add((axis, x))
                 yield axis, (body.title,), x
     for body in model.bodies:
-        frame = getattr(body, "frame", None)
+        frame = body.axes
         if frame is not None and frame.dimension == 2:
             angle = model.expand(frame.total_angle)
             if angle.has(AppliedUndef) and ("angle", angle) not in seen:

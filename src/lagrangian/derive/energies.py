@@ -1,18 +1,21 @@
 """Steps 2, 3 and 4: kinetic co-energy T*, potential energy V, Lagrangian L = T* − V."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
+
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from typing import Any
 
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.derive.algebra import Form
+from lagrangian.derive.algebra import Algebra, Form
 from lagrangian.derive.context import Context, fit, fit_terms
 from lagrangian.derive.derived import Step
-from lagrangian.model import Element, Gravity, Model, RigidBody, Spring, time
+from lagrangian.model import Body, Element, Gravity, Model, Spring, time
+from lagrangian.model.elements.vectors import diagonal
 from lagrangian.page.formula import Formula, Heading, Item, Left, Minus, Name, Product, Square, Terms, formula, text
 
 AXES = ("x", "y", "z")
@@ -27,10 +30,10 @@ class Share:
     column: str
     expr: sp.Expr
     form: Form
-    body: Element | None = None
+    body: Body | None = None
 
 
-def indices(model: Model) -> dict[Element, str]:
+def indices(model: Model) -> dict[Body, str]:
     """The subscript of each body's quantities: its number, or its name if the number would mean a coordinate."""
     bodies = model.bodies
     numbers = {b: _number_of(b, i) for i, b in enumerate(bodies, 1)}
@@ -47,13 +50,13 @@ def indices(model: Model) -> dict[Element, str]:
     return numbers
 
 
-def _number_of(body: Any, position: int) -> str:
+def _number_of(body: Body, position: int) -> str:
     name = body.mass.name if isinstance(body.mass, sp.Symbol) else ""
     digits = name[1:].lstrip("_")
     return digits if name[:1] in ("m", "M") and digits.isdigit() else str(position)
 
 
-def shares(model: Model, algebra: Any) -> tuple[Share, ...]:
+def shares(model: Model, algebra: Algebra) -> tuple[Share, ...]:
     """The parts of T* and V of every element, each with its normal form."""
     index = indices(model)
     found: list[Share] = []
@@ -63,21 +66,15 @@ def shares(model: Model, algebra: Any) -> tuple[Share, ...]:
     return tuple(found)
 
 
-def _pieces(
-    model: Model, element: Element, index: dict[Element, str]
-) -> Iterator[tuple[Name, sp.Expr, Element | None]]:
-    if isinstance(element, RigidBody):
-        translation, rotation = element.kinetic_parts(model)
-        yield Name("T*", index[element]), translation + rotation, None
-    elif element.is_body:
-        yield Name("T*", index[element]), element.kinetic(model), None
-    elif isinstance(element, Gravity):
-        for body, _, energy in element.shares(model):
-            yield Name("V", index[body] if index[body] else "g"), energy, body
-    elif element.ledger == "T*":
-        yield Name("T*", element.name if element.name != "T*" else ""), element.kinetic(model), None
-    elif element.ledger == "V":
-        yield Name("V", element.name if element.name != "V" else ""), element.potential(model), None
+def _pieces(model: Model, element: Element, index: dict[Body, str]) -> Iterator[tuple[Name, sp.Expr, Body | None]]:
+    letter = element.ledger
+    for body, energy in element.portions(model) if letter in ("T*", "V") else ():
+        if body is not None:
+            yield Name(letter, index[body] if index[body] else "g"), energy, body
+        elif isinstance(element, Body):
+            yield Name(letter, index[element]), energy, None
+        else:
+            yield Name(letter, element.name if element.name != letter else ""), energy, None
 
 
 # -- step 2 ---------------------------------------------------------------------------------------------------------
@@ -91,10 +88,10 @@ def kinetic(context: Context, pieces: tuple[Share, ...]) -> Step:
     items: list[Item] = []
     for share in mine:
         body = share.element
-        if body.is_body:
+        if isinstance(body, Body):
             items.append(Heading(text(_capital(body.title))))
             items += _motion(context, body, index)
-            items += _rotation(context, body, index) if isinstance(body, RigidBody) else []
+            items += _rotation(context, body, index)
             items.append(_energy(context, body, share, index))
         else:
             items.append(_plain(context, share))
@@ -147,7 +144,7 @@ def _added(context: Context, mine: list[Share], sign: int = 1) -> Left:
     return fit_terms(tuple(x for s in mine for x in sp.Add.make_args(sign * context.readable(s.expr)) if x != 0))
 
 
-def _motion(context: Context, body: Any, index: dict[Element, str]) -> list[Item]:
+def _motion(context: Context, body: Body, index: dict[Body, str]) -> list[Item]:
     """Positions and their rates; a point that is given relative to another body is shown relative to it."""
     model = context.model
     lines: list[Item] = []
@@ -159,7 +156,7 @@ def _motion(context: Context, body: Any, index: dict[Element, str]) -> list[Item
         here = Name(axis, index[body])
         # a coordinate of the other body that never changes has no line of its own to refer to
         there = base if base is not None and model.velocity(base.at)[AXES.index(axis)] != 0 else None
-        shown = [here, *([Terms((Name(axis, index[there]), *_terms(step)))] if there is not None else [x])]
+        shown: list[Left] = [here, *([Terms((Name(axis, index[there]), *_terms(step)))] if there is not None else [x])]
         if there is None and model.expand(x) != x:
             shown.append(fit(context.readable(model.expand(x))))
         if str(here) != str(shown[-1]):
@@ -179,7 +176,7 @@ def _terms(expr: sp.Expr) -> tuple[sp.Expr, ...]:
     return tuple(sp.Add.make_args(expr)) if expr != 0 else ()
 
 
-def _from_body(model: Model, body: Any) -> tuple[Any | None, tuple[sp.Expr, ...]]:
+def _from_body(model: Model, body: Body) -> tuple[Body | None, tuple[sp.Expr, ...]]:
     """Return the body relative to which this one's position is given, and the vector between them in fixed axes."""
     origin = model.position(body.at)
     for other in model.bodies:
@@ -189,8 +186,10 @@ def _from_body(model: Model, body: Any) -> tuple[Any | None, tuple[sp.Expr, ...]
     return None, origin
 
 
-def _rotation(context: Context, body: RigidBody, index: dict[Element, str]) -> list[Item]:
+def _rotation(context: Context, body: Body, index: dict[Body, str]) -> list[Item]:
     omega = body.angular_velocity(context.model)
+    if not omega:
+        return []
     if len(omega) == 1:
         return [formula(Name("omega", index[body]), context.readable(omega[0]))]
     lines: list[Item] = [text("Angular velocity in the body's own axes:")]
@@ -200,24 +199,23 @@ def _rotation(context: Context, body: RigidBody, index: dict[Element, str]) -> l
     return lines
 
 
-def _energy(context: Context, body: Any, share: Share, index: dict[Element, str]) -> Formula:
+def _energy(context: Context, body: Body, share: Share, index: dict[Body, str]) -> Formula:
     """½ m (ẋ² + ẏ²) + ½ J ω² = … for one body."""
     model = context.model
     moving = [(axis, v) for axis, v in zip(AXES, model.velocity(body.at), strict=False) if v != 0]
     pieces: list[Left] = []
     if moving and body.mass != 0:
         pieces.append(Square(body.mass / 2, tuple(Name(axis, index[body], 1) for axis, _ in moving)))
-    if isinstance(body, RigidBody):
-        omega, inertia = body.angular_velocity(model), body.inertia
-        if len(omega) == 1:
-            pieces += [Square(inertia[0, 0] / 2, (Name("omega", index[body]),))] if omega[0] != 0 else []
-        elif inertia.is_diagonal():
-            for axis, w, moment in zip(AXES, omega, inertia.diagonal(), strict=True):
-                name = Name("omega", f"{axis}{index[body]}" if len(index[body]) <= 2 else f"{axis} {index[body]}")
-                if w != 0 and moment != 0:
-                    pieces.append(Square(moment / 2, (name,)))
-        else:
-            pieces.append(Name("½ωᵀIω", ""))
+    omega, inertia = body.angular_velocity(model), body.tensor
+    if len(omega) == 1:
+        pieces += [Square(inertia[0][0] / 2, (Name("omega", index[body]),))] if omega[0] != 0 else []
+    elif inertia == diagonal(moments := [row[k] for k, row in enumerate(inertia)]):
+        for axis, w, moment in zip(AXES, omega, moments, strict=False):
+            name = Name("omega", f"{axis}{index[body]}" if len(index[body]) <= 2 else f"{axis} {index[body]}")
+            if w != 0 and moment != 0:
+                pieces.append(Square(moment / 2, (name,)))
+    else:
+        pieces.append(Name("½ωᵀIω", ""))
     shown: Left = pieces[0] if len(pieces) == 1 else Terms(tuple(pieces))
     return formula(*_chain(share.name, shown, fit(context.readable(share.expr))))
 
@@ -310,10 +308,10 @@ def _gravity(context: Context, gravity: Gravity, own: list[Share]) -> list[Item]
     for share in own:
         body = share.body
         assert body is not None
-        height = context.readable(gravity.height(model, body.at))  # type: ignore[attr-defined]
+        height = context.readable(gravity.height(model, body.at))
         h = Name("h", share.name.index if share.name.index != "g" else "")
         lines.append(formula(h, fit(height), note=text(body.title)))
-        weight = body.mass * gravity.g  # type: ignore[attr-defined]
+        weight = body.mass * gravity.g
         lines.append(formula(*_chain(share.name, Product((weight, h)), fit(context.readable(share.expr)))))
     return lines
 

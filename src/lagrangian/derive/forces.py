@@ -1,5 +1,8 @@
 """Step 6: the nonconservative Ξ_i, by virtual work and by the box rule, with the reason for each."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
+
 from __future__ import annotations
 
 from collections.abc import Mapping

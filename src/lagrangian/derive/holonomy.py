@@ -1,8 +1,11 @@
 """Step 0: holonomic or not?"""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
 from __future__ import annotations
 
-from typing import Any, cast
+from typing import Any
 
 import sympy as sp
 
@@ -86,4 +89,4 @@ def holonomic(context: Context) -> Step:
 def _explicit(model: Model, body: Any) -> list[sp.Expr]:
     """The components of a body's position with constant coordinates, in which only explicit time is left."""
     held = {c.symbol: 0 for c in model.coordinates}
-    return [cast("sp.Expr", model.expand(x).subs(list(held.items()))) for x in model.position(body.at)]
+    return [model.expand(x).subs(list(held.items())) for x in model.position(body.at)]

@@ -1,5 +1,8 @@
 """Step 5: the left-hand sides d/dt(∂L/∂ξ̇_i) − ∂L/∂ξ_i, written out."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
 from __future__ import annotations
 
 from collections.abc import Iterator
@@ -9,12 +12,13 @@ from typing import Literal, TypeAlias
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import Context, fit
 from lagrangian.derive.derived import Step
 from lagrangian.derive.energies import Share
 from lagrangian.model import Coordinate, time
-from lagrangian.page.formula import Heading, Item, Minus, Name, Partial, Terms, Total, formula, text
+from lagrangian.page.formula import Heading, Item, Minus, Name, Partial, Terms, Text, Total, formula, text
 
 Detail: TypeAlias = Literal["usual", "full"]
 """How much of step 5 is written: "full" shows d/dt of every term."""
@@ -63,7 +67,7 @@ def left_hand_sides(context: Context, sides: tuple[LeftSide, ...], detail: Detai
     law = Terms((Total(by_xi), Minus(Partial(Name("L"), Name("xi", "i")))))
     items: list[Item] = [formula(law, Name("Xi", "i"), brief=True)]
     expressions: dict[sp.Expr, sp.Expr] = {}
-    reasons = []
+    reasons: list[Text] = []
     for i, side in enumerate(sides):
         c = side.coordinate
         by_rate, by_place = Partial(Name("L"), c.rate), Partial(Name("L"), c.symbol)
@@ -116,6 +120,6 @@ def _term_by_term(context: Context, momentum: Form) -> Iterator[Item]:
 
 def _has_product_rule(term: sp.Expr) -> bool:
     """Whether anything except a single rate changes with time in a term."""
-    rates = [a for a in term.atoms(sp.Derivative) if isinstance(a, sp.Derivative)]
-    rest = term.xreplace({a: sp.Dummy() for a in rates})
+    rates = term.atoms(sp.Derivative)
+    rest = bounded.replaced(term, {a: sp.Dummy() for a in rates})
     return len(rates) != 1 or rest.has(AppliedUndef, time)

@@ -1,5 +1,8 @@
 """The equations of motion, their matrix form, the energy ledger, and the origin of every term."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownArgumentType=false
+
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -75,7 +78,10 @@ class Equations:
 def equations(context: Context, sides: tuple[LeftSide, ...], found: tuple[Contribution, ...]) -> Equations:
     """Combine steps 5 and 6."""
     shares = Shares(context, sides, found)
-    lefts, rights, described, equalities = [], [], [], []
+    lefts: list[tuple[sp.Expr, ...]] = []
+    rights: list[tuple[sp.Expr, ...]] = []
+    described: list[tuple[EquationTerm, ...]] = []
+    equalities: list[sp.Eq] = []
     for i, side in enumerate(sides):
         mine = [f for f in found if f.index == i]
         damping = context.algebra.total([f.virtual for f in mine if f.resists])
@@ -88,7 +94,7 @@ def equations(context: Context, sides: tuple[LeftSide, ...], found: tuple[Contri
             tuple(EquationTerm(t.expr, t.kind, shares.names(i, t.expr)) for t in left)
             + tuple(EquationTerm(t.expr, "input", shares.names(i, t.expr)) for t in right)
         )
-        equalities.append(sp.Eq(sp.Add(*lefts[-1]), sp.Add(*rights[-1]), evaluate=False))
+        equalities.append(cast("sp.Eq", sp.Eq(sp.Add(*lefts[-1]), sp.Add(*rights[-1]), evaluate=False)))
     return Equations(tuple(lefts), tuple(rights), tuple(described), tuple(equalities))
 
 
@@ -112,7 +118,7 @@ def matrices(context: Context, sides: tuple[LeftSide, ...], xi_of: dict[sp.Expr,
     n = len(coordinates)
     M = [[sides[i].momentum.diff(coordinates[j].rate) for j in range(n)] for i in range(n)]
     C = _christoffel(context, M)
-    G = []
+    G: list[Form] = []
     for i, side in enumerate(sides):
         inertia = [
             entry * algebra.form(moving)
@@ -122,9 +128,9 @@ def matrices(context: Context, sides: tuple[LeftSide, ...], xi_of: dict[sp.Expr,
         ]
         G.append(side.whole - algebra.total(inertia))
     return Matrices(
-        sp.ImmutableMatrix(n, n, lambda i, j: M[i][j].expr()),
-        sp.ImmutableMatrix(n, n, lambda i, j: C[i][j].expr()),
-        sp.ImmutableMatrix(n, 1, lambda i, _: G[i].expr()),
+        sp.ImmutableMatrix([[entry.expr() for entry in row] for row in M]),
+        sp.ImmutableMatrix([[entry.expr() for entry in row] for row in C]),
+        sp.ImmutableMatrix([[form.expr()] for form in G]),
         sp.ImmutableMatrix(n, 1, list(xi_of.values())),
         tuple(Terms(tuple(t.expr for t in context.terms(form))) for form in G),
     )

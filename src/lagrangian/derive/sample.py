@@ -1,5 +1,8 @@
 """Evaluates expressions at random states, at which ranks are computed and routes compared."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownArgumentType=false
+
 from __future__ import annotations
 
 import math

@@ -5,6 +5,9 @@ The states are in blocks, so that one can see what a factor depends on: ``SETS``
 Every value is a multiple of 2⁻¹², so that doubles and 50 digits represent the same state.
 """
 
+# SymPy and mpmath have no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownArgumentType=false
+
 from __future__ import annotations
 
 import random
@@ -137,7 +140,7 @@ class CompiledExpressions:
     def at(self, states: States, instead: Mapping[sp.Basic, Array] | None = None) -> Array:
         """The values at every state, shape (expressions, size); ``instead`` overrides symbols."""
         instead = instead or {}
-        inputs = []
+        inputs: list[Array] = []
         for s in self.symbols:
             if s in self._numbers:
                 inputs.append(np.full(states.size, float(self._numbers[s])))
@@ -165,10 +168,14 @@ class CompiledExpressions:
             return list(evaluate(program, {"x": x}, digits=DIGITS)["y"]) if self.ids else []
 
 
-def _precise(number: Any) -> Any:
+def _precise(number: sp.Expr) -> Any:
     if isinstance(number, sp.Rational):
-        return mpmath.mpf(int(number.p)) / int(number.q)
-    return mpmath.mpf(str(sp.N(number, DIGITS + 5)))
+        return cast("Any", mpmath.mpf(int(number.p)) / int(number.q))
+    return cast("Any", mpmath.mpf(str(sp.N(number, DIGITS + 5))))
+
+
+def _select(condition: Array, yes: Array, no: Array) -> Array:
+    return np.where(condition.astype(bool), yes, no)
 
 
 _NUMPY: dict[str, Any] = {
@@ -195,7 +202,7 @@ _NUMPY: dict[str, Any] = {
     "and": np.logical_and,
     "or": np.logical_or,
     "not": np.logical_not,
-    "select": lambda c, a, b: np.where(c.astype(bool), a, b),
+    "select": _select,
     **{name: getattr(np, name) for name in ("sqrt", "sin", "cos", "tan", "sinh", "cosh", "tanh", "exp", "log")},
 }
 

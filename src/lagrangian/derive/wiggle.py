@@ -4,11 +4,15 @@ The columns ∂r/∂ξ_i (and ∂ω/∂ξ̇_i if it can turn) of every body are 
 whether the coordinates are independent; if a column is not zero, the body is in the box of ξ_i.
 """
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import TypeAlias
 
 import numpy as np
 import sympy as sp
@@ -16,21 +20,15 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.derive.sample import Sampler
 from lagrangian.errors import ModelError
-from lagrangian.model import Element, Frame, Model, RigidBody
+from lagrangian.model import Element, Frame, Model
+from lagrangian.model.elements import MovingMass
 
 SMALL = 1e-9
 """A singular value or a column below this relative size counts as zero."""
 STATES = 3
 
-
-@dataclass(frozen=True)
-class _Rows:
-    """A block of rows ∂(rate)/∂ξ̇ of one body: ``turning`` for its rotation; ``weight`` is its mass or inertia."""
-
-    body: Element
-    turning: bool
-    rates: tuple[sp.Expr, ...]
-    weight: sp.Matrix
+Rows: TypeAlias = "tuple[Element, MovingMass]"
+"""A block of rows ∂(rate)/∂ξ̇ of one element."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,11 +51,11 @@ def study(model: Model) -> Wiggle:
     blocks = _blocks(model)
     rates = [c.rate for c in model.coordinates]
     entries: list[sp.Expr] = []
-    for block in blocks:
-        for r in block.rates:
+    for _, mass in blocks:
+        for r in mass.rates:
             there = r.atoms(sp.Derivative)
             entries += [bounded.diff(r, v) if v in there else sp.S.Zero for v in rates]
-        entries += block.weight.flat()
+        entries += [x for row in mass.weight for x in row]
     sampler = Sampler(model, entries)
     n, best = len(rates), -1
     seen = np.zeros((len(blocks), n), dtype=bool)
@@ -76,29 +74,22 @@ def study(model: Model) -> Wiggle:
     return Wiggle(moved, best)
 
 
-def _blocks(model: Model) -> list[_Rows]:
-    blocks: list[_Rows] = []
-    for body in model.bodies:
-        velocity = model.velocity(body.at)
-        blocks.append(_Rows(body, False, velocity, sp.eye(len(velocity)) * body.mass))
-        if isinstance(body, RigidBody):
-            blocks.append(_Rows(body, True, body.angular_velocity(model), sp.Matrix(body.inertia)))
-    for element in model.elements:
-        if element.ledger == "T*" and element not in model.bodies:
-            energy = element.kinetic(model)
-            momenta = tuple(bounded.diff(energy, c.rate) for c in model.coordinates)
-            blocks.append(_Rows(element, False, momenta, sp.eye(len(momenta))))
-    return blocks
+def _blocks(model: Model) -> list[Rows]:
+    """Those of bodies first, then those of energies that were given."""
+    others = [e for e in model.elements if e not in model.bodies]
+    return [(element, mass) for element in (*model.bodies, *others) for mass in element.masses(model)]
 
 
-def _split(blocks: Sequence[_Rows], values: np.ndarray, n: int) -> tuple[list[np.ndarray], list[np.ndarray]]:
+def _split(blocks: Sequence[Rows], values: np.ndarray, n: int) -> tuple[list[np.ndarray], list[np.ndarray]]:
     """Split the flat list of sampled values into the columns of each block, and these multiplied by the weight."""
-    columns, weighted, at = [], [], 0
-    for block in blocks:
-        rows = len(block.rates)
+    columns: list[np.ndarray] = []
+    weighted: list[np.ndarray] = []
+    at = 0
+    for _, mass in blocks:
+        rows = len(mass.rates)
         jacobian = values[at : at + rows * n].reshape(rows, n)
         at += rows * n
-        size = block.weight.rows
+        size = len(mass.weight)
         weight = values[at : at + size * size].reshape(size, size)
         at += size * size
         columns.append(jacobian)
@@ -115,11 +106,11 @@ def _rank(matrix: np.ndarray) -> int:
     return int((singular > SMALL * singular[0]).sum())
 
 
-def _bodies(blocks: Sequence[_Rows], seen: np.ndarray) -> tuple[Element, ...]:
+def _bodies(blocks: Sequence[Rows], seen: np.ndarray) -> tuple[Element, ...]:
     chosen: list[Element] = []
-    for block, moves in zip(blocks, seen, strict=True):
-        if moves and block.body not in chosen:
-            chosen.append(block.body)
+    for (element, _), moves in zip(blocks, seen, strict=True):
+        if moves and element not in chosen:
+            chosen.append(element)
     return tuple(chosen)
 
 
@@ -137,13 +128,13 @@ def _refuse_quaternion(frame: Frame) -> None:
     )
 
 
-def _refuse(model: Model, blocks: Sequence[_Rows], seen: np.ndarray, stacked: np.ndarray) -> None:
+def _refuse(model: Model, blocks: Sequence[Rows], seen: np.ndarray, stacked: np.ndarray) -> None:
     """Raise the error that names the coordinates at fault."""
     names = [c.name for c in model.coordinates]
     for i, c in enumerate(model.coordinates):
         if np.abs(stacked[:, i]).max(initial=0.0) > SMALL:
             continue
-        turned = [b.body for b, moves in zip(blocks, seen[:, i], strict=True) if moves and b.turning]
+        turned = [element for (element, mass), moves in zip(blocks, seen[:, i], strict=True) if moves and mass.turning]
         if turned:
             raise ModelError(
                 f"coordinate '{c.name}' only turns {turned[0].title}, which has no inertia about that axis",

@@ -8,7 +8,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian.graph import Graph, Output, Program, from_sympy
-from lagrangian.model import Model, RigidBody, time
+from lagrangian.model import Model, time
 
 
 def body_numbers(model: Model, names: Iterable[str]) -> Program | None:
@@ -29,12 +29,12 @@ def body_numbers(model: Model, names: Iterable[str]) -> Program | None:
             outputs[name] = Output(tuple(from_sympy(graph, x, table) for x in full), shape)
 
     for k, body in enumerate(model.bodies):
-        rests = isinstance(body, RigidBody) and not any(
+        rests = body.axes is not None and not any(
             model.expand(x).has(AppliedUndef, time) for x in model.position(body.at)
         )
         add(f"resting mass {k}" if rests else f"mass {k}", [body.mass], ())
-        if isinstance(body, RigidBody):
-            add(f"inertia {k}", list(body.inertia), body.inertia.shape)
+        if body.axes is not None:
+            add(f"inertia {k}", [x for row in body.tensor for x in row], (len(body.tensor),) * 2)
     if not outputs:
         return None
     parameters = tuple(p.name for p in model.parameters)

@@ -23,7 +23,7 @@ from lagrangian.dynamics.rotations import along_axis
 from lagrangian.dynamics.vectors import Vector, dot, minus, plus, scaled, times, zeros
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, gradient
-from lagrangian.model import Frame, Model, time
+from lagrangian.model import Body, Frame, Model, time
 from lagrangian.model.elements.damper import RATE
 from lagrangian.model.elements.spring import DELTA
 
@@ -305,7 +305,7 @@ def _generalized_force(d: Description, m: Mechanics, e: Any) -> None:
 
 def _any(d: Description, m: Mechanics, e: Any) -> None:
     """Convert an element by its own T*, V and actions; one with mass needs its own function, because of gravity."""
-    if e.is_body:
+    if isinstance(e, Body):
         raise TypeError(f"the kind '{e.kind}' has mass: it needs a function in ELEMENTS, so that gravity pulls it")
     kinetic, potential = e.kinetic(d.model), e.potential(d.model)
     if kinetic != 0:

@@ -21,7 +21,7 @@ from lagrangian.dynamics.description import Inputs
 from lagrangian.dynamics.programs import mass_matrix
 from lagrangian.errors import ModelError, Notice
 from lagrangian.graph import Graph, Program, evaluate
-from lagrangian.model import Gravity, Model, Parameter, RigidBody
+from lagrangian.model import Body, Gravity, Model, Parameter
 from lagrangian.model.body_checks import Doubt, Numbers, doubt
 
 STATES = 20
@@ -83,7 +83,7 @@ def _weightless(model: Model) -> Iterator[Notice]:
         )
 
 
-def _where(body: RigidBody) -> str:
+def _where(body: Body) -> str:
     """The body in words, with file and line if it is from a file."""
     if body.place is None or body.place.line is None:
         return body.title
@@ -182,10 +182,10 @@ def _refused(model: Model, doubts: Sequence[Doubt], low: _Low) -> ModelError:
     )
 
 
-def _shares(model: Model, body: RigidBody, low: _Low) -> tuple[float, list[str]]:
+def _shares(model: Model, body: Body, low: _Low) -> tuple[float, list[str]]:
     """The contribution of a body's inertia to the eigenvalue of M, and the entries that make it smaller, with
     values."""
-    size, numbers = body.inertia.rows, Numbers(dict(zip([x.symbol for x in model.parameters], low.p, strict=True)), {})
+    size, numbers = len(body.tensor), Numbers(dict(zip([x.symbol for x in model.parameters], low.p, strict=True)), {})
     pairs = [(i, k) for i in range(size) for k in range(i, size)]
     symbols = {pair: sp.Symbol(f"inertia_{pair[0]}{pair[1]} of {body.name}") for pair in pairs}
     tensor = sp.ImmutableMatrix(size, size, lambda i, k: symbols[min(i, k), max(i, k)])
@@ -198,7 +198,7 @@ def _shares(model: Model, body: RigidBody, low: _Low) -> tuple[float, list[str]]
         _memo={},
     )
     program = mass_matrix(probe)
-    given = [numbers.of(model.expand(body.inertia[pair], constants=True)) or 0.0 for pair in pairs]
+    given = [numbers.of(model.expand(body.tensor[pair[0]][pair[1]], constants=True)) or 0.0 for pair in pairs]
 
     def energy(values: Sequence[float]) -> float:
         M, w = _at(program, probe, low.q, [*low.p, *values]), low.direction

@@ -23,7 +23,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian.codes import Code, CodeText
 from lagrangian.errors import ModelError
-from lagrangian.model.elements.rigid_body import RigidBody
+from lagrangian.model.elements.base import Body
 from lagrangian.model.model import written_out
 from lagrangian.model.names import time
 
@@ -56,7 +56,7 @@ class Numbers:
         )
         return float(value) if value.is_real else float("nan")
 
-    def moves(self, body: Any) -> bool:
+    def moves(self, body: Body) -> bool:
         """Whether its centre of mass can move."""
         return any(written_out(x, self.definitions).has(AppliedUndef, time) for x in body.at.position)
 
@@ -65,7 +65,7 @@ class Numbers:
 class Doubt:
     """An inertia that no real body has: the law that it violates (E105 or E106), and a description."""
 
-    body: RigidBody
+    body: Body
     code: Code
     what: str
 
@@ -75,7 +75,7 @@ class Doubt:
         return self.code is Code.E106
 
 
-def check_body(numbers: Numbers, body: Any) -> None:
+def check_body(numbers: Numbers, body: Body) -> None:
     """Raise an error for a mass that is not positive and for values that are not finite, as far as they are known."""
     mass = numbers.of(body.mass)
     shown = f"mass {body.mass} = {mass:g} kg" if mass is not None and body.mass.free_symbols else f"mass = {mass} kg"
@@ -88,20 +88,19 @@ def check_body(numbers: Numbers, body: Any) -> None:
             raise error(f"its mass must be a finite positive number (got {mass})", "give it a mass above 0", "E101")
         if mass < 0:
             raise error(f"its {shown} is negative", "give it a mass above 0", "E102")
-        if mass == 0 and (not isinstance(body, RigidBody) or numbers.moves(body)):
+        if mass == 0 and (body.axes is None or numbers.moves(body)):
             raise error(f"its {shown} is zero", "give it a mass above 0, or leave it out", "E103")
-    if isinstance(body, RigidBody):
-        entries = [numbers.of(x) for x in body.inertia]
-        if not all(math.isfinite(x) for x in entries if x is not None):
-            raise error("its inertia must be made of finite numbers", "give finite moments of inertia", "E101")
+    entries = [numbers.of(x) for row in body.tensor for x in row]
+    if not all(math.isfinite(x) for x in entries if x is not None):
+        raise error("its inertia must be made of finite numbers", "give finite moments of inertia", "E101")
 
 
-def doubt(numbers: Numbers, body: Any) -> Doubt | None:
+def doubt(numbers: Numbers, body: Body) -> Doubt | None:
     """Return why no real body has an inertia; None if one may have it, as far as values are known."""
-    if not isinstance(body, RigidBody):
+    if body.axes is None:
         return None
-    entries = [numbers.of(x) for x in body.inertia]
-    size = body.inertia.rows
+    entries = [numbers.of(x) for row in body.tensor for x in row]
+    size = len(body.tensor)
     if any(x is None for x in entries):
         known = [x for x in entries[:: size + 1] if x is not None and x < 0]
         return Doubt(body, Code.E106, f"its moment of inertia {known[0]:.6g} kg m² is negative") if known else None

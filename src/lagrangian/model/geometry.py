@@ -13,7 +13,7 @@ parent's axes and R is Rodrigues' rotation  R = 1 + sin φ [n]× + (1 − cos φ
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import count
@@ -154,6 +154,13 @@ class Point(Brief):
                 code="E414",
             )
         return Point(None, self, components, None, self.owner)
+
+    def with_parents(self) -> Iterator[Point]:
+        """The point itself, its parent, and so on up to the origin."""
+        at: Point | None = self
+        while at is not None:
+            yield at
+            at = at.parent
 
     @property
     def dimension(self) -> int | None:

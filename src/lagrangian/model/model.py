@@ -14,7 +14,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.model.elements import Element, Words
+from lagrangian.model.elements import Body, Element, Words
 from lagrangian.model.geometry import Frame, Point
 from lagrangian.model.names import time
 from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, Velocity
@@ -55,10 +55,10 @@ class Model(Brief):
         return cut(f"<Model {self.name!r}: {', '.join(f'{len(getattr(self, x))} {x}' for x in counts)}>")
 
     @property
-    def bodies(self) -> tuple[Any, ...]:
+    def bodies(self) -> tuple[Body, ...]:
         """Particles and rigid bodies, in order."""
         if "bodies" not in self._memo:
-            self._memo["bodies"] = tuple(e for e in self.elements if e.is_body)
+            self._memo["bodies"] = tuple(e for e in self.elements if isinstance(e, Body))
         return self._memo["bodies"]
 
     @cached_property
@@ -136,7 +136,7 @@ class Model(Brief):
     def frame_words(self, frame: Frame) -> Words:
         """The frame in words: the body that turns with it, else its name."""
         for body in self.bodies:
-            if getattr(body, "frame", None) is frame:
+            if body.axes is frame:
                 return (body.title,)
         if frame.name:
             return (f"frame '{frame.name}'",)
@@ -145,7 +145,7 @@ class Model(Brief):
     def angle_words(self, angle: sp.Expr) -> Words:
         """An angle in words: the body in the plane whose orientation it is, else the angle itself."""
         for body in self.bodies:
-            frame = getattr(body, "frame", None)
+            frame = body.axes
             if frame is not None and frame.dimension == 2:
                 free = bounded.expand(self.expand(frame.total_angle) - angle)
                 if not free.has(AppliedUndef, time):

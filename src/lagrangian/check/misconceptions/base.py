@@ -17,7 +17,7 @@ from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
 from lagrangian.derive import Derived
-from lagrangian.model import Action, Coordinate, Element, Gravity, Model, RigidBody, Spring, time
+from lagrangian.model import Action, Body, Coordinate, Element, Gravity, Model, RigidBody, Spring, time
 from lagrangian.page.formula import Text
 
 MOST_PIECES = 120
@@ -125,8 +125,7 @@ class Ingredients:
     def omega(self, body: Any) -> tuple[sp.Expr, ...]:
         """The angular velocity of a rigid body; nothing for a particle."""
         if ("w", body) not in self._memo:
-            rigid = isinstance(body, RigidBody)
-            self._memo["w", body] = tuple(map(self.expand, body.angular_velocity(self.model))) if rigid else ()
+            self._memo["w", body] = tuple(map(self.expand, body.angular_velocity(self.model)))
         return self._memo["w", body]
 
     def translation(self, body: Any) -> sp.Expr:
@@ -135,7 +134,7 @@ class Ingredients:
 
     def rotation(self, body: Any) -> sp.Expr:
         """½ ωᵀ I ω."""
-        if not isinstance(body, RigidBody):
+        if body.axes is None:
             return sp.S.Zero
         return self.kept(("J", body), lambda: self.rotating(body, self.omega(body)))
 
@@ -146,7 +145,7 @@ class Ingredients:
 
     def kinetic(self, element: Element) -> sp.Expr:
         """The contribution of an element to T*."""
-        if element.is_body:
+        if isinstance(element, Body):
             return self.translation(element) + self.rotation(element)
         return self.expand(element.kinetic(self.model))
 
@@ -157,7 +156,7 @@ class Ingredients:
                 (element, body, self.expand(energy))
                 for element in self.model.elements
                 if isinstance(element, Gravity)
-                for body, _, energy in element.shares(self.model)
+                for body, energy in element.portions(self.model)
             ]
             self._memo["weights"] = [w for w in every if self.moves(w[2])]
         yield from self._memo["weights"]

@@ -1,5 +1,8 @@
 """The polynomial ring for the expressions of a system, and Lagrange's equations in it."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
+
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable

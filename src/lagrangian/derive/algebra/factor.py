@@ -5,6 +5,9 @@ candidates are the plain sum, SymPy's factorization, and the results of factorin
 contain it.
 """
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownArgumentType=false
+
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
@@ -12,6 +15,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import lru_cache
 from math import gcd, lcm
+from typing import Any, cast
 
 import sympy as sp
 
@@ -210,7 +214,9 @@ def _factors(terms: frozenset[tuple[tuple[int, ...], int]], letters: int) -> lis
         if sum(1 for m in shape if m[lonely]) == 1 and len(shape) > 1:
             return None  # A·x + B with a monomial A: a factor would divide both, and there is no common monomial
     ring = sp.polys.rings.PolyRing([f"x{k}" for k in range(letters)], sp.ZZ)
-    content, found = ring.from_dict(shape).factor_list()
+    content, found = cast(
+        "tuple[Any, list[tuple[dict[tuple[int, ...], Any], int]]]", ring.from_dict(shape).factor_list()
+    )
     if len(found) == 1 and found[0][1] == 1:
         return None
     listed = [({int(packed(enumerate(m))): Fraction(int(c)) for m, c in f.items()}, int(power)) for f, power in found]

@@ -9,6 +9,9 @@ cos(θ₁ − θ₂); two expressions are equal when their forms are. What is no
 is a generator of its own with its derivative, see `generators`.
 """
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
+
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable

@@ -1,5 +1,8 @@
 """The variables of the normal form: symbols, roots, functions treated as symbols, and the angles inside sines."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownArgumentType=false
+
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -39,7 +42,7 @@ class Root:
     @property
     def expr(self) -> sp.Expr:
         """b^(1/q) with the base in readable form."""
-        return cast("sp.Expr", self.base.expr() ** sp.Rational(1, self.q))
+        return self.base.expr() ** sp.Rational(1, self.q)
 
 
 @dataclass(frozen=True, eq=False)
@@ -150,7 +153,7 @@ class Generators:
         if key not in self._index:
             self._index[key] = len(self.table)
             expr = self.trig(harmonic) * (self.sign(harmonic[0]) if harmonic[1] else 1)
-            self.table.append(Trig(harmonic, cast("sp.Expr", expr), self.turning(harmonic[0])))
+            self.table.append(Trig(harmonic, expr, self.turning(harmonic[0])))
         return self._index[key]
 
     def sum_letter(self, base: Mapping[int, Fraction]) -> int:
@@ -328,8 +331,8 @@ class Generators:
         if isinstance(entry, Root):
             if i not in self._bases:
                 self._bases[i] = entry.base.expr()
-            return cast("sp.Expr", self._bases[i] ** sp.Rational(exponent, entry.q))
-        return cast("sp.Expr", entry.expr**exponent)
+            return self._bases[i] ** sp.Rational(exponent, entry.q)
+        return entry.expr**exponent
 
     def expr(self, monomial: int) -> sp.Expr:
         """Return a monomial."""

@@ -1,10 +1,12 @@
 """Quotients of normal forms, and the inverse of a small mass matrix with such entries, in textbook form."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownArgumentType=false
+
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import cast
 
 import sympy as sp
 
@@ -39,15 +41,17 @@ def written(expr: sp.Expr, algebra: Ring) -> sp.Expr:
     lower = algebra.form(under).expr()
     upper = algebra.form(over).expr()
     number, lower = lower.as_coeff_Mul()
-    return cast("sp.Expr", upper / number / lower)
+    return upper / number / lower
 
 
 def blocks(matrix: Sequence[Sequence[Form]]) -> list[list[int]]:
     """The rows of a symmetric matrix that are coupled by nonzero entries."""
     n = len(matrix)
-    left, found = list(range(n)), []
+    left = list(range(n))
+    found: list[list[int]] = []
     while left:
-        block, fresh = [], [left[0]]
+        block: list[int] = []
+        fresh = [left[0]]
         while fresh:
             i = fresh.pop()
             if i in block:
@@ -63,7 +67,7 @@ def determinant(matrix: Sequence[Sequence[Form]], algebra: Algebra) -> Form:
     """The determinant, by expansion along the first row."""
     if not matrix:
         return algebra.number(1)
-    terms = []
+    terms: list[Form] = []
     for j, entry in enumerate(matrix[0]):
         if not entry.parts:
             continue

@@ -4,6 +4,9 @@ The terms are sorted and divided into classes: inertia, products of rates, dampi
 class is grouped separately, see `group`.
 """
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
+
 from __future__ import annotations
 
 from collections.abc import Callable
@@ -171,7 +174,8 @@ class Writer:
 
         The fraction before a parenthesis is the largest of the numbers in it, if that leaves whole numbers and 1/n.
         """
-        number, sums = tree.coefficient, []
+        number = tree.coefficient
+        sums: list[tuple[tuple[Tree, ...], int]] = []
         for terms, power in tree.sums:
             largest = max(abs(t.coefficient) for t in terms)
             inside = [t.coefficient / largest for t in terms]

@@ -1,5 +1,8 @@
 """Converts SymPy to the normal form: a rule for every kind of node, and each subexpression only once."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownArgumentType=false
+
 from __future__ import annotations
 
 from fractions import Fraction
@@ -49,10 +52,10 @@ class FormReader:
         if isinstance(expr, sp.Float):
             return algebra.number(whole(_decimal(expr)))
         if isinstance(expr, sp.Add):
-            return algebra.total(self.form(cast("sp.Expr", a)) for a in expr.args)
+            return algebra.total(self.form(a) for a in expr.args)
         if isinstance(expr, sp.Mul):
             result = algebra.number(1)
-            for factor in sorted((self.form(cast("sp.Expr", a)) for a in expr.args), key=lambda f: f.size):
+            for factor in sorted((self.form(a) for a in expr.args), key=lambda f: f.size):
                 doubled = 1 + (any(h for h, _ in result.parts) and any(h for h, _ in factor.parts))
                 predicted = doubled * result.size * factor.size
                 if predicted > LARGEST_PRODUCT and predicted > max(result.size, factor.size):
@@ -73,7 +76,7 @@ class FormReader:
         base, exponent = expr.args
         if not isinstance(exponent, sp.Rational) or max(abs(exponent.p), exponent.q) > LARGEST_EXPONENT:
             return self._opaque(expr)
-        inner = self.form(cast("sp.Expr", base))
+        inner = self.form(base)
         if exponent.q == 1 and exponent.p >= 0:
             half = _terms_of_power(inner, int(exponent.p) // 2)
             if _terms_of_power(inner, int(exponent.p)) > LARGEST_POWER or half**2 > LARGEST_SQUARE:

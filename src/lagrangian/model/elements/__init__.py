@@ -4,8 +4,8 @@ A new element is one new file, one line in `REGISTRY` and its tests. Each elemen
 energy or force is booked (``ledger``) and with what expression.
 """
 
-from lagrangian.model.elements.answers import ActsOn, Entry, FieldKind, Measure
-from lagrangian.model.elements.base import DEFLECTION, Action, Element, Level, Use, Words, deflection_between
+from lagrangian.model.elements.answers import ActsOn, Entry, FieldKind, Measure, MovingMass
+from lagrangian.model.elements.base import DEFLECTION, Action, Body, Element, Level, Use, Words, deflection_between
 from lagrangian.model.elements.constraint import Constraint, Restriction
 from lagrangian.model.elements.damper import Damper
 from lagrangian.model.elements.force import Force
@@ -48,6 +48,7 @@ __all__ = [
     "Action",
     "ActsOn",
     "Ball",
+    "Body",
     "Constraint",
     "Damper",
     "Dissipation",
@@ -60,6 +61,7 @@ __all__ = [
     "Kinetic",
     "Level",
     "Measure",
+    "MovingMass",
     "Particle",
     "Pin",
     "Potential",

@@ -25,6 +25,9 @@ FORCE: Unit = (1, 1, -2)
 ENERGY: Unit = (1, 2, -2)
 POWER: Unit = (1, 2, -3)
 
+Rows: TypeAlias = "tuple[tuple[sp.Expr, ...], ...]"
+"""A matrix, row by row."""
+
 
 class FieldKind(Enum):
     """The format of a field in a file, which the schema, the reader and the writer of files use."""
@@ -85,6 +88,18 @@ class Measure:
     along: sp.Expr | None = None
     power: int = 0
     local: bool = False
+
+
+@dataclass(frozen=True)
+class MovingMass:
+    """What resists a motion: ``rates``, linear in ξ̇, and the symmetric matrix ``weight``, as in ½ ratesᵀ weight rates.
+
+    The rates are velocities [m/s] with masses [kg], or with ``turning`` angular velocities [rad/s] with inertias.
+    """
+
+    rates: tuple[sp.Expr, ...]
+    weight: Rows
+    turning: bool = False
 
 
 @dataclass(frozen=True)

@@ -5,18 +5,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from copy import copy
 from dataclasses import dataclass, field
 from enum import IntEnum
-from typing import Any, ClassVar, Literal, Protocol, Self, TypeAlias, cast
+from typing import Any, ClassVar, Literal, Protocol, Self, TypeAlias
 
 import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.codes import CodeText
 from lagrangian.errors import ModelError, Place
-from lagrangian.model.elements.answers import ActsOn, Entry, Measure, Unit
+from lagrangian.model.elements.answers import ActsOn, Entry, Measure, MovingMass, Rows, Unit
+from lagrangian.model.elements.vectors import diagonal, norm
 from lagrangian.model.geometry import Frame, Point, is_listed
 from lagrangian.model.names import is_text, time
 from lagrangian.model.symbols import Coordinate
@@ -44,7 +45,7 @@ class Surroundings(Protocol):
         ...
 
     @property
-    def bodies(self) -> tuple[Any, ...]:
+    def bodies(self) -> tuple[Body, ...]:
         """Particles and rigid bodies."""
         ...
 
@@ -151,7 +152,7 @@ QUESTIONS = ("kind", "plural", "about", "entries", "ledger", "because", "uses", 
 """What every kind of element must define."""
 
 QUESTIONS_OF = {
-    "T*": ("kinetic", "is_body", "note"),
+    "T*": ("kinetic", "masses", "note"),
     "V": ("potential", "stored", "note", "acts_on"),
     "Ξ": ("works", "resists", "acts_on"),
     "λ": ("conditions", "acts_on"),
@@ -177,8 +178,6 @@ class Element(Brief):
     ledger: ClassVar[Ledger]
     because: ClassVar[tuple[str | Name, ...]]
     """The reason why it is counted there, in words."""
-    is_body: ClassVar[bool] = False
-    """Whether it has a ``mass`` at a point ``at``, on which gravity acts."""
     stored: ClassVar[str] = ""
     """How it stores potential energy, in words."""
     note: ClassVar[str] = ""
@@ -239,6 +238,14 @@ class Element(Brief):
         """Its contribution to the potential energy V [J]; zero unless it stores energy that depends on position."""
         return sp.S.Zero
 
+    def masses(self, model: Surroundings) -> Iterator[MovingMass]:
+        """What resists motion in it; nothing unless it moves with mass."""
+        return iter(())
+
+    def portions(self, model: Surroundings) -> Iterator[tuple[Body | None, sp.Expr]]:
+        """Its energy [J] in the pieces that a page shows, each with the other body that it belongs to, if any."""
+        yield None, self.kinetic(model) if self.ledger == "T*" else self.potential(model)
+
     def works(self, model: Surroundings) -> tuple[Action, ...]:
         """Its actions for virtual work, in the fewest terms (a pair of forces is one action on its deflection)."""
         return ()
@@ -264,25 +271,43 @@ class Element(Brief):
             object.__setattr__(self, key, value)
 
 
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Body(Element):
+    """The family of what has a ``mass`` [kg] at a point ``at``, its centre of mass, which gravity pulls."""
+
+    mass: Any
+    at: Any
+
+    ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "T*"
+    because = ("it has mass and moves: its energy of motion is in ", T)
+    note = ""
+
+    @property
+    def axes(self) -> Frame | None:
+        """The frame that turns with it; None where it has no inertia."""
+        return None
+
+    @property
+    def tensor(self) -> Rows:
+        """The inertia [kg m²] about its centre of mass in its axes: 1×1 in the plane, 3×3 in space, else 0×0."""
+        return ()
+
+    def angular_velocity(self, model: Surroundings) -> tuple[sp.Expr, ...]:
+        """``(ω,)`` in the plane, three components in its axes in space, none where it has no inertia."""
+        return ()
+
+    def points(self) -> Iterator[tuple[str, Point]]:
+        """Its centre of mass."""
+        yield "at", self.at
+
+    def masses(self, model: Surroundings) -> Iterator[MovingMass]:
+        """Its mass, with the velocity of its centre of mass."""
+        yield MovingMass(model.velocity(self.at), diagonal((self.mass,) * model.dimension))
+
+
 def error_of(element: Element, what: str, *, fix: str | None = None, code: CodeText | None = None) -> ModelError:
     """An error that names the element and where it is described."""
     return ModelError(what, element=element.title, place=element.place, fix=fix, code=code)
-
-
-def entries_of(value: Any) -> tuple[sp.Expr, ...]:
-    """The entries of a checked value: the components of a vector, or the single value."""
-    return cast("tuple[sp.Expr, ...]", value) if isinstance(value, tuple) else (value,)
-
-
-def main_symbol(value: sp.Expr) -> str:
-    """The name of a value that is a symbol or the negative of one; otherwise an empty text."""
-    main = -value if value.could_extract_minus_sign() else value
-    return getattr(main, "name", "") if main.is_Symbol or main.is_Function else ""
-
-
-def norm(components: Iterable[sp.Expr]) -> sp.Expr:
-    """√(x² + y² + z²)."""
-    return sp.sqrt(sp.Add(*(x**2 for x in components)))
 
 
 def difference(model: Surroundings, start: Point, end: Point) -> tuple[sp.Expr, ...]:
@@ -290,17 +315,10 @@ def difference(model: Surroundings, start: Point, end: Point) -> tuple[sp.Expr, 
 
     Parents common to both points cancel before anything is expanded.
     """
-    shared = {id(p) for p in _ancestors(start)}
-    common = next(p for p in _ancestors(end) if id(p) in shared)
+    shared = {id(p) for p in start.with_parents()}
+    common = next(p for p in end.with_parents() if id(p) in shared)
     a, b = _from(common, start, model.dimension), _from(common, end, model.dimension)
     return tuple(model.expand(y - x) for x, y in zip(a, b, strict=True))
-
-
-def _ancestors(point: Point) -> Iterator[Point]:
-    at: Point | None = point
-    while at is not None:
-        yield at
-        at = at.parent
 
 
 def _from(base: Point, point: Point, dimension: int) -> list[sp.Expr]:
@@ -329,7 +347,7 @@ def pair_ends(model: Surroundings, start: Point, end: Point, effort: sp.Expr) ->
 
     def along(point: Point) -> sp.Expr:
         velocity = [bounded.diff(model.expand(x), time) for x in model.position(point)]
-        return sum((d * v for d, v in zip(delta, velocity, strict=True)), sp.S.Zero) / length
+        return sp.Add(*(d * v for d, v in zip(delta, velocity, strict=True))) / length
 
     return (
         Action(effort, along(end), model.point_words(end), target=end),

@@ -24,9 +24,9 @@ from lagrangian.model.elements.base import (
     called,
     check_ends,
     difference,
-    norm,
     pair_ends,
 )
+from lagrangian.model.elements.vectors import norm
 from lagrangian.model.geometry import Point, as_expr
 from lagrangian.model.names import time
 
@@ -134,7 +134,7 @@ class Damper(Element):
             return self.works(model)
         delta = difference(model, *self.between)
         length = norm(delta)
-        rate = sum((d * bounded.diff(d, time) for d in delta), sp.S.Zero) / length
+        rate = sp.Add(*(d * bounded.diff(d, time) for d in delta)) / length
         pull = self.b * rate if self.b is not None else self.law.subs(RATE, rate)
         return pair_ends(model, self.between[0], self.between[1], -pull)
 

@@ -24,10 +24,9 @@ from lagrangian.model.elements.base import (
     check_ends,
     deflection_between,
     difference,
-    entries_of,
-    main_symbol,
     pair_ends,
 )
+from lagrangian.model.elements.vectors import entries_of, main_symbol
 from lagrangian.model.geometry import Frame, Point, as_expr, as_vector, is_listed
 from lagrangian.model.names import time
 
@@ -180,7 +179,7 @@ class Force(Element):
         if self.between:
             delta = difference(model, *self.between)
             displacement = deflection_between(model, *self.between)
-            rate = sum((d * bounded.diff(d, time) for d in delta), sp.S.Zero) / displacement
+            rate = sp.Add(*(d * bounded.diff(d, time) for d in delta)) / displacement
         else:
             displacement = model.expand(self.deflection)
             rate = bounded.diff(displacement, time)

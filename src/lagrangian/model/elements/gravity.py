@@ -13,7 +13,8 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.model.elements.answers import ACCELERATION, REQUIRED, Entry, FieldKind, Measure
-from lagrangian.model.elements.base import XI, Element, Level, Surroundings, Use, V, norm
+from lagrangian.model.elements.base import XI, Body, Element, Level, Surroundings, Use, V
+from lagrangian.model.elements.vectors import norm
 from lagrangian.model.geometry import Point, as_expr, as_vector
 
 
@@ -85,12 +86,11 @@ class Gravity(Element):
             )
         )
 
-    def shares(self, model: Surroundings) -> Iterator[tuple[Element, sp.Expr, sp.Expr]]:
-        """For each body: the body, its height h, and its m g h."""
+    def portions(self, model: Surroundings) -> Iterator[tuple[Body, sp.Expr]]:
+        """For every body its m g h."""
         for body in model.bodies:
-            h = self.height(model, body.at)
-            yield body, h, body.mass * self.g * h
+            yield body, body.mass * self.g * self.height(model, body.at)
 
     def potential(self, model: Surroundings) -> sp.Expr:
         """Σ m g h."""
-        return sum((energy for _, _, energy in self.shares(model)), sp.S.Zero)
+        return sum((energy for _, energy in self.portions(model)), sp.S.Zero)

@@ -7,21 +7,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from typing import ClassVar
 
 import sympy as sp
 
 from lagrangian.model.elements.answers import MASS, REQUIRED, Entry, FieldKind, Measure
-from lagrangian.model.elements.base import Element, Level, Surroundings, T, Use
+from lagrangian.model.elements.base import Body, Level, Surroundings, Use
 from lagrangian.model.geometry import Point, as_expr
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Particle(Element):
+class Particle(Body):
     """A point mass [kg] at a point: T* = ½ m v²."""
-
-    mass: Any
-    at: Any
 
     kind: ClassVar[str] = "particle"
     plural = "Point masses."
@@ -30,10 +27,6 @@ class Particle(Element):
         "mass": Entry(FieldKind.EXPRESSION, "The mass, made of parameters.", REQUIRED),
         "at": Entry(FieldKind.POINT, "The point it is at.", REQUIRED),
     }
-    ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "T*"
-    because = ("it has mass and moves: its energy of motion is in ", T)
-    is_body = True
-    note = ""
 
     def __post_init__(self) -> None:
         if not isinstance(self.at, Point):
@@ -53,10 +46,6 @@ class Particle(Element):
     def measures(self, model: Surroundings) -> Iterator[Measure]:
         """A mass."""
         yield Measure("mass", self.mass, MASS)
-
-    def points(self) -> Iterator[tuple[str, Point]]:
-        """Its position."""
-        yield "at", self.at
 
     def kinetic(self, model: Surroundings) -> sp.Expr:
         """½ m (ẋ² + ẏ² + ż²)."""

@@ -12,8 +12,9 @@ from typing import Any, ClassVar, Literal
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.model.elements.answers import ENERGY, POWER, REQUIRED, Entry, FieldKind, Measure, Unit
+from lagrangian.model.elements.answers import ENERGY, POWER, REQUIRED, Entry, FieldKind, Measure, MovingMass, Unit
 from lagrangian.model.elements.base import XI, Action, Element, Level, Surroundings, Use
+from lagrangian.model.elements.vectors import diagonal
 from lagrangian.model.geometry import as_expr
 from lagrangian.model.names import time
 
@@ -67,7 +68,6 @@ class Kinetic(Energy):
     kind: ClassVar[str] = "kinetic"
     plural = "Kinetic co-energies."
     ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "T*"
-    is_body = False
     note = "as given"
 
     def uses(self) -> Iterator[Use]:
@@ -77,6 +77,11 @@ class Kinetic(Energy):
     def kinetic(self, model: Surroundings) -> sp.Expr:
         """T* as given."""
         return model.expand(self.value)
+
+    def masses(self, model: Surroundings) -> Iterator[MovingMass]:
+        """Its momenta ∂T*/∂ξ̇, each by itself: what changes none of them moves no mass."""
+        momenta = tuple(bounded.diff(self.kinetic(model), c.rate) for c in model.coordinates)
+        yield MovingMass(momenta, diagonal((sp.S.One,) * len(momenta)))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -7,17 +7,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal, cast
+from typing import Any, ClassVar, cast
 
 import sympy as sp
 
-from lagrangian.model.elements.answers import INERTIA, MASS, REQUIRED, Entry, FieldKind, Measure
-from lagrangian.model.elements.base import Element, Level, Surroundings, T, Use
+from lagrangian.model.elements.answers import INERTIA, MASS, REQUIRED, Entry, FieldKind, Measure, MovingMass, Rows
+from lagrangian.model.elements.base import Body, Level, Surroundings, Use
+from lagrangian.model.elements.vectors import diagonal
 from lagrangian.model.geometry import Frame, Point, as_expr, entries, is_listed, turned
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class RigidBody(Element):
+class RigidBody(Body):
     """A rigid body: T* = ½ m v² + ½ J ω² in the plane, ½ m v² + ½ ωᵀ I ω in space.
 
     ``at`` is the centre of mass, and ``inertia`` [kg m²] is always about the centre of mass: a scalar in the plane; in
@@ -25,9 +26,7 @@ class RigidBody(Element):
     elements of the tensor (−∫xy dm).
     """
 
-    mass: Any
     inertia: Any
-    at: Any
     frame: Any
 
     kind: ClassVar[str] = "rigid_body"
@@ -43,10 +42,6 @@ class RigidBody(Element):
         "at": Entry(FieldKind.POINT, "Its centre of mass.", REQUIRED),
         "frame": Entry(FieldKind.BODY_FRAME, "The frame that turns with it; in the plane an angle will do.", REQUIRED),
     }
-    ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "T*"
-    because = ("it has mass and moves: its energy of motion is in ", T)
-    is_body = True
-    note = ""
 
     def __post_init__(self) -> None:
         if not isinstance(self.at, Point):
@@ -81,8 +76,7 @@ class RigidBody(Element):
                 code="E106",
             )
         if not is_listed(rows[0]):
-            A, B, C = (as_expr(v, what, place=self.place) for v in rows)
-            return sp.ImmutableMatrix([[A, 0, 0], [0, B, 0], [0, 0, C]])
+            return sp.ImmutableMatrix(diagonal([as_expr(v, what, place=self.place) for v in rows]))
         if any(not is_listed(row) or len(row) != 3 for row in rows):
             raise self._error("the inertia matrix is not 3×3", fix="give three rows of three entries", code="E106")
         listed = cast("Sequence[Sequence[object]]", rows)
@@ -115,26 +109,33 @@ class RigidBody(Element):
         for entry in self.inertia:
             yield Measure("inertia", entry, INERTIA)
 
-    def points(self) -> Iterator[tuple[str, Point]]:
-        """Its centre of mass."""
-        yield "at", self.at
-
     def frames(self) -> Iterator[tuple[str, Frame]]:
         """The axes that turn with it."""
         yield "frame", self.frame
+
+    @property
+    def axes(self) -> Frame:
+        """The frame that turns with it."""
+        return self.frame
+
+    @property
+    def tensor(self) -> Rows:
+        """The inertia [kg m²] about its centre of mass in its axes."""
+        size, listed = self.inertia.rows, entries(self.inertia)
+        return tuple(listed[size * i : size * (i + 1)] for i in range(size))
+
+    def masses(self, model: Surroundings) -> Iterator[MovingMass]:
+        """Its mass, and its inertia with its angular velocity."""
+        yield from super().masses(model)
+        yield MovingMass(self.angular_velocity(model), self.tensor, turning=True)
 
     def angular_velocity(self, model: Surroundings) -> tuple[sp.Expr, ...]:
         """``(ω,)`` in the plane; in space three components in the body's axes; written out in the coordinates."""
         return tuple(model.expand(w) for w in self.frame.angular_velocity)
 
-    def kinetic_parts(self, model: Surroundings) -> tuple[sp.Expr, sp.Expr]:
-        """½ m v² of the centre of mass, and ½ ωᵀ I ω."""
+    def kinetic(self, model: Surroundings) -> sp.Expr:
+        """½ m v² + ½ ωᵀ I ω."""
         omega = self.angular_velocity(model)
         translation = self.mass / 2 * sum((v**2 for v in model.velocity(self.at)), sp.S.Zero)
         momentum = turned(self.inertia, omega)
-        return translation, sp.Add(*(w * h for w, h in zip(omega, momentum, strict=True))) / 2
-
-    def kinetic(self, model: Surroundings) -> sp.Expr:
-        """½ m v² + ½ ωᵀ I ω."""
-        translation, rotation = self.kinetic_parts(model)
-        return translation + rotation
+        return translation + sp.Add(*(w * h for w, h in zip(omega, momentum, strict=True))) / 2

@@ -13,7 +13,8 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.model.elements.answers import ANGLE, ENERGY, REQUIRED, ActsOn, Entry, FieldKind, Measure
-from lagrangian.model.elements.base import XI, Action, Element, Level, Surroundings, Use, entries_of, main_symbol
+from lagrangian.model.elements.base import XI, Action, Element, Level, Surroundings, Use
+from lagrangian.model.elements.vectors import entries_of, main_symbol
 from lagrangian.model.geometry import Frame, as_expr, as_vector, is_listed
 from lagrangian.model.names import time
 
