@@ -39,8 +39,9 @@ def rebuilt(node: sp.Basic, arguments: list[Any]) -> sp.Basic:
         return absolute(node.func, arguments[0])
     # SymPy tries to prove which argument of a maximum is the larger, and asks for the sign of what a function is of
     if isinstance(node, (sp.Max, sp.Min, sp.Function)) and not isinstance(node, (sp.sin, sp.cos)):
-        made: Any = searched(cast("Any", node.func), *arguments, calls=PROOFS)
-        return node.func(*arguments, evaluate=False) if made is None else made
+        function: Any = node.func
+        made: Any = searched(function, *arguments, calls=PROOFS)
+        return function(*arguments, evaluate=False) if made is None else made
     return node.func(*arguments)
 
 
