@@ -78,6 +78,11 @@ class Code(StrEnum):
         "constraints that contradict each other",
         "No motion satisfies all of them; the message names them.",
     )
+    E303 = (
+        "E303",
+        "a start that was moved onto the constraints",
+        "A notice: initial values of a constrained system are guesses, except for coordinates in fixed.",
+    )
     E304 = (
         "E304",
         "constraints that no position satisfies",
@@ -238,10 +243,10 @@ class Code(StrEnum):
 
 
 CodeText = Literal[
-    "E101", "E102", "E103", "E104", "E105", "E106", "E107", "E201", "E202", "E203", "E210", "E301", "E302", "E304",
-    "E305", "E306", "E308", "E401", "E402", "E403", "E404", "E405", "E406", "E408", "E409", "E410", "E412", "E413",
-    "E414", "E415", "E416", "E417", "E418", "E419", "E501", "E502", "E503", "E504", "E505", "E506", "E507", "E508",
-    "E509", "E521", "E522", "E523", "E524", "E525", "E601", "E701", "E702", "E703", "E704", "E705", "E801", "E802",
-    "E803", "E804",
+    "E101", "E102", "E103", "E104", "E105", "E106", "E107", "E201", "E202", "E203", "E210", "E301", "E302", "E303",
+    "E304", "E305", "E306", "E308", "E401", "E402", "E403", "E404", "E405", "E406", "E408", "E409", "E410", "E412",
+    "E413", "E414", "E415", "E416", "E417", "E418", "E419", "E501", "E502", "E503", "E504", "E505", "E506", "E507",
+    "E508", "E509", "E521", "E522", "E523", "E524", "E525", "E601", "E701", "E702", "E703", "E704", "E705", "E801",
+    "E802", "E803", "E804",
 ]  # fmt: skip
 """The codes as literal texts: a type checker rejects any other code where an error is made."""

@@ -39,6 +39,7 @@ class Simulated(Described):
         rtol: float = 1e-9,
         atol: float = 1e-12,
         events: Sequence[Event] | Event = (),
+        fixed: Sequence[Any] | str | None = None,
         project: bool = True,
         max_step: float | str = math.inf,
         max_steps: int = 10_000_000,
@@ -61,8 +62,9 @@ class Simulated(Described):
         Results are stored at ``samples`` evenly spaced times (1001 by default), or at the given ``times``. ``method``
         is one of our own in machine code (dop853, the default; taylor; tsit5; rk4 and gauss4, which need ``step``) or
         one of SciPy's (Radau, BDF, LSODA, RK45, DOP853). ``rtol`` and ``atol`` apply to the error of the whole run, for
-        SciPy's methods to that of each step. Every state satisfies the constraints, unless ``project=False``; how far
-        steps came from them is in ``run.drift``. ``events`` are made with `lagrangian.event`. ``max_steps``,
+        SciPy's methods to that of each step. With constraints, initial values are guesses, except for the coordinates
+        named in ``fixed``; every state satisfies the constraints, unless ``project=False``; ``run.drift`` says how far
+        steps came from them. ``events`` are made with `lagrangian.event`. ``max_steps``,
         ``max_events`` and ``timeout`` [s] limit the run.
 
         Raises `RunError` or `ModelError` for mistakes that are found before the run. A run that fails later is returned
@@ -93,6 +95,7 @@ class Simulated(Described):
         atol: float = 1e-12,
         events: Sequence[Event] | Event = (),
         event_times: int = 1,
+        fixed: Sequence[Any] | str | None = None,
         project: bool = True,
         max_step: float | str = math.inf,
         max_steps: int = 10_000_000,
@@ -150,6 +153,7 @@ class Simulated(Described):
         atol: float = 1e-12,
         events: Sequence[Event] | Event = (),
         event_times: int = 1,
+        fixed: Sequence[Any] | str | None = None,
         project: bool = True,
         max_step: float | str = math.inf,
         max_steps: int = 10_000_000,

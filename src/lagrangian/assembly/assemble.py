@@ -8,9 +8,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian import codegen, dynamics
-from lagrangian.assembly.newton import Array, LoopSearch
+from lagrangian import dynamics
 from lagrangian.errors import RunError
+from lagrangian.integrate.closing import Array, Closing, LoopSearch
 from lagrangian.model import Model
 from lagrangian.model.rows import NamedCondition, named_conditions
 
@@ -28,9 +28,6 @@ SPREAD = 0.3
 SAME = 1e-6
 """Positions nearer than this are one."""
 
-KEPT = 1e-9
-"""A velocity row that is left with more than this part of its terms is not satisfied."""
-
 
 class Assembler:
     """Finds positions and velocities of a model that satisfy its constraints; ``fixed`` coordinates stay as given."""
@@ -38,7 +35,8 @@ class Assembler:
     def __init__(self, model: Model, fixed: Collection[str] = ()) -> None:
         self.model, self.fixed = model, tuple(fixed)
         self.names = [c.name for c in model.coordinates]
-        self.search = LoopSearch.of(model, self.fixed)
+        self.closing = closing(model, self.fixed)
+        self.search = None if self.closing.position is None else LoopSearch(self.closing)
 
     @cached_property
     def rows(self) -> tuple[NamedCondition, ...]:
@@ -123,25 +121,10 @@ class Assembler:
 
     # -- velocities ---------------------------------------------------------------------------------------------
 
-    @cached_property
-    def _velocity(self) -> tuple[codegen.Kernel, codegen.Kernel, codegen.Kernel]:
-        step = dynamics.correction(self.model, self.fixed, position=False)
-        assert step is not None
-        optional = {"u": 0.0, "t": 0.0}
-        made = [codegen.compile(x, optional=optional) for x in (step, dynamics.residual(self.model))]
-        matrix = codegen.compile(dynamics.constraint_matrix(self.model), optional={**optional, "v": 0.0})
-        return made[0], made[1], matrix
-
     def velocity(self, q: Array, v: Array, p: Array, t: float = 0.0) -> Array:
         """The rates nearest to v, by kinetic energy, that keep the constraints; a `RunError` where there are none."""
-        correct, rows, matrix = self._velocity
-        for _ in range(2):  # the second takes the rounding of the first away
-            v = v + np.asarray(correct(q, v, None, p, t)["dv"])
-        left = np.abs(np.asarray(rows(q, v, None, p, t)["Av"]))
-        A = np.abs(np.asarray(matrix(q, None, None, p, t)["A"]))
-        a0 = np.abs(np.asarray(matrix(q, None, None, p, t)["a0"]))
-        terms = A @ np.abs(v) + a0
-        wrong = left > KEPT * (1e-3 + terms)
+        v, kept = self.closing.rates(q, v, p, t)
+        wrong = ~kept
         if wrong.any():
             names = [f"'{row.name}'" for row, bad in zip(self.rows, wrong, strict=True) if bad]
             held = f" with {', '.join(self.fixed)} fixed" if self.fixed else ""
@@ -151,6 +134,13 @@ class Assembler:
                 code="E305" if self.fixed else "E302",
             )
         return v
+
+
+def closing(model: Model, fixed: Collection[str] = ()) -> Closing:
+    """The programs that bring a state onto a model's constraints, with the coordinates in ``fixed`` held."""
+    position = dynamics.correction(model, fixed, position=True)
+    velocity = dynamics.correction(model, fixed, position=False)
+    return Closing(position, velocity, dynamics.residual(model), dynamics.constraint_matrix(model))
 
 
 def consistent(

@@ -49,12 +49,12 @@ def _coincidence(d: Description, s: Any) -> Made:
         return c, gap[s.axis], None
     axes = d.axes[s.frame]
     f = times(g, transposed(motion.rotation(axes)), gap)[s.axis]
-    closure = Closing(d, start, end)
+    closure = Gap(d, start, end)
     velocity = minus(g, closure.velocity(start, axes), closure.velocity(end, axes))
     return velocity[s.axis], f, closure.acceleration(axes, s.axis)
 
 
-class Closing:
+class Gap:
     """The velocities of two places relative to the place that carries both, in the axes of a body."""
 
     def __init__(self, d: Description, start: PlaceMotion, end: PlaceMotion) -> None:

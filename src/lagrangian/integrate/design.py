@@ -102,6 +102,10 @@ class Rows:
     def __len__(self) -> int:
         return len(self.x)
 
+    def only(self, chosen: NDArray[np.bool_]) -> Rows:
+        """Some of the runs."""
+        return Rows(self.x[chosen], *(a if a.ndim == 1 else a[chosen] for a in (self.u, self.p)))
+
 
 @dataclass(frozen=True)
 class Design:

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from lagrangian.codegen import Kernel, compile
 from lagrangian.codegen.workers import over
 from lagrangian.errors import RunError
+from lagrangian.integrate.closing import Closing
 from lagrangian.integrate.design import Rows
 from lagrangian.integrate.fitness import Fitness
 from lagrangian.integrate.projection import BREAKS, Drift, Projection
@@ -103,6 +104,7 @@ class Study:
     outputs: Program
     kept: tuple[Kept, ...]
     events: Any = None
+    closing: Closing | None = None
     projection: Projection | None = None
     events_kept: tuple[EventsKept, ...] = ()
     signals: Any = None
@@ -181,20 +183,36 @@ class Study:
         return self.fitness.unfit(np.ascontiguousarray(np.broadcast_to(rows.p, (len(rows), rows.p.shape[-1]))))
 
     def _without(self, unfit: NDArray[np.bool_], solver: Any, rows: Rows, threads: int | None) -> Values:
-        """Compute the possible runs among those that are not."""
-        made: Values = {}
-        for name, (dtype, shape) in self.fields().items():
-            made[name] = np.full((len(rows), *shape), np.nan if dtype == "float64" else 0, dtype)
-        made["status"][:], made["reached"][:] = RunStatus.UNFIT, self.times[0]
-        fit = ~unfit
+        """Compute the possible runs among those whose parameters are not."""
+        made, fit = self._unfilled(len(rows), RunStatus.UNFIT), ~unfit
         if fit.any():
-            u, p = (a if a.ndim == 1 else a[fit] for a in (rows.u, rows.p))
-            for name, values in self._all(solver, Rows(rows.x[fit], u, p), threads).items():
+            for name, values in self._all(solver, rows.only(fit), threads).items():
                 made[name][fit] = values
         return made
 
     def _all(self, solver: Any, rows: Rows, threads: int | None) -> Values:
-        """Compute all runs in ``rows``."""
+        """Compute all runs in ``rows``, each from a start on its rows."""
+        if self.closing is None:
+            return self._solved(solver, rows, threads)
+        x, arrived = self.closing.closed(rows.x, rows.p, float(self.times[0]))
+        if arrived.all():
+            return self._solved(solver, Rows(x, rows.u, rows.p), threads)
+        made = self._unfilled(len(rows), RunStatus.OPEN)
+        if arrived.any():
+            for name, values in self._solved(solver, Rows(x, rows.u, rows.p).only(arrived), threads).items():
+                made[name][arrived] = values
+        return made
+
+    def _unfilled(self, count: int, why: RunStatus) -> Values:
+        """The results of runs that are not started."""
+        made: Values = {}
+        for name, (dtype, shape) in self.fields().items():
+            made[name] = np.full((count, *shape), np.nan if dtype == "float64" else 0, dtype)
+        made["status"][:], made["reached"][:] = why, self.times[0]
+        return made
+
+    def _solved(self, solver: Any, rows: Rows, threads: int | None) -> Values:
+        """Integrate all runs in ``rows``."""
         u = self.signals if self.signals is not None else rows.u
         times = self.times if self.whole else self.times[[0, -1]]
         solution = solver.solve(self._started(rows), times, u=u, p=rows.p, store=self.whole, **self.options)

@@ -277,6 +277,10 @@ class Loader(Reading):
                     did_you_mean(base[:64], coordinates) or "known: " + ", ".join(coordinates),
                     "E402",
                 )
+        for number, name in enumerate(table.fixed):
+            if normal(name) not in map(normal, coordinates):
+                known = did_you_mean(name[:64], coordinates) or "known: " + ", ".join(coordinates)
+                self._refuse(("simulate", "fixed", number), f"there is no coordinate {shown(name)}", known, "E402")
         for name, value in table.inputs.items():
             path = ("simulate", "inputs", name)
             if name not in self.file.inputs:

@@ -186,6 +186,9 @@ class SimulateTable(_Table):
     initial: dict[str, Quantity] = Field(
         default_factory=dict, description='Initial coordinates, and rates as "x\'"; zero where left out.'
     )
+    fixed: list[str] = Field(
+        default_factory=list, description="Coordinates that stay as given where constraints move the others."
+    )
     inputs: dict[str, Expression] = Field(default_factory=dict, description="Inputs as expressions in t.")
 
 

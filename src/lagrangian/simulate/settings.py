@@ -61,6 +61,7 @@ class RunSettings:
     rtol: float = 1e-9
     atol: float = 1e-12
     events: Sequence[Event] | Event = ()
+    fixed: Sequence[Any] | str | None = None
     project: bool = True
     max_step: float | str = math.inf
     max_steps: int = 10_000_000

@@ -28,6 +28,7 @@ from lagrangian.simulate.inputs import InputSignals, check_covers, driving
 from lagrangian.simulate.integrating import Task, remembered, right_hand_side, run
 from lagrangian.simulate.recorded import Occurrences
 from lagrangian.simulate.settings import DEFAULT, RunSettings, check_names, names_of
+from lagrangian.simulate.starts import held, onto_constraints
 from lagrangian.simulate.switching import with_stops
 from lagrangian.simulate.trajectory import Trajectory
 from lagrangian.values.values import Given
@@ -70,12 +71,14 @@ def simulate(
     longest = float(settings.max_step)
     p = given.parameter_values(params)
     notices = check_masses(model, p)
+    guess = _initial(given, model, program, in_file.get("initial", {}), initial, by_name)
+    x0, moved = onto_constraints(model, guess, p, float(instants[0]), held(model, settings.fixed))
     _log.info("simulating from t = %g s to %g s", instants[0], instants[-1])
     task = Task(
         model,
         with_stops(model, drive, p, instants),
         instants,
-        _initial(given, model, program, in_file.get("initial", {}), initial, by_name),
+        x0,
         p,
         name,
         rtol,
@@ -88,7 +91,12 @@ def simulate(
     outcome = drift.ended(run(task), task)
     made = _trajectory(task, outcome, {"rtol": settings.rtol, "atol": settings.atol})
     said = drift.notices(task, outcome)
-    made.notices = (*notices, *(_undecided(task) if made.success else ()), *said)  # a failed run has its own message
+    made.notices = (
+        *notices,
+        *moved,
+        *(_undecided(task) if made.success else ()),
+        *said,
+    )  # a failed run has its own message
     return _judged(made)
 
 

@@ -1,0 +1,74 @@
+"""Where runs of constrained systems start: guesses are moved onto the constraints, and it is said by how much."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.assembly.assemble import closing, consistent
+from lagrangian.codes import Code
+from lagrangian.errors import Notice, RunError, did_you_mean
+from lagrangian.integrate.closing import Closing
+from lagrangian.model import Model
+from lagrangian.page.plain import plain
+from lagrangian.simulate.integrating import remembered
+
+Array = NDArray[np.float64]
+
+MOVED = 1e-9
+"""A start that was moved by more than this, in SI units, is told."""
+
+
+def held(model: Model, fixed: Iterable[Any] | str | None) -> tuple[str, ...]:
+    """The names of the coordinates that stay as given: those asked for, else those of the model file."""
+    given = model.settings.get("fixed", ()) if fixed is None else fixed
+    listed = given.replace(",", " ").split() if isinstance(given, str) else list(given)
+    names = tuple(name if isinstance(name, str) else plain(name) for name in listed)
+    known = [c.name for c in model.coordinates]
+    for name in names:
+        if name not in known:
+            raise RunError(
+                f"there is no coordinate '{name[:64]}' to hold fixed",
+                fix=did_you_mean(name, known) or f"known: {', '.join(known[:12])}",
+                code="E402",
+            )
+    if names and not model.constraints:
+        raise RunError(
+            f"system '{model.name}' has no constraints, so every start is taken as given",
+            fix="leave fixed out",
+            code="E501",
+        )
+    return names
+
+
+def onto_constraints(
+    model: Model, x: Array, p: Array, t: float, fixed: Sequence[str]
+) -> tuple[Array, tuple[Notice, ...]]:
+    """The start nearest to x that satisfies every constraint, and a notice of what moved."""
+    if not model.constraints:
+        return x, ()
+    n, m = len(model.coordinates), len(model.velocities)
+    q, v = consistent(model, x[:n], x[n : n + m], p, t, fixed=fixed)
+    found = np.concatenate([q, v, x[n + m :]])
+    change = np.abs(found - x)
+    most = int(np.argmax(change))
+    if change[most] <= MOVED:
+        return found, ()
+    names = [*(c.name for c in model.coordinates), *(v.name for v in model.velocities)]
+    moved = int((change > MOVED).sum())
+    others = f", and {moved - 1} more" if moved > 1 else ""
+    said = (
+        f"moved onto the constraints: {names[most]} from {x[most]:.6g} to {found[most]:.6g}{others}; "
+        "coordinates in fixed stay as given"
+    )
+    return found, (Notice(Code.E303, "start of the run", said),)
+
+
+def starts_of_runs(model: Model, fixed: Sequence[str]) -> Closing | None:
+    """What brings the starts of an ensemble onto the constraints; None without any."""
+    if not model.constraints:
+        return None
+    return remembered(model, ("closing", tuple(fixed)), lambda: closing(model, fixed))
