@@ -13,6 +13,7 @@ from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, Output, Program, evaluate
 from lagrangian.model import Model
 from lagrangian.model.rows import rows_of
+from lagrangian.read import dumps
 
 
 def four_bar() -> lg.System:
@@ -118,7 +119,7 @@ def expressions(model: Model, q: Any, v: Any, t: float) -> tuple[np.ndarray, lis
 @pytest.mark.parametrize("make", SYSTEMS)
 def test_rows_are_the_same_in_both_languages(make: Callable[[], lg.System]) -> None:
     """f everywhere; c where the row is on velocities, or is f's derivative in axes that both languages share."""
-    model = make().model
+    model = make()._builder.model()  # more rows than can hold at once: notices would refuse them
     rng = np.random.default_rng(5)
     n = len(model.coordinates)
     q, v, t = rng.uniform(-1, 1, n), rng.uniform(-1, 1, n), 0.4
@@ -153,14 +154,15 @@ def test_rows_in_a_bodys_axes_are_f_s_rate_where_the_points_meet() -> None:
 @pytest.mark.parametrize("make", SYSTEMS)
 def test_a_file_reads_back_as_the_same_constraints(make: Callable[[], lg.System]) -> None:
     s = make()
-    again = lg.loads(s.to_toml())
-    ours, theirs = s.model, again.model
+    text = dumps(s._builder.model())
+    again = lg.loads(text)
+    ours, theirs = s._builder.model(), again._builder.model()
     assert [e.kind for e in theirs.constraints] == [e.kind for e in ours.constraints]
     q = np.linspace(0.1, 0.7, len(ours.coordinates))
     mine, other = nodes(ours, q, -q, 0.2), nodes(theirs, q, -q, 0.2)
     assert np.allclose(mine[0], other[0], atol=1e-14)
     assert mine[1] == pytest.approx(other[1], abs=1e-14)
-    assert lg.loads(again.to_toml()).to_toml() == again.to_toml()
+    assert dumps(lg.loads(dumps(theirs))._builder.model()) == dumps(theirs)
 
 
 def test_multipliers_are_said_in_words_with_their_unit() -> None:
