@@ -6,5 +6,6 @@
 from lagrangian.derive.derive import derive
 from lagrangian.derive.derived import Derived, LedgerRow, Origin, Step
 from lagrangian.derive.lagrange import Detail
+from lagrangian.derive.multiplier import Minimal, Multiplier, SpeedLine
 
-__all__ = ["Derived", "Detail", "LedgerRow", "Origin", "Step", "derive"]
+__all__ = ["Derived", "Detail", "LedgerRow", "Minimal", "Multiplier", "Origin", "SpeedLine", "Step", "derive"]

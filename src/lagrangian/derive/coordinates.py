@@ -45,11 +45,19 @@ def coordinates(context: Context) -> Step:
             "Complete: the coordinates (and t) determine the position of every mass; nothing else in the system moves."
         )
     )
+    counted = " and the rows of the constraints" if wiggle.rows else ""
+    if tied := len(model.constraints):
+        items.append(
+            text(
+                f"Constraints tie them: {'one is' if tied == 1 else f'{tied} are'} described. What follows tells what "
+                "each coordinate would do without them; their forces come in after step 4, with multipliers."
+            )
+        )
     items.append(
         text(
             f"Independent: each of them can wiggle while the others stay fixed. As linear functions of the {n} rates, "
-            f"the velocities of all masses have rank {wiggle.rank}, so no combination of the coordinates wiggles "
-            "without moving a mass."
+            f"the velocities of all masses{counted} have rank {wiggle.rank}, so no combination of the coordinates "
+            "wiggles without moving a mass."
             if n > 1
             else "Independent: there is no other coordinate that it could depend on, and a mass moves when it wiggles."
         )
@@ -66,7 +74,12 @@ def coordinates(context: Context) -> Step:
             "each coordinate can be wiggled alone, which gives it an equation of its own."
         ),
         tuple(items),
-        {"coordinates": context.symbols, "rank": wiggle.rank, "relative": {c: k.to for c, k in kinds.items()}},
+        {
+            "coordinates": context.symbols,
+            "rank": wiggle.rank,
+            "relative": {c: k.to for c, k in kinds.items()},
+            "lengths": {c: k.known and not k.angle for c, k in kinds.items()},
+        },
         reasons,
         (Check(text("rank of the velocities in the rates"), wiggle.rank == n, f"{wiggle.rank} of {n}"),),
     )

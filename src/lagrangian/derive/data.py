@@ -17,6 +17,12 @@ also have ``"text"`` (one line of Unicode). Keys at the top:
     result                      items of the closing section
     ledger                      list: "element", "column", "reason", "expression" (or null)
     verified                    list: "what", "holds", "figure"
+    multipliers                 of a system with constraints only, as the next three: list: "name" (of the row),
+                                "element", "symbol", "unit", "words", "position" (or null), "rate", "second_rate"
+    constraint_items            items of the step on constraints
+    minimal                     the equations without multipliers, or null: "speeds", "meanings", "rates", "S", "s0",
+                                "equations"
+    no_minimal                  why there are none, or null
     notes                       list of texts
     notices                     list: "code", "where", "text": what is to be known of the system
 
@@ -109,11 +115,47 @@ class _Data:
             ],
             "verified": self.checks(d.verified),
             "notes": [self.text(n) for n in d.notes],
+            **(self.constrained() if d.multipliers else {}),
             "notices": [{"code": n.code, "where": n.where, "text": n.text} for n in d.notices],
         }
 
     def expression(self, expr: sp.Basic) -> dict[str, str]:
         return {"plain": plain(expr), "latex": WEB.latex(self.write.expressions(expr))}
+
+    def constrained(self) -> dict[str, Any]:
+        """What a system with constraints has besides."""
+        d = self.derivation
+        assert d.constraint_step is not None
+        made: dict[str, Any] = {
+            "multipliers": [
+                {
+                    "name": x.name,
+                    "element": x.element.title,
+                    "symbol": self.expression(x.symbol),
+                    "unit": x.unit,
+                    "words": self.text(x.words),
+                    "position": None if x.position is None else self.expression(x.position),
+                    "rate": self.expression(x.rate),
+                    "second_rate": self.expression(x.second_rate),
+                }
+                for x in d.multipliers.values()
+            ],
+            "constraint_items": self.items(d.constraint_step.items),
+            "no_minimal": None if d.no_minimal is None else self.text(d.no_minimal),
+            "minimal": None,
+        }
+        if d.minimal is not None:
+            made["minimal"] = {
+                "speeds": [self.expression(u) for u in d.minimal.speeds],
+                "meanings": {plain(u): self.expression(x) for u, x in d.minimal.meanings.items()},
+                "rates": {plain(v): self.expression(x) for v, x in d.minimal.rates.items()},
+                "S": _rows(d.minimal.S),
+                "s0": _rows(d.minimal.s0),
+                "equations": [
+                    {"left": self.expression(e.lhs), "right": self.expression(e.rhs)} for e in d.minimal.equations
+                ],
+            }
+        return made
 
     def equation(self, index: int) -> dict[str, Any]:
         d = self.derivation

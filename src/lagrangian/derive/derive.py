@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Iterator
-from typing import get_args
+from typing import Any, get_args
 
 import sympy as sp
 
@@ -20,6 +20,9 @@ from lagrangian.derive.energies import kinetic, lagrangian, potential, shares
 from lagrangian.derive.forces import contributions, forces
 from lagrangian.derive.holonomy import constrained, holonomic
 from lagrangian.derive.lagrange import Detail, left_hand_sides, left_sides
+from lagrangian.derive.multipliers.minimal import NOTHING_LESS, Found, without_multipliers
+from lagrangian.derive.multipliers.rows import RowForms, multipliers, row_forms
+from lagrangian.derive.multipliers.step import by_multipliers, introduced
 from lagrangian.derive.result import Shares, closing, equations, ledger, ledger_items, matrices
 from lagrangian.derive.wiggle import study
 from lagrangian.errors import ModelError, did_you_mean
@@ -36,12 +39,7 @@ def derive(model: Model, *, detail: Detail = "usual") -> Derived:
     term. Raises `ModelError`, with their names, for coordinates that are dependent or move nothing, and for an unknown
     ``detail``. Source: the lecture's steps 0 to 6.
     """
-    if detail not in get_args(Detail):
-        known = get_args(Detail)
-        raise ModelError(
-            f"there is no level of detail '{detail}'",
-            fix=did_you_mean(str(detail), known) or f"use one of {', '.join(known)}",
-        )
+    _check_detail(detail)
     _log.info("deriving: which coordinates move what")
     wiggle = study(model)
     context = Context(model, Algebra(model, _everything(model)), wiggle)
@@ -61,14 +59,16 @@ def derive(model: Model, *, detail: Detail = "usual") -> Derived:
     step4 = lagrangian(context, pieces)
     _log.info("deriving: step 5, the left-hand sides")
     sides = left_sides(context, pieces)
-    step5 = left_hand_sides(context, sides, detail)
+    rows = row_forms(context, ties.holonomy.independent) if ties is not None else ()
+    step5 = left_hand_sides(context, sides, detail, by_multipliers() if rows else ())
     _log.info("deriving: step 6, the generalized forces")
     found = contributions(context)
     step6 = forces(context, found, step1.expressions["relative"])
 
     _log.info("deriving: the equations and M, C, G")
     Xi = step6.expressions["Xi"]
-    result, mats, book = equations(context, sides, found), matrices(context, sides, Xi), ledger(model, context)
+    result, mats, book = equations(context, sides, found, rows), matrices(context, sides, Xi), ledger(model, context)
+    less = without_multipliers(context, rows, sides, found, step1.expressions["lengths"]) if rows else NOTHING_LESS
     return Derived(
         model=model,
         steps=(step0, step1, step2, step3, step4, step5, step6),
@@ -82,12 +82,33 @@ def derive(model: Model, *, detail: Detail = "usual") -> Derived:
         coriolis_matrix=mats.C,
         gravity_vector=mats.G,
         generalized_forces=mats.Xi,
-        result=closing(context, result, mats) + ledger_items(book),
+        result=closing(context, result, mats, rows, less.items) + ledger_items(book),
         ledger=book,
-        shares=Shares(context, sides, found),
+        shares=Shares(context, sides, found, rows),
         notes=tuple(left_as_written(context)),
         constraints=ties,
+        **_constrained(context, rows, less),
     )
+
+
+def _check_detail(detail: str) -> None:
+    if detail not in get_args(Detail):
+        known = get_args(Detail)
+        raise ModelError(
+            f"there is no level of detail '{detail}'",
+            fix=did_you_mean(str(detail), known) or f"use one of {', '.join(known)}",
+        )
+
+
+def _constrained(context: Context, rows: tuple[RowForms, ...], less: Found) -> dict[str, Any]:
+    """The fields that a system with constraints has besides; ``less`` are its equations without multipliers."""
+    known = multipliers(context, rows)
+    return {
+        "multipliers": known,
+        "minimal": less.minimal,
+        "no_minimal": less.reason,
+        "constraint_step": introduced(context, rows, known) if rows else None,
+    }
 
 
 SHOWN = 3

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian.derive.multiplier import Minimal, Multiplier, equality
 from lagrangian.errors import ModelError, Notice, did_you_mean
 from lagrangian.model import as_expr
 from lagrangian.page.formula import Check, EquationTerm, Formula, Item, Text
@@ -62,7 +63,8 @@ class LedgerRow(Brief):
 @dataclass(frozen=True)
 class Origin(Brief):
     """The origin of a term: the element, the equation (named by its coordinate), and the element's share of the
-    term."""
+    term. ``step`` is the lecture's step that it was found in; for a constraint 4, which its rows follow.
+    """
 
     element: Element
     coordinate: str
@@ -87,6 +89,11 @@ class Derived(Brief):
     contains the checks at the end. ``notes`` say what could not be shortened and why; ``notices`` are those of the
     system.
     ``constraints`` is what step 0 says of the constraints, None for a system without any.
+
+    With constraints the equations are ``Eq(left-hand side, Ξ_i + Σ λ ∂c/∂ξ̇_i)``, and M ξ̈ + C ξ̇ + G = Ξ + Aᵀ λ.
+    ``multipliers`` has a `Multiplier` for every row, by the row's name; ``constraint_equations`` are the conditions of
+    the rows on the accelerations; ``constraint_step`` shows how they were found. ``minimal`` are the same equations
+    without multipliers, None where there are none that hold everywhere; ``no_minimal`` then says why.
     """
 
     model: Model
@@ -104,6 +111,10 @@ class Derived(Brief):
     result: tuple[Item, ...]
     ledger: tuple[LedgerRow, ...]
     shares: Any = field(repr=False)
+    multipliers: Mapping[str, Multiplier] = field(default_factory=dict[str, "Multiplier"])
+    minimal: Minimal | None = None
+    no_minimal: Text | None = None
+    constraint_step: Step | None = None
     verified: tuple[Check, ...] = ()
     notes: tuple[Text, ...] = ()
     notices: tuple[Notice, ...] = ()
@@ -113,6 +124,11 @@ class Derived(Brief):
     def coordinates(self) -> tuple[sp.Expr, ...]:
         """The generalized coordinates, in declared order."""
         return tuple(c.symbol for c in self.model.coordinates)
+
+    @property
+    def constraint_equations(self) -> tuple[sp.Eq, ...]:
+        """What the rows of the constraints ask of the accelerations: A ξ̈ + γ = 0, row by row."""
+        return tuple(equality(row.second_rate, sp.S.Zero) for row in self.multipliers.values())
 
     def __repr__(self) -> str:
         """Summarize the derivation; ``print`` shows all of it."""
@@ -125,7 +141,8 @@ class Derived(Brief):
 
     def formulas(self) -> tuple[Formula, ...]:
         """All formulas of the steps and of the result, in reading order."""
-        items = [item for step in self.steps for item in step.items] + list(self.result)
+        steps = (*self.steps, self.constraint_step) if self.constraint_step else self.steps
+        items = [item for step in steps for item in step.items] + list(self.result)
         return tuple(item for item in items if isinstance(item, Formula))
 
     def where(self, term: sp.Expr) -> tuple[Origin, ...]:

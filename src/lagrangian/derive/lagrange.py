@@ -18,10 +18,13 @@ from lagrangian.derive.context import Context, fit
 from lagrangian.derive.derived import Step
 from lagrangian.derive.energies import Share
 from lagrangian.model import Coordinate, time
-from lagrangian.page.formula import Heading, Item, Minus, Name, Partial, Terms, Text, Total, formula, text
+from lagrangian.page.formula import Heading, Item, Left, Minus, Name, Partial, Terms, Text, Total, formula, text
 
 Detail: TypeAlias = Literal["usual", "full"]
 """How much of step 5 is written: "full" shows d/dt of every term."""
+
+
+SUMMED = text("summed over the rows r of the constraints")
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,14 +61,18 @@ def left_sides(context: Context, pieces: tuple[Share, ...]) -> tuple[LeftSide, .
     return tuple(sides)
 
 
-def left_hand_sides(context: Context, sides: tuple[LeftSide, ...], detail: Detail = "usual") -> Step:
+def left_hand_sides(
+    context: Context, sides: tuple[LeftSide, ...], detail: Detail = "usual", constrained: tuple[Left, ...] = ()
+) -> Step:
     """Write out ∂L/∂ξ̇_i, its d/dt, ∂L/∂ξ_i and the left-hand side for every coordinate.
 
-    With ``detail="full"``, d/dt is shown term by term before the result is collected.
+    With ``detail="full"``, d/dt is shown term by term before the result is collected. ``constrained`` is what the
+    constraints add to the right-hand side of the law.
     """
     by_xi = Partial(Name("L"), Name("xi", "i", 1))
     law = Terms((Total(by_xi), Minus(Partial(Name("L"), Name("xi", "i")))))
-    items: list[Item] = [formula(law, Name("Xi", "i"), brief=True)]
+    right = Terms((Name("Xi", "i"), *constrained)) if constrained else Name("Xi", "i")
+    items: list[Item] = [formula(law, right, note=SUMMED if constrained else None, brief=True)]
     expressions: dict[sp.Expr, sp.Expr] = {}
     reasons: list[Text] = []
     for i, side in enumerate(sides):

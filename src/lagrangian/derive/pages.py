@@ -48,6 +48,9 @@ class _Layout(Items):
         for step in d.steps:
             title = self.inline(data.text(step.title))
             sections.append(Section(f"step-{step.number}", title, tuple(self.step(step)), step.number))
+            if d.constraint_step and step.number == d.constraint_step.number:
+                named = self.inline(data.text(d.constraint_step.title))
+                sections.append(Section("constraints", named, tuple(self.step(d.constraint_step, "constraints"))))
         sections.append(Section("result", ("Result",), tuple(self.result())))
         if d.verified:
             sections.append(Section("verified", ("Verified",), (self.checks(d.verified),)))
@@ -66,16 +69,17 @@ class _Layout(Items):
         for notice in self.derivation.notices:
             yield Paragraph((f"{notice.where}: {notice.text}. [{notice.code}]",), "note")
 
-    def step(self, step: Step) -> Iterator[Block]:
+    def step(self, step: Step, anchor: str = "") -> Iterator[Block]:
         if not self.brief:
             yield Paragraph(self.inline(step.what), "what")
             yield Paragraph(self.inline(step.why), "why")
-        yield from self.items(step.items, f"step-{step.number}")
+        yield from self.items(step.items, anchor or f"step-{step.number}")
         if step.checked and not self.brief:
             yield self.checks(step.checked)
 
     def result(self) -> Iterator[Block]:
-        yield from self.items(self.derivation.result, "eq", terms=self.derivation.terms)
+        d = self.derivation
+        yield from self.items(d.result, "eq", terms=d.terms if d.minimal is None else (*d.terms, *d.minimal.terms))
 
     def notes(self) -> tuple[Block, ...]:
         blocks: list[Block] = [] if self.brief else [Paragraph(self.inline(n), "note") for n in self.derivation.notes]

@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import cast
 
@@ -16,6 +17,8 @@ from lagrangian.derive.context import READABLE, Context, fit_terms
 from lagrangian.derive.derived import LedgerRow, Origin
 from lagrangian.derive.forces import Contribution
 from lagrangian.derive.lagrange import LeftSide
+from lagrangian.derive.multipliers.rows import RowForms
+from lagrangian.derive.multipliers.step import AFTER, matrix_form, second_rates
 from lagrangian.model import Model
 from lagrangian.page.formula import (
     Elided,
@@ -41,6 +44,7 @@ class Shares(Brief):
     context: Context
     sides: tuple[LeftSide, ...]
     forces: tuple[Contribution, ...]
+    rows: tuple[RowForms, ...] = ()
 
     def where(self, term: sp.Expr) -> tuple[Origin, ...]:
         """The elements that contribute to a term, equation by equation, each with its share of it."""
@@ -55,6 +59,9 @@ class Shares(Brief):
             for f in self.forces:
                 if f.index == i and not (common := f.virtual.restricted(keys)).is_zero:
                     found.append(Origin(f.element, side.coordinate.name, common.expr(), 6))
+            for row in self.rows:
+                if not (common := row.pushes[i].restricted(keys)).is_zero:
+                    found.append(Origin(row.row.element, side.coordinate.name, common.expr(), AFTER))
         return tuple(found)
 
     def names(self, index: int, term: sp.Expr) -> tuple[str, ...]:
@@ -75,8 +82,10 @@ class Equations:
     equalities: tuple[sp.Eq, ...]
 
 
-def equations(context: Context, sides: tuple[LeftSide, ...], found: tuple[Contribution, ...]) -> Equations:
-    """Combine steps 5 and 6."""
+def equations(
+    context: Context, sides: tuple[LeftSide, ...], found: tuple[Contribution, ...], rows: tuple[RowForms, ...] = ()
+) -> Equations:
+    """Combine steps 5 and 6; what the rows of constraints add comes last on the right."""
     shares = Shares(context, sides, found)
     lefts: list[tuple[sp.Expr, ...]] = []
     rights: list[tuple[sp.Expr, ...]] = []
@@ -88,11 +97,13 @@ def equations(context: Context, sides: tuple[LeftSide, ...], found: tuple[Contri
         driving = context.algebra.total([f.virtual for f in mine if not f.resists])
         left = context.terms(side.whole if damping.is_zero else side.whole - damping)
         right = context.terms(driving)
+        pushes = [(row, row.pushes[i].expr()) for row in rows if not row.pushes[i].is_zero]
         lefts.append(tuple(t.expr for t in left))
-        rights.append(tuple(t.expr for t in right))
+        rights.append((*(t.expr for t in right), *(push for _, push in pushes)))
         described.append(
             tuple(EquationTerm(t.expr, t.kind, shares.names(i, t.expr)) for t in left)
             + tuple(EquationTerm(t.expr, "input", shares.names(i, t.expr)) for t in right)
+            + tuple(EquationTerm(push, "constraint", (row.row.element.title,)) for row, push in pushes)
         )
         equalities.append(cast("sp.Eq", sp.Eq(sp.Add(*lefts[-1]), sp.Add(*rights[-1]), evaluate=False)))
     return Equations(tuple(lefts), tuple(rights), tuple(described), tuple(equalities))
@@ -153,22 +164,35 @@ def _christoffel(context: Context, M: list[list[Form]]) -> list[list[Form]]:
     return [[algebra.total(entry) for entry in row] for row in pieces]
 
 
-def closing(context: Context, eqs: Equations, mats: Matrices) -> tuple[Item, ...]:
-    """The boxed equations of motion, and the matrix form."""
+def closing(
+    context: Context,
+    eqs: Equations,
+    mats: Matrices,
+    rows: tuple[RowForms, ...] = (),
+    without: Iterable[Item] = (),
+) -> tuple[Item, ...]:
+    """The boxed equations of motion, and the matrix form.
+
+    With ``rows`` of constraints what they ask of the accelerations follows, and ``without``: the equations that hold no
+    multiplier.
+    """
     M, C, G, Xi = Name("M"), Name("C"), Name("G"), Name("Xi")
     items: list[Item] = [Heading(text("Equations of motion"))]
     for left, right in zip(eqs.left, eqs.right, strict=True):
         items.append(formula(fit_terms(left), fit_terms(right), brief=True, boxed=True))
     if any(f.kind == "damping" for row in eqs.terms for f in row):
         items.append(text("The dampers' part of ", Xi, " is written on the left-hand side, with its sign changed."))
+    items += [*second_rates(context, rows), *without]
     items.append(Heading(text("Matrix form")))
     q, dq, ddq = Name("q"), Name("q", "", 1), Name("q", "", 2)
-    items.append(formula(Terms((Product((M, ddq)), Product((C, dq)), G)), Xi))
+    right = Terms((Xi, Product((Name("A transposed"), Name("lambda vector"))))) if rows else Xi
+    items.append(formula(Terms((Product((M, ddq)), Product((C, dq)), G)), right))
     items.append(formula(q, Matrix(tuple((c.symbol,) for c in context.model.coordinates))))
     items.append(formula(M, _shown(mats.M, symmetric=True)))
     items.append(formula(C, _shown(mats.C)))
     items.append(formula(G, _shown(mats.G, mats.rest)))
     items.append(formula(Xi, _shown(mats.Xi)))
+    items += matrix_form(context, rows) if rows else ()
     return tuple(items)
 
 
@@ -184,7 +208,7 @@ def _shown(matrix: sp.ImmutableMatrix, column: tuple[Left, ...] = (), *, symmetr
 
 
 def ledger(model: Model, context: Context) -> tuple[LedgerRow, ...]:
-    """All elements, each exactly once in T*, V or Ξ, with the reason."""
+    """All elements, each exactly once in T*, V or Ξ, or with its multiplier, and the reason."""
     rows: list[LedgerRow] = []
     for element in model.elements:
         expr: sp.Expr | None = None
@@ -204,4 +228,4 @@ def ledger_items(rows: tuple[LedgerRow, ...]) -> tuple[Item, ...]:
 
 
 def _column(column: str) -> Name:
-    return Name({"T*": "T*", "V": "V", "Ξ": "Xi", "λ": "λ"}[column])
+    return Name({"T*": "T*", "V": "V", "Ξ": "Xi", "λ": "lambda"}[column])

@@ -10,7 +10,7 @@ whether the coordinates are independent; if a column is not zero, the body is in
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import TypeAlias
 
@@ -22,6 +22,7 @@ from lagrangian.derive.sample import Sampler
 from lagrangian.errors import ModelError
 from lagrangian.model import Element, Frame, Model
 from lagrangian.model.elements import MovingMass
+from lagrangian.model.rows import rows_of
 
 SMALL = 1e-9
 """A singular value or a column below this relative size counts as zero."""
@@ -37,10 +38,12 @@ class Wiggle:
 
     ``rank`` is the rank of the velocities of everything with mass. It equals the number of coordinates; otherwise
     `study` has raised an error.
+    With ``rows``, the rows of the constraints had to be counted too: something without mass is carried along by them.
     """
 
     moved: tuple[tuple[Element, ...], ...]
     rank: int
+    rows: bool = False
 
 
 def study(model: Model) -> Wiggle:
@@ -48,7 +51,16 @@ def study(model: Model) -> Wiggle:
     coordinates."""
     for frame in model.floating:
         _refuse_quaternion(frame)
-    blocks = _blocks(model)
+    found = _study(model, _blocks(model), refuse=not model.constraints)
+    if found.rank == len(model.coordinates):
+        return found
+    rows: list[Rows] = [(r.element, MovingMass((r.rate,), ((sp.S.One,),))) for r in rows_of(model)]
+    return replace(_study(model, _blocks(model), rows), moved=found.moved, rows=True)
+
+
+def _study(model: Model, blocks: list[Rows], rows: Sequence[Rows] = (), *, refuse: bool = True) -> Wiggle:
+    """What moves with what; ``rows`` of constraints are counted with what has mass."""
+    blocks = [*blocks, *rows]
     rates = [c.rate for c in model.coordinates]
     entries: list[sp.Expr] = []
     for _, mass in blocks:
@@ -69,7 +81,7 @@ def study(model: Model) -> Wiggle:
         if rank > best:
             best, worst = rank, stacked
     moved = tuple(_bodies(blocks, seen[:, i]) for i in range(n))
-    if best < n:
+    if best < n and refuse:
         _refuse(model, blocks, seen, worst)
     return Wiggle(moved, best)
 

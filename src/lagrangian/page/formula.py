@@ -24,10 +24,11 @@ class Name(Worded):
 
     Bases: "T*" kinetic co-energy, "V" potential energy, "L" Lagrangian, "D" Rayleigh's function, "Xi" generalized
     force, "xi" generalized coordinate, "delta" deflection, "h" height, "v" speed, "omega" angular velocity, "x", "y",
-    "z" positions, "phi" an angle, "W" virtual work, "F" force, "M" mass matrix, "C" Coriolis matrix, "G" gravity and
-    stiffness vector, "q" the vector of coordinates, "E" energy, "H" Hamiltonian, "R" Routhian; matrices "A", "B", "D
-    matrix", "J", "K", "S"; vectors "x vector", "u vector", "y vector", "q vector", "f vector". Any other base is shown
-    as it is.
+    "z" positions, "phi" an angle, "W" virtual work, "F" force, "lambda" multiplier, "f" and "c" what a constraint keeps
+    at zero, "M" mass matrix, "C" Coriolis matrix, "G" gravity and stiffness vector, "q" the vector of coordinates, "E"
+    energy, "H" Hamiltonian, "R" Routhian; matrices "A", "A transposed", "B", "D matrix", "J", "K", "S"; vectors "x
+    vector", "u vector", "y vector", "q vector", "f vector", "gamma vector", "lambda vector". Any other base is shown as
+    it is.
     """
 
     base: str
@@ -226,9 +227,9 @@ class Check(Brief):
         return cut(f"<Check: {self.what}: {verdict}{', ' if self.figure else ''}{self.figure}>")
 
 
-TermKind: TypeAlias = Literal["inertia", "velocity", "damping", "stiffness", "gravity", "other", "input"]
+TermKind: TypeAlias = Literal["inertia", "velocity", "damping", "stiffness", "gravity", "other", "input", "constraint"]
 """The kinds of the terms of an equation, in the order in which they are written: "inertia" with an acceleration,
-"velocity" with products of rates."""
+"velocity" with products of rates, "constraint" with a multiplier λ."""
 
 
 @dataclass(frozen=True)

@@ -14,7 +14,7 @@ The derived equations came from energies, by Lagrange's equations, in a normal f
 from __future__ import annotations
 
 import logging
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeAlias, cast
 
@@ -31,7 +31,8 @@ from lagrangian.model import Model, time
 from lagrangian.page.formula import Check, Name, text
 from lagrangian.values.dimensions import Mismatch, check_dimensions, check_terms
 from lagrangian.values.values import check_sampling
-from lagrangian.verify.states import evaluated
+from lagrangian.verify.row_checks import RowChecks
+from lagrangian.verify.states import evaluated, state_groups
 
 _log = logging.getLogger(__name__)
 Array: TypeAlias = NDArray[np.float64]
@@ -45,9 +46,14 @@ def verify(derivation: Derived, *, states: int = 50, seed: int = 1) -> tuple[Che
     check_sampling(states, seed)
     _log.info("verifying: the equations at %d random states", states)
     figures = _figures(derivation, states, seed)
+    rows = figures.rows
+    if rows is not None and not (states := rows.figures.count):
+        return tuple(rows.checks(TOLERANCE))
     n = f"{states} random state{'s' if states != 1 else ''}"
     work, energy = figures.work, figures.energy
     M, C, Xi = Name("M"), Name("C"), Name("Xi")
+    driven = () if rows is None else (" and of constraints that move with t",)
+    allowed = () if rows is None else (" on every motion that the constraints allow",)
     checks = [
         Check(
             text("the equations agree with virtual work, a route without energies"),
@@ -59,11 +65,7 @@ def verify(derivation: Derived, *, states: int = 50, seed: int = 1) -> tuple[Che
             energy < TOLERANCE,
             f"largest relative difference {energy:.1e} at {n}",
         ),
-        Check(
-            text("the accelerations that are compiled solve the equations"),
-            figures.forward < TOLERANCE,
-            f"largest relative residual {figures.forward:.1e}",
-        ),
+        *(_accelerations(figures) if rows is None else rows.checks(TOLERANCE)),
         Check(
             text("the ", M, " that is compiled is the one above, and the Hessian of ", Name("T*"), " in the rates"),
             figures.mass < TOLERANCE,
@@ -75,7 +77,11 @@ def verify(derivation: Derived, *, states: int = 50, seed: int = 1) -> tuple[Che
             f"largest relative difference {figures.energies:.1e}",
         ),
         Check(text(M, " is symmetric"), figures.asymmetry < TOLERANCE, f"largest difference {figures.asymmetry:.1e}"),
-        Check(text(M, " is positive definite"), figures.smallest > 0, f"smallest eigenvalue {figures.smallest:.2e}"),
+        Check(
+            text(M, " is positive definite", *allowed),
+            figures.smallest > 0,
+            f"smallest eigenvalue {figures.smallest:.2e}",
+        ),
     ]
     if not any(map(_holds_rates, derivation.mass_matrix.flat())):  # Christoffel symbols require a quadratic T*
         timed = any(map(_holds_time, derivation.mass_matrix.flat()))
@@ -84,7 +90,7 @@ def verify(derivation: Derived, *, states: int = 50, seed: int = 1) -> tuple[Che
         checks.append(Check(skew, figures.skew < TOLERANCE, f"{figures.skew:.1e}"))
     checks.append(
         Check(
-            text("power balance: the energy grows by the power of ", Xi),
+            text("power balance: the energy grows by the power of ", Xi, *driven),
             figures.power < TOLERANCE,
             f"largest relative difference {figures.power:.1e}",
         )
@@ -92,6 +98,15 @@ def verify(derivation: Derived, *, states: int = 50, seed: int = 1) -> tuple[Che
     if (dimensional := _dimensional(derivation)) is not None:
         checks.append(dimensional)
     return tuple(checks)
+
+
+def _accelerations(figures: _Figures) -> Iterator[Check]:
+    """The accelerations of a system without constraints."""
+    yield Check(
+        text("the accelerations that are compiled solve the equations"),
+        figures.forward < TOLERANCE,
+        f"largest relative residual {figures.forward:.1e}",
+    )
 
 
 def _residual(equation: sp.Eq) -> sp.Expr:
@@ -138,6 +153,7 @@ class _Figures:
     smallest: float = float("inf")
     skew: float = 0.0
     power: float = 0.0
+    rows: RowChecks | None = None
 
 
 def _figures(derivation: Derived, states: int, seed: int) -> _Figures:
@@ -148,30 +164,45 @@ def _figures(derivation: Derived, states: int, seed: int) -> _Figures:
     exprs += [*(c.rate for c in model.coordinates), *(c.symbol for c in model.coordinates)]
     exprs += [*(p.symbol for p in model.parameters), *(u.symbol for u in model.inputs)]
     exprs += [derivation.T, derivation.V]  # a constant in V is in no equation, and may have no value all the same
+    exprs += [*(row.second_rate for row in derivation.multipliers.values())]
+    exprs += [*(row.symbol for row in derivation.multipliers.values())]
     sampler = Sampler(model, exprs)
     program = _program(derivation, sampler)
     routes = (dynamics.inverse(model), dynamics.inverse_from_lagrangian(model))
     machine = (dynamics.forward(model), dynamics.mass_matrix(model), dynamics.energy(model))
     found = _Figures()
-    for state, _ in sampler.states(states, seed=seed):
+    rows = None if not derivation.multipliers else RowChecks(derivation)
+    found.rows = rows
+    free = ((state, state_groups(model, state)) for state, _ in sampler.states(states, seed=seed))
+    for state, groups in free if rows is None else rows.states(sampler, states, seed):
         got = {k: np.array(v, float) for k, v in evaluate(program, {"x": [state[s] for s in sampler.symbols]}).items()}
         M, C, Mdot = (got[k].reshape(n, n) for k in ("M", "C", "Mdot"))
         v, a = got["v"], got["a"]
         # rates and accelerations are about 1, so M gives the scale, however small the masses are
         size = float(np.abs(M).max())
         scale = max(size, float(max(np.abs(M * a).max(), np.abs(C * v).max(), np.abs(got["G"]).max())))
-        groups = _groups(model, state)
         by_work, by_energy = (np.array(evaluate(r, groups)["r"], float) for r in routes)
+        if rows is not None:
+            push = rows.pushed(groups, got["lambda"])
+            by_work, by_energy = by_work - push, by_energy - push
+            rows.hold(got, groups, state)
         found.work = _worse(found.work, float(np.abs(got["equations"] - by_work).max()) / scale)
         found.energy = _worse(found.energy, float(np.abs(got["equations"] - by_energy).max()) / scale)
         _hold_machine(found, got, machine, groups)
+        if rows is None:
+            _hold_forward(found, got, machine[0], groups)
         found.asymmetry = _worse(found.asymmetry, float(np.abs(M - M.T).max()) / size)
-        found.smallest = float(np.minimum(found.smallest, np.linalg.eigvalsh((M + M.T) / 2).min()))
+        least = np.linalg.eigvalsh((M + M.T) / 2).min() if rows is None else rows.smallest(got)
+        found.smallest = float(np.minimum(found.smallest, least))
         skew = Mdot - 2 * C
         found.skew = _worse(found.skew, float(np.abs(skew + skew.T).max()) / max(size, float(np.abs(C).max())))
         # along a motion: ξ̈ from the derived matrices, then d/dt(ξ̇·∂L/∂ξ̇ − L) = Ξ·ξ̇ − ∂L/∂t
-        a = np.linalg.solve(M, got["Xi"] - C @ v - got["G"])
-        balance = got["hdot0"][0] + got["p_a"] @ a - got["Xi"] @ v + got["L_t"][0]
+        if rows is None:
+            a, power = np.linalg.solve(M, got["Xi"] - C @ v - got["G"]), got["Xi"] @ v
+        else:
+            a, lam = rows.solved(got)
+            power = got["Xi"] @ v + lam @ (got["A"].reshape(-1, n) @ v)
+        balance = got["hdot0"][0] + got["p_a"] @ a - power + got["L_t"][0]
         size = max(size, float(np.abs(got["G"]).max() + np.abs(got["Xi"]).max()))
         found.power = _worse(found.power, abs(float(balance)) / size)
     return found
@@ -182,11 +213,8 @@ def _hold_machine(
 ) -> None:
     """Compare the programs for forward dynamics, M and the energies at a state with the derivation."""
     n = len(got["v"])
-    forward, mass, energy = (evaluated(program, groups) for program in machine)
-    M, a, bias = got["M"].reshape(n, n), np.array(forward["a"], float), got["C"].reshape(n, n) @ got["v"] + got["G"]
-    terms = np.concatenate([M.ravel(), (M * a).ravel(), bias, got["Xi"]])
-    residual = M @ a + bias - got["Xi"]
-    found.forward = _worse(found.forward, float(np.abs(residual).max() / np.abs(terms).max()))
+    mass, energy = (evaluated(program, groups) for program in machine[1:])
+    M = got["M"].reshape(n, n)
     compiled = np.array(mass["M"], float)
     for other in (M, got["H"].reshape(n, n)):
         found.mass = _worse(found.mass, float(np.abs(compiled - other).max() / np.abs(other).max()))
@@ -195,21 +223,20 @@ def _hold_machine(
     found.energies = _worse(found.energies, off)
 
 
+def _hold_forward(
+    found: _Figures, got: Mapping[str, Array], forward: Program, groups: Mapping[str, list[float]]
+) -> None:
+    """The compiled accelerations of a system without constraints solve the derived equations."""
+    n, a = len(got["v"]), np.array(evaluated(forward, groups)["a"], float)
+    M, bias = got["M"].reshape(n, n), got["C"].reshape(n, n) @ got["v"] + got["G"]
+    terms = np.concatenate([M.ravel(), (M * a).ravel(), bias, got["Xi"]])
+    residual = M @ a + bias - got["Xi"]
+    found.forward = _worse(found.forward, float(np.abs(residual).max() / np.abs(terms).max()))
+
+
 def _worse(a: float, b: float) -> float:
     """Return the larger number; NaN is the worst and stays, whereas Python's ``max`` could drop it."""
     return float(np.maximum(a, b))
-
-
-def _groups(model: Model, state: Mapping[sp.Basic, float]) -> dict[str, list[float]]:
-    """A state as the groups of arguments of the programs of `dynamics`."""
-    return {
-        "q": [state[c.symbol] for c in model.coordinates],
-        "v": [state[c.rate] for c in model.coordinates],
-        "a": [state[c.acceleration] for c in model.coordinates],
-        "u": [state[u.symbol] for u in model.inputs],
-        "p": [state[p.symbol] for p in model.parameters],
-        "t": [state[time]],
-    }
 
 
 def _sum(g: Graph, nodes: Sequence[int]) -> int:
@@ -256,6 +283,7 @@ def _program(derivation: Derived, sampler: Sampler) -> Program:
     second = hessian(g, T, v)
     momenta = vjp(g, [lagrangian], [g.const(1.0)], v)
     h = g.sub(_sum(g, [g.mul(p, x) for p, x in zip(momenta, v, strict=True)]), lagrangian)
+    rows = [node.of(row.rate) for row in derivation.multipliers.values()]
     outputs = {
         "equations": [node.of(_residual(e)) for e in derivation.equations],
         "M": M,
@@ -270,6 +298,9 @@ def _program(derivation: Derived, sampler: Sampler) -> Program:
         "a": node.a,
         "hdot0": node.rates([h], with_acceleration=False),
         "p_a": vjp(g, [h], [g.const(1.0)], v),
+        "A": [x for row in rows for x in vjp(g, [row], [g.const(1.0)], v)],
+        "gamma": node.rates(rows, with_acceleration=False),
+        "lambda": [node.of(row.symbol) for row in derivation.multipliers.values()],
         "L_t": [_partial(g, lagrangian, node.t)],
     }
     shaped = {k: Output(tuple(ids), (len(ids),)) for k, ids in outputs.items()}

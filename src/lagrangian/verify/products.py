@@ -29,6 +29,7 @@ from lagrangian.graph import Graph, Output, Program, hessian
 from lagrangian.model import Model
 from lagrangian.page.formula import Check, Name, Text, text
 from lagrangian.verify.exports import Sources, exported
+from lagrangian.verify.on_rows import OnRows
 from lagrangian.verify.slopes import slopes
 from lagrangian.verify.states import State, cancelling, evaluated, random_states, relative
 
@@ -98,6 +99,9 @@ def verify_products(
     Raises `ModelError` if no random state has finite accelerations.
     """
     found = list(random_states(model, dynamics.forward(model), states, seed))
+    if model.constraints and not (found := _on_rows(model, found)):
+        what = text("every compiled function, where the constraints hold")
+        return (Check(what, None, "not checked: no random position could be moved to where the constraints hold"),)
     program = cache(functions.program)  # the same programs are used at every state
     _log.info("verifying: the compiled functions")
     try:
@@ -109,6 +113,12 @@ def verify_products(
     _log.info("verifying: the exported sources and the linearization")
     written = exported(program, functions.exported, sources, found)
     return (*compiled, *written, slopes(model, functions.rhs, found))
+
+
+def _on_rows(model: Model, states: Sequence[State]) -> list[State]:
+    """The states moved onto the rows of the constraints, those that can be."""
+    rows = OnRows(model)
+    return [moved for state in states if (moved := rows.of(state)) is not None]
 
 
 def _compiled(model: Model, functions: Functions, program: Programs, states: Sequence[State]) -> list[Check]:
@@ -126,10 +136,12 @@ def _compiled(model: Model, functions: Functions, program: Programs, states: Seq
     n = f"{len(states)} random state{'s' if len(states) != 1 else ''}"
     figures = worst.figures
     M, T, V = Name("M"), Name("T*"), Name("V")
+    left = (" and what the multipliers add",) if model.constraints else ()
     described: list[tuple[str, Text]] = [
         ("formulas", text("every compiled function equals the slow evaluation of its formulas, singly and in batches")),
         ("forward", text("the compiled accelerations solve Lagrange's equations")),
-        ("solved", text("they are ", M, "⁻¹ times what the compiled bias leaves")),
+        ("rows", text("they keep the rows of the constraints")),
+        ("solved", text("they are ", M, "⁻¹ times what the compiled bias leaves", *left)),
         ("inverse", text("the compiled inverse dynamics equals Lagrange's equations, and ", M, " a + bias")),
         ("hessian", text("the compiled ", M, " is the Hessian of ", T, " in the rates")),
         ("energies", text("the compiled energies are the sums of ", T, " and ", V, " over the elements")),
@@ -185,6 +197,7 @@ class _Routes:
     def __init__(self, model: Model) -> None:
         self._lagrange = dynamics.inverse_from_lagrangian(model)
         self._hessian = _hessian_of_kinetic(model)
+        self._rows = (dynamics.constraint_matrix(model), dynamics.multipliers(model)) if model.constraints else None
         self._energies = None if model.floating else _energies_of_elements(model)
 
     def hold(self, state: State, answers: Mapping[str, Array], worst: Worst) -> None:
@@ -192,8 +205,9 @@ class _Routes:
         a, forward = np.array(state["a"]), answers["forward"]
         M, bias = answers["mass_matrix"], answers["bias"]
         terms = cancelling("inverse", state, M), bias
-        worst.note("forward", self._residual({**state, "a": forward.tolist()}), M * forward, *terms)
-        worst.note("solved", M @ forward + bias, M * forward, *terms)
+        push = self._constrained(state, forward, worst)
+        worst.note("forward", self._residual({**state, "a": forward.tolist()}) - push, M * forward, *terms)
+        worst.note("solved", M @ forward + bias - push, M * forward, *terms)
         for expected in (self._residual(state), M @ a + bias):
             worst.note("inverse", answers["inverse"] - expected, *terms)
         worst.note("hessian", M - np.array(evaluated(self._hessian, state)["H"], float), M)
@@ -203,6 +217,15 @@ class _Routes:
             worst.note("energies", np.array([answers["T"] - T, answers["V"] - V]), T, V)
         rhs = np.concatenate([answers["rates"], forward])
         worst.note("rhs", answers["rhs"] - rhs, rhs)
+
+    def _constrained(self, state: State, forward: Array, worst: Worst) -> Array:
+        """Aᵀ λ, once the accelerations were found to keep the rows: A v̇ + γ = 0; 0 without constraints."""
+        if self._rows is None:
+            return np.zeros(len(forward))
+        found, lam = (evaluated(program, state) for program in self._rows)
+        A, gamma = np.array(found["A"], float).reshape(-1, len(forward)), np.array(found["gamma"], float)
+        worst.note("rows", A @ forward + gamma, A * forward, gamma, A)
+        return A.T @ np.array(lam["lam"], float)
 
     def _residual(self, state: State) -> Array:
         return np.array(evaluated(self._lagrange, state)["r"], float)

@@ -7,11 +7,12 @@ from collections.abc import Iterator, Mapping
 from typing import Any, TypeAlias
 
 import numpy as np
+import sympy as sp
 
 from lagrangian.derive.sample import without_value
 from lagrangian.errors import ModelError
 from lagrangian.graph import Program, evaluate
-from lagrangian.model import Model
+from lagrangian.model import Model, time
 
 State: TypeAlias = Mapping[str, list[float]]
 """Values of the groups q, v, a, u, p and t."""
@@ -79,3 +80,15 @@ def random_states(model: Model, forward: Program, count: int, seed: int) -> Iter
                 fix="check square roots, logarithms and divisions for arguments that are never allowed",
                 code="E503",
             )
+
+
+def state_groups(model: Model, state: Mapping[sp.Basic, float]) -> dict[str, list[float]]:
+    """A state as the groups of arguments of the programs of `dynamics`."""
+    return {
+        "q": [state[c.symbol] for c in model.coordinates],
+        "v": [state[c.rate] for c in model.coordinates],
+        "a": [state[c.acceleration] for c in model.coordinates],
+        "u": [state[u.symbol] for u in model.inputs],
+        "p": [state[p.symbol] for p in model.parameters],
+        "t": [state[time]],
+    }

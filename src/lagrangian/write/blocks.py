@@ -53,6 +53,7 @@ class Items:
     ) -> Iterator[Block]:
         """The blocks for the given items; consecutive boxed formulas share a box."""
         box: list[Display] = []
+        boxed: list[data.Formula] = []
         count, number = 0, 0
         for item in items:
             kept = not self.brief or getattr(item, "brief", False)
@@ -65,12 +66,13 @@ class Items:
                 if item.boxed:
                     known = terms[number] if number < len(terms) else ()
                     number += 1
+                    boxed.append(item)
                     box.append(Display(self.tagged(item, sides, known), f"{anchor}-{number}", number, self.note(item)))
                     continue
             if box:
                 yield Boxed(tuple(box))
-                yield from self.hidden_boxes(items)
-                box = []
+                yield from self.hidden_boxes(boxed)
+                box, boxed = [], []
             match item:
                 case data.Formula():
                     if len(sides) > 1 or len(item.sides) == 1:  # x₁ = x₁ would say nothing
@@ -85,7 +87,7 @@ class Items:
                     yield TableBlock(header, tuple(tuple(self.inline(c) for c in row) for row in item.rows))
         if box:
             yield Boxed(tuple(box))
-            yield from self.hidden_boxes(items)
+            yield from self.hidden_boxes(boxed)
 
     def note(self, item: data.Formula) -> Inline:
         """The note beside a formula."""
@@ -104,11 +106,10 @@ class Items:
     # -- elided expressions, and the origin of terms
     # ---------------------------------------------------------------------
 
-    def hidden_boxes(self, items: Iterable[data.Item]) -> Iterator[Block]:
+    def hidden_boxes(self, boxed: Iterable[data.Formula]) -> Iterator[Block]:
         """The full text of boxed formulas that are shown in a summarized form."""
-        for item in items:
-            if isinstance(item, data.Formula) and item.boxed:
-                yield from self.hidden(item)
+        for item in boxed:
+            yield from self.hidden(item)
 
     def hidden(self, item: data.Formula) -> Iterator[Block]:
         """The full text of a summarized formula, under a summary."""

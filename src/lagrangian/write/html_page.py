@@ -46,6 +46,7 @@ KINDS: Mapping[TermKind, str] = {
     "gravity": "gravity",
     "input": "input: from outside",
     "other": "other",
+    "constraint": "constraint: with a multiplier λ",
 }
 """The kinds of terms, as named in the legend."""
 

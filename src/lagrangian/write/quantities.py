@@ -96,8 +96,15 @@ _COMMON: dict[str, tuple[Letter, ...]] = {
     "E": (Letter("E"), Letter("ℰ")),
     "H": (Letter("H"), Letter("ℋ")),
     "R": (Letter("R"), Letter("ℛ")),
+    "lambda": (Letter("lambda"), Letter("mu"), Letter("Lambda")),
+    "f": (Letter("f"), Letter("Phi")),
+    "c": (Letter("c"), Letter("Psi")),
 }
-_VECTORS = {letter: letter for letter in "MCGqABJKS"} | {"D matrix": "D"} | {f"{x} vector": x for x in "xuyqfp"}
+_VECTORS = (
+    {letter: letter for letter in "MCGqABJKS"}
+    | {"D matrix": "D"}
+    | {f"{x} vector": x for x in ("x", "u", "y", "q", "f", "p", "gamma", "lambda")}
+)
 """The letters of matrices and vectors, which are bold if a symbol of the system has the same letter."""
 
 
@@ -171,6 +178,8 @@ class Quantities:
             if name.base == "G" and self.notation == "robotics":
                 return Numeral(self._vector("g", 0), (self._vector("q", 0),))
             return self._vector(_VECTORS[name.base], name.dots)
+        if name.base == "A transposed":
+            return Power(self._vector("A", 0), Word("T"))
         if name.base in ("x", "y", "z"):
             return Letter(name.base, sub, name.dots)
         if name.base.isdigit():

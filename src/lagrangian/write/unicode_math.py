@@ -31,7 +31,7 @@ from lagrangian.write.expression_tree import (
 _SUBSCRIPTS = dict(zip("0123456789", "₀₁₂₃₄₅₆₇₈₉", strict=True))
 _RUNNING = {"i": "ᵢ", "j": "ⱼ"}
 """Running indices: ξᵢ is any of ξ₁, ξ₂, …"""
-_SUPERSCRIPTS = dict(zip("0123456789−+n", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺ⁿ", strict=True))
+_SUPERSCRIPTS = dict(zip("0123456789−+nT", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺ⁿᵀ", strict=True))
 _DOTS = ("", "\u0307", "\u0308", "\u20db")
 _VULGAR = {(1, 2): "½", (1, 3): "⅓", (2, 3): "⅔", (1, 4): "¼", (3, 4): "¾", (1, 5): "⅕", (1, 6): "⅙", (1, 8): "⅛"}
 _SIGNS = {"plus": " + ", "minus": " − ", "negative": "−", "gap": " "}

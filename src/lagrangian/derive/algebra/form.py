@@ -234,6 +234,24 @@ class Form:
         return sum(len(p) for p in self.parts.values())
 
     @property
+    def is_number(self) -> bool:
+        """Whether it is a rational number."""
+        return not any(h[0] or m for h, p in self.parts.items() for m in p)
+
+    @property
+    def turns(self) -> bool:
+        """Whether a sine or a cosine stands in it, of parameters alone or not."""
+        return any(h[0] for h in self.parts)
+
+    @property
+    def moves(self) -> bool:
+        """Whether it changes with time."""
+        generators = self.algebra.generators
+        return any(h[0] and generators.turning(h[0]) for h in self.parts) or any(
+            generators.moving(m) for p in self.parts.values() for m in p
+        )
+
+    @property
     def is_zero(self) -> bool:
         """Whether it vanishes identically, which is decided after clearing denominators."""
         form = self

@@ -95,6 +95,7 @@ class Generators:
         self._bases: dict[int, sp.Expr] = {}
         self.writing = WRITING
         self._coordinates = frozenset(coordinates)
+        self._speeds: set[sp.Expr] = set()
         self.placeholders: dict[sp.Expr, sp.Expr] = {}
         for q in coordinates:
             self.angle((0, 0), unit(self.index(q)))
@@ -113,11 +114,19 @@ class Generators:
                 self.placeholders[symbol] = sp.Symbol(f"u{self._index[symbol]}")
         return self._index[symbol]
 
+    def add_speed(self, symbol: sp.Expr) -> None:
+        """Let a function of time be a rate that is no coordinate's, before it is first met."""
+        self._speeds.add(symbol)
+
     def _symbolic(self, symbol: sp.Expr) -> Symbolic:
         if symbol == Symbolic.time:
             return Symbolic(symbol, "time")
+        if symbol in self._speeds:
+            return Symbolic(symbol, "rate", 1)
         if isinstance(symbol, sp.Derivative):
             order = int(symbol.derivative_count)
+            if symbol.expr in self._speeds:
+                return Symbolic(symbol, "acceleration", order + 1)
             if symbol.expr not in self._coordinates:
                 return Symbolic(symbol, "input", order)
             return Symbolic(symbol, "rate" if order == 1 else "acceleration", order)
@@ -213,8 +222,10 @@ class Generators:
                 return None
             if entry.role == "time":
                 return 0
-            of = entry.expr.expr if isinstance(entry.expr, sp.Derivative) else entry.expr
-            return unit(self.index(sp.Derivative(of, (Symbolic.time, entry.order + 1))))
+            of, taken = entry.expr, 0
+            if isinstance(of, sp.Derivative):
+                of, taken = of.expr, int(of.derivative_count)
+            return unit(self.index(sp.Derivative(of, (Symbolic.time, taken + 1))))
         if not entry.moving:
             return None
         if isinstance(entry, Root):

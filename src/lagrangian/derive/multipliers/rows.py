@@ -1,0 +1,79 @@
+"""The rows of a model in normal form, each with the symbol of its multiplier."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Container
+from dataclasses import dataclass
+
+import sympy as sp
+
+from lagrangian.derive.algebra import Form
+from lagrangian.derive.context import Context
+from lagrangian.derive.multiplier import Multiplier
+from lagrangian.model.elements import answers
+from lagrangian.model.names import moving_symbol
+from lagrangian.model.rows import Row, rows_of
+from lagrangian.page.formula import text
+
+
+@dataclass(frozen=True, eq=False)
+class RowForms:
+    """A row in normal form: c, its slopes ∂c/∂ξ̇_i, what is left at ξ̇ = 0, ċ, and what λ adds to each equation."""
+
+    row: Row
+    symbol: sp.Expr
+    rate: Form
+    slopes: tuple[Form, ...]
+    drive: Form
+    second_rate: Form
+    pushes: tuple[Form, ...]
+
+
+UNITS = {answers.FORCE: "N", answers.ENERGY: "N m"}
+"""How the unit of a multiplier is written."""
+
+
+def row_forms(context: Context, names: Collection[str]) -> tuple[RowForms, ...]:
+    """The rows of a model with these names in normal form, in order."""
+    model, algebra = context.model, context.algebra
+    found: list[RowForms] = []
+    taken = {*model.symbols}
+    for row in (row for row in rows_of(model) if row.name in names):
+        name = symbol_name(row.name, taken)
+        taken.add(name)
+        multiplier = moving_symbol(name)
+        rate = algebra.form(row.rate)
+        slopes = tuple(rate.diff(c.rate) for c in model.coordinates)
+        moved = [slope * algebra.form(c.rate) for slope, c in zip(slopes, model.coordinates, strict=True)]
+        pushes = tuple(slope * algebra.form(multiplier) for slope in slopes)
+        drive = rate - algebra.total(moved)
+        found.append(RowForms(row, multiplier, rate, slopes, drive, rate.total_derivative(), pushes))
+    return tuple(found)
+
+
+def symbol_name(row: str, taken: Container[str]) -> str:
+    """The name of a row's multiplier, an identifier that nothing else in the system has."""
+    name = "lambda_" + (re.sub(r"\W+", "_", row).strip("_") or "1")
+    while name in taken:
+        name += "_"
+    return name
+
+
+def multipliers(context: Context, forms: tuple[RowForms, ...]) -> dict[str, Multiplier]:
+    """The multipliers by the names of their rows."""
+    return {f.row.name: _multiplier(context, f) for f in forms}
+
+
+def _multiplier(context: Context, forms: RowForms) -> Multiplier:
+    row = forms.row
+    return Multiplier(
+        row.name,
+        forms.symbol,
+        "" if row.unit is None else UNITS[row.unit],
+        text(*(context.readable(part) if isinstance(part, sp.Basic) else part for part in row.multiplier)),
+        row.element,
+        None if row.position is None else context.readable(row.position),
+        forms.rate.expr(),
+        forms.second_rate.expr(),
+    )

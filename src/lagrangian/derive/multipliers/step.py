@@ -1,0 +1,143 @@
+"""The constraints of a derivation: what holds, what each multiplier is, and what it adds to every equation."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+import sympy as sp
+
+from lagrangian.derive.algebra import Form
+from lagrangian.derive.context import READABLE, Context, fit
+from lagrangian.derive.derived import Step
+from lagrangian.derive.lagrange import SUMMED
+from lagrangian.derive.multiplier import Multiplier
+from lagrangian.derive.multipliers.rows import RowForms
+from lagrangian.page.formula import (
+    Elided,
+    Heading,
+    Item,
+    Left,
+    Matrix,
+    Name,
+    Partial,
+    Product,
+    Table,
+    Terms,
+    Text,
+    formula,
+    text,
+)
+
+AFTER = 4
+"""The lecture's step that the constraints follow: L is there, and nothing is differentiated yet."""
+
+
+def by_multipliers(index: str = "i") -> tuple[Left, ...]:
+    """Σ over the rows of λ ∂c/∂ξ̇_i: what constraints add to the right-hand side."""
+    return (Product((Name("lambda", "r"), Partial(Name("c", "r"), Name("xi", index, 1)))),)
+
+
+def introduced(context: Context, rows: tuple[RowForms, ...], found: Mapping[str, Multiplier]) -> Step:
+    """Write down every row, what its multiplier is, and what it adds to each equation of motion."""
+    items: list[Item] = []
+    for forms, known in zip(rows, found.values(), strict=True):
+        items += _row(context, forms, known)
+    items += [
+        Heading(text("What the constraints add")),
+        text(
+            "A constraint's force does no work on a motion that the constraint allows. So it is λ times the slope of "
+            "the row, and by virtual work, as for any other force, it adds to the right-hand side of equation i:"
+        ),
+        formula(*by_multipliers(), note=SUMMED, brief=True),
+        _table(context, rows),
+    ]
+    if any(forms.row.position is None for forms in rows):
+        items.append(text(*NEVER_INTO_L))
+    return Step(
+        AFTER,
+        "Constraints",
+        text("Wrote down what restricts the motion, one row for every scalar condition, each with a multiplier λ."),
+        text(
+            "The coordinates cannot wiggle freely any more. Each row is kept by a force that nobody has described, and "
+            "λ is that force: one more unknown, and one more equation, the row itself."
+        ),
+        tuple(items),
+        {"rows": {name: known.rate for name, known in found.items()}},
+        tuple(text(known.symbol, " is ", *known.words.parts) for known in found.values()),
+    )
+
+
+NEVER_INTO_L: tuple[str | Left, ...] = (
+    "A constraint on velocities is never put into ",
+    Name("L"),
+    " before the derivatives are taken: ",
+    Partial(Name("L"), Name("xi", "i", 1)),
+    " and ",
+    Partial(Name("L"), Name("xi", "i")),
+    " compare the motion with neighbours that break the constraint too, and with these left out the equations "
+    "would be wrong.",
+)
+
+
+def _row(context: Context, forms: RowForms, known: Multiplier) -> Iterator[Item]:
+    """One row: what is zero, its rate, and what its multiplier is."""
+    yield Heading(text(forms.row.element.title[:1].upper() + forms.row.element.title[1:], _component(forms)))
+    if known.position is not None:
+        yield formula(Name("f"), fit(known.position), sp.S.Zero, brief=True)
+        yield formula(Name("c"), Name("f", "", 1), context.written(forms.rate), sp.S.Zero)
+    else:
+        yield formula(Name("c"), context.written(forms.rate), sp.S.Zero, brief=True)
+    unit = f" [{known.unit}]" if known.unit else ""
+    held = Name("c" if known.position is None else "f")
+    sign = (". Where it is positive, it acts so as to increase ", held, ".")
+    yield Text((known.symbol, f"{unit} is ", *known.words.parts, *sign), brief=True)
+
+
+def _component(forms: RowForms) -> str:
+    suffix = forms.row.condition.suffix
+    return f", row {suffix}" if suffix else ""
+
+
+def _table(context: Context, rows: tuple[RowForms, ...]) -> Table:
+    """What each λ adds to each equation."""
+    lines: list[tuple[Text, ...]] = []
+    for i, c in enumerate(context.model.coordinates):
+        pushes = [forms.pushes[i] for forms in rows]
+        terms: tuple[Left, ...] = tuple(fit(push.expr()) for push in pushes if not push.is_zero)
+        lines.append((text(c.symbol), text(Terms(terms))))
+    return Table((text("equation"), text("constraints add")), tuple(lines))
+
+
+def second_rates(context: Context, rows: tuple[RowForms, ...]) -> Iterator[Item]:
+    """What the rows ask of the accelerations, A ξ̈ + γ = 0, row by row; nothing without rows."""
+    if not rows:
+        return
+    yield text(
+        f"These are {len(context.model.coordinates)} equations with as many accelerations and {len(rows)} "
+        f"multiplier{'s' if len(rows) > 1 else ''} more. The rows, differentiated until accelerations stand in them, "
+        "are the missing equations:"
+    )
+    for forms in rows:
+        yield formula(Name("c", "", 1), context.written(forms.second_rate), sp.S.Zero, note=text(forms.row.name))
+
+
+def matrix_form(context: Context, rows: tuple[RowForms, ...]) -> Iterator[Item]:
+    """A and γ of A ξ̈ + γ = 0, beside M ξ̈ + C ξ̇ + G = Ξ + Aᵀ λ."""
+    A, gamma, ddq = Name("A"), Name("gamma vector"), Name("q", "", 2)
+    yield formula(Terms((Product((A, ddq)), gamma)), sp.S.Zero)
+    yield formula(A, _whole([[slope.expr() for slope in forms.slopes] for forms in rows]))
+    yield formula(gamma, _whole([[still(context, forms).expr()] for forms in rows]))
+    yield formula(Name("lambda vector"), Matrix(tuple((forms.symbol,) for forms in rows)))
+
+
+def _whole(rows: Sequence[Sequence[sp.Expr]]) -> Left:
+    whole = Matrix(tuple(map(tuple, rows)))
+    operations = sum(int(sp.count_ops(x)) for row in rows for x in row)
+    return whole if operations <= READABLE else Elided(whole, operations)
+
+
+def still(context: Context, forms: RowForms) -> Form:
+    """γ: ċ at ξ̈ = 0."""
+    algebra, coordinates = context.algebra, context.model.coordinates
+    moving = [s * algebra.form(c.acceleration) for s, c in zip(forms.slopes, coordinates, strict=True)]
+    return forms.second_rate - algebra.total(moving)
