@@ -81,3 +81,14 @@ def test_what_cannot_be_held_is_said(fixed: object, said: str) -> None:
 def test_a_system_without_constraints_takes_no_fixed_coordinates() -> None:
     with pytest.raises(RunError, match="has no constraints"):
         lg.example("pendulum").simulate(1.0, theta=0.2, fixed="theta")
+
+
+def test_a_radius_of_zero_is_refused() -> None:
+    s = lg.System("wheel")
+    x, phi = s.coordinates("x phi")
+    r = s.parameter("r", "0.3 m")
+    s.kinetic(x.diff() ** 2 / 2 + s.parameter("J", "1 kg*m^2") * phi.diff() ** 2 / 2)
+    s.velocity_constraint(r * phi.diff(), name="locked")
+    assert s.simulate(1.0, initial={"x'": 1.0})["x"][-1] == pytest.approx(1.0)
+    with pytest.raises(RunError, match=r"'locked'.* is 0"):
+        s.simulate(1.0, params={"r": 0.0})

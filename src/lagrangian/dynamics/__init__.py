@@ -22,7 +22,7 @@ from lagrangian.dynamics.impacts import impacts
 from lagrangian.dynamics.loose import loose, moving_no_mass
 from lagrangian.dynamics.mechanics import Mechanics
 from lagrangian.dynamics.motion import Motion
-from lagrangian.dynamics.notices import configurations, notices
+from lagrangian.dynamics.notices import configurations, dependent_rows, notices
 from lagrangian.dynamics.observe import observe
 from lagrangian.dynamics.places import frame_program, named_place, point_program
 from lagrangian.dynamics.power import power
@@ -56,6 +56,7 @@ __all__ = [
     "constraint_matrix",
     "coriolis",
     "correction",
+    "dependent_rows",
     "describe",
     "divisors",
     "energy",

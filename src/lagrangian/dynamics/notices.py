@@ -53,12 +53,20 @@ def notices(model: Model) -> tuple[Notice, ...]:
     return model._memo["notices"]
 
 
+def dependent_rows(model: Model) -> tuple[str, ...]:
+    """Return the names of rows that other rows imply; raises `ModelError` (E302) if rows contradict each other.
+
+    The answer does not depend on the values of parameters.
+    """
+    if "dependent rows" not in model._memo:
+        graph = Graph()
+        found = describe(model, graph, Inputs.of(graph, model)).settled[1] if model.constraints else ()
+        model._memo["dependent rows"] = found
+    return model._memo["dependent rows"]
+
+
 def _dependent(model: Model) -> Iterator[Notice]:
-    """Rows that say again what others say; raises `ModelError` (E302) where one contradicts them."""
-    if not model.constraints:
-        return
-    graph = Graph()
-    for name in describe(model, graph, Inputs.of(graph, model)).settled[1]:
+    for name in dependent_rows(model):
         said = "it says again what the other constraints say, in every position: it is left out, its multiplier is 0"
         yield Notice(Code.E306, f"constraint '{name}'", said)
 

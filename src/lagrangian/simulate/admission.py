@@ -26,7 +26,7 @@ def check_masses(model: Model, p: NDArray[np.float64], varied: Iterable[str] = (
     if all(value is None or value == q.value for q, value in zip(model.parameters, values, strict=True)):
         return dynamics.notices(model)
     parameters = tuple(replace(q, value=x) for q, x in zip(model.parameters, values, strict=True))
-    held = replace(model, parameters=parameters, _memo={})
+    held = replace(model, parameters=parameters, _memo={"dependent rows": dynamics.dependent_rows(model)})
     numbers = Numbers.of_model(held)
     for body in held.bodies:
         check_body(numbers, body)

@@ -8,9 +8,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrangian import dynamics
 from lagrangian.assembly.assemble import closing, consistent
 from lagrangian.codes import Code
 from lagrangian.errors import Notice, RunError, did_you_mean
+from lagrangian.graph import Program, evaluate
 from lagrangian.integrate.closing import Closing
 from lagrangian.model import Model
 from lagrangian.page.plain import plain
@@ -50,6 +52,7 @@ def onto_constraints(
     """The start nearest to x that satisfies every constraint, and a notice of what moved."""
     if not model.constraints:
         return x, ()
+    _check_divisors(model, p, t)
     n, m = len(model.coordinates), len(model.velocities)
     q, v = consistent(model, x[:n], x[n : n + m], p, t, fixed=fixed)
     found = np.concatenate([q, v, x[n + m :]])
@@ -65,6 +68,24 @@ def onto_constraints(
         "coordinates in fixed stay as given"
     )
     return found, (Notice(Code.E303, "start of the run", said),)
+
+
+def _check_divisors(model: Model, p: Array, t: float) -> None:
+    """Refuse parameters that make a coefficient of a row 0 if the accelerations are divided by it."""
+    program: Program = remembered(model, "divisors", lambda: dynamics.divisors(model))
+    if not program.outputs:
+        return
+    sizes = {"q": len(model.coordinates), "v": len(model.velocities), "u": len(model.inputs)}
+    rest = {group: [0.0] * size for group, size in sizes.items()}
+    values = evaluate(program, {**rest, "p": p.tolist(), "t": [t]})
+    for name, found in values.items():
+        if not all(x and np.isfinite(x) for x in np.ravel(found)):
+            raise RunError(
+                f"with these parameters the constraint '{name}' does not restrict what it is about: a coefficient of "
+                "its rates is 0",
+                fix="give its lengths and radii values other than 0",
+                code="E501",
+            )
 
 
 def starts_of_runs(model: Model, fixed: Sequence[str]) -> Closing | None:
