@@ -1,0 +1,36 @@
+"""What docs/constraints.md says runs as it stands there."""
+
+import pytest
+from test_docs import blocks
+
+import lagrangian as lg
+
+
+@pytest.fixture(scope="module")
+def names(tmp_path_factory: pytest.TempPathFactory) -> dict[str, object]:
+    found: dict[str, object] = {}
+    code = "\n".join(blocks("docs/constraints.md", "python"))
+    exec(compile(code, "docs/constraints.md", "exec"), found)
+    return found
+
+
+def test_the_guide_to_constraints_runs(names: dict[str, object]) -> None:
+    run, lam, d = names["run"], names["lam"], names["d"]
+    assert run.success and run.notices[0].code == "E303"  # type: ignore[attr-defined]
+    assert set(lam) == {"loop.x", "loop.y"}  # type: ignore[call-overload]
+    assert len(d.minimal.equations) == 2  # type: ignore[attr-defined]
+
+
+def test_what_the_comments_of_the_guide_say_is_so(names: dict[str, object]) -> None:
+    pendulum, sleigh, dyn = names["pendulum"], names["sleigh"], names["dyn"]
+    assert str(pendulum.derive().constraints.verdict) == "holonomic: #GC = #DDOF = 1"  # type: ignore[attr-defined]
+    assert str(sleigh.derive().constraints.verdict).startswith("nonholonomic by 1")  # type: ignore[attr-defined]
+    assert len(dyn.assemblies({"crank": 1.0}, fixed="crank")) == 2  # type: ignore[attr-defined]
+
+
+def test_the_guides_file_is_read() -> None:
+    (text,) = blocks("docs/constraints.md", "toml")
+    head = 'name = "sled"\n[coordinates]\nx = ""\ny = ""\ntheta = ""\n[parameters]\nl = 1.0\nm = 1.0\n[points]\nP = ["x", "y"]\n'
+    body = '[[frame]]\nname = "sled"\nangle = "theta"\n[[rigid_body]]\nmass = "m"\ninertia = "m"\nat = "P"\nframe = "sled"\n'
+    model = lg.loads(head + body + text).model
+    assert [e.name for e in model.constraints] == ["rod", "blade"]
