@@ -5,8 +5,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import wraps
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 from lagrangian.calls import worded
 from lagrangian.describing import Described
@@ -17,13 +18,35 @@ if TYPE_CHECKING:  # imported here only for types: describing a system does not 
     from lagrangian.simulate.ensemble import Ensemble
     from lagrangian.simulate.events import Event
     from lagrangian.simulate.per_run import Outputs
+    from lagrangian.simulate.settings import Execution, RunSettings
     from lagrangian.simulate.trajectory import Trajectory
+
+P = ParamSpec("P")
+R = TypeVar("R")
+
+
+def _given_once(verb: Callable[P, R]) -> Callable[P, R]:
+    """Decorate a verb: an option given beside the ``settings`` or the ``execution`` that contains it is an error."""
+
+    @wraps(verb)
+    def call(*given: P.args, **named: P.kwargs) -> R:
+        if named.get("settings") is not None or named.get("execution") is not None:
+            from lagrangian.simulate.settings import check_given_once
+
+            check_given_once({**named, "duration": given[1]} if len(given) > 1 else named)
+        return verb(*given, **named)
+
+    return call
 
 
 @worded
 class Simulated(Described):
-    """The methods that run a system; their options are those of `lagrangian.RunSettings` and `lagrangian.Execution`."""
+    """The methods that run a system.
 
+    Their options can be given one by one, or as a `lagrangian.RunSettings` and a `lagrangian.Execution`.
+    """
+
+    @_given_once
     def simulate(
         self,
         duration: float | str | None = None,
@@ -45,6 +68,7 @@ class Simulated(Described):
         max_steps: int = 10_000_000,
         max_events: int = 100_000,
         timeout: float | None = None,
+        settings: RunSettings | None = None,
         **initial_by_name: Any,
     ) -> Trajectory:
         """Simulate the system for ``duration`` [s] and return a `lagrangian.Trajectory`.
@@ -65,18 +89,20 @@ class Simulated(Described):
         SciPy's methods to that of each step. With constraints, initial values are guesses, except for the coordinates
         named in ``fixed``; every state satisfies the constraints, unless ``project=False``; ``run.drift`` says how far
         steps came from them. ``events`` are made with `lagrangian.event`. ``max_steps``,
-        ``max_events`` and ``timeout`` [s] limit the run.
+        ``max_events`` and ``timeout`` [s] limit the run. ``settings`` is a `lagrangian.RunSettings` with all options
+        from ``duration`` to ``timeout``, none of which can then be given beside it.
 
         Raises `RunError` or `ModelError` for mistakes that are found before the run. A run that fails later is returned
         up to that time, with the reason in its ``message``.
         """
         given = locals()
-        from lagrangian.simulate.settings import RunSettings, picked
+        from lagrangian.simulate.settings import RunSettings, chosen
         from lagrangian.simulate.simulation import simulate
 
         named = {"initial": initial, "params": params, "inputs": inputs, "by_name": initial_by_name}
-        return simulate(self.model, picked(RunSettings, given), **named)
+        return simulate(self.model, chosen(RunSettings, given, "settings"), **named)
 
+    @_given_once
     def ensemble(
         self,
         duration: float | str | None = None,
@@ -107,6 +133,8 @@ class Simulated(Described):
         resume: bool = False,
         overwrite: bool = False,
         scheduler: Any = None,
+        settings: RunSettings | None = None,
+        execution: Execution | None = None,
         **initial_by_name: Any,
     ) -> Ensemble:
         """Simulate the system once for every entry of arrays that broadcast together; return a `lagrangian.Ensemble`.
@@ -125,14 +153,20 @@ class Simulated(Described):
         ``memory`` [bytes] limits the memory in use at a time, ``threads`` the number of cores; ``progress(done, all)``
         is called now and then. ``store="name.zarr"`` writes results to disk as they are computed, and ``resume=True``
         continues an interrupted ensemble. ``scheduler`` is the address of a Dask scheduler. A run that fails has NaN
-        results and a negative status. Raises `RunError` for arguments that do not fit.
+        results and a negative status.
+
+        ``settings`` is a `lagrangian.RunSettings`, taken as it is: an ensemble does not change its ``samples`` (1001
+        by default) or its ``max_events`` (100 000 by default, more than here); it must not have a ``timeout``.
+        ``execution`` is a `lagrangian.Execution`, with the options from ``memory`` to ``scheduler``. No option of
+        either can be given beside it. Raises `RunError` for arguments that do not fit.
         """
         given = locals()
-        from lagrangian.simulate.sweeping import chosen, ensemble
+        from lagrangian.simulate.sweeping import ensemble, options
 
         named = {"initial": initial, "params": params, "inputs": inputs, "by_name": initial_by_name}
-        return ensemble(self.model, *chosen(given), dims=dims, **named)
+        return ensemble(self.model, *options(given), dims=dims, **named)
 
+    @_given_once
     def sweep(
         self,
         duration: float | str | None = None,
@@ -165,6 +199,8 @@ class Simulated(Described):
         resume: bool = False,
         overwrite: bool = False,
         scheduler: Any = None,
+        settings: RunSettings | None = None,
+        execution: Execution | None = None,
         **initial_by_name: Any,
     ) -> Ensemble:
         """Simulate the system for every combination of values, and for every random draw.
@@ -180,7 +216,7 @@ class Simulated(Described):
         draws; the same ``seed`` gives the same draws. All other arguments are those of `ensemble`.
         """
         given = locals()
-        from lagrangian.simulate.sweeping import chosen, sweep
+        from lagrangian.simulate.sweeping import options, sweep
 
         named = {"initial": initial, "params": params, "inputs": inputs, "by_name": initial_by_name}
-        return sweep(self.model, grid, *chosen(given), draws=draws, seed=seed, **named)
+        return sweep(self.model, grid, *options(given), draws=draws, seed=seed, **named)

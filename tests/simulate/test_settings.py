@@ -5,11 +5,15 @@ from __future__ import annotations
 import dataclasses
 import inspect
 import math
+from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
+import sympy as sp
 
 import lagrangian as lg
+from lagrangian.integrate.status import RunStatus
 from lagrangian.simulate.per_run import Recording
 
 OF_ONE, OF_MANY = {"samples", "timeout"}, {"samples", "timeout", "times", "max_events"}
@@ -119,3 +123,68 @@ def test_an_option_that_is_not_there_is_answered(call: Any, fix: str) -> None:
     with pytest.raises(lg.RunError, match="there is no option or state") as caught:
         call(lg.example("cart-pole"))
     assert fix in str(caught.value)
+
+
+def test_a_settings_object_is_the_options_of_one_run() -> None:
+    system, options = lg.example("pendulum"), {"duration": "2 s", "rtol": 1e-6, "samples": 11, "method": "tsit5"}
+    run = system.simulate(settings=lg.RunSettings(**options), theta=0.5)
+    assert run.t.tolist() == pytest.approx([0.2 * i for i in range(11)])
+    assert (run.method, run.settings["rtol"]) == ("tsit5", 1e-6)
+    assert run.y.tobytes() == system.simulate(theta=0.5, **options).y.tobytes()
+
+
+def test_settings_and_execution_are_the_options_of_many_runs(tmp_path: Path) -> None:
+    system, done = lg.example("pendulum"), []
+    settings = lg.RunSettings(duration=1.0, method="rk4", step=0.01, samples=5)
+    execution = lg.Execution(store=tmp_path / "runs.zarr", progress=lambda now, _: done.append(now))
+    for runs in (
+        system.ensemble(theta=[0.1, 0.2], reduce=None, settings=settings, execution=execution),
+        system.sweep(grid=["theta=0.1:0.2:2"], reduce=None, settings=settings),
+    ):
+        assert runs["theta"].shape == (2, 5)
+        alone = [system.simulate(theta=theta, settings=settings)["theta"] for theta in (0.1, 0.2)]
+        assert runs["theta"] == pytest.approx(np.array(alone), abs=1e-12)
+    assert done[-1] == 2
+    assert (tmp_path / "runs.zarr").is_dir()
+
+
+def test_settings_are_taken_as_they_are_by_many_runs() -> None:
+    ball = lg.System("ball")
+    ball.particle(1, ball.origin + (0, ball.coordinate("y")))
+    turning = lg.event(sp.sin(50 * ball.t), name="turning")
+    counts = {}
+    for limit in (10, 100):
+        settings = lg.RunSettings(duration=1.0, max_events=limit, events=turning)
+        counts[limit] = ball.ensemble(y=[0.0], settings=settings)["status"].tolist()
+    assert counts == {10: [RunStatus.CROWDED], 100: [RunStatus.REACHED]}  # sin 50t has 15 zeros in (0, 1)
+
+
+@pytest.mark.parametrize(
+    ("call", "words", "code"),
+    [
+        (
+            lambda s, given: s.simulate(1.0, settings=given),
+            "'duration' is given twice: as an argument, and in s",
+            "E404",
+        ),
+        (lambda s, given: s.simulate(rtol=1e-9, settings=given), "'rtol' is given twice", "E404"),
+        (lambda s, given: s.ensemble(times=1001, theta=[0.1], settings=given), "'times' is given twice", "E404"),
+        (lambda s, given: s.sweep(1.0, ["theta=1:2:3"], settings=given), "'duration' is given twice", "E404"),
+        (
+            lambda s, given: s.sweep(1.0, ["theta=1:2:3"], execution=lg.Execution(), threads=1),
+            "'threads' is given twice: as an argument, and in execution",
+            "E404",
+        ),
+        (lambda s, given: s.simulate(settings={"rtol": 1.0}), r"settings must be a RunSettings \(got dict\)", "E501"),
+        (lambda s, given: s.ensemble(theta=[0.1], execution=given), "execution must be an Execution", "E501"),
+        (
+            lambda s, given: s.ensemble(theta=[0.1], settings=dataclasses.replace(given, timeout=3)),
+            "a timeout applies only to a single run",
+            "E501",
+        ),
+    ],
+)
+def test_an_option_is_given_once(call: Any, words: str, code: str) -> None:
+    with pytest.raises(lg.RunError, match=words) as caught:
+        call(lg.example("pendulum"), lg.RunSettings(duration=1.0))
+    assert caught.value.code == code

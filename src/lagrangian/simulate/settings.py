@@ -49,6 +49,11 @@ FINEST_RTOL = 100 * float(np.finfo(float).eps)
 class RunSettings:
     """The duration of a run, the times of its samples, and how it is integrated; see `lagrangian.System.simulate`.
 
+    >>> import lagrangian as lg
+    >>> fine = lg.RunSettings(duration="2 s", rtol=1e-12, samples=11)
+    >>> len(lg.example("pendulum").simulate(settings=fine, theta=0.5).t)
+    11
+
     Texts with a unit are converted to SI numbers. Raises `RunError` for a value that does not fit.
     """
 
@@ -181,6 +186,35 @@ def check_names(model: Model, by_name: Iterable[str], options: Iterable[str]) ->
 def picked(kind: type[Options], given: Mapping[str, Any]) -> Options:
     """Return the options of one kind from all arguments of a verb."""
     return kind(**{name: given[name] for name in names_of(kind) if name in given})
+
+
+def chosen(kind: type[Options], given: Mapping[str, Any], name: str) -> Options:
+    """Return the argument ``name`` of a verb, a whole settings object, or make one from the verb's other arguments."""
+    return picked(kind, given) if given[name] is None else given[name]
+
+
+def check_given_once(given: Mapping[str, Any]) -> None:
+    """Raise `RunError` if an option is given beside the settings object that contains it.
+
+    ``given``: the arguments that were written in the call of a verb. None counts as not given.
+    """
+    for name, article, kind in (("settings", "a", RunSettings), ("execution", "an", Execution)):
+        whole = given.get(name)
+        if whole is None:
+            continue
+        if not isinstance(whole, kind):
+            raise RunError(
+                f"{name} must be {article} {kind.__name__} (got {type(whole).__name__})",
+                fix=f"{name}=lagrangian.{kind.__name__}(…)",
+                code="E501",
+            )
+        for option in names_of(kind):
+            if given.get(option) is not None:
+                raise RunError(
+                    f"'{option}' is given twice: as an argument, and in {name}",
+                    fix=f"{name}=dataclasses.replace({name}, {option}=…)",
+                    code="E404",
+                )
 
 
 def names_of(*settings: type) -> tuple[str, ...]:

@@ -43,7 +43,7 @@ IN_PYTHON = "DOP853"
 MAX_CHECKED_COORDINATES = 12
 """M is examined before a run if there are at most this many coordinates."""
 
-OPTIONS = ("initial", "params", "inputs", *names_of(RunSettings))
+OPTIONS = ("initial", "params", "inputs", *names_of(RunSettings), "settings")
 """The arguments of a run other than initial values."""
 
 

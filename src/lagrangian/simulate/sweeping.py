@@ -34,7 +34,7 @@ from lagrangian.simulate.inputs import InputSignals, check_covers, driving
 from lagrangian.simulate.integrating import remembered
 from lagrangian.simulate.per_run import Recording, instants, study_of
 from lagrangian.simulate.plot import Units
-from lagrangian.simulate.settings import STORE, Execution, RunSettings, check_names, names_of, picked, whole
+from lagrangian.simulate.settings import STORE, Execution, RunSettings, check_names, chosen, names_of, picked, whole
 from lagrangian.simulate.switching import with_stops_of_all
 from lagrangian.simulate.variation import EVENT, TIME, Varying, from_arrays, from_grid
 from lagrangian.values.values import key_name
@@ -43,7 +43,7 @@ Array: TypeAlias = NDArray[np.float64]
 
 OPTIONS = tuple(
     name
-    for name in ("initial", "params", "inputs", *names_of(RunSettings, Recording, Execution))
+    for name in ("initial", "params", "inputs", *names_of(RunSettings, Recording, Execution), "settings", "execution")
     if name not in ("samples", "timeout")
 )
 """The arguments of an ensemble other than initial values."""
@@ -63,12 +63,21 @@ MOST_MEMORY = 0.5
 """The fraction of the machine's memory that results without a store may take."""
 
 
-def chosen(given: Mapping[str, Any]) -> tuple[RunSettings, Recording, Execution]:
+def options(given: Mapping[str, Any]) -> tuple[RunSettings, Recording, Execution]:
     """Return the options from all arguments of a verb; a number of times becomes a number of samples."""
-    times = given["times"]
-    counted = np.ndim(times) == 0
-    sampled = {"samples": whole(times, "times", least=2), "times": None} if counted else {"times": times}
-    return picked(RunSettings, {**given, **sampled}), picked(Recording, given), picked(Execution, given)
+    settings: RunSettings | None = given["settings"]
+    if settings is None:
+        times = given["times"]
+        counted = np.ndim(times) == 0
+        sampled = {"samples": whole(times, "times", least=2), "times": None} if counted else {"times": times}
+        settings = picked(RunSettings, {**given, **sampled})
+    elif settings.timeout is not None:
+        raise RunError(
+            "a timeout applies only to a single run",
+            fix="max_steps=100000 in the settings bounds each run",
+            code="E501",
+        )
+    return settings, picked(Recording, given), chosen(Execution, given, "execution")
 
 
 def ensemble(
