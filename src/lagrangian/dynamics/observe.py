@@ -14,12 +14,14 @@ from typing import Any
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian.dynamics.constrained import drive
 from lagrangian.dynamics.describe import _symbols, described
 from lagrangian.dynamics.description import Inputs
 from lagrangian.dynamics.programs import _program
 from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.graph import Graph, Output, Program, from_sympy
 from lagrangian.model import Model, Point, as_expr, time
+from lagrangian.model.rows import drive_symbol, multiplier_symbol
 from lagrangian.page.plain import plain
 
 
@@ -66,10 +68,29 @@ class Observed:
                 table[sp.Derivative(definition.symbol, (time, 2))] = motion.second_rate([rate], self.vdot)[0]
         return table
 
+    @cached_property
+    def restrained(self) -> dict[Any, int]:
+        """The multipliers of the rows and what time alone does to them, by their symbols; a skipped row has 0."""
+        m, g = self.mechanics, self.graph
+        found = m.constrained
+        lam = [g.select(c, x, g.zero) for c, x in zip(found.regular, found.multipliers, strict=True)]
+        table: dict[Any, int] = {}
+        for row, value, moved in zip(m.rows, lam, drive(m), strict=True):
+            table[multiplier_symbol(row.name)], table[drive_symbol(row.name)] = value, moved
+        return table
+
+    def _of_constraints(self, expr: sp.Expr) -> bool:
+        """Whether an expression holds the multiplier of a row, or what drives it."""
+        names = {row.name for row in self.mechanics.rows}
+        known = {symbol(name) for name in names for symbol in (multiplier_symbol, drive_symbol)}
+        return bool(known) and not known.isdisjoint(expr.free_symbols)
+
     def node(self, expr: Any, what: str) -> int:
         """The node of an expression; ``what`` describes it in messages. Raises `ModelError` for unknown symbols."""
         worked = self.plain_derivatives(as_expr(expr, what))
         table = self._accelerated if holds_acceleration(worked, self.model) else self._still
+        if self._of_constraints(worked):
+            table = {**table, **self.restrained}
         self._check(worked, table, what)
         return from_sympy(self.graph, worked, table, self._memo)
 

@@ -77,6 +77,16 @@ def named_conditions(model: Model) -> Iterator[NamedCondition]:
             yield NamedCondition(name, element, condition)
 
 
+def multiplier_symbol(name: str) -> sp.Symbol:
+    """The multiplier λ of a row, by its name, in expressions of a run; no user's symbol has such a name."""
+    return sp.Symbol(f"λ({name})", real=True)
+
+
+def drive_symbol(name: str) -> sp.Symbol:
+    """a₀ of a row c = A v + a₀, by its name, in expressions of a run: what time alone does to it."""
+    return sp.Symbol(f"a₀({name})", real=True)
+
+
 def check_rows(model: Model) -> None:
     """Refuse a constraint on velocities that holds no rate, or is not linear in them."""
     rates: set[sp.Expr] = {*(v.symbol for v in model.velocities), *(c.rate for c in model.coordinates)}

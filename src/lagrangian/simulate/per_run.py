@@ -10,7 +10,7 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from lagrangian import dynamics, read
+from lagrangian import dynamics
 from lagrangian.advice import Advice, Argument
 from lagrangian.errors import ModelError, RunError, did_you_mean
 from lagrangian.integrate import METHODS, Events, Signals
@@ -21,6 +21,7 @@ from lagrangian.simulate.drift import check_method
 from lagrangian.simulate.events import listed_events
 from lagrangian.simulate.inputs import InputSignals
 from lagrangian.simulate.integrating import SYMPLECTIC, projection, remembered
+from lagrangian.simulate.quantities import quantity
 from lagrangian.simulate.settings import DEFAULT, RunSettings
 from lagrangian.simulate.starts import held, starts_of_runs
 from lagrangian.simulate.variation import TAKEN
@@ -167,7 +168,7 @@ def _asked(model: Model, name: str | None, asked: Any) -> tuple[str | None, sp.E
     own = first if space and first in REDUCTIONS else None
     text = rest.strip() if own else asked.strip()
     try:
-        expr = read.parse_expression(text, read.Scope(model.symbols), what=f"output '{text[:40]}'")
+        expr = quantity(model, text, f"output '{text[:40]}'")
     except ModelError as trouble:
         if space and own is None and rest[:1].isidentifier() and first.isidentifier() and first not in model.symbols:
             raise RunError(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
+from fractions import Fraction
 from importlib.metadata import version
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,13 +13,14 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from lagrangian import read
 from lagrangian.errors import ModelError
 from lagrangian.model import Frame, Model
+from lagrangian.model.rows import Row, multiplier_symbol, rows_of
 from lagrangian.page.plain import plain
 from lagrangian.simulate.integrating import remembered
+from lagrangian.simulate.quantities import multiplier_words, quantity, row_of
 from lagrangian.simulate.recorded import Recorded
-from lagrangian.values.dimensions import NONE, RATE, Dimensions, Mismatch, check_dimensions
+from lagrangian.values.dimensions import ENERGY, NONE, RATE, Dim, Dimensions, Mismatch, check_dimensions
 from lagrangian.view import Marks, Panel, Picture, Series, draw, joined
 from lagrangian.write.labels import Labels
 from lagrangian.write.tables import Column, ColumnTable
@@ -72,10 +74,26 @@ class Units:
             return "rad/s" if expr.derivative_count == 1 else f"rad/s^{expr.derivative_count}"
         if expr in self._angles:
             return "rad"
+        if (row := row_of(self.model, expr)) is not None:
+            return self._of_multiplier(row)
         for x in (*self.model.coordinates, *self.model.velocities, *self.model.inputs):
             if x.symbol == expr and x.unit:
                 return x.unit.replace("*", " ")
         return self._worked_out(expr)
+
+    def _of_multiplier(self, row: Row) -> str:
+        """Power per unit of c; of a row on positions, energy per unit of f."""
+        if row.unit is not None:
+            found = Dim.of_unit(row.unit)
+        else:
+            try:
+                own = None if self._dims is None else self._dims.of(row.rate if row.position is None else row.position)
+            except Mismatch:
+                own = None
+            if own is None or own.unknown:
+                return ""
+            found = (ENERGY if row.position is not None else ENERGY.times(RATE)).times(own, Fraction(-1))
+        return NAMED.get(str(found), str(found))
 
     def _worked_out(self, expr: sp.Expr) -> str:
         if self._dims is None:
@@ -121,7 +139,7 @@ def _alone(angle: sp.Expr, q: Any) -> bool:
 
 
 def table(run: Recorded) -> ColumnTable:
-    """The states, the inputs, the energies and the named points over time."""
+    """The states, the inputs, the energies, the multipliers of constraints and the named points over time."""
     model, units = run.model, Units(run.model)
     columns: list[Column] = []
     words = {c.name: c.description for c in model.coordinates}
@@ -138,6 +156,9 @@ def table(run: Recorded) -> ColumnTable:
         ("supplied", run.supplied, "energy supplied since the start"),
     ):
         columns.append(Column(f"energy.{key}", values, "J", said))
+    for row in rows_of(model):
+        unit = units.of(multiplier_symbol(row.name))
+        columns.append(Column(f"multiplier.{row.name}", run.multipliers[row.name], unit, multiplier_words(model, row)))
     for name, path in run.points.items():
         for axis, values in zip("xyz", path.T, strict=False):
             columns.append(Column(f"{name}.{axis}", values, "m", f"{axis} of point {name}"))
@@ -204,7 +225,7 @@ def check_no_file(asked: Any, verb: str) -> None:
 def _expression(model: Model, asked: Any) -> sp.Expr:
     check_no_file(asked, "run.plot")
     if isinstance(asked, str):
-        return read.parse_expression(asked, read.Scope(model.symbols), what="what is plotted")
+        return quantity(model, asked, "what is plotted")
     if not isinstance(asked, sp.Expr):
         raise ModelError(
             f"a plot shows expressions and names (got {type(asked).__name__})",
@@ -220,7 +241,16 @@ def _panel(run: Recorded, units: Units, labels: Labels, expr: sp.Expr) -> Panel:
     if unit == "rad":
         turns = bool(len(values)) and float(np.max(np.abs(values))) > TURNS
         values, unit = (values / (2 * np.pi), "turns") if turns else (np.degrees(values), "deg")
+    if (row := row_of(run.model, expr)) is not None:
+        return Panel(
+            what or "multiplier", unit, (Series(rf"\lambda\;\mathrm{{{_escaped(row.name)}}}", row.name, values),)
+        )
     return Panel(what, unit, (Series(labels.tex(expr), labels.text(expr), values),))
+
+
+def _escaped(name: str) -> str:
+    """A name inside a formula of a picture."""
+    return "".join({" ": r"\ ", "_": r"\_"}.get(c, c) if c.isalnum() or c in " _.-" else "?" for c in name)
 
 
 def _energies(run: Recorded) -> Panel:

@@ -13,14 +13,16 @@ import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian import codegen as machine
-from lagrangian import dynamics, read
+from lagrangian import dynamics
 from lagrangian.advice import Advice, Argument
 from lagrangian.calls import TRAJECTORY, Guided
 from lagrangian.errors import ModelError, NoSuchEntry, Notice, did_you_mean
 from lagrangian.integrate.status import RunStatus
 from lagrangian.model import Element, Model, Point, as_expr
+from lagrangian.model.rows import drive_symbol, multiplier_symbol, named_conditions
 from lagrangian.simulate.drift import RunDrift
 from lagrangian.simulate.integrating import remembered
+from lagrangian.simulate.quantities import quantity
 from lagrangian.viewed import Brief, Entries
 
 if TYPE_CHECKING:
@@ -121,12 +123,12 @@ class Recorded(Guided):
         return Entries(dict(values), "params")
 
     def __getitem__(self, asked: Any) -> Array:
-        """Return a quantity at every time: a state by name, an expression (SymPy or text), or the path of a point
-        (S, d)."""
+        """Return a quantity at every time: a state by name, an expression (SymPy or text), the path of a point (S, d),
+        or the multiplier of a constraint's row, ``run["loop.x"]``."""
         if isinstance(asked, str):
             if asked in self.states:
                 return self.y[self.states.index(asked)]
-            asked = read.parse_expression(asked, read.Scope(self.model.symbols), what="what is asked of the run")
+            asked = quantity(self.model, asked, "what is asked of the run")
         elif isinstance(asked, (int, slice)):
             raise ModelError(
                 f"run[…] takes a name or an expression (got {asked!r:.40})",
@@ -212,10 +214,22 @@ class Recorded(Guided):
 
     @cached_property
     def powers(self) -> Mapping[str, Array]:
-        """The power [W] that each force, damper, spring, … supplies to the motion, by name, (S,) each."""
+        """The power [W] that each force, damper, spring, constraint, … supplies to the motion, by name, (S,) each.
+
+        A constraint supplies power where it depends on time, −Σ λ a₀ with c = A v + a₀; otherwise 0.
+        """
         acting = [e for e in self.model.elements if e.ledger != "T*"]
         return NamedQuantities(
             self, "element that gives power,", {e.name: partial(element_power, self.model, e) for e in acting}
+        )
+
+    @cached_property
+    def multipliers(self) -> Mapping[str, Array]:
+        """The multipliers λ of the constraints' rows by name, (S,) each; λ > 0 acts so as to increase what is zero."""
+        return NamedQuantities(
+            self,
+            "constraint row",
+            {row.name: partial(multiplier_symbol, row.name) for row in named_conditions(self.model)},
         )
 
 
@@ -257,8 +271,11 @@ def _same(thing: Any) -> Any:
 def element_power(model: Model, element: Element) -> sp.Expr:
     """The power [W] that an element supplies to the motion: Σ effort · rate, and −V̇ of its potential energy.
 
-    V̇ is taken along the motion, with inputs and time constant.
+    V̇ is taken along the motion, with inputs and time constant. Of a constraint it is −Σ λ a₀ over its rows.
     """
+    if element.ledger == "λ":
+        rows = [row.name for row in named_conditions(model) if row.element is element]
+        return -sp.Add(*(multiplier_symbol(name) * drive_symbol(name) for name in rows))
     given = sum((a.effort * a.rate for a in element.works(model)), sp.S.Zero)
     stored = element.potential(model)
     return given - sum((sp.diff(stored, c.symbol) * c.rate for c in model.coordinates), sp.S.Zero)

@@ -34,6 +34,11 @@ class Dim:
     known: Exponents = (Fraction(0), Fraction(0), Fraction(0))
     unknown: tuple[tuple[Any, Fraction], ...] = ()
 
+    @classmethod
+    def of_unit(cls, unit: tuple[int, int, int]) -> Dim:
+        """That of a unit kg^a m^b s^c, by its exponents."""
+        return _dim(*unit)
+
     def times(self, other: Dim, power: Fraction = Fraction(1)) -> Dim:
         """self · other^power."""
         table = dict(self.unknown)

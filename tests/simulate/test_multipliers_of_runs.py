@@ -1,0 +1,115 @@
+"""The multipliers of constraints in runs, against closed forms."""
+
+from __future__ import annotations
+
+import matplotlib
+import numpy as np
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+from lagrangian.model import time
+
+matplotlib.use("Agg")
+MASS, LENGTH, GRAVITY, START = 2.0, 1.5, 9.81, 0.5
+
+
+def pendulum() -> lg.System:
+    """A point mass on a rod, in Cartesian coordinates."""
+    s = lg.System("rod pendulum")
+    x, y = s.coordinates("x y")
+    P = s.point("P", (x, y))
+    s.particle(s.parameter("m", f"{MASS} kg"), at=P)
+    s.gravity((0, -1), s.parameter("g", f"{GRAVITY} m/s^2"))
+    s.constraint(between=(P, s.origin), distance=s.parameter("l", f"{LENGTH} m"), name="rod")
+    return s
+
+
+def start() -> dict[str, float]:
+    return {"x": LENGTH * np.sin(START), "y": -LENGTH * np.cos(START)}
+
+
+@pytest.fixture(scope="module")
+def run() -> lg.Trajectory:
+    return pendulum().simulate(2.0, initial=start(), samples=201)
+
+
+def tension(run: lg.Trajectory) -> np.ndarray:
+    """m g cos θ + m l θ'², the balance of forces along the rod."""
+    cosine = -run["y"] / LENGTH
+    speed = np.hypot(run["x'"], run["y'"])
+    return MASS * GRAVITY * cosine + MASS * speed**2 / LENGTH
+
+
+def test_a_row_by_name_is_its_multiplier_and_the_tension_its_negative(run: lg.Trajectory) -> None:
+    assert -run["rod"] == pytest.approx(tension(run), abs=1e-11)
+    assert np.array_equal(run.multipliers["rod"], run["rod"])
+    assert list(run.multipliers) == ["rod"]
+
+
+def test_ensembles_reduce_and_sample_multipliers(run: lg.Trajectory) -> None:
+    given = {name: [value] for name, value in start().items()}
+    runs = pendulum().ensemble(initial=given, outputs=["min rod", "max rod"], times=run.t)
+    assert runs["min rod"] == pytest.approx(-tension(run).max(), rel=1e-7)
+    assert runs["max rod"] == pytest.approx(-tension(run).min(), rel=1e-7)
+    sampled = pendulum().ensemble(initial=given, outputs=["rod"], reduce=None, times=run.t)
+    assert sampled["rod"][0] == pytest.approx(-tension(run), rel=1e-7)
+
+
+def test_tables_and_pictures_hold_them_with_units(run: lg.Trajectory) -> None:
+    data = run.to_xarray()
+    assert data["multiplier.rod"].attrs["units"] == "N"
+    assert "pushes apart" in data["multiplier.rod"].attrs["long_name"]
+    assert "multiplier.rod" in run.to_csv().splitlines()[0].split(",")
+    axes = run.figure("rod").axes[0]
+    assert "rod" in axes.get_ylabel() and "[N]" in axes.get_ylabel()
+    assert axes.lines[0].get_ydata() == pytest.approx(run["rod"])
+
+
+def test_the_unit_of_an_expressions_multiplier_is_energy_or_power_per_unit_of_it() -> None:
+    s = lg.System("disc")
+    x, phi = s.coordinates("x phi")
+    s.particle(s.parameter("m", "1 kg"), at=s.point("C", (x, 0)))
+    s.potential(phi**2 * s.parameter("c", "2 N*m"))
+    s.kinetic(s.parameter("J", "2 kg*m^2") * phi.diff(time) ** 2 / 2)
+    s.constraint(x - s.parameter("r", "0.5 m") * phi, name="no slip")
+    data = s.simulate(0.1, phi=0.1, x=0.05, samples=3).to_xarray()
+    assert data["multiplier.no slip"].attrs["units"] == "N"
+
+
+def test_names_that_are_no_row_say_which_there_are(run: lg.Trajectory) -> None:
+    s = lg.System("pinned twice")
+    x, y = s.coordinates("x y")
+    P = s.point("P", (x, y))
+    s.particle(s.parameter("m", "1 kg"), at=P)
+    s.constraint(between=(P, s.origin), name="loop")
+    still = s.simulate(0.1, samples=3)
+    with pytest.raises(lg.ModelError, match="has 2 multipliers") as trouble:
+        still["loop"]
+    assert "loop.x, loop.y" in trouble.value.fix
+    with pytest.raises(lg.ModelError, match=r"no constraint row 'loop\.z'"):
+        still["loop.z"]
+    with pytest.raises(KeyError, match="no constraint row 'rope'"):
+        run.multipliers["rope"]
+
+
+def test_a_driven_constraint_supplies_its_force_times_the_speed_that_it_prescribes() -> None:
+    """x = A sin ω t: λ = (k − m ω²) x, and the drive's power is λ A ω cos ω t."""
+    s = lg.System("driven mass")
+    x = s.coordinates("x")
+    m, k = s.parameter("m", "2 kg"), s.parameter("k", "50 N/m")
+    P = s.point("P", (x, 0))
+    s.particle(m, at=P)
+    s.spring(k, deflection=x)
+    A, w = s.parameter("A", "0.1 m"), s.parameter("w", "3 1/s")
+    s.constraint(x - A * sp.sin(w * time), name="drive")
+    run = s.simulate(2.0, initial={"x'": 0.3}, samples=101)
+    force = (50 - 2 * 9) * 0.1 * np.sin(3 * run.t)
+    assert run["drive"] == pytest.approx(force, abs=1e-10)
+    assert run.powers["drive"] == pytest.approx(force * 0.3 * np.cos(3 * run.t), abs=1e-10)
+    assert run.powers["drive"] == pytest.approx(run.power, abs=1e-12)
+    assert float(run.audit) < 1e-8
+
+
+def test_a_constraint_that_stands_still_supplies_no_power(run: lg.Trajectory) -> None:
+    assert np.array_equal(run.powers["rod"], np.zeros(len(run.t)))
