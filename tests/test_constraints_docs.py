@@ -1,9 +1,9 @@
 """What docs/constraints.md says runs as it stands there."""
 
 import pytest
-from test_docs import blocks
 
 import lagrangian as lg
+from test_docs import blocks
 
 
 @pytest.fixture(scope="module")
@@ -30,7 +30,10 @@ def test_what_the_comments_of_the_guide_say_is_so(names: dict[str, object]) -> N
 
 def test_the_guides_file_is_read() -> None:
     (text,) = blocks("docs/constraints.md", "toml")
-    head = 'name = "sled"\n[coordinates]\nx = ""\ny = ""\ntheta = ""\n[parameters]\nl = 1.0\nm = 1.0\n[points]\nP = ["x", "y"]\n'
-    body = '[[frame]]\nname = "sled"\nangle = "theta"\n[[rigid_body]]\nmass = "m"\ninertia = "m"\nat = "P"\nframe = "sled"\n'
-    model = lg.loads(head + body + text).model
+    coordinates = (
+        '[coordinates]\nx = ""\ny = ""\ntheta = ""\n[parameters]\nl = 1\nm = 1\n[points]\nP = ["x", "y"]\n'
+    )
+    body = '[[frame]]\nname = "sled"\nangle = "theta"\n[[rigid_body]]\nmass = "m"\ninertia = "m"\nat = "P"\n'
+    head = f'name = "sled"\n{coordinates}{body}frame = "sled"\n'
+    model = lg.loads(head + text).model
     assert [e.name for e in model.constraints] == ["rod", "blade"]
