@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import tomllib
 from functools import cache
 
 import lagrangian as lg
 from lagrangian import examples
+
+TABLES = {"constraint", "velocity_constraint", "pin", "ball", "slider", "weld", "rolling", "rope"}
+CONSTRAINED = tuple(n for n in examples.names() if TABLES & set(tomllib.loads(examples.text(n))))
+FREE = tuple(n for n in examples.names() if n not in CONSTRAINED)
+"""Examples with as many coordinates as degrees of freedom."""
 
 
 @cache

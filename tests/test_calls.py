@@ -106,6 +106,13 @@ def test_gravity_that_was_left_out_is_noted() -> None:
     assert [n.code for n in s.notices] == ["E107"]
     s.gravity()
     assert s.notices == ()
+    sleigh = lg.System("seen from above")
+    x, y, psi = sleigh.coordinates("x y psi")
+    knife = sleigh.point("K", (x, y))
+    frame = sleigh.frame(psi, origin=knife)
+    sleigh.rigid_body(1, 1, at=frame.point(1, 0), frame=frame)
+    sleigh.velocity_constraint(y.diff() * sp.cos(psi) - x.diff() * sp.sin(psi), name="knife edge")
+    assert sleigh.notices == ()
     t = lg.System("a g without gravity")
     x = t.coordinates("x")
     t.parameter("g", 9.81)

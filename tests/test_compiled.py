@@ -14,6 +14,7 @@ import sympy as sp
 from sympy import cos, sin
 
 import lagrangian as lg
+from built_in import FREE
 from effort import at_most
 from lagrangian import examples
 from size import rest_slow
@@ -55,7 +56,7 @@ def by_the_equations(s: lg.System, x: dict[str, np.ndarray], time: float) -> np.
 LONG = {"robot-arm", "scara", "triple-pendulum-relative", "spring-net", "ball-and-beam", "acrobot", "spinning-top"}
 
 
-@pytest.mark.parametrize("name", rest_slow(examples.names(), set(examples.names()) - LONG))
+@pytest.mark.parametrize("name", rest_slow(FREE, set(FREE) - LONG))
 def test_forward_dynamics_solves_the_equations_that_people_read(name: str) -> None:
     s = system(name)
     x = state(s)

@@ -50,8 +50,11 @@ SIMULATE = "lagrangian simulate -e {name} --plot run.png\n"
 
 
 def derived(system: lg.System) -> str:
-    """The checklist of a derivation in Markdown, without its title and what was verified."""
-    _, _, steps = system.derive().to_markdown(brief=True).partition("\n")
+    """The checklist of a derivation in Markdown, without its title and what was verified; or why there is none."""
+    try:
+        _, _, steps = system.derive().to_markdown(brief=True).partition("\n")
+    except lg.Error as refused:
+        return f"## Result\n\nNo equations are written out:\n\n```\n{refused}\n```"
     return steps.partition(LEFT_OUT)[0].strip()
 
 

@@ -143,16 +143,16 @@ class Restricted(Looking):
         return names
 
     def _guess(self, given: Any, names: tuple[str, ...], what: str) -> NDArray[np.float64]:
-        """A guess as an array: what a mapping leaves out is 0."""
+        """A guess as an array: what a mapping leaves out is 0, and 1 in a quaternion that does not turn."""
+        start = {c.name: c.start for c in self._model.coordinates}
         if given is None:
-            start = {c.name: c.start for c in self._model.coordinates}
             return np.array([start.get(name, 0.0) for name in names])
         if isinstance(given, Mapping):
             table = {key if isinstance(key, str) else plain(key): value for key, value in given.items()}
             for key in table:
                 if key not in names:
                     raise RunError(f"there is no '{key[:64]}' in {what}", fix=did_you_mean(key, names), code="E402")
-            return np.array([float(table.get(name, 0.0)) for name in names])
+            return np.array([float(table.get(name, start.get(name, 0.0))) for name in names])
         values = np.asarray(given, float)
         if values.shape != (len(names),) or not np.isfinite(values).all():
             raise RunError(

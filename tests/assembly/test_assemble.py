@@ -160,3 +160,13 @@ def test_the_tension_of_a_rod() -> None:
     assert -dyn.multipliers(q, v)["rod"] == pytest.approx(tension, rel=1e-13)
     assert dyn.margin(q) == pytest.approx(np.ones(3))
     assert dyn.constraint_matrix(q)[:, 0] == pytest.approx(q / 2.0)
+
+
+def test_what_a_guess_by_name_leaves_out_begins_as_a_run_does() -> None:
+    """A free body held at a point of its own 1 m off its origin: the quaternion left out is (0, 0, 0, 1), not 0."""
+    s = lg.System("hung body")
+    body = s.floating_frame("b")
+    s.rigid_body(2, (1, 1, 1), at=body.origin, frame=body)
+    s.ball((body.point(0, 0, 1), s.origin), name="hook")
+    q, _ = s.compile().assemble({"b_z": -1.0})
+    assert q == pytest.approx([0, 0, -1, 0, 0, 0, 1])

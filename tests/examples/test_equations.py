@@ -9,6 +9,8 @@ from kane_route import residual
 from kane_systems import oracle
 from random_states import states, worst
 
+import lagrangian as lg
+from built_in import FREE
 from lagrangian import examples
 from size import rest_slow
 
@@ -26,12 +28,12 @@ def sampled(name: str, count: int = 20):
 LONG = {"robot-arm", "scara", "spring-net", "acrobot", "ball-and-beam"}
 
 
-@pytest.mark.parametrize("name", rest_slow(examples.names(), set(examples.names()) - LONG))
+@pytest.mark.parametrize("name", rest_slow(FREE, set(FREE) - LONG))
 def test_equations_are_kanes(name: str) -> None:
     assert worst(ours(name), oracle(name), sampled(name)) < 1e-10
 
 
-@pytest.mark.parametrize("name", rest_slow(examples.names(), set(examples.names()) - LONG))
+@pytest.mark.parametrize("name", rest_slow(FREE, set(FREE) - LONG))
 def test_matrix_form_is_kanes(name: str) -> None:
     d = derivation(name)
     rates = sp.Matrix([c.rate for c in d.model.coordinates])
@@ -41,7 +43,7 @@ def test_matrix_form_is_kanes(name: str) -> None:
     assert worst(residual(written, [c.name for c in d.model.coordinates]), oracle(name), sampled(name, 5)) < 1e-10
 
 
-@pytest.mark.parametrize("name", examples.names())
+@pytest.mark.parametrize("name", FREE)
 def test_what_was_verified_holds(name: str) -> None:
     checks = derivation(name).verified
     assert checks
@@ -50,4 +52,4 @@ def test_what_was_verified_holds(name: str) -> None:
 
 @pytest.mark.parametrize("name", examples.names())
 def test_every_parameter_has_a_value(name: str) -> None:
-    assert all(p.value is not None for p in derivation(name).model.parameters)
+    assert all(p.value is not None for p in lg.example(name).model.parameters)

@@ -9,6 +9,7 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from built_in import FREE
 from lagrangian import dynamics, examples
 from lagrangian.cli import main
 from lagrangian.errors import ModelError, RunError
@@ -37,7 +38,7 @@ def quotient(program, groups: dict[str, list[float]], by: str) -> np.ndarray:
     return np.array(columns).T.reshape(len(program.inputs["x"]), len(groups[by]))
 
 
-@pytest.mark.parametrize("name", examples.names())
+@pytest.mark.parametrize("name", FREE)
 def test_a_and_b_are_the_difference_quotient_of_the_motion(name: str) -> None:
     system = built_in(name)
     program = dynamics.rhs(system.model)

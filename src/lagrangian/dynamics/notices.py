@@ -21,7 +21,7 @@ from lagrangian.dynamics.description import Inputs
 from lagrangian.dynamics.programs import mass_matrix
 from lagrangian.errors import ModelError, Notice
 from lagrangian.graph import Graph, Program, evaluate
-from lagrangian.model import Body, Gravity, Model, Parameter
+from lagrangian.model import Body, Gravity, Model, Parameter, VelocityConstraint
 from lagrangian.model.body_checks import Doubt, Numbers, doubt
 
 STATES = 20
@@ -84,6 +84,8 @@ def _weightless(model: Model) -> Iterator[Notice]:
         return
     if model.dimension != 2 or any(e.ledger not in ("T*", "λ") for e in model.elements):
         return
+    if any(isinstance(e, VelocityConstraint) for e in model.elements):
+        return  # a knife edge or the axle of a car: the plane is seen from above
     heights = [model.expand(model.position(body.at)[1]) for body in model.bodies]
     if any(h.has(sp.sin, sp.cos) and h.has(AppliedUndef) for h in heights):
         yield Notice(
