@@ -263,7 +263,7 @@ class IntegralSearch:
         power = None if alone is None else self._antiderivative(alone, variables[k])
         if power is None:
             return None
-        factor = cast("sp.Expr", bounded.simplify(cast("sp.Expr", sp.exp(power))))
+        factor = bounded.simplify(sp.exp(power))
         curl = self._curl(form, variables)
         return factor if curl.closed(self._zero, curl.logarithmic(self.sheet, factor)) else None
 
@@ -329,7 +329,7 @@ class IntegralSearch:
                     others = [x for k, x in enumerate(variables) if k not in (i, j)]
                     outer = self._integrated((sp.S.One, *left), (level, *others))
                     if outer is not None:
-                        return cast("sp.Expr", outer[0].subs(level, u)), "Natani's method"
+                        return outer[0].subs(level, u), "Natani's method"
         return None
 
 
@@ -344,10 +344,18 @@ def _antiderivative(expr: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
     for routine in (manualintegrate, partial(sp.integrate, meijerg=False)):
         f = bounded.searched(routine, expr, x)
         if f is not None:
-            f = f.replace(lambda e: isinstance(e, sp.Piecewise), lambda e: e.args[0].expr)
+            f = f.replace(sp.Piecewise, _first_branch)
             if not f.has(sp.Integral, sp.I, sp.erf, sp.Ei, sp.Si, sp.Ci, sp.li):
                 return cast("sp.Expr", f)
     return None
+
+
+def _first_branch(*pieces: Any) -> sp.Expr:
+    return pieces[0].expr
+
+
+def _length(expr: sp.Expr) -> tuple[int, str]:
+    return int(sp.count_ops(expr)), str(expr)
 
 
 def _named(x: sp.Expr) -> str:
@@ -364,7 +372,7 @@ def _somewhere(expr: sp.Expr, idle: Sequence[sp.Symbol]) -> sp.Expr | None:
     for angle, value in PLACES if idle else ():
         there = expr.subs({x: angle if x in angles else value for x in idle})
         if not there.has(sp.nan, sp.zoo, sp.oo, -sp.oo):
-            return cast("sp.Expr", there)
+            return there
     return None if idle else expr
 
 
@@ -372,10 +380,10 @@ def _tidied(f: sp.Expr) -> sp.Expr:
     """A shorter function with the same surfaces: without logarithms where all of it is their sum, without a factor."""
     joined = bounded.searched(partial(sp.logcombine, force=True), f)
     if isinstance(joined, sp.log):
-        f = cast("sp.Expr", joined.args[0])
+        f = joined.args[0]
     elif joined is not None and f.has(sp.log):
-        without = bounded.simplify(cast("sp.Expr", sp.exp(joined)))
+        without = bounded.simplify(sp.exp(joined))
         f = f if without.has(sp.log) or without.has(sp.exp) else without
-    shorter = min((f, bounded.expand(f), bounded.simplify(f)), key=lambda e: (sp.count_ops(e), str(e)))
+    shorter = min((f, bounded.expand(f), bounded.simplify(f)), key=_length)
     plain = shorter.primitive()[1]
-    return cast("sp.Expr", -plain if plain.could_extract_minus_sign() else plain)
+    return -plain if plain.could_extract_minus_sign() else plain

@@ -1,7 +1,7 @@
 """Rows of constraints in the expression graph: A(q, t) q̇ + a0(q, t) = 0 as one-forms in the variables (q, t)."""
 
 # SymPy has no type stubs:
-# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownArgumentType=false
 
 from __future__ import annotations
 

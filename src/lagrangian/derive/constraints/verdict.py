@@ -1,7 +1,7 @@
 """Holonomic, or nonholonomic by how many, or undecided: the verdict on a system's constraints."""
 
 # mpmath has no type stubs:
-# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownVariableType=false
 
 from __future__ import annotations
 
