@@ -30,9 +30,7 @@ def test_what_the_comments_of_the_guide_say_is_so(names: dict[str, object]) -> N
 
 def test_the_guides_file_is_read() -> None:
     (text,) = blocks("docs/constraints.md", "toml")
-    coordinates = (
-        '[coordinates]\nx = ""\ny = ""\ntheta = ""\n[parameters]\nl = 1\nm = 1\n[points]\nP = ["x", "y"]\n'
-    )
+    coordinates = '[coordinates]\nx = ""\ny = ""\ntheta = ""\n[parameters]\nl = 1\nm = 1\n[points]\nP = ["x", "y"]\n'
     body = '[[frame]]\nname = "sled"\nangle = "theta"\n[[rigid_body]]\nmass = "m"\ninertia = "m"\nat = "P"\n'
     head = f'name = "sled"\n{coordinates}{body}frame = "sled"\n'
     model = lg.loads(head + text).model

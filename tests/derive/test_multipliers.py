@@ -367,3 +367,49 @@ def test_a_coordinate_without_mass_that_a_row_carries() -> None:
     (equation,) = residuals(d)
     assert d.minimal.speeds == (phi.diff(t),)
     assert same(equation, m * r**2 * phi.diff(t, 2) - torque)
+
+
+def test_a_constraint_that_moves_with_time() -> None:
+    """A wire that is lifted: ẏ = tan β ẋ + A ω cos ωt, so s₀ is not zero, and the wire does work."""
+    s = lg.System("bead on a wire that is lifted")
+    x, y = s.coordinates("x y")
+    m, beta, A, w = s.parameters("m beta A omega", m=1.0, beta=0.4, A=0.3, omega=2.0)
+    g = s.parameter("g", 9.81)
+    s.particle(m, at=s.point("P", (x, y)))
+    s.gravity(g=g)
+    s.constraint(y - sp.tan(beta) * x - A * sp.sin(w * s.t), name="wire")
+    d = s.derive()
+    assert d.minimal is not None
+    assert same(d.minimal.s0[1], A * w * sp.cos(w * t))
+    (equation,) = residuals(d)
+    lifted = g - A * w**2 * sp.sin(w * t)
+    assert same(equation, m * (1 + sp.tan(beta) ** 2) * x.diff(t, 2) + m * sp.tan(beta) * lifted)
+    assert all(c.holds for c in d.verified)
+
+
+def test_a_row_that_is_said_twice_has_one_multiplier() -> None:
+    """The row that says nothing new is left out of the equations, and what is left is verified."""
+    s = lg.System("twice")
+    x, y = s.coordinates("x y")
+    m, c = s.parameters("m c", m=1.0, c=0.5)
+    s.particle(m, at=s.point("P", (x, y)))
+    s.gravity()
+    s.constraint(y - c * x, name="one")
+    s.constraint(2 * y - 2 * c * x, name="two")
+    d = s.derive()
+    assert list(d.multipliers) == ["one"]
+    assert all(check.holds for check in d.verified)
+
+
+def test_names_of_new_speeds_and_multipliers_are_free() -> None:
+    """A system that has v and lambda_edge gets u1 and lambda_edge_."""
+    s = lg.System("sledge")
+    x, y, theta = s.coordinates("x y theta")
+    v, J, taken = s.parameters("v J lambda_edge", v=1.0, J=0.5, lambda_edge=2.0)
+    body = s.frame(theta, origin=s.point("P", (x, y)), name="B")
+    s.rigid_body(v * taken, J, at=body.origin, frame=body)
+    s.velocity_constraint(x.diff(t) * sp.sin(theta) - y.diff(t) * sp.cos(theta), name="edge")
+    d = s.derive()
+    assert d.minimal is not None
+    assert [str(u) for u in d.minimal.meanings] == ["u1(t)"]
+    assert str(d.multipliers["edge"].symbol) == "lambda_edge_(t)"

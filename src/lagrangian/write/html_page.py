@@ -187,7 +187,9 @@ def _boxed(displays: tuple[Display, ...], anchors: bool) -> Iterator[str]:
         )
     yield f'<div class="result" role="group" aria-label="Equations of motion">{"".join(equations)}</div>'
     if kinds:
-        shown = "".join(f'<li><span class="swatch {k}"></span>{escape(KINDS[k])}</li>' for k in KINDS if k in kinds)
+        shown = "".join(
+            f'<li><span class="swatch {_colour(k)}"></span>{escape(KINDS[k])}</li>' for k in KINDS if k in kinds
+        )
         yield f'<p class="hint">Point at a term to see the elements it came from.</p><ul class="legend">{shown}</ul>'
 
 
@@ -198,6 +200,11 @@ def _kept(sides: list[str], equals: str) -> str:
         alone = side.count("<math") == 1
         text += f'<span class="kept">{equals}{side.strip()}</span> ' if alone else equals + side
     return text
+
+
+def _colour(kind: str) -> str:
+    """The classes of a kind: terms of constraints have the colour of what is no other kind."""
+    return "other constraint" if kind == "constraint" else kind
 
 
 def _terms(side: Math, kinds: list[str]) -> str:
@@ -211,9 +218,9 @@ def _terms(side: Math, kinds: list[str]) -> str:
             kind = term.kind if term.kind in KINDS else "other"
             if kind not in kinds:
                 kinds.append(kind)
-            origin = escape(", ".join(term.elements))
+            origin, colour = escape(", ".join(term.elements)), _colour(kind)
             out.append(
-                f'<span class="term {kind}" tabindex="0" aria-label="from {origin}" data-from="{origin}">{inner}</span>'
+                f'<span class="term {colour}" tabindex="0" aria-label="from {origin}" data-from="{origin}">{inner}</span>'
             )
         else:
             out.append(f'<span class="sign">{inner}</span>')
