@@ -17,7 +17,7 @@ from lagrangian.model.body_checks import check_body
 from lagrangian.model.checks import check_acted_on, check_kind, check_position, check_use
 from lagrangian.model.declarations import Declarations
 from lagrangian.model.effect import check_effect
-from lagrangian.model.elements import Body, Element, FieldKind
+from lagrangian.model.elements import Body, Element, FieldKind, Level
 from lagrangian.model.floating import Floating
 from lagrangian.model.geometry import Frame, Point, as_expr, as_vector, is_listed
 from lagrangian.model.model import Model
@@ -234,6 +234,8 @@ class Builder(Declarations):
             inputs = {i.symbol: i.name for i in self._inputs.values()}
             velocities = {v.symbol: v.name for v in self._velocities.values()}
             check_use(element, use, self._written_out(use.expr), inputs, velocities)
+            if element.ledger == "λ" and use.level == Level.POSITION:
+                self._check_position(use.expr, f"the {use.what} of {element.title}", element.place)
         if isinstance(element, Body):
             check_body(self._numbers, element)
         self._elements.append(element)

@@ -58,7 +58,9 @@ def check_use(
         if atom in inputs and not use.inputs:
             raise error(
                 f"the {use.what} holds the input '{inputs[atom]}'",
-                "use parameters for constants; an input is a force, a torque or a prescribed rest length",
+                "a constraint may depend on t, but not on inputs: write the prescribed motion as an expression in t"
+                if element.ledger == "λ"
+                else "use parameters for constants; an input is a force, a torque or a prescribed rest length",
                 "E417",
             )
         if atom not in inputs and use.level == Level.CONSTANT:

@@ -119,7 +119,7 @@ class _Reader:
     def directions(self, key: str, value: Any, entry: Entry) -> Any:
         """Read a vector, or a list of vectors."""
         path, what = self.where(key), f"the {key} of {self.title}"
-        if not isinstance(value[0], list):
+        if not any(isinstance(x, list) for x in value):
             return self.loader.vector(value, path, what)
         for i, x in enumerate(value):
             if not isinstance(x, list):

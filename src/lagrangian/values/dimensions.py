@@ -313,7 +313,8 @@ def _unit(dims: Dimensions, element: Any, measure: Measure) -> Dim:
     unit = _dim(*measure.unit)
     if not measure.power:
         return unit
-    along = None if measure.along is None else _inside(dims, element, "deflection", measure.along)
+    what = measure.what if measure.along is measure.expr else "deflection"
+    along = None if measure.along is None else _inside(dims, element, what, measure.along)
     return unit.times(LENGTH if along is None else along, Fraction(measure.power))
 
 

@@ -219,8 +219,9 @@ def _hold_machine(
     for other in (M, got["H"].reshape(n, n)):
         found.mass = _worse(found.mass, float(np.abs(compiled - other).max() / np.abs(other).max()))
     energies, derived = np.array([energy["T"], energy["V"]], float), np.array([got["T"][0], got["V"][0]])
-    off = float(np.abs(energies - derived).max()) / float(np.abs(derived).max())
-    found.energies = _worse(found.energies, off)
+    off = float(np.abs(energies - derived).max())
+    largest = float(np.abs(derived).max())  # 0 if nothing can move and nothing is stored
+    found.energies = _worse(found.energies, off / largest if largest else off)
 
 
 def _hold_forward(
