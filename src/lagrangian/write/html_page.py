@@ -219,9 +219,8 @@ def _terms(side: Math, kinds: list[str]) -> str:
             if kind not in kinds:
                 kinds.append(kind)
             origin, colour = escape(", ".join(term.elements)), _colour(kind)
-            out.append(
-                f'<span class="term {colour}" tabindex="0" aria-label="from {origin}" data-from="{origin}">{inner}</span>'
-            )
+            said = f'tabindex="0" aria-label="from {origin}" data-from="{origin}"'
+            out.append(f'<span class="term {colour}" {said}>{inner}</span>')
         else:
             out.append(f'<span class="sign">{inner}</span>')
     return " ".join(out) + " "
