@@ -26,6 +26,7 @@ if _typing.TYPE_CHECKING:
     from lagrangian.page.report import Report
     from lagrangian.simulate.ensemble import Ensemble
     from lagrangian.simulate.events import Event, event
+    from lagrangian.simulate.reaction import Reaction
     from lagrangian.simulate.recorded import Audit
     from lagrangian.simulate.settings import Execution, RunSettings
     from lagrangian.simulate.trajectory import Trajectory
@@ -54,6 +55,7 @@ else:
             "page.report": "Report",
             "simulate.ensemble": "Ensemble",
             "simulate.events": "Event event",
+            "simulate.reaction": "Reaction",
             "simulate.recorded": "Audit",
             "simulate.settings": "Execution RunSettings",
             "simulate.trajectory": "Trajectory",
@@ -89,6 +91,7 @@ __all__ = [
     "Origin",
     "ParseError",
     "Place",
+    "Reaction",
     "Regulator",
     "Report",
     "Routhian",

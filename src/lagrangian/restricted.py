@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -13,6 +14,7 @@ from lagrangian.errors import RunError, did_you_mean
 from lagrangian.model.rows import named_conditions
 from lagrangian.page.plain import plain
 from lagrangian.queries import Looking, by_name
+from lagrangian.simulate.reaction import Reaction, worked_out
 
 Values = ArrayLike | Mapping[Any, Any] | None
 """Inputs or parameters: an array in declared order, a mapping by name or symbol, or None for the declared values."""
@@ -32,6 +34,10 @@ class Restricted(Looking):
     velocities: tuple[str, ...]
     parameters: tuple[str, ...]
 
+    @cached_property
+    def _reactions(self) -> dict[Any, dynamics.ReactionProgram]:
+        return {}
+
     @property
     def rows(self) -> tuple[str, ...]:
         """The names of the constraints' rows, such as "loop.x" and "loop.y", in the order of the multipliers."""
@@ -47,6 +53,30 @@ class Restricted(Looking):
         """
         lam = self._constraint("multipliers", (q, v, u, p, t))["lam"]
         return {name: lam[..., i] for i, name in enumerate(self.rows)}
+
+    def reaction(
+        self,
+        joint: Any,
+        q: ArrayLike,
+        v: ArrayLike,
+        u: Values = None,
+        p: Values = None,
+        t: ArrayLike = 0.0,
+        *,
+        on: Any = None,
+        axes: Any = None,
+    ) -> Reaction:
+        """Return the force and the torque in a joint at any states, as a `lagrangian.Reaction`.
+
+        ``joint`` is the name of a constraint, of a point at which a body is held, or of a body that is held; ``on`` the
+        side that it acts on (`lagrangian.Trajectory.reaction`). Accelerations are those of `forward`.
+        """
+        key = ("reaction", joint, on, axes)
+        if key not in self._reactions:
+            self._reactions[key] = dynamics.reaction(self._model, joint, on, axes)
+        made = self._reactions[key]
+        answer = self._called(self._made(key, lambda: made.program), (q, v, u, p, t))
+        return worked_out(self._model, made, answer if isinstance(answer, Mapping) else {"wrench": answer})
 
     def residual(
         self, q: ArrayLike, v: ArrayLike | None = None, p: Values = None, t: ArrayLike = 0.0

@@ -39,6 +39,7 @@ from lagrangian.dynamics.programs import (
     rates,
     rhs,
 )
+from lagrangian.dynamics.reactions import ReactionProgram, reaction
 
 __all__ = [
     "SUPPLY",
@@ -46,6 +47,7 @@ __all__ = [
     "Inputs",
     "Mechanics",
     "Motion",
+    "ReactionProgram",
     "balance_terms_closed",
     "bias",
     "body_numbers",
@@ -82,6 +84,7 @@ __all__ = [
     "power_closed",
     "projection",
     "rates",
+    "reaction",
     "residual",
     "rhs",
     "velocities",

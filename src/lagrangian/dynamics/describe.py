@@ -33,8 +33,13 @@ def describe(model: Model, graph: Graph, inputs: Inputs) -> Mechanics:
     return described(model, graph, inputs)[0]
 
 
-def described(model: Model, graph: Graph, inputs: Inputs) -> tuple[Mechanics, Description]:
-    """The mechanics of a model, and the nodes of its points and frames."""
+def described(
+    model: Model, graph: Graph, inputs: Inputs, release: Callable[[Description], None] | None = None
+) -> tuple[Mechanics, Description]:
+    """The mechanics of a model, and the nodes of its points and frames.
+
+    ``release`` may change the velocities of places and axes before the elements are described.
+    """
     rates, floats = velocities(model, graph, inputs)
     motion = Motion(graph, model.dimension, inputs.q, inputs.v, rates, inputs.t)
     d = Description(model, graph, inputs, motion, _symbols(model, inputs, rates))
@@ -43,6 +48,8 @@ def described(model: Model, graph: Graph, inputs: Inputs) -> tuple[Mechanics, De
         if definition.moving and definition.symbol != time:
             d.table[sp.Derivative(definition.symbol, time)] = motion.rate([node])[0]
     _geometry(d, floats)
+    if release is not None:
+        release(d)
     down = zeros(graph, model.dimension)
     m = Mechanics(graph, motion, Bodies(motion), moved(model), down, floats=tuple(floats.values()))
     for element in model.elements:

@@ -33,8 +33,8 @@ class Observed:
             raise ModelError(f"system '{model.name}' has no coordinates, so nothing can move", code="E201")
         self.model, self.graph = model, Graph()
         self.inputs = Inputs.of(self.graph, model, state=state)
-        self.mechanics, places = described(model, self.graph, self.inputs)
-        self.places = places.places
+        self.mechanics, self.description = described(model, self.graph, self.inputs)
+        self.places = self.description.places
         self._still = self._table()
         self._memo: dict[Any, int] = {}
 
@@ -78,6 +78,10 @@ class Observed:
         for row, value, moved in zip(m.rows, lam, drive(m), strict=True):
             table[multiplier_symbol(row.name)], table[drive_symbol(row.name)] = value, moved
         return table
+
+    def multiplier(self, row: str) -> int:
+        """λ of a row, by its name."""
+        return self.restrained[multiplier_symbol(row)]
 
     def _of_constraints(self, expr: sp.Expr) -> bool:
         """Whether an expression holds the multiplier of a row, or what drives it."""

@@ -23,6 +23,7 @@ from lagrangian.model.rows import drive_symbol, multiplier_symbol, named_conditi
 from lagrangian.simulate.drift import RunDrift
 from lagrangian.simulate.integrating import remembered
 from lagrangian.simulate.quantities import quantity
+from lagrangian.simulate.reaction import Reaction, worked_out
 from lagrangian.viewed import Brief, Entries
 
 if TYPE_CHECKING:
@@ -222,6 +223,23 @@ class Recorded(Guided):
         return NamedQuantities(
             self, "element that gives power,", {e.name: partial(element_power, self.model, e) for e in acting}
         )
+
+    def reaction(self, joint: Any, *, on: Any = None, axes: Any = None) -> Reaction:
+        """Return the force and the torque in a joint at every time, as a `lagrangian.Reaction`.
+
+        ``joint`` is the name of a constraint, of a point at which a body is held, or of a body that is held. Without
+        ``on``, the reaction acts on the first point's body of a constraint, and on the outer body of another joint.
+        ``on`` names a body, frame or point, or is "ground". Components are in the fixed axes, or in a frame's ``axes``.
+        Torques and springs that act on a joint's own coordinate are no part of its reaction. Raises `ModelError` for
+        what is no joint.
+        """
+        key = ("reaction", joint, on, axes, frozenset(self.feedback.items()))
+        made = remembered(
+            self.model,
+            (*key, "program"),
+            lambda: dynamics.reaction(self.model, joint, on, axes, self.feedback, state=True),
+        )
+        return worked_out(self.model, made, self._evaluated(key, lambda: made.program))
 
     @cached_property
     def multipliers(self) -> Mapping[str, Array]:
