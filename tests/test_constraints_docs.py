@@ -1,9 +1,12 @@
 """What docs/constraints.md says runs as it stands there."""
 
+import matplotlib
 import pytest
 
 import lagrangian as lg
 from test_docs import blocks
+
+matplotlib.use("Agg")
 
 
 @pytest.fixture(scope="module")
@@ -26,6 +29,13 @@ def test_what_the_comments_of_the_guide_say_is_so(names: dict[str, object]) -> N
     assert str(pendulum.derive().constraints.verdict) == "holonomic: #GC = #DDOF = 1"  # type: ignore[attr-defined]
     assert str(sleigh.derive().constraints.verdict).startswith("nonholonomic by 1")  # type: ignore[attr-defined]
     assert len(dyn.assemblies({"crank": 1.0}, fixed="crank")) == 2  # type: ignore[attr-defined]
+
+
+def test_the_reactions_of_the_guide_balance(names: dict[str, object]) -> None:
+    pin, swing = names["pin"], names["swing"]
+    assert (pin.force.shape, pin.on, pin.at) == ((1001, 2), "rod 2", "B")  # type: ignore[attr-defined]
+    assert swing.reaction("B", on="rod 1").force == pytest.approx(-pin.force)  # type: ignore[attr-defined]
+    assert not names["run"].powers["loop"].any()  # type: ignore[attr-defined]
 
 
 def test_the_guides_file_is_read() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any, NoReturn, TypeAlias
 
-from lagrangian.dynamics.parts import Part, Parts
+from lagrangian.dynamics.parts import Parts, RigidPart
 from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.model import Element, Frame, Point
 from lagrangian.model.elements.conditions import NoSlip, Separation
@@ -15,7 +15,7 @@ MOST_LISTED = 12
 
 
 @dataclass(frozen=True)
-class Closure:
+class ClosureSide:
     """A constraint, and which of its points is meant; ``sign`` is −1 for what has no point of its own."""
 
     element: Element
@@ -29,13 +29,13 @@ class Closure:
 class Held:
     """The joint that holds a part; ``sign`` is −1 for the reaction on what carries it."""
 
-    part: Part
+    part: RigidPart
     sign: int
     on: str
     at: str
 
 
-JointSide: TypeAlias = Closure | Held
+JointSide: TypeAlias = ClosureSide | Held
 Asked: TypeAlias = Any
 
 
@@ -46,7 +46,7 @@ def found(parts: Parts, asked: Asked, on: Any) -> JointSide:
         if asked is element or (isinstance(asked, str) and asked == element.name):
             return _closure(parts, element, on)
     name = asked if isinstance(asked, str) else getattr(asked, "name", None)
-    held: list[Part] = []
+    held: list[RigidPart] = []
     point = asked if isinstance(asked, Point) else next((p for p in _points(parts) if p.name == name), None)
     if point is not None and point in parts.d.places:
         held = parts.held_at(parts.d.places[point])
@@ -82,7 +82,7 @@ def joints(parts: Parts) -> list[str]:
     return list(dict.fromkeys([*(e.name for e in model.constraints), *at, *bodies]))
 
 
-def _target(parts: Parts, on: Any) -> Part:
+def _target(parts: Parts, on: Any) -> RigidPart:
     """The part that a side's name means: a body, a frame, a point, or the ground."""
     model = parts.d.model
     name = on if isinstance(on, str) else getattr(on, "name", None)
@@ -101,7 +101,7 @@ def _target(parts: Parts, on: Any) -> Part:
     raise ModelError(f"there is no body, frame or point '{str(name or on)[:64]}' to act on", fix=fix, code="E412")
 
 
-def _side(parts: Parts, held: list[Part], on: Any, shown: str) -> Held:
+def _side(parts: Parts, held: list[RigidPart], on: Any, shown: str) -> Held:
     """The part that is held, and on which side of the joint the reaction is asked for."""
     names = [parts.label(part) for part in held]
     if on is None:
@@ -132,7 +132,7 @@ def _plain(label: str) -> str:
     return label.replace("'", "")
 
 
-def _at(parts: Parts, part: Part, shown: str) -> str:
+def _at(parts: Parts, part: RigidPart, shown: str) -> str:
     """The name of the point at which a part is held, if it has one."""
     there = parts.same_place(part.anchor)
     at = [p.name for p in _points(parts) if p.name and p in parts.d.places]
@@ -147,7 +147,7 @@ def _point(parts: Parts, name: str) -> Point:
 # -- constraints ------------------------------------------------------------------------------------------------
 
 
-def _closure(parts: Parts, element: Element, on: Any) -> Closure:
+def _closure(parts: Parts, element: Element, on: Any) -> ClosureSide:
     """A constraint's points, and the one that is meant; the first by default."""
     model = parts.d.model
     conditions = element.conditions(model)
@@ -156,9 +156,9 @@ def _closure(parts: Parts, element: Element, on: Any) -> Closure:
         body = parts.label(parts.of_frame(first.frame))
         at = first.at.name or "the contact"
         if on is None or _target(parts, on) == parts.of_frame(first.frame):
-            return Closure(element, 0, 1, _plain(body), at)
+            return ClosureSide(element, 0, 1, _plain(body), at)
         if _target(parts, on) == parts.ground:
-            return Closure(element, 0, -1, "the ground", at)
+            return ClosureSide(element, 0, -1, "the ground", at)
         raise ModelError(f"'{element.name}' acts on {body} and the ground", fix=f"on={body}", code="E412")
     points: list[Point] = []
     for condition in conditions:
@@ -175,7 +175,7 @@ def _closure(parts: Parts, element: Element, on: Any) -> Closure:
         side = _end(parts, element, points, on)
     shown = points[side].name or ("the origin" if points[side].is_origin else "the point")
     own = parts.label(parts.natives[parts.d.places[points[side]]])
-    return Closure(element, side, 1, _plain(own), shown)
+    return ClosureSide(element, side, 1, _plain(own), shown)
 
 
 def _ends(condition: Any) -> tuple[Point, ...]:

@@ -16,7 +16,7 @@ from lagrangian.dynamics.vectors import Vector, times
 from lagrangian.model import Frame
 
 
-class Part(NamedTuple):
+class RigidPart(NamedTuple):
     """A rigid part: what tells its axes from others, and its anchor."""
 
     turning: Hashable
@@ -30,7 +30,7 @@ class Parts:
         self.d, self.motion = d, d.motion
         self._turning: dict[Axes, Hashable] = {}
         self.axes: dict[Hashable, Axes] = {}
-        self.ground = Part(self.turning(self.motion.root), self.motion.ground)
+        self.ground = RigidPart(self.turning(self.motion.root), self.motion.ground)
         self.bodies = {body.name: self.of_body(body) for body in d.model.bodies}
         self.natives = {place: self.native(place) for place in self.motion.places}
         self.known = {self.ground, *self.bodies.values(), *self.natives.values()}
@@ -66,33 +66,33 @@ class Parts:
             place = place.parent
         return place
 
-    def native(self, place: PlaceMotion) -> Part:
+    def native(self, place: PlaceMotion) -> RigidPart:
         """The part that a place belongs to."""
         if place.parent is None:
             return self.ground
         axes = place.axes if place.slide is not None else self._step(place)[0]
         turning = self.turning(axes)
-        return Part(turning, self.anchor(place, turning))
+        return RigidPart(turning, self.anchor(place, turning))
 
-    def of_body(self, body: Any) -> Part:
+    def of_body(self, body: Any) -> RigidPart:
         """The part of a body; a point mass belongs to its place."""
         place = self.d.places[body.at]
         frame = getattr(body, "frame", None)
         if frame is None:
             return self.native(place)
         turning = self.turning(self.d.axes[frame])
-        return Part(turning, self.anchor(place, turning))
+        return RigidPart(turning, self.anchor(place, turning))
 
-    def of_frame(self, frame: Frame) -> Part:
+    def of_frame(self, frame: Frame) -> RigidPart:
         """The part that turns with a frame: that of its first body, else that of its origin."""
         for body in self.d.model.bodies:
             if getattr(body, "frame", None) is frame:
                 return self.bodies[body.name]
         turning = self.turning(self.d.axes[frame])
         place = self.d.places.get(frame.origin, self.motion.ground)
-        return Part(turning, self.anchor(place, turning))
+        return RigidPart(turning, self.anchor(place, turning))
 
-    def carrier(self, part: Part) -> Part | None:
+    def carrier(self, part: RigidPart) -> RigidPart | None:
         """The part that a part hangs on; None for the ground."""
         at, turning = part.anchor, part.turning
         if part == self.ground:
@@ -100,26 +100,26 @@ class Parts:
         if self.natives[at] == part:  # its anchor moves by itself
             if at.parent is None or at.slide is not None:
                 return self.ground
-            rail = Part(turning, self.anchor(at.parent, turning))
+            rail = RigidPart(turning, self.anchor(at.parent, turning))
             return rail if rail != part and rail in self.known else self.natives[at.parent]
         axes = self.axes[turning].parent
         while axes is not None and self.turning(axes) != self.natives[at].turning:
-            held = Part(self.turning(axes), self.anchor(at, self.turning(axes)))
+            held = RigidPart(self.turning(axes), self.anchor(at, self.turning(axes)))
             if held != part and held in self.known:
                 return held
             axes = axes.parent
         return self.natives[at]
 
-    def chain(self, part: Part) -> Iterator[Part]:
+    def chain(self, part: RigidPart) -> Iterator[RigidPart]:
         """A part, what carries it, and so on down to the ground."""
-        seen: set[Part] = set()
-        at: Part | None = part
+        seen: set[RigidPart] = set()
+        at: RigidPart | None = part
         while at is not None and at not in seen:
             seen.add(at)
             yield at
             at = self.carrier(at)
 
-    def outer(self, part: Part) -> set[Part]:
+    def outer(self, part: RigidPart) -> set[RigidPart]:
         """A part and everything that hangs on it."""
         return {other for other in self.known if part in self.chain(other)}
 
@@ -130,18 +130,18 @@ class Parts:
             place = place.parent
         return place
 
-    def held_at(self, place: PlaceMotion) -> list[Part]:
+    def held_at(self, place: PlaceMotion) -> list[RigidPart]:
         """The parts with mass, or with something that has mass hanging on them, that are held at a place."""
         here = self.same_place(place)
         heavy = {p for part in self.bodies.values() for p in self.chain(part)} - {self.ground}
         found = [part for part in self.known if part in heavy and self.same_place(part.anchor) is here]
         return sorted(found, key=lambda part: self.label(part))
 
-    def names(self, part: Part) -> list[str]:
+    def names(self, part: RigidPart) -> list[str]:
         """The bodies that are a part."""
         return [name for name, own in self.bodies.items() if own == part]
 
-    def label(self, part: Part) -> str:
+    def label(self, part: RigidPart) -> str:
         """A part by the names of its bodies, or of what hangs on it."""
         if part == self.ground:
             return "the ground"

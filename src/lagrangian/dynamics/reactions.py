@@ -22,10 +22,10 @@ from lagrangian.dynamics.describe import described
 from lagrangian.dynamics.description import Description
 from lagrangian.dynamics.feedback import with_feedback
 from lagrangian.dynamics.inertia import Inertia, Link, PlaneLink
-from lagrangian.dynamics.joint_names import Closure, Held, found
+from lagrangian.dynamics.joint_names import ClosureSide, Held, found
 from lagrangian.dynamics.mechanics import Mechanics
 from lagrangian.dynamics.observe import Observed
-from lagrangian.dynamics.parts import Part, Parts
+from lagrangian.dynamics.parts import Parts, RigidPart
 from lagrangian.dynamics.places import named_place
 from lagrangian.dynamics.programs import _matrix, _program, _vector
 from lagrangian.dynamics.row_actions import crossed, row_actions
@@ -69,7 +69,7 @@ def reaction(
     frame = None if axes is None else named_place(model, axes, Frame)
     what = found(Parts(seen.description), asked, on)
     outputs: dict[str, Output] = {}
-    if isinstance(what, Closure):
+    if isinstance(what, ClosureSide):
         outputs["wrench"] = _vector(_of_rows(seen, what))
     else:
         wrench, twists = _of_joint(seen, asked, on)
@@ -92,7 +92,7 @@ def reaction(
 # -- constraints ------------------------------------------------------------------------------------------------
 
 
-def _of_rows(seen: Observed, closure: Closure) -> Vector:
+def _of_rows(seen: Observed, closure: ClosureSide) -> Vector:
     """The sum of what a constraint's rows do to one side: the force at its point, and the torque about it."""
     d, g = seen.description, seen.graph
     force, torque = zeros(g, d.motion.dimension), zeros(g, 1 if d.motion.dimension == 2 else 3)
@@ -144,7 +144,7 @@ def _of_joint(seen: Observed, asked: Any, on: Any) -> tuple[Vector, list[Vector]
 class _Released:
     """A part of a description that is released, with everything that hangs on it."""
 
-    def __init__(self, d: Description, parts: Parts, part: Part) -> None:
+    def __init__(self, d: Description, parts: Parts, part: RigidPart) -> None:
         self.d, self.parts, self.part, self.motion, self.g = d, parts, part, d.motion, d.graph
         self.outer = parts.outer(part)
         self.twist = self._twist()
@@ -184,7 +184,7 @@ class _Released:
     def _fixed(self, place: Any) -> Vector:
         return self.motion.turned(place.velocity, place.axes, self.motion.root)
 
-    def _omega(self, part: Part) -> Vector:
+    def _omega(self, part: RigidPart) -> Vector:
         axes = self.parts.axes[part.turning]
         return self.motion.turned(axes.omega, axes, self.motion.root)
 
