@@ -413,3 +413,16 @@ def test_names_of_new_speeds_and_multipliers_are_free() -> None:
     assert d.minimal is not None
     assert [str(u) for u in d.minimal.meanings] == ["u1(t)"]
     assert str(d.multipliers["edge"].symbol) == "lambda_edge_(t)"
+
+
+def test_a_constraint_on_velocities_takes_no_coordinate_away() -> None:
+    """It ties rates: a change to fewer coordinates is refused, with the reason."""
+    with pytest.raises(lg.ModelError, match=r"ties rates.*every coordinate is still needed"):
+        disc().in_coordinates({"x": "r*phi"})
+
+
+@pytest.mark.parametrize("verb", ["hamiltonian", "routhian", "conserved_quantities"])
+def test_energies_alone_do_not_tell_a_constrained_motion(verb: str) -> None:
+    """p_x of the sleigh would be kept without the force on its edge: refused, not wrong."""
+    with pytest.raises(lg.ModelError, match="has constraints"):
+        getattr(sleigh(), verb)()

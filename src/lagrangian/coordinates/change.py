@@ -24,6 +24,7 @@ from lagrangian.derive.sample import Sampler
 from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.model import Coordinate, Model, as_expr, time
 from lagrangian.model.names import RESERVED, check_name, moving_symbol
+from lagrangian.model.rows import rows_of
 from lagrangian.page.plain import plain
 from lagrangian.read import Scope, parse_expression
 from lagrangian.viewed import Brief
@@ -180,6 +181,20 @@ def _solved(model: Model, pairs: Mapping[str, sp.Expr]) -> Change:
     )
 
 
+def _ties(model: Model) -> str:
+    """Why a constraint does not take a coordinate away."""
+    rows = rows_of(model)
+    if not rows:
+        return ""
+    if all(row.position is not None for row in rows):
+        return "; a constraint takes none away here: leave it out and describe positions with fewer coordinates"
+    names = " and ".join(f"'{row.name}'" for row in rows if row.position is None)
+    return (
+        f"; {names} ties rates, and if no position follows from that, every coordinate is still needed to say where the "
+        "system is: the derivation eliminates rates instead (derive().minimal)"
+    )
+
+
 def _determinant(matrix: sp.Matrix) -> sp.Expr:
     return cast("sp.Expr", matrix.det(method="berkowitz"))
 
@@ -201,7 +216,7 @@ def _placed(model: Model, given: Mapping[Coordinate, sp.Expr]) -> Change:
             f"{_counted(len(given), 'coordinate is', 'coordinates are')} replaced ({', '.join(c.name for c in given)}) "
             f"by {len(fresh)} new ({', '.join(plain(s) for s in fresh) or 'none'})",
             fix="a system has as many coordinates after a change as before it"
-            + ("; declare other letters as parameters first" if len(fresh) > len(given) else ""),
+            + ("; declare other letters as parameters first" if len(fresh) > len(given) else _ties(model)),
             code="E210",
         )
     taken: list[AppliedUndef] = []

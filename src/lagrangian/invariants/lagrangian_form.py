@@ -27,12 +27,20 @@ class LagrangianForm:
     def of(cls, model: Model, vanishing: Sequence[sp.Symbol] = ()) -> LagrangianForm:
         """The energies and forces of a model with definitions written out and ``vanishing`` parameters set to 0.
 
-        Raises `ModelError` for a floating frame, and if something is divided by a vanishing parameter.
+        Raises `ModelError` for a floating frame, for constraints, and if something is divided by a vanishing parameter.
         """
         if len(model.velocities) != len(model.coordinates):
             raise ModelError(
                 f"system '{model.name}' has a floating frame: the entries of a quaternion are not independent",
                 fix="describe its orientation by three angles instead (frames about axes)",
+                code="E202",
+            )
+        if model.constraints:
+            raise ModelError(
+                f"system '{model.name}' has constraints: its energies alone do not tell its motion; a momentum that "
+                "they would keep may be changed by a constraint's force",
+                fix="derive() writes the equations with multipliers; for Hamilton's form, Routh's and constant "
+                "quantities describe the system in as many coordinates as it has degrees of freedom",
                 code="E202",
             )
         T, V = sp.S.Zero, sp.S.Zero
