@@ -187,7 +187,7 @@ def _ties(model: Model) -> str:
     if not rows:
         return ""
     if all(row.position is not None for row in rows):
-        return "; a constraint takes none away here: leave it out and describe positions with fewer coordinates"
+        return "; a constraint takes none away: leave it out, and describe positions with fewer coordinates"
     names = " and ".join(f"'{row.name}'" for row in rows if row.position is None)
     return (
         f"; {names} ties rates, and if no position follows from that, every coordinate is still needed to say where the "
