@@ -190,8 +190,8 @@ def _ties(model: Model) -> str:
         return "; a constraint takes none away: leave it out, and describe positions with fewer coordinates"
     names = " and ".join(f"'{row.name}'" for row in rows if row.position is None)
     return (
-        f"; {names} ties rates, and if no position follows from that, every coordinate is still needed to say where the "
-        "system is: the derivation eliminates rates instead (derive().minimal)"
+        f"; {names} ties rates, and if no position follows from it, every coordinate is still needed to say where "
+        "the system is: the derivation eliminates rates instead (derive().minimal)"
     )
 
 
