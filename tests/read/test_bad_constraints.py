@@ -74,7 +74,7 @@ BAD = {
         "'b'",
     ),
     "too many": (
-        '[[pin]]\nbetween=["P","Q"]\n[[constraint]]\nexpression="theta"\n[[constraint]]\nexpression="theta + x/l - 1"\n',
+        '[[pin]]\nbetween=["P","Q"]\n[[constraint]]\nexpression="theta"\n[[constraint]]\nexpression="theta+x/l-1"\n',
         "E302",
         "contradicts",
     ),
