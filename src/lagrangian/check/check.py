@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import sympy as sp
 
 from lagrangian.check.candidates import too_long
+from lagrangian.check.constrained import check_constrained
 from lagrangian.check.coordinates import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
 from lagrangian.check.difference import differences, likeness, paired
 from lagrangian.check.lines import filled
@@ -33,6 +34,8 @@ def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3) 
     truth = truth_of(derivation)
     truth.algebra.renew()
     written = filled(truth, lines)
+    if derivation.multipliers:
+        return check_constrained(truth, written, hint)
     values = _values(truth, written)
     numbers = bool(values) and in_numbers(truth, written)
     verdict = _read(truth, spelled(truth, written), hint, explain=not numbers)

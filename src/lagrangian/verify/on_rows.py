@@ -2,17 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import TypeAlias
 
 import numpy as np
+import sympy as sp
 
 from lagrangian import dynamics
+from lagrangian.derive.sample import Sampler
 from lagrangian.graph import Program
 from lagrangian.model import Model
-from lagrangian.verify.states import evaluated
+from lagrangian.verify.states import evaluated, state_groups
 
-Groups: TypeAlias = Mapping[str, list[float]]
+Groups: TypeAlias = dict[str, list[float]]
+State: TypeAlias = dict[sp.Basic, float]
+
+DRAWS = 12
+"""Random states that are tried for each that is asked for."""
 
 STEPS = 60
 """Newton steps after which a position counts as one that cannot be assembled."""
@@ -28,10 +34,28 @@ class OnRows:
     """Moves states of a model onto its rows: q by Newton's method, then v by one step, both in the metric of M."""
 
     def __init__(self, model: Model) -> None:
+        self.model = model
         self.position = dynamics.correction(model)
         self.velocity = dynamics.correction(model, position=False)
 
-    def of(self, state: Groups) -> dict[str, list[float]] | None:
+    def states(self, sampler: Sampler, count: int, seed: int, *, given: bool = False) -> Iterator[tuple[State, Groups]]:
+        """Up to ``count`` random states on the rows; with ``given`` the parameters keep the values they have."""
+        coordinates, left = self.model.coordinates, count
+        values: State = {**self.model.values} if given else {}
+        for state, _ in sampler.states(DRAWS * count, seed=seed):
+            state.update(values)
+            groups = self.of(state_groups(self.model, state))
+            if groups is None:
+                continue
+            state.update({c.symbol: x for c, x in zip(coordinates, groups["q"], strict=True)})
+            state.update({c.rate: x for c, x in zip(coordinates, groups["v"], strict=True)})
+            if np.isfinite(sampler.at(state)).all():
+                left -= 1
+                yield state, groups
+                if not left:
+                    return
+
+    def of(self, state: Mapping[str, list[float]]) -> dict[str, list[float]] | None:
         """The state with q and v on the rows; None where no position near it was found."""
         found = {group: list(x) for group, x in state.items()}
         if self.position is not None and not self._closed(found, self.position):

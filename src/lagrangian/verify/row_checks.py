@@ -25,15 +25,10 @@ from lagrangian.derive.sample import Sampler
 from lagrangian.model import time
 from lagrangian.model.rows import rows_of
 from lagrangian.page.formula import Check, Name, text
-from lagrangian.verify.on_rows import OnRows
-from lagrangian.verify.states import evaluated, state_groups
+from lagrangian.verify.on_rows import Groups, OnRows, State
+from lagrangian.verify.states import evaluated
 
 Array: TypeAlias = NDArray[np.float64]
-State: TypeAlias = dict[sp.Basic, float]
-Groups: TypeAlias = dict[str, list[float]]
-
-DRAWS = 12
-"""Random states that are tried for each that is asked for, before the parameters keep their values."""
 
 RANK = 1e-11
 """The relative size under which a singular value of the whole system is rounding."""
@@ -67,23 +62,13 @@ class RowChecks:
         self._minimal = None if derivation.minimal is None else _MinimalRoute(derivation, derivation.minimal)
 
     def states(self, sampler: Sampler, count: int, seed: int) -> Iterator[tuple[State, Groups]]:
-        """Up to ``count`` random states on the rows; if most have none, the parameters keep their values."""
-        coordinates = self.model.coordinates
-        values: State = {**self.model.values}
-        for given in ({}, values):
-            for state, _ in sampler.states(DRAWS * count, seed=seed):
-                state.update(given)
-                groups = self._on_rows.of(state_groups(self.model, state))
-                if groups is None:
-                    continue
-                state.update({c.symbol: x for c, x in zip(coordinates, groups["q"], strict=True)})
-                state.update({c.rate: x for c, x in zip(coordinates, groups["v"], strict=True)})
-                if not np.isfinite(sampler.at(state)).all():
-                    continue
+        """Up to ``count`` random states on the rows; if there are none, the parameters keep their values."""
+        for given in (False, True):
+            for state, groups in self._on_rows.states(sampler, count, seed, given=given):
                 self.figures.count += 1
                 yield state, groups
-                if self.figures.count == count:
-                    return
+            if self.figures.count:
+                return
 
     def pushed(self, groups: Groups, multipliers: Array) -> Array:
         """Aᵀ λ with the compiled A."""

@@ -135,7 +135,7 @@ class _Elimination:
                 square = a * a + b * b
                 if square.moves or not (a.turns or b.turns or a.moves or b.moves):
                     continue
-                length = self.algebra.form(sp.powdenest(sp.sqrt(square.expr()), force=True))
+                length = self.algebra.form(cast("sp.Expr", sp.powdenest(sp.sqrt(square.expr()), force=True)))
                 self._turned(k, name, row, (j, i), length)
                 return True
         return False

@@ -1,0 +1,317 @@
+"""Answers for systems with constraints: with multipliers of any sign and scale, or without multipliers.
+
+A multiplier's sign and scale are a choice: λ' = c λ with the row c' = c⁻¹ c is the same constraint. So an answer's own
+multipliers s are unknowns here. At states that satisfy the constraints, with the true accelerations, an answer is true
+if one s satisfies all of its lines; it is complete if its lines and the constraints determine the accelerations and s.
+Both are decided by numbers, at random states.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from itertools import combinations
+from typing import TypeAlias, cast
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+from sympy.core.function import AppliedUndef
+
+from lagrangian import dynamics
+from lagrangian.check.reference import Reference
+from lagrangian.check.spelling import not_there
+from lagrangian.check.stated import judge
+from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
+from lagrangian.derive import Derived
+from lagrangian.derive.sample import Sampler
+from lagrangian.graph import Program
+from lagrangian.model import time
+from lagrangian.model.rows import rows_of
+from lagrangian.page.formula import Text, text
+from lagrangian.page.plain import plain
+from lagrangian.verify.on_rows import OnRows
+from lagrangian.verify.states import evaluated
+
+Array: TypeAlias = NDArray[np.float64]
+
+STATES = 8
+"""Random states on the constraints at which an answer is looked at."""
+
+SMALL = 1e-9
+"""The relative size below which a difference is rounding."""
+
+MOST = 10
+"""Lines among which those are sought that are true together."""
+
+
+@dataclass(frozen=True, eq=False)
+class AnswerAt:
+    """An answer at one state: P and its slopes by accelerations and by its own multipliers, beside the right ones."""
+
+    value: Array
+    by_acceleration: Array
+    by_multiplier: Array
+    size: Array
+    rows: Array
+    mass: Array
+    reduced: Array
+    along: Array
+    multipliers: Array
+
+
+def check_constrained(truth: Reference, lines: Sequence[AnsweredLine], hint: int) -> Verdict:
+    """Return the verdict on an answer for a system with constraints."""
+    lines = [_in_rates(truth, _of_motion(truth, line)) for line in lines]
+    first = _verdict(truth, lines, hint, given=False)
+    if first.right or not truth.model.values or first.status is Status.INCOMPLETE:
+        return first
+    second = _verdict(truth, lines, hint, given=True)  # the numbers of an answer may be values of parameters
+    return second if second.right else first
+
+
+def _in_rates(truth: Reference, line: AnsweredLine) -> AnsweredLine:
+    """A line with the new speeds of the equations without multipliers written out in rates."""
+    minimal = truth.derivation.minimal
+    if minimal is None or not minimal.meanings:
+        return line
+    table: dict[sp.Basic, sp.Expr] = {}
+    for speed, meaning in minimal.meanings.items():
+        moving = cast("sp.Expr", sp.diff(meaning, time))
+        table |= {sp.Derivative(speed, time): moving, speed: meaning, sp.Symbol(plain(speed)): meaning}
+    expr = cast("sp.Expr", line.expr.xreplace(table))
+    return AnsweredLine(line.kind, expr, line.number, line.name, line.text)
+
+
+def _of_motion(truth: Reference, line: AnsweredLine) -> AnsweredLine:
+    """A line such as v' = a θ'², with a speed of the equations without multipliers, as an equation of motion."""
+    minimal = truth.derivation.minimal
+    if minimal is None or line.kind not in ("identity", "definition"):
+        return line
+    for speed in minimal.meanings:
+        name, rate = plain(speed), cast("sp.Expr", sp.Derivative(speed, time))
+        expr = line.expr if line.expr.has(rate) else None
+        if line.kind == "definition" and line.name == name and _left(line) in (f"{name}'", rf"\dot{{{name}}}"):
+            expr = rate - line.expr
+        if expr is not None:
+            return AnsweredLine("equation", expr, line.number, line.name, line.text)
+    return line
+
+
+def _left(line: AnsweredLine) -> str:
+    """The left side as it was written."""
+    return line.text.partition("=")[0].strip(" $&")
+
+
+def _verdict(truth: Reference, lines: Sequence[AnsweredLine], hint: int, *, given: bool) -> Verdict:
+    equations = [line for line in lines if line.kind == "equation"]
+    unknown = _unknown(truth, equations)
+    found: dict[int, Finding] = {}
+    notes: list[Text] = []
+    status: Status | None = None
+    if equations and len(unknown) > len(truth.derivation.multipliers):
+        notes += [not_there(truth, s) for s in unknown]
+        found = {id(line): Finding(line, Status.WRONG) for line in equations}
+        status = Status.WRONG
+    elif equations:
+        places = list(_places(truth, equations, unknown, given=given))
+        if not places:
+            notes.append(text("No random position satisfies the constraints, so the equations could not be compared."))
+            status = Status.INCOMPLETE
+        true = _true_lines(places, len(equations)) if places else set[int]()
+        for j, line in enumerate(equations):
+            found[id(line)] = _finding(truth, line, j, places, j in true)
+        if places and len(true) == len(equations):
+            notes += _named(truth, unknown, places)
+            status = _complete(truth, places, notes) or _worst([f.status for f in found.values()])
+        elif places:
+            status = Status.WRONG
+            if unknown:
+                notes.append(
+                    text("The sign and the scale of a multiplier are yours to choose, but the same everywhere.")
+                )
+    findings: list[Finding] = []
+    for k, line in enumerate(lines):
+        if line.kind not in ("definition", "statement"):
+            findings.append(found[id(line)] if line.kind == "equation" else judge(truth, lines, k))
+    others = [f.status for f in findings if f.line.kind != "equation"]
+    return Verdict(
+        _worst([*others, *([status] if status is not None else [])]), tuple(findings), notes=tuple(notes), hint=hint
+    )
+
+
+def _worst(statuses: Sequence[Status]) -> Status:
+    return max(statuses, key=list(Status).index, default=Status.INCOMPLETE)
+
+
+def _unknown(truth: Reference, lines: Sequence[AnsweredLine]) -> list[sp.Basic]:
+    """The names in an answer that the system does not have, and its multipliers."""
+    model = truth.model
+    known: set[sp.Basic] = {time}
+    known |= {x.symbol for x in model.parameters}
+    known |= {x.symbol for x in (*model.coordinates, *model.inputs)}
+    used: set[sp.Basic] = set()
+    for line in lines:
+        used |= {*line.expr.free_symbols, *line.expr.atoms(AppliedUndef)}
+    return sorted(used - known, key=str)
+
+
+@lru_cache(maxsize=32)
+def _programs(derivation: Derived) -> tuple[OnRows, tuple[Program, ...]]:
+    model = derivation.model
+    made = (
+        dynamics.forward(model),
+        dynamics.constraint_matrix(model),
+        dynamics.mass_matrix(model),
+        dynamics.multipliers(model),
+    )
+    return OnRows(model), made
+
+
+def _places(
+    truth: Reference, lines: Sequence[AnsweredLine], unknown: Sequence[sp.Basic], *, given: bool
+) -> Iterator[AnswerAt]:
+    """The answer at random states that satisfy the constraints, with the true accelerations."""
+    d, n = truth.derivation, truth.n
+    on_rows, programs = _programs(d)
+    wanted: list[sp.Expr] = [line.expr for line in lines]
+    S = list(d.minimal.S.flat()) if d.minimal is not None else []
+    coordinates = truth.model.coordinates
+    atoms = [x for c in coordinates for x in (c.symbol, c.rate, c.acceleration)]
+    atoms += [x.symbol for x in (*truth.model.parameters, *truth.model.inputs)]
+    everything = Sampler(truth.model, [*atoms, *wanted, *S])
+    for state, groups in on_rows.states(everything, STATES, 1, given=given):
+        a, rows, mass, lam = (evaluated(program, groups) for program in programs)
+        state.update({c.acceleration: float(x) for c, x in zip(coordinates, a["a"], strict=True)})
+        changes = [*(c.acceleration for c in coordinates), *unknown]
+
+        def values(here: dict[sp.Basic, float], count: int = len(wanted)) -> Array:
+            return np.array(everything.at(here)[len(atoms) : len(atoms) + count])
+
+        still = {**state, **dict.fromkeys(unknown, 0.0)}
+        value = values(still)
+        slopes = np.array([values({**still, x: still[x] + 1.0}) - value for x in changes]).T
+        size = np.abs(slopes) @ np.array([1.0 + abs(still[x]) for x in changes]) + np.abs(values(state))
+        off = {x: still[x] + 0.1 * (k + 1) for k, x in enumerate(y for c in coordinates for y in (c.symbol, c.rate))}
+        size = np.maximum(size, np.abs(values({**still, **off})))
+        A, M = np.array(rows["A"], float).reshape(-1, n), np.array(mass["M"], float).reshape(n, n)
+        along = np.array(everything.at(state)[len(atoms) + len(wanted) :]).reshape(n, -1) if S else np.zeros((n, 0))
+        yield AnswerAt(
+            value, slopes[:, :n], slopes[:, n:], size, A, M, along.T @ M @ along, along, np.array(lam["lam"], float)
+        )
+
+
+def _consistent(places: Sequence[AnswerAt], chosen: Sequence[int]) -> bool:
+    """Whether one set of multipliers satisfies these lines at every state."""
+    for place in places:
+        rows, size = list(chosen), place.size[list(chosen)]
+        B, value = place.by_multiplier[rows], place.value[rows]
+        scale = np.where(size > 0, size, 1.0)
+        B, value = B / scale[:, None], value / scale
+        left = value if not B.size else value + B @ np.linalg.lstsq(B, -value, rcond=1e-10)[0]
+        if not np.isfinite(left).all() or np.abs(left).max(initial=0.0) > SMALL:
+            return False
+    return True
+
+
+def _true_lines(places: Sequence[AnswerAt], count: int) -> set[int]:
+    """The largest set of lines that are true together; of equals, that with the first lines."""
+    if _consistent(places, range(count)):
+        return set(range(count))
+    if count > MOST:
+        return {j for j in range(count) if _consistent(places, [j])}
+    for size in range(count - 1, 0, -1):
+        for chosen in combinations(range(count), size):
+            if _consistent(places, chosen):
+                return set(chosen)
+    return set()
+
+
+def _finding(truth: Reference, line: AnsweredLine, j: int, places: Sequence[AnswerAt], true: bool) -> Finding:
+    """The finding for an equation: one with multipliers, one without, or something else that holds."""
+    names = [c.name for c in truth.model.coordinates]
+    if not true:
+        return Finding(line, Status.WRONG)
+    if all(np.abs(p.by_acceleration[j]).max() <= SMALL * (1.0 + p.size[j]) for p in places):
+        return Finding(line, Status.RIGHT, text("true where the constraints hold"))
+    if all(_in_span(p.by_acceleration[j], p.rows) and not p.by_multiplier[j].any() for p in places):
+        return Finding(line, Status.RIGHT, text("what the constraints ask of the accelerations"))
+    if any(np.abs(p.by_multiplier[j]).max(initial=0.0) > 0 for p in places) or truth.derivation.minimal is None:
+        index, scaled = _like([p.by_acceleration[j] for p in places], [p.mass for p in places])
+        named = None if index is None else names[index]
+    else:
+        index, scaled = _like([p.by_acceleration[j] @ p.along for p in places], [p.reduced for p in places])
+        named = None
+    if index is None:
+        return Finding(line, Status.SAME_MOTION, text("true whenever the right equations hold"))
+    return Finding(line, Status.EQUIVALENT if scaled else Status.RIGHT, None, named)
+
+
+def _in_span(slope: Array, rows: Array) -> bool:
+    """Whether a slope is a combination of the rows of the constraints."""
+    left = slope - rows.T @ np.linalg.lstsq(rows.T, slope, rcond=1e-10)[0]
+    return bool(np.abs(left).max() <= SMALL * np.abs(slope).max())
+
+
+def _like(slopes: Sequence[Array], rows: Sequence[Array]) -> tuple[int | None, bool]:
+    """Which row the slopes are a multiple of at every state, and whether the factor is another than ±1."""
+    for i in range(len(rows[0])):
+        factors: list[float] = []
+        for slope, matrix in zip(slopes, rows, strict=True):
+            row = matrix[i]
+            factor = float(slope @ row / (row @ row))
+            if np.abs(slope - factor * row).max() > SMALL * np.abs(slope).max():
+                break
+            factors.append(factor)
+        else:
+            return i, max(abs(abs(f) - 1.0) for f in factors) > SMALL
+    return None, False
+
+
+def _complete(truth: Reference, places: Sequence[AnswerAt], notes: list[Text]) -> Status | None:
+    """Incomplete unless the answer and the constraints determine the accelerations and the answer's multipliers."""
+    ranks: list[int] = []
+    for p in places:
+        m = p.by_multiplier.shape[1]
+        whole = np.vstack(
+            [np.hstack([p.by_acceleration, p.by_multiplier]), np.hstack([p.rows, np.zeros((len(p.rows), m))])]
+        )
+        size = np.abs(whole).max(axis=1, keepdims=True)
+        ranks.append(int(np.linalg.matrix_rank(whole / np.where(size > 0, size, 1.0), tol=1e-8)) - m)
+    if max(ranks) >= truth.n:
+        return None
+    notes.append(
+        text(
+            f"With the constraints, your equations determine {max(ranks)} of {truth.n} accelerations; "
+            "more equations are needed."
+        )
+    )
+    return Status.INCOMPLETE
+
+
+def _named(truth: Reference, unknown: Sequence[sp.Basic], places: Sequence[AnswerAt]) -> Iterator[Text]:
+    """What the answer's multipliers are: a number times one of the system's, or another scale."""
+    names = list(truth.derivation.multipliers.values())
+    order = [row.name for row in rows_of(truth.model)]
+    for k, s in enumerate(unknown):
+        found = [_solved(p)[k] for p in places]
+        for known in names:
+            theirs = [p.multipliers[order.index(known.name)] for p in places]
+            ratios = [x / y for x, y in zip(found, theirs, strict=True) if abs(y) > SMALL]
+            if (
+                len(ratios) > 2
+                and max(ratios) - min(ratios) < SMALL * abs(ratios[0])
+                and plain(known.symbol) != plain(s)
+            ):
+                number = sp.nsimplify(round(ratios[0], 9), rational=True)
+                yield text(f"'{plain(s)}' was read as ", cast("sp.Expr", number * known.symbol), ".")
+                break
+        else:
+            if all(plain(known.symbol) != plain(s) for known in names):
+                yield text(f"'{plain(s)}' was read as a multiplier with a scale of your own.")
+
+
+def _solved(place: AnswerAt) -> Array:
+    """The answer's multipliers at a state."""
+    return np.asarray(np.linalg.lstsq(place.by_multiplier, -place.value, rcond=1e-10)[0], float)

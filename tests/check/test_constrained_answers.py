@@ -1,0 +1,93 @@
+"""Answers for systems with constraints: multipliers of any sign and scale, and equations without multipliers."""
+
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+from lagrangian.check import Status
+
+
+@pytest.fixture(scope="module")
+def pendulum() -> lg.Derivation:
+    s = lg.System("pendulum in x, y")
+    x, y = s.coordinates("x y")
+    m, length = s.parameters("m l", m=1.0, l=2.0)
+    bob = s.point("P", (x, y))
+    s.particle(m, at=bob)
+    s.gravity()
+    s.constraint(between=(bob, s.origin), distance=length, name="rod")
+    return s.derive()
+
+
+@pytest.fixture(scope="module")
+def sleigh() -> lg.Derivation:
+    s = lg.System("Chaplygin sleigh")
+    x, y, theta = s.coordinates("x y theta")
+    m, J, a = s.parameters("m J a", m=1.0, J=0.5, a=0.3)
+    body = s.frame(theta, origin=s.point("P", (x, y)), name="B")
+    s.rigid_body(m, J, at=body.point(a, 0), frame=body, name="sleigh")
+    s.velocity_constraint(y.diff() * sp.cos(theta) - x.diff() * sp.sin(theta), name="knife edge")
+    return s.derive()
+
+
+RIGHT = (
+    "m*x'' = lambda_rod*x/sqrt(x^2 + y^2)\nm*y'' + m*g = lambda_rod*y/sqrt(x^2 + y^2)",
+    "m*x'' = -S*x/l\nm*y'' = -S*y/l - m*g\nx^2 + y^2 = l^2",
+    "m*x'' = 2*mu*x\nm*y'' + m*g = 2*mu*y\nx*x'' + y*y'' + x'^2 + y'^2 = 0",
+)
+
+
+@pytest.mark.parametrize("answer", RIGHT)
+def test_sign_and_scale_of_a_multiplier_are_free(pendulum: lg.Derivation, answer: str) -> None:
+    assert pendulum.check(answer).status is Status.RIGHT
+
+
+def test_the_reading_of_a_multiplier_is_told(pendulum: lg.Derivation) -> None:
+    notes = [str(n) for n in pendulum.check(RIGHT[1]).notes]
+    assert any("'S' was read as -lambda_rod" in n for n in notes)
+
+
+WRONG = (
+    "m*x'' = S*x/l\nm*y'' + m*g = -S*y/l",
+    "m*x'' = S*x/l\nm*y'' - m*g = S*y/l",
+    "m*x'' = S*x/l\nm*y'' + m*g = S*y/l\nx^2 + y^2 = l",
+    "m*x'' = S*x/l\nm*y'' + m*g = R*y/l",
+    "m*x'' = 0\nm*y'' + m*g = 0",
+)
+
+
+@pytest.mark.parametrize("answer", WRONG)
+def test_a_wrong_answer_stays_wrong(pendulum: lg.Derivation, answer: str) -> None:
+    assert pendulum.check(answer).status is Status.WRONG
+
+
+def test_one_equation_of_two_is_incomplete(pendulum: lg.Derivation) -> None:
+    assert pendulum.check("m*x'' = S*x/l").status is Status.INCOMPLETE
+
+
+def test_a_true_combination_is_the_same_motion(pendulum: lg.Derivation) -> None:
+    """The multiplier eliminated by hand: x'' y − x y'' = g x."""
+    assert pendulum.check("x''*y - x*y'' = g*x").status is Status.SAME_MOTION
+
+
+def test_the_equations_without_multipliers_are_right(sleigh: lg.Derivation) -> None:
+    right = "(J + m*a^2)*theta'' + a*m*v*theta' = 0\nm*v' - a*m*theta'^2 = 0"
+    assert sleigh.check(right).status is Status.RIGHT
+    scaled = "(J + m*a^2)*theta'' + a*m*v*theta' = 0\nv' = a*theta'^2"
+    assert sleigh.check(scaled).status is Status.EQUIVALENT
+    wrong = sleigh.check("(J + m*a^2)*theta'' + a*m*v*theta' = 0\nm*v' + a*m*theta'^2 = 0")
+    assert wrong.status is Status.WRONG
+    assert wrong.first_wrong is not None
+    assert wrong.first_wrong.line.number == 2
+    assert sleigh.check("m*v' - a*m*theta'^2 = 0").status is Status.INCOMPLETE
+
+
+def test_a_nonholonomic_row_put_into_the_lagrangian_is_wrong(sleigh: lg.Derivation) -> None:
+    """T* = ½ m v² + ½ (J + m a²) θ'² with the row put in gives m v' = 0 and θ'' = 0, which is not the motion."""
+    assert sleigh.check("m*v' = 0\n(J + m*a^2)*theta'' = 0").status is Status.WRONG
+
+
+def test_energies_are_judged_as_always(pendulum: lg.Derivation) -> None:
+    found = pendulum.check("T = m*(x'^2 + y'^2)/2\nV = m*g*y\n" + RIGHT[1])
+    assert found.status is Status.RIGHT
+    assert pendulum.check("T = m*(x'^2 + y'^2)\nV = m*g*y").status is Status.WRONG
