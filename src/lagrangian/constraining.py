@@ -1,4 +1,4 @@
-"""Describing constraints: joints that close loops, expressions that are zero, bodies that do not slip."""
+"""The methods that describe constraints: joints that close loops, expressions that are zero, bodies without slip."""
 
 from __future__ import annotations
 
@@ -25,7 +25,10 @@ Bodies = Frame | RigidBody | Sequence[Frame | RigidBody]
 
 
 class Constrained(Guided):
-    """What restricts the motion: M v̇ + h = Ξ + Aᵀ λ; λ > 0 acts so as to increase what is held at zero."""
+    """The methods that add constraints: M v̇ + h = Ξ + Aᵀ λ.
+
+    A positive λ acts in the direction that increases f (or c), the quantity that the constraint keeps at zero.
+    """
 
     _builder: Builder
 
@@ -40,9 +43,9 @@ class Constrained(Guided):
     ) -> Constraint:
         """Add a constraint f(q, t) = 0: an expression, two points that coincide, or their ``distance``.
 
-        The points P, Q of ``between`` coincide: f = r_P − r_Q, one row a component, and λ [N] is the force on P's body
-        at P. With a distance ℓ [m] f = |r_P − r_Q| − ℓ, and λ [N] pushes the ends apart. In space the rows stand in the
-        axes of P's body, or of ``axes``.
+        The points P, Q of ``between`` coincide: f = r_P − r_Q, one row for each component, and λ [N] is the force on
+        P's body at P. With a distance ℓ [m], f = |r_P − r_Q| − ℓ, and λ [N] pushes the ends apart. In space the rows
+        are components along the axes of P's body, or along those of ``axes``.
         """
         return self._builder.add(
             Constraint(expression=expression, between=between, distance=distance, axes=axes, name=name)
@@ -60,8 +63,9 @@ class Constrained(Guided):
     ) -> VelocityConstraint:
         """Add a constraint on velocities, linear in the rates: ``x.diff()*sin(theta) - y.diff()*cos(theta)`` is zero.
 
-        Or the matter of a rigid ``body`` at the point ``at`` has no velocity ``along`` one direction or several (in the
-        fixed axes, or in those of ``axes``); then λ [N] is the force on the body along that direction.
+        Instead of an expression, give a rigid ``body``, a point ``at`` and one or several directions ``along`` (in the
+        fixed axes, or in those of ``axes``): the body's material at that point has no velocity along them. Then λ [N]
+        is the force on the body along that direction.
         """
         return self._builder.add(
             VelocityConstraint(expression=expression, at=at, body=body, along=along, axes=axes, name=name)
@@ -70,15 +74,15 @@ class Constrained(Guided):
     def rolling(
         self, body: RigidBody, at: Point, along: object, *, axes: Frame | None = None, name: str = ""
     ) -> Rolling:
-        """Add a body that rolls: its matter at the point of contact does not slip ``along`` the given directions."""
+        """Add a rolling body: its material at the point of contact does not slip ``along`` the given directions."""
         return self._builder.add(Rolling(body=body, at=at, along=along, axes=axes, name=name))
 
     def pin(
         self, between: Sequence[Point], *, axis: object = None, bodies: Bodies | None = None, name: str = ""
     ) -> Pin:
-        """Close a loop by a pin: two points coincide, and in space the bodies turn about ``axis`` alone.
+        """Close a loop by a pin: two points coincide; in space the bodies rotate relative to each other about ``axis``.
 
-        The axis has the same components in the axes of both bodies. ``bodies`` are needed where the points do not say.
+        The axis has the same components in the axes of both bodies. Give ``bodies`` if the points belong to none.
         """
         return self._builder.add(Pin(between=between, axis=axis, bodies=bodies, name=name))
 
@@ -97,12 +101,12 @@ class Constrained(Guided):
     ) -> Slider:
         """Close a loop by a slider: the first point stays on the line through the second one ``along`` a direction.
 
-        The direction is fixed in ``axes`` (the fixed axes when left out). ``bodies`` do not turn against each other.
+        The direction is fixed in ``axes`` (by default the fixed axes). ``bodies`` do not rotate relative to each other.
         """
         return self._builder.add(Slider(between=between, along=along, axes=axes, bodies=bodies, name=name))
 
     def weld(self, between: Sequence[Point], *, bodies: Bodies | None = None, name: str = "") -> Weld:
-        """Close a loop by a weld: two points coincide, and the bodies do not turn against each other."""
+        """Close a loop by a weld: two points coincide, and the bodies do not rotate relative to each other."""
         return self._builder.add(Weld(between=between, bodies=bodies, name=name))
 
     def rope(self, through: Sequence[Point], length: object, *, name: str = "") -> Rope:

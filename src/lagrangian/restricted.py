@@ -1,4 +1,4 @@
-"""What a compiled system says of its constraints: multipliers, gaps, positions that close the loops."""
+"""The methods of a compiled system for its constraints: multipliers, residuals, positions that close the loops."""
 
 from __future__ import annotations
 
@@ -26,8 +26,8 @@ ASSEMBLED = 1000
 class Restricted(Looking):
     """The part of a compiled system that is about its constraints; `lagrangian.compiled.Compiled` adds the equations.
 
-    One sign holds everywhere: M v̇ + h = Ξ + Aᵀ λ with A v̇ + γ = 0, so that λ > 0 acts so as to increase what the
-    constraint holds at zero.
+    The sign is the same everywhere: M v̇ + h = Ξ + Aᵀ λ with A v̇ + γ = 0. A positive λ acts in the direction that
+    increases f (or c), the quantity that the constraint keeps at zero.
     """
 
     coordinates: tuple[str, ...]
@@ -48,8 +48,8 @@ class Restricted(Looking):
     ) -> dict[str, NDArray[np.float64]]:
         """Return the multipliers λ by the names of their rows, each of shape ``(...)``; [N] for points and distances.
 
-        λ belongs to a state that satisfies the constraints: `assemble` makes one. Where a row depends on others, the
-        sum of their forces is right, but not the share of each; `margin` is near 0 there.
+        The state must satisfy the constraints; `assemble` computes one. If a row depends on others, `margin` is near 0:
+        the sum of their forces is right, but not the share of each.
         """
         lam = self._constraint("multipliers", (q, v, u, p, t))["lam"]
         return {name: lam[..., i] for i, name in enumerate(self.rows)}
@@ -83,7 +83,7 @@ class Restricted(Looking):
     ) -> dict[str, dict[str, NDArray[np.float64]]]:
         """Return how far a state is from its constraints: ``{"position": {row: f}, "velocity": {row: A v + a₀}}``.
 
-        Rows on velocities alone have no entry under "position". Both are 0 where the constraint holds.
+        Rows on velocities have no entry under "position". All are 0 if the constraints are satisfied.
         """
         found = self._constraint("residual", (q, v, None, p, t))
         placed = [row.name for row in named_conditions(self._model) if row.condition.on_positions]
@@ -93,9 +93,9 @@ class Restricted(Looking):
         }
 
     def margin(self, q: ArrayLike, p: Values = None, t: ArrayLike = 0.0) -> NDArray[np.float64]:
-        """Return how independent the constraints are, shape ``(...)``: near 0 where one of them depends on the others.
+        """Return how independent the constraints are, shape ``(...)``: near 0 if one of them depends on the others.
 
-        The least sin² of the angle between a row and the span of the rows before it, measured by M⁻¹.
+        It is the smallest sin² of the angle between a row and the span of the rows before it, measured by M⁻¹.
         """
         return self._constraint("multipliers", (q, np.zeros(len(self.velocities)), None, p, t))["margin"]
 
@@ -116,9 +116,9 @@ class Restricted(Looking):
     ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
         """Return q and v that satisfy every constraint, near a guess; both may be mappings by name.
 
-        Coordinates named in ``fixed`` stay as given, and their rates. The others move as little as the constraints
-        allow, measured by the mass matrix. Raises `RunError` if no position closes (E304, with the gap and the fixed
-        coordinate that prevents it) or no rates do (E305).
+        Coordinates named in ``fixed`` and their rates stay as given. The others change as little as the constraints
+        allow, measured with the mass matrix. Raises `RunError` if no position (E304, with the gap and the fixed
+        coordinate that prevents it) or no rates (E305) satisfy the constraints.
         """
         from lagrangian.assembly.assemble import consistent
 
@@ -173,7 +173,7 @@ class Restricted(Looking):
         return names
 
     def _guess(self, given: Any, names: tuple[str, ...], what: str) -> NDArray[np.float64]:
-        """A guess as an array: what a mapping leaves out is 0, and 1 in a quaternion that does not turn."""
+        """A guess as an array. Coordinates missing from a mapping are 0, and a missing quaternion means no rotation."""
         start = {c.name: c.start for c in self._model.coordinates}
         if given is None:
             return np.array([start.get(name, 0.0) for name in names])
@@ -193,7 +193,7 @@ class Restricted(Looking):
         return values
 
     def _parameters(self, p: Values) -> NDArray[np.float64]:
-        """All parameters in order: given by name over the declared values."""
+        """All parameters in order: the declared values, replaced by those given by name."""
         declared = {x.name: x.value for x in self._model.parameters}
         if p is not None and not isinstance(p, Mapping):
             return np.asarray(p, float)

@@ -17,16 +17,16 @@ from lagrangian.model.rows import NamedCondition, named_conditions
 Flags = NDArray[np.bool_]
 
 NEAR = 64
-"""Guesses near the given one, tried where that one does not close."""
+"""The number of guesses near the given one; they are tried if that one does not close."""
 
 FAR = 1000
-"""Guesses anywhere."""
+"""The number of guesses anywhere."""
 
 SPREAD = 0.3
-"""How far the near guesses are spread, in rad or in the system's length."""
+"""The spread of the near guesses, in rad or relative to the system's length."""
 
 SAME = 1e-6
-"""Positions nearer than this are one."""
+"""Positions nearer to each other than this are the same."""
 
 
 class Assembler:
@@ -46,7 +46,7 @@ class Assembler:
     # -- positions ----------------------------------------------------------------------------------------------
 
     def position(self, q: Array, p: Array, t: float = 0.0) -> Array:
-        """The position nearest to the guess q (n,) that was found; a `RunError` with the gaps where there is none."""
+        """Return the nearest position found to the guess q (n,). Raises `RunError`, with the gaps, if there is none."""
         if self.search is None:
             return q
         found, closed = self.search.run(q[None, :], p, t)
@@ -60,7 +60,7 @@ class Assembler:
         return others[0]
 
     def positions(self, q: Array, p: Array, t: float, *, spread: float | None, count: int) -> Array:
-        """The different positions found from random guesses, nearest to q first, shape (found, n)."""
+        """Return the different positions found from random guesses, shape (found, n), the nearest to q first."""
         if self.search is None:
             return q[None, :]
         rng = np.random.default_rng(1)
@@ -78,14 +78,14 @@ class Assembler:
         return self._different(found[closed], q, angles)
 
     def _length(self, q: Array, p: Array, t: float, angles: Flags) -> float:
-        """The length that the gaps and the guess show."""
+        """The length of the system, estimated from the gaps and the guess."""
         assert self.search is not None
         lengths = np.abs(np.where(angles, 0.0, q)).max(initial=0.0)
         return float(max(lengths, np.abs(self.search.gaps(q[None, :], p, t)).max(initial=0.0), 1e-3))
 
     @staticmethod
     def _different(found: Array, q: Array, angles: Flags) -> Array:
-        """Each position once, angles taken near the guess, the nearest first."""
+        """Each position once, with angles near those of the guess, the nearest first."""
         turned = np.where(angles, q + np.remainder(found - q + np.pi, 2 * np.pi) - np.pi, found)
         order = np.argsort(np.linalg.norm(turned - q, axis=-1), kind="stable")
         kept: list[Array] = []
@@ -96,7 +96,7 @@ class Assembler:
         return np.array(kept).reshape(-1, len(q))
 
     def _open(self, guess: Array, nearest: Array, p: Array, t: float) -> RunError:
-        """The error that names what stays open, how far, and what would close it."""
+        """The error that names the open rows, their gaps, and the fixed coordinates that prevent them from closing."""
         assert self.search is not None
         gaps = self.search.gaps(nearest[None, :], p, t)[0]
         named: dict[str, float] = {}
@@ -122,7 +122,7 @@ class Assembler:
     # -- velocities ---------------------------------------------------------------------------------------------
 
     def velocity(self, q: Array, v: Array, p: Array, t: float = 0.0) -> Array:
-        """The rates nearest to v, by kinetic energy, that keep the constraints; a `RunError` where there are none."""
+        """Return the rates nearest to v, by kinetic energy, that satisfy the rows. Raises `RunError` if none do."""
         v, kept = self.closing.rates(q, v, p, t)
         wrong = ~kept
         if wrong.any():
@@ -137,7 +137,7 @@ class Assembler:
 
 
 def closing(model: Model, fixed: Collection[str] = ()) -> Closing:
-    """The programs that bring a state onto a model's constraints, with the coordinates in ``fixed`` held."""
+    """The programs that move a state onto a model's constraints and leave the coordinates in ``fixed`` as they are."""
     position = dynamics.correction(model, fixed, position=True)
     velocity = dynamics.correction(model, fixed, position=False)
     return Closing(position, velocity, dynamics.residual(model), dynamics.constraint_matrix(model))
@@ -146,9 +146,9 @@ def closing(model: Model, fixed: Collection[str] = ()) -> Closing:
 def consistent(
     model: Model, q: Array, v: Array, p: Array, t: float = 0.0, *, fixed: Sequence[str] = ()
 ) -> tuple[Array, Array]:
-    """q and v that satisfy every constraint, from a guess; coordinates in ``fixed`` and their rates stay.
+    """Return q and v that satisfy every constraint, from a guess; coordinates in ``fixed`` and their rates stay.
 
-    Raises `RunError`: no position closes the loops (E304), the fixed coordinates leave no motion that does (E305).
+    Raises `RunError` if no position closes the loops (E304), or no rates do with the fixed coordinates (E305).
     """
     assembler = Assembler(model, fixed)
     at = assembler.position(np.asarray(q, float), p, t)

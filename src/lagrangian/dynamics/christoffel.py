@@ -13,8 +13,8 @@ from lagrangian.graph import jvp
 def coriolis(m: Mechanics) -> list[list[int]]:
     """C by Christoffel's symbols, so that Ṁ − 2C is skew:  C = ½ (Ṁ + P − Pᵀ),  P_ij = ∂(M v)_i/∂q_j.
 
-    Along quasi-velocities q̇ = N u the derivatives are those along the columns of N, P = ∂(M u)/∂q N, and the
-    velocities' brackets join them (Koszul's formula for the connection of M):
+    With quasi-velocities q̇ = N u, the derivatives are taken along the columns of N, P = ∂(M u)/∂q N, and terms with
+    the brackets of the velocities are added (Koszul's formula for the connection of M):
 
         C = ½ (Ṁ + P − Pᵀ + M A − (M A)ᵀ − B),   A = ad_u,   B_ij = (M u)·[e_j, e_i]
     """

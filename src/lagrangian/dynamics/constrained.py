@@ -1,4 +1,4 @@
-"""What follows from rows besides accelerations: corrections of a state, the rows themselves, and a second route.
+"""Corrections of a state, the constraint rows themselves, and a second route to accelerations and multipliers.
 
 A state that does not satisfy its rows is moved onto them by the least motion, measured by the kinetic energy:
 
@@ -28,13 +28,13 @@ def position_rows(m: Mechanics) -> list[ConstraintRow]:
 
 
 def kept_by_steps(m: Mechanics) -> bool:
-    """Whether every row has constant coefficients: every Runge–Kutta step satisfies it then, but for rounding."""
+    """Whether all rows have constant coefficients: every Runge–Kutta step then satisfies them up to rounding."""
     changes = m.motion.second_rate([row.rate for row in m.rows], zeros(m.graph, len(m.v)))
     return all(x == m.graph.zero for x in changes)
 
 
 def position_correction(m: Mechanics, fixed: Collection[int] = ()) -> tuple[Vector, RowSolution] | None:
-    """δq, and what it comes from; None without rows on positions.
+    """Return δq and the solution that it comes from; None without rows on positions.
 
     ``fixed``: coordinates (numbers) that stay as they are.
     """
@@ -46,7 +46,7 @@ def position_correction(m: Mechanics, fixed: Collection[int] = ()) -> tuple[Vect
 
 
 def velocity_correction(m: Mechanics, fixed: Collection[int] = ()) -> tuple[Vector, RowSolution] | None:
-    """δv, and what it comes from; None without rows. The rates of the coordinates in ``fixed`` stay as they are."""
+    """Return δv and the solution that it comes from; None without rows. The rates of ``fixed`` coordinates stay."""
     if not m.rows:
         return None
     found = _correction(m, m.rows, [row.rate for row in m.rows], fixed)
@@ -56,7 +56,10 @@ def velocity_correction(m: Mechanics, fixed: Collection[int] = ()) -> tuple[Vect
 def _correction(
     m: Mechanics, rows: Sequence[ConstraintRow], values: Sequence[int], fixed: Collection[int]
 ) -> RowSolution:
-    """The least δ with A δ = −values. A coordinate of its own rate loses its column, another one gets a row."""
+    """The least δ with A δ = −values.
+
+    A fixed coordinate whose rate is a velocity loses its column; any other fixed coordinate gets a row.
+    """
     held, asked = set[int](), list(zip(rows, values, strict=True))
     for i in fixed:
         rate = m.motion.rates[i]
@@ -74,7 +77,7 @@ def _correction(
 
 
 def gap(m: Mechanics, rows: Sequence[ConstraintRow], values: Sequence[int]) -> int:
-    """The largest |value| of rows, each in parts of its scale."""
+    """The largest |value| of the rows, each divided by its scale."""
     g, total = m.graph, m.graph.zero
     for row, value in zip(rows, values, strict=True):
         total = g.max(total, g.div(g.abs(value), g.const(row.scale)))
@@ -82,7 +85,7 @@ def gap(m: Mechanics, rows: Sequence[ConstraintRow], values: Sequence[int]) -> i
 
 
 def least(g: Graph, ids: Sequence[int]) -> int:
-    """The least of some nodes; 1 of none."""
+    """The smallest of some nodes; 1 if there are none."""
     total = g.one
     for x in ids:
         total = g.min(total, x)
@@ -90,7 +93,7 @@ def least(g: Graph, ids: Sequence[int]) -> int:
 
 
 def matrix(m: Mechanics) -> Matrix:
-    """A, row after row, by one pass backwards for each."""
+    """A, row by row, with one backward pass for each row."""
     return [vjp(m.graph, [row.rate], [m.graph.one], list(m.v)) for row in m.rows]
 
 
@@ -126,7 +129,7 @@ class Factors:
 
 
 def factored(g: Graph, S: Matrix, sizes: Sequence[int] | None = None) -> Factors:
-    """The factors of S; pivots below a part of ``sizes`` are rounding, and what belongs to them is 0."""
+    """The factors of S. A pivot that is small compared with ``sizes`` is rounding: its reciprocal is set to 0."""
     n = len(S)
     lower, reciprocals = [zeros(g, n) for _ in range(n)], zeros(g, n)
     scaled = [zeros(g, n) for _ in range(n)]  # L D
@@ -145,7 +148,7 @@ def factored(g: Graph, S: Matrix, sizes: Sequence[int] | None = None) -> Factors
 def dual(m: Mechanics) -> tuple[Vector, Vector]:
     """v̇ and λ by A M⁻¹ Aᵀ λ = A M⁻¹ h − γ and M v̇ = Aᵀ λ − h: the independent route, of dense matrices.
 
-    It needs a mass matrix that is regular without the rows. A row that depends on earlier ones has the multiplier 0.
+    The mass matrix must be regular without the rows. A row that depends on earlier ones gets the multiplier 0.
     """
     g = m.graph
     M, A = factored(g, m.mass_matrix()), matrix(m)

@@ -1,8 +1,8 @@
 """The programs of a model's constraints, beside those of `programs`; m rows in the order of `Mechanics.rows`.
 
 multipliers        λ of every row, and how well it is determined
-projection         what is added to a state x so that it satisfies its rows
-correction         the same for q and v apart, with some coordinates held: one step of an assembly
+projection         the correction of a state x after which it satisfies its rows
+correction         the same for q and v separately, with fixed coordinates: one step of an assembly
 residual           f of the rows on positions, and A v + a₀ of all
 constraint_matrix  A, a₀ and γ
 forward_dual       v̇ and λ by another route
@@ -37,8 +37,8 @@ def multipliers(model: Model, *, redundant: Collection[str] = ()) -> Program:
     """q, v, u, p, t → ``lam`` (m,), the multipliers; ``margin``; and for every row ``margins``, ``skipped``, ``sizes``.
 
     A margin is sin² of the angle between a row and the span of those taken before it, measured by M⁻¹, in parts of its
-    closure; ``margin`` is the least one, rows in ``redundant`` (names) aside. A row whose margin is rounding gets the
-    multiplier 0, and ``skipped`` is what it still asks for, in the unit of its second rate, to be compared with
+    closure. ``margin`` is the smallest one, without the rows in ``redundant`` (names). A row whose margin is rounding
+    gets the multiplier 0. ``skipped`` is its remaining residual, in the unit of its second rate; compare it with
     ``sizes``, the sum of the magnitudes that cancel there.
 
     Raises `DependentRow` for a row that depends on others in every position, and `ModelError` as `forward` does.
@@ -57,7 +57,7 @@ def multipliers(model: Model, *, redundant: Collection[str] = ()) -> Program:
 
 
 def divisors(model: Model) -> Program:
-    """q, v, u, p, t → parameters' terms that accelerations divide by, each named by its row: none may be 0."""
+    """q, v, u, p, t → the terms of parameters that accelerations are divided by, named by rows: none may be 0."""
     graph, _, m = _start(model)
     named: dict[str, list[int]] = {}
     for name, node in m.constrained.divisors if m.rows else ():
@@ -68,8 +68,9 @@ def divisors(model: Model) -> Program:
 def projection(model: Model) -> tuple[Program | None, Program | None]:
     """x, u, p, t → ``dx`` to be added to x: (on positions, on velocities); `constrained` has the formulas.
 
-    ``gap`` is the largest |row| in parts of its scale before the correction, ``margin`` as in `multipliers`. The first
-    is None without rows on positions; both are None where every step of a run keeps the rows by itself.
+    ``gap`` is the largest |row| before the correction, divided by the row's scale; ``margin`` is as in `multipliers`.
+    The first program is None without rows on positions. Both are None if every step of a run satisfies the rows
+    without correction.
     """
     found: list[Program | None] = []
     for position in (True, False):
@@ -90,8 +91,8 @@ def projection(model: Model) -> tuple[Program | None, Program | None]:
 def correction(model: Model, fixed: Collection[str] = (), *, position: bool = True) -> Program | None:
     """q, v, u, p, t → ``dq`` (or ``dv``): the least step that satisfies the rows to first order; ``gap``, ``margin``.
 
-    The coordinates in ``fixed`` (names) stay as they are, or their rates do. A row that they leave nothing to move
-    is skipped, its margin 0. None without rows. Raises `NoSuchEntry` for an unknown name.
+    The coordinates in ``fixed`` (names), or their rates, stay as they are. A row in which nothing else can move is
+    skipped, and its margin is 0. None without rows. Raises `NoSuchEntry` for an unknown name.
     """
     graph, _, m = _start(model)
     names = [c.name for c in model.coordinates]
@@ -132,7 +133,7 @@ def forward_dual(model: Model) -> Program:
 
 
 def _judged(m: Mechanics, solution: RowSolution, *, position: bool) -> Mapping[str, Output]:
-    """The gap that a correction closes, and its margin."""
+    """The gap before a correction, and the margin of its rows."""
     rows = position_rows(m) if position else m.rows
     values = [row.residual or m.graph.zero for row in rows] if position else [row.rate for row in rows]
     return {

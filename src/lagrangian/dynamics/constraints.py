@@ -1,8 +1,8 @@
 """Converts constraints to rows of nodes: a quantity that must be zero, its rate, and the rate of its rate.
 
-The distance between two points is measured along the paths from the place that carries both, so that what these have in
-common never enters. In space the rows are in the axes of a body, because the velocities there are already nodes of the
-tape. If the points coincide, these rows have the same multipliers as the derivatives of f.
+The distance between two points is measured along the paths from the place that carries both; the motion of that place
+does not enter. In space, rows have components along the axes of a body, because the velocities there are already nodes
+of the tape. If the points coincide, these rows have the same multipliers as the derivatives of f.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from lagrangian.model.elements.conditions import (
 from lagrangian.model.rows import named_conditions
 
 Made = tuple[int, int | None, Callable[[Accelerations], int] | None]
-"""c, f where there is one, and how ċ comes out of accelerations."""
+"""c, f (None for a row on velocities), and the function that computes ċ from accelerations."""
 
 
 def rows(d: Description) -> list[ConstraintRow]:
@@ -65,7 +65,7 @@ class Gap:
 
     @property
     def grounded(self) -> bool:
-        """Whether the common place is at rest, so that velocities relative to it are absolute."""
+        """Whether the common place is at rest: velocities relative to it are then absolute."""
         return self.common.parent is None
 
     def velocity(self, place: PlaceMotion, axes: Axes) -> Vector:
@@ -86,7 +86,7 @@ class Gap:
         return motion.turned(total, at, axes)
 
     def _omega(self, axes: Axes) -> Vector:
-        """ω of the axes relative to those that carry both places, in the axes themselves."""
+        """The angular velocity ω of the axes relative to the common place, along the axes themselves."""
         home = self.common.axes
         chain: list[Axes] = []
         at: Axes | None = axes
@@ -101,7 +101,7 @@ class Gap:
         return total
 
     def acceleration(self, axes: Axes, axis: int) -> Callable[[Accelerations], int] | None:
-        """a_start − a_end in ``axes``; None if the common place moves: then c is differentiated."""
+        """a_start − a_end in ``axes``; None if the common place moves, and c must be differentiated instead."""
         if not self.grounded:
             return None
         motion, g = self.motion, self.graph
@@ -166,7 +166,7 @@ def _on_line(d: Description, s: Any) -> Made:
 
 
 def _no_slip(d: Description, s: Any) -> Made:
-    """c = e · (v_centre + ω × (r_at − r_centre)), in the axes that e is given in."""
+    """c = e · (v_centre + ω × (r_at − r_centre)), in the axes of e."""
     motion, g = d.motion, d.graph
     centre, body = d.places[s.centre], d.axes[s.frame]
     target = motion.root if s.axes is None else d.axes[s.axes]
@@ -194,4 +194,4 @@ CONDITIONS: dict[type[Condition], Callable[[Description, Any], Made]] = {
     OnLine: _on_line,
     NoSlip: _no_slip,
 }
-"""How each kind of condition becomes nodes."""
+"""The function that converts each kind of condition to nodes."""

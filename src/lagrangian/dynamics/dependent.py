@@ -1,7 +1,7 @@
-"""Rows that others imply whatever the state: they are left out, their multipliers 0, or contradict the others.
+"""Rows whose coefficients depend on those of other rows in every state.
 
-The elimination finds such a row where its pivot is zero by structure. What the row still asks for there is zero at
-every state if it says again what others say; if not, no motion satisfies all of them.
+The elimination finds such a row because its pivot is zero by structure. If the row's residual is zero at every state,
+the row repeats others: it is left out, and its multiplier is 0. If not, no motion satisfies all rows.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from lagrangian.errors import ModelError, RunError
 from lagrangian.graph import Graph, Output, Program, evaluate, reached
 
 PLACES = 3
-"""Random states at which a residual is looked at."""
+"""The number of random states at which a residual is computed."""
 
 ROUNDING = 1e-8
-"""A residual below this is zero at that state."""
+"""A residual below this counts as zero."""
 
 
 def without_dependent(
@@ -31,9 +31,9 @@ def without_dependent(
     v: Sequence[int],
     problems: Callable[[Sequence[ConstraintRow]], Iterator[Problem]],
 ) -> tuple[RowSolution, tuple[str, ...]]:
-    """The cheapest solution subject to the rows that are independent, and the names of those left out.
+    """The cheapest solution subject to the independent rows, and the names of the other rows.
 
-    Raises `ModelError` (E302) where a row contradicts the others.
+    Raises `ModelError` (E302) if a row contradicts the others.
     """
     kept = list(rows)
     while True:
@@ -61,7 +61,7 @@ def _contradiction(row: ConstraintRow, rows: Sequence[ConstraintRow]) -> ModelEr
 
 
 def _filled(graph: Graph, found: RowSolution, kept: Sequence[bool]) -> RowSolution:
-    """The solution with places for the rows that were left out: multiplier 0, margin 1, nothing asked for."""
+    """The solution with entries for the rows that were left out: multiplier 0, margin 1, residual 0."""
 
     def spread(ids: Sequence[int], nothing: int) -> list[int]:
         given = iter(ids)
@@ -79,9 +79,9 @@ def _filled(graph: Graph, found: RowSolution, kept: Sequence[bool]) -> RowSoluti
 
 
 def _vanishes(graph: Graph, dependent: DependentRow, rows: Sequence[ConstraintRow], v: Sequence[int]) -> bool:
-    """Whether what the row still asks for is zero at random states whose velocities satisfy all rows.
+    """Whether the row's residual is zero at random states whose velocities satisfy all rows.
 
-    If c = Σ α_i c_i of the other rows, then ċ − Σ α_i ċ_i = Σ α̇_i c_i, which is zero where they hold.
+    If c = Σ α_i c_i with the other rows, then ċ − Σ α_i ċ_i = Σ α̇_i c_i, which is zero if they are satisfied.
     """
     ids = [*(row.rate for row in rows), dependent.residual]
     sizes: dict[str, int] = {}

@@ -1,16 +1,16 @@
 """Forward dynamics with rows: multipliers are unknowns of the same elimination.
 
 To the form of `accelerations` every row c_r adds  λ_r (ċ_r + γ_r):  H[c_r, λ_r] = 1 and g[λ_r] = γ_r. Substitution
-carries the entries of λ to the parents, and what cancels at a common ancestor is gone, so that loops stay local. Two
-rules say when a multiplier may be taken out:
+carries the entries of λ to the parents. Entries that cancel at a common ancestor vanish, so loops stay local. Two rules
+say when a multiplier may be eliminated:
 
-1. When all rates are gone that its row reaches, its *support*. The pivot is then −a M_KK⁻¹ aᵀ, negative wherever the
-   row is independent of those before it. Earlier it may vanish in ordinary configurations.
-2. Together with a rate k whose coefficient a_k in the row is made of numbers and parameters alone, while no rate of the
-   row is gone yet: v̇_k = −(γ + Σ a_j v̇_j)/a_k, and λ comes from the rate's own equation. The pair
+1. When all rates that its row reaches, its *support*, are eliminated. The pivot is then −a M_KK⁻¹ aᵀ, which is negative
+   if the row is independent of those before it. Earlier it may vanish in ordinary configurations.
+2. Together with a rate k whose coefficient a_k in the row consists of numbers and parameters alone, as long as no rate
+   of the row is eliminated: v̇_k = −(γ + Σ a_j v̇_j)/a_k, and λ comes from the rate's own equation. The pair
 
        | h_kk  a_k |
-       | a_k    0  |      has the determinant −a_k² and never fails, even where the rate has no inertia.
+       | a_k    0  |      has the determinant −a_k² and never fails, even if the rate has no inertia.
 
 The λ of this form is −λ of `rows`.
 """
@@ -30,9 +30,9 @@ from lagrangian.graph import Graph
 
 
 class DependentRow(ModelError):
-    """A row that others imply whatever the state: ``row``, and the node ``residual`` of what it still asks for.
+    """A row whose coefficients depend on those of other rows in every state: ``row``, and the node of its ``residual``.
 
-    Where the residual is zero the row says again what others say; where it is not, the rows contradict each other.
+    If the residual is zero, the row repeats others. If it is not, the rows contradict each other.
     """
 
     def __init__(self, row: ConstraintRow, residual: int) -> None:
@@ -63,9 +63,9 @@ class AttachedRow:
 
 @dataclass(frozen=True)
 class Problem:
-    """What is to be eliminated: H and g along a tape, subject to rows. The result is added to ``reference``.
+    """The input of an elimination: H and g along a tape, subject to rows. The result is added to ``reference``.
 
-    ``strict``: a row without pivot is an error, `DependentRow`, and so is a rate that moves nothing.
+    With ``strict``, a row without a pivot raises `DependentRow`, and a rate without inertia is an error too.
     """
 
     graph: Graph
@@ -82,9 +82,11 @@ class Problem:
 
 @dataclass(frozen=True)
 class RowSolution:
-    """``vdot``, and a node a row of each: λ as `rows` has it (of a skipped row nearly 0), the margin, what a skipped
-    row still asks for (else 0), the sum of the magnitudes that cancel in it, and whether it is not skipped.
-    ``divisors`` are what was divided by unseen, with the rows' names.
+    """``vdot``, and one node for each row of the following.
+
+    These are λ with the sign of `rows` (nearly 0 for a skipped row), the margin, the residual of a skipped row (else
+    0), the sum of the magnitudes that cancel in it, and whether the row was used. ``divisors`` are divisors that no
+    margin watches, with the names of their rows.
     """
 
     vdot: list[int]
@@ -98,7 +100,7 @@ class RowSolution:
 
 @dataclass
 class RowElimination(Elimination):
-    """An elimination with rows; multiplier r has the key −1 − r beside the nodes."""
+    """An elimination with rows. Multiplier r has the key −1 − r, so that it differs from all nodes."""
 
     problem: Problem = field(kw_only=True)
     support: dict[int, set[int]] = field(default_factory=dict[int, set[int]])
@@ -108,13 +110,13 @@ class RowElimination(Elimination):
 
     @classmethod
     def of(cls, problem: Problem) -> RowElimination:
-        """The elimination of a problem, nothing taken out yet."""
+        """The elimination of a problem before its first step."""
         made = cls(problem.graph, problem.tape, problem.H.copy(), dict(problem.linear), problem.names, problem=problem)
         made._attach()
         return made
 
     def __post_init__(self) -> None:
-        """Note who uses what, and which unknowns are minimised out: rates, and what stands for a rate."""
+        """Record which unknowns use each entry, and which are minimised out: rates, and nodes that represent a rate."""
         tape, rows = self.tape, self.problem.rows
         self.place = {i: n for n, i in enumerate(tape.order)}
         gone = {rate for rate, _ in tape.exchanged.values()}
@@ -135,7 +137,7 @@ class RowElimination(Elimination):
             self.support[key] = self._reached(attached.node)
 
     def _reached(self, node: int) -> set[int]:
-        """The unknowns that a node comes from, but for those that cancel on the way."""
+        """The unknowns that a node depends on, without those that cancel."""
         g, forms, place = self.graph, self.tape.forms, self.place
         if node not in place:
             return set()
@@ -163,11 +165,11 @@ class RowElimination(Elimination):
         return key in self.support
 
     def ready_rows(self) -> list[int]:
-        """The multipliers whose support is gone."""
+        """The multipliers whose support is eliminated."""
         return [key for key, support in self.support.items() if not support]
 
     def paired(self, k: int) -> int | None:
-        """The multiplier that may be taken out together with the unknown k (rule 2), of the shortest row."""
+        """The multiplier, of the shortest row, that may be eliminated together with the unknown k (rule 2)."""
         rows = self.H.rows
         found = [
             key
@@ -177,7 +179,7 @@ class RowElimination(Elimination):
         return min(found, key=lambda key: (len(rows[key]), -key), default=None)
 
     def _divides(self, key: int, a: int) -> bool:
-        """Whether a coefficient is a number, or made of parameters in a row where no coefficient is a number."""
+        """Whether a coefficient is a number, or consists of parameters in a row without numbers as coefficients."""
         value = self.graph.value
         if value(a) is not None:
             return True
@@ -188,13 +190,13 @@ class RowElimination(Elimination):
     # -- steps --------------------------------------------------------------------------------------------------
 
     def add_linear(self, i: int, x: int) -> None:
-        """Add x to g_i; of rows the magnitudes are summed as well."""
+        """Add x to g_i; for rows the magnitudes are summed too."""
         super().add_linear(i, x)
         if i < 0 and x != self.graph.zero:
             self.sizes[i] = self.graph.add(self.sizes.get(i, self.graph.zero), self.graph.abs(x))
 
     def take(self, i: int, *, pairs: bool) -> None:
-        """Take out the next entry of the tape, with what goes along with it."""
+        """Eliminate the next entry of the tape, with the multiplier that is paired with it."""
         if i in self.leaves:
             self._take_leaf(i, pairs=pairs)
         elif i in self.tape.turned:
@@ -240,7 +242,7 @@ class RowElimination(Elimination):
                 support |= others
 
     def minimise(self, k: int, name: str) -> None:
-        """Minimise v̇_k out, and note what it gives to the sizes of rows."""
+        """Minimise v̇_k out, and add its magnitudes to the sizes of the rows."""
         g, row = self.graph, self.H.rows.get(k, {})
         if k in row:
             inverse = g.div(g.one, row[k])
@@ -250,7 +252,7 @@ class RowElimination(Elimination):
         super().minimise(k, name)
 
     def take_row(self, key: int) -> None:
-        """Take out a multiplier whose support is gone, its pivot watched."""
+        """Eliminate a multiplier whose support is eliminated; its pivot gives the margin."""
         g = self.graph
         row, linear = self.H.pop(key), self.g.pop(key, g.zero)
         pivot = row.pop(key, g.zero)
@@ -292,7 +294,7 @@ class RowElimination(Elimination):
     # -- result -------------------------------------------------------------------------------------------------
 
     def solution(self) -> RowSolution:
-        """What was asked for, once everything is taken out."""
+        """The solution, after everything is eliminated."""
         g, problem, guard = self.graph, self.problem, self.guard
         value = self.accelerations()
         keys = [-1 - r for r in range(len(problem.rows))]

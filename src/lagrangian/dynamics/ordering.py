@@ -1,7 +1,7 @@
-"""In what order the unknowns of an elimination with rows are taken out.
+"""The order in which an elimination with rows eliminates its unknowns.
 
-Two orders are tried and counted: the tape backwards, which is linear in the length of chains of loops, and the cheapest
-of what may be taken next, which is better for small systems.
+Two orders are tried, and their operations counted. The tape backwards is linear in the length of chains of loops. To
+take the cheapest possible step next is better for small systems.
 """
 
 from __future__ import annotations
@@ -13,14 +13,14 @@ from lagrangian.errors import ModelError
 from lagrangian.graph import count_operations
 
 FEW = 12
-"""Up to so many rates the orders are tried without the pairs of rule 2 as well."""
+"""Up to this number of rates, the orders are also tried without the pairs of rule 2."""
 
 MOST_FREE = 60
-"""Up to so many rates the cheapest step is looked for at every step."""
+"""Up to this number of rates, every step is chosen as the cheapest."""
 
 
 def tape_backwards(problem: Problem, *, pairs: bool) -> RowSolution:
-    """Go backwards over the tape; what the rules allow meanwhile is taken at once."""
+    """Go backwards over the tape, and eliminate every multiplier as soon as the rules allow it."""
     e = RowElimination.of(problem)
     _settle(e, pairs=pairs)
     for i in reversed(problem.tape.order):
@@ -31,7 +31,7 @@ def tape_backwards(problem: Problem, *, pairs: bool) -> RowSolution:
 
 
 def _settle(e: RowElimination, *, pairs: bool) -> None:
-    """Take out every multiplier that the rules allow."""
+    """Eliminate every multiplier that the rules allow."""
     while True:
         for key in e.ready_rows():
             e.take_row(key)
@@ -45,7 +45,7 @@ def _settle(e: RowElimination, *, pairs: bool) -> None:
 
 
 def cheapest_first(problem: Problem, *, pairs: bool) -> RowSolution:
-    """Take what costs least next, of all that may be taken."""
+    """Take the cheapest of all possible steps next."""
     e = RowElimination.of(problem)
     ready: set[int] = set()
     mates = {first: i for i, (first, *_) in problem.tape.turned.items()}
@@ -88,7 +88,7 @@ def _cost(e: RowElimination, i: int, *, pairs: bool) -> float:
 
 
 def solutions(problem: Problem) -> Iterator[RowSolution | ModelError]:
-    """The results in all orders that are worth counting, or why there is none; beyond `MOST_FREE` only the tape's."""
+    """The solutions in all orders to be compared, or the reason why there is none; in large systems only the tape's."""
     ways = (tape_backwards, cheapest_first) if len(problem.rates) <= MOST_FREE else (tape_backwards,)
     for way in ways:
         for pairs in (True, False) if len(problem.rates) <= FEW else (True,):
@@ -105,9 +105,9 @@ def solutions(problem: Problem) -> Iterator[RowSolution | ModelError]:
 
 
 def cheapest_solution(problems: Iterable[Problem], *, multipliers: bool = True) -> RowSolution:
-    """The result of the fewest operations, parameters hoisted: of v̇ and λ together, or of v̇ alone.
+    """The solution with the fewest operations for v̇ and λ, or for v̇ alone; terms of parameters are not counted.
 
-    Raises the `ModelError` of the first order where none comes to an end, and `DependentRow`.
+    Raises the `ModelError` of the first order if no order succeeds, and `DependentRow`.
     """
     best: tuple[int, RowSolution] | None = None
     failed: list[ModelError] = []

@@ -1,9 +1,9 @@
-"""Many guesses at once, each moved onto the rows that a motion must keep by damped Newton steps.
+"""Moves many guesses at once onto the rows that a motion must satisfy, by damped Newton steps.
 
     δq = −N M⁻¹ Aᵀ (A M⁻¹ Aᵀ)⁺ f,        δv = −M⁻¹ Aᵀ (A M⁻¹ Aᵀ)⁺ (A v + a₀)
 
-The programs come from outside: what is corrected by how much is their business. A step turns no angle by more than
-1 rad, and is halved while it makes the gap larger.
+The programs that compute the corrections are made elsewhere. A step changes no angle by more than 1 rad, and it is
+halved while it makes the gap larger.
 """
 
 from __future__ import annotations
@@ -21,26 +21,26 @@ Array: TypeAlias = NDArray[np.float64]
 Flags: TypeAlias = NDArray[np.bool_]
 
 MAX_STEPS = 60
-"""Newton steps: a start that is going to close needs five."""
+"""The largest number of Newton steps; a start that converges needs about five."""
 
 HALVINGS = 12
-"""How often one step is halved."""
+"""The largest number of times that one step is halved."""
 
 MAX_TURN = 1.0
-"""[rad] The most that one step turns an angle."""
+"""[rad] The largest change of an angle in one step."""
 
 SETTLED = 1e-12
-"""A step of this part of the coordinates ends the search."""
+"""A step of this size relative to the coordinates ends the search."""
 
 SEEN = 1e-9
-"""A change of a gap that is more than rounding."""
+"""A larger change of a gap than this is not rounding."""
 
 CLOSED = 1e-11
-"""A gap of this part of the terms that make it up is none."""
+"""A gap of this size relative to its terms counts as closed."""
 
 
 KEPT = 1e-9
-"""A velocity row that is left with more than this part of its terms is not satisfied."""
+"""A velocity row whose residual is larger than this, relative to its terms, is not satisfied."""
 
 
 def _kernel(program: Program) -> Kernel:
@@ -49,7 +49,7 @@ def _kernel(program: Program) -> Kernel:
 
 @dataclass(frozen=True)
 class Closing:
-    """The programs that bring a state onto its rows; small, and can be sent to another process.
+    """The programs that move a state onto its rows; it can be sent to another process.
 
     All are over the groups q, v, u, p, t. ``position`` has the output ``dq``, ``velocity`` the output ``dv``, each the
     step that satisfies the rows to first order (None without such rows); ``rows`` has ``f`` of the rows on positions
@@ -62,7 +62,7 @@ class Closing:
     matrix: Program
 
     def closed(self, x: Array, p: Array, t: float) -> tuple[Array, Flags]:
-        """States x (runs, nx) brought onto the rows from where they are, and which of them arrived there."""
+        """States x (runs, nx) moved onto the rows, and which of them satisfy the rows."""
         n = len(self.rows.inputs["q"])
         q, arrived = x[:, :n], np.ones(len(x), bool)
         if self.position is not None:
@@ -91,7 +91,7 @@ class LoopSearch:
         self.matrix = _kernel(programs.matrix)
 
     def angles(self, q: Array, p: Array, t: float) -> Flags:
-        """Which coordinates are angles: those that the rows depend on, but not on a whole turn of them."""
+        """Which coordinates are angles: the rows depend on them, but do not change after a full turn."""
         return self.moving(q, p, t) & ~self._changes(q, p, t, [2 * np.pi])
 
     def moving(self, q: Array, p: Array, t: float) -> Flags:
@@ -99,7 +99,7 @@ class LoopSearch:
         return self._changes(q, p, t, [0.37, 1.1])
 
     def _changes(self, q: Array, p: Array, t: float, by: list[float]) -> Flags:
-        """Which coordinates change the gaps by more than rounding where they are changed; looked at three places."""
+        """Which coordinates change the gaps by more than rounding when they are changed, at one of three places."""
         n = len(q)
         found = np.zeros(n, bool)
         for place in (q, q + np.linspace(0.3, 1.1, n), q - np.linspace(0.7, 0.2, n)):
@@ -114,15 +114,15 @@ class LoopSearch:
         return np.asarray(self.rows(q, None, None, p, t)["f"])
 
     def closed(self, q: Array, p: Array, t: float) -> Flags:
-        """Whether every gap is rounding, measured by the terms Σ |A_rj| |q_j| that it is made of."""
+        """Whether every gap is rounding, compared with the sum of its terms Σ |A_rj| |q_j|."""
         sizes = np.abs(np.asarray(self.matrix(q, None, None, p, t)["A"]))
         scale = 1.0 + sizes.max(axis=(-1, -2)) * np.maximum(np.abs(q).max(axis=-1), 1.0)
         return np.abs(self.gaps(q, p, t)).max(axis=-1) <= CLOSED * scale
 
     def run(self, guesses: Array, p: Array, t: float) -> tuple[Array, Flags]:
-        """Move every guess (rows of (guesses, n)) towards the rows; where it ends, and whether it closed.
+        """Move every guess (guesses, n) towards the rows; return the results, and which of them closed.
 
-        Parameters are the same for all, (np,), or each guess's own, (guesses, np).
+        Parameters are the same for all guesses, (np,), or different for each, (guesses, np).
         """
         q, angles = guesses.copy(), self.angles(guesses[0], p if p.ndim == 1 else p[0], t)
         going = np.arange(len(q))
@@ -141,7 +141,7 @@ class LoopSearch:
         return step * np.minimum(1.0, MAX_TURN / np.maximum(turn, MAX_TURN))
 
     def _damped(self, q: Array, step: Array, p: Array, t: float) -> tuple[Array, Flags]:
-        """q after a step that does not enlarge the gap, and whether it has settled there."""
+        """q after a step that does not enlarge the gap, and whether the search ended there."""
         before = np.linalg.norm(self.gaps(q, p, t), axis=-1)
         tiny = np.abs(step).max(axis=-1) <= SETTLED * (1.0 + np.abs(q).max(axis=-1))
         length = np.ones((len(q), 1))

@@ -1,8 +1,8 @@
 """Projection: constraint rows that a motion must satisfy, the steps that restore them, and the drift.
 
 A method satisfies f(q, t) = 0 and A(q, t) v + a₀ = 0 only to its tolerance. After a step the state is projected: one
-Newton step on positions (more if it leaves more than `CLOSED`), then a linear step on velocities. How a correction is
-found is not known here; two programs compute it.
+Newton step on positions (more if the residual stays above `CLOSED`), then a linear step on velocities. Two programs,
+which are made elsewhere, compute the corrections.
 """
 
 from __future__ import annotations
@@ -18,29 +18,29 @@ from lagrangian.graph import Graph, Output, Program, copied, replaced
 Array = NDArray[np.float64]
 
 CLOSED = 1e-12
-"""Largest residual of a position row, in parts of its scale, that is left without a further step."""
+"""The largest residual of a position row, divided by its scale, that needs no further step."""
 
 MORE_STEPS = 8
-"""Further steps on positions at most: a step of a run needs none, a start beside the rows some."""
+"""The largest number of further steps on positions: usually 0 for a step of a run, a few for a start."""
 
 ROUNDING = 2.0**-43
-"""Residuals, in parts of their scale, up to which a correction says nothing of a step's error."""
+"""Up to this residual, divided by the row's scale, a correction is no sign of a step's error."""
 
 
 NEARLY_DEPENDENT = 1e-6
-"""Margin below which a correction says nothing of a step's error: it grows as the margin's root falls."""
+"""Below this margin, a correction is no sign of a step's error, because it grows as 1/√margin."""
 
 BREAKS = 1e-6
-"""Residual of a row, in parts of its scale, beyond which an event's state contradicts it."""
+"""Above this residual, divided by the row's scale, the state after an event violates the row."""
 
 
 @dataclass(frozen=True)
 class Projection:
-    """How states are brought back to the rows they should satisfy, over the groups x, u, p, t of the right-hand side.
+    """The programs that project states onto their rows, over the groups x, u, p, t of the right-hand side.
 
-    ``position`` and ``velocity`` (None where there are no such rows) have the outputs ``dx`` (nx,), what a step adds to
-    x, and ``gap`` (), the largest residual of a row at x over the row's scale. ``velocity`` is evaluated at corrected
-    positions and leaves them alone. ``margin`` (), in either, tells how far the rows are from depending on each other.
+    ``position`` and ``velocity`` (None where there are no such rows) have the outputs ``dx`` (nx,), which is added
+    to x, and ``gap`` (), the largest residual of a row at x over its scale. ``velocity`` is evaluated at corrected
+    positions and does not change them. ``margin`` (), in either, says how far the rows are from being dependent.
     With ``corrects=False`` nothing is changed, and the residuals are only measured.
     """
 
@@ -49,7 +49,7 @@ class Projection:
     corrects: bool = True
 
     def checked(self, rates: Program) -> Projection:
-        """The same, or a `RunError` that says what does not fit the right-hand side ``rates``."""
+        """Return the projection; raise `RunError` if it does not fit the right-hand side ``rates``."""
         size = len(rates.inputs["x"])
         for program in self.programs:
             for group, names in program.inputs.items():
@@ -72,18 +72,18 @@ class Projection:
 
     @property
     def programs(self) -> tuple[Program, ...]:
-        """Those that there are."""
+        """The programs that are not None."""
         return tuple(p for p in (self.position, self.velocity) if p is not None)
 
     @property
     def approach(self) -> Program | None:
-        """The step on positions: ``dx`` (nx,) and ``gap`` (); None where there is none."""
+        """The step on positions: ``dx`` (nx,) and ``gap`` (); None without rows on positions."""
         if self.position is None or not self.corrects:
             return None
         return replace(self.position, outputs={name: self.position.outputs[name] for name in ("dx", "gap")})
 
     def landing(self, rates: Program) -> Program:
-        """What follows it: ``dx`` (nx,), and `SEEN`: numbers of the state before and after that step."""
+        """The step after it: ``dx`` (nx,) and the outputs `SEEN`, about the state before and after that step."""
         graph = rates.graph if all(p.graph is rates.graph for p in self.programs) else Graph()
         position, velocity = (None if p is None else _outputs(p, graph) for p in (self.position, self.velocity))
         size = len(rates.inputs["x"])
@@ -104,7 +104,7 @@ class Projection:
 
 SEEN = ("rest", "gap", "left", "margin")
 """Outputs of `Projection.landing` beside ``dx``: the residuals of positions, those of velocities, those of velocities
-after the step, and the margin where one is told."""
+after the step, and the margin if there is one."""
 
 
 def _outputs(program: Program, graph: Graph) -> dict[str, list[int]]:
@@ -115,11 +115,11 @@ def _outputs(program: Program, graph: Graph) -> dict[str, list[int]]:
 
 @dataclass
 class Drift:
-    """How far N runs came from their rows, (N,) each: largest residuals in parts of the rows' scales.
+    """The drift of N runs from their rows, (N,) each: the largest residuals, divided by the rows' scales.
 
-    ``position`` and ``velocity``: at the ends of steps, ``…_before`` and ``…_after`` the projection; equal where
-    nothing is corrected. ``start_…``: of the states that the runs were given. ``reset_…``: of the states right after
-    events that change the state. ``margin``: the least seen, +∞ where none is told, and its time ``margin_time``.
+    ``position`` and ``velocity``: at the ends of steps, ``…_before`` and ``…_after`` the projection; equal
+    without correction. ``start_…``: of the given initial states. ``reset_…``: of the states right after events that
+    change the state. ``margin``: the least one, +∞ if there is none, at the time ``margin_time``.
     """
 
     position_before: Array
@@ -135,7 +135,7 @@ class Drift:
 
     @classmethod
     def of_rows(cls, rows: Array) -> Drift:
-        """From rows (N, 10), one a run, in the order of the fields."""
+        """Make it from an array (N, 10) with one row for each run, in the order of the fields."""
         return cls(*np.ascontiguousarray(rows.T))
 
     @staticmethod
@@ -147,7 +147,7 @@ class Drift:
 
 
 DRIFT = tuple(field.name for field in fields(Drift))
-"""What is noted of a run, in order."""
+"""The numbers that are recorded for a run, in order."""
 
 START, RESET, MARGIN, MARGIN_TIME = (
     DRIFT.index(name) for name in ("start_position", "reset_position", "margin", "margin_time")

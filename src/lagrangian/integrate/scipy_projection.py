@@ -1,14 +1,15 @@
 """Projection for SciPy's solvers: their own state is moved, so that a multistep method keeps its order.
 
 A method of one step (RK45, RK23, DOP853, Radau) goes on from the projected state and the derivative there. A multistep
-method holds a history. Were it begun anew after every step, it would stay at order 1; were only what it hands out
-projected, it would drift away from that. So the history is corrected by δ, what the projection added to the last state:
+method has a history. If it were restarted after every step, it would stay at order 1. If only its output were
+projected, its own state would drift away. So the history is corrected by δ, by which the projection changed the last
+state:
 
-    BDF      backward differences ∇ʲ x_n, each of which holds x_n once:       D_j ← D_j + δ for all j
-    LSODA    Nordsieck's vector (x, h ẋ, h² ẍ/2, …), of the last state:       the first entry ← + δ
+    BDF      backward differences ∇ʲ x_n, each of which contains x_n once:    D_j ← D_j + δ for all j
+    LSODA    Nordsieck's vector (x, h ẋ, h² ẍ/2, …), of the last state:          the first entry ← + δ
 
-As δ is of the size of the step's own error, the order stays. What is handed out is projected in any case; were a solver
-found not to keep its history where it is expected, it would begin anew.
+δ is of the size of the step's own error, so the order is preserved. The output is projected in any case. A solver whose
+history is not found at the expected place is restarted.
 """
 
 from __future__ import annotations
@@ -45,11 +46,11 @@ ONE_STEP = frozenset({"RK45", "RK23", "DOP853", "Radau"})
 """Methods without a history."""
 
 NORDSIECK = 20
-"""Where Nordsieck's vector begins in LSODA's work space (ODEPACK, opkda1.f)."""
+"""The index at which Nordsieck's vector begins in LSODA's work space (ODEPACK, opkda1.f)."""
 
 
 class Projected:
-    """The states of one run brought back to their rows, and what is noted of that."""
+    """The projected states of one run, and the record of their drift."""
 
     def __init__(self, projection: Projection, rates: Program, p: Array, rtol: float, atol: float | Array) -> None:
         projection = projection.checked(rates)
@@ -61,11 +62,11 @@ class Projected:
 
     @property
     def drift(self) -> Drift:
-        """What was noted so far."""
+        """The drift so far."""
         return Drift.of_rows(self.worst[np.newaxis])
 
     def state(self, t: float, x: Array, u: Control) -> tuple[Array, dict[str, float]]:
-        """A state projected, and the residuals; not a number where it cannot be."""
+        """Return a projected state and the residuals; NaN if it cannot be projected."""
         x, first = np.array(x, float), 0.0
         try:
             if self._approach is not None:
@@ -102,20 +103,21 @@ class Projected:
             self.worst[MARGIN], self.worst[MARGIN_TIME] = seen["margin"], t
 
     def begin(self, t: float, x: Array, u: Control) -> Array:
-        """The state that a run starts from."""
+        """Project the state from which a run starts."""
         moved, seen = self.state(t, x, u)
         self._note(t, seen, START)
         return moved
 
     def reset(self, t: float, x: Array, u: Control) -> Array:
-        """The state that an event left."""
+        """Project the state after an event."""
         moved, seen = self.state(t, x, u)
         self._note(t, seen, RESET)
         return moved
 
     def settle(self, solver: Any, before: Array, u: Control) -> tuple[float, bool]:
-        """Move a solver that made a step to the projected state; return the size of the correction in tolerances, and
-        whether the solver has to begin anew there. One whose correction is beyond 1 is left as it was.
+        """Move a solver that made a step to the projected state, unless the correction is greater than the tolerances.
+
+        Return the size of the correction in tolerances, and whether the solver must be restarted there.
         """
         moved, seen = self.state(solver.t, solver.y, u)
         change = moved - solver.y
@@ -143,7 +145,7 @@ class Projected:
 
 
 def _moved(solver: Any, state: Array, change: Array) -> bool:
-    """Put a state into a solver; return whether the solver goes on from it."""
+    """Put a state into a solver; return whether the solver can continue from it."""
     name, size = type(solver).__name__, float(np.abs(solver.y).max())
     if name == "BDF" and np.allclose(solver.D[0], solver.y, 1e-12, 1e-12 * size):
         solver.D[: solver.order + 3] += change

@@ -25,8 +25,8 @@ from lagrangian.model.model import Model
 class Row:
     """One scalar constraint: ``rate`` = c, linear in the rates; ``position`` = f with c = ḟ, or None.
 
-    ``name`` is the constraint's, with a suffix where it has several rows ("loop.x"); ``unit`` is that of λ, None where
-    the expression's own unit decides; ``multiplier`` says in words what λ is.
+    ``name`` is the constraint's, with a suffix if it has several rows ("loop.x"). ``unit`` is that of λ, or None if it
+    follows from the unit of the expression. ``multiplier`` describes λ in words.
     """
 
     name: str
@@ -62,7 +62,7 @@ def rows_of(model: Model) -> tuple[Row, ...]:
 
 @dataclass(frozen=True, eq=False)
 class NamedCondition:
-    """A row before its expressions are made: its name, its constraint and its condition."""
+    """A row without its expressions: its name, its constraint and its condition."""
 
     name: str
     element: Element
@@ -78,17 +78,17 @@ def named_conditions(model: Model) -> Iterator[NamedCondition]:
 
 
 def multiplier_symbol(name: str) -> sp.Symbol:
-    """The multiplier λ of a row, by its name, in expressions of a run; no user's symbol has such a name."""
+    """The symbol of a row's multiplier λ in expressions of a run. No symbol of a user can have its name."""
     return sp.Symbol(f"λ({name})", real=True)
 
 
 def drive_symbol(name: str) -> sp.Symbol:
-    """a₀ of a row c = A v + a₀, by its name, in expressions of a run: what time alone does to it."""
+    """The symbol of a₀ of a row c = A v + a₀ in expressions of a run: the part of c that depends on time alone."""
     return sp.Symbol(f"a₀({name})", real=True)
 
 
 def check_rows(model: Model) -> None:
-    """Refuse a constraint on velocities that holds no rate, or is not linear in them."""
+    """Raise `ModelError` for a constraint on velocities that contains no rate or is not linear in the rates."""
     rates: set[sp.Expr] = {*(v.symbol for v in model.velocities), *(c.rate for c in model.coordinates)}
     for element in model.constraints:
         for condition in element.conditions(model):

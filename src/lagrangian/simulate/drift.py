@@ -1,4 +1,4 @@
-"""How far a run came from its constraints, and what is to be said of that."""
+"""The drift of a run from its constraints, and the notices about it."""
 
 from __future__ import annotations
 
@@ -24,16 +24,16 @@ from lagrangian.viewed import Brief
 Array = NDArray[np.float64]
 
 LARGEST = 1e-6
-"""Largest residual that a step may have before it is corrected, and nothing is said."""
+"""The largest residual of a step, before correction, without a notice."""
 
 CLOSE = 1e-6
-"""Margin below which a run comes close to a position where constraints depend on each other."""
+"""Below this margin, a notice says that the run came close to a position where constraints depend on each other."""
 
 DEPENDENT = 1e-9
-"""Margin below which a row depends on others wherever it stays so."""
+"""If the margin stays below this, a row depends on others throughout."""
 
 WHERE = "constraints"
-"""What notices of a run's constraints are about."""
+"""The subject of notices about a run's constraints."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class RunDrift(Brief):
 
     ``…_before`` and ``…_after``: at the ends of steps, before and after the state is projected onto the constraints;
     equal with ``project=False``. ``margin`` is the least sin² of the angle between one row and the span of the others,
-    measured by M⁻¹, and ``margin_time`` [s] when it was least.
+    measured by M⁻¹, and ``margin_time`` [s] is the time of that minimum.
     """
 
     position_before: float
@@ -54,7 +54,7 @@ class RunDrift(Brief):
 
     @classmethod
     def of_run(cls, drift: Drift, run: int = 0) -> RunDrift:
-        """That of one run among many."""
+        """The drift of one of many runs."""
         return cls(*(float(getattr(drift, f.name)[run]) for f in fields(cls)))
 
     def __str__(self) -> str:
@@ -72,7 +72,7 @@ def notices(task: Task, outcome: Outcome) -> tuple[Notice, ...]:
 
 
 def of_runs(method: str, project: bool, position: Array, velocity: Array, margin: Array) -> tuple[str, ...]:
-    """What is to be known of many runs, from what each drifted before correction and its least margin."""
+    """The notices about many runs, from the drift before correction and the least margin of each."""
     largest = max((float(np.nanmax(a)) for a in (position, velocity) if np.isfinite(a).any()), default=0.0)
     said = [str(notice) for notice in _too_long(method, largest, project)]
     near = np.flatnonzero((margin.ravel() < CLOSE) & (margin.ravel() >= DEPENDENT))
@@ -92,7 +92,7 @@ def _too_long(method: str, largest: float, project: bool) -> tuple[Notice, ...]:
 
 
 def _close(task: Task, outcome: Outcome, drift: RunDrift) -> tuple[Notice, ...]:
-    """Where in the run rows depend on others: near one time, or throughout."""
+    """The words that say when rows depend on others: near one time, or throughout."""
     if not drift.margin < CLOSE or not len(outcome.times):
         return ()
     nearest = int(np.argmin(np.abs(outcome.times - drift.margin_time)))
@@ -118,7 +118,7 @@ def _margins(task: Task, outcome: Outcome, k: int) -> Array:
 
 
 def _at(model: Model, make: object, task: Task, t: float, x: Array) -> dict[str, list[float]]:
-    """The outputs of a program of a model's constraints at a state."""
+    """The outputs, at a state, of a program of a model's constraints."""
     name = getattr(make, "__name__", "")
     program: Program = remembered(model, ("constraints", name), lambda: make(model))  # type: ignore[operator]
     n, size = len(model.coordinates), task.size
@@ -140,7 +140,7 @@ def check_method(model: Model, method: str) -> None:
 
 
 def ended(outcome: Outcome, task: Task) -> Outcome:
-    """Return the outcome cut at the first event whose reset leaves rates or positions that break a constraint."""
+    """Return the outcome, ended at the first event whose reset makes a state that violates a constraint."""
     drift = outcome.drift
     broken = drift is not None and max(drift.reset_position[0], drift.reset_velocity[0]) > BREAKS
     for k, hit in enumerate(outcome.hits if broken else ()):
@@ -161,7 +161,7 @@ def ended(outcome: Outcome, task: Task) -> Outcome:
 
 
 def _breaks(task: Task, t: float, x: Array) -> str:
-    """Which row a state breaks, and by how much."""
+    """The row that a state violates, and by how much."""
     found = _at(task.model, dynamics.residual, task, t, x)
     rows = rows_of(task.model)
     positions: Sequence[str] = [row.name for row in rows if row.position is not None]

@@ -1,4 +1,4 @@
-"""Where runs of constrained systems start: guesses are moved onto the constraints, and it is said by how much."""
+"""The starts of constrained systems: guesses are moved onto the constraints, and a notice says by how much."""
 
 from __future__ import annotations
 
@@ -21,11 +21,11 @@ from lagrangian.simulate.integrating import remembered
 Array = NDArray[np.float64]
 
 MOVED = 1e-9
-"""A start that was moved by more than this, in SI units, is told."""
+"""There is a notice if a start was moved by more than this, in SI units."""
 
 
 def held(model: Model, fixed: Iterable[Any] | str | None) -> tuple[str, ...]:
-    """The names of the coordinates that stay as given: those asked for, else those of the model file."""
+    """The names of the fixed coordinates: those of the call, otherwise those of the model file."""
     given = model.settings.get("fixed", ()) if fixed is None else fixed
     listed = given.replace(",", " ").split() if isinstance(given, str) else list(given)
     names = tuple(name if isinstance(name, str) else plain(name) for name in listed)
@@ -49,7 +49,7 @@ def held(model: Model, fixed: Iterable[Any] | str | None) -> tuple[str, ...]:
 def onto_constraints(
     model: Model, x: Array, p: Array, t: float, fixed: Sequence[str]
 ) -> tuple[Array, tuple[Notice, ...]]:
-    """The start nearest to x that satisfies every constraint, and a notice of what moved."""
+    """The start nearest to x that satisfies every constraint, and a notice about coordinates that were moved."""
     if not model.constraints:
         return x, ()
     _check_divisors(model, p, t)
@@ -71,7 +71,7 @@ def onto_constraints(
 
 
 def _check_divisors(model: Model, p: Array, t: float) -> None:
-    """Refuse parameters that make a coefficient of a row 0 if the accelerations are divided by it."""
+    """Raise an error for parameters that make a coefficient 0 by which the accelerations are divided."""
     program: Program = remembered(model, "divisors", lambda: dynamics.divisors(model))
     if not program.outputs:
         return
@@ -89,7 +89,7 @@ def _check_divisors(model: Model, p: Array, t: float) -> None:
 
 
 def starts_of_runs(model: Model, fixed: Sequence[str]) -> Closing | None:
-    """What brings the starts of an ensemble onto the constraints; None without any."""
+    """The programs that move the starts of an ensemble onto the constraints; None without constraints."""
     if not model.constraints:
         return None
     return remembered(model, ("closing", tuple(fixed)), lambda: closing(model, fixed))

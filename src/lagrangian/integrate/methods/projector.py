@@ -1,4 +1,4 @@
-"""Projection inside an integrator: states brought back to their rows, lane by lane, and what that took."""
+"""Projection inside an integrator: states are projected onto their rows, lane by lane, and the drift is recorded."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ if TYPE_CHECKING:
     from .method import MethodStep
 
 SHORTER = 0.5
-"""How much shorter a step is tried whose correction was too great, where no error decides the length."""
+"""The factor by which a step with too great a correction is shortened if no error estimate decides."""
 
 UNKNOWN = "0x7FF8000000000000"
-"""What a time is that nobody knows yet."""
+"""The value of a time that is not known yet."""
 
 
 class Projector:
-    """Prints how states are projected."""
+    """Prints the instructions that project states."""
 
     def __init__(
         self, p: Printer, lanes: Lanes, rates: Program, projection: Projection, ends: tuple[Vec, Vec], *, own: bool
@@ -59,11 +59,11 @@ class Projector:
 
     @property
     def tapes(self) -> tuple[Tapes | None, Tapes]:
-        """What is evaluated, for the sizes of shared blocks."""
+        """The tapes that are evaluated, for the sizes of shared blocks."""
         return self.approach, self.landing
 
     def prepare(self, service: LaneScheduler) -> None:
-        """Print, at the start of the function, what is read from the table."""
+        """Print, at the start of the function, the reading of values from the table."""
         p = self.p
         self.service = service
         self.approach_shared = p.entry(at.TABLE.index("approach_shared"), "ptr")
@@ -71,7 +71,7 @@ class Projector:
         self.drift = p.entry(at.TABLE.index("drift"), "ptr")
 
     def prologues(self) -> None:
-        """Print what follows from every lane's parameters."""
+        """Print the computations that depend only on every lane's parameters."""
         for tapes in self.tapes:
             if tapes is not None and tapes.own:
                 tapes.prologue(self.lanes.p_in)
@@ -79,8 +79,9 @@ class Projector:
     # One state a lane --------------------------------------------------------------------------------------------
 
     def correct(self, t: Value, u: Vec, x: Vec, flag: str, lost: Vec | None = None, *, call: bool = True) -> None:
-        """Print the projection of the vector in the slots ``x`` in lanes with the flag; the sum of what was added is in
-        ``self.moved`` then. ``lost``: what sums have lost to rounding so far.
+        """Print the projection of the vector in the slots ``x`` in lanes with the flag.
+
+        The sum of the corrections is then in ``self.moved``. ``lost``: the rounding errors of sums so far.
         """
         p, f = self.p, self.f
         zero = Value(f, f.constant(0.0))
@@ -134,8 +135,10 @@ class Projector:
     # The end of a step -------------------------------------------------------------------------------------------
 
     def settle(self, s: MethodStep, good: str, u: Vec, time: Value, error: Value, *, adaptive: bool) -> Value:
-        """Print the projection of a step's end where the step is good; return the greater of its error and the size of
-        the correction, in tolerances, and for equal steps 0; not a number where the projection is none.
+        """Print the projection of a step's end in lanes whose step is good.
+
+        Return the greater of its error and the size of the correction, in tolerances; 0 for constant steps, and NaN
+        if the projection failed.
         """
         p = self.p
         x, lost = self.end, self.lost
@@ -151,7 +154,7 @@ class Projector:
         return p.load(self.size)
 
     def _measure(self, s: MethodStep, x: Vec, good: str) -> None:
-        """Note the size of the correction where it is more than rounding."""
+        """Print the record of the size of the correction, if it is more than rounding."""
         p, f = self.p, self.f
 
         def add(total: Value, old: Value, new: Value, atol: Value, moved: Value) -> tuple[Value]:
@@ -170,14 +173,14 @@ class Projector:
         p.store(f.select(good, greater, error), self.size)
 
     def _read(self, home: Vec) -> Vec:
-        """A vector whose slots were written: as it lives elsewhere."""
+        """Read a vector from its slots, in the form that other code uses."""
         if not self.p.unrolled:
             return home
         assert home.slot is not None
         return Vec(values=tuple(self.p.load(home.slot, i) for i in range(self.p.size)))
 
     def within(self, tried: str, size: Value, rejected: int) -> str:
-        """Where a correction is within the tolerances; elsewhere the step is rejected and tried shorter."""
+        """The lanes whose correction is within the tolerances; in others the step is rejected and shortened."""
         p, f = self.p, self.f
         good = f.logic("and", tried, f.compare("ole", size, 1.0))
         bad = f.logic("and", tried, f.opposite(good))
@@ -189,7 +192,7 @@ class Projector:
     # What is told of a run ---------------------------------------------------------------------------------------
 
     def note(self, t: Value, flag: str, kind: int = 0) -> None:
-        """Note residuals, of the last projection, in lanes with the flag: at a step's end, a start, after a reset."""
+        """Print the record of the last residuals in lanes with the flag: at a step's end, a start, or after a reset."""
         p, f = self.p, self.f
         before = (p.load(self.gap), self._seen("gap"))
         if kind:
@@ -207,14 +210,14 @@ class Projector:
         p.store(f.select(closer, t, p.load(self.worst, MARGIN_TIME)), self.worst, MARGIN_TIME)
 
     def begin(self, new: str, t: Value, u: Vec) -> None:
-        """Print the projection of lanes that begin, or begin anew."""
+        """Print the projection in lanes that start or restart."""
         p = self.p
         with p.when(p.any(new)):
             self.correct(t, u, self.lanes.x, new)
             self.note(t, new, START)
 
     def reset(self, s: MethodStep, flag: str, t: Value, u: Vec) -> None:
-        """Print the projection of a step's end where an event left it."""
+        """Print the projection of the state after an event."""
         p = self.p
         with p.when(p.any(flag)):
             self.correct(t, u, self.end, flag)
@@ -222,7 +225,7 @@ class Projector:
         s.new_x = self._read(self.end)
 
     def forget(self, lane: str) -> None:
-        """Print what a lane that takes a new run starts from."""
+        """Print the initial values of the record in a lane that takes a new run."""
         p = self.p
         for place in range(len(DRIFT)):
             p.set("0.0", self.worst + place, lane)
@@ -231,7 +234,7 @@ class Projector:
         p.set("1.0", self.shrunk, lane)
 
     def write(self, lane: str, run: str) -> None:
-        """Print how what was noted of a lane's run is handed over."""
+        """Print the output of the record of a lane's run."""
         f, service = self.f, self.service
         row = f.put(f"getelementptr double, ptr {self.drift}, i64 {f.put(f'mul i64 {run}, {len(DRIFT)}')}")
         service.copy_out(self.worst, row, len(DRIFT), lane)

@@ -1,11 +1,11 @@
-"""What a constraint states, one scalar row each: f(q, t) = 0, or c(q, q̇, t) = 0 where no position says it.
+"""The conditions of constraints, one scalar row each: f(q, t) = 0 on positions, or c(q, q̇, t) = 0 on velocities.
 
-A constraint is made of conditions about points and frames. Each says the same in two languages: here as expressions
-that a derivation shows, in `dynamics.constraints` as nodes that a machine computes. One sign holds everywhere,
+A constraint consists of conditions about points and frames. Each has two forms: expressions that a derivation shows,
+here, and nodes that a machine computes, in `dynamics.constraints`. The sign is the same everywhere,
 
     M v̇ + h = Ξ + Aᵀ λ,        A v̇ + γ = 0,
 
-so that λ > 0 acts so as to increase f (or c).
+so a positive λ acts in the direction that increases f (or c).
 """
 
 # SymPy has no type stubs:
@@ -32,7 +32,7 @@ def axes_words(model: Surroundings, axis: int, frame: Frame | None) -> Words:
 
 
 def _fixed(frame: Frame | None, components: Sequence[sp.Expr]) -> tuple[sp.Expr, ...]:
-    """The components of a vector of a frame in the fixed axes."""
+    """The components along the fixed axes of a vector that is given in a frame."""
     return tuple(components) if frame is None else turned(frame.rotation, components)
 
 
@@ -42,7 +42,7 @@ def _dot(a: Sequence[sp.Expr], b: Sequence[sp.Expr]) -> sp.Expr:
 
 @dataclass(frozen=True, kw_only=True)
 class Coincidence(Condition):
-    """Component ``axis`` of r_start − r_end is zero, in the axes of ``frame`` (the fixed axes where it is None)."""
+    """Component ``axis`` of r_start − r_end is zero, in the axes of ``frame`` (None: the fixed axes)."""
 
     start: Point
     end: Point
@@ -71,7 +71,7 @@ def _opposite(model: Surroundings, point: Point) -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class Separation(Condition):
-    """The way over ``points``, Σ |r_{k+1} − r_k|, is ``length``."""
+    """The length of the path over ``points``, Σ |r_{k+1} − r_k|, is ``length``."""
 
     points: tuple[Point, ...]
     length: sp.Expr
@@ -112,7 +112,7 @@ class Stated(Condition):
         return model.expand(self.value) if self.velocity else super().rate(model)
 
     def multiplier(self, model: Surroundings) -> Words:
-        """The generalized force per unit of what is zero."""
+        """The generalized force per unit of the expression."""
         return ("the generalized force per unit of ", model.expand(self.value))
 
 
@@ -176,9 +176,9 @@ class OnLine(Condition):
 
 @dataclass(frozen=True, kw_only=True)
 class NoSlip(Condition):
-    """A body's matter at ``at`` has no velocity along ``along``, given in the axes of ``axes`` (None: fixed ones).
+    """A body's material at ``at`` has no velocity along ``along``, given in the axes of ``axes`` (None: fixed axes).
 
-    ``centre`` and ``frame`` are the body's; the matter at r moves with v_centre + ω × (r − r_centre).
+    ``centre`` and ``frame`` are the body's; the material at r moves with v_centre + ω × (r − r_centre).
     """
 
     at: Point
@@ -190,11 +190,11 @@ class NoSlip(Condition):
 
     @property
     def on_positions(self) -> bool:
-        """Never: no position says it."""
+        """Always False: it is a condition on velocities."""
         return False
 
     def position(self, model: Surroundings) -> None:
-        """No position says it."""
+        """None: it is a condition on velocities."""
 
     def rate(self, model: Surroundings) -> sp.Expr:
         """c = e · (v_centre + ω × (r_at − r_centre))."""

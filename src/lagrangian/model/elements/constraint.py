@@ -1,4 +1,4 @@
-"""Constraints on positions: points that coincide, a distance, an expression; and what all constraints share."""
+"""Constraints on positions: points that coincide, a distance, an expression; and the base of all constraints."""
 
 # SymPy has no type stubs:
 # pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
@@ -34,7 +34,7 @@ class Restriction(Element):
         return iter(())
 
     def measures(self, model: Surroundings) -> Iterator[Measure]:
-        """Units as points and frames have them."""
+        """Nothing to check: points and frames have their units already."""
         return iter(())
 
     def _pair(self, between: object, *, what: str = "between") -> tuple[Point, Point]:
@@ -65,7 +65,7 @@ class Restriction(Element):
             raise self._error(f"{key} must be a frame", fix=f"{key}=F with a frame of this system", code="E412")
 
     def _bodies(self, given: object) -> tuple[Frame, Frame | None]:
-        """The frames of one body or two, given as frames or as rigid bodies; one alone stands against the ground."""
+        """The frames of one or two bodies, given as frames or rigid bodies; a single body is joined to the ground."""
         listed = given if is_listed(given) else (given,)
         frames = [f for x in listed if isinstance(f := x.frame if isinstance(x, RigidBody) else x, Frame)]
         if not 1 <= len(frames) <= 2 or len(frames) != len(listed):
@@ -87,12 +87,12 @@ class Restriction(Element):
 
 
 def dimension_of(*things: Point | Frame | None) -> int:
-    """2 in the plane, 3 in space, by the first point or frame that knows."""
+    """2 in the plane, 3 in space, from the first point or frame that has a dimension."""
     return next((t.dimension for t in things if t is not None and t.dimension is not None), 2)
 
 
 def body_axes(*points: Point) -> Frame | None:
-    """The axes that the first of some points is carried in, in space: its own frame, or that of what it hangs on."""
+    """In space, the frame that carries the first of some points: its own, or that of a point that it is relative to."""
     for point in points:
         at: Point | None = point
         while at is not None:
@@ -103,7 +103,7 @@ def body_axes(*points: Point) -> Frame | None:
 
 
 def together(pair: tuple[Point, Point], axes: Frame | None) -> tuple[Condition, ...]:
-    """The rows that hold two points together: two in the plane, three in space, there in the axes of a body."""
+    """The rows that keep two points together: two in the plane, three in space, along the axes of a body."""
     start, end = pair
     n = dimension_of(start, end)
     frame = axes if axes is not None or n == 2 else body_axes(start, end)
@@ -116,7 +116,7 @@ class Constraint(Restriction):
 
     Two points P, Q that coincide (``between``): f = r_P − r_Q, λ is the force on P's body at P. With ``distance`` ℓ:
     f = |r_P − r_Q| − ℓ, λ pushes the ends apart. An ``expression`` of coordinates, parameters and t: f itself. In space
-    the rows of two points stand in the axes of P's body, or in those of ``axes``.
+    the rows of two points are components along the axes of P's body, or of ``axes``.
     """
 
     expression: Any = None
@@ -193,12 +193,12 @@ class Constraint(Restriction):
             yield "between", point
 
     def frames(self) -> Iterator[tuple[str, Frame]]:
-        """The frame that its rows stand in."""
+        """The frame whose axes its rows refer to."""
         if self.axes is not None:
             yield "axes", self.axes
 
     def conditions(self, model: Surroundings) -> tuple[Condition, ...]:
-        """One row, or one a component."""
+        """One row, or one for each component."""
         if self.expression is not None:
             return (Stated(value=self.expression),)
         start, end = self.between

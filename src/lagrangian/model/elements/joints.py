@@ -146,7 +146,7 @@ class Pin(TurningJoint):
             yield Use("axis", "axis", x, Level.CONSTANT)
 
     def conditions(self, model: Surroundings) -> tuple[Condition, ...]:
-        """Two rows in the plane; three and two in space."""
+        """Two rows in the plane; in space three for the points and two for the axis."""
         rows = together(self.between, None)
         if self.axis is None:
             return rows
@@ -170,7 +170,7 @@ class Ball(Joint):
     entries: ClassVar[Mapping[str, Entry]] = {"between": BETWEEN}
 
     def conditions(self, model: Surroundings) -> tuple[Condition, ...]:
-        """One row a component."""
+        """One row for each component."""
         return together(self.between, None)
 
 
@@ -210,13 +210,13 @@ class Slider(TurningJoint):
             yield Use("along", "direction", x, Level.CONSTANT)
 
     def frames(self) -> Iterator[tuple[str, Frame]]:
-        """Those of the bodies, and the one that the direction is fixed in."""
+        """The frames of the bodies, and the one in which the direction is fixed."""
         yield from super().frames()
         if self.axes is not None:
             yield "axes", self.axes
 
     def conditions(self, model: Surroundings) -> tuple[Condition, ...]:
-        """The rows across the line, and those that keep the bodies from turning."""
+        """The rows across the line, and those that prevent the bodies from rotating."""
         start, end = self.between
         normals = across(self.along)
         rows = tuple(
@@ -240,5 +240,5 @@ class Weld(TurningJoint):
         _ = self.turning
 
     def conditions(self, model: Surroundings) -> tuple[Condition, ...]:
-        """The rows of position and those of turning."""
+        """The rows for the points, and those for the rotation."""
         return (*together(self.between, None), *same_axes(self.turning))

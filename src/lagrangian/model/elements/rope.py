@@ -21,7 +21,7 @@ from lagrangian.model.geometry import Point, as_expr
 class Rope(Restriction):
     """A taut inextensible rope: Σ |r_{k+1} − r_k| = ``length`` over the points that it runs ``through``.
 
-    It has one row, and the tension is −λ. It is kept taut: if the tension is negative, a real rope would be slack.
+    It has one row, and the tension is −λ. The model keeps it taut: with a negative tension, a real rope would be slack.
     """
 
     through: Any
@@ -55,7 +55,7 @@ class Rope(Restriction):
             yield "through", point
 
     def acts_on(self) -> ActsOn:
-        """Its ways from point to point."""
+        """Its straight parts from point to point."""
         return ActsOn(
             tuple(pairwise(self.through)),
             "it restricts nothing: no coordinate moves its points apart",

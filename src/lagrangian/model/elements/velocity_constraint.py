@@ -1,4 +1,4 @@
-"""Constraints on velocities: an expression linear in the rates, and a body's matter that does not slip."""
+"""Constraints on velocities: an expression linear in the rates, and a body that does not slip."""
 
 # SymPy has no type stubs:
 # pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
@@ -19,7 +19,7 @@ from lagrangian.model.geometry import Frame, Point, as_expr, is_listed
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Slipless(Restriction):
-    """A body's matter at a point that has no velocity along one direction or several."""
+    """The base of constraints in which a body's material at a point has no velocity along some directions."""
 
     at: Any = None
     body: Any = None
@@ -27,7 +27,7 @@ class Slipless(Restriction):
     axes: Any = None
 
     def _check_contact(self) -> None:
-        """A body, a point, and directions that are not zero."""
+        """Raise an error if the body, the point or the directions are missing or wrong."""
         if not isinstance(self.at, Point):
             raise self._error("at must be a point", fix="at=P, the point of contact", code="E412")
         if not isinstance(self.body, RigidBody):
@@ -71,14 +71,14 @@ class Slipless(Restriction):
             yield "body", self.body.at
 
     def frames(self) -> Iterator[tuple[str, Frame]]:
-        """The frame that the directions are given in, and the body's own."""
+        """The frame in which the directions are given, and the body's own."""
         if self.axes is not None:
             yield "axes", self.axes
         if self.body is not None:
             yield "body", self.body.frame
 
     def conditions(self, model: Surroundings) -> tuple[Condition, ...]:
-        """One row a direction."""
+        """One row for each direction."""
         several = len(self.along) > 1
         return tuple(
             NoSlip(
@@ -105,8 +105,9 @@ _CONTACT: Mapping[str, Entry] = {
 class VelocityConstraint(Slipless):
     """A constraint on velocities, c(q, q̇, t) = 0, linear in the rates.
 
-    An ``expression``, such as ``y'*cos(theta) - x'*sin(theta)``; or the matter of a ``body`` at the point ``at`` has no
-    velocity ``along`` one or several directions: c = e · (v_C + ω × (r_at − r_C)), λ is the force on the body along e.
+    An ``expression``, such as ``y'*cos(theta) - x'*sin(theta)``; or the material of a ``body`` at the point ``at`` has
+    no velocity ``along`` one or several directions: c = e · (v_C + ω × (r_at − r_C)), and λ is the force on the body
+    along e.
     """
 
     expression: Any = None
@@ -147,11 +148,11 @@ class VelocityConstraint(Slipless):
             yield Measure("expression", self.expression, ANGLE, self.expression, 1)
 
     def acts_on(self) -> ActsOn | None:
-        """The body; an expression is looked at for its rates."""
+        """The body; for an expression, nothing, because its rates show what it acts on."""
         return super().acts_on() if self.expression is None else None
 
     def conditions(self, model: Surroundings) -> tuple[Condition, ...]:
-        """One row, or one a direction."""
+        """One row, or one for each direction."""
         return (
             (Stated(value=self.expression, velocity=True),)
             if self.expression is not None
@@ -161,7 +162,7 @@ class VelocityConstraint(Slipless):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Rolling(Slipless):
-    """A rigid body that rolls: its matter at the point of contact has no velocity along the given directions."""
+    """A rigid body that rolls: its material at the point of contact has no velocity along the given directions."""
 
     kind: ClassVar[str] = "rolling"
     plural = "Bodies that roll without slip."
