@@ -1,8 +1,8 @@
-"""How many directions brackets add to the fields that satisfy the rows: the growth vector.
+"""The growth vector: the number of directions that brackets add to the fields that satisfy the rows.
 
-The fields X span the kernel of the rows in (q, t). Where [X, Y] = (∂Y) X − (∂X) Y leaves their span, going round a
-small loop of allowed motions leads somewhere that no allowed motion leads to at once: the row is not integrable. By
-Frobenius' theorem the system is holonomic where no bracket leaves the span. By Chow's theorem the configurations that
+The fields X span the kernel of the rows in (q, t). If [X, Y] = (∂Y) X − (∂X) Y is not in their span, a small loop of
+allowed motions leads in a direction in which no allowed motion goes directly: the rows are not integrable. By
+Frobenius' theorem the system is holonomic if no bracket leaves the span. By Chow's theorem the configurations that
 can be reached have the dimension of the closure under brackets.
 """
 
@@ -16,14 +16,14 @@ from lagrangian.derive.constraints.spans import GenericPoint
 from lagrangian.graph import Tangents
 
 MAX_NODES = 100_000
-"""Nodes of the graph after which no more brackets are taken."""
+"""No more brackets are computed when the graph has this many nodes."""
 
 
 @dataclass(frozen=True, eq=False)
 class Closure:
-    """The growth (rank less the direction of time, after each depth of brackets) and the brackets that were kept.
+    """The growth (the rank after each depth of brackets, without the direction of time) and the independent brackets.
 
-    ``complete`` says whether nothing more can come; else ``depth`` is the last depth that was finished.
+    ``complete`` says whether no further bracket can raise the rank; if not, ``depth`` is the last complete depth.
     """
 
     growth: tuple[int, ...]
@@ -35,7 +35,7 @@ class Closure:
 def closure(
     sheet: Sheet, place: GenericPoint, generators: Sequence[Sequence[int]], *, limit: int = MAX_NODES
 ) -> Closure:
-    """Close the fields under brackets with the generators; a bracket is kept where it raises the rank."""
+    """Close the fields under brackets with the generators; a bracket is kept if it raises the rank."""
     graph, width = sheet.graph, len(sheet.columns)
     span = place.span()
     for k, field in enumerate(generators):
@@ -67,7 +67,7 @@ def closure(
 
 
 def _pairs(generators: int, fields: int, *, among: bool) -> Iterator[tuple[int, int]]:
-    """Every generator with every field; each pair once where the fields are the generators."""
+    """Every generator with every field; each pair only once if the fields are the generators."""
     for j in range(fields):
         for i in range(j if among else generators):
             yield i, j

@@ -1,4 +1,4 @@
-"""Rows solved for some of their rates, in the graph: the reduced echelon form at a generic point."""
+"""Rows that are solved for some of their rates, in the graph: the reduced echelon form at a generic point."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from lagrangian.graph import operands, reached
 
 @dataclass(frozen=True, eq=False)
 class Solved:
-    """Rows r with ``rows[r][pivots[r]] = 1`` and 0 there in every other row."""
+    """Rows with ``rows[r][pivots[r]] = 1``; all other rows are 0 in that column."""
 
     rows: list[list[int]]
     pivots: list[int]
 
 
 def solved(sheet: Sheet, place: GenericPoint, rows: Sequence[Sequence[int]], columns: Sequence[int]) -> Solved:
-    """Return the reduced echelon form of independent rows; only ``columns`` may lead.
+    """Return the reduced echelon form of independent rows; pivots are in ``columns``.
 
-    Of the entries that are not zero the simplest leads: a number, then what does not move, then what is made of the
-    fewest operations; of equal ones the first in ``columns``.
+    The pivot of a row is its simplest entry that is not zero: a number, then a constant, then the entry with the fewest
+    operations; of equal ones the first in ``columns``.
     """
     graph = sheet.graph
     done: list[list[int]] = []
@@ -54,11 +54,11 @@ def _less(sheet: Sheet, row: list[int], factor: int, other: list[int]) -> list[i
 
 
 PRICED = 2_000
-"""Nodes that are looked at to tell how long an entry is."""
+"""The largest number of nodes that are counted to estimate the length of an entry."""
 
 
 def _price(sheet: Sheet, node: int) -> tuple[bool, int]:
-    """Whether an entry moves, and how many operations it has, as far as they are counted."""
+    """Whether an entry changes during a motion, and its number of operations, as far as they are counted."""
     seen = {node}
     stack = [node]
     while stack and len(seen) < PRICED:
@@ -70,7 +70,7 @@ def _price(sheet: Sheet, node: int) -> tuple[bool, int]:
 
 
 def fields(sheet: Sheet, solution: Solved) -> list[list[int]]:
-    """Return the fields that span the kernel of the solved rows in (q, t): one for every column that does not lead."""
+    """Return the fields that span the kernel of the solved rows in (q, t): one for every column without a pivot."""
     graph, width = sheet.graph, len(sheet.columns)
     found: list[list[int]] = []
     for free in range(width):
@@ -102,5 +102,5 @@ def kernel(
 
 
 def size(sheet: Sheet, rows: Sequence[Sequence[int]]) -> int:
-    """Return how many nodes rows are made of."""
+    """Return the number of nodes in rows."""
     return len(reached(sheet.graph, [x for row in rows for x in row]))

@@ -1,9 +1,9 @@
 """Integrals f(q, t) = constant of rows: surfaces that the motion does not leave.
 
-In this order: rows of positions are their own; forms that are closed, perhaps after one of a few factors; two variables
-with the others held, then the rest in terms of what was found (Natani); what is left on a surface that was found. What
-is closed is decided at a generic point before anything is integrated, and every f that is found is verified: df is a
-combination of the rows. All searches are bounded by counts of operations.
+They are sought in this order. A row on positions is its own integral. A form is integrated if it is closed, perhaps
+after multiplication by one of a few factors. Natani's method first integrates with all but two variables constant.
+Finally, forms are restricted to a surface that was found. Whether a form is closed is decided at a generic point before
+it is integrated. Every f is verified: df is a combination of the rows. Counts of operations bound all searches.
 """
 
 # SymPy has no type stubs:
@@ -28,22 +28,22 @@ from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, gradient, reached
 
 MAX_ATTEMPTS = 60
-"""Antiderivatives that are asked of SymPy for one system."""
+"""The largest number of antiderivatives that SymPy computes for one system."""
 
 MAX_FACTORS = 4
-"""Factors that make a form closed with which it is integrated."""
+"""The largest number of factors with which a form is integrated."""
 
 MAX_NODES = 500
-"""Nodes of a coefficient above which it is not written out."""
+"""A coefficient with more nodes is not converted to an expression."""
 
 MAX_LENGTH = 200
-"""Operations of a form above which no integral is looked for."""
+"""No integral is sought for a form with more operations."""
 
 TRIED = ("exact forms", "factors 1/a, x, 1/x, 1/(x y), 1/(x² + y²), factors of one variable", "Natani's method")
-"""What is tried, in words."""
+"""The methods that are tried, in words."""
 
 AGAIN = 12
-"""Points at which an integral is verified where nothing exact decides."""
+"""The number of points at which an integral is verified if this cannot be decided exactly."""
 
 OneForm = tuple[sp.Expr, ...]
 """The coefficients of a form over the variables."""
@@ -51,9 +51,9 @@ OneForm = tuple[sp.Expr, ...]
 
 @dataclass(frozen=True)
 class Integral:
-    """f(q, t) = constant: the expression f, the rows that say so, and the way it was found.
+    """f(q, t) = constant: the expression f, the rows from which it follows, and the method that found it.
 
-    ``level`` is 0 for a row of positions, and None where the constant is what it is at the start.
+    ``level`` is 0 for a row on positions; otherwise None, because the initial values determine the constant.
     """
 
     expression: sp.Expr
@@ -88,7 +88,7 @@ class Curl:
         return self.graph.sub(self.slopes[j][i], self.slopes[i][j])
 
     def integrable(self, zero: Callable[[Sequence[int]], bool]) -> bool:
-        """Whether ω ∧ dω = 0: whether there is a factor at all."""
+        """Whether ω ∧ dω = 0, which means that a factor exists."""
         g, form = self.graph, self.form
         for i, j, k in combinations(range(len(form)), 3):
             parts = [g.mul(form[i], self._at(j, k)), g.mul(form[j], self._at(k, i)), g.mul(form[k], self._at(i, j))]
@@ -107,7 +107,7 @@ class Curl:
 
 
 class IntegralSearch:
-    """The search for the integrals of a system, until as many are found as there are."""
+    """The search for the integrals of a system, until all of them are found."""
 
     def __init__(self, sheet: Sheet, place: GenericPoint, kept: Sequence[RowForm], wanted: int) -> None:
         self.sheet, self.place, self.kept, self.wanted = sheet, place, kept, wanted
@@ -123,19 +123,19 @@ class IntegralSearch:
 
     @property
     def done(self) -> bool:
-        """Whether all of them are found."""
+        """Whether all integrals are found."""
         return len(self.found) >= self.wanted
 
     # -- what is looked at --------------------------------------------------------------------------------------------
 
     def positions(self) -> None:
-        """Take the rows of positions."""
+        """Take the rows on positions as integrals."""
         for form in self.kept:
             if form.position is not None:
                 self._keep(self.sheet.expression(form.position), "given", level=sp.S.Zero)
 
     def look(self, rows: Sequence[Sequence[int]]) -> None:
-        """Look for integrals of rows, one by one; then of what is left of them on the surfaces that were found."""
+        """Look for integrals of rows, one by one, then for integrals of the rows restricted to the surfaces found."""
         for row in rows:
             if self.done:
                 return
@@ -154,7 +154,7 @@ class IntegralSearch:
                     progress = (not self.done and self._try(left, meaning)) or progress
 
     def _read(self, row: Sequence[int]) -> OneForm | None:
-        """The row in letters, each coefficient without the variables that it only seems to depend on."""
+        """The row as expressions, each without variables on which it depends only in appearance."""
         plain: list[sp.Expr] = []
         for node in row:
             if len(reached(self.sheet.graph, [node])) > MAX_NODES:
@@ -176,7 +176,7 @@ class IntegralSearch:
         return self._keep(cast("sp.Expr", f.subs(meaning).xreplace(self._back)), how)
 
     def _restricted(self, form: OneForm) -> Iterator[tuple[OneForm, dict[Any, Any]]]:
-        """The form on every surface f = c that can be solved for one of its variables."""
+        """The form, restricted to each surface f = c that can be solved for a variable."""
         for integral in list(self.found):
             f = cast("sp.Expr", integral.expression.xreplace(self._plain))
             level = sp.Dummy("c", real=True) if integral.level is None else integral.level
@@ -193,7 +193,7 @@ class IntegralSearch:
                     yield tuple(left), ({level: f} if integral.level is None else {})
 
     def _keep(self, f: sp.Expr, how: str, level: sp.Expr | None = None) -> bool:
-        """Keep f where df is a combination of the rows and independent of what was found."""
+        """Keep f if df is a combination of the rows and independent of the integrals found before."""
         for expr in (f,) if level is not None else (_tidied(f), f):
             try:
                 differential = self.sheet.differential(self.sheet.node(expr))
@@ -213,7 +213,7 @@ class IntegralSearch:
     # -- one form -----------------------------------------------------------------------------------------------------
 
     def _integrated(self, form: OneForm, variables: Sequence[sp.Symbol]) -> tuple[sp.Expr, str] | None:
-        """f with df proportional to the form, and how it was found."""
+        """f with df proportional to the form, and the method that found it."""
         curl = self._curl(form, variables)
         if not curl.moving or not curl.integrable(self._zero):
             return None
@@ -254,7 +254,7 @@ class IntegralSearch:
                 yield scale * factor, "exact" if scale * factor == 1 else "exact after a factor", slope
 
     def _single(self, form: OneForm, variables: Sequence[sp.Symbol], k: int, moving: Sequence[int]) -> sp.Expr | None:
-        """μ(x_k) with μ'/μ = (∂a_k/∂x_j − ∂a_j/∂x_k)/a_j where that depends on x_k alone."""
+        """μ(x_k) with μ'/μ = (∂a_k/∂x_j − ∂a_j/∂x_k)/a_j, if this depends on x_k alone."""
         j = next((j for j in moving if j != k), None)
         if j is None:
             return None
@@ -276,14 +276,14 @@ class IntegralSearch:
             return False
 
     def _without(self, expr: sp.Expr, gone: Sequence[sp.Symbol]) -> sp.Expr | None:
-        """The expression without variables that it only seems to depend on; None where it does depend on them."""
+        """The expression without variables on which it depends only in appearance; None if it does depend on them."""
         seen = [x for x in gone if expr.has(x)]
         node = self.sheet.node(expr)
         slopes = gradient(self.sheet.graph, node, [self.sheet.node(x) for x in seen])
         return _somewhere(expr, seen) if self._zero(slopes) else None
 
     def _potential(self, form: OneForm, variables: Sequence[sp.Symbol]) -> sp.Expr | None:
-        """f with ∂f/∂x_k = a_k: one variable after the other, each in what the ones before have left."""
+        """f with ∂f/∂x_k = a_k, integrated over one variable after the other."""
         f = cast("sp.Expr", sp.S.Zero)
         for k, (a, x) in enumerate(zip(form, variables, strict=True)):
             rest = self._without(a - bounded.diff(f, x), variables[:k])
@@ -304,7 +304,7 @@ class IntegralSearch:
     def _natani(
         self, form: OneForm, variables: Sequence[sp.Symbol], moving: Sequence[int]
     ) -> tuple[sp.Expr, str] | None:
-        """Two variables with the others held: u(x, y; z) = U; then dU + S dz, where S depends on U and z alone."""
+        """Integrate over two variables, others constant: u(x, y; z) = U; then dU + S dz, if S depends on U and z."""
         for i, j in combinations(moving, 2):
             two = tuple(a if k in (i, j) else cast("sp.Expr", sp.S.Zero) for k, a in enumerate(form))
             inner = self._integrated((two[i], two[j]), (variables[i], variables[j]))
@@ -339,7 +339,7 @@ def _shorter(expr: sp.Expr) -> sp.Expr:
 
 
 def _antiderivative(expr: sp.Expr, x: sp.Symbol) -> sp.Expr | None:
-    """∫ expr dx by elementary functions, where nothing else happens to be zero."""
+    """∫ expr dx as elementary functions, for generic values of the other symbols."""
     expr = bounded.expand(expr) if expr.is_polynomial(x) else bounded.cancel(bounded.together(expr))
     for routine in (manualintegrate, partial(sp.integrate, meijerg=False)):
         f = bounded.searched(routine, expr, x)
@@ -367,7 +367,7 @@ PLACES = ((0, 0), (sp.pi / 2, 1), (sp.pi / 4, 1), (sp.pi / 3, 2), (sp.Rational(1
 
 
 def _somewhere(expr: sp.Expr, idle: Sequence[sp.Symbol]) -> sp.Expr | None:
-    """The expression where variables that it does not depend on have simple values; None where it is not finite."""
+    """The expression with simple values for the ``idle`` variables, on which it does not depend; None if not finite."""
     angles = {x for part in expr.atoms(sp.sin, sp.cos, sp.tan) for x in part.free_symbols}
     for angle, value in PLACES if idle else ():
         there = expr.subs({x: angle if x in angles else value for x in idle})
@@ -377,7 +377,7 @@ def _somewhere(expr: sp.Expr, idle: Sequence[sp.Symbol]) -> sp.Expr | None:
 
 
 def _tidied(f: sp.Expr) -> sp.Expr:
-    """A shorter function with the same surfaces: without logarithms where all of it is their sum, without a factor."""
+    """A shorter function with the same surfaces: without a factor, and exp(f) if f is a sum of logarithms."""
     joined = bounded.searched(partial(sp.logcombine, force=True), f)
     if isinstance(joined, sp.log):
         f = joined.args[0]

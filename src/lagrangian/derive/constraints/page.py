@@ -32,7 +32,7 @@ class _Given(NamedTuple):
 
 @dataclass(frozen=True, eq=False)
 class Constraints(Written):
-    """The constraints of a system and what they do to it.
+    """The constraints of a system and their consequences.
 
     ``rows`` are the scalar equations in the order given, ``holonomy`` the verdict with redundant rows and notes.
     ``proposals`` are ways to describe the system with fewer coordinates.
@@ -46,7 +46,7 @@ class Constraints(Written):
 
     @property
     def holonomic(self) -> bool | None:
-        """Whether #GC = #DDOF; None where that was not decided."""
+        """Whether #GC = #DDOF; None if this is undecided."""
         return self.holonomy.holonomic
 
     @property
@@ -70,7 +70,7 @@ class Constraints(Written):
         return self.holonomy.integrals
 
     def notices(self) -> tuple[Notice, ...]:
-        """Return a notice for every row that says nothing new."""
+        """Return a notice for every redundant row."""
         return tuple(
             Notice(Code.E306, f"constraint '{row.name}'", f"left out: it says again what {_names(row.repeats)} say")
             if len(row.repeats) > 1
@@ -118,7 +118,7 @@ def _repeated(names: tuple[str, ...]) -> str:
 
 
 def constraints(model: Model, readable: Callable[[sp.Expr], sp.Expr]) -> Constraints:
-    """Return what the constraints of a model do. Raises `ModelError` (E302) where they contradict each other."""
+    """Return the constraints of a model and their consequences. Raises `ModelError` (E302) for contradictions."""
     rows = rows_of(model)
     given = [_given(model, row) for row in rows]
     coordinates = tuple(c.symbol for c in model.coordinates)

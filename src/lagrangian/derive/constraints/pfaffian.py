@@ -18,7 +18,7 @@ from lagrangian.graph import Graph, from_sympy, gradient, reached, replaced, to_
 
 
 class HasRow(Protocol):
-    """What is asked of a row: a name, its rate form c = 0 (linear in the rates), and f = 0 where c = ḟ."""
+    """The interface of a row: a name, its form c = 0 (linear in the rates), and f = 0 if c = ḟ."""
 
     @property
     def name(self) -> str:
@@ -27,18 +27,18 @@ class HasRow(Protocol):
 
     @property
     def rate(self) -> sp.Expr:
-        """The velocity form c, zero when satisfied."""
+        """The form c on velocities, zero if the constraint is satisfied."""
         ...
 
     @property
     def position(self) -> sp.Expr | None:
-        """The position form f, zero when satisfied."""
+        """The form f on positions, zero if the constraint is satisfied; None for a row on velocities."""
         ...
 
 
 @dataclass(frozen=True, eq=False)
 class Variables:
-    """The coordinates q(t), as SymPy writes them, the time t, and everything else that has a constant value."""
+    """The coordinates q(t) as SymPy functions, the time t, and the symbols of constants."""
 
     coordinates: tuple[sp.Expr, ...]
     time: sp.Symbol
@@ -56,7 +56,7 @@ class Variables:
 
 @dataclass(eq=False)
 class Sheet:
-    """A graph with the nodes of the variables, and of the exact numbers that its doubles could not hold."""
+    """A graph with nodes for the variables, and for exact numbers that doubles cannot represent."""
 
     variables: Variables
     graph: Graph = field(default_factory=Graph)
@@ -76,7 +76,7 @@ class Sheet:
         self.pi = self.symbols[sp.pi] = graph.input("pi", 0)
 
     def node(self, expr: sp.Expr) -> int:
-        """Return the node of an expression; what is neither coordinate nor time in it is a constant."""
+        """Return the node of an expression; symbols other than coordinates and time are constants."""
         expr = _spread_arguments(expr)
         for symbol in sorted(expr.free_symbols - set(self.symbols), key=str):
             self.symbols[symbol] = self.graph.input("p", len(self.symbols))
@@ -91,7 +91,7 @@ class Sheet:
         return to_sympy(self.graph, node, {made: symbol for symbol, made in self.symbols.items()})
 
     def differential(self, node: int) -> list[int]:
-        """Return df, a column for every variable."""
+        """Return df, one entry for every variable."""
         return gradient(self.graph, node, self.columns)
 
 
@@ -107,7 +107,7 @@ def _spread_arguments(expr: sp.Expr) -> sp.Expr:
 
 @dataclass(frozen=True, eq=False)
 class RowForm:
-    """A row as a one-form: its coefficients over (q, t), and the node of f where it is the differential of f."""
+    """A row as a one-form: its coefficients over (q, t), and the node of f if it is the differential df."""
 
     name: str
     coefficients: tuple[int, ...]
@@ -115,7 +115,7 @@ class RowForm:
 
 
 def forms(sheet: Sheet, rows: Iterable[HasRow], values: Mapping[Any, Any] | None = None) -> list[RowForm]:
-    """Return the rows as one-forms; ``values`` are put in the place of parameters.
+    """Return the rows as one-forms; ``values`` replace parameters.
 
     Raises `ModelError` for a row that is not linear in the rates.
     """

@@ -1,4 +1,4 @@
-"""Fewer coordinates: what a surface f(q, t) = constant allows to be left out."""
+"""Descriptions with fewer coordinates: a surface f(q, t) = constant makes one of them superfluous."""
 
 # SymPy has no type stubs:
 # pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownVariableType=false
@@ -23,7 +23,7 @@ ANGLES = ("theta", "alpha", "beta", "phi", "psi", "gamma")
 
 @dataclass(frozen=True)
 class Proposal(Brief):
-    """Coordinates written by others, so that ``integral`` holds by itself; ``new`` is a coordinate that is added."""
+    """Coordinates as functions of others, so that ``integral`` is always satisfied; ``new`` is an added coordinate."""
 
     integral: Integral
     written: tuple[tuple[sp.Expr, sp.Expr], ...]
@@ -31,10 +31,10 @@ class Proposal(Brief):
 
 
 def proposals(integrals: Sequence[Integral], coordinates: Sequence[sp.Expr], time: sp.Symbol) -> tuple[Proposal, ...]:
-    """Return for every surface one way to leave a coordinate out, where a simple one is seen.
+    """Return for every surface a simple way to leave a coordinate out, if one is found.
 
-    A coordinate that f holds linearly, with a coefficient that does not move, is written by the others. On a circle
-    (x − a)² + (y − b)² = r² an angle takes the place of both: x = a + r sin θ, y = b − r cos θ.
+    A coordinate in which f is linear, with a constant coefficient, is expressed by the others. On a circle
+    (x − a)² + (y − b)² = r² an angle replaces both: x = a + r sin θ, y = b − r cos θ.
     """
     found: list[Proposal] = []
     used: set[sp.Expr] = set()
@@ -73,7 +73,7 @@ def _ways(
 def _circle(
     f: sp.Expr, x: sp.Expr, y: sp.Expr, coordinates: Sequence[sp.Expr]
 ) -> tuple[sp.Expr, sp.Expr, sp.Expr] | None:
-    """Centre and radius of the circle f = 0 in the plane of x and y, where the radius does not depend on the rest."""
+    """Centre and radius of the circle f = 0 in the plane of x and y, if the radius depends on no other variable."""
     roots = [p for p in f.atoms(sp.Pow) if p.exp == sp.Rational(1, 2) and p.has(x, y)]
     length: sp.Expr | None = None
     if len(roots) == 1 and not (f - roots[0]).has(x, y):
@@ -98,5 +98,5 @@ def _circle(
 
 
 def size(f: sp.Expr) -> int:
-    """Return the operations of an expression."""
+    """Return the number of operations in an expression."""
     return bounded.size(f)

@@ -1,4 +1,4 @@
-"""Rows in the order given: which say something new, which say again what others say, which contradict others."""
+"""Rows in the order given: which are independent, which are redundant, and which contradict others."""
 
 # mpmath has no type stubs:
 # pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownVariableType=false
@@ -18,15 +18,15 @@ from lagrangian.derive.constraints.spans import DIGITS, GenericPoint, evaluated
 from lagrangian.graph import reached
 
 STARTS = 6
-"""Points from which a position that satisfies the rows before is looked for."""
+"""The number of points from which a position that satisfies the earlier rows is sought."""
 
 STEPS = 60
-"""Newton steps from one of them."""
+"""The number of Newton steps from each of them."""
 
 
 @dataclass(frozen=True)
 class RedundantRow:
-    """A row that adds nothing, and the rows that say it already."""
+    """A redundant row, and the rows from which it follows."""
 
     name: str
     repeats: tuple[str, ...]
@@ -34,7 +34,7 @@ class RedundantRow:
 
 @dataclass(frozen=True, eq=False)
 class Sorted:
-    """The independent rows, and what became of the others; ``unsure`` are names of rows said again by rates alone."""
+    """The independent rows, and the others; ``unsure`` names rows that are redundant in the rates alone."""
 
     kept: list[RowForm]
     redundant: list[RedundantRow]
@@ -45,8 +45,8 @@ class Sorted:
 def sort_rows(sheet: Sheet, place: GenericPoint, given: Sequence[RowForm]) -> Sorted:
     """Return which rows are independent for all q, t and parameters.
 
-    A row whose coefficients of the rates depend on those before is redundant where its right-hand side follows too, and
-    contradicts them where it does not. Rows of positions with the same rates must also agree in the positions.
+    A row whose coefficients of the rates depend on those of earlier rows is redundant if its right-hand side follows
+    too; otherwise it contradicts them. Rows on positions with the same rates must also agree in the positions.
     """
     rates, whole = place.span(), place.span()
     found = Sorted([], [], [], [])
@@ -70,9 +70,9 @@ def sort_rows(sheet: Sheet, place: GenericPoint, given: Sequence[RowForm]) -> So
 
 
 def _agrees(sheet: Sheet, place: GenericPoint, form: RowForm, repeated: Sequence[RowForm]) -> bool | None:
-    """Whether f = 0 wherever the rows that it repeats are satisfied; None where no such position was found.
+    """Whether f = 0 at positions that satisfy the rows that it repeats; None if no such position was found.
 
-    On their positions f is constant, for df is a combination of theirs. A row of rates cannot disagree.
+    There f is constant, because df is a combination of their differentials. A row on rates cannot disagree.
     """
     if form.position is None or any(f.position is None for f in repeated):
         return True
@@ -87,7 +87,7 @@ def _agrees(sheet: Sheet, place: GenericPoint, form: RowForm, repeated: Sequence
 
 
 def _at_satisfied(sheet: Sheet, position: int, others: list[int], start: int) -> bool | None:
-    """Whether ``position`` is zero at a position where the others are, found by Newton's method from a random start."""
+    """Whether f = 0 at a position that satisfies the others, which Newton's method finds from a random start."""
     graph, draw = sheet.graph, random.Random(start)
     slopes = [sheet.differential(f)[:-1] for f in others]
     wanted = [position, *others, *(x for row in slopes for x in row)]

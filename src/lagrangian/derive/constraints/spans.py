@@ -1,4 +1,4 @@
-"""Ranks of vectors of nodes at a generic point: exactly in a prime field, else with 50 digits and a gap."""
+"""Ranks of vectors of nodes at a generic point: exact in a prime field, or with 50 digits and a gap."""
 
 # mpmath has no type stubs:
 # pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownVariableType=false
@@ -18,22 +18,25 @@ from lagrangian.graph import NotAlgebraic, Output, PrimePoint, Program, evaluate
 from lagrangian.graph.prime_field import Echelon
 
 DIGITS = 50
-"""Decimal digits of the numbers that stand in for exact ones."""
+"""The number of decimal digits if exact computation is impossible."""
 
 SAME, OTHER = mpmath.mpf(10) ** -35, mpmath.mpf(10) ** -10
-"""What is left of a unit vector that depends on others, and of one that does not; what lies between is not decided."""
+"""Bounds on the remainder of a unit vector: below the first it is dependent, above the second independent.
+
+Between the two nothing is decided.
+"""
 
 
 class OutsideError(Exception):
-    """The rows hold an operation that cannot be decided exactly."""
+    """The rows contain an operation that cannot be decided exactly."""
 
 
 class UnclearError(Exception):
-    """Even 50 digits do not tell whether a vector depends on others."""
+    """Even 50 digits do not decide whether a vector depends on others."""
 
 
 class GenericPoint(ABC):
-    """A generic point: where vectors of nodes are compared."""
+    """A generic point, at which vectors of nodes are compared."""
 
     exact: bool
 
@@ -43,7 +46,7 @@ class GenericPoint(ABC):
 
     @abstractmethod
     def renew(self) -> None:
-        """Draw another point, where it matters."""
+        """Draw another point, if the kind of point needs it."""
 
     @abstractmethod
     def nonzero(self, ids: Sequence[int]) -> list[bool]:
@@ -51,15 +54,15 @@ class GenericPoint(ABC):
 
 
 class Span(ABC):
-    """Vectors taken one after the other."""
+    """The span of vectors that are taken one after the other."""
 
     @abstractmethod
     def take(self, name: int, ids: Sequence[int]) -> bool:
-        """Keep a vector under a name, and return True, where it is independent of those that were kept."""
+        """Keep a vector under a name if it is independent of those kept before; return whether it is."""
 
     @abstractmethod
     def made_of(self, ids: Sequence[int]) -> list[int] | None:
-        """Return the names of the kept vectors that a vector is a combination of, None where it is independent."""
+        """Return the names of the kept vectors of which a vector is a combination; None if it is independent."""
 
     @abstractmethod
     def __len__(self) -> int:
@@ -67,7 +70,7 @@ class Span(ABC):
 
 
 class ExactPlace(GenericPoint):
-    """A point of a prime field. Raises `OutsideError` where the graph holds what a field does not have."""
+    """A point of a prime field. Raises `OutsideError` if the graph has an operation that a field does not have."""
 
     exact = True
 
@@ -76,7 +79,7 @@ class ExactPlace(GenericPoint):
 
     @property
     def draws(self) -> int:
-        """How often the point was drawn anew; values of before are of no use after."""
+        """The number of times that the point was drawn again; earlier values are then useless."""
         return self._point.draws
 
     @property
@@ -92,7 +95,7 @@ class ExactPlace(GenericPoint):
         return found
 
     def renew(self) -> None:
-        """Stay: this point is generic."""
+        """Do nothing: this point is generic."""
 
     def nonzero(self, ids: Sequence[int]) -> list[bool]:
         """Return which nodes are not 0."""
@@ -137,8 +140,8 @@ class _ExactSpan(Span):
 class FloatPlace(GenericPoint):
     """A point with random real coordinates of 50 digits.
 
-    ``smallest`` is the least that was left of an independent unit vector, ``largest`` the most of a dependent one: the
-    gap between them is what the answer rests on.
+    ``smallest`` is the smallest remainder of an independent unit vector, ``largest`` the largest of a dependent one.
+    The answer relies on the gap between them.
     """
 
     exact = False
@@ -150,7 +153,7 @@ class FloatPlace(GenericPoint):
         self.smallest, self.largest = mpmath.mpf(1), mpmath.mpf(0)
 
     def values(self, ids: Sequence[int]) -> list[Any]:
-        """Return the values of nodes; another point is drawn where they are not finite."""
+        """Return the values of nodes; another point is drawn if they are not finite."""
         for k in range(self._tries):
             found = self._at(ids)
             if all(mpmath.isfinite(x) for x in found):
@@ -184,7 +187,7 @@ class FloatPlace(GenericPoint):
         return -size if self._draw.random() < self._negative else size
 
     def nonzero(self, ids: Sequence[int]) -> list[bool]:
-        """Return which nodes are not 0 beside the largest."""
+        """Return which nodes are not 0, compared with the largest."""
         found = self.values(ids)
         most = max([abs(x) for x in found], default=mpmath.mpf(0))
         return [self.told(abs(x) / most) if most else False for x in found]
@@ -194,7 +197,7 @@ class FloatPlace(GenericPoint):
         return _FloatSpan(self)
 
     def told(self, left: Any) -> bool:
-        """Return whether what is left of a unit vector is something, and keep the gap."""
+        """Return whether the remainder of a unit vector is not zero, and record the gap."""
         if left > OTHER:
             self.smallest = min(self.smallest, left)
             return True

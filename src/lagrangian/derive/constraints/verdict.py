@@ -1,4 +1,4 @@
-"""Holonomic, or nonholonomic by how many, or undecided: the verdict on a system's constraints."""
+"""The verdict on a system's constraints: holonomic, nonholonomic and by how many, or undecided."""
 
 # mpmath has no type stubs:
 # pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownVariableType=false
@@ -25,13 +25,13 @@ __all__ = ["Holonomy", "Integral", "RedundantRow", "judge"]
 
 @dataclass(frozen=True, eq=False)
 class Holonomy(Brief):
-    """What the constraints of a system do.
+    """The consequences of a system's constraints.
 
-    ``independent`` are the names of the rows that say something new, in order. ``growth`` are the dimensions of what
-    can be reached: at once (#DDOF), with brackets of depth 2, 3, …; the last is #GC where ``complete``. ``integrals``
-    are the surfaces f = constant that were found, ``missing`` is how many more there are. ``exact`` is False where
-    numbers of 50 digits decided; ``notes`` say what is to be known of that. ``special`` is another verdict where the
-    parameters' given values change it.
+    ``independent`` are the names of the independent rows, in order. ``growth`` are the numbers of directions that can
+    be reached: directly (#DDOF), and with brackets of depth 2, 3, …; the last is #GC if ``complete``. ``integrals`` are
+    the surfaces f = constant that were found, ``missing`` is the number of the others. ``exact`` is False if numbers of
+    50 digits decided; ``notes`` explain this. ``special`` is another verdict, if the given values of the parameters
+    change it.
     """
 
     independent: tuple[str, ...]
@@ -47,7 +47,7 @@ class Holonomy(Brief):
 
     @property
     def holonomic(self) -> bool | None:
-        """Whether #GC = #DDOF; None where that is undecided."""
+        """Whether #GC = #DDOF; None if this is undecided."""
         return False if len(self.growth) > 1 else True if self.complete else None
 
     @property
@@ -57,12 +57,12 @@ class Holonomy(Brief):
 
     @property
     def GC(self) -> int | None:
-        """The generalized coordinates that it takes to describe every configuration that can be reached, if known."""
+        """The number of generalized coordinates of all configurations that can be reached; None if undecided."""
         return self.growth[-1] if self.complete else None
 
     @property
     def degree(self) -> int:
-        """#GC − #DDOF, as far as it was followed: the system is nonholonomic by that many."""
+        """#GC − #DDOF, or a lower bound of it if the growth is not complete: the system is nonholonomic by this."""
         return self.growth[-1] - self.growth[0]
 
     def __str__(self) -> str:
@@ -85,7 +85,7 @@ def judge(
     values: Mapping[Any, Any] | None = None,
     limit: int = MAX_NODES,
 ) -> Holonomy:
-    """Decide what constraints do to a system: redundant rows, contradictions, holonomic or not, and integrals.
+    """Return the verdict on constraints: redundant rows, contradictions, holonomic or not, and integrals.
 
     Rows A(q, t) q̇ + a0(q, t) = 0 are differential forms over (q, t); the fields that satisfy them are closed under
     brackets. Ranks are exact, in a prime field, with parameters generic; ``values`` (rational, by symbol) are tried as
@@ -144,7 +144,7 @@ def _judged(
 
 
 SIDES = 8
-"""Random points at which growths are compared where kinks make regions."""
+"""The number of random points at which growths are compared if kinks divide space into regions."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,7 +172,7 @@ class _Judge:
         return self._closed(found, rows, notes, search)
 
     def _closed(self, found: Holonomy, rows: Sorted, notes: list[str], search: bool) -> Holonomy:
-        """The verdict where rows of velocities have to be looked at."""
+        """The verdict if there are rows on velocities."""
         width = len(self.sheet.columns)
         solution = solved(self.sheet, self.place, [list(form.coefficients) for form in rows.kept], range(width - 1))
         space = closure(self.sheet, self.place, fields(self.sheet, solution), limit=self.limit)
@@ -204,7 +204,7 @@ class _Judge:
         )
 
     def _annihilator(self, rows: list[list[int]], pivots: list[int], space: Closure) -> list[list[int]]:
-        """The combinations of solved rows that are zero on the brackets too: they are integrable together."""
+        """The combinations of solved rows that are zero on the brackets too: together they are integrable."""
         shares = [[bracket[k] for k in pivots] for bracket in space.brackets]
         basis = kernel(self.sheet, self.place, shares, len(pivots), range(len(pivots)))
         left = [combined(self.sheet.graph, factors, rows) for factors in basis]
