@@ -141,17 +141,21 @@ class System(Simulated):
         outputs: Any = None,
         time: Any = 0.0,
         operating_point: bool = False,
+        fixed: Sequence[Any] | str | None = None,
     ) -> Linearization:
         """Return the linearization ẋ = A x + B u, y = C x + D u about an equilibrium, with poles, modes and stability.
 
         ``at``: values of coordinates and rates by name or symbol (0 unless given), or an `Equilibrium`. ``outputs``:
         expressions, as a list or by name. With ``operating_point`` the point need not be an equilibrium; otherwise such
         a point raises `RunError`.
+
+        With constraints, the states are independent coordinates and rates, from which all others follow. The point must
+        satisfy the constraints; give ``fixed``, the coordinates that stay, to move a guess onto them.
         """
         from lagrangian.linear.linearize import linearize
 
         found: dict[str, Any] = {"inputs": inputs, "params": params, "outputs": outputs}
-        return linearize(self.model, at, **found, time=time, operating_point=operating_point)
+        return linearize(self.model, at, **found, time=time, operating_point=operating_point, fixed=fixed)
 
     def linearize_along(
         self,

@@ -43,6 +43,14 @@ def linearize(
     operating_point: Annotated[
         bool, typer.Option("--operating-point", help="Linearize even if the point is not an equilibrium.")
     ] = False,
+    fixed: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--fixed",
+            metavar="NAME",
+            help="The point is a guess, to be moved onto the constraints; this coordinate stays. Repeatable.",
+        ),
+    ] = None,
     symbols: Annotated[
         bool, typer.Option("--symbols", help="Add the matrices with the parameters as symbols.")
     ] = False,
@@ -67,6 +75,7 @@ def linearize(
         inputs=assignments(inputs, "--input"),
         outputs=_outputs(outputs),
         operating_point=operating_point,
+        fixed=fixed or None,
     )
     put_report(found.report(symbols=symbols), wanted, width, output)
 

@@ -47,6 +47,8 @@ def compare(a: Derivable | Derived, b: Derivable | Derived, change: Mapping[Any,
     valid change.
     """
     a, b = _derived(a, "first"), _derived(b, "second")
+    for side in (a, b):
+        _check_free(side.model)
     tag_a, tag_b = _letters(a, b)
     sides = ComparedSystem("A", a, tag_a), ComparedSystem("B", b, tag_b)
     if len(a.coordinates) != len(b.coordinates):
@@ -69,6 +71,18 @@ def _derived(thing: object, which: str) -> Derived:
             code="E406",
         )
     return thing.derive()  # type: ignore[attr-defined]
+
+
+def _check_free(model: Model) -> None:
+    """Refuse constraints: rows with multipliers are not sums of rows of other coordinates."""
+    if model.constraints:
+        names = ", ".join(f"'{element.name}'" for element in model.constraints[:4])
+        raise ModelError(
+            f"the constraints {names} leave the coordinates of '{model.name}' dependent: its equations, with their "
+            "multipliers, cannot be compared row by row",
+            fix="compare descriptions in as many coordinates as degrees of freedom, or compare runs of both",
+            code="E202",
+        )
 
 
 def _letters(a: Derived, b: Derived) -> tuple[str, str]:

@@ -43,6 +43,7 @@ class _Carrier:
     def __init__(self, model: Model, change: Change, name: str) -> None:
         self.model, self.change, self.builder = model, change, Builder(name)
         self._things: dict[int, Point | Frame] = {id(model.origin): self.builder.origin}
+        self._bodies: dict[int, Element] = {}
 
     def built(self) -> Builder:
         """Return the builder with the complete description."""
@@ -129,11 +130,19 @@ class _Carrier:
             name = force.name if len(shares) == 1 else f"{force.name} on {c.name}"
             yield GeneralizedForce(coordinate=c.symbol, value=slope * value, name=name, place=force.place)
 
+    def _named(self, element: Element) -> Element:
+        """The body that a constraint names, in the new coordinates."""
+        if id(element) not in self._bodies:
+            (self._bodies[id(element)],) = self.elements(element)
+        return self._bodies[id(element)]
+
     def _value(self, value: Any) -> Any:
         if isinstance(value, Point):
             return self.point(value)
         if isinstance(value, Frame):
             return self.frame(value)
+        if isinstance(value, Element):
+            return self._named(value)
         if isinstance(value, tuple):
             return tuple(map(self._value, value))
         return self.change.put_in(value) if isinstance(value, sp.Expr) else value

@@ -26,6 +26,13 @@ def carried_settings(model: Model, change: Change) -> dict[str, Any]:
     Raises `ModelError` if no initial state corresponds to it, or if a parameter that is needed has no value.
     """
     settings = dict(model.settings)
+    gone = [c.name for c, _ in change.replaced if c.name in settings.get("fixed", ())]
+    if gone:
+        raise ModelError(
+            f"'{gone[0]}', which [simulate] holds fixed, is no coordinate any more",
+            fix="remove 'fixed' from [simulate] before the change, and name coordinates that stay fixed afterwards",
+            code="E210",
+        )
     given = settings.get("initial")
     if not given or not change.replaced:
         return settings

@@ -13,6 +13,7 @@ from lagrangian.dynamics.constraint_programs import (
     forward_dual,
     multipliers,
     projection,
+    pushed_bias,
     residual,
 )
 from lagrangian.dynamics.describe import describe
@@ -83,6 +84,7 @@ __all__ = [
     "power",
     "power_closed",
     "projection",
+    "pushed_bias",
     "rates",
     "reaction",
     "residual",

@@ -34,6 +34,12 @@ class Canonical:
                 fix="use another method, such as dop853",
                 code="E201",
             )
+        if model.constraints:
+            raise ModelError(
+                f"the constraints of system '{model.name}' leave its momenta dependent",
+                fix="use another method, such as dop853",
+                code="E201",
+            )
         self.seen = Observed(model)
         self.names = tuple(f"∂L/∂{v.name}" for v in model.velocities)
 

@@ -11,6 +11,7 @@ forward_dual       v̇ and λ by another route
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from dataclasses import replace
 
 from lagrangian.dynamics.constrained import (
     drive,
@@ -27,9 +28,9 @@ from lagrangian.dynamics.constrained import (
 from lagrangian.dynamics.mechanics import Mechanics
 from lagrangian.dynamics.multipliers import RowSolution
 from lagrangian.dynamics.programs import _program, _start, _vector
-from lagrangian.dynamics.vectors import zeros
+from lagrangian.dynamics.vectors import minus, zeros
 from lagrangian.errors import NoSuchEntry
-from lagrangian.graph import Output, Program
+from lagrangian.graph import Output, Program, vjp
 from lagrangian.model import Model
 
 
@@ -123,6 +124,15 @@ def constraint_matrix(model: Model) -> Program:
         "gamma": _vector(second_rates(m)),
     }
     return _program(model, "constraint_matrix", graph, outputs)
+
+
+def pushed_bias(model: Model) -> Program:
+    """q, v, u, p, t, lam → ``h`` = C v + G − Ξ − Aᵀλ: what is missing at rest, with the multipliers given."""
+    graph, _, m = _start(model)
+    lam = [graph.input("lam", r) for r in range(len(m.rows))]
+    push = vjp(graph, [row.rate for row in m.rows], lam, list(m.v))
+    made = _program(model, "pushed_bias", graph, {"h": _vector(minus(graph, m.bias(), push))})
+    return replace(made, inputs={**made.inputs, "lam": tuple(row.name for row in m.rows)})
 
 
 def forward_dual(model: Model) -> Program:

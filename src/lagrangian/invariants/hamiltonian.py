@@ -33,7 +33,7 @@ TOLERANCE = 1e-9
 
 def hamiltonian(model: Model) -> Hamiltonian:
     """Return Hamilton's form of a model. Raises `RunError` if the inverse of M is too long to write out."""
-    system = LagrangianForm.of(model)
+    system = LagrangianForm.of(model).without_rows("Hamilton's form")
     letters = [sp.Symbol(name) for name in momentum_names(model)]
     moving = [cast("sp.Expr", moving_symbol(s.name)) for s in letters]
     to_moving = dict(zip(letters, moving, strict=True))

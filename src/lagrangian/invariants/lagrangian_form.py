@@ -63,6 +63,18 @@ class LagrangianForm:
             )
         return cls(model, made[0], made[1], tuple(made[2:]))
 
+    def without_rows(self, form: str) -> LagrangianForm:
+        """The same; raises `ModelError` if constraints leave its coordinates dependent, so that a ``form`` is none."""
+        if self.model.constraints:
+            names = ", ".join(f"'{element.name}'" for element in self.model.constraints[:4])
+            raise ModelError(
+                f"{form} needs independent coordinates, and the constraints {names} leave those of "
+                f"system '{self.model.name}' dependent",
+                fix="describe the system in as many coordinates as it has degrees of freedom, without constraints",
+                code="E202",
+            )
+        return self
+
     @property
     def q(self) -> tuple[Any, ...]:
         """The coordinates."""

@@ -35,7 +35,7 @@ def routhian(model: Model, ignorable: Sequence[Any] | None = None) -> Routhian:
 
     Raises `RunError` for a coordinate that appears in L or on which a force acts, and if none is ignorable.
     """
-    system = LagrangianForm.of(model)
+    system = LagrangianForm.of(model).without_rows("Routh's form")
     gone = _chosen(system, ignorable)
     left = [k for k in range(len(system.q)) if k not in gone]
     names = momentum_names(model)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -29,6 +29,11 @@ class LinearModel(Brief):
     second-order form about an equilibrium, otherwise None. ``notes`` contain remarks about the point, ``free`` names
     the coordinates on which nothing depends, ``changing`` says that A or B depends on time, ``minimum`` that the energy
     has a strict minimum there and nothing supplies power. ``noise`` are the rounding errors in A and in M⁻¹K.
+
+    With constraints ``states`` are independent ones: coordinates and rates from which all others follow, so that there
+    are fewer of them than entries of ``at``. All change by ``basis`` δx, in the order of ``at``; ``basis`` is None
+    without constraints. ``multipliers`` are λ of the constraints' rows at the point, by name, empty if rows depend on
+    each other.
     """
 
     model: Model
@@ -56,6 +61,8 @@ class LinearModel(Brief):
     changing: bool = False
     minimum: bool = False
     noise: tuple[float, float] = (0.0, 0.0)
+    basis: Array | None = None
+    multipliers: Mapping[str, float] = field(default_factory=dict[str, float])
 
     @property
     def coordinates(self) -> tuple[str, ...]:
@@ -68,6 +75,12 @@ class LinearModel(Brief):
         if self.mass is not None and self.damping is not None and self.stiffness is not None:
             return spectrum(self.A, (self.mass, self.damping, self.stiffness), self.noise)
         return spectrum(self.A, None, self.noise)
+
+    @cached_property
+    def motions(self) -> Spectrum:
+        """The spectrum with its vectors in all coordinates and rates, those that depend on others included."""
+        found = self.spectrum
+        return found if self.basis is None else replace(found, vectors=self.basis @ found.vectors)
 
     @property
     def poles(self) -> NDArray[np.complex128]:
@@ -88,7 +101,7 @@ class LinearModel(Brief):
     @cached_property
     def modes(self) -> tuple[Mode, ...]:
         """The modes, slowest first, with their shapes by the names of the coordinates."""
-        return modes(self.spectrum, self.states[: len(self.coordinates)])
+        return modes(self.motions, self.coordinates)
 
     @cached_property
     def stability(self) -> Stability:
@@ -97,7 +110,7 @@ class LinearModel(Brief):
             return Stability("depends on time", "A changes with time, and poles at one moment decide nothing")
         if self.kind == "operating point":
             return Stability("marginal", "the point is not a rest; poles tell how neighbours part, for a short while")
-        return judge(self.spectrum, self.states[: len(self.coordinates)], self.minimum)
+        return judge(self.motions, self.coordinates, self.minimum)
 
     @property
     def controllability(self) -> Reach:

@@ -31,7 +31,7 @@ class Linearization(Written, LinearModel):
     @cached_property
     def modes(self) -> tuple[Mode, ...]:
         """The modes, slowest first; a notebook shows them as a table."""
-        return Viewed(modes(self.spectrum, self.states[: len(self.coordinates)]), self._modes_view)
+        return Viewed(modes(self.motions, self.coordinates), self._modes_view)
 
     def _modes_view(self) -> str:
         found = self.report()

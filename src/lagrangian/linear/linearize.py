@@ -8,7 +8,7 @@ dynamics, which gives q̈ explicitly. About an equilibrium this is equivalent to
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
@@ -17,16 +17,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian import dynamics
-from lagrangian.errors import RunError
+from lagrangian.errors import RunError, did_you_mean
 from lagrangian.graph import Program
 from lagrangian.linear.jacobians import Arrays, forces, may_kink, rates, reads, values, with_jacobians
 from lagrangian.linear.linearization import Linearization
+from lagrangian.linear.manifold import Manifold, Tangent
 from lagrangian.linear.modes import EPSILON, SLACK
 from lagrangian.linear.outputs import Measured, measured
 from lagrangian.linear.rest import TIMES, OperatingPoint, rest
 from lagrangian.linear.stability import has_minimum, loses_power, loses_power_beyond_potential
 from lagrangian.model import Model
-from lagrangian.values.values import Given, Named
+from lagrangian.model.rows import named_conditions
+from lagrangian.values.values import Given, Named, key_name
 
 Array = NDArray[np.float64]
 _log = logging.getLogger(__name__)
@@ -47,20 +49,25 @@ def linearize(
     outputs: Any = None,
     time: object = 0.0,
     operating_point: bool = False,
+    fixed: Sequence[Any] | str | None = None,
 ) -> Linearization:
     """Return the linearization of a model about a point.
 
     ``at``: values of coordinates and rates by name or symbol (0 unless given), or an `Equilibrium`; each value is a
     number or text with a unit. ``outputs``: expressions, as a list or by name; by default the coordinates. A point that
     is not an equilibrium raises `RunError` unless ``operating_point`` is true; a point very close to an equilibrium is
-    moved onto it, and `notes` says so. `RunError` is also raised for names and values that do not fit, if M is not
+    moved onto it, and `notes` says so. A point of a constrained system must satisfy the constraints; with ``fixed``, the
+    names of coordinates that stay as given, it is a guess that is moved onto them. `RunError` is also raised for names and values that do not fit, if M is not
     positive definite, and at a kink.
     """
     linearizer = Linearizer(model)
     given = Given.of(model, linearizer.rates)
     t = given.time_value(time)
     _log.info("linearizing: the point")
-    here = rest(model, linearizer.rates, given, at, inputs, params, t, operating_point)
+    stay = _fixed(linearizer, fixed)
+    here = rest(
+        model, linearizer.rates, given, at, inputs, params, t, operating_point, linearizer.manifold, stay
+    )
     _log.info("linearizing: A, B, C, D")
     return linearizer.about(here, t, outputs)
 
@@ -71,6 +78,16 @@ class Linearizer:
 
     model: Model
     values: Callable[..., Arrays] = values
+
+    @cached_property
+    def manifold(self) -> Manifold | None:
+        """What the constraints allow; None without any."""
+        return Manifold(self.model) if self.model.constraints else None
+
+    @cached_property
+    def pushed(self) -> Program:
+        """h − Aᵀλ with its slopes, of a system with constraints."""
+        return with_jacobians(dynamics.pushed_bias(self.model), {"K": ("h", "q"), "D": ("h", "v"), "S": ("h", "u")})
 
     @cached_property
     def rates(self) -> Program:
@@ -123,20 +140,24 @@ class Linearizer:
         """The linearization about a point of a known kind."""
         program = self.rates
         found = _finite(self.values(program, x=here.x, u=here.u, p=here.p, t=t), here)
-        self._proper(here, t, found)
+        tangent = None if self.manifold is None else self._tangent(self.manifold, here, t, found)
+        self._proper(here, t, found, tangent)
         y = self._plain if outputs is None else measured(self.model, outputs, program)
         seen = _finite(self.values(y.program, x=here.x, u=here.u, p=here.p, t=t), here)
         if may_kink(y.program, "y"):
             self._sloped(y.program, "y", seen["C"], here, t, "an output")
-        second = None if here.kind == "operating point" else self._second_order(here, t)
-        noise, noise_of_K = self._noise(here, t, found, second)
+        second = None if here.kind == "operating point" else self._second_order(here, t, tangent)
+        noise, noise_of_K = self._noise(here, t, found, second, tangent)
+        multipliers = None if tangent is None else self._multipliers(here, t, found, tangent)
+        if tangent is not None:
+            found, seen = tangent.reduced(found), {**seen, "C": seen["C"] @ tangent.basis}
         return Linearization(
             model=self.model,
             A=found["A"],
             B=found["B"],
             C=seen["C"],
             D=seen["D"],
-            states=program.inputs["x"],
+            states=_independent(program, tangent),
             inputs=program.inputs["u"],
             outputs=y.names,
             at=dict(zip(program.inputs["x"], here.x.tolist(), strict=True)),
@@ -156,14 +177,25 @@ class Linearizer:
             changing=self._changes(here),
             minimum=here.kind == "rest" and second is not None and self._minimum(second, here, noise_of_K),
             noise=noise,
+            basis=None if tangent is None else tangent.basis,
+            multipliers=multipliers or {},
         )
 
-    def _proper(self, here: OperatingPoint, t: float, found: Arrays) -> None:
+    def _tangent(self, manifold: Manifold, here: OperatingPoint, t: float, found: Arrays) -> Tangent:
+        """The directions that constraints allow; speeds of coordinates on which no force depends follow others."""
+        n = manifold.size
+        slopes = np.abs(found["A"][n:, :n])
+        idle = np.flatnonzero(slopes.max(axis=0, initial=0.0) <= 1e-9 * slopes.max(initial=0.0))
+        return manifold.tangent(here.x, here.p, t, idle=idle.tolist())
+
+    def _proper(self, here: OperatingPoint, t: float, found: Arrays, tangent: Tangent | None) -> None:
         """Raise an error if the mass matrix is not positive definite, or if the motion has no derivative at the
         point."""
         n = len(self.forces.inputs["q"])
         M = self.values(self.mass, q=here.x[:n], v=here.x[n:], u=here.u, p=here.p, t=t)["M"]
-        least = float(np.linalg.eigvalsh((M + M.T) / 2).min())
+        if tangent is not None:
+            M = tangent.speeds.T @ M @ tangent.speeds
+        least = float(np.linalg.eigvalsh((M + M.T) / 2).min(initial=np.inf))
         if not least > 0:
             raise RunError(
                 f"the mass matrix is not positive definite at {here.shown}: its least eigenvalue is {least:.3g}",
@@ -188,16 +220,52 @@ class Linearizer:
                     code="E525",
                 )
 
-    def _second_order(self, here: OperatingPoint, t: float) -> Arrays | None:
+    def _second_order(self, here: OperatingPoint, t: float, tangent: Tangent | None) -> Arrays | None:
         """M, D, K, S about an equilibrium, if the velocities are the rates of the coordinates."""
         n = len(self.forces.inputs["q"])
         if n != len(self.forces.inputs["v"]):
             return None
         point = {"q": here.x[:n], "v": here.x[n:], "u": here.u, "p": here.p, "t": t}
+        if tangent is not None:
+            return self._second_order_along(point, here, tangent)
         return self.values(self.forces, **point) | self.values(self.mass, **point)
 
+    def _second_order_along(self, point: dict[str, Any], here: OperatingPoint, tangent: Tangent) -> Arrays | None:
+        """Zᵀ M Z, Zᵀ D Z, Zᵀ ∂(h − Aᵀλ)/∂q Z and Zᵀ S at a rest of a system whose rows all restrict positions.
+
+        q = φ(y) with Z = ∂φ/∂y; that h = Aᵀλ there turns h·∂²φ/∂y² into the slope of −Aᵀλ.
+        """
+        n, m = len(point["q"]), tangent.positions
+        if here.kind != "rest" or tuple(k + n for k in tangent.kept[:m]) != tangent.kept[m:]:
+            return None
+        Z = tangent.basis[:n, :m]
+        lam = self._balancing(point, self.values(self.forces, **point)["h"])
+        found = self.values(self.pushed, **point, lam=lam)
+        K, D = (Z.T @ found[name] @ Z for name in ("K", "D"))
+        M = Z.T @ self.values(self.mass, **point)["M"] @ Z
+        return {"M": (M + M.T) / 2, "K": K, "D": D, "S": Z.T @ found["S"]}
+
+    def _balancing(self, point: dict[str, Any], force: Array) -> Array:
+        """The shortest λ with Aᵀλ = force."""
+        assert self.manifold is not None
+        A = self.manifold.at(np.concatenate([point["q"], point["v"]]), point["p"], point["t"])["A"]
+        return np.linalg.lstsq(A.T, force, rcond=1e-11)[0]
+
+    def _multipliers(self, here: OperatingPoint, t: float, found: Arrays, tangent: Tangent) -> dict[str, float] | None:
+        """λ of every row at the point, Aᵀλ = M v̇ + h; None where rows depend on each other, which leaves it open."""
+        n = len(self.forces.inputs["q"])
+        point = {"q": here.x[:n], "v": here.x[n:], "u": here.u, "p": here.p, "t": t}
+        if not tangent.complete:
+            return None
+        h, M = self.values(self.forces, **point)["h"], self.values(self.mass, **point)["M"]
+        force = M @ found["xdot"][n:] + h
+        lam = self._balancing(point, force)
+        lam[np.abs(lam) <= 1e-12 * (_largest(lam) + _largest(M * found["xdot"][n:]) + _largest(h))] = 0.0
+        names = [row.name for row in named_conditions(self.model)]
+        return dict(zip(names, lam.tolist(), strict=True))
+
     def _noise(
-        self, here: OperatingPoint, t: float, found: Arrays, second: Arrays | None
+        self, here: OperatingPoint, t: float, found: Arrays, second: Arrays | None, tangent: Tangent | None
     ) -> tuple[tuple[float, float], float]:
         """The rounding errors in A and M⁻¹K, and in K: their change when all digits after the twelfth change.
 
@@ -208,17 +276,21 @@ class Linearizer:
         for _ in range(3):
             x, p = (v * (1 + PERTURBED * source.uniform(-1, 1, len(v))) for v in (here.x, here.p))
             moved = replace(here, x=x, p=p)
-            near = self.values(self.rates, x=x, u=here.u, p=p, t=t)
-            dA = max(dA, _largest(near["A"] - found["A"]))
-            if second is not None and (other := self._second_order(moved, t)) is not None:
+            near, there = self.values(self.rates, x=x, u=here.u, p=p, t=t), tangent
+            mine = found
+            if self.manifold is not None and tangent is not None:
+                there = self.manifold.tangent(x, p, t, tangent.kept)
+                near, mine = there.reduced(near), tangent.reduced(found)
+            dA = max(dA, _largest(near["A"] - mine["A"]))
+            if second is not None and (other := self._second_order(moved, t, there)) is not None:
                 dK = max(dK, _largest(other["K"] - second["K"]))
                 n = len(second["K"])
-                dMK = max(dMK, _largest(near["A"][n:, :n] - found["A"][n:, :n]))
+                dMK = max(dMK, _largest(near["A"][n:, :n] - mine["A"][n:, :n]))
         digits = SLACK * EPSILON / PERTURBED
         return (dA * digits, dMK * digits), dK * digits
 
     def _minimum(self, second: Arrays, here: OperatingPoint, noise: float) -> bool:
-        n = len(second["K"])
+        n = len(self.forces.inputs["q"])
         if not has_minimum(second["M"], second["K"], noise):
             return False
         point = (here.x[:n], here.u, here.p)
@@ -236,6 +308,35 @@ class Linearizer:
             for other in others
             for k in ("A", "B")
         )
+
+
+def _independent(program: Program, tangent: Tangent | None) -> tuple[str, ...]:
+    """The states that can be chosen: all without constraints."""
+    names = program.inputs["x"]
+    return names if tangent is None else tuple(names[k] for k in tangent.kept)
+
+
+def _fixed(linearizer: Linearizer, fixed: Sequence[Any] | str | None) -> tuple[str, ...] | None:
+    """The names of the coordinates that stay when a guess is moved onto the constraints; None if it must be on them."""
+    if fixed is None:
+        return None
+    model = linearizer.model
+    if linearizer.manifold is None:
+        raise RunError(
+            f"system '{model.name}' has no constraints, so every point is taken as given",
+            fix="leave fixed out",
+            code="E501",
+        )
+    listed = fixed.replace(",", " ").split() if isinstance(fixed, str) else list(fixed)
+    names, known = tuple(key_name(x) for x in listed), [c.name for c in model.coordinates]
+    for name in names:
+        if name not in known:
+            raise RunError(
+                f"there is no coordinate '{name[:64]}' to hold fixed",
+                fix=did_you_mean(name, known) or f"known: {', '.join(known[:12])}",
+                code="E402",
+            )
+    return names
 
 
 def _finite(found: Arrays, here: OperatingPoint) -> Arrays:

@@ -41,8 +41,8 @@ class Regulator(Written):
         """Input symbol → u₀ − K (x − x₀)."""
         linear = self.linear
         model = linear.model
-        state = [*(c.symbol for c in model.coordinates), *(c.rate for c in model.coordinates)]
-        away = [x - sp.Float(value, 17) for x, value in zip(state, linear.at.values(), strict=True)]
+        state = [symbol(model, name) for name in linear.states]
+        away = [x - sp.Float(linear.at[name], 17) for x, name in zip(state, linear.states, strict=True)]
         found: dict[sp.Expr, sp.Expr] = {}
         for u, row in zip(model.inputs, self.K, strict=True):
             terms = [-sp.Float(float(k), 17) * d for k, d in zip(row, away, strict=True)]
@@ -58,7 +58,7 @@ def regulator_report(found: Regulator) -> Report[Model]:
     """Return the report of a regulator."""
     linear = found.linear
     K, S, x, u = (Name(name) for name in ("K", "S", "x vector", "u vector"))
-    names = [*zip(linear.states, linear.at.values(), strict=True)]
+    names = [(name, linear.at[name]) for name in linear.states]
     names += [*zip(linear.inputs, linear.inputs_at.values(), strict=True)]
     point = tuple((_symbol(found, name), text(figure(value))) for name, value in names)
     law: tuple[Item, ...] = (

@@ -64,6 +64,10 @@ def _point(linear: LinearModel) -> Part:
     small = linear.kind != "operating point" and linear.residual <= ROUNDING * float(np.abs(linear.A).max(initial=1.0))
     items.append(text(f"{kind}{'0 up to rounding' if small else scientific(linear.residual, 2)}."))
     items += [text(note[0].upper() + note[1:] + ".") for note in linear.notes]
+    if linear.multipliers:
+        items.append(text("The constraints push with these multipliers:"))
+        pushes = tuple((text(name), text(figure(value))) for name, value in linear.multipliers.items())
+        items.append(Table((text("row"), text("λ")), pushes))
     return Part(text("The point"), tuple(items))
 
 
@@ -84,12 +88,25 @@ def _entry(linear: LinearModel, name: str) -> Any:
     return found if isinstance(found, sp.Basic) else Name(found)
 
 
+def _listed(linear: LinearModel, names: Sequence[str]) -> list[Any]:
+    """``ẋ, θ₂ and θ̇₂``."""
+    parts: list[Any] = []
+    for k, name in enumerate(names):
+        parts += [" and " if k == len(names) - 1 else ", "] if k else []
+        parts.append(_entry(linear, name))
+    return parts
+
+
 def _matrices(linear: LinearModel) -> Part:
     items: list[Item] = []
     drift = linear.kind == "operating point"
     rate = ("δ", Name(x.base, "", 1), " = ", A, " δ", x, " + ", B, " δ", u, *((" + ", f) if drift else ()))
     items.append(text(*rate, " and δ", y, " = ", C, " δ", x, " + ", D, " δ", u, ", with"))
     items.append(_ordered(linear, x, linear.states))
+    if linear.basis is not None:
+        rest = [name for name in linear.at if name not in linear.states]
+        said = f"The constraints leave {len(linear.states)} of {len(linear.at)} states independent"
+        items.append(text(said, ": these. ", *_listed(linear, rest), " follow from them."))
     if linear.inputs:
         items.append(_ordered(linear, u, linear.inputs))
     items.append(_ordered(linear, y, linear.outputs))
@@ -107,7 +124,7 @@ def _matrices(linear: LinearModel) -> Part:
 def _second_order(linear: LinearModel) -> Part:
     matrices = ((M, linear.mass), (D, linear.damping), (K, linear.stiffness), (S, linear.input_matrix))
     rates = (M, " δ", Name(q.base, "", 2), " + ", D, " δ", Name(q.base, "", 1), " + ", K, " δ", q, " = ", S, " δ", u)
-    items: list[Item] = [text(*rates, ", with"), _ordered(linear, q, linear.coordinates)]
+    items: list[Item] = [text(*rates, ", with"), _ordered(linear, q, linear.states[: len(linear.mass or ())])]
     items += [formula(name, matrix(found)) for name, found in matrices if found is not None and found.size]
     return Part(text("Small motions"), tuple(items))
 
@@ -254,4 +271,10 @@ def linear_data(linear: LinearModel) -> dict[str, Any]:
         "controllability": _reach_data(linear.controllability) if linear.inputs else None,
         "observability": _reach_data(linear.observability),
         "notes": list(linear.notes),
+        **({} if linear.basis is None else _rows_data(linear, linear.basis)),
     }
+
+
+def _rows_data(linear: LinearModel, basis: Any) -> dict[str, Any]:
+    """What a system with constraints has besides."""
+    return {"basis": basis.tolist(), "all_states": list(linear.at), "multipliers": dict(linear.multipliers)}

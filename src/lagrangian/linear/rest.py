@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -14,6 +14,7 @@ from lagrangian.advice import Advice, Argument, Verb
 from lagrangian.errors import RunError
 from lagrangian.graph import Program
 from lagrangian.linear.jacobians import Arrays, reads, values
+from lagrangian.linear.manifold import Manifold, point_words
 from lagrangian.model import Model
 from lagrangian.values.values import Given, Named
 
@@ -55,12 +56,6 @@ class OperatingPoint:
         return point_words(self.names, self.x)
 
 
-def point_words(names: tuple[str, ...], x: Array) -> str:
-    """Return the first entries of a point, ``theta = 0.1, x' = 2``."""
-    listed = [f"{n} = {v:.6g}" for n, v in zip(names, x, strict=True)]
-    return ", ".join(listed[:8]) + (", …" if len(listed) > 8 else "")
-
-
 def rest(
     model: Model,
     program: Program,
@@ -70,8 +65,13 @@ def rest(
     params: Named | None,
     t: float,
     any_point: bool,
+    manifold: Manifold | None = None,
+    fixed: Sequence[str] | None = None,
 ) -> OperatingPoint:
-    """Return the requested point. Raises `RunError` if it is not an equilibrium and ``any_point`` is not set."""
+    """Return the requested point. Raises `RunError` if it is not an equilibrium and ``any_point`` is not set.
+
+    With constraints, ``manifold``, the point must satisfy them; it is moved onto them if ``fixed`` names what stays.
+    """
     states = program.inputs["x"]
     if at is not None and not isinstance(at, Mapping) and hasattr(at, "at"):  # an Equilibrium, with its own inputs
         inputs = {**at.inputs, **given.inputs.values(inputs)}
@@ -81,8 +81,10 @@ def rest(
     x = np.array(list((start | given.states.values(at)).values()))
     u, p = given.input_values(inputs), given.parameter_values(params)
     here = OperatingPoint(states, x, u, p, "operating point", 0.0)
+    if manifold is not None:
+        here = _allowed(manifold, here, t, fixed)
     q = x[: len(model.coordinates)]
-    if moved := dynamics.loose(model, q.tolist(), u.tolist(), p.tolist(), t):
+    if manifold is None and (moved := dynamics.loose(model, q.tolist(), u.tolist(), p.tolist(), t)):
         raise RunError(
             f"the mass matrix is singular at {point_words(states[: len(q)], q)}: {moved}, so that nothing decides the "
             "accelerations",
@@ -92,7 +94,11 @@ def rest(
     found = _values(program, here, t)
     n = len(model.coordinates)
     here = replace(here, residual=_largest(found["xdot"][n:]), free=free_coordinates(program, here, n, t))
-    settled = _classified(here, found, n) if any_point else _settled(model, program, here, found, n, t)
+    if manifold is not None and manifold.moves_with_time:
+        if not any_point:
+            raise _driven(here)
+        return here
+    settled = _classified(here, found, n) if any_point else _settled(model, program, here, found, n, t, manifold)
     later = None if settled.kind == "operating point" else _moved_later(program, settled, t)
     if later is None:
         return settled
@@ -100,6 +106,37 @@ def rest(
         return replace(settled, kind="operating point")
     raise RunError(
         f"{settled.shown} is at rest at t = {t:g} s only: forces change with time, and at {later:g} s it moves",
+        fix=Advice(ANY_POINT, " linearizes about any point and keeps the constant term (drift) of that moment"),
+        code="E521",
+    )
+
+
+def _allowed(manifold: Manifold, here: OperatingPoint, t: float, fixed: Sequence[str] | None) -> OperatingPoint:
+    """The point on the constraints; an error if it is not on them, not even nearly, and ``fixed`` is not given."""
+    if manifold.holds(here.x, here.p, t):
+        return here
+    x = manifold.moved(here.x, here.p, t, fixed or ())
+    change = np.abs(x - here.x)
+    worst = int(np.argmax(change))
+    if _largest(change / (1 + np.abs(here.x))) <= 1e-12:
+        return replace(here, x=x)
+    name = here.names[worst]
+    if fixed is None and _largest(change / (1 + np.abs(here.x))) > NEAR:
+        raise RunError(
+            f"{here.shown} does not satisfy the constraints: near it {name} is {x[worst]:.6g}",
+            fix=Advice(
+                "give ", Argument("fixed", repr(here.names[0])), " with the coordinates that stay, to move it onto them; or "
+                "take the point that compile().assemble(q, v) returns",
+            ),
+            code="E521",
+        )
+    note = f"moved onto the constraints: {name} from {here.x[worst]:.6g} to {x[worst]:.6g}"
+    return replace(here, x=x, notes=(*here.notes, note))
+
+
+def _driven(here: OperatingPoint) -> RunError:
+    return RunError(
+        f"{here.shown} is no equilibrium: constraints move with time, so that nothing stays at rest",
         fix=Advice(ANY_POINT, " linearizes about any point and keeps the constant term (drift) of that moment"),
         code="E521",
     )
@@ -164,18 +201,22 @@ def _classified(here: OperatingPoint, found: Arrays, n: int) -> OperatingPoint:
     return here
 
 
-def _settled(model: Model, program: Program, here: OperatingPoint, found: Arrays, n: int, t: float) -> OperatingPoint:
+def _settled(
+    model: Model, program: Program, here: OperatingPoint, found: Arrays, n: int, t: float, manifold: Manifold | None
+) -> OperatingPoint:
     """The equilibrium at the point, or very close to it; otherwise an explanatory error."""
     start = here.x
     moved = 0.0
     for _ in range(6):
-        step = _newton(here, found, n)
+        step = _newton(here, found, n) if manifold is None else _newton_along(here, found, n, t, manifold)
         if _largest(step / (1 + np.abs(here.x))) < 1e-14:
             break
         moved = _largest((here.x + step - start) / (1 + np.abs(start)))
         if moved > NEAR:
             break
         here = replace(here, x=here.x + step)
+        if manifold is not None and not manifold.holds(here.x, here.p, t):
+            here = replace(here, x=manifold.moved(here.x, here.p, t))
         found = _values(program, here, t)
         here = replace(here, residual=_largest(found["xdot"][n:]))
     settled = _classified(here, found, n)
@@ -193,6 +234,13 @@ def _newton(here: OperatingPoint, found: Arrays, n: int) -> Array:
     step = np.zeros(len(here.x))
     step[:n] = -np.linalg.lstsq(A, a, rcond=1e-12)[0]
     return step
+
+
+def _newton_along(here: OperatingPoint, found: Arrays, n: int, t: float, manifold: Manifold) -> Array:
+    """The same along the constraints: a change of the independent coordinates."""
+    tangent = manifold.tangent(here.x, here.p, t)
+    along = tangent.basis[:, : tangent.positions]
+    return -along @ np.linalg.lstsq(found["A"][n:] @ along, found["xdot"][n:], rcond=1e-12)[0]
 
 
 def _refused(model: Model, here: OperatingPoint, program: Program, n: int, t: float) -> RunError:

@@ -51,6 +51,13 @@ def symbolic(linear: LinearModel) -> SymbolicLinearization:
     """Return a linearization in symbols. Raises `RunError` if it is not about an equilibrium, or too long to write
     out."""
     model, n = linear.model, len(linear.model.coordinates)
+    if model.constraints:
+        raise RunError(
+            "symbolic matrices are not available for systems with constraints, whose independent states are found in "
+            "numbers",
+            fix="use A and B, which contain the numbers, or describe the system without constraints",
+            code="E523",
+        )
     if linear.kind != "rest" or linear.mass is None:
         raise RunError(
             "symbolic matrices are available only at an equilibrium, and only for systems without floating frames",

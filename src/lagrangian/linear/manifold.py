@@ -1,0 +1,217 @@
+"""The states that constraints allow, and the directions in which they can change.
+
+States x = [q; v] satisfy f(q, t) = 0 and c = A(q, t) v + a₀ = 0. Near one of them they are functions of some of their
+own entries y, the independent states: x = φ(y, t), and the motion ẋ = F(x) gives
+
+    δx = T δy,    δẏ = S ∂F/∂x T δy + S ∂F/∂u δu,    S T = 1
+
+where S takes the independent entries out of x, and T spans the null space of the rows' slopes,
+
+    ∂f/∂q δq = 0,    ∂c/∂q δq + A δv = 0.
+
+A row on velocities that is not a rate of an f restricts speeds and no coordinate.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian import dynamics
+from lagrangian.assembly.assemble import Assembler
+from lagrangian.errors import RunError
+from lagrangian.graph import Program
+from lagrangian.linear.jacobians import Arrays, reads, values, with_jacobians
+from lagrangian.model import Model
+
+Array = NDArray[np.float64]
+
+CLEAR = 0.05
+"""An entry of at least this part of its row's largest is good enough to solve the row for it."""
+
+DEPENDENT = 1e-9
+"""What elimination leaves of a row is rounding below this part of it: the row depends on the others."""
+
+ON_ROWS = 1e-13
+"""A row is satisfied if it is at most this part of its terms."""
+
+ASIDE = 1e-2
+"""How far, relative to 1 + |x|, neighbours are sought to which a rank is compared."""
+
+
+@dataclass(frozen=True, eq=False)
+class Tangent:
+    """The independent entries of x, by number, the first ``positions`` of them coordinates, and the basis T.
+
+    ``complete``: no row depends on others; ``velocities``: the number of all velocities.
+    """
+
+    kept: tuple[int, ...]
+    positions: int
+    basis: Array
+    complete: bool
+    velocities: int
+
+    @property
+    def speeds(self) -> Array:
+        """The speeds as functions of the independent ones: the columns span the null space of A."""
+        n = len(self.basis) - self.velocities
+        return self.basis[n:, self.positions :]
+
+    def reduced(self, found: Arrays) -> Arrays:
+        """ẋ, A and B of the independent states."""
+        kept = list(self.kept)
+        return {
+            "xdot": found["xdot"][kept],
+            "A": found["A"][kept] @ self.basis,
+            "B": found["B"][kept],
+        }
+
+
+class Manifold:
+    """The states of a model with constraints."""
+
+    def __init__(self, model: Model) -> None:
+        self.model = model
+        self.names = (*(c.name for c in model.coordinates), *(v.name for v in model.velocities))
+        self.size = len(model.coordinates)
+        self._assemblers: dict[tuple[str, ...], Assembler] = {}
+
+    @cached_property
+    def rows(self) -> Program:
+        """f and c with ∂f/∂q, ∂c/∂q and A."""
+        wanted = {"F": ("f", "q"), "Cq": ("Av", "q"), "A": ("Av", "v")}
+        return with_jacobians(dynamics.residual(self.model), wanted)
+
+    @cached_property
+    def moves_with_time(self) -> bool:
+        """Whether a row contains time."""
+        return any(reads(self.rows, name, "t") for name in ("f", "Av"))
+
+    def at(self, x: Array, p: Array, t: float) -> Arrays:
+        """f, c and their slopes at a state."""
+        n = self.size
+        return values(self.rows, q=x[:n], v=x[n:], u=np.zeros(len(self.model.inputs)), p=p, t=t)
+
+    def holds(self, x: Array, p: Array, t: float) -> bool:
+        """Whether a state satisfies every row but for rounding."""
+        n, found = self.size, self.at(x, p, t)
+        F, Cq, A = (np.abs(found[name]) for name in ("F", "Cq", "A"))
+        q, v = np.abs(x[:n]), np.abs(x[n:])
+        off_f = np.abs(found["f"]) <= ON_ROWS * (F @ q + F.max(axis=1, initial=0.0))
+        off_c = np.abs(found["Av"]) <= ON_ROWS * (A @ v + Cq @ q + A.max(axis=1, initial=0.0))
+        return bool(off_f.all() and off_c.all())
+
+    def moved(self, x: Array, p: Array, t: float, fixed: Sequence[str] = ()) -> Array:
+        """The state nearest to x that satisfies every row; coordinates in ``fixed`` stay. Raises `RunError`."""
+        n, assembler = self.size, self._assembler(tuple(fixed))
+        q = assembler.position(x[:n], p, t)
+        return np.concatenate([q, assembler.velocity(q, x[n:], p, t)])
+
+    def _assembler(self, fixed: tuple[str, ...]) -> Assembler:
+        if fixed not in self._assemblers:
+            self._assemblers[fixed] = Assembler(self.model, fixed)
+        return self._assemblers[fixed]
+
+    def tangent(
+        self, x: Array, p: Array, t: float, kept: Sequence[int] | None = None, idle: Sequence[int] = ()
+    ) -> Tangent:
+        """The tangent at a state, with independent states of its own choice unless ``kept`` names them by number.
+
+        Rows are solved for the last coordinates that can be, and for speeds of these, of coordinates in ``idle``
+        (numbers), and for the last ones. Raises `RunError` where rows depend on each other that do not do so nearby: there is no tangent there.
+        """
+        found = self.at(x, p, t)
+        made = self._tangent(found, kept, idle)
+        if kept is None and not made.complete and self._is_singular(x, p, t, made):
+            raise RunError(
+                f"the constraints depend on each other at {point_words(self.names, x)}, and not nearby: "
+                "the system can move in more than one way from there",
+                fix="choose a neighbouring point",
+                code="E525",
+            )
+        return made
+
+    def _tangent(self, found: Arrays, kept: Sequence[int] | None, idle: Sequence[int] = ()) -> Tangent:
+        n, size = self.size, len(self.names)
+        F, A = found["F"], found["A"]
+        if kept is None:
+            late = range(n - 1, -1, -1)
+            placed = pivots(F, late)
+            rates = {name: k for k, name in enumerate(self.names[n:])}
+            named = [f"{self.names[k]}'" for k in (*placed, *sorted(idle, reverse=True))]
+            order = [*(rates[name] for name in named if name in rates), *range(size - n - 1, -1, -1)]
+            speeds = pivots(A, dict.fromkeys(order))
+            complete = len(placed) == len(F) and len(speeds) == len(A)
+        else:
+            placed = [k for k in range(n) if k not in kept]
+            speeds = [k for k in range(size - n) if k + n not in kept]
+            complete = True
+        free_q = [k for k in range(n) if k not in placed]
+        free_v = [k for k in range(size - n) if k not in speeds]
+        basis = np.zeros((size, len(free_q) + len(free_v)))
+        positions, rest = basis[:n], basis[n:]
+        positions[free_q, np.arange(len(free_q))] = 1.0
+        positions[placed, : len(free_q)] = _solved(F[:, placed], -F[:, free_q])
+        rest[free_v, len(free_q) + np.arange(len(free_v))] = 1.0
+        right = np.hstack([-found["Cq"] @ positions[:, : len(free_q)], -A[:, free_v]])
+        rest[speeds] = _solved(A[:, speeds], right)
+        return Tangent((*free_q, *(n + k for k in free_v)), len(free_q), basis, complete, size - n)
+
+    def _is_singular(self, x: Array, p: Array, t: float, here: Tangent) -> bool:
+        """Whether the rows are more independent at neighbours than at x."""
+        source = np.random.default_rng(7)
+        for _ in range(3):
+            step = here.basis @ source.uniform(-1, 1, here.basis.shape[1])
+            near = x + ASIDE * (1 + np.abs(x)) * step / max(1.0, float(np.abs(step).max(initial=0.0)))
+            try:
+                found = self._tangent(self.at(self.moved(near, p, t), p, t), None)
+            except RunError:
+                return True
+            if len(found.kept) < len(here.kept):
+                return True
+        return False
+
+
+def point_words(names: tuple[str, ...], x: Array) -> str:
+    """Return the first entries of a point, ``theta = 0.1, x' = 2``."""
+    listed = [f"{n} = {v:.6g}" for n, v in zip(names, x, strict=True)]
+    return ", ".join(listed[:8]) + (", …" if len(listed) > 8 else "")
+
+
+def pivots(matrix: Array, order: Iterable[int]) -> list[int]:
+    """The columns that rows are solved for: the first of ``order`` with a clear entry, as many as the rank."""
+    size = np.abs(matrix).max(axis=1, initial=0.0, keepdims=True)
+    left = (matrix / np.where(size > 0, size, 1.0))[size[:, 0] > 0]
+    found: list[int] = []
+    listed = list(order)
+    for clear in (CLEAR, 0.0):
+        for k in listed:
+            if not len(left) or k in found:
+                continue
+            largest = np.abs(left).max(axis=1)
+            r = int(np.argmax(np.abs(left[:, k]) / largest))
+            if abs(left[r, k]) < max(clear * largest[r], DEPENDENT):
+                continue
+            pivot = left[r] / left[r, k]
+            left = np.delete(left, r, axis=0)
+            left = left - np.outer(left[:, k], pivot)
+            left[:, k] = 0.0
+            left = left[np.abs(left).max(axis=1, initial=0.0) > DEPENDENT]
+            found.append(k)
+    return found
+
+
+def _solved(matrix: Array, right: Array) -> Array:
+    """X with matrix X = right, of rows that may depend on each other."""
+    if not matrix.shape[1]:
+        return np.zeros((0, right.shape[1]))
+    size = np.abs(matrix).max(axis=1, initial=0.0, keepdims=True)
+    size = np.where(size > 0, size, 1.0)
+    if matrix.shape[0] == matrix.shape[1]:
+        return np.linalg.solve(matrix / size, right / size)
+    return np.linalg.lstsq(matrix / size, right / size, rcond=DEPENDENT)[0]
