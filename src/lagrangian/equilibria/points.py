@@ -9,8 +9,8 @@ from typing import Any, overload
 import numpy as np
 
 from lagrangian.equilibria.roots import EXACT
+from lagrangian.linear.manifold import point_words
 from lagrangian.linear.report import symbol
-from lagrangian.linear.rest import point_words
 from lagrangian.linear.stability import Stability
 from lagrangian.model import Model
 from lagrangian.page.figures import figure, scientific

@@ -26,7 +26,7 @@ from lagrangian.graph import Graph, Output, Program
 from lagrangian.linear.echelon import null_space, reduced
 from lagrangian.linear.jacobians import QuickValues, values
 from lagrangian.linear.linearize import TIMES, Linearizer
-from lagrangian.linear.rest import point_words
+from lagrangian.linear.manifold import point_words
 from lagrangian.linear.stability import Stability
 from lagrangian.model import Model
 from lagrangian.values.values import Given, Named

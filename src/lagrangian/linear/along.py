@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from lagrangian import codegen as machine
 from lagrangian.errors import RunError, did_you_mean
 from lagrangian.linear.jacobians import rates
+from lagrangian.linear.manifold import Manifold, tangents
 from lagrangian.linear.outputs import measured
 from lagrangian.model import Model
 from lagrangian.values.values import Given, Named, key_name, number
@@ -26,6 +27,9 @@ class LinearizationAlong(Brief):
 
     ``A`` (S, n, n), ``B`` (S, n, m), ``C`` (S, k, n), ``D`` (S, k, m); ``y`` (S, k) are the outputs. Names are in
     declared order. The inputs are treated as constants: a feedback that controlled the run does not contribute to A.
+
+    With constraints ``states`` are independent ones, the same at all times, and n in A, B and C is their number;
+    ``basis`` (S, all states, n) says how all states change with them. It is None without constraints.
     """
 
     model: Model
@@ -41,6 +45,7 @@ class LinearizationAlong(Brief):
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
     parameters: Mapping[str, float]
+    basis: Array | None = None
 
     def __repr__(self) -> str:
         span = f", t = {self.t[0]:g} … {self.t[-1]:g} s" if len(self.t) else ""
@@ -53,6 +58,8 @@ class LinearizationAlong(Brief):
     def to_dict(self) -> dict[str, Any]:
         """Return plain data that can be written as JSON."""
         arrays = {name: getattr(self, name).tolist() for name in ("t", "x", "u", "y", "A", "B", "C", "D")}
+        if self.basis is not None:
+            arrays["basis"] = self.basis.tolist()
         names = {name: list(getattr(self, name)) for name in ("states", "inputs", "outputs")}
         return {"system": self.model.name, **names, "parameters": dict(self.parameters), **arrays}
 
@@ -68,7 +75,8 @@ def linearize_along(
     """Return the linearization along a trajectory: a run, or a pair of times (S,) and states (S, n).
 
     A run has its own inputs and parameters. ``inputs``: name or symbol → number, text with a unit, or a value for each
-    time (S,). Raises `RunError` for shapes, names and values that do not fit.
+    time (S,). Raises `RunError` for shapes, names and values that do not fit, for states that do not satisfy the
+    constraints, and if no choice of independent states is one at all times.
     """
     program = rates(model)
     given = Given.of(model, program)
@@ -79,6 +87,12 @@ def linearize_along(
     found = kernel(x, u, p, t)
     y = measured(model, outputs, program)
     seen = machine.compile(y.program)(x, u, p, t)
+    states, basis = program.inputs["x"], None
+    if model.constraints:
+        kept, basis = tangents(Manifold(model), t, x, p)
+        states = tuple(states[k] for k in kept)
+        found = {"A": found["A"][:, kept] @ basis, "B": found["B"][:, kept]}
+        seen = {**seen, "C": seen["C"] @ basis}
     return LinearizationAlong(
         model=model,
         t=t,
@@ -89,10 +103,11 @@ def linearize_along(
         B=found["B"],
         C=seen["C"],
         D=seen["D"],
-        states=program.inputs["x"],
+        states=states,
         inputs=program.inputs["u"],
         outputs=y.names,
         parameters=dict(zip(program.inputs["p"], p.tolist(), strict=True)),
+        basis=basis,
     )
 
 

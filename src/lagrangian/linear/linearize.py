@@ -56,18 +56,18 @@ def linearize(
     ``at``: values of coordinates and rates by name or symbol (0 unless given), or an `Equilibrium`; each value is a
     number or text with a unit. ``outputs``: expressions, as a list or by name; by default the coordinates. A point that
     is not an equilibrium raises `RunError` unless ``operating_point`` is true; a point very close to an equilibrium is
-    moved onto it, and `notes` says so. A point of a constrained system must satisfy the constraints; with ``fixed``, the
-    names of coordinates that stay as given, it is a guess that is moved onto them. `RunError` is also raised for names and values that do not fit, if M is not
-    positive definite, and at a kink.
+    moved onto it, and `notes` says so.
+
+    A point of a constrained system must satisfy the constraints; with ``fixed``, the names of coordinates that stay as
+    given, it is a guess that is moved onto them. `RunError` is also raised for names and values that do not fit, if M
+    is not positive definite on the motions that are allowed, and at a kink.
     """
     linearizer = Linearizer(model)
     given = Given.of(model, linearizer.rates)
     t = given.time_value(time)
     _log.info("linearizing: the point")
     stay = _fixed(linearizer, fixed)
-    here = rest(
-        model, linearizer.rates, given, at, inputs, params, t, operating_point, linearizer.manifold, stay
-    )
+    here = rest(model, linearizer.rates, given, at, inputs, params, t, operating_point, linearizer.manifold, stay)
     _log.info("linearizing: A, B, C, D")
     return linearizer.about(here, t, outputs)
 
@@ -249,7 +249,7 @@ class Linearizer:
         """The shortest λ with Aᵀλ = force."""
         assert self.manifold is not None
         A = self.manifold.at(np.concatenate([point["q"], point["v"]]), point["p"], point["t"])["A"]
-        return np.linalg.lstsq(A.T, force, rcond=1e-11)[0]
+        return np.asarray(np.linalg.lstsq(A.T, force, rcond=1e-11)[0], float)
 
     def _multipliers(self, here: OperatingPoint, t: float, found: Arrays, tangent: Tangent) -> dict[str, float] | None:
         """λ of every row at the point, Aᵀλ = M v̇ + h; None where rows depend on each other, which leaves it open."""

@@ -17,6 +17,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import repeat
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,6 +39,15 @@ DEPENDENT = 1e-9
 
 ON_ROWS = 1e-13
 """A row is satisfied if it is at most this part of its terms."""
+
+BESIDE = 1e-6
+"""A state of a run that is off a row by more than this part of its terms does not satisfy it."""
+
+CHOICES = 40
+"""The number of times of a run at which independent states are chosen."""
+
+STEEP = 1e6
+"""Independent states of which others are this multiple determine no motion."""
 
 ASIDE = 1e-2
 """How far, relative to 1 + |x|, neighbours are sought to which a rank is compared."""
@@ -99,12 +109,16 @@ class Manifold:
 
     def holds(self, x: Array, p: Array, t: float) -> bool:
         """Whether a state satisfies every row but for rounding."""
-        n, found = self.size, self.at(x, p, t)
+        return all(off <= ON_ROWS for off in self.gaps(x, self.at(x, p, t)))
+
+    def gaps(self, x: Array, found: Arrays) -> list[float]:
+        """How far every row is from 0 at a state, in parts of its terms."""
+        n = self.size
         F, Cq, A = (np.abs(found[name]) for name in ("F", "Cq", "A"))
         q, v = np.abs(x[:n]), np.abs(x[n:])
-        off_f = np.abs(found["f"]) <= ON_ROWS * (F @ q + F.max(axis=1, initial=0.0))
-        off_c = np.abs(found["Av"]) <= ON_ROWS * (A @ v + Cq @ q + A.max(axis=1, initial=0.0))
-        return bool(off_f.all() and off_c.all())
+        sizes = (F @ q + F.max(axis=1, initial=0.0), A @ v + Cq @ q + A.max(axis=1, initial=0.0))
+        off = [np.abs(found[name]) / np.maximum(size, 1e-300) for name, size in zip(("f", "Av"), sizes, strict=True)]
+        return np.concatenate(off).tolist()
 
     def moved(self, x: Array, p: Array, t: float, fixed: Sequence[str] = ()) -> Array:
         """The state nearest to x that satisfies every row; coordinates in ``fixed`` stay. Raises `RunError`."""
@@ -123,10 +137,11 @@ class Manifold:
         """The tangent at a state, with independent states of its own choice unless ``kept`` names them by number.
 
         Rows are solved for the last coordinates that can be, and for speeds of these, of coordinates in ``idle``
-        (numbers), and for the last ones. Raises `RunError` where rows depend on each other that do not do so nearby: there is no tangent there.
+        (numbers), and for the last ones. Raises `RunError` where rows depend on each other that do not do so nearby:
+        there is no tangent there.
         """
         found = self.at(x, p, t)
-        made = self._tangent(found, kept, idle)
+        made = self.tangent_of(found, kept, idle)
         if kept is None and not made.complete and self._is_singular(x, p, t, made):
             raise RunError(
                 f"the constraints depend on each other at {point_words(self.names, x)}, and not nearby: "
@@ -136,7 +151,8 @@ class Manifold:
             )
         return made
 
-    def _tangent(self, found: Arrays, kept: Sequence[int] | None, idle: Sequence[int] = ()) -> Tangent:
+    def tangent_of(self, found: Arrays, kept: Sequence[int] | None, idle: Sequence[int] = ()) -> Tangent:
+        """The tangent that follows from the slopes of the rows."""
         n, size = self.size, len(self.names)
         F, A = found["F"], found["A"]
         if kept is None:
@@ -169,12 +185,46 @@ class Manifold:
             step = here.basis @ source.uniform(-1, 1, here.basis.shape[1])
             near = x + ASIDE * (1 + np.abs(x)) * step / max(1.0, float(np.abs(step).max(initial=0.0)))
             try:
-                found = self._tangent(self.at(self.moved(near, p, t), p, t), None)
+                found = self.tangent_of(self.at(self.moved(near, p, t), p, t), None)
             except RunError:
                 return True
             if len(found.kept) < len(here.kept):
                 return True
         return False
+
+
+def tangents(manifold: Manifold, t: Array, x: Array, p: Array) -> tuple[list[int], Array]:
+    """Independent states that are some at all times, by number, and the bases T (times, all states, independent).
+
+    Choices are tried that are made at some of the times; that with the smallest T is taken. Raises `RunError` for a
+    state beside the constraints, and if every choice fails somewhere.
+    """
+    rows = [manifold.at(*state) for state in zip(x, repeat(p), t, strict=False)]
+    for k, found in enumerate(rows):
+        off = max(manifold.gaps(x[k], found), default=0.0)
+        if off > BESIDE:
+            raise RunError(
+                f"the state at t = {t[k]:g} s does not satisfy the constraints: a row is off by {off:.2g} of its terms",
+                fix="use the states of a run, or those that compile().assemble(q, v) returns",
+                code="E521",
+            )
+    some = np.unique(np.linspace(0, len(x) - 1, CHOICES).astype(int)).tolist()
+    best: tuple[float, list[int], Array] = (np.inf, [], np.zeros(0))
+    for choice in dict.fromkeys(manifold.tangent(x[k], p, float(t[k])).kept for k in some):
+        try:
+            bases = np.array([manifold.tangent_of(found, choice).basis for found in rows])
+        except np.linalg.LinAlgError:
+            continue
+        size = float(np.abs(bases).max(initial=0.0))
+        if size < best[0]:
+            best = size, list(choice), bases
+    if not best[0] < STEEP:
+        raise RunError(
+            "no choice of independent states stays one along the run: each has a time at which it determines no motion",
+            fix="take a shorter part of the run, or linearize at single times with operating_point=True",
+            code="E523",
+        )
+    return best[1], best[2]
 
 
 def point_words(names: tuple[str, ...], x: Array) -> str:
@@ -213,5 +263,5 @@ def _solved(matrix: Array, right: Array) -> Array:
     size = np.abs(matrix).max(axis=1, initial=0.0, keepdims=True)
     size = np.where(size > 0, size, 1.0)
     if matrix.shape[0] == matrix.shape[1]:
-        return np.linalg.solve(matrix / size, right / size)
-    return np.linalg.lstsq(matrix / size, right / size, rcond=DEPENDENT)[0]
+        return np.asarray(np.linalg.solve(matrix / size, right / size), float)
+    return np.asarray(np.linalg.lstsq(matrix / size, right / size, rcond=DEPENDENT)[0], float)

@@ -125,7 +125,9 @@ def _allowed(manifold: Manifold, here: OperatingPoint, t: float, fixed: Sequence
         raise RunError(
             f"{here.shown} does not satisfy the constraints: near it {name} is {x[worst]:.6g}",
             fix=Advice(
-                "give ", Argument("fixed", repr(here.names[0])), " with the coordinates that stay, to move it onto them; or "
+                "give ",
+                Argument("fixed", repr(here.names[0])),
+                " with the coordinates that stay, to move it onto them; or "
                 "take the point that compile().assemble(q, v) returns",
             ),
             code="E521",

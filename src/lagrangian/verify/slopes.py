@@ -46,6 +46,9 @@ def slopes(model: Model, rhs: Callable[..., Array], states: Sequence[State]) -> 
             refused = refused or error.what
             continue
         quotients, doubt = _quotients(rhs, state)
+        if found.basis is not None:  # of what constraints leave independent
+            kept, m = [list(found.at).index(name) for name in found.states], len(found.at)
+            quotients = np.hstack([quotients[kept, :m] @ found.basis, quotients[kept, m:]])
         exact = np.hstack([found.A, found.B])
         size = float(np.max(np.abs(quotients), initial=0.0)) or 1.0
         if not doubt < SETTLED * size:

@@ -1,0 +1,87 @@
+"""Systems with constraints for the tests of linearizations and equilibria."""
+
+import sympy as sp
+
+import lagrangian as lg
+
+G = 9.81
+
+
+def rod(length=1.5):
+    """A pendulum in x and y on a rod."""
+    s = lg.System("rod")
+    g, m, l = s.parameter("g", G), s.parameter("m", 2.0), s.parameter("l", length)
+    x, y = s.coordinate("x"), s.coordinate("y")
+    at = s.origin + (x, y)
+    s.particle(m, at=at, name="bob")
+    s.gravity((0, -1), g)
+    s.constraint(between=(at, s.origin), distance=l, name="rod")
+    return s
+
+
+def cart_pole(*, redundant):
+    """A pole on a cart; with redundant coordinates the bob has coordinates of its own, and a pin at the pole."""
+    s = lg.System("cart-pole")
+    numbers = {"M": 1.2, "m": 0.3, "l": 0.7, "g": G, "b": 0.2, "J": 0.02}
+    M, m, l, g, b, J = (s.parameter(name, value) for name, value in numbers.items())
+    F = s.input("F")
+    x, theta = s.coordinate("x"), s.coordinate("theta")
+    cart = s.origin + (x, 0)
+    tip = at = s.origin + (x + l * sp.sin(theta), l * sp.cos(theta))
+    if redundant:
+        X, Y = s.coordinate("X"), s.coordinate("Y")
+        at = s.origin + (X, Y)
+        s.constraint(between=(at, tip), name="pin")
+    s.particle(M, at=cart, name="cart")
+    s.rigid_body(m, J, at=at, frame=s.frame(theta), name="bob")
+    s.gravity((0, -1), g)
+    s.force((F, 0), at=cart)
+    s.damper(b, deflection=x)
+    return s
+
+
+def slider_crank():
+    """A crank with a weight, a rod without mass of its own worth mentioning, and a piston that a force pushes."""
+    s = lg.System("slider-crank")
+    numbers = {"r": 0.05, "l": 0.15, "m": 2.0, "g": G}
+    r, l, m, g = (s.parameter(name, value) for name, value in numbers.items())
+    F = s.input("F")
+    phi, psi, x = (s.coordinate(name) for name in ("phi", "psi", "x"))
+    pin = s.origin + (r * sp.cos(phi), r * sp.sin(phi))
+    end = pin + (l * sp.cos(psi), l * sp.sin(psi))
+    piston = s.origin + (x, 0)
+    s.rigid_body(m, 0.001, at=pin, frame=s.frame(phi), name="crank")
+    s.rigid_body(1e-6, 1e-6, at=pin, frame=s.frame(psi), name="connecting rod")
+    s.particle(0.4, at=piston, name="piston")
+    s.gravity((0, -1), g)
+    s.force((-F, 0), at=piston)
+    s.constraint(between=(end, piston), name="loop")
+    return s
+
+
+def disc():
+    """A thin disc that rolls without slip (Neimark and Fufaev, Dynamics of Nonholonomic Systems, 1972)."""
+    s = lg.System("disc")
+    numbers = {"m": 1.0, "r": 0.3, "I": 0.0225, "K": 0.045, "g": G}
+    m, r, I, K, g = (s.parameter(name, value) for name, value in numbers.items())
+    x, y, psi, theta, phi = (s.coordinate(name) for name in ("x", "y", "psi", "theta", "phi"))
+    heading = s.frame(psi, axis=(0, 0, 1))
+    leaning = s.frame(theta, axis=(1, 0, 0), parent=heading)
+    turning = s.frame(phi, axis=(0, 1, 0), parent=leaning)
+    contact = s.origin + (x, y, 0)
+    body = s.rigid_body(m, (I, K, I), at=leaning.point(0, 0, r, at=contact), frame=turning, name="disc")
+    s.gravity((0, 0, -1), g)
+    s.rolling(body, at=contact, along=[(1, 0, 0), (0, 1, 0)], name="floor")
+    return s, numbers
+
+
+def sleigh():
+    """A knife edge on a table that slopes along x."""
+    s = lg.System("sleigh")
+    m, J, w = s.parameter("m", 1.5), s.parameter("J", 0.2), s.parameter("w", 3.0)
+    x, y, theta = (s.coordinate(name) for name in ("x", "y", "theta"))
+    at = s.origin + (x, y)
+    s.rigid_body(m, J, at=at, frame=s.frame(theta), name="sleigh")
+    s.force((w, 0), at=at)
+    s.velocity_constraint(y.diff() * sp.cos(theta) - x.diff() * sp.sin(theta), name="edge")
+    return s
