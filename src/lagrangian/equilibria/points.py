@@ -27,6 +27,7 @@ class Equilibrium(Brief):
     ``residual`` is the largest |h|, relative to the size of h in the box; ``stability`` is the verdict. In a family of
     equilibria this is the one nearest to 0: ``moves`` names the coordinates that change along the family, and
     ``dimension`` is its dimension, 0 for an isolated equilibrium. ``starts`` counts the starting points that led here.
+    ``multipliers`` are λ of the rows of constraints; if rows depend on each other, they are one choice among several.
     """
 
     at: Mapping[str, float]
@@ -37,6 +38,7 @@ class Equilibrium(Brief):
     starts: int = 0
     moves: tuple[str, ...] = ()
     dimension: int = 0
+    multipliers: Mapping[str, float] = field(default_factory=dict[str, float])
 
     def __getitem__(self, name: str) -> float:
         """The value of a coordinate or rate."""
@@ -108,6 +110,7 @@ def equilibria_report(found: Equilibria) -> Report[Model]:
             text(f"{k}: {e.stability.reason[0].upper()}{e.stability.reason[1:]}.{_family(e)}")
             for k, e in enumerate(found)
         ]
+        items += [text(f"The constraints push at {k}: {_pushes(e)}.") for k, e in enumerate(found) if e.multipliers]
         items.append(text(f"Forces balance there to {scientific(EXACT, 1)} of their own size in the box."))
     items += [text(note[0].upper() + note[1:] + ".") for note in found.notes]
     sides: list[Any] = []
@@ -123,6 +126,10 @@ def equilibria_report(found: Equilibria) -> Report[Model]:
 def _shown(found: Equilibria, e: Equilibrium, name: str) -> str:
     free = any(name in direction for direction in found.free) and name in found.held
     return "free" if free else figure(e.at[name]) + (" *" if name in e.moves else "")
+
+
+def _pushes(e: Equilibrium) -> str:
+    return ", ".join(f"λ of '{name}' = {figure(value)}" for name, value in e.multipliers.items())
 
 
 def _family(e: Equilibrium) -> str:
@@ -147,6 +154,7 @@ def data(found: Equilibria) -> dict[str, Any]:
                 "reason": e.stability.reason,
                 "starts": e.starts,
                 "family": {"dimension": e.dimension, "moves": list(e.moves)} if e.dimension else None,
+                **({"multipliers": dict(e.multipliers)} if e.multipliers else {}),
             }
             for e in found
         ],

@@ -1,4 +1,4 @@
-"""Finds all equilibria in a box, the roots of h(q) = G(q) − Ξ(q, u) = 0 at q̇ = 0.
+"""Finds all equilibria in a box, the roots of h(q) = G(q) − Ξ(q, u) = 0 at q̇ = 0; with constraints see `rows`.
 
 Damped Newton steps with the exact ∂h/∂q start from many points, in rounds, until every root was found several times and
 a round finds nothing new. Directions on which h does not depend are held; roots that are not isolated form a family.
@@ -21,6 +21,7 @@ from lagrangian.equilibria.box import Box, make_box
 from lagrangian.equilibria.families import Family, split
 from lagrangian.equilibria.points import Equilibria, Equilibrium
 from lagrangian.equilibria.roots import EXACT, Forces, Search, distinct, starting_points
+from lagrangian.equilibria.rows import LARGE, HeldForces
 from lagrangian.errors import RunError
 from lagrangian.graph import Graph, Output, Program
 from lagrangian.linear.echelon import null_space, reduced
@@ -29,6 +30,7 @@ from lagrangian.linear.linearize import TIMES, Linearizer
 from lagrangian.linear.manifold import point_words
 from lagrangian.linear.stability import Stability
 from lagrangian.model import Model
+from lagrangian.model.rows import named_conditions
 from lagrangian.values.values import Given, Named
 
 _log = logging.getLogger(__name__)
@@ -49,9 +51,6 @@ MANY = 8
 
 SINGULAR = 1e-13
 """An eigenvalue of M, in widths of the box, below this fraction of the largest counts as zero."""
-
-LARGE = 1e100
-"""The value that replaces one that is not finite."""
 
 
 def equilibria(
@@ -107,6 +106,7 @@ class _Task:
     linearizer: Linearizer
     u: Array
     p: Array
+    held_forces: HeldForces | None = None
 
     def equilibrium(self, q: Array, hits: Mapping[bytes, int], family: Family | None = None) -> Equilibrium | None:
         """An equilibrium with its verdict; None if it is outside the box, or is not an equilibrium at other times."""
@@ -126,6 +126,7 @@ class _Task:
             starts=count,
             moves=() if family is None else tuple(names[k] for k in family.moving),
             dimension=0 if family is None else family.dimension,
+            multipliers={} if self.held_forces is None else self.held_forces.multipliers(q),
         )
 
     def _stability(self, x: Array) -> Stability:
@@ -140,7 +141,17 @@ class _Task:
         M = self.linearizer.values(self.linearizer.mass, q=q, v=np.zeros_like(q), u=self.u, p=self.p, t=0.0)["M"]
         if not np.isfinite(M).all():
             return True
-        sized = np.linalg.eigvalsh(M * np.outer(self.search.width, self.search.width))
+        width = self.search.width
+        if self.linearizer.manifold is not None:
+            try:
+                tangent = self.linearizer.manifold.tangent(np.concatenate([q, 0 * q]), self.p, 0.0)
+            except RunError:  # the verdict says that the constraints leave more than one way there
+                return False
+            width = np.array([width[k - len(q)] for k in tangent.kept[tangent.positions :]])
+            M = tangent.speeds.T @ M @ tangent.speeds
+        sized = np.linalg.eigvalsh(M * np.outer(width, width))
+        if not len(sized):
+            return False
         return bool(sized.min() < SINGULAR * np.abs(sized).max())
 
     def moves_no_mass(self, q: Array) -> str:
@@ -153,6 +164,10 @@ class _Task:
         if not self.linearizer.rests_change:
             return True
         for t in TIMES:
+            if self.held_forces is not None:
+                if np.abs(self.held_forces(q[None], t)[0]).max(initial=0.0) > 1e3 * EXACT:
+                    return False
+                continue
             h = self.linearizer.values(program, q=q, v=np.zeros_like(q), u=self.u, p=self.p, t=t)["h"]
             if np.abs(h / self.search.scale).max(initial=0.0) > 1e3 * EXACT:
                 return False
@@ -170,15 +185,20 @@ def _prepared(model: Model, inputs: Named | None, params: Named | None, asked: M
             fix="describe its orientation by three angles instead (frames about axes)",
             code="E202",
         )
-    forces = _kernel(program, u, p)
     box = make_box(given, program.inputs["q"], asked, _turning(linearizer, u, p))
-    h, K = forces(starting_points(64, box.low, box.high))
-    scale, width = _scale(h), box.high - box.low
+    starts, held_forces = starting_points(64, box.low, box.high), None
+    if linearizer.manifold is None:
+        forces = _forces(program, u, p)
+    else:
+        forces = held_forces = HeldForces.of(linearizer, _kernel, starts, u, p, _scale)
+    h, K = forces(starts)
+    scale, width = np.ones(h.shape[1]) if held_forces else _scale(h), box.high - box.low
     good = K[(K != 0).any(axis=(1, 2)) & (np.abs(h) < LARGE).all(axis=1)]
     directions, held = reduced(null_space((good / scale[:, None] * width).reshape(-1, len(width))) * width)
     seek = np.array([k for k in range(len(width)) if k not in held], np.int64)
     free = tuple({box.names[k]: float(x) for k, x in enumerate(row) if x} for row in directions)
-    return _Task(model, box, Search(forces, box.centre(), seek, scale, width, box.turns), free, held, linearizer, u, p)
+    search = Search(forces, box.centre(), seek, scale, width, box.turns)
+    return _Task(model, box, search, free, held, linearizer, u, p, held_forces)
 
 
 def _turning(linearizer: Linearizer, u: Array, p: Array) -> NDArray[np.bool_]:
@@ -201,7 +221,11 @@ def _turning(linearizer: Linearizer, u: Array, p: Array) -> NDArray[np.bool_]:
 def _all_forces(linearizer: Linearizer, q: Array, u: Array, p: Array) -> Array:
     groups = {"q": q, "v": np.zeros_like(q), "u": u, "p": p, "t": 0.0}
     got = values(linearizer.forces, **groups)
-    return np.concatenate([got["h"], got["K"].ravel(), values(linearizer.mass, **groups)["M"].ravel()])
+    found = [got["h"], got["K"].ravel(), values(linearizer.mass, **groups)["M"].ravel()]
+    if linearizer.manifold is not None:
+        rows = linearizer.manifold.at(np.concatenate([q, np.zeros_like(q)]), p, 0.0)
+        found += [rows["f"], rows["A"].ravel()]
+    return np.concatenate(found)
 
 
 def _sought(task: _Task, asked: int | None) -> tuple[Array, dict[bytes, int], int, bool]:
@@ -262,7 +286,14 @@ def _notes(
     if outside:
         why = "or do not rest at other times" if task.linearizer.rests_change else "that was given"
         listed.append(f"{outside} more lie outside the box {why}")
-    if not found:
+    rows = [row.name for row in named_conditions(task.model) if not row.condition.on_positions]
+    if rows:
+        which = "the constraint" if len(rows) == 1 else "the constraints"
+        said = ", ".join(f"'{name}'" for name in rows[:6])
+        listed.append(f"{which} on velocities, {said}, can hold forces and fix no coordinate: rests form families")
+    if not found and task.held_forces is not None:
+        listed.append(f"there is no {'other ' if left_out else ''}rest in the box that satisfies the constraints")
+    elif not found:
         h, _ = task.search.forces(starting_points(256, task.box.low, task.box.high))
         one_sided = [n for n, row in zip(task.box.names, h.T, strict=True) if (row > 0).all() or (row < 0).all()]
         why = f": the force on {one_sided[0]} has one sign everywhere, nothing balances it" if one_sided else ""
@@ -280,14 +311,19 @@ def _scale(h: Array) -> Array:
     return np.where(size > 1e-12 * largest, size, largest)
 
 
-def _kernel(program: Program, u: Array, p: Array) -> Forces:
-    """h and K at rest in machine code; where they are not finite, h is `LARGE` and K is 0, so that no step leads on."""
+def _kernel(program: Program, *names: str) -> machine.Kernel:
+    """Some outputs in machine code, `LARGE` where they are not finite."""
     g = program.graph
     outputs = {
         name: Output(tuple(_guarded(g, i) for i in program.outputs[name].ids), program.outputs[name].shape)
-        for name in ("h", "K")
+        for name in names
     }
-    kernel = machine.compile(Program("rest", g, program.inputs, outputs, program.defaults))
+    return machine.compile(Program("rest", g, program.inputs, outputs, program.defaults))
+
+
+def _forces(program: Program, u: Array, p: Array) -> Forces:
+    """h and K at rest in machine code; where they are not finite, h is `LARGE` and K is 0, so that no step leads on."""
+    kernel = _kernel(program, "h", "K")
 
     def forces(q: Array) -> tuple[Array, Array]:
         got = kernel(q, np.zeros_like(q), u, p, 0.0)

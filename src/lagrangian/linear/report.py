@@ -123,8 +123,9 @@ def _matrices(linear: LinearModel) -> Part:
 
 def _second_order(linear: LinearModel) -> Part:
     matrices = ((M, linear.mass), (D, linear.damping), (K, linear.stiffness), (S, linear.input_matrix))
+    own = linear.states[: 0 if linear.mass is None else len(linear.mass)]
     rates = (M, " δ", Name(q.base, "", 2), " + ", D, " δ", Name(q.base, "", 1), " + ", K, " δ", q, " = ", S, " δ", u)
-    items: list[Item] = [text(*rates, ", with"), _ordered(linear, q, linear.states[: len(linear.mass or ())])]
+    items: list[Item] = [text(*rates, ", with"), _ordered(linear, q, own)]
     items += [formula(name, matrix(found)) for name, found in matrices if found is not None and found.size]
     return Part(text("Small motions"), tuple(items))
 
