@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 import sympy as sp
-from constrained_systems import G, cart_pole, disc, rod, sleigh, slider_crank
 
 import lagrangian as lg
+from constrained_systems import G, cart_pole, disc, rod, sleigh, slider_crank
 from lagrangian.errors import RunError
 from lagrangian.linear.manifold import pivots
 
