@@ -24,7 +24,7 @@ MORE_STEPS = 8
 """The largest number of further steps on positions: usually 0 for a step of a run, a few for a start."""
 
 ROUNDING = 2.0**-43
-"""Up to this residual, divided by the row's scale, a correction is no sign of a step's error."""
+"""Up to this residual, in the largest entry of the state or 1, a correction is no sign of a step's error."""
 
 
 NEARLY_DEPENDENT = 1e-6

@@ -123,7 +123,8 @@ class Projected:
         change = moved - solver.y
         scale = self.atol + self.rtol * np.maximum(np.abs(before), np.abs(moved))
         size = float(np.sqrt(np.mean((change / scale) ** 2)))
-        if np.isfinite(size) and (max(seen["before"], seen["gap"]) <= ROUNDING or seen["margin"] < NEARLY_DEPENDENT):
+        rounding = ROUNDING * max(1.0, float(np.abs(moved).max()))
+        if np.isfinite(size) and (max(seen["before"], seen["gap"]) <= rounding or seen["margin"] < NEARLY_DEPENDENT):
             size = 0.0
         if not size <= 1.0:
             return size, False

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lagrangian.codegen.ir import Value
+from lagrangian.codegen.ir import Function, Value
 from lagrangian.integrate.projection import (
     CLOSED,
     DRIFT,
@@ -35,6 +35,12 @@ SHORTER = 0.5
 
 UNKNOWN = "0x7FF8000000000000"
 """The value of a time that is not known yet."""
+
+
+def _greater(f: Function, most: Value, entry: Value) -> Value:
+    """The greater of a number and the magnitude of another."""
+    size = f.intrinsic("fabs", entry)
+    return f.select(f.compare("olt", most, size), size, most)
 
 
 class Projector:
@@ -164,7 +170,10 @@ class Projector:
         (total,) = p.fold(add, [0.0], s.x, x, s.atol, self.moved)
         size = f.intrinsic("sqrt", total * (1.0 / p.size))
         gap, speed, rest = p.load(self.gap), self._seen("gap"), self._seen("left")
-        small = f.logic("and", f.compare("ole", gap, ROUNDING), f.compare("ole", speed, ROUNDING))
+        # rounding grows with the state: of speeds of thousands, residuals of 1e-12 are left
+        (largest,) = p.fold(lambda most, entry: (_greater(f, most, entry),), [1.0], x)
+        rounding = largest * ROUNDING
+        small = f.logic("and", f.compare("ole", gap, rounding), f.compare("ole", speed, rounding))
         if self.tells:
             small = f.logic("or", small, f.compare("olt", self._seen("margin"), NEARLY_DEPENDENT))
         error = p.load(self.size)
