@@ -1,4 +1,4 @@
-"""Guards: where a divisor is nothing but rounding, one beyond all numbers stands for it, ``select(c, d, 1e300)``.
+"""Guards: where a divisor is nothing but rounding, one beyond all numbers stands for it, ``select(c, d, 1e150)``.
 
 They are no kinks and no jumps. Where the motion satisfies its rows, a result changes at a guard by rounding alone, and
 within a step its condition c does not change.
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from lagrangian.graph import Program, reached
 
-UNBOUNDED = 1e300
+UNBOUNDED = 1e150
 """Divisors from here on stand for none: the quotient is 0 to every purpose."""
 
 
