@@ -103,6 +103,11 @@ class Code(StrEnum):
         "a position that contains a rate or a kink",
         "A position may depend on coordinates, parameters and t, and must have two derivatives.",
     )
+    E310 = (
+        "E310",
+        "friction whose share cannot be told",
+        "What sticks is a constraint; where others hold the same direction, only the sum of their forces is known.",
+    )
     E401 = (
         "E401",
         "something is missing",

@@ -10,6 +10,7 @@ from lagrangian.model import (
     Builder,
     Constraint,
     Frame,
+    Friction,
     Pin,
     Point,
     RigidBody,
@@ -112,3 +113,34 @@ class Constrained(Guided):
     def rope(self, through: Sequence[Point], length: object, *, name: str = "") -> Rope:
         """Add a taut rope of fixed ``length`` [m] through points: Σ |r_{k+1} − r_k| = length; its tension is −λ [N]."""
         return self._builder.add(Rope(through=through, length=length, name=name))
+
+    def friction(
+        self,
+        mu: object = None,
+        *,
+        normal: object = None,
+        limit: object = None,
+        static: object = None,
+        viscous: object = None,
+        between: Sequence[Point] | None = None,
+        deflection: object = None,
+        name: str = "",
+    ) -> Friction:
+        """Add dry friction along a deflection δ: it slips with −F sign(δ̇) − b δ̇, or it sticks while |λ| ≤ F_s.
+
+        F [N or N m] is ``mu`` times the ``normal`` force, or ``limit``; ``static`` is the coefficient or the limit at
+        rest if it is higher; ``viscous`` is b. Nothing is smoothed: while it sticks, δ̇ = 0 is a constraint with the
+        multiplier λ, and a run finds the times at which it begins to stick and to slip.
+        """
+        return self._builder.add(
+            Friction(
+                mu=mu,
+                normal=normal,
+                limit=limit,
+                static=static,
+                viscous=viscous,
+                between=between,
+                deflection=deflection,
+                name=name,
+            )
+        )

@@ -19,6 +19,7 @@ from lagrangian.dynamics.constraint_programs import (
 from lagrangian.dynamics.describe import describe
 from lagrangian.dynamics.description import Inputs
 from lagrangian.dynamics.feedback import SUPPLY, balance_terms_closed, closed, observe_closed, power_closed
+from lagrangian.dynamics.friction import Modes, Watch, regime, verdict, watched, watches
 from lagrangian.dynamics.impacts import impacts
 from lagrangian.dynamics.loose import loose, moving_no_mass
 from lagrangian.dynamics.mechanics import Mechanics
@@ -47,8 +48,10 @@ __all__ = [
     "Bodies",
     "Inputs",
     "Mechanics",
+    "Modes",
     "Motion",
     "ReactionProgram",
+    "Watch",
     "balance_terms_closed",
     "bias",
     "body_numbers",
@@ -87,7 +90,11 @@ __all__ = [
     "pushed_bias",
     "rates",
     "reaction",
+    "regime",
     "residual",
     "rhs",
     "velocities",
+    "verdict",
+    "watched",
+    "watches",
 ]

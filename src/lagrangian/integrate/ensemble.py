@@ -86,6 +86,8 @@ def solver_of(study: Study, threads: int | None) -> Any:
         given = {"events": study.events, "projection": study.projection}
         return Solver(study.program, study.method, threads=threads, **given)
 
+    if study.solver is not None:
+        return study.solver
     if study.events is not None:
         return made()
     corrects = None if study.projection is None else study.projection.corrects

@@ -95,7 +95,7 @@ class Study:
     ``times`` (S,) are those of the samples. ``projection`` keeps runs on their rows. ``signals`` are inputs that change
     with time and are the same for all runs. ``canonical``: if ``program`` is over [q; p], the programs x → p and
     [q; p] → v. A run whose parameters ``fitness`` refuses is not started. ``options`` are passed to the solver (rtol,
-    atol, step, …).
+    atol, step, …). ``solver``: what integrates if it is not a `Solver` of ``program``, with the same method ``solve``.
     """
 
     program: Program
@@ -111,6 +111,7 @@ class Study:
     canonical: tuple[Program, Program] | None = None
     fitness: Fitness | None = None
     options: Mapping[str, Any] = field(default_factory=dict)
+    solver: Any = None
 
     @property
     def whole(self) -> bool:

@@ -14,7 +14,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
-from lagrangian.model.elements import Body, Element, Words
+from lagrangian.model.elements import Body, Element, Friction, Words
 from lagrangian.model.geometry import Frame, Point
 from lagrangian.model.names import time
 from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, Velocity
@@ -65,6 +65,11 @@ class Model(Brief):
     def constraints(self) -> tuple[Element, ...]:
         """The constraints, in order: joints that close loops, expressions, no slip."""
         return tuple(e for e in self.elements if e.ledger == "λ")
+
+    @cached_property
+    def frictions(self) -> tuple[Friction, ...]:
+        """Dry friction, in order: what slips or sticks."""
+        return tuple(e for e in self.elements if isinstance(e, Friction))
 
     @cached_property
     def floating(self) -> tuple[Frame, ...]:

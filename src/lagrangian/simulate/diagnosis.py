@@ -67,6 +67,8 @@ def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
                 f"[E505] gave up after {task.bounds.max_steps} steps",
                 Advice("a shorter run, a larger ", Argument("max_steps"), ", or ", RADAU),
             )
+        case RunStatus.ZENO | RunStatus.CROWDED if task.model.frictions:
+            return said, Advice("a shorter run, or a larger ", Argument("max_events"))
         case RunStatus.ZENO:
             return (
                 f"[E505] event '{_last_event(task, outcome)}' repeats itself without end: {len(outcome.hits)} events, "

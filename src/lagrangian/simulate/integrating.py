@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from lagrangian import codegen as machine
 from lagrangian import dynamics
 from lagrangian.graph import Output, Program, jacobian
-from lagrangian.integrate import Events, Projection, RunStatus, Signals, Solver
+from lagrangian.integrate import Events, Projection, RunStatus, Signals, Solution, Solver
 from lagrangian.integrate.crossings import Crossings, Hit
 from lagrangian.integrate.scipy_methods import IMPLICIT, SCIPY, Bounds, Outcome, integrate_scipy
 from lagrangian.model import Model
@@ -173,12 +173,17 @@ def _by_machine(task: Task) -> Outcome:
         rtol=task.rtol,
         atol=task.atol,
     )
+    return outcome_of(task, found)
+
+
+def outcome_of(task: Task, found: Solution) -> Outcome:
+    """The only run of a solution, as far as its states are finite."""
     states = found.states[0]
     whole = np.isfinite(states).all(axis=1)
     kept = len(whole) if whole.all() else int(np.argmin(whole))
     status = RunStatus(int(found.status[0]))
     outcome = Outcome(
-        times[:kept],
+        task.times[:kept],
         states[:kept],
         status,
         float(found.reached[0]),

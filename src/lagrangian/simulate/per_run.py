@@ -17,6 +17,7 @@ from lagrangian.integrate import METHODS, Events, Signals
 from lagrangian.integrate.observe import REDUCTIONS, EventsKept, Kept, Study
 from lagrangian.model import Model
 from lagrangian.page.plain import plain
+from lagrangian.simulate import slipping
 from lagrangian.simulate.drift import check_method
 from lagrangian.simulate.events import listed_events
 from lagrangian.simulate.inputs import InputSignals
@@ -65,6 +66,7 @@ def study_of(
     expressions, kept = _kept(model, recording.outputs, recording.reduce)
     events, events_kept = _events(model, settings, recording, drive)
     check_method(model, method)
+    slipping.check_method(model, method)
     signals = None if drive.constant else Signals(*drive.pieces(float(times[0]), float(times[-1])))
     canonical, feedback = method in SYMPLECTIC, frozenset(drive.feedback.items())
     make = dynamics.canonical if canonical else dynamics.closed
@@ -88,6 +90,7 @@ def study_of(
         if canonical
         else None,
         options=_accuracy(settings, method),
+        solver=slipping.solver_of_runs(model, settings, method, drive, expressions) if model.frictions else None,
     )
     return study, expressions
 

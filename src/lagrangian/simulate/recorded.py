@@ -109,6 +109,7 @@ class Recorded(Guided):
     settings: Mapping[str, Any]
     notices: tuple[Notice, ...] = ()
     drift: RunDrift | None = None
+    modes: Mapping[str, NDArray[np.int8]] = field(default_factory=dict[str, NDArray[np.int8]])
 
     # -- quantities ---------------------------------------------------------------------------------------------
 
@@ -155,12 +156,27 @@ class Recorded(Guided):
         """Return several expressions or points at once, by name."""
         asked = {k: x if isinstance(x, Point) else as_expr(x, f"'{k}'") for k, x in outputs.items()}
         key = ("observe", tuple(asked.items()), frozenset(self.feedback.items()))
-        return self._evaluated(key, lambda: dynamics.observe_closed(self.model, asked, self.feedback))
+        return self._evaluated(key, lambda model: dynamics.observe_closed(model, asked, self.feedback))
 
-    def _evaluated(self, key: Any, make: Callable[[], Program]) -> dict[str, Array]:
-        """The outputs of a program at every time; it is compiled only once for all runs of the system."""
-        kernel: machine.Kernel = remembered(self.model, key, lambda: machine.compile(make()))
-        answer = kernel(np.ascontiguousarray(self.y.T), self.u, self.p, self.t)
+    def _evaluated(self, key: Any, make: Callable[[Model], Program]) -> dict[str, Array]:
+        """The outputs of a program at every time; it is compiled only once for all runs of the system.
+
+        With friction, a sample is evaluated with the equations of its regime.
+        """
+        if not self.modes:
+            return self._evaluated_in(self.model, key, make, slice(None))
+        regimes, which = np.unique(np.array(list(self.modes.values())).T, axis=0, return_inverse=True)
+        found: dict[str, Array] = {}
+        for k, modes in enumerate(regimes.tolist()):
+            at = np.flatnonzero(which.reshape(-1) == k)
+            for name, values in self._evaluated_in(dynamics.regime(self.model, tuple(modes)), key, make, at).items():
+                found.setdefault(name, np.empty((len(self.t), *values.shape[1:])))[at] = values
+        return found
+
+    def _evaluated_in(self, model: Model, key: Any, make: Callable[[Model], Program], at: Any) -> dict[str, Array]:
+        """The outputs of a program of a model at some of the times."""
+        kernel: machine.Kernel = remembered(model, key, lambda: machine.compile(make(model)))
+        answer = kernel(np.ascontiguousarray(self.y.T[at]), self.u[at], self.p, self.t[at])
         return answer if isinstance(answer, dict) else {next(iter(kernel.program.outputs)): answer}
 
     # -- energies -----------------------------------------------------------------------------------------------
@@ -168,7 +184,7 @@ class Recorded(Guided):
     @cached_property
     def _power(self) -> dict[str, Array]:
         key = ("power", frozenset(self.feedback.items()))
-        return self._evaluated(key, lambda: dynamics.power_closed(self.model, self.feedback))
+        return self._evaluated(key, lambda model: dynamics.power_closed(model, self.feedback))
 
     @property
     def kinetic(self) -> Array:

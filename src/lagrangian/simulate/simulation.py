@@ -19,7 +19,7 @@ from lagrangian.integrate import METHODS
 from lagrangian.integrate.crossings import Hit
 from lagrangian.integrate.scipy_methods import SCIPY, Bounds, Outcome
 from lagrangian.model import Model
-from lagrangian.simulate import drift
+from lagrangian.simulate import drift, slipping
 from lagrangian.simulate.admission import check_masses
 from lagrangian.simulate.diagnosis import message
 from lagrangian.simulate.disagreement import disagreement
@@ -67,6 +67,7 @@ def simulate(
     check_covers(drive, float(instants[0]), float(instants[-1]))
     name = _method(settings.method, drive)
     drift.check_method(model, name)
+    slipping.check_method(model, name)
     rtol, atol = settings.of_a_step()
     longest = float(settings.max_step)
     p = given.parameter_values(params)
@@ -88,8 +89,11 @@ def simulate(
         Bounds(settings.max_steps, settings.max_events, longest, settings.timeout),
         settings.project,
     )
-    outcome = drift.ended(run(task), task)
+    slips = slipping.run(task) if model.frictions else None
+    outcome = drift.ended(run(task) if slips is None else slips.outcome, task)
     made = _trajectory(task, outcome, {"rtol": settings.rtol, "atol": settings.atol})
+    if slips is not None:
+        slips.noted(made)
     said = drift.notices(task, outcome)
     made.notices = (
         *notices,

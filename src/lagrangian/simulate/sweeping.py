@@ -152,6 +152,12 @@ def _done(
     (fit,) = remembered(model, ("fitness", *varied), lambda: (fitness(model, varied),))
     study = replace(study, fitness=fit)
     task = _task(model, varying, drive, study)
+    if model.frictions and execution.scheduler is not None:
+        raise RunError(
+            f"runs with {model.frictions[0].title} are not sent to other machines",
+            fix="leave out scheduler: the runs are computed here, one after another",
+            code="E501",
+        )
     executor, cutting = _executor(execution)
     memory = execution.memory if execution.store is None else min(execution.memory, MAX_CHUNK_BYTES)
     portions = cut(design.shape, study.bytes_per_run, memory=memory, **cutting)

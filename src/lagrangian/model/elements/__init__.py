@@ -9,6 +9,7 @@ from lagrangian.model.elements.base import DEFLECTION, Action, Body, Element, Le
 from lagrangian.model.elements.constraint import Constraint, Restriction
 from lagrangian.model.elements.damper import Damper
 from lagrangian.model.elements.force import Force
+from lagrangian.model.elements.friction import Friction
 from lagrangian.model.elements.gravity import Gravity
 from lagrangian.model.elements.joints import Ball, Pin, Slider, Weld
 from lagrangian.model.elements.particle import Particle
@@ -25,6 +26,7 @@ REGISTRY: dict[str, type[Element]] = {
     "gravity": Gravity,
     "spring": Spring,
     "damper": Damper,
+    "friction": Friction,
     "force": Force,
     "torque": Torque,
     "potential": Potential,
@@ -56,6 +58,7 @@ __all__ = [
     "Entry",
     "FieldKind",
     "Force",
+    "Friction",
     "GeneralizedForce",
     "Gravity",
     "Kinetic",

@@ -1,0 +1,219 @@
+"""Dry friction that sticks: Coulomb's law with a viscous part, between points or on a deflection."""
+
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, Literal
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian import bounded
+from lagrangian.model.elements.answers import ENERGY, ActsOn, Entry, FieldKind, Measure, deflected
+from lagrangian.model.elements.base import (
+    DEFLECTION,
+    XI,
+    Action,
+    Condition,
+    Element,
+    Level,
+    Surroundings,
+    Use,
+    check_ends,
+    difference,
+    norm,
+    pair_ends,
+)
+from lagrangian.model.elements.conditions import Stated
+from lagrangian.model.elements.constraint import Restriction
+from lagrangian.model.geometry import Point, as_expr
+from lagrangian.model.names import time
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Friction(Element):
+    """Dry friction along a deflection δ: it slips with the effort −F sign(δ̇) − b δ̇, or it sticks, δ̇ = 0.
+
+    F [N or N m] is ``limit``, or ``mu`` times ``normal``. Of a ``limit`` or ``normal`` that changes, only the magnitude
+    counts; constant ones must not be negative.
+    While it sticks, its effort is the multiplier λ of the row δ̇ = 0, as long as |λ| ≤ F_s. F_s is F unless ``static``
+    is given: the limit at rest if ``limit`` is given, the coefficient at rest if ``mu`` is; it is not below F.
+    ``viscous`` is b. δ is the distance of two points (``between``) or an expression in coordinates and t
+    (``deflection``; an angle makes F a torque).
+    """
+
+    mu: Any = None
+    normal: Any = None
+    limit: Any = None
+    static: Any = None
+    viscous: Any = None
+    between: Any = None
+    deflection: Any = None
+    sense: sp.Expr | None = field(default=None, repr=False)
+
+    kind: ClassVar[str] = "friction"
+    plural = "Dry friction."
+    about = "Dry friction that slips or sticks, with the limit F or the coefficient mu and a normal force."
+    entries: ClassVar[Mapping[str, Entry]] = {
+        "mu": Entry(FieldKind.EXPRESSION, "Its coefficient while it slips; needs normal."),
+        "normal": Entry(FieldKind.EXPRESSION, "The normal force, whose magnitude counts."),
+        "limit": Entry(FieldKind.EXPRESSION, "The friction force or torque F while it slips, instead of mu."),
+        "static": Entry(FieldKind.EXPRESSION, "The coefficient at rest (with mu), or the limit at rest (with limit)."),
+        "viscous": Entry(FieldKind.EXPRESSION, "The coefficient b of a viscous part b δ̇."),
+        "between": Entry(FieldKind.TWO_POINTS, "The two points that slide along the line through both."),
+        "deflection": Entry(FieldKind.EXPRESSION, "Its deflection δ, instead of two points."),
+    }
+    ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "Ξ"
+    because = ("it takes energy out while it slips and does no work while it sticks: no potential, so it is in ", XI)
+    resists = True
+
+    def __post_init__(self) -> None:
+        if (self.mu is None) == (self.limit is None) or (self.mu is None) != (self.normal is None):
+            given = [key for key in ("mu", "normal", "limit") if getattr(self, key) is not None]
+            raise self._error(
+                f"give either mu and normal, or limit (got {', '.join(given) or 'none'})",
+                fix="mu='mu', normal='m*g' for a coefficient and a normal force; limit='F' for a force or torque",
+                code="E412",
+            )
+        self._set(between=check_ends(self, self.between, self.deflection))
+        for key in ("mu", "normal", "limit", "static", "viscous", "deflection"):
+            value = getattr(self, key)
+            if value is not None:
+                self._set(**{key: as_expr(value, f"the {key} of {self.title}", place=self.place)})
+
+    def suggested_name(self) -> str:
+        """The symbol of its coefficient or limit."""
+        main = self.mu if self.mu is not None else self.limit
+        return getattr(main, "name", "") if main.is_Symbol or main.is_Function else ""
+
+    def uses(self) -> Iterator[Use]:
+        """Coefficients of parameters; the limit and the normal force may contain all that moves, t and inputs."""
+        for key, what in (("mu", "coefficient"), ("static", "value at rest"), ("viscous", "viscous coefficient")):
+            if getattr(self, key) is not None:
+                yield Use(key, what, getattr(self, key), Level.CONSTANT)
+        for key, what in (("normal", "normal force"), ("limit", "limit")):
+            if getattr(self, key) is not None:
+                yield Use(key, what, getattr(self, key), Level.VELOCITY, inputs=True)
+        if self.deflection is not None:
+            yield Use("deflection", "deflection", self.deflection, Level.POSITION)
+
+    def measures(self, model: Surroundings) -> Iterator[Measure]:
+        """With the unit [δ]: limit and normal force J/[δ], viscous coefficient J s/[δ]²; mu is a number."""
+        along = None if self.between else self.deflection
+        if self.mu is not None:
+            yield Measure("coefficient", self.mu, (0, 0, 0))
+            yield Measure("normal force", self.normal, ENERGY, along, -1)
+        else:
+            yield Measure("limit", self.limit, ENERGY, along, -1)
+        if self.static is not None and self.mu is not None:
+            yield Measure("coefficient at rest", self.static, (0, 0, 0))
+        elif self.static is not None:
+            yield Measure("limit at rest", self.static, ENERGY, along, -1)
+        if self.viscous is not None:
+            yield Measure("viscous coefficient", self.viscous, (1, 2, -1), along, -2)
+
+    def acts_on(self) -> ActsOn:
+        """Its ends or its deflection."""
+        return deflected(self.between, self.deflection)
+
+    def points(self) -> Iterator[tuple[str, Point]]:
+        """Its two ends, if it has them."""
+        for point in self.between or ():
+            yield "between", point
+
+    # -- the law ------------------------------------------------------------------------------------------------
+
+    @property
+    def slipping_limit(self) -> sp.Expr:
+        """F [N or N m]: the friction while it slips."""
+        return _magnitude(self.limit) if self.mu is None else self.mu * _magnitude(self.normal)
+
+    @property
+    def sticking_limit(self) -> sp.Expr:
+        """F_s [N or N m]: the greatest |λ| at which it sticks."""
+        if self.static is None:
+            return self.slipping_limit
+        return self.static if self.mu is None else self.static * _magnitude(self.normal)
+
+    def displacement(self, model: Surroundings) -> sp.Expr:
+        """δ [m or rad]; along one fixed line it is the signed separation."""
+        if not self.between:
+            return model.expand(self.deflection)
+        delta = difference(model, *self.between)
+        line = self._line(delta)
+        return norm(delta) if line is None else delta[line]
+
+    def rate(self, model: Surroundings) -> sp.Expr:
+        """δ̇ [m/s or rad/s]."""
+        return bounded.diff(self.displacement(model), time)
+
+    def effort(self, model: Surroundings, rate: sp.Expr) -> sp.Expr:
+        """What acts on δ while it slips: −F sign(δ̇) − b δ̇; in one ``sense`` of slipping, −F · sense − b δ̇."""
+        sense = sp.sign(rate) if self.sense is None else self.sense
+        dry = -self.slipping_limit * sense
+        return dry if self.viscous is None else dry - self.viscous * rate
+
+    def works(self, model: Surroundings) -> tuple[Action, ...]:
+        """One action on the deflection."""
+        rate = self.rate(model)
+        return (Action(self.effort(model, rate), rate, DEFLECTION, self.displacement(model)),)
+
+    def ends(self, model: Surroundings) -> tuple[Action, ...]:
+        """The friction on each end."""
+        if not self.between:
+            return self.works(model)
+        start, end = self.between
+        line = self._line(difference(model, start, end))
+        effort = self.effort(model, self.rate(model))
+        if line is None:
+            return pair_ends(model, start, end, effort)
+        return tuple(
+            Action(sign * effort, model.velocity(point)[line], model.point_words(point), target=point)
+            for sign, point in ((1, end), (-1, start))
+        )
+
+    @staticmethod
+    def _line(delta: tuple[sp.Expr, ...]) -> int | None:
+        """The axis along which alone the two points are apart, if there is one."""
+        moving = [i for i, d in enumerate(delta) if d != 0]
+        return moving[0] if len(moving) == 1 else None
+
+    # -- its two regimes ----------------------------------------------------------------------------------------
+
+    def slipping(self, sense: int) -> Friction:
+        """The same friction while it slips in one sense, ±1: its effort has no jump."""
+        made = self.named(self.name)
+        made._set(sense=sp.Integer(sense))
+        return made
+
+    def sticking(self) -> Stuck:
+        """The row δ̇ = 0 that replaces it while it sticks."""
+        return Stuck(friction=self, name=self.name, place=self.place)
+
+
+def _magnitude(force: sp.Expr) -> sp.Expr:
+    """|force|; one of parameters alone stays as it is, because a run checks that it is not negative."""
+    return sp.Abs(force) if force.has(AppliedUndef, time) else force
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Stuck(Restriction):
+    """A friction that sticks: the row δ̇ = 0, whose multiplier λ is the friction force on δ."""
+
+    friction: Friction
+
+    def acts_on(self) -> ActsOn:
+        """What the friction acts on."""
+        return self.friction.acts_on()
+
+    def points(self) -> Iterator[tuple[str, Point]]:
+        """The ends of the friction."""
+        return self.friction.points()
+
+    def conditions(self, model: Surroundings) -> tuple[Condition, ...]:
+        """δ̇ = 0."""
+        return (Stated(value=self.friction.rate(model), velocity=True),)

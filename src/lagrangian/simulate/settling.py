@@ -1,0 +1,114 @@
+"""Which regime follows a state: every friction at rest that can hold its place sticks, the others slip."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.errors import RunError
+from lagrangian.simulate.regimes import Modes, Regimes
+
+Array = NDArray[np.float64]
+
+NEAR = 1e-9
+"""A friction that broke away by an event sticks again if its force is below the limit by more than this part."""
+
+MOST_AT_ONCE = 6
+"""Up to this many frictions at rest, all their regimes are tried where the direct way finds none."""
+
+
+@dataclass(frozen=True)
+class Crossroads:
+    """A state at which the regime may change; a speed of slip up to ``near`` is rest."""
+
+    regimes: Regimes
+    x: Array
+    u: Array
+    p: Array
+    t: float
+    near: float
+
+    def judged(self, modes: Modes) -> dict[str, Array]:
+        """The verdict of a regime on the state."""
+        return self.regimes.judged(modes, self.x, self.u, self.p, self.t)
+
+    def settled(self, modes: Modes, resting: set[int], forced: Mapping[int, int]) -> Modes:
+        """The regime that follows a state.
+
+        ``resting``: the frictions that may be at rest, besides those that are; ``forced``: those that just broke away.
+        """
+        rates = self.judged(modes)["rate"]
+        arrived = {i for i in range(self.regimes.count) if abs(rates[i]) <= self.near} | resting
+        moving = {i: int(np.sign(rates[i])) for i in range(self.regimes.count) if i not in arrived}
+        start = {**moving, **dict.fromkeys(arrived, 0), **forced}
+        tried: set[Modes] = set()
+        trial = tuple(start[i] for i in range(self.regimes.count))
+        while trial not in tried:
+            tried.add(trial)
+            wrong = self._wrong(trial, arrived, forced)
+            if wrong is None:
+                return trial
+            trial = wrong
+        for trial in self._all(start, sorted(arrived)):
+            if trial not in tried and self._wrong(trial, arrived, forced) is None:
+                return trial
+        raise RunError(
+            f"at t = {self.t:.6g} s no regime of the frictions that are at rest agrees with the forces there",
+            fix="check that no static limit is below the limit while slipping",
+            code="E505",
+        )
+
+    def _all(self, start: Mapping[int, int], arrived: Sequence[int]) -> Iterator[Modes]:
+        """All regimes of the frictions at rest, those in which most stick first."""
+        if len(arrived) > MOST_AT_ONCE:
+            return
+        for chosen in sorted(product((0, -1, 1), repeat=len(arrived)), key=lambda c: sum(map(abs, c))):
+            made = {**start, **dict(zip(arrived, chosen, strict=True))}
+            yield tuple(made[i] for i in range(self.regimes.count))
+
+    def _wrong(self, trial: Modes, arrived: set[int], forced: Mapping[int, int]) -> Modes | None:
+        """None if a regime agrees with the forces in it; else the regime in which what disagrees most is changed."""
+        found = self.judged(trial)
+        effort, most, least = found["effort"], found["most"], found["least"]
+        self._check(most, least)
+        worst, changed = 0.0, None
+        for i in sorted(arrived):
+            if trial[i] == 0:
+                over, mode = abs(effort[i]) - most[i], -int(np.sign(effort[i]))
+                if i in forced and over > -NEAR * most[i]:
+                    over, mode = max(over, NEAR * most[i]), forced[i]
+            else:
+                over, mode = -trial[i] * float(found["change"][i]), 0
+                if i in forced and trial[i] == forced[i] and self._at_limit(trial, i):
+                    continue
+            if over > worst:
+                worst, changed = over, (i, mode)
+        if changed is None:
+            return None
+        return tuple(changed[1] if i == changed[0] else mode for i, mode in enumerate(trial))
+
+    def _at_limit(self, trial: Modes, i: int) -> bool:
+        """Whether a friction that broke away could not hold its place, but for rounding."""
+        stuck = tuple(0 if k == i else mode for k, mode in enumerate(trial))
+        found = self.judged(stuck)
+        return bool(abs(found["effort"][i]) > (1 - NEAR) * found["most"][i])
+
+    def _check(self, most: Array, least: Array) -> None:
+        for friction, high, low in zip(self.regimes.model.frictions, most, least, strict=True):
+            if low < 0:
+                raise RunError(
+                    f"{friction.title} has the limit {low:.6g} at t = {self.t:.6g} s, and friction is not negative",
+                    fix="positive mu, normal and limit",
+                    code="E501",
+                )
+            if high < low * (1 - NEAR):
+                raise RunError(
+                    f"{friction.title} has the limit {high:.6g} at rest, below {low:.6g} while it slips, "
+                    f"at t = {self.t:.6g} s",
+                    fix="static must not be below mu (or limit)",
+                    code="E501",
+                )

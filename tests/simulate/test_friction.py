@@ -1,0 +1,274 @@
+"""Dry friction that sticks, against solutions that are closed piece by piece."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+import sympy as sp
+from scipy.integrate import quad
+from scipy.optimize import brentq
+
+import lagrangian as lg
+
+TIGHT: dict[str, Any] = {"rtol": 1e-12, "atol": 1e-13}
+G = 9.81
+
+
+def first_root(f: Callable[[float], float], start: float, end: float, pieces: int = 20_000) -> float | None:
+    """The first change of sign after ``start``; f may be 0 there."""
+    grid = np.linspace(start, end, pieces + 1)[1:]
+    values = np.array([f(t) for t in grid])
+    at = np.flatnonzero(values[1:] * values[:-1] <= 0)
+    return None if not len(at) else float(brentq(f, grid[at[0]], grid[at[0] + 1], xtol=1e-15, rtol=1e-15))
+
+
+class SwingingBelt:
+    """m ẍ + k x = friction on a belt with the velocity A cos(ω t), each piece in closed form (ẍ = −ω₀² (x ∓ F/k))."""
+
+    m, k, F, A, w = 1.0, 40.0, 2.0, 0.5, 3.0
+
+    def __init__(self, x: float, v: float, end: float) -> None:
+        self.sticks: list[float] = []
+        self.slips: list[float] = []
+        self.pieces: list[tuple[float, Callable[[float], float]]] = []
+        t, stuck = 0.0, abs(v - self.A) == 0
+        while t < end:
+            t, x, v, stuck = self.stick(t, x, end) if stuck else self.slip(t, x, v, end)
+
+    def belt(self, t: float) -> tuple[float, float, float]:
+        """Position, velocity and acceleration of the belt."""
+        A, w = self.A, self.w
+        return A / w * np.sin(w * t), A * np.cos(w * t), -A * w * np.sin(w * t)
+
+    def hold(self, t: float, x: float) -> float:
+        """The force that holds the block on the belt."""
+        return self.k * x + self.m * self.belt(t)[2]
+
+    def stick(self, t: float, x: float, end: float) -> tuple[float, float, float, bool]:
+        """Ride along until the force reaches its limit."""
+
+        def place(s: float, t: float = t, x: float = x) -> float:
+            return x + self.belt(s)[0] - self.belt(t)[0]
+
+        if t > 0:
+            self.sticks.append(t)
+        self.pieces.append((t, place))
+        after = first_root(lambda s: abs(self.hold(s, place(s))) - self.F, t, end + 1)
+        if after is None or after > end:
+            return end, 0.0, 0.0, True
+        self.slips.append(after)
+        return after, place(after), self.belt(after)[1], False
+
+    def slip(self, t: float, x: float, v: float, end: float) -> tuple[float, float, float, bool]:
+        """Vibrate about ∓F/k until the velocities are equal."""
+        w0 = np.sqrt(self.k / self.m)
+        difference = v - self.belt(t)[1]
+        sense = np.sign(difference) if abs(difference) > 1e-9 else -np.sign(self.hold(t, x))
+        centre = -sense * self.F / self.k
+
+        def place(s: float) -> float:
+            return centre + (x - centre) * np.cos(w0 * (s - t)) + v / w0 * np.sin(w0 * (s - t))
+
+        def speed(s: float) -> float:
+            return -(x - centre) * w0 * np.sin(w0 * (s - t)) + v * np.cos(w0 * (s - t))
+
+        self.pieces.append((t, place))
+        after = first_root(lambda s: speed(s) - self.belt(s)[1], t, end + 1)
+        if after is None or after > end:
+            return end, 0.0, 0.0, False
+        stuck = abs(self.hold(after, place(after))) <= self.F
+        if not stuck:  # the slip changes its sense
+            self.slips.append(after)
+        return after, place(after), self.belt(after)[1], stuck
+
+    def __call__(self, t: float) -> float:
+        """The block's position."""
+        return [place for start, place in self.pieces if start <= t][-1](t)
+
+
+def on_belt(**values: float) -> lg.System:
+    s = lg.System("belt")
+    x = s.coordinates("x")
+    b = SwingingBelt
+    m, k, F, A, w = s.parameters("m k F A w", **{"m": b.m, "k": b.k, "F": b.F, "A": b.A, "w": b.w, **values})
+    s.particle(m, s.point("P", (x, 0)))
+    s.spring(k, deflection=x)
+    s.friction(limit=F, deflection=x - A * sp.sin(w * s.t) / w, name="belt")
+    return s
+
+
+@pytest.mark.parametrize("start", [(0.0, 0.5), (0.2, 0.0), (-0.1, 1.0)])
+def test_a_block_on_a_swinging_belt(start: tuple[float, float]) -> None:
+    run = on_belt().simulate(duration=6, initial={"x": start[0], "x'": start[1]}, **TIGHT)
+    exact = SwingingBelt(*start, 6.0)
+    assert len(exact.sticks) > 3 and len(exact.slips) > 3
+    assert run.events["belt sticks"].t == pytest.approx(exact.sticks, abs=1e-9)
+    assert run.events["belt slips"].t == pytest.approx(exact.slips, abs=1e-9)
+    assert run["x"] == pytest.approx([exact(t) for t in run.t], abs=1e-9)
+    assert float(run.audit) < 1e-10
+
+
+def test_accelerations_and_modes_are_those_of_the_regime() -> None:
+    run = on_belt().simulate(duration=6, initial={"x": 0.0, "x'": 0.5}, **TIGHT)
+    b, modes = SwingingBelt, run.modes["belt"]
+    assert set(modes) == {-1, 0, 1}
+    sliding = -b.k * run["x"] - modes * b.F
+    riding = -b.A * b.w * np.sin(b.w * run.t)
+    assert run["x''"] == pytest.approx(np.where(modes == 0, riding, sliding) / b.m, abs=1e-8)
+    assert run["x'"][modes == 0] == pytest.approx(b.A * np.cos(b.w * run.t[modes == 0]), abs=1e-12)
+
+
+def test_a_mass_on_a_spring_loses_an_amplitude_each_half_cycle() -> None:
+    """Each half cycle is a cosine about ∓F/k: the amplitude falls by 2 F/k, until |k x| ≤ F."""
+    s = lg.System("block")
+    x = s.coordinates("x")
+    m, k, F = s.parameters("m k F", m=1, k=100, F=3)
+    s.particle(m, s.point("P", (x, 0)))
+    s.spring(k, deflection=x)
+    s.friction(limit=F, deflection=x, name="floor")
+    run = s.simulate(duration=3, initial={"x": 0.5}, **TIGHT)
+    turns = np.array([(-1) ** n * (0.5 - 0.06 * n) for n in range(9)])  # 0.5 - 0.48 = 0.02 < F/k
+    times = np.arange(1, 9) * np.pi / 10
+    assert run.events["floor sticks"].t == pytest.approx(times[-1:], abs=1e-9)
+    assert run.events["floor slips"].t == pytest.approx(times[:-1], abs=1e-9)
+    assert run["x"][-1] == pytest.approx(turns[-1], abs=1e-9) and run["x'"][-1] == 0
+    assert run.supplied[-1] == pytest.approx(-F_path(turns, 3.0), abs=1e-9)
+
+
+def F_path(turns: Any, F: float) -> float:
+    """The energy lost along a path from turn to turn."""
+    return float(F * np.abs(np.diff(turns)).sum())
+
+
+def pendulum(c: float = 0.5) -> lg.System:
+    s = lg.System("pendulum")
+    theta = s.coordinates("theta")
+    m, L, torque = s.parameters("m L c", m=1, L=1, c=c)
+    s.particle(m, s.point("bob", (L * sp.sin(theta), -L * sp.cos(theta))))
+    s.gravity()
+    s.friction(limit=torque, deflection=theta, name="pivot")
+    return s
+
+
+def swings(start: float, c: float) -> tuple[list[float], list[float]]:
+    """Where and when a pendulum turns: ½ θ̇² = G (cos θ − cos θ₀) − c |θ − θ₀|, and t = ∫ dθ/θ̇."""
+    times, angles = [0.0], [start]
+    while G * abs(np.sin(angles[-1])) > c:
+        a = angles[-1]
+        sense = -np.sign(a)
+
+        def square(x: float, a: float = a) -> float:
+            return 4 * G * np.sin((x + a) / 2) * np.sin((a - x) / 2) - 2 * c * abs(x - a)
+
+        lowest = sense * np.arcsin(c / G) * -1  # where it is fastest
+        b = brentq(square, lowest, -a, xtol=1e-15)
+        middle, half = (a + b) / 2, (b - a) / 2
+
+        def slowness(z: float, middle: float = middle, half: float = half, square: Any = square) -> float:
+            return abs(half) * np.cos(z) / np.sqrt(square(middle + half * np.sin(z)))
+
+        total = quad(slowness, -np.pi / 2, np.pi / 2, epsabs=1e-12, epsrel=1e-12, limit=200)[0]
+        times.append(times[-1] + total)
+        angles.append(b)
+    return times, angles
+
+
+def test_a_pendulum_with_a_dry_pivot() -> None:
+    run = pendulum().simulate(duration=20, initial={"theta": 1.0}, **TIGHT)
+    times, angles = swings(1.0, 0.5)
+    assert len(angles) > 6
+    assert run.events["pivot slips"].t == pytest.approx(times[1:-1], abs=1e-9)
+    assert run.events["pivot slips"].y[0] == pytest.approx(angles[1:-1], abs=1e-9)
+    assert run.events["pivot sticks"].t == pytest.approx(times[-1:], abs=1e-9)
+    assert run["theta"][-1] == pytest.approx(angles[-1], abs=1e-9)
+    assert float(run.audit) < 1e-10
+
+
+def rotor() -> lg.System:
+    s = lg.System("rotor")
+    phi = s.coordinates("phi")
+    J, c, b = s.parameters("J c b", J=0.2, c=0.3, b=0.1)
+    s.rigid_body(1, J, s.origin, s.frame(phi))
+    s.friction(limit=c, viscous=b, deflection=phi, name="bearing")
+    return s
+
+
+def test_runs_of_an_ensemble_stop_where_they_should() -> None:
+    """J ω̇ = −c − b ω stops at (J/b) ln(1 + b ω₀/c), after the angle (J/b)(ω₀ − (c/b) ln(1 + b ω₀/c))."""
+    J, b, speed = 0.2, 0.1, 4.0
+    c = np.array([0.1, 0.3, 0.9])
+    runs = rotor().ensemble(initial={"phi'": [speed] * 3}, params={"c": c}, duration=20, times=3, **TIGHT)
+    log = np.log(1 + b * speed / c)
+    assert runs["final phi"] == pytest.approx(J / b * (speed - c / b * log), abs=1e-9)
+    assert runs.success
+    run = rotor().simulate(duration=5, initial={"phi'": speed}, params={"c": 0.9}, **TIGHT)
+    assert run.events["bearing sticks"].t == pytest.approx([J / b * log[2]], abs=1e-9)
+
+
+def test_a_block_on_an_incline_sticks_below_the_angle_of_friction() -> None:
+    s = lg.System("incline")
+    x = s.coordinates("x")
+    m, alpha, mu, g = s.parameters("m alpha mu g", m=2, alpha=0.3, mu=0.4, g=9.81)
+    s.particle(m, s.point("P", (x * sp.cos(alpha), -x * sp.sin(alpha))))
+    s.gravity(g=g)
+    s.friction(mu, normal=m * g * sp.cos(alpha), static=mu * 1.2, deflection=x, name="plane")
+    for angle in (0.3, np.arctan(0.48) - 1e-6):
+        run = s.simulate(duration=2, params={"alpha": angle}, **TIGHT)
+        assert np.abs(run["x"]).max() == 0 and set(run.modes["plane"]) == {0}
+    for angle in (np.arctan(0.48) + 1e-6, 0.7):
+        run = s.simulate(duration=2, params={"alpha": angle}, **TIGHT)
+        slide = 9.81 * (np.sin(angle) - 0.4 * np.cos(angle))
+        assert run["x"] == pytest.approx(slide * run.t**2 / 2, abs=1e-9)
+
+
+def test_two_blocks_one_on_the_other() -> None:
+    """A force r t pulls the lower one: both rest, then ride together, then the upper one is left behind."""
+    s = lg.System("stack")
+    x, y = s.coordinates("x y")
+    m, M, mu1, mu2, r = s.parameters("m M mu1 mu2 r", m=1, M=3, mu1=0.2, mu2=0.3, r=5)
+    P = s.point("P", (x, 0))
+    s.particle(M, P)
+    s.particle(m, s.point("Q", (y, 0)))
+    s.force((r * s.t, 0), at=P)
+    s.friction(mu1, normal=(m + M) * 9.81, deflection=x, name="ground")
+    s.friction(mu2, normal=m * 9.81, between=(P, s.model.points[1]), name="between")
+    run = s.simulate(duration=8, **TIGHT)
+    F1, a2 = 0.2 * 4 * G, 0.3 * G
+    t1 = F1 / 5
+    t2 = (F1 + 4 * a2) / 5
+    assert run.events["ground slips"].t == pytest.approx([t1], abs=1e-9)
+    assert run.events["between slips"].t == pytest.approx([t2], abs=1e-9)
+    t = run.t
+    together = np.where(t > t1, 5 * (t - t1) ** 3 / 24, 0.0)
+    x2, v2, late = 5 * (t2 - t1) ** 3 / 24, 5 * (t2 - t1) ** 2 / 8, t - t2
+    upper = np.where(late > 0, x2 + v2 * late + a2 * late**2 / 2, together)
+    a1 = (5 * t2 - F1 - 1 * a2) / 3
+    lower = np.where(late > 0, x2 + v2 * late + a1 * late**2 / 2 + 5 * late**3 / 18, together)
+    assert run["x"] == pytest.approx(lower, abs=1e-8) and run["y"] == pytest.approx(upper, abs=1e-8)
+    assert float(run.audit) < 1e-10
+
+
+def test_a_bounce_and_a_step_of_an_input() -> None:
+    """A block slides to a wall, comes back and stops; a force above the limit at rest moves it again at t = 3."""
+    s = lg.System("wall")
+    x = s.coordinates("x")
+    F = s.parameters("F", F=1)
+    u = s.input("u")
+    P = s.point("P", (x, 0))
+    s.particle(1, P)
+    s.force((u, 0), at=P)
+    s.friction(limit=F, static=1.5, deflection=x, name="floor")
+    wall = lg.event(x - 1, direction=1, reset={x.diff(): -0.5 * x.diff()}, name="wall")
+    push = ([0.0, 2.5, 3.0, 6.0], [0.0, -1.4, -1.6, -1.6], "hold")
+    run = s.simulate(duration=5, initial={"x'": 2}, events=[wall], inputs={u: push}, **TIGHT)
+    hit = 2 - np.sqrt(2)  # 2 t − t²/2 = 1
+    back = 0.5 * (2 - hit)
+    assert run.events["wall"].t == pytest.approx([hit], abs=1e-9)
+    assert run.events["floor sticks"].t == pytest.approx([hit + back], abs=1e-9)
+    assert run.events["floor slips"].t == pytest.approx([0.0, hit, 3.0][1:], abs=1e-9)
+    rest = 1 - back**2 / 2
+    assert run["x"][-1] == pytest.approx(rest - 0.6 * 4 / 2, abs=1e-9)
+    assert float(run.audit) < 1e-10
