@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from lagrangian import read
 from lagrangian.calls import worded
 from lagrangian.errors import ModelError, Place
+from lagrangian.model.without_friction import check_no_friction
 from lagrangian.simulated import Simulated
 from lagrangian.viewed import cut
 from lagrangian.write import check_free, write_file
@@ -86,6 +87,7 @@ class System(Simulated):
         from lagrangian.compiled import Compiled
         from lagrangian.values.dimensions import check_dimensions
 
+        check_no_friction(self.model, "there are no compiled functions")
         check_dimensions(self.model)
         return Compiled(self.model, lanes=lanes, threads=threads)
 
@@ -202,6 +204,7 @@ class System(Simulated):
         """
         from lagrangian.compiled import LANGUAGES, sources
 
+        check_no_friction(self.model, "there is nothing to export")
         target = _path(path)
         languages = {suffix: language for language, suffix in LANGUAGES.items()}
         if target.suffix not in languages:

@@ -14,6 +14,7 @@ from lagrangian.cli.formats import as_json
 from lagrangian.cli.terminal import Example, Force, Json, OptionalFile, open_system
 from lagrangian.compiled import sources
 from lagrangian.errors import Error
+from lagrangian.model.without_friction import check_no_friction
 
 
 class Language(StrEnum):
@@ -45,7 +46,9 @@ def export(
     """
     if output.exists() and not output.is_dir():
         raise Error(f"'{output}' is a file, not a folder", fix="name a folder with -o: -o out", code="E801")
-    files = {output / title: text for title, text in sources(open_system(file, example).model, to.value, name).items()}
+    model = open_system(file, example).model
+    check_no_friction(model, "there is nothing to export")
+    files = {output / title: text for title, text in sources(model, to.value, name).items()}
     if output.is_dir():
         for path in files:
             write.check_free(path, overwrite=force)

@@ -16,7 +16,7 @@ from lagrangian.derive.context import Context, big_xi, fit
 from lagrangian.derive.coordinates import chain_of
 from lagrangian.derive.derived import Step
 from lagrangian.derive.ends import find_ends
-from lagrangian.model import DEFLECTION, Action, Damper, Element, Words, time
+from lagrangian.model import DEFLECTION, Action, Damper, Element, Friction, Words, time
 from lagrangian.page.formula import (
     Check,
     Heading,
@@ -137,6 +137,8 @@ def forces(context: Context, found: tuple[Contribution, ...], relative: Mapping[
                     text(big_xi(i), " by virtual work equals ", big_xi(i), " by the box"), difference.is_zero, "exact"
                 )
             )
+    for friction in model.frictions:
+        items += _two_regimes(context, friction)
     dampers = [e for e in acting if e.dissipation(model) is not None]
     if dampers:
         rayleigh, holds = _dampers(context, dampers, found)
@@ -185,6 +187,43 @@ def _virtual_work(context: Context, element: Element) -> list[Item]:
     if str(result) != str(sides[-1]):
         sides.append(result)
     items.append(formula(*sides))
+    return items
+
+
+def _two_regimes(context: Context, friction: Friction) -> list[Item]:
+    """What a friction does while it slips, and the row that takes its place while it sticks."""
+    model = context.model
+    rate = friction.rate(model)
+    lam = sp.Symbol("lambda")
+    shown, limit = context.readable(rate), context.readable(friction.sticking_limit)
+    items: list[Item] = [
+        Heading(text(f"{friction.title[:1].upper()}{friction.title[1:]}: it slips or it sticks")),
+        text("While it slips, ", fit(shown), " is not 0, and its effort on the deflection is"),
+        text(fit(context.readable(friction.effort(model, rate)))),
+        text(
+            "Where that rate reaches 0, it sticks if it can hold: the rate stays 0, which is a constraint, and the "
+            "multiplier ",
+            lam,
+            " of this row takes the place of the effort:",
+        ),
+        formula(fit(shown), sp.S.Zero, brief=True),
+    ]
+    for i, c in enumerate(model.coordinates):
+        slope = bounded.diff(rate, c.rate)
+        if slope != 0:
+            share = context.algebra.form(lam * slope).expr()
+            items.append(text("It then adds ", fit(share), " to ", big_xi(i), "."))
+    items.append(
+        text(
+            "This lasts as long as |",
+            lam,
+            "| is not above ",
+            fit(limit),
+            ". Beyond that it slips, in the direction opposite to ",
+            lam,
+            ".",
+        )
+    )
     return items
 
 

@@ -183,6 +183,10 @@ def closing(
     if any(f.kind == "damping" for row in eqs.terms for f in row):
         items.append(text("The dampers' part of ", Xi, " is written on the left-hand side, with its sign changed."))
     items += [*second_rates(context, rows), *without]
+    for friction in context.model.frictions:
+        items.append(
+            text(f"These hold while {friction.title} slips; step 6 says what takes its place while it sticks.")
+        )
     items.append(Heading(text("Matrix form")))
     q, dq, ddq = Name("q"), Name("q", "", 1), Name("q", "", 2)
     right = Terms((Xi, Product((Name("A transposed"), Name("lambda vector"))))) if rows else Xi

@@ -31,6 +31,7 @@ from lagrangian.linear.manifold import point_words
 from lagrangian.linear.stability import Stability
 from lagrangian.model import Model
 from lagrangian.model.rows import named_conditions
+from lagrangian.model.without_friction import check_no_friction
 from lagrangian.values.values import Given, Named
 
 _log = logging.getLogger(__name__)
@@ -70,6 +71,7 @@ def equilibria(
     """
     if starts is not None and (type(starts) is not int or not 1 <= starts <= 1_000_000):
         raise RunError(f"starts must be a whole number from 1 (got {starts!r})", code="E501")
+    check_no_friction(model, "its equilibria fill regions, and no search finds those")
     task = _prepared(model, inputs, params, box)
     _log.info("equilibria: searching the box")
     found, hits, count, sure = _sought(task, starts)

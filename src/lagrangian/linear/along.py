@@ -15,6 +15,7 @@ from lagrangian.linear.jacobians import rates
 from lagrangian.linear.manifold import Manifold, tangents
 from lagrangian.linear.outputs import measured
 from lagrangian.model import Model
+from lagrangian.model.without_friction import check_no_friction
 from lagrangian.values.values import Given, Named, key_name, number
 from lagrangian.viewed import Brief, cut
 
@@ -78,6 +79,7 @@ def linearize_along(
     time (S,). Raises `RunError` for shapes, names and values that do not fit, for states that do not satisfy the
     constraints, and if no choice of independent states is one at all times.
     """
+    check_no_friction(model, "there is no linearization along a run that changes between both")
     program = rates(model)
     given = Given.of(model, program)
     t, x, own_inputs, own_params = _taken(model, trajectory, program.inputs["x"])

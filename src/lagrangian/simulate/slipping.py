@@ -15,6 +15,7 @@ from lagrangian.errors import RunError
 from lagrangian.integrate import METHODS, RunStatus, Signals
 from lagrangian.integrate.scipy_methods import Outcome
 from lagrangian.model import Model
+from lagrangian.model.rows import multiplier_symbol, named_conditions
 from lagrangian.simulate.events import listed_events
 from lagrangian.simulate.inputs import InputSignals
 from lagrangian.simulate.integrating import SYMPLECTIC, Task, outcome_of, right_hand_side
@@ -46,10 +47,12 @@ def solver_of_runs(
 ) -> StickSlip:
     """What integrates the runs of an ensemble, of which ``expressions`` are observed."""
     for name, expr in expressions.items():
-        if holds_acceleration(model.expand(expr), model):
+        worked = model.expand(expr)
+        rows = {multiplier_symbol(row.name) for row in named_conditions(model)}
+        if holds_acceleration(worked, model) or not rows.isdisjoint(worked.free_symbols):
             raise RunError(
-                f"the output '{name}' contains an acceleration, which depends on what sticks",
-                fix="observe coordinates and rates; simulate gives the accelerations of one run",
+                f"the output '{name}' contains an acceleration or a multiplier, which depend on what sticks",
+                fix="observe coordinates and rates; simulate gives accelerations and multipliers of one run",
                 code="E501",
             )
     events = listed_events(settings.events)

@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, ClassVar, Literal
 
 import sympy as sp
@@ -53,7 +53,6 @@ class Friction(Element):
     viscous: Any = None
     between: Any = None
     deflection: Any = None
-    sense: sp.Expr | None = field(default=None, repr=False)
 
     kind: ClassVar[str] = "friction"
     plural = "Dry friction."
@@ -70,6 +69,8 @@ class Friction(Element):
     ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "Ξ"
     because = ("it takes energy out while it slips and does no work while it sticks: no potential, so it is in ", XI)
     resists = True
+    sense: ClassVar[sp.Expr | None] = None
+    """The sense, ±1, of a friction that is known to slip; otherwise None."""
 
     def __post_init__(self) -> None:
         if (self.mu is None) == (self.limit is None) or (self.mu is None) != (self.normal is None):
