@@ -324,6 +324,7 @@ def test_what_needs_a_smooth_function_is_refused(tmp_path: Any) -> None:
         s.compile,
         s.equilibria,
         lambda: s.export(tmp_path / "pendulum.c"),
+        lambda: s.simulate(duration=1).reaction("bob"),
         lambda: s.linearize_along(s.simulate(duration=1, initial={"theta": 1.0})),
     ):
         with pytest.raises(lg.ModelError, match="E311"):

@@ -20,6 +20,7 @@ from lagrangian.errors import ModelError, NoSuchEntry, Notice, did_you_mean
 from lagrangian.integrate.status import RunStatus
 from lagrangian.model import Element, Model, Point, as_expr
 from lagrangian.model.rows import drive_symbol, multiplier_symbol, named_conditions
+from lagrangian.model.without_friction import check_no_friction
 from lagrangian.simulate.drift import RunDrift
 from lagrangian.simulate.integrating import remembered
 from lagrangian.simulate.quantities import quantity
@@ -249,13 +250,14 @@ class Recorded(Guided):
         Torques and springs that act on a joint's own coordinate are no part of its reaction. Raises `ModelError` for
         what is no joint.
         """
+        check_no_friction(self.model, "reactions are not computed from regime to regime")
         key = ("reaction", joint, on, axes, frozenset(self.feedback.items()))
         made = remembered(
             self.model,
             (*key, "program"),
             lambda: dynamics.reaction(self.model, joint, on, axes, self.feedback, state=True),
         )
-        return worked_out(self.model, made, self._evaluated(key, lambda: made.program))
+        return worked_out(self.model, made, self._evaluated(key, lambda _: made.program))
 
     @cached_property
     def multipliers(self) -> Mapping[str, Array]:
