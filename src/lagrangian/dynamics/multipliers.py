@@ -28,6 +28,9 @@ from lagrangian.dynamics.tape import EliminationTape, Form
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph
 
+ROUNDING = 1e-12
+"""A number below this is what is left of 0, such as cos of a rounded π/2: nothing is divided by it."""
+
 
 class DependentRow(ModelError):
     """A row whose coefficients depend on those of other rows in every state: ``row``, and the node of its ``residual``.
@@ -181,8 +184,8 @@ class RowElimination(Elimination):
     def _divides(self, key: int, a: int) -> bool:
         """Whether a coefficient is a number, or consists of parameters in a row without numbers as coefficients."""
         value = self.graph.value
-        if value(a) is not None:
-            return True
+        if (number := value(a)) is not None:
+            return abs(number) > ROUNDING
         if not self.problem.constant([a]):
             return False
         return not any(i in self.leaves and value(c) is not None for i, c in self.H.rows[key].items())
