@@ -65,4 +65,5 @@ def figures(run: Trajectory) -> dict[str, Any]:
 
 
 def _columns(run: Trajectory) -> Iterator[Column]:
-    yield from (column for column in plot.table(run).columns if "." not in column.name)
+    shown = ("multiplier.", "reaction.")
+    yield from (c for c in plot.table(run).columns if "." not in c.name or c.name.startswith(shown))

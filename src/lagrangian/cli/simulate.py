@@ -8,6 +8,7 @@ from typing import Annotated, Any
 
 import typer
 
+from lagrangian import dynamics
 from lagrangian.cli.assignments import assignments
 from lagrangian.cli.door import fail, put, say
 from lagrangian.cli.formats import as_json
@@ -19,6 +20,7 @@ from lagrangian.cli.terminal import (
     Atol,
     Duration,
     Example,
+    Fixed,
     Force,
     Initial,
     MaxStep,
@@ -49,6 +51,7 @@ def simulate(
     example: Example = None,
     duration: Duration = None,
     init: Initial = None,
+    fixed: Fixed = None,
     set_: Parameters = None,
     input_: Annotated[
         list[str] | None,
@@ -67,6 +70,15 @@ def simulate(
             "-o",
             metavar="PATH",
             help="Write the results to this file (.csv, .nc, .parquet, .npz); - writes CSV to standard output.",
+            rich_help_panel=OUTPUT,
+        ),
+    ] = None,
+    reactions: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--reactions",
+            metavar="NAME[,NAME]",
+            help="Add the forces and torques of joints to the results: constraints, points or bodies by name.",
             rich_help_panel=OUTPUT,
         ),
     ] = None,
@@ -112,9 +124,13 @@ def simulate(
         if path is not None and str(path) != "-":
             check_target(path, list(endings), overwrite=force)
     system = open_system(file, example)
+    asked = [name.strip() for item in reactions or () for name in item.split(",") if name.strip()]
+    for name in asked:
+        dynamics.check_joint(system.model, name)
     run = system.simulate(
         duration,
         initial=assignments(init, "--init"),
+        fixed=fixed,
         params=assignments(set_, "--set"),
         inputs={name: _signal(name, value) for name, value in assignments(input_, "--input").items()},
         method=method,
@@ -127,6 +143,8 @@ def simulate(
         max_steps=max_steps,
         max_events=max_events,
     )
+    if asked:
+        run.reactions = asked
     if plot is not None:
         figure = run.figure()
         kind = plot.suffix.lower().removeprefix(".")

@@ -20,6 +20,7 @@ from lagrangian.cli.terminal import (
     Atol,
     Duration,
     Example,
+    Fixed,
     Force,
     Initial,
     MaxStep,
@@ -65,6 +66,7 @@ def sweep(
         ),
     ] = None,
     initial: Initial = None,
+    fixed: Fixed = None,
     values: Parameters = None,
     inputs: Annotated[
         list[str] | None,
@@ -160,6 +162,7 @@ def sweep(
         duration,
         grid,
         initial=assignments(initial, "--init"),
+        fixed=fixed,
         params=assignments(values, "--set"),
         inputs=assignments(inputs, "--input"),
         draws=draws,

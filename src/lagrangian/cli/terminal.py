@@ -94,6 +94,15 @@ Initial = Annotated[
         help='Initial value of a coordinate or rate: "theta1=30 deg", "x\'=0.1". Repeatable.',
     ),
 ]
+Fixed = Annotated[
+    str | None,
+    typer.Option(
+        "--fixed",
+        metavar="NAME[,NAME]",
+        help="Coordinates that stay as given where constraints move the others at the start.",
+        show_default=False,
+    ),
+]
 Plot = Annotated[
     Path | None,
     typer.Option(

@@ -41,7 +41,7 @@ from lagrangian.dynamics.programs import (
     rates,
     rhs,
 )
-from lagrangian.dynamics.reactions import ReactionProgram, reaction
+from lagrangian.dynamics.reactions import ReactionProgram, check_joint, reaction
 
 __all__ = [
     "SUPPLY",
@@ -57,6 +57,7 @@ __all__ = [
     "body_numbers",
     "canonical",
     "canonical_impacts",
+    "check_joint",
     "closed",
     "configurations",
     "constraint_matrix",

@@ -22,7 +22,7 @@ from lagrangian.dynamics.describe import described
 from lagrangian.dynamics.description import Description
 from lagrangian.dynamics.feedback import with_feedback
 from lagrangian.dynamics.inertia import Inertia, Link, PlaneLink
-from lagrangian.dynamics.joint_names import ClosureSide, Held, found
+from lagrangian.dynamics.joint_names import ClosureSide, Held, JointSide, found
 from lagrangian.dynamics.mechanics import Mechanics
 from lagrangian.dynamics.observe import Observed
 from lagrangian.dynamics.parts import Parts, RigidPart
@@ -87,6 +87,11 @@ def reaction(
     else:
         program = _program(model, "reaction", seen.graph, outputs)
     return ReactionProgram(program, what.sign, what.on, what.at)
+
+
+def check_joint(model: Model, asked: Any) -> JointSide:
+    """The joint that is meant. Raises `ModelError` for what is no joint and no constraint with forces at points."""
+    return found(Parts(Observed(model).description), asked, None)
 
 
 # -- constraints ------------------------------------------------------------------------------------------------

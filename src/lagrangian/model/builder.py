@@ -53,6 +53,12 @@ class Builder(Declarations):
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state, _checked={id(thing): thing for thing in state["_checked"]})
 
+    @property
+    def joint_names(self) -> list[str]:
+        """The names by which reactions may be asked for: constraints, points and bodies."""
+        acting = [e.name for e in self._elements if e.ledger == "λ" or isinstance(e, Body)]
+        return list(dict.fromkeys([*acting, *self._points]))
+
     # -- geometry -----------------------------------------------------------------------------------------------
 
     def _fit(self, dimension: int, what: str, place: Place | None) -> None:

@@ -281,6 +281,11 @@ class Loader(Reading):
             if normal(name) not in map(normal, coordinates):
                 known = did_you_mean(name[:64], coordinates) or "known: " + ", ".join(coordinates)
                 self._refuse(("simulate", "fixed", number), f"there is no coordinate {shown(name)}", known, "E402")
+        joints = self.builder.joint_names
+        for number, name in enumerate(table.reactions):
+            if name not in joints:
+                known = did_you_mean(name[:64], joints) or f"known: {', '.join(joints[:12]) or 'none'}"
+                self._refuse(("simulate", "reactions", number), f"there is no joint {shown(name)}", known, "E402")
         for name, value in table.inputs.items():
             path = ("simulate", "inputs", name)
             if name not in self.file.inputs:

@@ -189,6 +189,9 @@ class SimulateTable(_Table):
     fixed: list[str] = Field(
         default_factory=list, description="Coordinates that stay as given where constraints move the others."
     )
+    reactions: list[str] = Field(
+        default_factory=list, description="Joints whose reactions are in tables: constraints, points, bodies by name."
+    )
     inputs: dict[str, Expression] = Field(default_factory=dict, description="Inputs as expressions in t.")
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from importlib.metadata import version
 from pathlib import Path
@@ -159,10 +159,23 @@ def table(run: Recorded) -> ColumnTable:
     for row in rows_of(model):
         unit = units.of(multiplier_symbol(row.name))
         columns.append(Column(f"multiplier.{row.name}", run.multipliers[row.name], unit, multiplier_words(model, row)))
+    columns += _of_reactions(run)
     for name, path in run.points.items():
         for axis, values in zip("xyz", path.T, strict=False):
             columns.append(Column(f"{name}.{axis}", values, "m", f"{axis} of point {name}"))
     return ColumnTable(Column("t", run.t, "s", "time"), tuple(columns), attributes(run))
+
+
+def _of_reactions(run: Recorded) -> Iterator[Column]:
+    """The forces and torques of the joints that are named in ``run.reactions``."""
+    for name in run.reactions:
+        found = run.reaction(name)
+        said = f"joint {name} on {found.on}"
+        for axis, values in zip("xyz", found.force.T, strict=False):
+            yield Column(f"reaction.{name}.{axis}", values, "N", f"force of {said}, {axis}")
+        torque = found.torque.T if found.torque.ndim == 2 else [found.torque]
+        for axis, values in zip("xyz" if found.torque.ndim == 2 else "z", torque, strict=False):
+            yield Column(f"reaction.{name}.torque_{axis}", values, "N m", f"torque of {said} about {found.at}, {axis}")
 
 
 def extremes(values: NDArray[np.float64]) -> tuple[float, float, float, float]:

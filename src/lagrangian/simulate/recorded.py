@@ -3,7 +3,7 @@ balance."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
@@ -111,6 +111,7 @@ class Recorded(Guided):
     notices: tuple[Notice, ...] = ()
     drift: RunDrift | None = None
     modes: Mapping[str, NDArray[np.int8]] = field(default_factory=dict[str, NDArray[np.int8]])
+    reactions: Sequence[str] = ()
 
     # -- quantities ---------------------------------------------------------------------------------------------
 

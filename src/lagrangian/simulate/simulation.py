@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -59,6 +60,8 @@ def simulate(
     """Simulate a model; see `lagrangian.System.simulate`. ``by_name``: initial values, ``theta1=0.2``."""
     check_names(model, by_name, OPTIONS)
     in_file = model.settings
+    for joint in in_file.get("reactions", ()):
+        remembered(model, ("joint", joint), partial(dynamics.check_joint, model, joint))
     given = Given.of(model, _named(model))
     dims = dict(zip(given.inputs.names, given.inputs.dims, strict=True))
     drive = driving(model, inputs, in_file.get("inputs", {}), dims)
@@ -206,6 +209,7 @@ def _trajectory(task: Task, outcome: Outcome, settings: Mapping[str, Any]) -> Tr
         jumps=_jumps(task, outcome.hits, t, n, after_last=further),
         settings=dict(settings),
         drift=None if outcome.drift is None else drift.RunDrift.of_run(outcome.drift),
+        reactions=tuple(task.model.settings.get("reactions", ())),
     )
 
 

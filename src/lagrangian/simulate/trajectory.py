@@ -28,7 +28,7 @@ class Trajectory(Recorded):
     ``success`` says whether the run reached its end (or a terminal event), and ``message`` how it ended; a run that
     failed contains the results up to that time. ``notices`` are those of the system with these parameters. ``drift`` is
     how far it was from its constraints (None without any), ``nfev`` the number of evaluations of the right-hand side,
-    ``method`` the integration method.
+    ``method`` the integration method. ``reactions`` names the joints whose reactions are in tables; it can be set.
     """
 
     def to_xarray(self) -> xarray.Dataset:
