@@ -193,6 +193,26 @@ def test_a_pendulum_with_a_dry_pivot() -> None:
     assert float(run.audit) < 1e-10
 
 
+def test_the_same_pendulum_with_its_pivot_as_a_constraint() -> None:
+    """A rod in x, y, θ that a pin holds at one end; friction sticks and slips on the constraint."""
+    s = lg.System("pinned rod")
+    x, y, theta = s.coordinates("x y theta")
+    m, J, a, c = s.parameters("m J a c", m=1, J=0.25, a=0.5, c=0.25)  # J + m a² = 0.5: half of the other pendulum
+    frame = s.frame(theta, origin=s.point("C", (x, y)), name="rod")
+    s.rigid_body(m, J, frame.origin, frame)
+    s.gravity()
+    s.pin((frame.point(0, a, name="top"), s.origin), name="pin")
+    s.friction(limit=c, deflection=theta, name="pivot")
+    start = {"theta": 1.0, "x": 0.5 * np.sin(1.0), "y": -0.5 * np.cos(1.0)}
+    run = s.simulate(duration=20, initial=start, fixed=["theta"], **TIGHT)
+    times, angles = swings(1.0, 0.5)
+    assert run.events["pivot slips"].t == pytest.approx(times[1:-1], abs=1e-9)
+    assert run.events["pivot sticks"].t == pytest.approx(times[-1:], abs=1e-9)
+    assert run["theta"][-1] == pytest.approx(angles[-1], abs=1e-9)
+    assert run["pin.y"][-1] == pytest.approx(G, abs=1e-8)  # at rest the pin holds the weight
+    assert float(run.audit) < 1e-10
+
+
 def rotor() -> lg.System:
     s = lg.System("rotor")
     phi = s.coordinates("phi")
@@ -360,3 +380,22 @@ def test_a_derivation_shows_both_regimes() -> None:
     assert "While it slips, θ̇ is not 0, and its effort on the deflection is −c sgn(θ̇)" in page
     assert "θ̇ = 0 It then adds λ to Ξ₁. This lasts as long as |λ| is not above c." in page
     assert all(check.holds for check in d.verify())
+
+
+def test_frictions_that_hold_together_in_other_words_are_refused() -> None:
+    s = lg.System("block")
+    x = s.coordinates("x")
+    s.particle(1, s.point("P", (x, 0)))
+    s.friction(limit=2, deflection=sp.sin(x), name="floor")
+    s.friction(limit=1, deflection=x + x**3, name="guide")
+    with pytest.raises(lg.Error, match=r"E310.*'floor' and 'guide'"):
+        s.simulate(duration=1)
+
+
+def test_in_other_coordinates_it_sticks_at_the_same_times() -> None:
+    s = pendulum()
+    other = s.in_coordinates({"theta": "2*phi"})
+    run = other.simulate(duration=20, initial={"phi": 0.5}, **TIGHT)
+    times, angles = swings(1.0, 0.5)
+    assert run.events["pivot sticks"].t == pytest.approx(times[-1:], abs=1e-9)
+    assert 2 * run["phi"][-1] == pytest.approx(angles[-1], abs=1e-9)

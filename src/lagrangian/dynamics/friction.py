@@ -16,11 +16,15 @@ from typing import Any
 from lagrangian.dynamics.constrained import velocity_correction
 from lagrangian.dynamics.feedback import SUPPLY, Feedback, with_feedback
 from lagrangian.dynamics.impacts import Impact, impact_outputs
+from lagrangian.dynamics.mechanics import Mechanics
 from lagrangian.dynamics.observe import Observed
 from lagrangian.dynamics.vectors import zeros
 from lagrangian.errors import ModelError
 from lagrangian.graph import Output, Program
 from lagrangian.model import Friction, Model
+
+DEPENDENT = 1e-9
+"""A row whose margin is below this follows from others."""
 
 Modes = tuple[int, ...]
 """A mode for every friction, in order: −1 or +1 while it slips in that sense, 0 while it sticks."""
@@ -81,7 +85,7 @@ def verdict(model: Model, modes: Modes, feedback: Feedback) -> Program:
     """x, u, p, t → for every friction (k,): ``rate`` δ̇, ``change`` δ̈, ``effort`` on δ, ``least`` F and ``most`` F_s.
 
     ``effort`` is λ where it sticks. ``dv`` (nv,) is the least change of the velocities after which all rows hold, those
-    of what sticks among them.
+    of what sticks among them. ``dependent`` is the number of rows that follow from others there.
     """
     seen = Observed(regime(model, modes))
     m = seen.mechanics
@@ -97,7 +101,16 @@ def verdict(model: Model, modes: Modes, feedback: Feedback) -> Program:
         "dv": zeros(seen.graph, len(m.v)) if step is None else step[0],
     }
     outputs = {name: Output(tuple(ids), (len(ids),)) for name, ids in columns.items()}
+    outputs["dependent"] = Output((_dependent(m),), ())
     return with_feedback(seen, outputs, feedback, "verdict on friction")
+
+
+def _dependent(m: Mechanics) -> int:
+    """The number of rows whose margin is rounding."""
+    g, total = m.graph, m.graph.zero
+    for margin in m.constrained.margins if m.rows else ():
+        total = g.add(total, g.select(g.lt(margin, g.const(DEPENDENT)), g.one, g.zero))
+    return total
 
 
 @dataclass(frozen=True)

@@ -51,6 +51,7 @@ class Crossroads:
             tried.add(trial)
             wrong = self._wrong(trial, arrived, forced)
             if wrong is None:
+                self._check_split(trial)
                 return trial
             trial = wrong
         for trial in self._all(start, sorted(arrived)):
@@ -96,6 +97,20 @@ class Crossroads:
         stuck = tuple(0 if k == i else mode for k, mode in enumerate(trial))
         found = self.judged(stuck)
         return bool(abs(found["effort"][i]) > (1 - NEAR) * found["most"][i])
+
+    def _check_split(self, modes: Modes) -> None:
+        """Refuse what sticks where it depends on other rows, so that its force is not known."""
+        if all(modes):
+            return
+        before = self.judged((1,) * self.regimes.count)["dependent"] if self.regimes.model.constraints else 0
+        if self.judged(modes)["dependent"] > before:
+            stuck = [f for f, mode in zip(self.regimes.model.frictions, modes, strict=True) if not mode]
+            names = " and ".join(f"'{f.name}'" for f in stuck)
+            raise RunError(
+                f"at t = {self.t:.6g} s the share of each of {names} cannot be told: what sticks depends on other rows",
+                fix="describe frictions that act together as one, and none where a constraint prevents the slip",
+                code="E310",
+            )
 
     def _check(self, most: Array, least: Array) -> None:
         for friction, high, low in zip(self.regimes.model.frictions, most, least, strict=True):

@@ -318,6 +318,7 @@ def _task(model: Model, varying: Varying, drive: InputSignals, study: Study) -> 
         "outputs": digest(study.outputs),
         "events": "none" if study.events is None else _events(study),
         **({} if study.projection is None else {"projection": _projection(study.projection)}),
+        **({"friction": [str(f.sticking_limit) for f in model.frictions]} if model.frictions else {}),
     }
 
 
