@@ -421,8 +421,8 @@ def test_a_constraint_on_velocities_takes_no_coordinate_away() -> None:
         disc().in_coordinates({"x": "r*phi"})
 
 
-@pytest.mark.parametrize("verb", ["hamiltonian", "routhian", "conserved_quantities"])
+@pytest.mark.parametrize("verb", ["hamiltonian", "routhian"])
 def test_energies_alone_do_not_tell_a_constrained_motion(verb: str) -> None:
-    """p_x of the sleigh would be kept without the force on its edge: refused, not wrong."""
-    with pytest.raises(lg.ModelError, match="has constraints"):
+    """p_x of the sleigh would be kept without the force on its edge."""
+    with pytest.raises(lg.ModelError, match="needs independent coordinates"):
         getattr(sleigh(), verb)()

@@ -14,7 +14,8 @@ from numpy.typing import NDArray
 
 from lagrangian import bounded, dynamics, integrate
 from lagrangian import codegen as machine
-from lagrangian.errors import ModelError
+from lagrangian.assembly.assemble import consistent
+from lagrangian.errors import ModelError, RunError
 from lagrangian.invariants.conserved_quantities import Conserved, ConservedQuantities, condition, listed
 from lagrangian.invariants.lagrangian_form import LagrangianForm
 from lagrangian.invariants.symmetries import Symmetry, symmetries
@@ -22,6 +23,7 @@ from lagrangian.linear.jacobians import rates, values
 from lagrangian.model import Model
 from lagrangian.page.formula import Name, Text, text
 from lagrangian.page.plain import plain
+from lagrangian.simulate.integrating import projection
 from lagrangian.values.values import Given, Named
 
 _log = logging.getLogger(__name__)
@@ -76,6 +78,9 @@ def _described(system: LagrangianForm, symmetry: Symmetry, need: tuple[str, ...]
     direction = {q: d.expr() for q, d in zip(system.q, symmetry.direction, strict=True) if d.parts}
     name, kind, reason = _words(system, symmetry, direction)
     steady = tuple(u.name for u in system.moved_by(symmetry.conserved) if u.name not in need)
+    if system.rows:
+        holds = "do no work" if symmetry.kind == "energy" else "do not push along that"
+        reason = Text((*reason.parts, f", and the constraints {holds}"))
     if need or steady:
         reason = Text((*reason.parts, f", {condition(need, steady)}"))
     return Conserved(name, kind, expression, direction, need, reason, while_constant=steady)
@@ -116,14 +121,28 @@ def _missed(system: LagrangianForm, found: Sequence[Conserved]) -> tuple[Text, .
     L = Name("L")
     for k, (q, slope, force) in enumerate(zip(system.q, system.slopes, system.forces, strict=True)):
         if q not in kept and slope.is_zero and not system.momenta[k].is_zero:
-            listed.append(text(L, " does not contain ", q, ", but its momentum changes at the rate ", force.expr()))
+            pushing = [name for name, A, _ in system.pushes_of_rows if not A[k].is_zero]
+            parts: list[Any] = [L, " does not contain ", q, ", but its momentum changes"]
+            if not force.is_zero or not pushing:
+                parts += [" at the rate ", force.expr(), *((", and",) if pushing else ())]
+            parts += [f" as {_constraints(pushing)} along it"] if pushing else []
+            listed.append(text(*parts))
     if not any(c.kind in ("energy", "mixed") for c in found):
-        parts: list[Any] = ["the energy changes at the rate ", system.power.expr()]
+        driving = [name for name, _, a0 in system.pushes_of_rows if not a0.is_zero]
+        parts = ["the energy changes"]
+        if not system.power.is_zero or not driving:
+            parts += [" at the rate ", system.power.expr(), *((", and",) if driving else ())]
+        parts += [f" as {_constraints(driving)} what it moves"] if driving else []
         for u in system.moved_by(system.energy):
             parts += [", and at ", (-system.lagrangian.diff(u.symbol)).expr(), " times the rate of ", u.symbol]
             parts.append(" if that changes")
         listed.append(text(*parts))
     return tuple(listed)
+
+
+def _constraints(names: Sequence[str]) -> str:
+    shown = ", ".join(f"'{name}'" for name in names[:4])
+    return f"the constraint {shown} pushes" if len(names) == 1 else f"the constraints {shown} push"
 
 
 def _watched(
@@ -150,9 +169,16 @@ def _watched(
 def _run(model: Model, program: Any, u: Array, p: Array, source: np.random.Generator) -> tuple[Array, Array] | None:
     """Times and states of a run from a random initial state that reaches its end, or None."""
     n = len(model.coordinates)
-    solver = integrate.Solver(dynamics.rhs(model), "dop853")
+    rhs = dynamics.rhs(model)
+    rows = None if not model.constraints else projection(model, rhs, project=True)
+    solver = integrate.Solver(rhs, "dop853", projection=rows)
     for _ in range(TRIES):
         x = np.concatenate([source.uniform(0.3, 1.0, n), source.uniform(-0.5, 0.5, len(program.inputs["x"]) - n)])
+        if model.constraints:
+            try:
+                x = np.concatenate(consistent(model, x[:n], x[n:], p))
+            except RunError:
+                continue
         found = values(program, x=x, u=u, p=p, t=0.0)
         if not all(np.isfinite(a).all() for a in found.values()):
             continue

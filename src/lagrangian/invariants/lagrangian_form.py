@@ -12,35 +12,32 @@ import sympy as sp
 from lagrangian.derive.algebra import Algebra, Form
 from lagrangian.errors import ModelError
 from lagrangian.model import Input, Model, time
+from lagrangian.model.rows import rows_of
 
 
 @dataclass(frozen=True, eq=False)
 class LagrangianForm:
-    """A model's Lagrangian L = T* − V and generalized forces Ξ, and the algebra in which they are expressed."""
+    """A model's Lagrangian L = T* − V and generalized forces Ξ, and the algebra in which they are expressed.
+
+    ``rows`` are those of its constraints, Σ A_i ξ̇_i + a₀ = 0: the name, A and a₀.
+    """
 
     model: Model
     T: sp.Expr
     V: sp.Expr
     Xi: tuple[sp.Expr, ...]
+    rows: tuple[tuple[str, tuple[sp.Expr, ...], sp.Expr], ...] = ()
 
     @classmethod
     def of(cls, model: Model, vanishing: Sequence[sp.Symbol] = ()) -> LagrangianForm:
         """The energies and forces of a model with definitions written out and ``vanishing`` parameters set to 0.
 
-        Raises `ModelError` for a floating frame, for constraints, and if something is divided by a vanishing parameter.
+        Raises `ModelError` for a floating frame, and if something is divided by a vanishing parameter.
         """
         if len(model.velocities) != len(model.coordinates):
             raise ModelError(
                 f"system '{model.name}' has a floating frame: the entries of a quaternion are not independent",
                 fix="describe its orientation by three angles instead (frames about axes)",
-                code="E202",
-            )
-        if model.constraints:
-            raise ModelError(
-                f"system '{model.name}' has constraints: its energies alone do not tell its motion; a momentum that "
-                "they would keep may be changed by a constraint's force",
-                fix="derive() writes the equations with multipliers; for Hamilton's form, Routh's and constant "
-                "quantities describe the system in as many coordinates as it has degrees of freedom",
                 code="E202",
             )
         T, V = sp.S.Zero, sp.S.Zero
@@ -61,7 +58,9 @@ class LagrangianForm:
                 fix="give it a value that is not 0, or leave it out",
                 code="E406",
             )
-        return cls(model, made[0], made[1], tuple(made[2:]))
+        rows = [_row(model, row.rate, gone) for row in rows_of(model)] if model.constraints else []
+        named = tuple((row.name, *found) for row, found in zip(rows_of(model), rows, strict=True)) if rows else ()
+        return cls(model, made[0], made[1], tuple(made[2:]), named)
 
     def without_rows(self, form: str) -> LagrangianForm:
         """The same; raises `ModelError` if constraints leave its coordinates dependent, so that a ``form`` is none."""
@@ -88,7 +87,14 @@ class LagrangianForm:
     @cached_property
     def algebra(self) -> Algebra:
         """The ring of normal forms."""
-        return Algebra(self.model, [self.T, self.V, *self.Xi])
+        slopes = [x for _, A, a0 in self.rows for x in (*A, a0)]
+        return Algebra(self.model, [self.T, self.V, *self.Xi, *slopes])
+
+    @cached_property
+    def pushes_of_rows(self) -> tuple[tuple[str, tuple[Form, ...], Form], ...]:
+        """A and a₀ of every row of the constraints, with its name."""
+        form = self.algebra.form
+        return tuple((name, tuple(map(form, A)), form(a0)) for name, A, a0 in self.rows)
 
     @cached_property
     def kinetic(self) -> Form:
@@ -157,3 +163,11 @@ class LagrangianForm:
     def at(self, form: Form, values: Mapping[Any, Any]) -> Form:
         """The form with symbols replaced."""
         return self.algebra.form(cast("sp.Expr", form.raw().xreplace(dict(values))))
+
+
+def _row(model: Model, rate: sp.Expr, gone: Mapping[Any, Any]) -> tuple[tuple[sp.Expr, ...], sp.Expr]:
+    """A and a₀ of a row, linear in the rates."""
+    c = cast("sp.Expr", model.expand(rate, constants=True).xreplace(dict(gone)))
+    still = dict.fromkeys((x.rate for x in model.coordinates), sp.S.Zero)
+    slopes = tuple(cast("sp.Expr", sp.diff(c, x.rate)) for x in model.coordinates)
+    return slopes, cast("sp.Expr", c.xreplace(still))

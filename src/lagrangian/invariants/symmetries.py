@@ -4,7 +4,8 @@ Along δξ_i = a_i + Σ_j B_ij ξ_j (shifts, turns and what is made of them; a, 
 
     d/dt (Σ_i δξ_i p_i + e h) = Σ_i (δξ_i (∂L/∂ξ_i + Ξ_i) + δξ̇_i p_i) + e (Ξ·ξ̇ − ∂L/∂t),
 
-which is linear in a, B, e: Noether's theorem with forces. Its value at random states, parameters and inputs gives one
+which is linear in a, B, e: Noether's theorem with forces. A constraint A ξ̇ + a₀ = 0 adds λ (A δξ − e a₀), which must
+vanish for every λ. Its value at random states, parameters and inputs gives one
 row a state; what is 0 everywhere is the null space. Source: Noether, Göttinger Nachrichten (1918) 235–257.
 """
 
@@ -83,6 +84,18 @@ class Symmetry(Brief):
         return algebra.total(parts)
 
     @property
+    def kept_by_rows(self) -> bool:
+        """Whether constraints do no work on the direction, whatever their multipliers: A δξ = e a₀ for every row."""
+        system, algebra = self.system, self.system.algebra
+        for _, A, a0 in system.pushes_of_rows:
+            parts = [a * d for a, d in zip(A, self.direction, strict=True) if a.parts and d.parts]
+            if self.time != 0:
+                parts.append(-(a0 * algebra.form(self.time)))
+            if not algebra.total(parts).is_zero:
+                return False
+        return True
+
+    @property
     def kind(self) -> str:
         """The kind: "energy", "momentum" (of one coordinate), "shift" (of several), "turn", "screw" (with energy)."""
         moved = sum(1 for x in self.shift if x != 0)
@@ -108,11 +121,12 @@ class _Columns:
         names += [("turn", i, j) for i in range(n) for j in range(n)] if turns else []
         forms = [*system.pushes, *system.momenta, system.power]
         exprs: list[sp.Expr] = [system.at(f, still).raw() for f in forms]
-        return cls(system, [*names, ("time", 0, 0)], Sampler(system.model, [*exprs, *system.q, *system.v]))
+        rows = [system.at(f, still).raw() for _, A, a0 in system.pushes_of_rows for f in (*A, a0)]
+        return cls(system, [*names, ("time", 0, 0)], Sampler(system.model, [*exprs, *system.q, *system.v, *rows]))
 
     def null_rows(self, fixed: Mapping[Any, float]) -> tuple[NDArray[np.float64], list[int]]:
         """The null space in reduced form and its leading columns, with the values of ``fixed`` substituted."""
-        rows = np.array([self._row(got) for got in self._states(fixed)])
+        rows = np.array([row for got in self._states(fixed) for row in self._rows(got)])
         if not len(rows):
             raise ModelError(
                 f"the forces of system '{self.system.model.name}' have no finite value at any random state",
@@ -134,14 +148,18 @@ class _Columns:
                     break
         return found
 
-    def _row(self, got: list[float]) -> list[float]:
+    def _rows(self, got: list[float]) -> list[list[float]]:
+        """What must vanish at a state: the rate of the quantity, and what every constraint adds for λ = 1."""
         n = len(self.system.q)
         push, p, power = got[:n], got[n : 2 * n], got[2 * n]
-        q, v = got[2 * n + 1 : 3 * n + 1], got[3 * n + 1 :]
-        row = []
+        q, v, rest = got[2 * n + 1 : 3 * n + 1], got[3 * n + 1 : 4 * n + 1], got[4 * n + 1 :]
+        made = [[]]
         for kind, i, j in self.names:
-            row.append(push[i] if kind == "shift" else q[j] * push[i] + v[j] * p[i] if kind == "turn" else power)
-        return row
+            made[0].append(push[i] if kind == "shift" else q[j] * push[i] + v[j] * p[i] if kind == "turn" else power)
+        for at in range(0, len(rest), n + 1):
+            A, a0 = rest[at : at + n], rest[at + n]
+            made.append([A[i] if k == "shift" else q[j] * A[i] if k == "turn" else -a0 for k, i, j in self.names])
+        return made
 
     def symmetry(self, shares: Sequence[sp.Expr]) -> Symmetry:
         """The symmetry with these components along the elementary directions."""
@@ -177,7 +195,7 @@ def symmetries(system: LagrangianForm, still: Mapping[Any, Any]) -> list[Symmetr
     if own is not None:
         extra = [wider.symmetry(row) for row in own]
         candidates = extra if wider is columns else [*extra, *(c for c in candidates if c.turn)]
-    return [c for c in candidates if c.conserved.parts and system.at(c.rate, still).is_zero]
+    return [c for c in candidates if c.conserved.parts and system.at(c.rate, still).is_zero and c.kept_by_rows]
 
 
 def _parametric(columns: _Columns, parameters: Sequence[Any], known: int) -> list[list[sp.Expr]] | None:
