@@ -54,6 +54,23 @@ def test_a_rolling_disc_is_stable_above_the_critical_speed() -> None:
         assert found.stability.verdict == ("unstable" if speed < critical else "marginal")
 
 
+def test_the_benchmark_bicycle_has_its_published_eigenvalues() -> None:
+    """Meijaard, Papadopoulos, Ruina and Schwab, Proc. R. Soc. A 463 (2007) 1955–1982, table 2."""
+    bicycle = lg.example("whipple-bicycle")
+    still = bicycle.linearize()
+    assert still.kind == "rest"
+    for pole in (3.13164324790656, 5.53094371765393):
+        assert min(abs(still.poles - pole)) < 1e-11 and min(abs(still.poles + pole)) < 1e-11
+    radius = {p.name: p.value for p in bicycle.model.parameters}
+    speed = {"x'": 5.0, "theta_r'": 5.0 / radius["r_r"], "theta_f'": 5.0 / radius["r_f"]}
+    found = bicycle.linearize(speed)
+    assert found.kind == "steady motion" and set(found.states) >= {"phi", "delta", "phi'", "delta'"}
+    for pole in (-14.07838969279822, -0.775341882195845 + 4.46486771378823j, -0.322866429004087):
+        assert min(abs(found.poles - pole)) < 1e-11
+    assert sum(abs(found.poles) < 1e-9) == len(found.poles) - 4
+    assert found.multipliers["front wheel on the ground"] > 0
+
+
 def test_slopes_are_those_of_assembled_neighbours() -> None:
     system = slider_crank()
     compiled = system.compile()
