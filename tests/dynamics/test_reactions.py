@@ -372,3 +372,18 @@ def test_a_weld_in_space_holds_a_shelf_up_and_level() -> None:
     weld = s.compile().reaction("weld", q, v)
     assert weld.force == pytest.approx([0, 0, 2 * GRAVITY], abs=1e-11)
     assert weld.torque == pytest.approx([0, -2 * GRAVITY * 0.5, 0], abs=1e-11)
+
+
+def test_a_coordinate_that_moves_two_joints_leaves_neither_free() -> None:
+    """A disc with x = r φ: what holds it at its centre is m a = m g sin β − F, and the torque F r that turns it."""
+    s = lg.System("geared disc")
+    phi = s.coordinates("phi")
+    r, m, slope = 0.3, 2.0, 0.4
+    centre = s.point("C", (r * phi, r))
+    turning = s.frame(angle=-phi, origin=centre, name="D")
+    s.rigid_body(m, m * r**2 / 2, at=centre, frame=turning, name="disc")
+    s.gravity((sp.Float(np.sin(slope)), -sp.Float(np.cos(slope))), GRAVITY)
+    held = s.compile().reaction("disc", [0.2], [1.0])
+    friction = m * GRAVITY * np.sin(slope) / 3
+    assert held.force == pytest.approx([-friction, m * GRAVITY * np.cos(slope)])
+    assert float(held.torque) == pytest.approx(-friction * r)

@@ -6,7 +6,7 @@ angular velocity about the joint, both 0, and
     r = Σ (inertial force − applied force − force of the rows) · ∂(velocity)/∂w
 
 is the force and torque that the joint must have. What it leaves free it cannot push: r is taken across the velocities
-(``twists``) that the coordinates give the joint, which belong to what acts on the coordinates themselves.
+that the joint can have while all other joints rest, which belong to what acts on the coordinates themselves.
 """
 
 from __future__ import annotations
@@ -41,8 +41,9 @@ from lagrangian.model.rows import named_conditions, rows_of
 class ReactionProgram:
     """The program of a reaction: ``wrench`` (force, then torque), and what it is of.
 
-    ``twists`` are the velocities that a joint allows, a column each; ``R`` the axes that were asked for; ``margins``
-    those of the constraints' rows. ``sign`` is −1 for the inner side; ``at`` the point that the torque is about.
+    ``twists`` are the velocities that each v gives to a joint, a column each, and below them those of all other joints;
+    ``R`` the axes that were asked for; ``margins`` those of the constraints' rows. ``sign`` is −1 for the inner side;
+    ``at`` the point that the torque is about.
     """
 
     program: Program
@@ -74,10 +75,9 @@ def reaction(
     else:
         wrench, twists = _of_joint(seen, asked, on)
         outputs["wrench"] = _vector(wrench)
-        if twists:
-            outputs["twists"] = Output(
-                tuple(column[i] for i in range(len(wrench)) for column in twists), (len(wrench), len(twists))
-            )
+        size = len(twists[0])
+        kept = [i for i in range(size) if i < len(wrench) or any(column[i] != seen.graph.zero for column in twists)]
+        outputs["twists"] = Output(tuple(column[i] for i in kept for column in twists), (len(kept), len(twists)))
     if seen.mechanics.rows:
         outputs["margins"] = _vector(seen.mechanics.constrained.margins)
     if frame is not None:
@@ -141,9 +141,8 @@ def _of_joint(seen: Observed, asked: Any, on: Any) -> tuple[Vector, list[Vector]
     applied = vjp(g, [rate for rate, _ in pairs], [effort for _, effort in pairs], w)
     total = minus(g, minus(g, total, applied), own.of_rows(seen))
     still = dict.fromkeys(w, g.zero)
-    columns = [jvp(g, own.twist, {v: g.one}) for v in m.v]
-    moving = [replaced(g, column, still) for column in columns if any(x != g.zero for x in column)]
-    return replaced(g, total, still), moving
+    columns = [jvp(g, [*own.twist, *own.others], {v: g.one}) for v in m.v]
+    return replaced(g, total, still), [replaced(g, column, still) for column in columns]
 
 
 class _Released:
@@ -152,7 +151,9 @@ class _Released:
     def __init__(self, d: Description, parts: Parts, part: RigidPart) -> None:
         self.d, self.parts, self.part, self.motion, self.g = d, parts, part, d.motion, d.graph
         self.outer = parts.outer(part)
-        self.twist = self._twist()
+        self.twist = self._twist(part)
+        heavy = {p for body in parts.bodies.values() for p in parts.chain(body)} - {parts.ground, part}
+        self.others = [x for other in sorted(heavy, key=parts.label) for x in self._twist(other)]
 
     def release(self, w: list[int]) -> None:
         """Add the virtual velocities to those of every place and frame that hangs on the joint."""
@@ -173,18 +174,18 @@ class _Released:
             return [g.neg(g.mul(omega[0], r[1])), g.mul(omega[0], r[0])]
         return crossed(self.d, omega, r)
 
-    def _twist(self) -> Vector:
-        """Velocity and angular velocity of the part at the joint, relative to what carries it, in the fixed axes."""
-        motion, g, at = self.motion, self.g, self.part.anchor
-        carrier = self.parts.carrier(self.part)
+    def _twist(self, part: RigidPart) -> Vector:
+        """Velocity and angular velocity of a part at its joint, relative to what carries it, in the fixed axes."""
+        motion, g, at = self.motion, self.g, part.anchor
+        carrier = self.parts.carrier(part)
         assert carrier is not None
         slip = zeros(g, motion.dimension)
-        if self.parts.natives[at] == self.part:
+        if self.parts.natives[at] == part:
             below = carrier.anchor
             spin = self._omega(carrier)
             there = plus(g, self._fixed(below), self._carried(spin, motion.between(below, at)))
             slip = minus(g, self._fixed(at), there)
-        return [*slip, *minus(g, self._omega(self.part), self._omega(carrier))]
+        return [*slip, *minus(g, self._omega(part), self._omega(carrier))]
 
     def _fixed(self, place: Any) -> Vector:
         return self.motion.turned(place.velocity, place.axes, self.motion.root)

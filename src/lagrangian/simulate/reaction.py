@@ -58,15 +58,30 @@ def worked_out(model: Model, made: ReactionProgram, answer: Mapping[str, Array])
 
 
 def across(wrench: Array, twists: Array) -> Array:
-    """The part of forces and torques that has no power on any of the velocities in the columns of ``twists``."""
+    """The part of forces and torques that has no power on what a joint allows.
+
+    The columns of ``twists`` are what each velocity moves: the joint itself in the first rows, then the other joints,
+    which must rest. A coordinate that moves several joints at once leaves none of them free on its own.
+    """
+    others, own = twists[..., wrench.shape[-1] :, :], twists[..., : wrench.shape[-1], :]
+    twists = own @ _resting(others) if others.shape[-2] else own
     sizes = np.linalg.norm(twists, axis=-2, keepdims=True)
     largest = np.max(sizes, axis=-1, keepdims=True, initial=0.0)
-    counted = sizes > FREE * largest
+    counted = sizes > FREE * np.maximum(largest, np.max(np.abs(own), axis=(-1, -2), keepdims=True, initial=0.0))
     directions = np.where(counted, twists / np.where(counted, sizes, 1.0), 0.0)
     left, singular, _ = np.linalg.svd(directions, full_matrices=False)
     basis = np.where((singular > FREE)[..., None, :], left, 0.0)
     along = np.einsum("...ki,...k->...i", basis, np.broadcast_to(wrench, (*basis.shape[:-2], wrench.shape[-1])))
     return wrench - np.einsum("...ki,...i->...k", basis, along)
+
+
+def _resting(others: Array) -> Array:
+    """The projector on the velocities that leave the other joints at rest, (..., n, n)."""
+    sizes = np.linalg.norm(others, axis=-1, keepdims=True)
+    rows = np.where(sizes > 0, others / np.where(sizes > 0, sizes, 1.0), 0.0)
+    _, singular, right = np.linalg.svd(rows, full_matrices=False)
+    moved = np.where((singular > FREE)[..., None], right, 0.0)
+    return np.eye(others.shape[-1]) - np.swapaxes(moved, -1, -2) @ moved
 
 
 def _not_unique(model: Model, margins: Array) -> tuple[Notice, ...]:
