@@ -110,3 +110,16 @@ def test_without_constraints_nothing_is_said_of_them() -> None:
     derivation = lg.example("cart-pole").derive()
     assert derivation.constraints is None
     assert derivation.steps[0].expressions == {"holonomic": True, "GC": 2, "DDOF": 2}
+
+
+def test_rows_that_depend_on_each_other_along_the_motion_leave_it_free() -> None:
+    """A platform on three equal cranks: four rows, four angles, and it moves; at random angles the rank is 4."""
+    found = lg.example("double-parallelogram").derive().constraints
+    assert found is not None and found.verdict == "holonomic: #GC = #DDOF = 1"
+    assert "only 3 of the 4 are independent" in found.holonomy.notes[0]
+    other = lg.example("four-bar").derive().constraints
+    assert other is not None and other.verdict == "holonomic: #GC = #DDOF = 1" and not other.holonomy.notes
+
+
+def test_a_platform_on_three_cranks_is_verified() -> None:
+    assert all(check.holds is not False for check in lg.example("double-parallelogram").derive().verified)

@@ -12,6 +12,7 @@ from lagrangian import dynamics
 from lagrangian.derive.sample import Sampler
 from lagrangian.graph import Program
 from lagrangian.model import Model
+from lagrangian.model.rows import named_conditions
 from lagrangian.verify.states import evaluated, state_groups
 
 Groups: TypeAlias = dict[str, list[float]]
@@ -26,6 +27,15 @@ STEPS = 60
 LONGEST = 0.5
 """The longest step of a coordinate."""
 
+POLISHED = 4
+"""Newton steps with the rows that are clearly independent."""
+
+CLEARLY = 1e-4
+"""The part of the largest singular value from which on a direction is clearly one of the rows'."""
+
+HARDLY = 1e-9
+"""The part below which a direction is clearly none of them."""
+
 CLOSED = 1e-12
 """What is left of the rows, in parts of their size."""
 
@@ -37,6 +47,8 @@ class OnRows:
         self.model = model
         self.position = dynamics.correction(model)
         self.velocity = dynamics.correction(model, position=False)
+        self.residual, self.matrix = dynamics.residual(model), dynamics.constraint_matrix(model)
+        self.positions = [named.condition.on_positions for named in named_conditions(model)]
 
     def states(self, sampler: Sampler, count: int, seed: int, *, given: bool = False) -> Iterator[tuple[State, Groups]]:
         """Up to ``count`` random states on the rows; with ``given`` the parameters keep the values they have."""
@@ -58,7 +70,7 @@ class OnRows:
     def of(self, state: Mapping[str, list[float]]) -> dict[str, list[float]] | None:
         """The state with q and v on the rows; None where no position near it was found."""
         found = {group: list(x) for group, x in state.items()}
-        if self.position is not None and not self._closed(found, self.position):
+        if self.position is not None and not (self._closed(found, self.position) and self._polished(found)):
             return None
         if self.velocity is not None:
             step = self._step(self.velocity, found, "dv")
@@ -78,6 +90,29 @@ class OnRows:
             if gap < CLOSED:
                 return True
         return False
+
+    def _polished(self, found: Groups) -> bool:
+        """Take the last digits by the rows that are clearly independent there; False if that leads nowhere.
+
+        Where one row depends on the others along the whole motion (three equal cranks on one platform), its pivot is
+        not zero beside the motion but tiny, and what is divided by it is noise.
+        """
+        for _ in range(POLISHED):
+            try:
+                f = np.array(evaluated(self.residual, found)["f"], float)
+                A = np.array(evaluated(self.matrix, found)["A"], float).reshape(len(self.positions), -1)
+            except (ZeroDivisionError, ValueError, OverflowError):
+                return False
+            if len(found["q"]) != A.shape[1]:
+                return True  # quasi-velocities: Newton's own steps have to do
+            sizes = np.linalg.svd(A[self.positions], compute_uv=False)
+            if np.any((sizes > HARDLY * sizes.max()) & (sizes < CLEARLY * sizes.max())):
+                return False  # near a position where the motion branches: no digits are certain there
+            step = np.linalg.pinv(A[self.positions], rcond=CLEARLY) @ f
+            if not np.isfinite(step).all():
+                return False
+            found["q"] = [float(x) for x in np.array(found["q"]) - step]
+        return True
 
     def _step(self, program: Program, found: Groups, name: str) -> tuple[np.ndarray, float] | None:
         """A correction and the gap before it; None where there is none."""

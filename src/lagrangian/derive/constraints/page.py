@@ -174,7 +174,7 @@ def _count(n: int, what: str) -> str:
 
 def _verdict(found: Constraints) -> Iterator[Item]:
     h, n = found.holonomy, len(found.model.coordinates)
-    m = len(h.independent)
+    m = n - h.DDOF  # fewer than the rows that are independent elsewhere, if some depend on others where all hold
     yield text(
         f"{_count(n, 'rate')} and {_count(m, 'independent row')}: #DDOF = {n} − {m} = {h.DDOF} is the number of rates "
         "that can be chosen freely at any instant."
@@ -214,7 +214,7 @@ def _surfaces(found: Constraints, readable: Callable[[sp.Expr], sp.Expr]) -> Ite
 
 def _routes(found: Constraints) -> Iterator[Item]:
     h, n = found.holonomy, len(found.model.coordinates)
-    m = len(h.independent)
+    m = n - h.DDOF
     if found.proposals:
         yield text("1. Integrate, and use fewer coordinates:")
         for way in found.proposals:

@@ -13,6 +13,7 @@ import mpmath
 import sympy as sp
 
 from lagrangian.derive.constraints.brackets import MAX_NODES, Closure, closure
+from lagrangian.derive.constraints.closed import rank_where_closed
 from lagrangian.derive.constraints.elimination import fields, kernel, solved
 from lagrangian.derive.constraints.integrals import TRIED, Integral, IntegralSearch
 from lagrangian.derive.constraints.pfaffian import HasRow, RowForm, Sheet, Variables, combined, forms
@@ -168,6 +169,13 @@ class _Judge:
         if all(form.position is not None for form in rows.kept):
             seeker = IntegralSearch(self.sheet, self.place, rows.kept, len(names))
             seeker.positions()
+            rank = rank_where_closed(self.sheet, [form.position for form in rows.kept if form.position is not None])
+            if rank is not None and rank < len(names):
+                notes.append(
+                    f"at positions that satisfy the rows only {rank} of the {len(names)} are independent: there the "
+                    f"system moves in {n - rank} way{'s' if n - rank > 1 else ''}, and the multipliers are not unique"
+                )
+                found = replace(found, growth=(n - rank,))
             return replace(found, integrals=tuple(seeker.found), notes=tuple(notes))
         return self._closed(found, rows, notes, search)
 
