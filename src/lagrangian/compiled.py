@@ -99,7 +99,11 @@ class Compiled(Restricted):
     def inverse(
         self, q: ArrayLike, v: ArrayLike, a: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
     ) -> NDArray[np.float64]:
-        """Return the generalized forces that a motion needs in addition to those described: M a + C v + G − Ξ(u)."""
+        """Return the generalized forces that a motion needs in addition to those described: M a + C v + G − Ξ(u).
+
+        With constraints, the forces Aᵀ λ of their rows are part of what is missing: on a motion by `forward` nothing
+        else is.
+        """
         return self._called(self._kernel("inverse"), (q, v, a, u, p, t))
 
     def mass_matrix(
@@ -214,6 +218,8 @@ class Compiled(Restricted):
                     fix="use a quaternion of any length other than 0; (0, 0, 0, 1) means not rotated",
                     code="E503",
                 )
+        if self._model.constraints:  # a singular M alone would explain nothing
+            return trouble
         try:
             matrices = np.asarray(self._kernel("mass_matrix")(q, None, None, _named(p), t))
         except RunError:

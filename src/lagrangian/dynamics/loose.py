@@ -34,8 +34,12 @@ def loose(
 ) -> str:
     """The rates that move no mass at a configuration, in words; empty if M is regular.
 
+    It is also empty for systems with constraints, which may decide what moves no mass.
+
     ``near``: M counts as singular if its smallest eigenvalue is at most this, relative to the largest one elsewhere.
     """
+    if model.constraints:
+        return ""
     program = model._memo.get("loose")
     if program is None:
         program = model._memo["loose"] = mass_matrix(model)
