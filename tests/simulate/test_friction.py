@@ -399,3 +399,31 @@ def test_in_other_coordinates_it_sticks_at_the_same_times() -> None:
     times, angles = swings(1.0, 0.5)
     assert run.events["pivot sticks"].t == pytest.approx(times[-1:], abs=1e-9)
     assert 2 * run["phi"][-1] == pytest.approx(angles[-1], abs=1e-9)
+
+
+def test_the_multiplier_of_a_constraint_is_no_normal_force() -> None:
+    s = lg.System("block")
+    x, y = s.coordinates("x y")
+    s.particle(1, s.point("P", (x, y)))
+    s.constraint(y, name="floor")
+    with pytest.raises(lg.ModelError, match=r"E406.*'floor'.*multiplier of a constraint"):
+        s.friction(0.2, normal="floor", deflection=x)
+
+
+def test_two_frictions_in_a_chain_keep_the_balance_of_energy() -> None:
+    """h(t) − h(0) is what the forces gave less F |slip| of each friction, whatever sticks when."""
+    s = lg.System("chain")
+    previous: Any = 0
+    for i, x in enumerate(s.coordinates("q1:3")):
+        P = s.point(f"P{i}", (x, 0))
+        s.particle(1 + 0.3 * i, P)
+        s.spring(30, deflection=x - previous, name=f"k{i}")
+        s.friction(limit=0.6 + 0.1 * i, static=0.8 + 0.1 * i, deflection=x - previous, name=f"f{i}")
+        s.force((4 * sp.sin((2 + 0.7 * i) * s.t), 0), at=P, name=f"u{i}")
+        previous = x
+    run = s.simulate(duration=10, **TIGHT)
+    assert sum(len(found) for found in run.events.values()) > 10
+    assert float(run.audit) < 1e-11
+    for i, slip in enumerate((run["q1'"], run["q2'"] - run["q1'"])):
+        mode = run.modes[f"f{i}"]
+        assert (mode * slip >= -1e-11).all() and np.abs(slip[mode == 0]).max() < 1e-11

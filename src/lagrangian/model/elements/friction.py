@@ -80,6 +80,12 @@ class Friction(Element):
                 fix="mu='mu', normal='m*g' for a coefficient and a normal force; limit='F' for a force or torque",
                 code="E412",
             )
+        if isinstance(self.normal, str):
+            raise self._error(
+                f"the normal force '{self.normal[:64]}' is text, and the multiplier of a constraint cannot be one",
+                fix="normal=m*g*cos(alpha), an expression in coordinates, rates, t, parameters and inputs",
+                code="E406",
+            )
         self._set(between=check_ends(self, self.between, self.deflection))
         for key in ("mu", "normal", "limit", "static", "viscous", "deflection"):
             value = getattr(self, key)
