@@ -76,3 +76,21 @@ def test_power_of_a_constraint_that_moves() -> None:
     run = s.simulate(3.0, initial={"x'": 1.0})
     assert run.success and run.audit.figure < 1e-9
     assert run["x"] == pytest.approx(0.5 * np.sin(2 * run.t), abs=1e-9)
+
+
+@pytest.mark.parametrize("angle", [0.0, 1e-9, 0.3])
+def test_a_massless_angle_gets_its_inertia_from_all_its_rows(angle: float) -> None:
+    """A cart and a bob with X, Y of its own, joined by two rows in a massless θ: the equations of the cart-pole."""
+    s = lg.System("cart-pole in too many coordinates")
+    x, X, Y, theta = s.coordinates("x X Y theta")
+    M, m, length = s.parameters("M m l", M=2.0, m=0.5, l=0.7)
+    s.particle(M, at=s.origin + (x, 0))
+    s.particle(m, at=s.origin + (X, Y))
+    s.gravity(g=9.81)
+    s.constraint(X - x - length * sp.sin(theta), name="cx")
+    s.constraint(Y - length * sp.cos(theta), name="cy")
+    c, sine = np.cos(angle), np.sin(angle)
+    a = s.compile().forward([0, 0.7 * sine, 0.7 * c, angle], [0, 0, 0, 0])
+    mass = np.array([[2.5, 0.35 * c], [0.35 * c, 0.245]])
+    expected = np.linalg.solve(mass, [0.0, 0.35 * 9.81 * sine])
+    assert a[[0, 3]] == pytest.approx(expected, rel=1e-9, abs=1e-16)

@@ -136,11 +136,7 @@ class Elimination:
         linear = self.g.pop(k, g.zero)
         pivot = row.pop(k, g.zero)
         if pivot == g.zero:
-            raise ModelError(
-                f"coordinate '{name}' moves no mass of its own: the mass matrix is singular",
-                fix=f"give mass or inertia to what '{name}' moves, or leave the coordinate out",
-                code="E201",
-            )
+            raise no_inertia(name)
         self.eliminate(k, row, linear, g.div(g.one, pivot))
 
     def eliminate(self, k: int, row: Mapping[int, int], linear: int, inverse: int) -> None:
@@ -204,6 +200,15 @@ class Elimination:
                 total = g.add(total, x)
             value[i] = total
         return value
+
+
+def no_inertia(name: str) -> ModelError:
+    """Return the error about a coordinate that moves no mass."""
+    return ModelError(
+        f"coordinate '{name}' moves no mass of its own: the mass matrix is singular",
+        fix=f"give mass or inertia to what '{name}' moves, or leave the coordinate out",
+        code="E201",
+    )
 
 
 def solve(

@@ -21,7 +21,7 @@ import heapq
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from lagrangian.dynamics.accelerations import Elimination, Quadratic
+from lagrangian.dynamics.accelerations import Elimination, Quadratic, no_inertia
 from lagrangian.dynamics.guard import Guard
 from lagrangian.dynamics.rows import ConstraintRow
 from lagrangian.dynamics.tape import EliminationTape, Form
@@ -109,6 +109,7 @@ class RowElimination(Elimination):
     support: dict[int, set[int]] = field(default_factory=dict[int, set[int]])
     sizes: dict[int, int] = field(default_factory=dict[int, int])
     divisors: list[tuple[str, int]] = field(default_factory=list[tuple[str, int]])
+    bare: set[int] = field(default_factory=set[int])
     done: set[int] = field(default_factory=set[int])
 
     @classmethod
@@ -138,6 +139,8 @@ class RowElimination(Elimination):
             if attached.node in self.place:
                 self.H.add(attached.node, key, attached.sign)
             self.support[key] = self._reached(attached.node)
+        carried = set[int]().union(*(self._reached(i) for i in self.problem.H.rows))
+        self.bare = (self.leaves - carried) if self.support else set[int]()
 
     def _reached(self, node: int) -> set[int]:
         """The unknowns that a node depends on, without those that cancel."""
@@ -160,6 +163,13 @@ class RowElimination(Elimination):
                     heapq.heappush(waiting, -place[k])
                 weight[k] = g.add(weight[k], g.mul(c, inner))
         return found
+
+    def too_early(self, i: int) -> bool:
+        """Whether a rate without inertia of its own must wait: it has some only when all its rows are taken.
+
+        With a part of them its pivot vanishes in ordinary configurations, as m l² sin² θ does.
+        """
+        return i in self.bare and any(i in support for support in self.support.values())
 
     # -- questions ----------------------------------------------------------------------------------------------
 
@@ -236,6 +246,8 @@ class RowElimination(Elimination):
         elif massless and not self.problem.strict and not self.H.rows.get(i):
             self.g.pop(i, None)
             self.found.append((i, self.graph.zero, {}))
+        elif self.problem.strict and self.too_early(i):
+            raise no_inertia(name)
         else:
             self.minimise(i, name)
         self._close(i)

@@ -56,10 +56,15 @@ def cheapest_first(problem: Problem, *, pairs: bool) -> RowSolution:
         rows = e.ready_rows()
         steps = [(_row_cost(e, key), -len(problem.tape.order) + key, key) for key in rows]
         for i in ready:
+            if e.too_early(i) and e.paired(i) is None:
+                continue
             turned = problem.tape.turned.get(i)
             if turned is None or (not e.users[i] and not e.users[turned[0]]):
                 steps.append((_cost(e, i, pairs=pairs), -e.place[i], i))
         if not steps:
+            if late := [i for i in ready if e.too_early(i)]:
+                e.take(late[0], pairs=pairs)  # which says that it has no inertia
+                continue
             return e.solution()
         _, _, i = min(steps)
         if i < 0:
