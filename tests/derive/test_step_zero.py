@@ -123,3 +123,12 @@ def test_rows_that_depend_on_each_other_along_the_motion_leave_it_free() -> None
 
 def test_a_platform_on_three_cranks_is_verified() -> None:
     assert all(check.holds is not False for check in lg.example("double-parallelogram").derive().verified)
+
+
+def test_a_distance_between_two_points_that_always_coincide_is_refused() -> None:
+    s = lg.System("nothing apart")
+    x, y = s.coordinates("x y")
+    s.particle(1, at=s.point("P", (x, y)))
+    s.constraint(between=(s["P"], s.point("Q", (x, y))), distance=1, name="rod")
+    with pytest.raises(lg.Error, match="E302"):
+        s.derive()

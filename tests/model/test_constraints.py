@@ -217,6 +217,7 @@ BAD: dict[str, tuple[Callable[[lg.System], object], tuple[str, ...]]] = {
     "a slider of three components": (lambda s: s.slider((s["P"], s.origin), (0, 0, 1)), ("E414", "components")),
     "a weld of points alone": (lambda s: s.weld((s["P"], s.origin)), ("E412", "bodies")),
     "another system's point": (lambda s: s.pin((s["P"], lg.System("b").origin)), ("E412", "another system")),
+    "a coordinate's name": (lambda s: s.constraint(s["x"], name="y"), ("E404", "taken by a coordinate")),
     "a name taken": (
         lambda s: (s.constraint(s["x"], name="a"), s.constraint(s["y"], name="a")),
         ("E404", "taken"),

@@ -92,3 +92,10 @@ def test_a_radius_of_zero_is_refused() -> None:
     assert s.simulate(1.0, initial={"x'": 1.0})["x"][-1] == pytest.approx(1.0)
     with pytest.raises(RunError, match=r"'locked'.* is 0"):
         s.simulate(1.0, params={"r": 0.0})
+
+
+def test_a_rod_whose_ends_coincide_gets_a_direction() -> None:
+    run = bob().simulate(1.0)
+    assert run.success and run["x**2 + y**2"] == pytest.approx(np.full(1001, 4.0), abs=1e-12)
+    runs = bob().ensemble(1.0, x=[0.0, 1.0], outputs=["x**2 + y**2"])
+    assert runs.success and runs["final x**2 + y**2"] == pytest.approx([4.0, 4.0])

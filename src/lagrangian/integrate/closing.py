@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.codegen import Kernel, compile
+from lagrangian.errors import RunError
 from lagrangian.graph import Program
 
 Array: TypeAlias = NDArray[np.float64]
@@ -22,6 +23,9 @@ Flags: TypeAlias = NDArray[np.bool_]
 
 MAX_STEPS = 60
 """The largest number of Newton steps; a start that converges needs about five."""
+
+NUDGE = -0.01
+"""How far a guess is moved at which the rows have no direction."""
 
 HALVINGS = 12
 """The largest number of times that one step is halved."""
@@ -41,6 +45,17 @@ CLOSED = 1e-11
 
 KEPT = 1e-9
 """A velocity row whose residual is larger than this, relative to its terms, is not satisfied."""
+
+
+def _values(kernel: Kernel, q: Array, p: Array, t: float) -> dict[str, Array]:
+    """The outputs of a kernel at positions (guesses, n) at rest; values that are not finite are returned unchanged."""
+    out = {name: np.empty((len(q), *output.shape)) for name, output in kernel.program.outputs.items()}
+    try:
+        kernel(q=q, p=p, t=t, out=out)
+    except RunError as trouble:
+        if trouble.code != "E503":
+            raise
+    return out
 
 
 def _kernel(program: Program) -> Kernel:
@@ -111,11 +126,11 @@ class LoopSearch:
 
     def gaps(self, q: Array, p: Array, t: float) -> Array:
         """f of every row on positions, shape (guesses, rows)."""
-        return np.asarray(self.rows(q, None, None, p, t)["f"])
+        return _values(self.rows, q, p, t)["f"]
 
     def closed(self, q: Array, p: Array, t: float) -> Flags:
         """Whether every gap is rounding, compared with the sum of its terms Σ |A_rj| |q_j|."""
-        sizes = np.abs(np.asarray(self.matrix(q, None, None, p, t)["A"]))
+        sizes = np.abs(_values(self.matrix, q, p, t)["A"])
         scale = 1.0 + sizes.max(axis=(-1, -2)) * np.maximum(np.abs(q).max(axis=-1), 1.0)
         return np.abs(self.gaps(q, p, t)).max(axis=-1) <= CLOSED * scale
 
@@ -125,10 +140,12 @@ class LoopSearch:
         Parameters are the same for all guesses, (np,), or different for each, (guesses, np).
         """
         q, angles = guesses.copy(), self.angles(guesses[0], p if p.ndim == 1 else p[0], t)
+        lost = ~np.isfinite(self._step(q, p, t, angles)).all(axis=-1)  # as where the two ends of a rod coincide
+        q[lost] += NUDGE * np.linspace(0.3, 1.0, q.shape[1])
         going = np.arange(len(q))
         for _ in range(MAX_STEPS):
             own = p if p.ndim == 1 else p[going]
-            step = self._step(q[going], own, t, angles)
+            step = np.nan_to_num(self._step(q[going], own, t, angles), posinf=0.0, neginf=0.0)
             q[going], settled = self._damped(q[going], step, own, t)
             going = going[~settled]
             if not len(going):
@@ -136,7 +153,7 @@ class LoopSearch:
         return q, self.closed(q, p, t)
 
     def _step(self, q: Array, p: Array, t: float, angles: Flags) -> Array:
-        step = np.asarray(self.correct(q, None, None, p, t)["dq"])
+        step = _values(self.correct, q, p, t)["dq"]
         turn = np.abs(np.where(angles, step, 0.0)).max(axis=-1, keepdims=True)
         return step * np.minimum(1.0, MAX_TURN / np.maximum(turn, MAX_TURN))
 

@@ -224,6 +224,14 @@ class Builder(Declarations):
         if len(self._elements) >= MAX_ELEMENTS:
             raise ModelError(f"more than {MAX_ELEMENTS} elements", code="E601")
         element = element.named(self._element_name(element))
+        if element.ledger == "λ" and any(element.name in table for table in self._symbol_tables):
+            raise ModelError(
+                f"the name '{element.name}' is taken by a coordinate, parameter, input or definition",
+                element=element.kind,
+                place=element.place,
+                fix="choose another one: the multiplier of a constraint is asked for by its name",
+                code="E404",
+            )
         for key, point in element.points():
             self._check_point(point, f"the point in '{key}' of {element.title}", element.place)
         for key, frame in element.frames():
@@ -310,8 +318,12 @@ class Builder(Declarations):
     @property
     def _tables(self) -> tuple[Mapping[Any, Any], ...]:
         """Everything that has a name, by name."""
-        symbols = (self._coordinates, self._velocities, self._parameters, self._inputs, self._definitions)
-        return (*symbols, self._points, self._frames, self._element_names)
+        return (*self._symbol_tables, self._points, self._frames, self._element_names)
+
+    @property
+    def _symbol_tables(self) -> tuple[Mapping[str, Any], ...]:
+        """The declared symbols by name."""
+        return (self._coordinates, self._velocities, self._parameters, self._inputs, self._definitions)
 
     def summary(self) -> str:
         """The numbers of parts of each kind, in words."""

@@ -20,6 +20,7 @@ from lagrangian.model import Model
 from lagrangian.page.formula import Check, Name, text
 from lagrangian.values.dimensions import check_dimensions
 from lagrangian.values.values import check_sampling
+from lagrangian.verify.on_rows import OnRows
 from lagrangian.verify.states import evaluated, random_states
 
 TOLERANCE = 1e-9
@@ -39,6 +40,7 @@ class _Worst:
     skew: float = 0.0
     rates: float = 0.0
     power: float = 0.0
+    compared: int = 0
 
     def note(self, name: str, value: float) -> None:
         """Keep the larger number; NaN is the worst and stays."""
@@ -53,6 +55,9 @@ def verify_motion(model: Model, *, states: int = 50, seed: int = 1) -> tuple[Che
     check_sampling(states, seed)
     dims = check_dimensions(model)
     worst, timed = _measured(model, states, seed), _reads_time(model)
+    if not worst.compared:
+        why = "not checked: no random position could be moved to where it satisfies the constraints"
+        return (Check(text("the laws of motion hold where the constraints do"), None, why),)
     M, C, n = Name("M"), Name("C"), f"{states} random state{'s' if states != 1 else ''}"
     checks = [
         Check(
@@ -94,8 +99,13 @@ def _measured(model: Model, states: int, seed: int) -> _Worst:
     second, bias = dynamics.inverse_from_lagrangian(model), dynamics.bias(model)
     potential_force = dynamics.potential_force(model)
     matrices, balance, rhs = _matrices(model), _balance(model), dynamics.rhs(model)
-    worst = _Worst()
-    for state in random_states(model, forward, states, seed):
+    worst, onto = _Worst(), OnRows(model) if model.constraints else None
+    multipliers = None if onto is None else dynamics.multipliers(model)
+    for drawn in random_states(model, forward, states, seed):
+        state = drawn if onto is None else onto.of(drawn)
+        if state is None:
+            continue  # no position near it satisfies the constraints
+        worst.compared += 1
         by_work, by_energy = (np.array(evaluated(p, state)["r"]) for p in (inverse, second))
         got = {name: np.array(x) for name, x in evaluated(matrices, state).items()}
         n = len(model.velocities)
@@ -110,7 +120,11 @@ def _measured(model: Model, states: int, seed: int) -> _Worst:
         without = np.array(evaluated(bias, state)["h"]) + got["Xi"] - G
         worst.note("rates", float(np.abs(C @ v - without).max()) / size)
         found = {**state, "a": list(evaluated(forward, state)["a"])}
-        worst.note("solved", float(np.abs(evaluated(inverse, found)["r"]).max()) / size)
+        missing = np.array(evaluated(inverse, found)["r"])
+        if onto is not None and multipliers is not None:
+            A = np.array(evaluated(onto.matrix, state)["A"], float).reshape(-1, n)
+            missing = missing - A.T @ np.array(evaluated(multipliers, state)["lam"], float)
+        worst.note("solved", float(np.abs(missing).max()) / size)
         x = [*state["q"], *state["v"]]
         along = {**state, "x": x, "xdot": list(evaluated(rhs, {**state, "x": x})["xdot"])}
         power = {name: float(np.array(y)) for name, y in evaluated(balance, along).items()}

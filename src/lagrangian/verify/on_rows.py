@@ -36,6 +36,9 @@ CLEARLY = 1e-4
 HARDLY = 1e-9
 """The part below which a direction is clearly none of them."""
 
+MOST_BENT = 1e3
+"""The most that a row's second rate may be, in squares of the rates."""
+
 CLOSED = 1e-12
 """What is left of the rows, in parts of their size."""
 
@@ -77,7 +80,17 @@ class OnRows:
             if step is None:
                 return None
             found["v"] = [float(x) for x in np.array(found["v"]) + step[0]]
-        return found
+        return found if self._moderate(found) else None
+
+    def _moderate(self, found: Groups) -> bool:
+        """Whether the rows bend no more than usual there: not where two points of a rope or a rod almost coincide."""
+        try:
+            made = evaluated(self.matrix, found)
+        except (ZeroDivisionError, ValueError, OverflowError):
+            return False
+        bend = np.abs(np.array(made["gamma"], float)).max(initial=0.0)
+        speed = np.abs(np.array(found["v"], float)).max(initial=0.0)
+        return bool(bend <= MOST_BENT * (1.0 + speed**2))
 
     def _closed(self, found: dict[str, list[float]], program: Program) -> bool:
         for _ in range(STEPS):

@@ -88,6 +88,8 @@ def _agrees(sheet: Sheet, place: GenericPoint, form: RowForm, repeated: Sequence
 
 def _at_satisfied(sheet: Sheet, position: int, others: list[int], start: int) -> bool | None:
     """Whether f = 0 at a position that satisfies the others, which Newton's method finds from a random start."""
+    if not others:
+        return False  # f does not depend on the coordinates, and is not 0
     graph, draw = sheet.graph, random.Random(start)
     slopes = [sheet.differential(f)[:-1] for f in others]
     wanted = [position, *others, *(x for row in slopes for x in row)]
