@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,7 +14,9 @@ from lagrangian.errors import RunError, did_you_mean
 from lagrangian.model.rows import named_conditions
 from lagrangian.page.plain import plain
 from lagrangian.queries import Looking, by_name
-from lagrangian.simulate.reaction import Reaction, worked_out
+
+if TYPE_CHECKING:
+    from lagrangian.simulate.reaction import Reaction
 
 Values = ArrayLike | Mapping[Any, Any] | None
 """Inputs or parameters: an array in declared order, a mapping by name or symbol, or None for the declared values."""
@@ -71,6 +73,8 @@ class Restricted(Looking):
         ``joint`` is the name of a constraint, of a point at which a body is held, or of a body that is held; ``on`` the
         side that it acts on (`lagrangian.Trajectory.reaction`). Accelerations are those of `forward`.
         """
+        from lagrangian.simulate.reaction import worked_out
+
         key = ("reaction", joint, on, axes)
         if key not in self._reactions:
             self._reactions[key] = dynamics.reaction(self._model, joint, on, axes)
