@@ -1,5 +1,8 @@
 """The constraints of a system as a result: rows, verdict, integrals, and what they mean in words."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
+
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping

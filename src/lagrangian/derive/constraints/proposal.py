@@ -65,7 +65,7 @@ def _ways(
     for x, y in combinations(free, 2):
         if name is not None and (circle := _circle(f, x, y, coordinates)) is not None:
             a, b, r = circle
-            angle = cast("sp.Expr", sp.Function(name, real=True)(time))
+            angle = sp.Function(name, real=True)(time)
             written = ((x, a + r * sp.sin(angle)), (y, b - r * sp.cos(angle)))
             yield Proposal(integral, written, angle)
 
@@ -78,7 +78,7 @@ def _circle(
     length: sp.Expr | None = None
     if len(roots) == 1 and not (f - roots[0]).has(x, y):
         length = roots[0] - f
-        f = cast("sp.Expr", roots[0].base - length**2)
+        f = roots[0].base - length**2
     if (roots and length is None) or size(f) > 200:
         return None
     u, v = sp.symbols("u v", real=True)

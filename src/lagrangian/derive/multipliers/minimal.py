@@ -4,6 +4,9 @@ S spans the motions that the rows allow, so Sᵀ Aᵀ = 0 and no multiplier is l
 differentiated, never before.
 """
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
+
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -140,8 +143,8 @@ class _Reduced:
         return Minimal(
             tuple(speeds),
             self.speeds.meanings,
-            sp.ImmutableMatrix(n, len(speeds), lambda i, j: S[i][j].expr()),
-            sp.ImmutableMatrix(n, 1, lambda i, _: list(self.rates.values())[i].rest.expr()),
+            sp.ImmutableMatrix(n, len(speeds), [x.expr() for row in S for x in row]),
+            sp.ImmutableMatrix(n, 1, [x.rest.expr() for x in self.rates.values()]),
             {v: x.expr(context) for v, x in self.rates.items()},
             tuple(self.speeds.lines),
             tuple(equations),
@@ -216,7 +219,7 @@ def _determinant(context: Context, rows: list[list[Form]]) -> Form:
     """By the first column."""
     if not rows:
         return context.algebra.number(1)
-    pieces = []
+    pieces: list[Form] = []
     for i, row in enumerate(rows):
         if row[0].parts:
             minor = _determinant(context, [other[1:] for k, other in enumerate(rows) if k != i])

@@ -1,5 +1,8 @@
 """The rows of a model in normal form, each with the symbol of its multiplier."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
+
 from __future__ import annotations
 
 import re

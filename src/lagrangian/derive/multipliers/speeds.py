@@ -10,6 +10,9 @@ In this order, until no row is left:
 4. else the row is divided by its simplest coefficient, which can vanish: the line says where.
 """
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
@@ -158,7 +161,7 @@ class _Elimination:
         self.found.free.insert(min(map(self.found.free.index, pair)), speed)
         if j in self.lengths or i in self.lengths:
             self.lengths.add(speed)
-        values = []
+        values: list[tuple[sp.Expr, Linear]] = []
         for v, along, across in ((j, c, a), (i, d, b)):
             value = Linear({speed: along, **{o: -(f * across) for o, f in left.items()}}, -(rest * across))
             values.append((v, Linear({s: f for s, f in value.slopes.items() if not f.is_zero}, value.rest)))
@@ -176,7 +179,7 @@ class _Elimination:
         speed = min(row.slopes, key=lambda v: (row.slopes[v].size, v not in self.lengths))
         over = self._over(row.slopes[speed])
         value = self._value(row, speed)
-        factors = [cast("sp.Expr", f) for f in sp.Mul.make_args(over.expr())]
+        factors = sp.Mul.make_args(over.expr())
         divisor = sp.Mul(*(f for f in factors if self.algebra.form(f).moves))
         reason = text(f"by '{name}', divided by ", divisor, ", which can vanish")
         line = SpeedLine(speed, value.expr(self.context), reason, divisor)

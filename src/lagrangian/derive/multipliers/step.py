@@ -1,5 +1,8 @@
 """The constraints of a derivation: what holds, what each multiplier is, and what it adds to every equation."""
 
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownArgumentType=false
+
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
