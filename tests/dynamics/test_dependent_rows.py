@@ -11,7 +11,7 @@ from lagrangian.errors import ModelError
 def bob() -> lg.System:
     s = lg.System("bob")
     x, y = s.coordinates("x y")
-    s.parameters("l a", l=2.0, a=1.0)
+    s.parameters("l k", l=2.0, k=1.0)
     s.particle(1, at=s.point("P", (x, y)))
     s.gravity()
     return s
@@ -45,8 +45,8 @@ def test_the_third_of_three_rows_on_two_coordinates_is_left_out() -> None:
 def test_accelerations_that_contradict_each_other_are_refused_by_name() -> None:
     s = bob()
     x = s["x"]
-    s.velocity_constraint(x.diff() - s["a"] * s.t, name="pulled")
-    s.velocity_constraint(x.diff() - 2 * s["a"] * s.t, name="pulled twice")
+    s.velocity_constraint(x.diff() - s["k"] * s.t, name="pulled")
+    s.velocity_constraint(x.diff() - 2 * s["k"] * s.t, name="pulled twice")
     with pytest.raises(ModelError, match="'pulled twice' contradicts 'pulled'") as caught:
         s.compile()
     assert caught.value.code == "E302"
@@ -54,8 +54,8 @@ def test_accelerations_that_contradict_each_other_are_refused_by_name() -> None:
 
 def test_rates_that_contradict_each_other_are_refused_by_name() -> None:
     s = bob()
-    s.velocity_constraint(s["x"].diff() - s["a"], name="one")
-    s.velocity_constraint(s["x"].diff() - 2 * s["a"], name="two")
+    s.velocity_constraint(s["x"].diff() - s["k"], name="one")
+    s.velocity_constraint(s["x"].diff() - 2 * s["k"], name="two")
     with pytest.raises(ModelError, match="'two' contradicts 'one'"):
         s.compile()
 

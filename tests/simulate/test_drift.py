@@ -156,3 +156,23 @@ def test_a_parallelogram_passes_where_it_is_flat(method, step):
     assert float(run.audit) < 1e-8
     told = [n for n in run.notices if n.code == "E508"]
     assert bool(told) == (run.drift.margin < 1e-6) and all("'coupler' comes within" in n.text for n in told)
+
+
+def test_constraints_that_are_missed_after_the_projection_too_are_told():
+    """A plate on three cranks: a row follows from the others, and inside long steps the guard does not see it."""
+    s = lg.System("plate on three cranks")
+    a1, a2, a3, x, y, th = s.coordinates("a1 a2 a3 x y th")
+    plate = s.frame(th, origin=s.point("G", (x, y)), name="plate")
+    s.rigid_body(3.0, 0.4, at=plate.point(0, 0), frame=plate)
+    s.gravity()
+    for k, (angle, place) in enumerate(zip((a1, a2, a3), (-0.5, 0.0, 0.5), strict=True)):
+        crank = s.frame(angle, origin=s.point(f"O{k}", (place, 0)))
+        s.rigid_body(0.5, 0.01, at=crank.point(0.3, 0), frame=crank)
+        s.pin((plate.point(place, 0), crank.point(0.6, 0)), name=f"p{k}")
+    start = {"a1": 1.0, "a2": 1.0, "a3": 1.0, "x": 0.6 * np.cos(1), "y": 0.6 * np.sin(1)}
+    run = s.simulate(2.0, initial=start)
+    left = max(run.drift.position_after, run.drift.velocity_after)
+    assert any("still missed by up to" in str(notice) for notice in run.notices) == (left > 1e-6)
+    fine = s.simulate(2.0, initial=start, method="rk4", step=1e-3)
+    assert max(fine.drift.position_after, fine.drift.velocity_after) < 1e-6
+    assert not any("still missed" in str(notice) for notice in fine.notices)

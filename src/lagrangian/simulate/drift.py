@@ -68,7 +68,19 @@ def notices(task: Task, outcome: Outcome) -> tuple[Notice, ...]:
         return ()
     drift = RunDrift.of_run(outcome.drift)
     return (*_too_long(task.method, max(drift.position_before, drift.velocity_before), task.project),
-            *_close(task, outcome, drift))  # fmt: skip
+            *_close(task, outcome, drift), *_missed(task, drift))  # fmt: skip
+
+
+def _missed(task: Task, drift: RunDrift) -> tuple[Notice, ...]:
+    """A notice if states miss the constraints after the projection too."""
+    left = max(drift.position_after, drift.velocity_after)
+    if not task.project or left <= LARGEST:
+        return ()
+    said = (
+        f"after the projection they are still missed by up to {left:.2g} (SI units), so that fewer digits of the run "
+        "are right than its tolerances say; leave out rows that follow from others, or compare with a smaller max_step"
+    )
+    return (Notice(Code.E508, WHERE, said),)
 
 
 def of_runs(method: str, project: bool, position: Array, velocity: Array, margin: Array) -> tuple[str, ...]:
