@@ -65,6 +65,7 @@ PRINTED = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("speed", PRINTED)
 def test_a_bicycle_has_the_printed_eigenvalues(speed: float) -> None:
     """Meijaard, Papadopoulos, Ruina and Schwab, Proc. R. Soc. A 463 (2007) 1955-1982, table 2."""

