@@ -170,6 +170,13 @@ def test_operations_are_those_that_sympy_counts(expr: sp.Expr) -> None:
     assert bounded.operations(expr) == sp.count_ops(expr)
 
 
+def test_operations_of_several_expressions_are_added() -> None:
+    a, b = sp.symbols("a b")
+    exprs = (a * b + 1, sp.sqrt(a * b + 1) / 3, a * b + 1)
+    assert bounded.operations(*exprs) == sum(sp.count_ops(x) for x in exprs)
+    assert bounded.operations() == 0
+
+
 def test_operations_of_what_is_shared_are_counted_once() -> None:
     """SymPy would look at 2⁶⁰ of them."""
     expr: sp.Expr = a / q - b

@@ -8,13 +8,13 @@ import sympy as sp
 from sympy.core.operations import LatticeOp
 
 
-def operations(expr: sp.Basic) -> int:
-    """Return what ``sympy.count_ops`` counts: −, /, and one + or · less than there are operands.
+def operations(*exprs: sp.Basic) -> int:
+    """Return what ``sympy.count_ops`` counts in all of the expressions: −, /, and one + or · less than the operands.
 
-    A part that occurs in many places is examined once; SymPy examines it in every place.
+    A part that occurs in many places, or in several expressions, is examined once; SymPy examines it in every place.
     """
     known: dict[sp.Basic, int] = {}
-    stack: list[sp.Basic] = [expr]
+    stack: list[sp.Basic] = list(exprs)
     parts: dict[sp.Basic, tuple[int, list[Any]]] = {}
     while stack:
         node = stack[-1]
@@ -26,7 +26,7 @@ def operations(expr: sp.Basic) -> int:
         else:
             own, below = parts[node] = _looked_at(cast("Any", node))
             stack += [part for part in below if part not in known]
-    return known[expr]
+    return sum(known[expr] for expr in exprs)
 
 
 def _looked_at(node: Any) -> tuple[int, list[Any]]:

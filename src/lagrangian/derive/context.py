@@ -65,7 +65,7 @@ def fit(expr: sp.Expr) -> Left:
 
 def fit_terms(terms: tuple[sp.Expr, ...]) -> Left:
     """Return the sum with its terms in this order, or its summary if it is too long to read."""
-    operations = sum(bounded.operations(t) for t in terms)
+    operations = bounded.operations(*terms)
     if operations <= READABLE:
         return Terms(terms)
     return Elided(sp.Add(*terms, evaluate=False) if terms else sp.S.Zero, operations, terms)

@@ -206,7 +206,7 @@ def _shown(matrix: sp.ImmutableMatrix, column: tuple[Left, ...] = (), *, symmetr
         return sp.S.Zero
     entries = [[cast("sp.Expr", matrix[i, j]) for j in range(matrix.cols)] for i in range(matrix.rows)]
     rows: tuple[tuple[Left, ...], ...] = tuple((x,) for x in column) if column else tuple(map(tuple, entries))
-    operations = sum(bounded.operations(x) for row in entries for x in row)
+    operations = bounded.operations(*(x for row in entries for x in row))
     whole = Matrix(rows, symmetric)
     return whole if operations <= READABLE else Elided(whole, operations)
 
