@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass, fields
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,7 @@ from lagrangian.integrate.scipy_methods import Outcome
 from lagrangian.model import Model
 from lagrangian.model.rows import rows_of
 from lagrangian.simulate.integrating import SYMPLECTIC, Task, remembered
+from lagrangian.simulate.resets import cut_at
 from lagrangian.viewed import Brief
 
 Array = NDArray[np.float64]
@@ -158,17 +159,8 @@ def ended(outcome: Outcome, task: Task) -> Outcome:
     for k, hit in enumerate(outcome.hits if broken else ()):
         if hit.after is None or not (said := _breaks(task, hit.time, hit.after)):
             continue
-        kept = int(np.searchsorted(outcome.times, hit.time, side="right"))
-        return replace(
-            outcome,
-            times=outcome.times[:kept],
-            states=outcome.states[:kept],
-            status=RunStatus.BROKEN,
-            reached=hit.time,
-            final=hit.before,
-            hits=[*outcome.hits[:k], replace(hit, after=None)],
-            reason=f"[E509] the reset of event '{task.events[hit.index].title}' breaks {said}",
-        )
+        why = f"[E509] the reset of event '{task.events[hit.index].title}' breaks {said}"
+        return cut_at(outcome, k, RunStatus.BROKEN, why)
     return outcome
 
 

@@ -140,7 +140,7 @@ def _jacobian(program: Program) -> Program:
 
 
 def _by_machine(task: Task) -> Outcome:
-    drive, times = task.drive, task.times
+    drive = task.drive
     program = right_hand_side(task.model, drive, canonical=task.method in SYMPLECTIC)
 
     def make() -> Solver:
@@ -157,23 +157,25 @@ def _by_machine(task: Task) -> Outcome:
 
     key = ("solver", task.method, frozenset(drive.feedback.items()), _event_key(task), task.project)
     solver: Solver = remembered(task.model, key, make)
-    start, end = float(times[0]), float(times[-1])
-    u = drive.at(times[:1], task.x0[np.newaxis])[0] if drive.constant else Signals(*drive.pieces(start, end))
     x0 = _to_momenta(task, task.x0) if task.method in SYMPLECTIC else task.x0
-    found = solver.solve(
-        x0,
-        times,
-        u=u,
-        p=task.p,
-        step=task.step,
-        max_steps=task.bounds.max_steps,
-        max_step=task.bounds.max_step,
-        max_events=task.bounds.max_events,
-        deadline=task.bounds.seconds,
-        rtol=task.rtol,
-        atol=task.atol,
-    )
-    return outcome_of(task, found)
+    return outcome_of(task, solver.solve(x0, task.times, **solver_options(task)))
+
+
+def solver_options(task: Task) -> dict[str, Any]:
+    """What a solver takes besides the start and the times: inputs, parameters, tolerances and limits."""
+    drive, times, bounds = task.drive, task.times, task.bounds
+    start, end = float(times[0]), float(times[-1])
+    return {
+        "u": drive.at(times[:1], task.x0[np.newaxis])[0] if drive.constant else Signals(*drive.pieces(start, end)),
+        "p": task.p,
+        "step": task.step,
+        "max_steps": bounds.max_steps,
+        "max_step": bounds.max_step,
+        "max_events": bounds.max_events,
+        "deadline": bounds.seconds,
+        "rtol": task.rtol,
+        "atol": task.atol,
+    }
 
 
 def outcome_of(task: Task, found: Solution) -> Outcome:

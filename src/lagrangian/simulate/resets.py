@@ -43,6 +43,22 @@ def valued(kernel: Kernel) -> Callable[..., dict[str, Array]]:
     return evaluate
 
 
+def cut_at(outcome: Outcome, k: int, status: RunStatus, reason: str) -> Outcome:
+    """Return the outcome, ended by the reset of its event number k, whose state is not taken over."""
+    hit = outcome.hits[k]
+    kept = int(np.searchsorted(outcome.times, hit.time, side="right"))
+    return replace(
+        outcome,
+        times=outcome.times[:kept],
+        states=outcome.states[:kept],
+        status=status,
+        reached=hit.time,
+        final=hit.before,
+        hits=[*outcome.hits[:k], replace(hit, after=None)],
+        reason=reason,
+    )
+
+
 def ended(outcome: Outcome, states: Sequence[str], titles: Sequence[str]) -> Outcome:
     """Return the outcome cut at the first event whose reset leaves a state without a finite value.
 
@@ -52,15 +68,6 @@ def ended(outcome: Outcome, states: Sequence[str], titles: Sequence[str]) -> Out
         if hit.after is None or np.isfinite(hit.after).all():
             continue
         first = next(f"{name} = {x}" for name, x in zip(states, hit.after, strict=False) if not np.isfinite(x))
-        kept = int(np.searchsorted(outcome.times, hit.time, side="right"))
-        return replace(
-            outcome,
-            times=outcome.times[:kept],
-            states=outcome.states[:kept],
-            status=RunStatus.NOT_FINITE,
-            reached=hit.time,
-            final=hit.before,
-            hits=[*outcome.hits[:k], replace(hit, after=None)],
-            reason=f"[{NOT_A_VALUE}] the reset of event '{titles[hit.index]}' gives {first}",
-        )
+        said = f"[{NOT_A_VALUE}] the reset of event '{titles[hit.index]}' gives {first}"
+        return cut_at(outcome, k, RunStatus.NOT_FINITE, said)
     return outcome

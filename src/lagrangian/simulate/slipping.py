@@ -12,13 +12,13 @@ import sympy as sp
 from lagrangian import dynamics
 from lagrangian.dynamics.observe import holds_acceleration
 from lagrangian.errors import RunError
-from lagrangian.integrate import METHODS, RunStatus, Signals
+from lagrangian.integrate import METHODS, RunStatus
 from lagrangian.integrate.scipy_methods import Outcome
 from lagrangian.model import Model
 from lagrangian.model.rows import multiplier_symbol, named_conditions
 from lagrangian.simulate.events import listed_events
 from lagrangian.simulate.inputs import InputSignals
-from lagrangian.simulate.integrating import SYMPLECTIC, Task, outcome_of, right_hand_side
+from lagrangian.simulate.integrating import SYMPLECTIC, Task, outcome_of, right_hand_side, solver_options
 from lagrangian.simulate.recorded import Occurrences
 from lagrangian.simulate.settings import RunSettings
 from lagrangian.simulate.stick_slip import SlipSolution, StickSlip
@@ -92,22 +92,7 @@ def run(task: Task) -> SlipRun:
     program = right_hand_side(task.model, task.drive)
     supply = dynamics.SUPPLY in program.inputs["x"]
     way = StickSlip(task.model, task.method, task.drive.feedback, task.events, project=task.project, supply=supply)
-    start, end = float(task.times[0]), float(task.times[-1])
-    drive = task.drive
-    u = drive.at(task.times[:1], task.x0[np.newaxis])[0] if drive.constant else Signals(*drive.pieces(start, end))
-    found = way.solve(
-        task.x0,
-        task.times,
-        u=u,
-        p=task.p,
-        step=task.step,
-        max_steps=task.bounds.max_steps,
-        max_step=task.bounds.max_step,
-        max_events=task.bounds.max_events,
-        deadline=task.bounds.seconds,
-        rtol=task.rtol,
-        atol=task.atol,
-    )
+    found = way.solve(task.x0, task.times, **solver_options(task))
     outcome = outcome_of(task, found)
     if outcome.status in ENDS:
         changes = len(found.transitions[0])
