@@ -124,11 +124,13 @@ class Restricted(Looking):
         allow, measured with the mass matrix. Raises `RunError` if no position (E304, with the gap and the fixed
         coordinate that prevents it) or no rates (E305) satisfy the constraints.
         """
-        from lagrangian.assembly.assemble import consistent
+        from lagrangian.assembly.assemble import consistent, fixed_names
 
         self._needed()
         guess, rates = self._guess(q, self.coordinates, "q"), self._guess(v, self.velocities, "v")
-        return consistent(self._model, guess, rates, self._parameters(p), float(t), fixed=self._fixed(fixed))
+        return consistent(
+            self._model, guess, rates, self._parameters(p), float(t), fixed=fixed_names(self._model, fixed)
+        )
 
     def assemblies(
         self, q: Any = None, *, fixed: Sequence[str] | str = (), p: Values = None, t: float = 0.0
@@ -138,11 +140,11 @@ class Restricted(Looking):
         They are found from 1000 random guesses, always the same ones; coordinates in ``fixed`` stay as in q. With as
         many fixed coordinates as degrees of freedom these are the ways in which the loops can be put together.
         """
-        from lagrangian.assembly.assemble import Assembler
+        from lagrangian.assembly.assemble import assembler_of, fixed_names
 
         self._needed()
         guess = self._guess(q, self.coordinates, "q")
-        assembler = Assembler(self._model, self._fixed(fixed))
+        assembler = assembler_of(self._model, fixed_names(self._model, fixed))
         return assembler.positions(guess, self._parameters(p), float(t), spread=None, count=ASSEMBLED)
 
     # -- what was given -----------------------------------------------------------------------------------------
@@ -163,18 +165,6 @@ class Restricted(Looking):
                 fix="describe one: constraint(expression), pin((P, Q)), rolling(body, at=P, along=…)",
                 code="E402",
             )
-
-    def _fixed(self, fixed: Sequence[str] | str) -> tuple[str, ...]:
-        listed = tuple(fixed.replace(",", " ").split()) if isinstance(fixed, str) else tuple(fixed)
-        names = tuple(name if isinstance(name, str) else plain(name) for name in listed)
-        for name in names:
-            if name not in self.coordinates:
-                raise RunError(
-                    f"there is no coordinate '{name[:64]}' to hold fixed",
-                    fix=did_you_mean(name, self.coordinates) or f"known: {', '.join(self.coordinates[:12])}",
-                    code="E402",
-                )
-        return names
 
     def _guess(self, given: Any, names: tuple[str, ...], what: str) -> NDArray[np.float64]:
         """A guess as an array. Coordinates missing from a mapping are 0, and a missing quaternion means no rotation."""

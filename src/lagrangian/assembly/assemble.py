@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian import dynamics
-from lagrangian.errors import RunError
+from lagrangian.errors import RunError, did_you_mean
 from lagrangian.integrate.closing import Array, Closing, LoopSearch
 from lagrangian.model import Model
 from lagrangian.model.rows import NamedCondition, named_conditions
+from lagrangian.values.values import key_name
 
 Flags = NDArray[np.bool_]
 
@@ -116,7 +118,7 @@ class Assembler:
         )
 
     def _closes_without(self, name: str, guess: Array, p: Array, t: float) -> bool:
-        other = Assembler(self.model, tuple(n for n in self.fixed if n != name))
+        other = assembler_of(self.model, (n for n in self.fixed if n != name))
         return bool(len(other.positions(guess, p, t, spread=SPREAD, count=NEAR)))
 
     # -- velocities ---------------------------------------------------------------------------------------------
@@ -136,6 +138,34 @@ class Assembler:
         return v
 
 
+REMEMBERED = 8
+"""The number of choices of fixed coordinates whose programs are kept for a model; the most recent ones stay."""
+
+
+def assembler_of(model: Model, fixed: Iterable[str] = ()) -> Assembler:
+    """Return the assembler of a model that holds these coordinates; it is made, and its code compiled, only once."""
+    kept: dict[tuple[str, ...], Assembler] = model.remembered("assemblers", dict)
+    key = tuple(fixed)
+    found = kept[key] = kept.pop(key, None) or Assembler(model, key)  # the most recently used is last
+    for oldest in list(kept)[:-REMEMBERED]:
+        kept.pop(oldest, None)
+    return found
+
+
+def fixed_names(model: Model, fixed: Iterable[Any] | str) -> tuple[str, ...]:
+    """Return the names of the coordinates to hold fixed, given as text, names or symbols. Raises `RunError`."""
+    listed = fixed.replace(",", " ").split() if isinstance(fixed, str) else fixed
+    names, known = tuple(key_name(x) for x in listed), [c.name for c in model.coordinates]
+    for name in names:
+        if name not in known:
+            raise RunError(
+                f"there is no coordinate '{name[:64]}' to hold fixed",
+                fix=did_you_mean(name, known) or f"known: {', '.join(known[:12])}",
+                code="E402",
+            )
+    return names
+
+
 def closing(model: Model, fixed: Collection[str] = ()) -> Closing:
     """The programs that move a state onto a model's constraints and leave the coordinates in ``fixed`` as they are."""
     position = dynamics.correction(model, fixed, position=True)
@@ -150,6 +180,6 @@ def consistent(
 
     Raises `RunError` if no position closes the loops (E304), or no rates do with the fixed coordinates (E305).
     """
-    assembler = Assembler(model, fixed)
+    assembler = assembler_of(model, fixed)
     at = assembler.position(np.asarray(q, float), p, t)
     return at, assembler.velocity(at, np.asarray(v, float), p, t)

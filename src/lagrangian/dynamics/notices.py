@@ -58,11 +58,12 @@ def dependent_rows(model: Model) -> tuple[str, ...]:
 
     The answer does not depend on the values of parameters.
     """
-    if "dependent rows" not in model._memo:
+
+    def found() -> tuple[str, ...]:
         graph = Graph()
-        found = describe(model, graph, Inputs.of(graph, model)).settled[1] if model.constraints else ()
-        model._memo["dependent rows"] = found
-    return model._memo["dependent rows"]
+        return describe(model, graph, Inputs.of(graph, model)).settled[1] if model.constraints else ()
+
+    return model.remembered("dependent rows", found)
 
 
 def _dependent(model: Model) -> Iterator[Notice]:

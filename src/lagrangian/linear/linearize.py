@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian import dynamics
-from lagrangian.errors import RunError, did_you_mean
+from lagrangian.assembly.assemble import fixed_names
+from lagrangian.errors import RunError
 from lagrangian.graph import Program
 from lagrangian.linear.jacobians import Arrays, forces, may_kink, rates, reads, values, with_jacobians
 from lagrangian.linear.linearization import Linearization
@@ -28,7 +29,7 @@ from lagrangian.linear.rest import TIMES, OperatingPoint, rest
 from lagrangian.linear.stability import has_minimum, loses_power, loses_power_beyond_potential
 from lagrangian.model import Model
 from lagrangian.model.rows import named_conditions
-from lagrangian.values.values import Given, Named, key_name
+from lagrangian.values.values import Given, Named
 
 Array = NDArray[np.float64]
 _log = logging.getLogger(__name__)
@@ -327,16 +328,7 @@ def _fixed(linearizer: Linearizer, fixed: Sequence[Any] | str | None) -> tuple[s
             fix="leave fixed out",
             code="E501",
         )
-    listed = fixed.replace(",", " ").split() if isinstance(fixed, str) else list(fixed)
-    names, known = tuple(key_name(x) for x in listed), [c.name for c in model.coordinates]
-    for name in names:
-        if name not in known:
-            raise RunError(
-                f"there is no coordinate '{name[:64]}' to hold fixed",
-                fix=did_you_mean(name, known) or f"known: {', '.join(known[:12])}",
-                code="E402",
-            )
-    return names
+    return fixed_names(model, fixed)
 
 
 def _finite(found: Arrays, here: OperatingPoint) -> Arrays:

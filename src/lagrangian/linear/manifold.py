@@ -23,7 +23,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian import dynamics
-from lagrangian.assembly.assemble import Assembler
+from lagrangian.assembly.assemble import consistent
 from lagrangian.errors import RunError
 from lagrangian.graph import Program
 from lagrangian.linear.jacobians import Arrays, reads, values, with_jacobians
@@ -89,7 +89,6 @@ class Manifold:
         self.model = model
         self.names = (*(c.name for c in model.coordinates), *(v.name for v in model.velocities))
         self.size = len(model.coordinates)
-        self._assemblers: dict[tuple[str, ...], Assembler] = {}
 
     @cached_property
     def rows(self) -> Program:
@@ -122,14 +121,8 @@ class Manifold:
 
     def moved(self, x: Array, p: Array, t: float, fixed: Sequence[str] = ()) -> Array:
         """The state nearest to x that satisfies every row; coordinates in ``fixed`` stay. Raises `RunError`."""
-        n, assembler = self.size, self._assembler(tuple(fixed))
-        q = assembler.position(x[:n], p, t)
-        return np.concatenate([q, assembler.velocity(q, x[n:], p, t)])
-
-    def _assembler(self, fixed: tuple[str, ...]) -> Assembler:
-        if fixed not in self._assemblers:
-            self._assemblers[fixed] = Assembler(self.model, fixed)
-        return self._assemblers[fixed]
+        n = self.size
+        return np.concatenate(consistent(self.model, x[:n], x[n:], p, t, fixed=fixed))
 
     def tangent(
         self, x: Array, p: Array, t: float, kept: Sequence[int] | None = None, idle: Sequence[int] = ()

@@ -5,10 +5,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import Any, TypeVar
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -19,6 +19,8 @@ from lagrangian.model.geometry import Frame, Point
 from lagrangian.model.names import time
 from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, Velocity
 from lagrangian.viewed import Brief, cut
+
+T = TypeVar("T")
 
 
 def written_out(expr: sp.Expr, table: Mapping[Any, Any]) -> sp.Expr:
@@ -54,12 +56,16 @@ class Model(Brief):
         counts = ("coordinates", "parameters", "inputs", "elements")
         return cut(f"<Model {self.name!r}: {', '.join(f'{len(getattr(self, x))} {x}' for x in counts)}>")
 
+    def remembered(self, key: Any, make: Callable[[], T]) -> T:
+        """Return what belongs to the model under a key; it is made at the first request."""
+        if key not in self._memo:
+            self._memo[key] = make()
+        return self._memo[key]
+
     @property
     def bodies(self) -> tuple[Body, ...]:
         """Particles and rigid bodies, in order."""
-        if "bodies" not in self._memo:
-            self._memo["bodies"] = tuple(e for e in self.elements if isinstance(e, Body))
-        return self._memo["bodies"]
+        return self.remembered("bodies", lambda: tuple(e for e in self.elements if isinstance(e, Body)))
 
     @cached_property
     def constraints(self) -> tuple[Element, ...]:

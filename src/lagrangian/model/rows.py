@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import cast
-from weakref import WeakKeyDictionary
 
 import sympy as sp
 
@@ -22,51 +21,38 @@ from lagrangian.model.model import Model
 
 
 @dataclass(frozen=True, eq=False)
-class Row:
-    """One scalar constraint: ``rate`` = c, linear in the rates; ``position`` = f with c = ḟ, or None.
+class NamedCondition:
+    """A row without its expressions: its name, its constraint and its condition.
 
-    ``name`` is the constraint's, with a suffix if it has several rows ("loop.x"). ``unit`` is that of λ, or None if it
-    follows from the unit of the expression. ``multiplier`` describes λ in words.
+    ``name`` is the constraint's, with a suffix if it has several rows ("loop.x").
     """
 
     name: str
     element: Element
     condition: Condition
+
+
+@dataclass(frozen=True, eq=False)
+class Row(NamedCondition):
+    """One scalar constraint: ``rate`` = c, linear in the rates; ``position`` = f with c = ḟ, or None.
+
+    ``unit`` is that of λ, or None if it follows from the unit of the expression. ``multiplier`` describes λ in words.
+    """
+
     position: sp.Expr | None
     rate: sp.Expr
     unit: Unit | None
     multiplier: Words
 
 
-_KNOWN: WeakKeyDictionary[Model, tuple[Row, ...]] = WeakKeyDictionary()
-
-
 def rows_of(model: Model) -> tuple[Row, ...]:
     """The rows of all constraints, in the order in which they were described."""
-    found = _KNOWN.get(model)
-    if found is None:
-        found = _KNOWN[model] = tuple(
-            Row(
-                named.name,
-                named.element,
-                named.condition,
-                named.condition.position(model),
-                named.condition.rate(model),
-                named.condition.unit,
-                named.condition.multiplier(model),
-            )
-            for named in named_conditions(model)
-        )
-    return found
+    return model.remembered("rows", lambda: tuple(_row(model, named) for named in named_conditions(model)))
 
 
-@dataclass(frozen=True, eq=False)
-class NamedCondition:
-    """A row without its expressions: its name, its constraint and its condition."""
-
-    name: str
-    element: Element
-    condition: Condition
+def _row(model: Model, named: NamedCondition) -> Row:
+    c = named.condition
+    return Row(named.name, named.element, c, c.position(model), c.rate(model), c.unit, c.multiplier(model))
 
 
 def named_conditions(model: Model) -> Iterator[NamedCondition]:

@@ -9,13 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian import dynamics
-from lagrangian.assembly.assemble import closing, consistent
+from lagrangian.assembly.assemble import assembler_of, consistent, fixed_names
 from lagrangian.codes import Code
-from lagrangian.errors import Notice, RunError, did_you_mean
+from lagrangian.errors import Notice, RunError
 from lagrangian.graph import Program, evaluate
 from lagrangian.integrate.closing import Closing
 from lagrangian.model import Model
-from lagrangian.page.plain import plain
 from lagrangian.simulate.integrating import remembered
 
 Array = NDArray[np.float64]
@@ -27,16 +26,7 @@ MOVED = 1e-9
 def held(model: Model, fixed: Iterable[Any] | str | None) -> tuple[str, ...]:
     """The names of the fixed coordinates: those of the call, otherwise those of the model file."""
     given = model.settings.get("fixed", ()) if fixed is None else fixed
-    listed = given.replace(",", " ").split() if isinstance(given, str) else list(given)
-    names = tuple(name if isinstance(name, str) else plain(name) for name in listed)
-    known = [c.name for c in model.coordinates]
-    for name in names:
-        if name not in known:
-            raise RunError(
-                f"there is no coordinate '{name[:64]}' to hold fixed",
-                fix=did_you_mean(name, known) or f"known: {', '.join(known[:12])}",
-                code="E402",
-            )
+    names = fixed_names(model, given)
     if names and not model.constraints:
         raise RunError(
             f"system '{model.name}' has no constraints, so every start is taken as given",
@@ -92,4 +82,4 @@ def starts_of_runs(model: Model, fixed: Sequence[str]) -> Closing | None:
     """The programs that move the starts of an ensemble onto the constraints; None without constraints."""
     if not model.constraints:
         return None
-    return remembered(model, ("closing", tuple(fixed)), lambda: closing(model, fixed))
+    return assembler_of(model, fixed).closing
