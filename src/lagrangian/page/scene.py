@@ -1,0 +1,169 @@
+"""The picture of a system as data: parts that are placed by anchors, labels, and what they belong to.
+
+All lengths are pixels of the picture, with x to the right and y downward. An anchor is a point of the system: its
+position r [m] is output number ``at`` of the scene's program, and its place in the picture is
+
+    origin + scale · view · r + shift,
+
+where ``view`` projects the fixed axes onto the picture (2 × 2 in the plane, 2 × 3 in space; its second row points
+downward). A part is a shape in its own axes together with a placement, so whoever draws a scene, once or sixty times a
+second, only has to place shapes; springs, wheels and carts need no code of their own.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any, Literal, TypeAlias
+
+Pair: TypeAlias = "tuple[float, float]"
+
+Role: TypeAlias = Literal[
+    "body", "rod", "ground", "stiffness", "damping", "friction", "gravity", "input", "coordinate", "constraint", "thin"
+]
+"""What a part stands for; it decides the colours."""
+
+Scaling: TypeAlias = Literal["none", "along", "both"]
+
+Command: TypeAlias = "tuple[str, tuple[float, ...]]"
+"""``M x y`` begins a line, ``L x y`` continues it, ``C x₁ y₁ x₂ y₂ x y`` is a cubic Bézier curve, ``Z`` closes it."""
+
+
+@dataclass(frozen=True)
+class Placement:
+    """Where the axes of a part lie in the picture.
+
+    The origin of the axes is the anchor ``at``, or that of the picture if it is None. With ``towards``, the x axis
+    points from there to that anchor, and y is 90° clockwise from x as seen on the screen. ``scaling`` says what the
+    distance of the two anchors is: nothing (``none``), the unit of x alone (``along``, such as for a spring), or the
+    unit of both axes (``both``, such as for a wheel with an anchor on its rim). ``shift`` and ``shift_towards`` [px]
+    are added to the places of the anchors.
+    """
+
+    at: int | None = None
+    towards: int | None = None
+    scaling: Scaling = "none"
+    shift: Pair = (0.0, 0.0)
+    shift_towards: Pair = (0.0, 0.0)
+
+
+FIXED = Placement()
+
+
+@dataclass(frozen=True)
+class Path:
+    """Lines and curves in the part's own axes."""
+
+    commands: tuple[Command, ...]
+
+
+@dataclass(frozen=True)
+class Disc:
+    """A circle: its centre and radius in the part's own axes (not for parts that are scaled along one axis)."""
+
+    centre: Pair
+    radius: float
+
+
+@dataclass(frozen=True)
+class Part:
+    """A shape, where it lies, and which elements it stands for.
+
+    ``elements`` are the names of elements of the model (empty for the ground). ``outline`` is the width of its line
+    [px], 0 for none; ``filled`` says whether its inside is painted; ``dashed`` whether its line is dashed. Parts are
+    drawn by rising ``layer``. ``moves`` is False for what belongs to the picture at rest alone: measures, arcs.
+    """
+
+    shape: Path | Disc
+    role: Role
+    placement: Placement = FIXED
+    elements: tuple[str, ...] = ()
+    kind: str = ""
+    outline: float = 1.5
+    filled: bool = False
+    dashed: bool = False
+    layer: int = 0
+    moves: bool = True
+    solid: bool = False
+    """Whether it is filled with the colour of its line, such as the head of an arrow."""
+
+
+@dataclass(frozen=True)
+class Label:
+    """Names of symbols, written with commas at a place of the picture; ``box`` is (left, top, width, height) [px]."""
+
+    names: tuple[str, ...]
+    centre: Pair
+    role: Role
+    elements: tuple[str, ...] = ()
+    box: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+    size: float = 15.0
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A picture of a system.
+
+    ``positions`` are the places r [m] of the anchors in the pose that is drawn. ``origin`` [px], ``scale`` [px/m] and
+    ``view`` are those of the module's formula. ``description`` says in words what is seen; ``missing`` says what is not
+    drawn, each with the line of ``[look]`` that helps.
+    """
+
+    name: str
+    size: Pair
+    origin: Pair
+    scale: float
+    view: tuple[tuple[float, ...], tuple[float, ...]]
+    positions: tuple[tuple[float, ...], ...]
+    parts: tuple[Part, ...]
+    labels: tuple[Label, ...]
+    description: str = ""
+    missing: tuple[str, ...] = ()
+    trail: tuple[int, ...] = ()
+    handles: tuple[int, ...] = field(default=())
+    """The anchors that a pointer can take hold of in the page: the bodies' centres."""
+
+    def seen(self, anchor: int, shift: Pair = (0.0, 0.0)) -> Pair:
+        """The place of an anchor in the picture [px]."""
+        r = self.positions[anchor]
+        x, y = (sum(a * b for a, b in zip(row, r, strict=True)) for row in self.view)
+        return self.origin[0] + self.scale * x + shift[0], self.origin[1] + self.scale * y + shift[1]
+
+
+def as_data(scene: Scene) -> dict[str, Any]:
+    """The scene as plain data for JSON, from which a page draws the motion."""
+    return {
+        "name": scene.name,
+        "size": scene.size,
+        "origin": scene.origin,
+        "scale": scene.scale,
+        "view": scene.view,
+        "positions": scene.positions,
+        "parts": [_part(part) for part in scene.parts],
+        "labels": [
+            {"names": x.names, "centre": x.centre, "role": x.role, "elements": x.elements, "size": x.size}
+            for x in scene.labels
+        ],
+        "description": scene.description,
+        "missing": scene.missing,
+        "trail": scene.trail,
+        "handles": scene.handles,
+    }
+
+
+def _part(part: Part) -> dict[str, Any]:
+    placement, shape = part.placement, part.shape
+    data: dict[str, Any] = {"role": part.role, "kind": part.kind, "elements": part.elements, "outline": part.outline}
+    data |= {"filled": part.filled, "solid": part.solid, "dashed": part.dashed, "moves": part.moves}
+    data["layer"] = part.layer
+    data["placement"] = {
+        "at": placement.at,
+        "towards": placement.towards,
+        "scaling": placement.scaling,
+        "shift": placement.shift,
+        "shiftTowards": placement.shift_towards,
+    }
+    if isinstance(shape, Disc):
+        data["disc"] = [*shape.centre, shape.radius]
+    else:
+        data["path"] = [[letter, *numbers] for letter, numbers in shape.commands]
+    return data
