@@ -65,15 +65,28 @@ class Disc:
 
 
 @dataclass(frozen=True)
+class Trace:
+    """Straight lines from anchor to anchor, such as a rope, a wire, or the rim of a disc in space.
+
+    ``shifts`` [px] are added to the places of the anchors; a placement does not apply.
+    """
+
+    anchors: tuple[int, ...]
+    closed: bool = False
+    shifts: tuple[Pair, ...] = ()
+
+
+@dataclass(frozen=True)
 class Part:
     """A shape, where it lies, and which elements it stands for.
 
     ``elements`` are the names of elements of the model (empty for the ground). ``outline`` is the width of its line
-    [px], 0 for none; ``filled`` says whether its inside is painted; ``dashed`` whether its line is dashed. Parts are
-    drawn by rising ``layer``. ``moves`` is False for what belongs to the picture at rest alone: measures, arcs.
+    [px], 0 for none; ``filled`` says whether its inside is painted; ``dashed`` whether its line is dashed. All ends and
+    corners of lines are round. Parts are drawn by rising ``layer``. ``moves`` is False for what belongs to the picture
+    at rest alone: measures, arcs.
     """
 
-    shape: Path | Disc
+    shape: Path | Disc | Trace
     role: Role
     placement: Placement = FIXED
     elements: tuple[str, ...] = ()
@@ -85,6 +98,8 @@ class Part:
     moves: bool = True
     solid: bool = False
     """Whether it is filled with the colour of its line, such as the head of an arrow."""
+    paint: Literal["line", "inside"] = "line"
+    """The colour of its line: that of lines, or that of insides (a thin one of these on a wide one is a bar)."""
 
 
 @dataclass(frozen=True)
@@ -154,7 +169,7 @@ def _part(part: Part) -> dict[str, Any]:
     placement, shape = part.placement, part.shape
     data: dict[str, Any] = {"role": part.role, "kind": part.kind, "elements": part.elements, "outline": part.outline}
     data |= {"filled": part.filled, "solid": part.solid, "dashed": part.dashed, "moves": part.moves}
-    data["layer"] = part.layer
+    data["layer"], data["paint"] = part.layer, part.paint
     data["placement"] = {
         "at": placement.at,
         "towards": placement.towards,
@@ -164,6 +179,8 @@ def _part(part: Part) -> dict[str, Any]:
     }
     if isinstance(shape, Disc):
         data["disc"] = [*shape.centre, shape.radius]
+    elif isinstance(shape, Trace):
+        data["trace"] = {"anchors": shape.anchors, "closed": shape.closed, "shifts": shape.shifts}
     else:
         data["path"] = [[letter, *numbers] for letter, numbers in shape.commands]
     return data
