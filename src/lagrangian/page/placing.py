@@ -1,0 +1,97 @@
+"""Where the parts of a scene lie: shapes in the pixels of the picture, in one pose or in many at once.
+
+An array of places has the shape (…, anchors, 2); the axes before that count poses, such as the frames of a motion.
+"""
+
+from __future__ import annotations
+
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.page.scene import Disc, Part, Placement, Scene, Trace
+
+Array = NDArray[np.float64]
+
+Drawn: TypeAlias = "tuple[str, Array]"
+"""A command with its numbers (…, 2k) in pixels; ``O cx cy r`` is a circle."""
+
+
+def places(scene: Scene, positions: Any = None) -> Array:
+    """Return the places in the picture [px], (…, anchors, 2), of positions [m], (…, anchors, d).
+
+    Without positions, they are those of the pose that the scene is drawn in.
+    """
+    at = np.asarray(scene.positions if positions is None else positions, dtype=float)
+    view = np.asarray(scene.view, dtype=float)
+    if not at.size:
+        return np.zeros((*at.shape[:-1], 2))
+    return np.asarray(scene.origin) + scene.scale * (at @ view.T)
+
+
+def placed(part: Part, at: Array) -> list[Drawn]:
+    """Return the commands of a part with all numbers in pixels, for places ``at`` (…, anchors, 2) of the anchors."""
+    shape = part.shape
+    if isinstance(shape, Trace):
+        return _trace(shape, at)
+    origin, x, y = axes(part.placement, at)
+    if isinstance(shape, Disc):
+        centre = origin + shape.centre[0] * x + shape.centre[1] * y
+        radius = shape.radius * np.hypot(x[..., 0], x[..., 1])
+        return [("O", np.concatenate([centre, radius[..., None]], axis=-1))]
+    drawn: list[Drawn] = []
+    for letter, numbers in shape.commands:
+        pairs = [origin + a * x + b * y for a, b in zip(numbers[::2], numbers[1::2], strict=True)]
+        drawn.append((letter, np.concatenate(pairs, axis=-1) if pairs else np.zeros((*at.shape[:-2], 0))))
+    return drawn
+
+
+def _trace(trace: Trace, at: Array) -> list[Drawn]:
+    shifts = trace.shifts or ((0.0, 0.0),) * len(trace.anchors)
+    drawn: list[Drawn] = [
+        ("L" if i else "M", _anchor(anchor, shift, at))
+        for i, (anchor, shift) in enumerate(zip(trace.anchors, shifts, strict=True))
+    ]
+    return [*drawn, ("Z", np.zeros((*at.shape[:-2], 0)))] if trace.closed else drawn
+
+
+def axes(placement: Placement, at: Array) -> tuple[Array, Array, Array]:
+    """Return the origin of a part's axes and its unit vectors x and y, each (…, 2), in pixels.
+
+    Two anchors at the same place have no direction; x then points to the right.
+    """
+    lead = at.shape[:-2]
+    origin = _anchor(placement.at, placement.shift, at)
+    if placement.towards is None:
+        right, down = np.array([1.0, 0.0]), np.array([0.0, 1.0])
+        return origin, np.broadcast_to(right, (*lead, 2)), np.broadcast_to(down, (*lead, 2))
+    along = _anchor(placement.towards, placement.shift_towards, at) - origin
+    length = np.hypot(along[..., 0], along[..., 1])[..., None]
+    unit = np.where(length > 0, along / np.where(length > 0, length, 1.0), np.array([1.0, 0.0]))
+    across = np.stack([-unit[..., 1], unit[..., 0]], axis=-1)
+    match placement.scaling:
+        case "none":
+            return origin, unit, across
+        case "along":
+            return origin, length * unit, across
+        case "both":
+            return origin, length * unit, length * across
+
+
+def _anchor(number: int | None, shift: tuple[float, float], at: Array) -> Array:
+    base = np.zeros((*at.shape[:-2], 2)) if number is None else at[..., number, :]
+    return base + np.asarray(shift)
+
+
+def inside(point: tuple[float, float], drawn: list[Drawn]) -> bool:
+    """Whether a point lies inside a circle or a closed shape in one pose; curves count as their chords."""
+    if len(drawn) == 1 and drawn[0][0] == "O":
+        x, y, r = drawn[0][1].tolist()
+        return (point[0] - x) ** 2 + (point[1] - y) ** 2 < r**2
+    corners = [numbers.tolist()[-2:] for _, numbers in drawn if numbers.size]
+    crossed = False
+    for (x0, y0), (x1, y1) in zip(corners, corners[1:] + corners[:1], strict=True):
+        if (y0 > point[1]) != (y1 > point[1]) and point[0] < x0 + (x1 - x0) * (point[1] - y0) / (y1 - y0):
+            crossed = not crossed
+    return crossed

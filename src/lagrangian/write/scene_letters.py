@@ -1,0 +1,69 @@
+"""The letters of the labels of a scene: pieces of text, each raised or lowered, upright or italic."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from lagrangian.page.scene import Label, Scene
+from lagrangian.write.expression_tree import GREEK, Letter, numbered
+from lagrangian.write.names import letters
+from lagrangian.write.text import clean
+
+CAPITALS = "ΓΔΘΛΞΠΣΥΦΨΩ"
+"""Greek capitals are upright, as in LaTeX."""
+
+LONGEST = 40
+"""A piece of a label has at most this many characters."""
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A text; ``lowered`` counts how deep a subscript it is."""
+
+    text: str
+    italic: bool = True
+    lowered: int = 0
+
+
+def scene_letters(scene: Scene) -> Mapping[str, Letter]:
+    """Return the letter for every name in the labels of a scene; two names never look the same."""
+    return letters(dict.fromkeys(name for label in scene.labels for name in label.names))
+
+
+def pieces(label: Label, table: Mapping[str, Letter]) -> list[Piece]:
+    """Return a label as pieces of text: its names with commas."""
+    listed: list[Piece] = []
+    for i, name in enumerate(label.names):
+        if i:
+            listed.append(Piece(", ", italic=False))
+        listed += _letter(table[name])
+    return listed
+
+
+def _letter(math: Letter) -> list[Piece]:
+    text = math.base if math.literal else GREEK.get(math.base, math.base)
+    listed = [Piece(_short(text), italic=not math.literal and len(text) == 1 and text not in CAPITALS)]
+    for i, part in enumerate(math.sub):
+        if i:
+            listed.append(Piece(",", italic=False, lowered=1))
+        listed += _sub(part)
+    return listed
+
+
+def _sub(part: str) -> list[Piece]:
+    """A part of a subscript: digits and words upright, single letters italic, numbered letters with a subscript."""
+    if found := numbered(part):
+        return [Piece(GREEK.get(found[0], found[0]), lowered=1), Piece(found[1], italic=False, lowered=2)]
+    digits = len(part) - len(part.lstrip("0123456789"))
+    head, tail = part[:digits], part[digits:]
+    listed = [Piece(head, italic=False, lowered=1)] if head else []
+    if tail:
+        text = GREEK.get(tail, tail)
+        listed.append(Piece(_short(text), italic=len(text) == 1, lowered=1))
+    return listed
+
+
+def _short(text: str) -> str:
+    text = clean(text)
+    return text if len(text) <= LONGEST else f"{text[: LONGEST - 1]}…"
