@@ -4,8 +4,8 @@ import cmath
 
 import numpy as np
 import pytest
-from hand_scenes import TURN, carts, pendulum
 
+from hand_scenes import TURN, carts, pendulum
 from lagrangian.page.palette import DARK, LIGHT
 from lagrangian.page.placing import axes, inside, placed, places
 from lagrangian.page.scene import Disc, Part, Path, Placement, Scaling, Trace

@@ -5,8 +5,8 @@ from math import cos, pi, sin
 from xml.etree import ElementTree
 
 import pytest
-from hand_scenes import HOSTILE, TURN, carts, hostile, pendulum
 
+from hand_scenes import HOSTILE, TURN, carts, hostile, pendulum
 from lagrangian.page.palette import LIGHT
 from lagrangian.write.scene_svg import data_element, number, pair_text, scene_svg
 

@@ -18,7 +18,7 @@ LONGEST = 40
 
 
 @dataclass(frozen=True)
-class Piece:
+class LetterPiece:
     """A text; ``lowered`` counts how deep a subscript it is."""
 
     text: str
@@ -31,36 +31,36 @@ def scene_letters(scene: Scene) -> Mapping[str, Letter]:
     return letters(dict.fromkeys(name for label in scene.labels for name in label.names))
 
 
-def pieces(label: Label, table: Mapping[str, Letter]) -> list[Piece]:
+def pieces(label: Label, table: Mapping[str, Letter]) -> list[LetterPiece]:
     """Return a label as pieces of text: its names with commas."""
-    listed: list[Piece] = []
+    listed: list[LetterPiece] = []
     for i, name in enumerate(label.names):
         if i:
-            listed.append(Piece(", ", italic=False))
+            listed.append(LetterPiece(", ", italic=False))
         listed += _letter(table[name])
     return listed
 
 
-def _letter(math: Letter) -> list[Piece]:
+def _letter(math: Letter) -> list[LetterPiece]:
     text = math.base if math.literal else GREEK.get(math.base, math.base)
-    listed = [Piece(_short(text), italic=not math.literal and len(text) == 1 and text not in CAPITALS)]
+    listed = [LetterPiece(_short(text), italic=not math.literal and len(text) == 1 and text not in CAPITALS)]
     for i, part in enumerate(math.sub):
         if i:
-            listed.append(Piece(",", italic=False, lowered=1))
+            listed.append(LetterPiece(",", italic=False, lowered=1))
         listed += _sub(part)
     return listed
 
 
-def _sub(part: str) -> list[Piece]:
+def _sub(part: str) -> list[LetterPiece]:
     """A part of a subscript: digits and words upright, single letters italic, numbered letters with a subscript."""
     if found := numbered(part):
-        return [Piece(GREEK.get(found[0], found[0]), lowered=1), Piece(found[1], italic=False, lowered=2)]
+        return [LetterPiece(GREEK.get(found[0], found[0]), lowered=1), LetterPiece(found[1], italic=False, lowered=2)]
     digits = len(part) - len(part.lstrip("0123456789"))
     head, tail = part[:digits], part[digits:]
-    listed = [Piece(head, italic=False, lowered=1)] if head else []
+    listed = [LetterPiece(head, italic=False, lowered=1)] if head else []
     if tail:
         text = GREEK.get(tail, tail)
-        listed.append(Piece(_short(text), italic=len(text) == 1, lowered=1))
+        listed.append(LetterPiece(_short(text), italic=len(text) == 1, lowered=1))
     return listed
 
 

@@ -15,7 +15,7 @@ from lagrangian.page.placing import Array, Drawn, inside, placed, places
 from lagrangian.page.scene import Label, Part, Scene
 from lagrangian.write.expression_tree import Letter
 from lagrangian.write.html_page import escape
-from lagrangian.write.scene_letters import Piece, pieces, scene_letters
+from lagrangian.write.scene_letters import LetterPiece, pieces, scene_letters
 
 FONTS = "'Latin Modern Roman','CMU Serif','STIX Two Text',Cambria,'Times New Roman','Liberation Serif',serif"
 
@@ -192,7 +192,9 @@ def _label(label: Label, table: Mapping[str, Letter], behind: str) -> str:
     """A label over a halo, which is a text of its own: that of a subscript must not cover the letter before it."""
     x, y = label.centre
     listed = pieces(label, table)
-    runs = "".join(_run(piece, before, label) for piece, before in zip(listed, [Piece(""), *listed], strict=False))
+    runs = "".join(
+        _run(piece, before, label) for piece, before in zip(listed, [LetterPiece(""), *listed], strict=False)
+    )
     place = (
         f'x="{number(x)}" y="{number(y + MIDDLE * label.size)}" font-size="{number(label.size)}" text-anchor="middle"'
     )
@@ -204,7 +206,7 @@ def _label(label: Label, table: Mapping[str, Letter], behind: str) -> str:
     )
 
 
-def _run(piece: Piece, before: Piece, label: Label) -> str:
+def _run(piece: LetterPiece, before: LetterPiece, label: Label) -> str:
     """A piece of a label, moved down from the line of the piece before it."""
     attributes = ' font-style="italic"' if piece.italic else ""
     if piece.lowered:
