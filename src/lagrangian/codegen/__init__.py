@@ -1,4 +1,4 @@
-"""Compiles a Program to machine code with LLVM, or exports it as C99 or NumPy source."""
+"""Compiles a Program to machine code with LLVM, or exports it as C99, JavaScript or NumPy source."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from .buffers import Look, RawFunction, aligned
     from .build import Build, Options
     from .c99 import to_c
+    from .javascript import to_javascript
     from .kernel import Kernel
     from .numpy_source import to_numpy
 else:
@@ -22,13 +23,25 @@ else:
         {
             "build": "Build Options",
             "c99": "to_c",
+            "javascript": "to_javascript",
             "kernel": "Kernel",
             "numpy_source": "to_numpy",
             "buffers": "Look RawFunction aligned",
         },
     )
 
-__all__ = ["Build", "Kernel", "Look", "Options", "RawFunction", "aligned", "compile", "to_c", "to_numpy"]
+__all__ = [
+    "Build",
+    "Kernel",
+    "Look",
+    "Options",
+    "RawFunction",
+    "aligned",
+    "compile",
+    "to_c",
+    "to_javascript",
+    "to_numpy",
+]
 
 
 def compile(

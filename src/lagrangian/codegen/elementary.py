@@ -138,10 +138,15 @@ def function(module: Module, name: str, lanes: int) -> str:
 def _lanewise(f: Function, index: int, arguments: list[Value]) -> Value:
     """Call entry ``index`` of the table of C functions for each lane.
 
-    The table is accessed through memory, not by name, so that no linker has to find the C library on any system.
+    The table is accessed through memory, not by name, so that no linker has to find the C library on any system. A
+    module of WebAssembly imports the function instead, from the host's object ``Math``.
     """
-    table = f.put("load ptr, ptr @libm")
-    callee = f.put(f"load ptr, ptr {f.put(f'getelementptr ptr, ptr {table}, i64 {index}')}")
+    if f.module.target.imports:
+        imported = f'"wasm-import-module"="Math" "wasm-import-name"="{LIBM[index]}"'
+        callee = f.module.declare(f"math_{LIBM[index]}", "double", ["double"] * len(arguments), imported)
+    else:
+        table = f.put("load ptr, ptr @libm")
+        callee = f.put(f"load ptr, ptr {f.put(f'getelementptr ptr, ptr {table}, i64 {index}')}")
     results = []
     for k in range(f.lanes):
         passed = ", ".join("double " + f.lane(a, k) for a in arguments)

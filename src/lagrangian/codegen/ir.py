@@ -40,6 +40,7 @@ class Target:
     fma: bool
     lanes: int  # doubles in the widest vector register
     splat: bool  # whether the assembler reads ``splat (double c)`` (LLVM 19 and later)
+    imports: bool = False  # C functions are imports of the module, by name, instead of entries of the table
 
 
 @dataclass
@@ -50,10 +51,10 @@ class Module:
     _declared: dict[str, str] = field(default_factory=dict)
     _functions: dict[str, str] = field(default_factory=dict)
 
-    def declare(self, name: str, result: str, arguments: Sequence[str]) -> str:
-        """Declare the intrinsic ``name``; return its symbol."""
+    def declare(self, name: str, result: str, arguments: Sequence[str], attributes: str = "") -> str:
+        """Declare the function ``name``, such as an intrinsic; return its symbol."""
         if name not in self._declared:
-            self._declared[name] = f"declare {result} @{name}({', '.join(arguments)})"
+            self._declared[name] = f"declare {result} @{name}({', '.join(arguments)}) {attributes}".rstrip()
         return "@" + name
 
     def define(self, name: str, text: str) -> None:
@@ -65,9 +66,11 @@ class Module:
         return name in self._functions
 
     def text(self) -> str:
-        """The whole module, including the pointer to the table of C functions and the function that sets it."""
-        head = f'target triple = "{self.target.triple}"'
-        return "\n".join([head, LIBM_TABLE, *self._declared.values(), *self._functions.values(), ""])
+        """The whole module; unless C functions are imported, with the pointer to their table and what sets it."""
+        head = [f'target triple = "{self.target.triple}"']
+        if not self.target.imports:
+            head.append(LIBM_TABLE)
+        return "\n".join([*head, *self._declared.values(), *self._functions.values(), ""])
 
 
 class Value:

@@ -62,11 +62,30 @@ def machine(target: Target, level: int) -> llvm.TargetMachine:
     """LLVM's code generator for ``target`` at optimization level 0–3."""
     with _lock:
         _ready()
+        if target.imports:
+            return _foreign(target, level)
         # Position-independent small code: constants are addressed relative to the instruction pointer. The memory
         # manager requested in `load` keeps all sections of an object within reach.
         return llvm.Target.from_triple(target.triple).create_target_machine(
             cpu=target.cpu, features=target.features, opt=level, reloc="pic", codemodel="small", jit=True
         )
+
+
+def _foreign(target: Target, level: int) -> llvm.TargetMachine:
+    """LLVM's code generator for another machine, whose object code is linked into a file."""
+    llvm.initialize_all_targets()
+    llvm.initialize_all_asmprinters()
+    try:
+        found = llvm.Target.from_triple(target.triple)
+    except RuntimeError:
+        raise RunError(
+            f"this build of llvmlite cannot make code for {target.triple}",
+            fix="install llvmlite from PyPI or conda-forge, or export to JavaScript",
+            code="E801",
+        ) from None
+    return found.create_target_machine(
+        cpu=target.cpu, features=target.features, opt=level, reloc="static", codemodel="default", jit=False
+    )
 
 
 def _context() -> llvm.ContextRef:

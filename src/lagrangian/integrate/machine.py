@@ -20,7 +20,7 @@ from .methods.memory_layout import PLACES
 from .methods.method import Method
 
 if TYPE_CHECKING:
-    from lagrangian.codegen.ir import Module
+    from lagrangian.codegen.ir import Module, Target
     from lagrangian.graph import Program
 
     from .problem import Events
@@ -53,8 +53,7 @@ class Machine:
         def printer(module: Module, build: Build) -> None:
             Loop(module, build.program, method, variant, events, projection).print()
 
-        name = f"{method.name} {method.order} {variant!r} {_printer_version()} {_fingerprint(events, build)}"
-        name += _projected(projection, build)
+        name = identified(method, variant, events, projection, build.options, build.target)
         self.variant = variant
         self._loaded = build.extended(name, printer)
         self.call = _RUN(self._loaded.address("run"))
@@ -92,23 +91,25 @@ _BLOCKS = {
 """Entries of the table and the functions that fill what they point to."""
 
 
-def _fingerprint(events: Events | None, build: Build) -> str:
-    """A text that identifies the events in the key of the code."""
-    if events is None:
-        return ""
-    what = (events.direction, events.terminal, events.reset)
-    return f"{fingerprint(events.program, build.options, build.target)} {what}"
-
-
-def _projected(projection: Projection | None, build: Build) -> str:
-    """A text that identifies the projection in the key of the code."""
-    if projection is None:
-        return ""
-    known = (
-        None if program is None else fingerprint(program, build.options, build.target)
-        for program in (projection.position, projection.velocity)
-    )
-    return f" {list(known)} {projection.corrects}"
+def identified(
+    method: Method,
+    variant: IntegratorVariant,
+    events: Events | None,
+    projection: Projection | None,
+    options: Options,
+    target: Target,
+) -> str:
+    """A text that identifies everything around the right-hand side, in the key of the code."""
+    text = f"{method.name} {method.order} {variant!r} {_printer_version()} "
+    if events is not None:
+        text += f"{fingerprint(events.program, options, target)} {(events.direction, events.terminal, events.reset)}"
+    if projection is not None:
+        known = (
+            None if program is None else fingerprint(program, options, target)
+            for program in (projection.position, projection.velocity)
+        )
+        text += f" {list(known)} {projection.corrects}"
+    return text
 
 
 def aligned_to(size: int, count: int) -> NDArray[np.float64]:

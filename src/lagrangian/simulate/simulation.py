@@ -62,7 +62,7 @@ def simulate(
     in_file = model.settings
     for joint in in_file.get("reactions", ()):
         remembered(model, ("joint", joint), partial(dynamics.check_joint, model, joint))
-    given = Given.of(model, _named(model))
+    given = Given.of(model, named(model))
     dims = dict(zip(given.inputs.names, given.inputs.dims, strict=True))
     drive = driving(model, inputs, in_file.get("inputs", {}), dims)
     program = right_hand_side(model, drive)
@@ -75,7 +75,7 @@ def simulate(
     longest = float(settings.max_step)
     p = given.parameter_values(params)
     notices = check_masses(model, p)
-    guess = _initial(given, model, program, in_file.get("initial", {}), initial, by_name)
+    guess = initial_state(given, model, program, in_file.get("initial", {}), initial, by_name)
     x0, moved = onto_constraints(model, guess, p, float(instants[0]), held(model, settings.fixed))
     _log.info("simulating from t = %g s to %g s", instants[0], instants[-1])
     task = Task(
@@ -133,7 +133,7 @@ def _judged(made: Trajectory) -> Trajectory:
     return made
 
 
-def _named(model: Model) -> Program:
+def named(model: Model) -> Program:
     """The names of a model's states, inputs and parameters as the groups of a program without outputs."""
     states = (*(c.name for c in model.coordinates), *(v.name for v in model.velocities))
     groups = {"x": states, "u": tuple(u.name for u in model.inputs), "p": tuple(p.name for p in model.parameters)}
@@ -143,7 +143,7 @@ def _named(model: Model) -> Program:
 # -- the arguments -------------------------------------------------------------------------------------------------
 
 
-def _initial(
+def initial_state(
     given: Given, model: Model, program: Program, fallback: Mapping[str, Any], initial: Any, by_name: Mapping[str, Any]
 ) -> Array:
     """x at the start: given values, else those of the file, else 0 at rest."""
