@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from lagrangian.page.scene import Label, Scene
 from lagrangian.write.expression_tree import GREEK, Letter, numbered
@@ -14,7 +14,7 @@ CAPITALS = "ΓΔΘΛΞΠΣΥΦΨΩ"
 """Greek capitals are upright, as in LaTeX."""
 
 LONGEST = 40
-"""A piece of a label has at most this many characters."""
+"""The base of a letter and each part of its subscript have at most this many characters."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,8 @@ class LetterPiece:
 
 def scene_letters(scene: Scene) -> Mapping[str, Letter]:
     """Return the letter for every name in the labels of a scene; two names never look the same."""
-    return letters(dict.fromkeys(name for label in scene.labels for name in label.names))
+    found = letters(dict.fromkeys(name for label in scene.labels for name in label.names))
+    return {name: replace(x, base=_short(x.base), sub=tuple(map(_short, x.sub))) for name, x in found.items()}
 
 
 def pieces(label: Label, table: Mapping[str, Letter]) -> list[LetterPiece]:
@@ -43,7 +44,7 @@ def pieces(label: Label, table: Mapping[str, Letter]) -> list[LetterPiece]:
 
 def _letter(math: Letter) -> list[LetterPiece]:
     text = math.base if math.literal else GREEK.get(math.base, math.base)
-    listed = [LetterPiece(_short(text), italic=not math.literal and len(text) == 1 and text not in CAPITALS)]
+    listed = [LetterPiece(text, italic=not math.literal and len(text) == 1 and text not in CAPITALS)]
     for i, part in enumerate(math.sub):
         if i:
             listed.append(LetterPiece(",", italic=False, lowered=1))
@@ -60,7 +61,7 @@ def _sub(part: str) -> list[LetterPiece]:
     listed = [LetterPiece(head, italic=False, lowered=1)] if head else []
     if tail:
         text = GREEK.get(tail, tail)
-        listed.append(LetterPiece(_short(text), italic=len(text) == 1, lowered=1))
+        listed.append(LetterPiece(text, italic=len(text) == 1, lowered=1))
     return listed
 
 

@@ -47,6 +47,7 @@ _RELATIONS = {"=": "=", "<": "<", ">": ">", "≤": r"\le", "≥": r"\ge", "≠":
 _MARKS = {"∂": r"\partial ", "d": "d", "δ": r"\delta "}
 _WORDS = {"d": "d", "t": "t", "dt": "dt", "·": r"\cdot", "∂": r"\partial", "δ": r"\delta", "√": r"\surd"}
 _KNOWN = {"sin", "cos", "tan", "sinh", "cosh", "tanh", "arcsin", "arccos", "arctan", "ln", "exp", "min", "max"}
+_NAME = re.compile(r"\w+\Z", re.ASCII)
 _COMMAND = re.compile(r"\\[A-Za-z]+\Z")
 
 
@@ -147,7 +148,7 @@ class Tex:
 
     def _letter(self, math: Letter) -> str:
         if math.literal:
-            base = rf"\mathrm{{{_upright(math.base)}}}" if math.base.isascii() else rf"\text{{{self.words(math.base)}}}"
+            base = self._upright(math.base)
         else:
             base = self.base(math.base)
             if math.bold:
@@ -169,7 +170,14 @@ class Tex:
             return f"\\{base}"
         if len(base) == 1 and base.isascii() and base.isalpha():
             return base
-        return rf"\mathrm{{{_upright(base)}}}" if base.isascii() else rf"\text{{{self.words(base)}}}"
+        return self._upright(base)
+
+    def _upright(self, name: str) -> str:
+        """A name in upright letters; what is no plain name is written as words."""
+        if _NAME.match(name):
+            escaped = name.replace("_", r"\_")
+            return rf"\mathrm{{{escaped}}}"
+        return rf"\text{{{self.words(name)}}}"
 
     def _sub(self, part: str) -> str:
         if found := numbered(part):
@@ -179,10 +187,6 @@ class Tex:
         if part.isascii() and part.isalnum():
             return rf"\mathrm{{{part}}}"
         return rf"\text{{{self.words(part)}}}"
-
-
-def _upright(name: str) -> str:
-    return name.replace("_", r"\_")
 
 
 PAGE = Tex(escape)
