@@ -50,6 +50,13 @@ class Interrupts:
             signal.set_wakeup_fd(theirs, warn_on_full_buffer=False)
             threading.Thread(target=self._watch, args=(ours,), daemon=True, name="interrupts").start()
 
+    def hand_over(self) -> None:
+        """Leave the signal to somebody else from now on: a server ends by it in good order."""
+        if signal.getsignal(signal.SIGINT) == self._heard:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+            if os.name == "posix":
+                signal.set_wakeup_fd(-1)
+
     def finish(self) -> None:
         """Leave the signal to the operating system from now on: nothing can be lost any more, and Python would complain
         at exit."""

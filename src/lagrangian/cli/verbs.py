@@ -49,12 +49,17 @@ VERBS = {
         "sweep",
         "Simulate every combination of values and keep a few numbers of each run; exit 1 if all runs fail.",
     ),
+    "web": (
+        "lagrangian.web.verb",
+        "web",
+        "Write models, read their equations and check answers in the browser, on this computer alone.",
+    ),
     "new": ("start", "new", "Print a model file to start from."),
     "examples": ("start", "list_examples", "List the built-in examples."),
     "schema": ("start", "schema", "Print the JSON Schema of model files, for editors."),
     "version": ("start", "version", "Print the version."),
 }
-"""Name → file, function, and the first line of the help."""
+"""Name → file (with its full name if it is in another room), function, and the first line of the help."""
 
 
 _ENDING = re.compile(r"[;.] [Ee]xit \d")
@@ -90,7 +95,8 @@ class Deferred(typer.core.TyperCommand):
     def verb(self) -> Any:
         """The actual command with its options."""
         alone = typer.Typer(add_completion=False, pretty_exceptions_enable=False, rich_markup_mode=None)
-        alone.command(self.name, cls=Grouped)(getattr(import_module(f"lagrangian.cli.{self._file}"), self._function))
+        file = self._file if "." in self._file else f"lagrangian.cli.{self._file}"
+        alone.command(self.name, cls=Grouped)(getattr(import_module(file), self._function))
         return typer.main.get_command(alone)
 
     def make_context(self, *arguments: Any, **options: Any) -> Any:

@@ -74,6 +74,14 @@ def fragment(document: Document) -> str:
     return f"{head}\n<h3>{escape(document.title)}</h3>\n{body}\n</div></div>"
 
 
+def pieces(document: Document) -> list[dict[str, str]]:
+    """Return the sections of a document as pieces of HTML without style, each with the name of its place."""
+    return [
+        {"anchor": section.anchor, "html": _section(section, brief=document.brief, anchors=False)}
+        for section in document.sections
+    ]
+
+
 def _style() -> str:
     return files("lagrangian.write").joinpath("page.css").read_text(encoding="utf-8")
 

@@ -1,0 +1,178 @@
+"""The server of the app: files of the page, and one route a verb, which passes the request on to a process."""
+
+from __future__ import annotations
+
+import asyncio
+import contextlib
+import json
+import time
+from collections.abc import AsyncIterator, Awaitable, Callable
+from importlib.resources import files
+from typing import Any
+
+from starlette.applications import Starlette
+from starlette.requests import ClientDisconnect, Request
+from starlette.responses import JSONResponse, Response
+from starlette.routing import Route
+
+from lagrangian import __version__, examples
+from lagrangian.web.guard import MAX_BODY, Gate
+from lagrangian.web.pool import PoolLimits, Refused, WorkerPool
+
+SECONDS = 10.0
+"""The time [s] that a job may take."""
+
+BODY_SECONDS = 10.0
+"""The time [s] in which the body of a request must arrive."""
+
+JOBS = ("derive", "check", "preview", "simulate")
+"""The routes that pass a request on to a process."""
+
+TYPES = {
+    ".html": "text/html; charset=utf-8",
+    ".js": "text/javascript; charset=utf-8",
+    ".css": "text/css; charset=utf-8",
+    ".svg": "image/svg+xml",
+}
+
+GONE = 499
+"""The status of a request that was given up; nobody receives it."""
+
+
+class Desk:
+    """The routes of one app, with what they share."""
+
+    def __init__(
+        self,
+        model: tuple[str, str] | None = None,
+        *,
+        limits: PoolLimits | None = None,
+        seconds: float = SECONDS,
+        body_seconds: float = BODY_SECONDS,
+    ) -> None:
+        self.model, self.seconds, self.body_seconds = model, seconds, body_seconds
+        self.pool = WorkerPool(limits)
+        self.asked = time.monotonic()
+        """When the last request came [s]."""
+
+    def application(self, token: str, port: int) -> Gate:
+        """Return the app as an ASGI application."""
+        routes = [Route(f"/api/{verb}", self._job(verb), methods=["POST"]) for verb in JOBS]
+        routes.append(Route("/api/models", self._counted(self._models), methods=["POST"]))
+        routes += [Route(path, _file(*found), methods=["GET"]) for path, found in _files().items()]
+        return Gate(Starlette(routes=routes, lifespan=self._lifespan), token, port)
+
+    @contextlib.asynccontextmanager
+    async def _lifespan(self, app: Starlette) -> AsyncIterator[None]:
+        self.pool.fill()
+        try:
+            yield
+        finally:
+            await self.pool.close()
+
+    def _counted(self, answer: Callable[[dict[str, Any]], Awaitable[Any]]) -> Callable[[Request], Awaitable[Response]]:
+        """A route that answers by a function of the arguments."""
+
+        async def respond(request: Request) -> Response:
+            self.asked = time.monotonic()
+            try:
+                return JSONResponse(await answer(await self._arguments(request)))
+            except Refused as refused:
+                return refusal(refused)
+
+        return respond
+
+    def _job(self, verb: str) -> Callable[[Request], Awaitable[Response]]:
+        """A route that passes the arguments on to a process, and kills it if the request is given up."""
+
+        async def respond(request: Request) -> Response:
+            self.asked = time.monotonic()
+            try:
+                arguments = await self._arguments(request)
+                message = await _unless_gone(request, self.pool.run(verb, arguments, seconds=self.seconds))
+            except Refused as refused:
+                return refusal(refused)
+            if "fault" in message:
+                return refusal(Refused(int(message["status"]), str(message["fault"])))
+            return JSONResponse(message["answer"] if "answer" in message else {"error": message["error"]})
+
+        return respond
+
+    async def _arguments(self, request: Request) -> dict[str, Any]:
+        """Return the body of a request as an object of JSON, within the limits on time and size."""
+        body = bytearray()
+        try:
+            async with asyncio.timeout(self.body_seconds):
+                async for chunk in request.stream():
+                    body += chunk
+                    if len(body) > MAX_BODY:
+                        raise Refused(413, f"a request has at most {MAX_BODY >> 20} MiB")
+        except TimeoutError:
+            raise Refused(408, "the request did not arrive in time") from None
+        except ClientDisconnect:
+            raise Refused(GONE, "the request was given up") from None
+        try:
+            found = json.loads(bytes(body).decode("utf-8"), parse_constant=_no_number)
+        except (ValueError, RecursionError):
+            raise Refused(400, "the request is not JSON in UTF-8") from None
+        if not isinstance(found, dict):
+            raise Refused(400, "the request is not an object of JSON")
+        return found
+
+    async def _models(self, arguments: dict[str, Any]) -> dict[str, Any]:
+        """The built-in examples with their texts, and the model that the app was started with."""
+        listed = [{"name": n, "description": examples.describe(n), "text": examples.text(n)} for n in examples.names()]
+        opened = None if self.model is None else {"name": self.model[0], "text": self.model[1]}
+        return {"version": __version__, "examples": listed, "opened": opened}
+
+
+def refusal(refused: Refused) -> Response:
+    """Return the answer to a request that was not done."""
+    headers = (
+        {"retry-after": "1"} if refused.status == 429 else {"connection": "close"} if refused.status == 413 else {}
+    )
+    return JSONResponse({"error": {"what": refused.what, "fix": refused.fix}}, refused.status, headers)
+
+
+def _no_number(text: str) -> float:
+    raise ValueError(text)
+
+
+async def _unless_gone(request: Request, job: Awaitable[dict[str, Any]]) -> dict[str, Any]:
+    """Return the result of a job; cancel it if the request is given up."""
+    working, leaving = asyncio.ensure_future(job), asyncio.ensure_future(_gone(request))
+    try:
+        await asyncio.wait([working, leaving], return_when=asyncio.FIRST_COMPLETED)
+        if working.done():
+            return working.result()
+        raise Refused(GONE, "the request was given up")
+    finally:
+        for task in (working, leaving):
+            task.cancel()
+        await asyncio.gather(working, leaving, return_exceptions=True)
+
+
+async def _gone(request: Request) -> None:
+    """Return when the other side has closed the connection."""
+    while (await request.receive())["type"] != "http.disconnect":
+        pass
+
+
+def _files() -> dict[str, tuple[bytes, str]]:
+    """The files of the page: address → content and type. There are no others, whatever is asked for."""
+    found: dict[str, tuple[bytes, str]] = {}
+    for entry in files("lagrangian.web").joinpath("static").iterdir():
+        kind = "." + entry.name.rpartition(".")[2]
+        if kind in TYPES:
+            found["/" if entry.name == "index.html" else f"/{entry.name}"] = entry.read_bytes(), TYPES[kind]
+    style = files("lagrangian.write").joinpath("page.css").read_text(encoding="utf-8")
+    nested = style.replace(":root", "&").replace("body {", "& {")  # the rules of a page, for a derivation in the app
+    found["/derivation.css"] = f".lagrangian {{\n{nested}}}\n".encode(), TYPES[".css"]
+    return found
+
+
+def _file(content: bytes, kind: str) -> Callable[[Request], Awaitable[Response]]:
+    async def respond(request: Request) -> Response:
+        return Response(content, headers={"content-type": kind})
+
+    return respond
