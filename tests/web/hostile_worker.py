@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from lagrangian.errors import ModelError, Place
-from lagrangian.web.worker import Part, Task, main
+from lagrangian.web.requests import Part, Task
+from lagrangian.web.worker import main
 
 
 def spin(given: dict[str, Any], part: Part) -> Any:

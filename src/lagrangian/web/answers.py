@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import sympy as sp
 
@@ -37,10 +37,10 @@ def _formula(model: Model, write: Quantities, line: AnswerLine) -> str:
     forces: dict[sp.Basic, sp.Symbol] = {
         generalized_force(c.name): sp.Symbol(f"Xi_{i}") for i, c in enumerate(model.coordinates, 1)
     }
-    left, right = _left(model, line), line.rhs.xreplace(forces)
+    left = _left(model, line)
     if isinstance(left, sp.Expr):
-        left = left.xreplace(forces)
-    sides = write.formula(Formula((left, right)))
+        left = cast("sp.Expr", left.xreplace(forces))
+    sides = write.formula(Formula((left, cast("sp.Expr", line.rhs.xreplace(forces)))))
     words: list[Any] = [sides[0]]
     for side in sides[1:]:
         words += [" = ", side]

@@ -18,8 +18,7 @@ from lagrangian.simulate import plot
 from lagrangian.simulate.trajectory import Trajectory
 from lagrangian.system import System, loads
 from lagrangian.web.answers import lines_of_answer, report_pieces
-from lagrangian.web.requests import Arguments, LargeModel
-from lagrangian.web.worker import Part, Task
+from lagrangian.web.requests import Arguments, LargeModel, Part, Task
 from lagrangian.write.html_page import pieces
 from lagrangian.write.quantities import NOTATIONS, Notation
 

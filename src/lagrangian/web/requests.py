@@ -1,10 +1,10 @@
-"""The arguments of a request, checked: names, kinds and sizes. A request that does not fit is refused by name."""
+"""Jobs, and the arguments of a request, checked: names, kinds and sizes."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
-from typing import Any
+from collections.abc import Callable, Collection, Mapping
+from typing import Any, TypeAlias
 
 from lagrangian.errors import Error, did_you_mean
 
@@ -13,6 +13,13 @@ MAX_ENTRIES = 1000
 
 MAX_NAME = 200
 """The largest number of characters of a name."""
+
+
+Part: TypeAlias = Callable[[Any], None]
+"""What a job calls with each part of its answer that is ready early."""
+
+Task: TypeAlias = Callable[[dict[str, Any], Part], Any]
+"""A job: takes the arguments of a request, and returns what can be written as JSON."""
 
 
 class LargeModel(Error):

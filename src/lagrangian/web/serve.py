@@ -10,6 +10,7 @@ import sys
 import time
 import webbrowser
 from collections.abc import Callable
+from typing import TypeAlias
 
 import uvicorn
 
@@ -25,6 +26,8 @@ CONNECTIONS = 32
 """Connections at a time; more are answered 503."""
 
 TOKEN_BYTES = 24
+
+Say: TypeAlias = Callable[[str], None]
 
 IDLE = 8 * 3600.0
 """After this time [s] without a request, the app asks to be ended."""
@@ -44,8 +47,8 @@ def bound(port: int) -> socket.socket:
     return made
 
 
-def serve(desk: Desk, port: int, say: Callable[[str], None], *, browser: bool) -> None:
-    """Serve until Ctrl-C; ``say`` receives the address and the question after a long idle time."""
+def serve(desk: Desk, port: int, tell: Say, say: Say, *, browser: bool) -> None:
+    """Serve until Ctrl-C; ``tell`` receives the address, ``say`` everything else."""
     with bound(port) as listening:
         number = int(listening.getsockname()[1])
         token = secrets.token_urlsafe(TOKEN_BYTES)
@@ -53,7 +56,7 @@ def serve(desk: Desk, port: int, say: Callable[[str], None], *, browser: bool) -
         server = uvicorn.Server(settings(desk, token, number))
         interrupts.hand_over()
         with contextlib.suppress(KeyboardInterrupt):  # Ctrl-C is the way to end it
-            asyncio.run(_serve(server, desk, listening, address, say, browser))
+            asyncio.run(_serve(server, desk, listening, address, tell, say, browser))
         say("ended")
 
 
@@ -82,15 +85,17 @@ async def _serve(
     desk: Desk,
     listening: socket.socket,
     address: str,
-    say: Callable[[str], None],
+    tell: Say,
+    say: Say,
     browser: bool,
 ) -> None:
     serving = asyncio.create_task(server.serve(sockets=[listening]))
     while not (server.started or serving.done()):
         await asyncio.sleep(0.02)
     if server.started:
-        say(f"lagrangian is running at {address}")
-        say("Ctrl-C ends it. Nobody else on the network can reach it.")
+        say("The app runs at this address, which is for you alone:")
+        tell(address)
+        say("Ctrl-C ends it.")
         if browser:
             await asyncio.to_thread(webbrowser.open, address)
     watching = asyncio.create_task(idle(desk, say))
@@ -102,7 +107,7 @@ async def _serve(
             await watching
 
 
-async def idle(desk: Desk, say: Callable[[str], None], after: float = IDLE) -> None:
+async def idle(desk: Desk, say: Say, after: float = IDLE) -> None:
     """Ask to be ended after every long time without a request, and end the processes that wait."""
     while True:
         await asyncio.sleep(max(desk.asked + after - time.monotonic(), 1.0))

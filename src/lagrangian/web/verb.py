@@ -7,7 +7,8 @@ from typing import Annotated
 
 import typer
 
-from lagrangian.cli.door import say
+from lagrangian.cli.door import put, say
+from lagrangian.cli.formats import as_json
 from lagrangian.cli.progress import status
 from lagrangian.errors import MissingExtra
 
@@ -25,6 +26,7 @@ def web(
     no_browser: Annotated[
         bool, typer.Option("--no-browser", help="Only print the address; do not open the browser.")
     ] = False,
+    json: Annotated[bool, typer.Option("--json", help="Write the address as JSON to standard output.")] = False,
 ) -> None:
     """Write models, read their equations and check answers in the browser, on this computer alone.
 
@@ -45,7 +47,11 @@ def web(
 
     model = None if file is None else (file.name, read_model(file))
     status.hide()
-    serve(Desk(model), port, say, browser=not no_browser)
+    serve(Desk(model), port, _announce if json else say, say, browser=not no_browser)
+
+
+def _announce(address: str) -> None:
+    put(as_json({"address": address}))
 
 
 def read_model(path: Path) -> str:

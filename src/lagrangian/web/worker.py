@@ -17,17 +17,12 @@ import sys
 import threading
 import traceback
 from collections.abc import Callable, Mapping
-from typing import Any, BinaryIO, TypeAlias
+from typing import Any, BinaryIO
 
 from lagrangian.errors import Error
 from lagrangian.web import limits
 from lagrangian.web.frames import MAX_ANSWER, packed, read_frame
-
-Part: TypeAlias = Callable[[Any], None]
-"""What a job calls with each part of its answer that is ready early."""
-
-Task: TypeAlias = Callable[[dict[str, Any], Part], Any]
-"""A job: takes the arguments of a request, and returns what can be written as JSON."""
+from lagrangian.web.requests import Task
 
 PARENT = "LAGRANGIAN_WEB_PARENT"
 """The environment variable with the process number of the server."""
