@@ -2,6 +2,7 @@
 
 import ctypes
 import importlib.util
+import json
 import pathlib
 import shutil
 import subprocess
@@ -244,6 +245,20 @@ def test_c_source_compiles_without_a_warning_and_agrees(tmp_path: pathlib.Path) 
     np.testing.assert_allclose(out, dyn.forward(x["q"], x["v"], x["u"], x["p"]), rtol=1e-12)
 
 
+@pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
+def test_javascript_source_runs_in_node_and_agrees(tmp_path: pathlib.Path) -> None:
+    s = system("furuta-pendulum")
+    (path,) = s.export(tmp_path / "furuta.js")
+    x, dyn = state(s), s.compile()
+    given = json.dumps([x[group].tolist() for group in ("q", "v", "u", "p")])
+    code = f"const f = require('./{path.name}'); const g = {given};"
+    code += "console.log(JSON.stringify([...f.furuta_forward(...g, 0), ...f.furuta_energy(...g, 0)]))"
+    done = subprocess.run(["node", "-e", code], cwd=tmp_path, capture_output=True, text=True, check=True)
+    expected = [*dyn.forward(x["q"], x["v"], x["u"], x["p"]), *dyn.energies(x["q"], x["v"], x["u"], x["p"])]
+    np.testing.assert_allclose(json.loads(done.stdout), expected, rtol=1e-12)
+    assert "theta1 [rad]" in path.read_text(encoding="utf-8")
+
+
 @pytest.mark.parametrize("name", ["x.f90", "x", "1x.c", "a b.py"])
 def test_an_export_that_cannot_be_named_is_refused(name: str, tmp_path: pathlib.Path) -> None:
     with pytest.raises(lg.ModelError):
@@ -251,7 +266,7 @@ def test_an_export_that_cannot_be_named_is_refused(name: str, tmp_path: pathlib.
     assert list(tmp_path.iterdir()) == []
 
 
-@pytest.mark.parametrize("ending", ["c", "py"])
+@pytest.mark.parametrize("ending", ["c", "py", "js"])
 def test_a_long_name_of_an_export_is_a_name_all_the_same(tmp_path, ending) -> None:
     system = lg.loads(examples.text("pendulum"))
     files = system.export(tmp_path / f"{'a' * 60}.{ending}")

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from lagrangian import codegen as machine
 from lagrangian import dynamics
+from lagrangian.codegen.labels import comment
 from lagrangian.errors import ModelError, RunError
 from lagrangian.graph import reached
 from lagrangian.queries import by_name as _named
@@ -272,7 +273,7 @@ def exported(model: Model) -> tuple[str, ...]:
     return (*EXPORTED, "rates") if model.floating else EXPORTED
 
 
-LANGUAGES = {"c": ".c", "python": ".py"}
+LANGUAGES = {"c": ".c", "python": ".py", "javascript": ".js"}
 """The languages of exported source, and the endings of their files."""
 
 
@@ -281,7 +282,7 @@ LONGEST_STEM = 200
 
 
 def sources(model: Model, language: str, stem: str) -> dict[str, str]:
-    """Return source code as file name → text: C99 with its header, or Python with NumPy.
+    """Return source code as file name → text: C99 with its header, Python with NumPy, or JavaScript.
 
     Each contains forward dynamics, inverse dynamics, mass matrix and energies as functions ``stem_forward``, …, and the
     rates of the coordinates if there are floating frames. The code runs without this package.
@@ -300,6 +301,8 @@ def sources(model: Model, language: str, stem: str) -> dict[str, str]:
         )
     _log.info("writing %s", language)
     programs = {f"{stem}_{name}": _PROGRAMS[name](model) for name in exported(model)}
+    if language == "javascript":
+        return {f"{stem}.js": _script(model, programs)}
     if language == "python":
         functions = [_renamed(machine.to_numpy(program), name) for name, program in programs.items()]
         first = f'"""The dynamics of a system with coordinates {", ".join(c.name for c in model.coordinates)}."""'
@@ -310,6 +313,33 @@ def sources(model: Model, language: str, stem: str) -> dict[str, str]:
         codes.append(code.replace(f'#include "{name}.h"', f'#include "{stem}.h"'))
         headers.append(header)
     return {f"{stem}.c": "\n".join(codes), f"{stem}.h": "\n".join(headers)}
+
+
+def _script(model: Model, programs: Mapping[str, Program]) -> str:
+    """The programs as a script of JavaScript that is also a module of Node."""
+    names = ", ".join(comment(c.name) for c in model.coordinates)
+    head = [
+        f"/* The dynamics of a system with coordinates {names}.",
+        "",
+        "   A plain script for pages, workers and Node (require), without dependencies. Every function takes arrays in",
+        "   the order listed above it, in SI units, and the time as a number. It returns a Float64Array with all its",
+        "   results, one after another; one that is passed as the last argument is filled and returned. A result that",
+        "   is not finite is thrown as a RangeError.",
+        "",
+        "   `lagrangian verify` runs these functions in Node at random states. It compares them with the formulas they",
+        "   were made from, and these with the equations that were derived by another route. */",
+        '"use strict";',
+        "",
+    ]
+    from lagrangian.simulate.plot import Units  # imported here because only this language names units
+
+    units, table = Units(model), {}
+    for c in model.coordinates:
+        table |= {c.name: units.of(c.symbol), f"{c.name}''": units.of(c.acceleration)}
+    table |= {x.name: units.of(x.symbol) for x in (*model.velocities, *model.inputs, *model.parameters)}
+    functions = [machine.to_javascript(program, name=name, units=table) for name, program in programs.items()]
+    tail = f'if (typeof module !== "undefined") module.exports = {{ {", ".join(programs)} }};'
+    return "\n".join([*head, *functions, tail, ""])
 
 
 def _renamed(module: str, name: str) -> str:

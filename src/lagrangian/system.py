@@ -197,8 +197,8 @@ class System(Simulated):
         return compare(self, other, change)
 
     def export(self, path: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
-        """Write the dynamics as source code to ``name.c`` (with ``name.h``) or ``name.py``; return the paths of the
-        files.
+        """Write the dynamics as source code to ``name.c`` (with ``name.h``), ``name.py`` or ``name.js``; return the
+        paths of the files.
 
         Raises `Error` if a file exists, unless ``overwrite``, or if it cannot be written.
         """

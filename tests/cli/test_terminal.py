@@ -126,7 +126,10 @@ MISTAKES = {
     "an ending": (["derive", "-e", "pendulum", "-o", "x.pdf"], ".txt, .md, .tex, .html"),
     "two formats": (["derive", "-e", "pendulum", "-f", "latex", "-o", "x.html"], "ends like html"),
     "data and markup": (["derive", "-e", "pendulum", "-f", "latex", "--json"], "contradict each other"),
-    "another language": (["export", "-e", "pendulum", "--to", "rust"], "'--to': 'rust' is not one of 'c', 'python'"),
+    "another language": (
+        ["export", "-e", "pendulum", "--to", "rust"],
+        "'--to': 'rust' is not one of 'c', 'python', 'javascript'",
+    ),
     "no table": (["simulate", "-e", "cart-pole", "--input", "F=@none.csv"], "cannot read the table"),
     "no language": (["export", "-e", "pendulum"], "--to"),
     "a file for a folder": (["export", "-e", "pendulum", "--to", "c", "-o", "empty.toml"], "is a file, not a folder"),

@@ -23,6 +23,7 @@ FORMULAS = "every compiled function equals the slow evaluation of its formulas, 
 FORWARD = "the compiled accelerations solve Lagrange's equations"
 HESSIAN = "the compiled M is the Hessian of T* in the rates"
 PYTHON, C = "the exported Python gives the same numbers", "the exported C gives the same numbers"
+JAVASCRIPT = "the exported JavaScript gives the same numbers"
 SLOPES = "the linearization's A and B equal difference quotients of these rates"
 DERIVED_FORWARD = "the accelerations that are compiled solve the equations"
 DERIVED_MASS = "the M that is compiled is the one above, and the Hessian of T* in the rates"
@@ -208,13 +209,19 @@ def flawed(sources: Callable[..., dict[str, str]], old: str, new: str) -> Callab
 
 @pytest.mark.parametrize(
     ("language", "old", "new", "noticed"),
-    [("python", "np.sin(", "np.cos(", PYTHON), ("c", "sin(", "cos(", C), ("c", "double", "dubbel", C)],
+    [
+        ("python", "np.sin(", "np.cos(", PYTHON),
+        ("c", "sin(", "cos(", C),
+        ("c", "double", "dubbel", C),
+        ("javascript", "Math.sin(", "Math.cos(", JAVASCRIPT),
+        ("javascript", "const", "konst", JAVASCRIPT),
+    ],
 )
 def test_an_exported_source_with_a_fault_is_noticed(
     language: str, old: str, new: str, noticed: str, monkeypatch: pytest.MonkeyPatch, sound: tuple[Check, ...]
 ) -> None:
     if said(sound)[noticed] is None:
-        pytest.skip("no C compiler here")
+        pytest.skip("no C compiler, or no Node, here")
     right = compiled.sources
     wrong = flawed(right, old, new)
     monkeypatch.setattr(
@@ -237,13 +244,16 @@ def test_the_exported_c_is_compiled_without_fused_products(
 
     monkeypatch.setattr(exports.subprocess, "run", watched)
     assert not failing(crane().verify(states=1))
-    assert commands and all("-ffp-contract=off" in command for command in commands)
+    compilers = [command for command in commands if "-shared" in command]
+    assert compilers and all("-ffp-contract=off" in command for command in compilers)
 
 
 def test_without_a_compiler_the_c_source_is_said_not_to_be_checked(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(exports.shutil, "which", lambda name: None)
     (check,) = [c for c in crane().verify(states=1) if str(c.what) == C]
     assert check.holds is None and "no C compiler was found" in check.figure
+    (check,) = [c for c in crane().verify(states=1) if str(c.what) == JAVASCRIPT]
+    assert check.holds is None and "Node was not found" in check.figure
 
 
 def test_a_wrong_linearization_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,6 +2,8 @@
 
 import json
 import re
+import shutil
+import subprocess
 from html.parser import HTMLParser
 
 import pytest
@@ -13,6 +15,7 @@ ATTACK = (
     '\x1b[31mred\x1b]0;title\x07 <script>alert(1)</script> \\input{x} $x$ `x` | */ # """ \' '
     "\u202egnp\u202c \u2066a\u2069"
 )
+NODE = shutil.which("node")
 CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f-\x9f\u202a-\u202e\u2066-\u2069\u200e\u200f]")
 
 
@@ -58,7 +61,7 @@ def test_latex_runs_no_command_of_a_name(hostile: lg.System) -> None:
     assert "\\input{x}" not in page and "\\body" not in page
 
 
-@pytest.mark.parametrize("ending", ["c", "py"])
+@pytest.mark.parametrize("ending", ["c", "py", "js"])
 def test_sources_hold_no_text_of_a_model_as_code(hostile: lg.System, tmp_path, ending: str) -> None:
     for path in hostile.export(tmp_path / f"s.{ending}"):
         code = path.read_text(encoding="utf-8")
@@ -66,6 +69,10 @@ def test_sources_hold_no_text_of_a_model_as_code(hostile: lg.System, tmp_path, e
         assert "alert" not in code and "body" not in code
         if ending == "py":
             compile(code, str(path), "exec")
+        if ending == "js":
+            assert "</" not in code and "<!--" not in code
+            if NODE:
+                subprocess.run([NODE, "--check", str(path)], check=True)
 
 
 def test_data_come_back_as_they_were(hostile: lg.System) -> None:

@@ -22,6 +22,7 @@ class Language(StrEnum):
 
     C = "c"
     PYTHON = "python"
+    JAVASCRIPT = "javascript"
 
 
 def export(

@@ -7,6 +7,7 @@ nor a script element of a page.
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from .arguments import is_scalar
@@ -42,13 +43,15 @@ POWER = (
 )
 
 
-def to_javascript(program: Program, *, name: str | None = None, checked: bool = True) -> str:
+def to_javascript(
+    program: Program, *, name: str | None = None, checked: bool = True, units: Mapping[str, str] | None = None
+) -> str:
     """JavaScript source of ``program``: ``function name(in_q, in_v, …, out) → out``.
 
     There is one array for each group of inputs in the program's order (time is a number), and ``out`` is a Float64Array
     that holds all outputs, one after another, row by row; without it a new one is made. ``name`` is that of the
     function; by default ``lg_`` and the program's name. ``checked``: the function throws a RangeError if an output is
-    not finite.
+    not finite. ``units``: the units of entries, by name, for the comment.
     """
     function = name if name is not None else "lg_" + word(program.name)
     if not names_function(function):
@@ -60,7 +63,7 @@ def to_javascript(program: Program, *, name: str | None = None, checked: bool = 
     writer = Statements(_JAVASCRIPT, tape, plan(tape), places=places, targets=[f"out[{k}]" for k in range(total)])
     arguments = [c for c, _, _ in inputs]
     head = f"function {function}({', '.join([*arguments, f'out = new Float64Array({total})'])}) {{"
-    lines = [*_comment(program, inputs)]
+    lines = [*_comment(program, inputs, units or {})]
     body, chunks = [], writer.cut.chunks
     if any(op[0] == "pow" for op in tape.ops):
         body.append("  " + POWER)
@@ -83,18 +86,19 @@ def names_function(name: str) -> bool:
     return name.isascii() and name.isidentifier() and name not in RESERVED
 
 
-def _comment(program: Program, inputs: list[tuple[str, str, tuple[str, ...]]]) -> list[str]:
+def _comment(program: Program, inputs: list[tuple[str, str, tuple[str, ...]]], units: Mapping[str, str]) -> list[str]:
     """What the function computes, and the order of its arguments and results."""
     lines = [f"/* {comment(program.name)}"]
     for c, group, entries in inputs:
         if is_scalar(group, entries):
-            lines.append(f"   {c}: time, a number")
+            lines.append(f"   {c}: time, a number [s]")
             continue
-        lines.append(f"   {c}: {comment(group)}, {len(entries)} entries")
+        lines.append(f"   {c}: {comment(group)}, {len(entries)} {'entry' if len(entries) == 1 else 'entries'}")
         for k, entry in enumerate(entries):
             default = program.defaults.get(entry)
             value = f" = {default!r} unless you choose otherwise" if default is not None else ""
-            lines.append(f"     [{k}] {comment(entry)}{value}")
+            unit = f" [{comment(units[entry])}]" if units.get(entry) else ""
+            lines.append(f"     [{k}] {comment(entry)}{unit}{value}")
     at = 0
     for title, output in program.outputs.items():
         shape = " x ".join(str(n) for n in output.shape)

@@ -24,13 +24,13 @@ FUNCTION, TABLE, MEMORY, GLOBAL = range(4)
 SYMBOL_TABLE = 8
 """The subsection of ``linking`` that lists the symbols."""
 
-SYMBOLS = {0: "function", 1: "data", 2: "global", 3: "section", 4: "event", 5: "table"}
+FUNCTION_SYMBOL, DATA_SYMBOL, SECTION_SYMBOL = 0, 1, 3
 UNDEFINED, EXPLICIT_NAME = 0x10, 0x40
 
-IN_PLACE = frozenset({0, 1, 2, 3, 4, 5, 6, 7, 13, 20})
-"""Relocations that refer to an index or address of this file, and so hold it already."""
+IN_PLACE = frozenset({0, 3, 4, 5, 6, 7})
+"""Relocations that hold an index or address of this file already: of functions, memory, types and globals."""
 
-PROVIDED = frozenset({"__linear_memory", "__stack_pointer", "__indirect_function_table"})
+PROVIDED = frozenset({"__linear_memory", "__stack_pointer"})
 """What the host provides of the module ``env``."""
 
 
@@ -100,16 +100,16 @@ def linked(content: bytes, exports: Iterable[str], known: Iterable[tuple[str, st
         reader = _Reader(body)
         name = reader.name()
         if name == "linking":
-            functions = _defined(reader, _imported(sections.get(IMPORT, b"\0"), known))
+            functions = _defined(reader)
         elif name.startswith("reloc."):
             _check_relocations(reader, name)
+    imports = _imported(sections.get(IMPORT, b"\0"), known)
     wanted = list(exports)
     if missing := [name for name in wanted if name not in functions]:
         raise LinkError(f"the object file has no function {', '.join(missing)}")
     rows = [_text(name) + bytes([FUNCTION]) + _leb(functions[name]) for name in wanted]
     sections[EXPORT] = _leb(len(rows)) + b"".join(rows)
     whole = MAGIC + b"".join(bytes([k]) + _leb(len(sections[k])) + sections[k] for k in ORDER if k in sections)
-    imports = _imported(sections.get(IMPORT, b"\0"), known)
     return Linked(whole, tuple(pair for pair in imports if pair[0] != "env"), _extent(sections.get(DATA, b"\0")))
 
 
@@ -136,31 +136,29 @@ def _imported(body: bytes, known: Iterable[tuple[str, str]]) -> list[tuple[str, 
     return found
 
 
-def _defined(reader: _Reader, imports: list[tuple[str, str]]) -> dict[str, int]:
-    """The functions of the symbol table by name. Raises `LinkError` for undefined data, tables and the like."""
+def _defined(reader: _Reader) -> dict[str, int]:
+    """The functions of the symbol table by name. Raises `LinkError` for data that are not defined.
+
+    Whatever else is not defined is an import, and `_imported` has looked at it.
+    """
     reader.number()  # the version of the section
     functions: dict[str, int] = {}
     for part, body in reader.sections():
-        if part != SYMBOL_TABLE:
-            continue
-        symbols = _Reader(body)
+        symbols = _Reader(body if part == SYMBOL_TABLE else b"\0")
         for _ in range(symbols.number()):
             kind, flags = symbols.byte(), symbols.number()
-            name, index = "", 0
-            if kind == 1:
+            if kind == DATA_SYMBOL:
                 name = symbols.name()
-                if not flags & UNDEFINED:
-                    index = symbols.number(), symbols.number(), symbols.number()
-            else:
-                index = symbols.number()
-                if kind != 3 and (not flags & UNDEFINED or flags & EXPLICIT_NAME):
-                    name = symbols.name()
-            if kind == 0 and not flags & UNDEFINED:
-                functions[name] = int(index) if isinstance(index, int) else 0
-            elif flags & UNDEFINED and not (
-                (kind == 0 and isinstance(index, int) and index < len(imports)) or (kind in (2, 5))
-            ):
-                raise LinkError(f"the {SYMBOLS.get(kind, 'symbol')} '{name}' is not defined anywhere")
+                if flags & UNDEFINED:
+                    raise LinkError(f"the data '{name}' are not defined anywhere")
+                for _ in range(3):  # segment, offset, size
+                    symbols.number()
+                continue
+            index, name = symbols.number(), ""
+            if kind != SECTION_SYMBOL and (not flags & UNDEFINED or flags & EXPLICIT_NAME):
+                name = symbols.name()
+            if kind == FUNCTION_SYMBOL and not flags & UNDEFINED:
+                functions[name] = index
     return functions
 
 
@@ -169,10 +167,10 @@ def _check_relocations(reader: _Reader, name: str) -> None:
     reader.number()  # the section to which they belong
     for _ in range(reader.number()):
         kind = reader.byte()
+        if kind not in IN_PLACE:
+            raise LinkError(f"{name} has a relocation of kind {kind}, which is not in place")
         for _ in range(3 if kind in (3, 4, 5) else 2):  # the place, the index and, of addresses, what is added
             reader.number()
-        if kind not in IN_PLACE:
-            raise LinkError(f"{name} has a relocation of kind {kind}, which is not supported")
 
 
 def _extent(body: bytes) -> int:

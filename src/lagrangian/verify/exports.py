@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import importlib.util
+import json
 import shutil
 import subprocess
 import tempfile
@@ -36,25 +37,34 @@ COMPILERS = ("cc", "gcc", "clang")
 OPTIONS = ("-std=c99", "-O1", "-ffp-contract=off", "-shared", "-fPIC")
 """Options for compiling the exported C: every product and sum is rounded, as in the slow evaluation."""
 
-PATIENCE = 300
-"""The time [s] after which a C compiler is stopped."""
-
 STEM = "exported"
+
+NODE = "node"
+"""What runs JavaScript outside a browser."""
+
+_CALLS = f"""const made = require("./{STEM}.js");
+const wanted = JSON.parse(require("fs").readFileSync(0, "utf8"));
+console.log(JSON.stringify(wanted.map(([name, given]) => Array.from(made[name](...given)))));
+"""
+
+PATIENCE = 300
+"""The time [s] after which a C compiler, or Node, is stopped."""
 
 
 def exported(
     program: Callable[[str], Program], names: Sequence[str], sources: Sources, states: Sequence[State]
 ) -> tuple[Check, ...]:
-    """Return a check of the exported Python and a check of the exported C.
+    """Return checks of the exported Python, the exported C and the exported JavaScript.
 
     ``program(name)`` returns the programs in the source, and ``names`` lists them. If no C compiler is found, ``holds``
-    is None for the check of C.
+    is None for the check of C, and so it is for that of JavaScript if Node is not found.
     """
     programs = {name: program(name) for name in names}
     with tempfile.TemporaryDirectory(prefix="lagrangian-", ignore_cleanup_errors=True) as folder:
         return (
             _python(programs, sources("python", STEM), states, Path(folder)),
             _c(programs, sources("c", STEM), states, Path(folder)),
+            _javascript(programs, sources("javascript", STEM), states, Path(folder)),
         )
 
 
@@ -116,6 +126,41 @@ def _c(programs: Mapping[str, Program], texts: Mapping[str, str], states: Sequen
             return answers
 
         return call
+
+    return Check(what, *_compared(programs, caller, states))
+
+
+def _javascript(
+    programs: Mapping[str, Program], texts: Mapping[str, str], states: Sequence[State], folder: Path
+) -> Check:
+    what = text("the exported JavaScript gives the same numbers")
+    node = shutil.which(NODE)
+    if node is None:
+        return Check(what, None, "not checked: Node was not found (looked for node)")
+    for file_name, source in texts.items():
+        (folder / file_name).write_text(source, encoding="utf-8")
+    (folder / "calls.js").write_text(_CALLS, encoding="utf-8")
+    wanted = [
+        [f"{STEM}_{name}", [state[group] if group != "t" else state["t"][0] for group in program.inputs]]
+        for state in states
+        for name, program in programs.items()
+    ]
+    command = [node, str(folder / "calls.js")]
+    try:
+        done = subprocess.run(
+            command, input=json.dumps(wanted), capture_output=True, text=True, timeout=PATIENCE, check=False
+        )
+    except (OSError, subprocess.TimeoutExpired) as error:
+        return Check(what, None, f"not checked: Node could not be run ({error})")
+    if done.returncode:
+        said = next((line for line in done.stderr.splitlines() if "Error" in line), f"exit {done.returncode}")
+        return Check(what, False, f"Node refuses it: {said[:200]}")
+    answers = iter(json.loads(done.stdout))
+    known = {(name, id(state)): next(answers) for state in states for name in programs}
+
+    def caller(name: str, program: Program) -> Call:
+        ends = np.cumsum([len(output.ids) for output in program.outputs.values()])[:-1]
+        return lambda state: np.split(np.array(known[name, id(state)], float), ends)
 
     return Check(what, *_compared(programs, caller, states))
 
