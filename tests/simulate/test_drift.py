@@ -7,6 +7,8 @@ from scipy.special import ellipj
 
 import lagrangian as lg
 from lagrangian.integrate import RunStatus
+from lagrangian.simulate import spared
+from redundant_systems import INERTIA, START, WEIGHT, crank_angle, plate_on_cranks
 
 G = 9.81
 
@@ -158,21 +160,85 @@ def test_a_parallelogram_passes_where_it_is_flat(method, step):
     assert bool(told) == (run.drift.margin < 1e-6) and all("'coupler' comes within" in n.text for n in told)
 
 
-def test_constraints_that_are_missed_after_the_projection_too_are_told():
-    """A plate on three cranks: a row follows from the others, and inside long steps the guard does not see it."""
-    s = lg.System("plate on three cranks")
-    a1, a2, a3, x, y, th = s.coordinates("a1 a2 a3 x y th")
-    plate = s.frame(th, origin=s.point("G", (x, y)), name="plate")
-    s.rigid_body(3.0, 0.4, at=plate.point(0, 0), frame=plate)
-    s.gravity()
-    for k, (angle, place) in enumerate(zip((a1, a2, a3), (-0.5, 0.0, 0.5), strict=True)):
-        crank = s.frame(angle, origin=s.point(f"O{k}", (place, 0)))
-        s.rigid_body(0.5, 0.01, at=crank.point(0.3, 0), frame=crank)
-        s.pin((plate.point(place, 0), crank.point(0.6, 0)), name=f"p{k}")
-    start = {"a1": 1.0, "a2": 1.0, "a3": 1.0, "x": 0.6 * np.cos(1), "y": 0.6 * np.sin(1)}
-    run = s.simulate(2.0, initial=start)
-    left = max(run.drift.position_after, run.drift.velocity_after)
-    assert any("still missed by up to" in str(notice) for notice in run.notices) == (left > 1e-6)
-    fine = s.simulate(2.0, initial=start, method="rk4", step=1e-3)
+@pytest.mark.parametrize(
+    "options",
+    [{}, {"rtol": 1e-6}, {"rtol": 1e-12, "atol": 1e-12}, {"method": "rk4", "step": 1e-3}, {"method": "taylor"}],
+)
+def test_a_plate_on_three_cranks_moves_as_with_one_coordinate(options):
+    """One of the six rows is spare, each at other angles; on its way the plate passes two flat positions."""
+    run = plate_on_cranks().simulate(2.0, initial=START, **options)
+    assert run.success, run.message
+    a, rate = crank_angle(run.t)
+    for name in ("a1", "a2", "a3"):
+        assert abs(run[name] - a).max() < 2e-9 and abs(run[f"{name}'"] - rate).max() < 1e-7
+    assert max(run.drift.position_after, run.drift.velocity_after) < 1e-9 and float(run.audit) < 1e-9
+    (told,) = [n.text for n in run.notices if "one follows" in n.text]
+    assert "'p0.x', 'p0.y', 'p1.x', 'p1.y', 'p2.x', 'p2.y'" in told and "not determined" in told
+
+
+def test_a_plate_on_three_cranks_goes_on_turning():
+    """30 s by energy: h is constant to 1e-9 of it; and the same with friction, whose regimes know of the row too."""
+    run = plate_on_cranks().simulate(30.0, initial=START)
+    assert run.success and float(run.audit) < 1e-9 and run.drift.velocity_after < 1e-8
+    s = plate_on_cranks()
+    s.friction(limit=0.4, deflection=s.model.coordinates[0].symbol, name="bearing")
+    run = s.simulate(3.0, initial=START)
+    assert run.success and float(run.audit) < 1e-9 and run.drift.velocity_after < 1e-8
+
+
+def test_forces_of_a_plate_on_three_cranks_add_up_to_those_of_its_motion():
+    """On the plate: Σ forces = m (r″ − g), and no torque about its centre, as it does not turn."""
+    run = plate_on_cranks().simulate(1.0, initial=START, samples=41)
+    force = sum(run.reaction(f"p{k}").force for k in range(3))
+    rate, a = run["a1'"], run["a1"]
+    bend = -WEIGHT / INERTIA * np.cos(a)
+    path = 0.6 * np.array(
+        [-np.sin(a) * bend - np.cos(a) * rate**2, np.cos(a) * bend - np.sin(a) * rate**2 + 9.81 / 0.6]
+    )
+    assert force == pytest.approx(3.0 * path.T, abs=1e-6)
+    turning = sum(place * run.reaction(f"p{k}").force[:, 1] for k, place in enumerate((-0.5, 0.0, 0.5)))
+    assert turning == pytest.approx(0.0, abs=1e-6)
+
+
+def test_an_ensemble_of_plates_knows_of_the_row_if_all_runs_have_it():
+    s = plate_on_cranks()
+    angles = np.array([1.0, 0.7, 0.4])
+    start = {f"a{k}": angles for k in (1, 2, 3)} | {"x": 0.6 * np.cos(angles), "y": 0.6 * np.sin(angles)}
+    runs = s.ensemble(2.0, initial=start)
+    assert runs.success and runs.drift["left"].max() < 1e-9
+    assert any("one follows" in said for said in runs.notices)
+    one = s.simulate(2.0, initial=START)
+    assert runs["final a1"][0] == pytest.approx(one["a1"][-1], abs=1e-9)
+
+
+def growing():
+    """A rod of length 1 given twice, the second of which grows: they agree for 1 s, and then contradict each other."""
+    s = lg.System("two rods")
+    x, y = s.coordinates("x y")
+    s.particle(1.0, at=s.origin + (x, y))
+    s.gravity((0, -1), G)
+    s.constraint(sp.sqrt(x**2 + y**2) - 1, name="rod")
+    s.constraint(x**2 + y**2 - 1 - sp.exp(20 * (s.t - 2)), name="growing")
+    return s
+
+
+def test_a_run_ends_where_a_row_that_was_left_out_does_not_hold_any_more():
+    """f = e^{20 (t − 2)} is 1e-6 at 1.31 s, its rate already at 1.16 s."""
+    run = growing().simulate(2.0, **RELEASED)
+    assert run.status == RunStatus.APART and not run.success
+    assert run.t[-1] == pytest.approx(1.16, abs=0.01)
+    assert "E510" in run.message and "'rod' and 'growing'" in run.message and "breaks the constraint" in run.message
+    runs = growing().ensemble(2.0, x=[1.0, 0.8], y=[0.0, 0.6])
+    assert (runs.status == RunStatus.APART).all() and not runs.success
+
+
+def test_constraints_that_are_missed_after_the_projection_too_are_told(monkeypatch):
+    """Without knowing that a row is spare, the guard does not see it inside long steps."""
+    monkeypatch.setattr(spared, "spare_rows", lambda *_: ())
+    s = plate_on_cranks()
+    run = s.simulate(2.0, initial=START)
+    assert max(run.drift.position_after, run.drift.velocity_after) > 1e-6
+    assert any("still missed by up to" in str(notice) for notice in run.notices)
+    fine = s.simulate(2.0, initial=START, method="rk4", step=1e-3)
     assert max(fine.drift.position_after, fine.drift.velocity_after) < 1e-6
     assert not any("still missed" in str(notice) for notice in fine.notices)

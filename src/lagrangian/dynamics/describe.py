@@ -62,7 +62,7 @@ def described(
                 error.element = element.title
             error.at(element.place)
             raise
-    m.rows = rows(d)
+    m.rows, m.spare = rows(d), model.spare
     return m, d
 
 

@@ -26,6 +26,7 @@ from lagrangian.dynamics.rows import ConstraintRow
 from lagrangian.dynamics.tape import make_tape, maximal_linear_nodes, moving_nodes
 from lagrangian.dynamics.vectors import dot, minus, plus, zeros
 from lagrangian.graph import Graph, count_operations, gradient, hessian, jvp, vjp
+from lagrangian.model.spare import SpareRows
 
 Pairs = list[tuple[int, int]]
 
@@ -47,7 +48,8 @@ class Mechanics:
     quasi-velocities. ``down`` is the acceleration of gravity in the fixed axes. ``efforts`` are (rate, effort) pairs:
     their power is Σ rate · effort, and Ξ_i = Σ effort · ∂rate/∂v_i. ``stores`` are the (rate, effort) pairs of the
     energies in ``potentials``. ``kinetics`` are kinetic co-energies that were given directly, ``losses`` the powers
-    that dampers take. ``rows`` are the rows of constraints.
+    that dampers take. ``rows`` are the rows of constraints, ``spare`` the sets in which some are known to follow from
+    others along the motion.
     """
 
     graph: Graph
@@ -62,6 +64,7 @@ class Mechanics:
     losses: list[int] = field(default_factory=list)
     rows: list[ConstraintRow] = field(default_factory=list)
     floats: tuple[Float, ...] = ()
+    spare: tuple[SpareRows, ...] = ()
 
     @property
     def q(self) -> tuple[int, ...]:
@@ -334,7 +337,7 @@ class Mechanics:
             gathered = dict(zip(self.v, self.gathered(pairs), strict=True))
             ways.append((self._dense, gathered, False))
         attached = [AttachedRow.of(self.graph, row, value) for row, value in rows]
-        nodes = [a.node for a in attached]
+        nodes, names = [a.node for a in attached], {row.name for row, _ in rows}
         rates = [v for i, v in enumerate(self.v) if i not in fixed]
         for form, linear, exchange in ways:
             seeds = list(dict.fromkeys((*form.rows, *linear, *nodes)))
@@ -343,7 +346,17 @@ class Mechanics:
                 continue  # the next one is the same
             moving = form if len(rates) == len(self.v) else form.without(set(form.rows).difference(tape.order))
             yield Problem(
-                self.graph, tape, moving, linear, attached, self.v, reference, self._named, self.motion.constant, strict
+                self.graph,
+                tape,
+                moving,
+                linear,
+                attached,
+                self.v,
+                reference,
+                self._named,
+                self.motion.constant,
+                strict,
+                [spare for spare in self.spare if names.issuperset(spare.names)],
             )
 
     @cached_property

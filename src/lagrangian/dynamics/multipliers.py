@@ -22,11 +22,12 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from lagrangian.dynamics.accelerations import Elimination, Quadratic, no_inertia
-from lagrangian.dynamics.guard import Guard
+from lagrangian.dynamics.guard import Guard, Spared
 from lagrangian.dynamics.rows import ConstraintRow
 from lagrangian.dynamics.tape import EliminationTape, Form
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph
+from lagrangian.model.spare import SpareRows
 
 ROUNDING = 1e-12
 """A number below this is what is left of 0, such as cos of a rounded π/2: nothing is divided by it."""
@@ -68,7 +69,8 @@ class AttachedRow:
 class Problem:
     """The input of an elimination: H and g along a tape, subject to rows. The result is added to ``reference``.
 
-    With ``strict``, a row without a pivot raises `DependentRow`, and a rate without inertia is an error too.
+    With ``strict``, a row without a pivot raises `DependentRow`, and a rate without inertia is an error too. ``spare``
+    are sets of rows in which some are known to follow from others along the motion.
     """
 
     graph: Graph
@@ -81,6 +83,16 @@ class Problem:
     names: Mapping[int, str]
     constant: Callable[[Sequence[int]], bool]
     strict: bool = True
+    spare: Sequence[SpareRows] = ()
+
+    def spared(self, order: Sequence[int]) -> dict[int, Spared]:
+        """The sets with spare rows by multiplier, if multipliers are eliminated by pivots in this order."""
+        found: dict[int, Spared] = {}
+        for group in self.spare:
+            rows = tuple(key for key in order if self.rows[-1 - key].row.name in group.names)
+            if len(rows) >= group.count:
+                found.update(dict.fromkeys(rows, Spared(rows, group.count)))
+        return found
 
 
 @dataclass(frozen=True)
@@ -106,6 +118,7 @@ class RowElimination(Elimination):
     """An elimination with rows. Multiplier r has the key −1 − r, so that it differs from all nodes."""
 
     problem: Problem = field(kw_only=True)
+    spared: Mapping[int, Spared] = field(default_factory=dict[int, Spared], kw_only=True)
     support: dict[int, set[int]] = field(default_factory=dict[int, set[int]])
     sizes: dict[int, int] = field(default_factory=dict[int, int])
     divisors: list[tuple[str, int]] = field(default_factory=list[tuple[str, int]])
@@ -113,9 +126,20 @@ class RowElimination(Elimination):
     done: set[int] = field(default_factory=set[int])
 
     @classmethod
-    def of(cls, problem: Problem) -> RowElimination:
-        """The elimination of a problem before its first step."""
-        made = cls(problem.graph, problem.tape, problem.H.copy(), dict(problem.linear), problem.names, problem=problem)
+    def of(cls, problem: Problem, order: Sequence[int] = ()) -> RowElimination:
+        """The elimination of a problem before its first step.
+
+        ``order``: the multipliers that will be eliminated by a pivot, if it is known from a trial.
+        """
+        made = cls(
+            problem.graph,
+            problem.tape,
+            problem.H.copy(),
+            dict(problem.linear),
+            problem.names,
+            problem=problem,
+            spared=problem.spared(order),
+        )
         made._attach()
         return made
 
@@ -130,7 +154,7 @@ class RowElimination(Elimination):
             for k in form:
                 self.users[k] += 1
         self.freed = [i for i in tape.order if not self.users[i]]
-        self.guard = Guard(self.graph, {-1 - r: a.row.closure for r, a in enumerate(rows)})
+        self.guard = Guard(self.graph, {-1 - r: a.row.closure for r, a in enumerate(rows)}, self.spared)
 
     def _attach(self) -> None:
         for r, attached in enumerate(self.problem.rows):

@@ -6,7 +6,7 @@ take the cheapest possible step next is better for small systems.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from lagrangian.dynamics.multipliers import DependentRow, Problem, RowElimination, RowSolution
 from lagrangian.errors import ModelError
@@ -19,15 +19,15 @@ MOST_FREE = 60
 """Up to this number of rates, every step is chosen as the cheapest."""
 
 
-def tape_backwards(problem: Problem, *, pairs: bool) -> RowSolution:
+def tape_backwards(problem: Problem, *, pairs: bool, order: Sequence[int] = ()) -> RowElimination:
     """Go backwards over the tape, and eliminate every multiplier as soon as the rules allow it."""
-    e = RowElimination.of(problem)
+    e = RowElimination.of(problem, order)
     _settle(e, pairs=pairs)
     for i in reversed(problem.tape.order):
         if i not in e.done:
             e.take(i, pairs=pairs)
             _settle(e, pairs=pairs)
-    return e.solution()
+    return e
 
 
 def _settle(e: RowElimination, *, pairs: bool) -> None:
@@ -44,9 +44,9 @@ def _settle(e: RowElimination, *, pairs: bool) -> None:
             return
 
 
-def cheapest_first(problem: Problem, *, pairs: bool) -> RowSolution:
+def cheapest_first(problem: Problem, *, pairs: bool, order: Sequence[int] = ()) -> RowElimination:
     """Take the cheapest of all possible steps next."""
-    e = RowElimination.of(problem)
+    e = RowElimination.of(problem, order)
     ready: set[int] = set()
     mates = {first: i for i, (first, *_) in problem.tape.turned.items()}
     while True:
@@ -65,7 +65,7 @@ def cheapest_first(problem: Problem, *, pairs: bool) -> RowSolution:
             if late := [i for i in ready if e.too_early(i)]:
                 e.take(late[0], pairs=pairs)  # which says that it has no inertia
                 continue
-            return e.solution()
+            return e
         _, _, i = min(steps)
         if i < 0:
             e.take_row(i)
@@ -92,13 +92,21 @@ def _cost(e: RowElimination, i: int, *, pairs: bool) -> float:
     return parents * (neighbours - 1 + parents)
 
 
+def _solved(problem: Problem, way: Callable[..., RowElimination], *, pairs: bool) -> RowSolution:
+    """The solution in one order. Where rows are spare, a trial tells in which order their pivots come."""
+    done = way(problem, pairs=pairs)
+    if problem.spare:
+        done = way(problem, pairs=pairs, order=done.guard.taken)
+    return done.solution()
+
+
 def solutions(problem: Problem) -> Iterator[RowSolution | ModelError]:
     """The solutions in all orders to be compared, or the reason why there is none; in large systems only the tape's."""
     ways = (tape_backwards, cheapest_first) if len(problem.rates) <= MOST_FREE else (tape_backwards,)
     for way in ways:
         for pairs in (True, False) if len(problem.rates) <= FEW else (True,):
             try:
-                found = way(problem, pairs=pairs)
+                found = _solved(problem, way, pairs=pairs)
             except DependentRow:
                 raise
             except ModelError as error:  # a rate without inertia that this order does not find a row for

@@ -58,7 +58,8 @@ def _values(kernel: Kernel, q: Array, p: Array, t: float) -> dict[str, Array]:
     return out
 
 
-def _kernel(program: Program) -> Kernel:
+def kernel_of(program: Program) -> Kernel:
+    """A program of a position, compiled; v, u and t are 0 unless given."""
     return program.remembered("closing", lambda: compile(program, optional={"u": 0.0, "v": 0.0, "t": 0.0}))
 
 
@@ -88,7 +89,7 @@ class Closing:
     def rates(self, q: Array, v: Array, p: Array, t: float) -> tuple[Array, Flags]:
         """The velocities nearest to v that satisfy the rows, and which rows they satisfy, (…, rows)."""
         assert self.velocity is not None
-        correct, rows, matrix = (_kernel(program) for program in (self.velocity, self.rows, self.matrix))
+        correct, rows, matrix = (kernel_of(program) for program in (self.velocity, self.rows, self.matrix))
         for _ in range(2):  # the second takes the rounding of the first away
             v = v + np.asarray(correct(q, v, None, p, t)["dv"])
         left = np.abs(np.asarray(rows(q, v, None, p, t)["Av"]))
@@ -102,8 +103,8 @@ class LoopSearch:
 
     def __init__(self, programs: Closing) -> None:
         assert programs.position is not None
-        self.correct, self.rows = _kernel(programs.position), _kernel(programs.rows)
-        self.matrix = _kernel(programs.matrix)
+        self.correct, self.rows = kernel_of(programs.position), kernel_of(programs.rows)
+        self.matrix = kernel_of(programs.matrix)
 
     def angles(self, q: Array, p: Array, t: float) -> Flags:
         """Which coordinates are angles: the rows depend on them, but do not change after a full turn."""

@@ -322,6 +322,9 @@ class Study:
             made[name][:] = np.maximum.reduce(found)
         broken = np.maximum(drift.reset_position, drift.reset_velocity) > BREAKS
         made["status"][broken & (solution.status >= 0)] = RunStatus.BROKEN
+        if self.projection is not None and self.projection.spare and self.projection.corrects:
+            apart = np.maximum(drift.position_after, drift.velocity_after) > BREAKS
+            made["status"][apart & (solution.status >= 0)] = RunStatus.APART
 
     def _events(self, solution: Any, made: Values) -> None:
         """The counts and first times of the events that are stored."""

@@ -24,14 +24,15 @@ MORE_STEPS = 8
 """The largest number of further steps on positions: usually 0 for a step of a run, a few for a start."""
 
 ROUNDING = 2.0**-43
-"""Up to this residual, in the largest entry of the state or 1, a correction is no sign of a step's error."""
+"""Up to this residual times √margin, in the largest entry of the state or 1, a correction is no sign of a step's
+error."""
 
 
 NEARLY_DEPENDENT = 1e-6
 """Below this margin, a correction is no sign of a step's error, because it grows as 1/√margin."""
 
 BREAKS = 1e-6
-"""Above this residual, divided by the row's scale, the state after an event violates the row."""
+"""Above this residual, divided by the row's scale, the state after an event or a correction violates the row."""
 
 
 @dataclass(frozen=True)
@@ -41,12 +42,14 @@ class Projection:
     ``position`` and ``velocity`` (None where there are no such rows) have the outputs ``dx`` (nx,), which is added
     to x, and ``gap`` (), the largest residual of a row at x over its scale. ``velocity`` is evaluated at corrected
     positions and does not change them. ``margin`` (), in either, says how far the rows are from being dependent.
-    With ``corrects=False`` nothing is changed, and the residuals are only measured.
+    With ``corrects=False`` nothing is changed, and the residuals are only measured. ``spare``: some rows are left out
+    because they follow from others; a run in which one of them no longer holds has failed.
     """
 
     position: Program | None
     velocity: Program | None
     corrects: bool = True
+    spare: bool = False
 
     def checked(self, rates: Program) -> Projection:
         """Return the projection; raise `RunError` if it does not fit the right-hand side ``rates``."""

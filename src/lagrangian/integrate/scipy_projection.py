@@ -14,6 +14,7 @@ history is not found at the expected place is restarted.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
@@ -124,7 +125,8 @@ class Projected:
         scale = self.atol + self.rtol * np.maximum(np.abs(before), np.abs(moved))
         size = float(np.sqrt(np.mean((change / scale) ** 2)))
         rounding = ROUNDING * max(1.0, float(np.abs(moved).max()))
-        if np.isfinite(size) and (max(seen["before"], seen["gap"]) <= rounding or seen["margin"] < NEARLY_DEPENDENT):
+        worst, margin = max(seen["before"], seen["gap"]), min(seen["margin"], 1.0)
+        if np.isfinite(size) and (margin < NEARLY_DEPENDENT or worst * math.sqrt(margin) <= rounding):
             size = 0.0
         if not size <= 1.0:
             return size, False

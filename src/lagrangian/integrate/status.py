@@ -33,6 +33,7 @@ class RunStatus(IntEnum):
     CROWDED = -9, "the limit on the number of events was reached"
     BLIND = -10, "the condition of an event is not a number"
     BROKEN = -11, "an event leaves a state that breaks a constraint"
+    APART = -13, "a row of constraints that followed from the others does so no more"
     OPEN = -12, "no start near the given one satisfies the constraints"
     LOST = -127, "its results are damaged"
     NOT_RUN = -128, "not run yet"

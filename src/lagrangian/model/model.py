@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any, TypeVar
 
@@ -17,6 +17,7 @@ from lagrangian import bounded
 from lagrangian.model.elements import Body, Element, Friction, Words
 from lagrangian.model.geometry import Frame, Point
 from lagrangian.model.names import time
+from lagrangian.model.spare import SpareRows
 from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, Velocity
 from lagrangian.viewed import Brief, cut
 
@@ -36,7 +37,8 @@ class Model(Brief):
     """A frozen description, complete and checked. It is made by `Builder.model`.
 
     ``points`` and ``frames`` are the named ones, in order; unnamed ones are reached from the elements. ``dimension`` is
-    2 in the plane and 3 in space. ``settings`` contains the simulation settings of a file, as plain data.
+    2 in the plane and 3 in space. ``settings`` contains the simulation settings of a file, as plain data. ``spare``
+    says which rows of constraints follow from others along the motion, if that is known.
     """
 
     name: str
@@ -50,11 +52,18 @@ class Model(Brief):
     frames: tuple[Frame, ...]
     elements: tuple[Element, ...]
     settings: Mapping[str, Any] = field(default_factory=dict[str, Any], repr=False)
+    spare: tuple[SpareRows, ...] = ()
     _memo: dict[Any, Any] = field(default_factory=dict[Any, Any], repr=False)
 
     def __repr__(self) -> str:
         counts = ("coordinates", "parameters", "inputs", "elements")
         return cut(f"<Model {self.name!r}: {', '.join(f'{len(getattr(self, x))} {x}' for x in counts)}>")
+
+    def sparing(self, spare: tuple[SpareRows, ...]) -> Model:
+        """The same model, with what is known of rows that follow from others."""
+        if spare == self.spare:
+            return self
+        return self.remembered(("sparing", spare), lambda: replace(self, spare=spare, _memo={}))
 
     def remembered(self, key: Any, make: Callable[[], T]) -> T:
         """Return what belongs to the model under a key; it is made at the first request."""

@@ -89,6 +89,11 @@ def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
             )
         case RunStatus.BROKEN:
             return said, "a reset that leaves rates with which the constraints hold"
+        case RunStatus.APART:
+            return said, (
+                "look at what these constraints say from there on; a run that starts there says whether they "
+                "contradict each other"
+            )
         case RunStatus.LATE:
             over = f"[E505] the time allowed for computing was over after {outcome.steps} steps"
             return over, Advice("a larger ", Argument("timeout"))

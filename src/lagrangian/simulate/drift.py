@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -69,13 +69,13 @@ def notices(task: Task, outcome: Outcome) -> tuple[Notice, ...]:
         return ()
     drift = RunDrift.of_run(outcome.drift)
     return (*_too_long(task.method, max(drift.position_before, drift.velocity_before), task.project),
-            *_close(task, outcome, drift), *_missed(task, drift))  # fmt: skip
+            *_close(task, outcome, drift), *_missed(task, outcome, drift))  # fmt: skip
 
 
-def _missed(task: Task, drift: RunDrift) -> tuple[Notice, ...]:
+def _missed(task: Task, outcome: Outcome, drift: RunDrift) -> tuple[Notice, ...]:
     """A notice if states miss the constraints after the projection too."""
     left = max(drift.position_after, drift.velocity_after)
-    if not task.project or left <= LARGEST:
+    if not task.project or left <= LARGEST or outcome.status == RunStatus.APART:  # which has its own message
         return ()
     said = (
         f"after the projection they are still missed by up to {left:.2g} (SI units), so that fewer digits of the run "
@@ -153,14 +153,36 @@ def check_method(model: Model, method: str) -> None:
 
 
 def ended(outcome: Outcome, task: Task) -> Outcome:
-    """Return the outcome, ended at the first event whose reset makes a state that violates a constraint."""
+    """Return the outcome, ended at the first event whose reset makes a state that violates a constraint, or where a
+    row that was left out does not hold."""
     drift = outcome.drift
+    if drift is not None and task.model.spare and task.project:
+        outcome = _apart(outcome, task, max(float(drift.position_after[0]), float(drift.velocity_after[0])))
     broken = drift is not None and max(drift.reset_position[0], drift.reset_velocity[0]) > BREAKS
     for k, hit in enumerate(outcome.hits if broken else ()):
         if hit.after is None or not (said := _breaks(task, hit.time, hit.after)):
             continue
         why = f"[E509] the reset of event '{task.events[hit.index].title}' breaks {said}"
         return cut_at(outcome, k, RunStatus.BROKEN, why)
+    return outcome
+
+
+def _apart(outcome: Outcome, task: Task, left: float) -> Outcome:
+    """The outcome, ended before the first sample that violates a row, if a state was off by more than rounding."""
+    for k in range(1, len(outcome.times) if left > BREAKS else 0):
+        if said := _breaks(task, float(outcome.times[k]), outcome.states[k]):
+            names = " and ".join(f"'{name}'" for spare in task.model.spare for name in spare.names[:6])
+            return replace(
+                outcome,
+                times=outcome.times[:k],
+                states=outcome.states[:k],
+                status=RunStatus.APART,
+                reached=float(outcome.times[k - 1]),
+                final=outcome.states[k - 1],
+                hits=[hit for hit in outcome.hits if hit.time <= outcome.times[k - 1]],
+                reason=f"[E510] the rows {names} do not depend on each other as they did at the start: the next sample "
+                f"breaks {said}",
+            )
     return outcome
 
 

@@ -108,7 +108,8 @@ def projection(model: Model, rates: Program, *, project: bool) -> Projection | N
     (found,) = remembered(model, "projection", lambda: (dynamics.projection(model),))
     if found == (None, None):
         return None
-    return Projection(*(None if program is None else _beside(program, rates) for program in found), corrects=project)
+    beside = (None if program is None else _beside(program, rates) for program in found)
+    return Projection(*beside, corrects=project, spare=bool(model.spare))
 
 
 def _beside(program: Program, rates: Program) -> Program:

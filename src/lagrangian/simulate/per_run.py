@@ -24,7 +24,6 @@ from lagrangian.simulate.inputs import InputSignals
 from lagrangian.simulate.integrating import SYMPLECTIC, projection, remembered
 from lagrangian.simulate.quantities import quantity
 from lagrangian.simulate.settings import DEFAULT, RunSettings
-from lagrangian.simulate.starts import held, starts_of_runs
 from lagrangian.simulate.variation import TAKEN
 
 Array: TypeAlias = NDArray[np.float64]
@@ -83,7 +82,6 @@ def study_of(
         kept=kept,
         events=events,
         events_kept=events_kept,
-        closing=starts_of_runs(model, held(model, settings.fixed)),
         projection=projection(model, rates, project=settings.project),
         signals=signals,
         canonical=remembered(model, "canonical", lambda: (dynamics.momenta(model), dynamics.velocities(model)))

@@ -20,7 +20,7 @@ from lagrangian.integrate import METHODS
 from lagrangian.integrate.crossings import Hit
 from lagrangian.integrate.scipy_methods import SCIPY, Bounds, Outcome
 from lagrangian.model import Model
-from lagrangian.simulate import drift, slipping
+from lagrangian.simulate import drift, slipping, spared
 from lagrangian.simulate.admission import check_masses
 from lagrangian.simulate.diagnosis import message
 from lagrangian.simulate.disagreement import disagreement
@@ -77,9 +77,10 @@ def simulate(
     notices = check_masses(model, p)
     guess = initial_state(given, model, program, in_file.get("initial", {}), initial, by_name)
     x0, moved = onto_constraints(model, guess, p, float(instants[0]), held(model, settings.fixed))
+    knowing, spare = spared.of_run(model, x0, p, float(instants[0]))
     _log.info("simulating from t = %g s to %g s", instants[0], instants[-1])
     task = Task(
-        model,
+        knowing,
         with_stops(model, drive, p, instants),
         instants,
         x0,
@@ -94,13 +95,14 @@ def simulate(
     )
     slips = slipping.run(task) if model.frictions else None
     outcome = drift.ended(run(task) if slips is None else slips.outcome, task)
-    made = _trajectory(task, outcome, {"rtol": settings.rtol, "atol": settings.atol})
+    made = _trajectory(task, model, outcome, {"rtol": settings.rtol, "atol": settings.atol})
     if slips is not None:
         slips.noted(made)
     said = drift.notices(task, outcome)
     made.notices = (
         *notices,
         *moved,
+        *spare,
         *(_undecided(task) if made.success else ()),
         *said,
     )  # a failed run has its own message
@@ -184,14 +186,14 @@ def _method(method: str | None, drive: InputSignals) -> str:
 # -- the result ----------------------------------------------------------------------------------------------------
 
 
-def _trajectory(task: Task, outcome: Outcome, settings: Mapping[str, Any]) -> Trajectory:
+def _trajectory(task: Task, model: Model, outcome: Outcome, settings: Mapping[str, Any]) -> Trajectory:
     n = task.size
     t, x = outcome.times, outcome.states
     further = outcome.status != 0 and outcome.reached > t[-1]
     if further:  # the last state is stored, too, after any event that changed it
         t, x = np.append(t, outcome.reached), np.vstack([x, outcome.final])
     return Trajectory(
-        model=task.model,
+        model=model,
         t=t,
         y=np.ascontiguousarray(x[:, :n].T),
         status=outcome.status,

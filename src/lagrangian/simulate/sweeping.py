@@ -27,6 +27,7 @@ from lagrangian.integrate.observe import Kept, Study
 from lagrangian.integrate.store import ChunkPlan, Variable, create, resume
 from lagrangian.model import Model
 from lagrangian.page.plain import plain
+from lagrangian.simulate import spared
 from lagrangian.simulate.admission import check_masses, fitness
 from lagrangian.simulate.drift import of_runs
 from lagrangian.simulate.ensemble import Ensemble
@@ -35,6 +36,7 @@ from lagrangian.simulate.integrating import remembered
 from lagrangian.simulate.per_run import Recording, instants, study_of
 from lagrangian.simulate.plot import Units
 from lagrangian.simulate.settings import STORE, Execution, RunSettings, check_names, chosen, names_of, picked, whole
+from lagrangian.simulate.starts import held, starts_of_runs
 from lagrangian.simulate.switching import with_stops_of_all
 from lagrangian.simulate.variation import EVENT, TIME, Varying, from_arrays, from_grid
 from lagrangian.values.values import key_name
@@ -145,10 +147,14 @@ def _done(
     times = instants(model, settings)
     check_covers(drive, float(times[0]), float(times[-1]))
     design = varying.design()
-    drive, said = with_stops_of_all(model, drive, design, times, float(settings.max_step))
+    drive, stops = with_stops_of_all(model, drive, design, times, float(settings.max_step))
     varied = [name for group, name in varying.columns if group == "p"]
     check_masses(model, design.base["p"], varied)
-    study, expressions = study_of(model, settings, recording, drive, times)
+    closing = starts_of_runs(model, held(model, settings.fixed))
+    knowing, spare = spared.of_runs(model, design, closing, float(times[0]))
+    study, expressions = study_of(knowing, settings, recording, drive, times)
+    study = replace(study, closing=closing)
+    said = (*stops, *map(str, spare))
     (fit,) = remembered(model, ("fitness", *varied), lambda: (fitness(model, varied),))
     study = replace(study, fitness=fit)
     task = _task(model, varying, drive, study)

@@ -40,7 +40,7 @@ class Jets:
         self.sums = Sums(f)
         self.still: list[bool] = []  # series that do not change in time
         self.rules: list[Callable[[int], None]] = []
-        self.conditions: dict[int, tuple[int, int]] = {}  # by the series that stands for one: what is compared
+        self.conditions: dict[int, Callable[[], str]] = {}  # by the series that stands for one: its flag
         self._weighted: dict[int, list[Maybe]] = {}
         self._reciprocals: dict[int, Value] = {}
         self.place: list[int] = []  # of each tape entry among the series
@@ -310,10 +310,10 @@ class Jets:
                 return self.angle(*at)
         if kind == "lt":  # of a guard, which does not change within a step: see `integrate.guards`
             found = self._new(lambda n: None)
-            self.conditions[found] = at[0], at[1]
+            self.conditions[found] = lambda: self.f.compare("olt", self.first(at[0]), self.first(at[1]))
             return found
         if kind == "select":
-            return self._chosen(*at)
+            return self._decided(*at) if {at[1], at[2]} & self.conditions.keys() else self._chosen(*at)
         if kind in KINKS:
             raise KeyError(f"operation {kind!r} has no series")
         return self._function(kind, at[0])
@@ -325,14 +325,29 @@ class Jets:
 
         def rule(n: int) -> Maybe:
             if not flags:
-                left, right = self.conditions[condition]
-                flags.append(self.f.compare("olt", self.first(left), self.first(right)))
+                flags.append(self._flag(condition))
             x, y = self.get(a, n), self.get(b, n)
             if x is None and y is None:
                 return None
             return self.f.select(flags[0], zero if x is None else x, zero if y is None else y)
 
         return self._new(rule, a, b)
+
+    def _decided(self, condition: int, a: int, b: int) -> int:
+        """A condition that is one of two others."""
+        found = self._new(lambda n: None)
+
+        def flag() -> str:
+            f, c = self.f, self._flag(condition)
+            both, other = f.logic("and", c, self._flag(a)), f.logic("and", f.opposite(c), self._flag(b))
+            return f.logic("or", both, other)
+
+        self.conditions[found] = flag
+        return found
+
+    def _flag(self, i: int) -> str:
+        """The truth value of a condition now; of a number, whether it is not 0."""
+        return self.conditions[i]() if i in self.conditions else self.f.compare("one", self.first(i), 0.0)
 
     def _opposite(self, a: int) -> int:
         """The series −a."""

@@ -173,9 +173,13 @@ class Projector:
         # rounding grows with the state: of speeds of thousands, residuals of 1e-12 are left
         (largest,) = p.fold(lambda most, entry: (_greater(f, most, entry),), [1.0], x)
         rounding = largest * ROUNDING
-        small = f.logic("and", f.compare("ole", gap, rounding), f.compare("ole", speed, rounding))
-        if self.tells:
-            small = f.logic("or", small, f.compare("olt", self._seen("margin"), NEARLY_DEPENDENT))
+        worst = f.select(f.compare("olt", gap, speed), speed, gap)
+        if not self.tells:
+            small = f.compare("ole", worst, rounding)
+        else:  # where rows are nearly dependent, residuals of rounding grow as 1/√margin
+            margin = self._seen("margin")
+            small = f.compare("ole", worst * worst * margin, rounding * rounding)
+            small = f.logic("or", small, f.compare("olt", margin, NEARLY_DEPENDENT))
         error = p.load(self.size)
         greater = f.select(f.logic("or", small, f.compare("ole", size, error)), error, size)
         greater = f.fma(gap + speed + rest + size, 0.0, greater)  # 0·gap: what is not finite shows
