@@ -2,7 +2,7 @@
 
 from math import cos, pi, sin
 
-from lagrangian.page.scene import Disc, Label, Part, Path, Placement, Scene, Trace
+from lagrangian.page.scene import Disc, Label, Path, Placement, Scene, ScenePart, Trace
 
 HOSTILE = (
     "</text></svg><script>alert(1)</script>",
@@ -31,11 +31,11 @@ def pendulum() -> Scene:
         view=((1, 0), (0, -1)),
         positions=((0.0, 0.0), (sin(TURN), -cos(TURN))),
         parts=(
-            Part(ground, "ground", outline=2),
-            Part(line((0, 0), (0, 75)), "thin", Placement(0), dashed=True, outline=1, moves=False),
-            Part(line((0, 0), (1, 0)), "rod", Placement(0, 1, "along"), ("rod",), outline=3, layer=1),
-            Part(Disc((0, 0), 11), "body", Placement(1), ("bob", "link 2"), "ball", filled=True, layer=2),
-            Part(line((255, 60), (255, 100)), "gravity", elements=("gravity",), outline=2),
+            ScenePart(ground, "ground", outline=2),
+            ScenePart(line((0, 0), (0, 75)), "thin", Placement(0), dashed=True, outline=1, moves=False),
+            ScenePart(line((0, 0), (1, 0)), "rod", Placement(0, 1, "along"), ("rod",), outline=3, layer=1),
+            ScenePart(Disc((0, 0), 11), "body", Placement(1), ("bob", "link 2"), "ball", filled=True, layer=2),
+            ScenePart(line((255, 60), (255, 100)), "gravity", elements=("gravity",), outline=2),
         ),
         labels=(
             Label(("m",), (214, 192), "body", ("bob",)),
@@ -60,16 +60,16 @@ def carts() -> Scene:
         view=((1, 0), (0, -1)),
         positions=((0.0, 0.0), (1.0, 0.0), (2.2, 0.0), (2.2, 0.3)),
         parts=(
-            Part(line((20, 120), (390, 120)), "ground", outline=2, layer=-1),
-            Part(box, "body", Placement(1), ("cart 1",), "cart", filled=True, layer=2),
-            Part(box, "body", Placement(2), ("cart 2",), "cart", filled=True, layer=2),
-            Part(zigzag, "stiffness", Placement(0, 1, "along", shift_towards=(-25, 0)), ("k",), "spring"),
-            Part(wave, "input", Placement(1, 2, "along", (25, 0), (-25, 0)), ("F",), "force"),
-            Part(Disc((0, 0), 1), "body", Placement(2, 3, "both"), ("wheel",), "wheel"),
-            Part(line((0, 0), (1, 0)), "body", Placement(2, 3, "both"), ("wheel",), "wheel"),
-            Part(Trace((0, 3, 1), shifts=((0, 0), (0, -9), (0, 4))), "constraint", elements=("rope",)),
-            Part(line((0, 0), (60, 0)), "body", Placement(1, shift=(0, -40)), outline=12, layer=3),
-            Part(line((0, 0), (60, 0)), "body", Placement(1, shift=(0, -40)), outline=9, layer=3, paint="inside"),
+            ScenePart(line((20, 120), (390, 120)), "ground", outline=2, layer=-1),
+            ScenePart(box, "body", Placement(1), ("cart 1",), "cart", filled=True, layer=2),
+            ScenePart(box, "body", Placement(2), ("cart 2",), "cart", filled=True, layer=2),
+            ScenePart(zigzag, "stiffness", Placement(0, 1, "along", shift_towards=(-25, 0)), ("k",), "spring"),
+            ScenePart(wave, "input", Placement(1, 2, "along", (25, 0), (-25, 0)), ("F",), "force"),
+            ScenePart(Disc((0, 0), 1), "body", Placement(2, 3, "both"), ("wheel",), "wheel"),
+            ScenePart(line((0, 0), (1, 0)), "body", Placement(2, 3, "both"), ("wheel",), "wheel"),
+            ScenePart(Trace((0, 3, 1), shifts=((0, 0), (0, -9), (0, 4))), "constraint", elements=("rope",)),
+            ScenePart(line((0, 0), (60, 0)), "body", Placement(1, shift=(0, -40)), outline=12, layer=3),
+            ScenePart(line((0, 0), (60, 0)), "body", Placement(1, shift=(0, -40)), outline=9, layer=3, paint="inside"),
         ),
         labels=(Label(("m_1", "J_wheel"), (160, 99), "body", ("cart 1",)),),
     )
@@ -84,7 +84,7 @@ def hostile() -> Scene:
         scale=1,
         view=((1, 0), (0, -1)),
         positions=((0.0, 0.0),),
-        parts=tuple(Part(Disc((50, 50), 9), "body", elements=(x,), kind=x) for x in HOSTILE),
+        parts=tuple(ScenePart(Disc((50, 50), 9), "body", elements=(x,), kind=x) for x in HOSTILE),
         labels=tuple(Label((x, "m"), (50, 50), "input", (x,)) for x in HOSTILE),
         description="".join(HOSTILE[:4]),
     )

@@ -22,6 +22,7 @@ if _typing.TYPE_CHECKING:
     from lagrangian.linear.regulator import Regulator
     from lagrangian.linear.stability import Stability
     from lagrangian.linear.symbolic import SymbolicLinearization
+    from lagrangian.look.picture import Picture
     from lagrangian.page.formula import Check, EquationTerm
     from lagrangian.page.report import Report
     from lagrangian.simulate.ensemble import Ensemble
@@ -51,6 +52,7 @@ else:
             "linear.regulator": "Regulator",
             "linear.stability": "Stability",
             "linear.symbolic": "SymbolicLinearization",
+            "look.picture": "Picture",
             "page.formula": "Check EquationTerm",
             "page.report": "Report",
             "simulate.ensemble": "Ensemble",
@@ -90,6 +92,7 @@ __all__ = [
     "Notice",
     "Origin",
     "ParseError",
+    "Picture",
     "Place",
     "Reaction",
     "Regulator",

@@ -25,6 +25,7 @@ if TYPE_CHECKING:  # every verb imports what it needs, so that describing a syst
     from lagrangian.invariants.conserved_quantities import ConservedQuantities
     from lagrangian.linear.along import LinearizationAlong
     from lagrangian.linear.linearization import Linearization
+    from lagrangian.look import Picture
     from lagrangian.page.formula import Check
 
 
@@ -62,6 +63,36 @@ class System(Simulated):
         from lagrangian.derive import derive
 
         return check_answer(derive(self.model), answer, hint=hint)
+
+    def look(
+        self,
+        *,
+        pose: Mapping[Any, Any] | None = None,
+        kinds: Mapping[str, str] | None = None,
+        azimuth: float | None = None,
+        elevation: float | None = None,
+        trail: Sequence[str] = (),
+        hide: Sequence[str] = (),
+    ) -> Picture:
+        """Return the schematic of the system: rods, carts, wheels, springs, forces and coordinates, as in a textbook.
+
+        Everything is found from the model. ``pose`` gives coordinates other values than those that were chosen,
+        ``kinds`` says what bodies are drawn as (``{"cart": "box"}``: ball, cart, box, wheel, disk, link, plate, bar or
+        none), ``azimuth`` and ``elevation`` [rad] from where a system in space is seen, ``trail`` the points whose
+        paths are shown in motion, and ``hide`` the elements and coordinates that are left out. `Picture.missing` says
+        what is not drawn. Raises `ModelError` for names that the system does not have.
+        """
+        from lagrangian.look import picture
+
+        return picture(
+            self.model,
+            pose=pose,
+            kinds=kinds,
+            azimuth=azimuth,
+            elevation=elevation,
+            trail=tuple(trail),
+            hide=tuple(hide),
+        )
 
     def verify(self, *, states: int = 50, seed: int = 1) -> tuple[Check, ...]:
         """Check everything that is computed from the system by independent routes, at random states.

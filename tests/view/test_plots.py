@@ -15,7 +15,7 @@ import pytest
 
 import lagrangian as lg
 from lagrangian import examples
-from lagrangian.view import Marks, Panel, Picture, Series, draw
+from lagrangian.view import Marks, Panel, Plotted, Series, draw
 
 matplotlib.use("Agg")
 
@@ -141,7 +141,7 @@ def test_the_name_of_a_file_is_not_a_quantity(run: lg.Trajectory) -> None:
 
 def test_names_cannot_become_markup() -> None:
     series = Series(r"\no{such", "a$b_c", np.zeros(3))
-    figure = draw(Picture("cost $5 _ ^", np.arange(3.0), (Panel("", "", (series, series)),), (Marks("m", np.ones(1)),)))
+    figure = draw(Plotted("cost $5 _ ^", np.arange(3.0), (Panel("", "", (series, series)),), (Marks("m", np.ones(1)),)))
     figure.canvas.draw()
     assert legends(figure.axes[0]) == [r"a\$b_c"] * 2
 
@@ -149,7 +149,7 @@ def test_names_cannot_become_markup() -> None:
 def test_a_single_instant_and_a_constant_are_drawn() -> None:
     s = lg.loads(examples.text("pendulum"))
     s.simulate(0).plot().canvas.draw()
-    flat = draw(Picture("", np.arange(3.0), (Panel("", "m", (Series("c", "c", np.full(3, 2.0)),)),)))
+    flat = draw(Plotted("", np.arange(3.0), (Panel("", "m", (Series("c", "c", np.full(3, 2.0)),)),)))
     assert flat.axes[0].get_ylim() == pytest.approx((-2.4, 2.4))
 
 

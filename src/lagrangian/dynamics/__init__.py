@@ -16,7 +16,7 @@ from lagrangian.dynamics.constraint_programs import (
     pushed_bias,
     residual,
 )
-from lagrangian.dynamics.describe import describe
+from lagrangian.dynamics.describe import describe, placed
 from lagrangian.dynamics.description import Inputs
 from lagrangian.dynamics.feedback import SUPPLY, balance_terms_closed, closed, observe_closed, power_closed
 from lagrangian.dynamics.friction import Modes, Watch, regime, verdict, watched, watches
@@ -83,6 +83,7 @@ __all__ = [
     "notices",
     "observe",
     "observe_closed",
+    "placed",
     "point_program",
     "potential_force",
     "power",

@@ -40,14 +40,8 @@ def described(
 
     ``release`` may change the velocities of places and axes before the elements are described.
     """
-    rates, floats = velocities(model, graph, inputs)
-    motion = Motion(graph, model.dimension, inputs.q, inputs.v, rates, inputs.t)
-    d = Description(model, graph, inputs, motion, _symbols(model, inputs, rates))
-    for definition in model.definitions:
-        node = d.table[definition.symbol] = d.node(definition.expression)
-        if definition.moving and definition.symbol != time:
-            d.table[sp.Derivative(definition.symbol, time)] = motion.rate([node])[0]
-    _geometry(d, floats)
+    d, floats = placed(model, graph, inputs)
+    motion = d.motion
     if release is not None:
         release(d)
     down = zeros(graph, model.dimension)
@@ -64,6 +58,19 @@ def described(
             raise
     m.rows, m.spare = rows(d), model.spare
     return m, d
+
+
+def placed(model: Model, graph: Graph, inputs: Inputs) -> tuple[Description, dict[Frame, Float]]:
+    """The nodes of a model's points and frames without its elements, and its floating frames."""
+    rates, floats = velocities(model, graph, inputs)
+    motion = Motion(graph, model.dimension, inputs.q, inputs.v, rates, inputs.t)
+    d = Description(model, graph, inputs, motion, _symbols(model, inputs, rates))
+    for definition in model.definitions:
+        node = d.table[definition.symbol] = d.node(definition.expression)
+        if definition.moving and definition.symbol != time:
+            d.table[sp.Derivative(definition.symbol, time)] = motion.rate([node])[0]
+    _geometry(d, floats)
+    return d, floats
 
 
 def velocities(model: Model, graph: Graph, inputs: Inputs) -> tuple[list[int], dict[Frame, Float]]:

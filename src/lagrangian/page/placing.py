@@ -10,7 +10,7 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.page.scene import Disc, Part, Placement, Scene, Trace
+from lagrangian.page.scene import Disc, Placement, Scene, ScenePart, Trace
 
 Array = NDArray[np.float64]
 
@@ -30,7 +30,7 @@ def places(scene: Scene, positions: Any = None) -> Array:
     return np.asarray(scene.origin) + scene.scale * (at @ view.T)
 
 
-def placed(part: Part, at: Array) -> list[Drawn]:
+def placed(part: ScenePart, at: Array) -> list[Drawn]:
     """Return the commands of a part with all numbers in pixels, for places ``at`` (…, anchors, 2) of the anchors."""
     shape = part.shape
     if isinstance(shape, Trace):

@@ -77,7 +77,7 @@ class Trace:
 
 
 @dataclass(frozen=True)
-class Part:
+class ScenePart:
     """A shape, where it lies, and which elements it stands for.
 
     ``elements`` are the names of elements of the model (empty for the ground). ``outline`` is the width of its line
@@ -129,13 +129,15 @@ class Scene:
     scale: float
     view: tuple[tuple[float, ...], tuple[float, ...]]
     positions: tuple[tuple[float, ...], ...]
-    parts: tuple[Part, ...]
+    parts: tuple[ScenePart, ...]
     labels: tuple[Label, ...]
     description: str = ""
     missing: tuple[str, ...] = ()
     trail: tuple[int, ...] = ()
     handles: tuple[int, ...] = field(default=())
     """The anchors that a pointer can take hold of in the page: the bodies' centres."""
+    room: float | None = None
+    """How far [px] bodies that are shifted apart can move without meeting; None if the picture is to scale."""
 
     def seen(self, anchor: int, shift: Pair = (0.0, 0.0)) -> Pair:
         """The place of an anchor in the picture [px]."""
@@ -162,10 +164,11 @@ def as_data(scene: Scene) -> dict[str, Any]:
         "missing": scene.missing,
         "trail": scene.trail,
         "handles": scene.handles,
+        "room": scene.room,
     }
 
 
-def _part(part: Part) -> dict[str, Any]:
+def _part(part: ScenePart) -> dict[str, Any]:
     placement, shape = part.placement, part.shape
     data: dict[str, Any] = {"role": part.role, "kind": part.kind, "elements": part.elements, "outline": part.outline}
     data |= {"filled": part.filled, "solid": part.solid, "dashed": part.dashed, "moves": part.moves}

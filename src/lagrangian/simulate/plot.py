@@ -21,7 +21,7 @@ from lagrangian.simulate.integrating import remembered
 from lagrangian.simulate.quantities import multiplier_words, quantity, row_of
 from lagrangian.simulate.recorded import Recorded
 from lagrangian.values.dimensions import ENERGY, NONE, RATE, Dim, Dimensions, Mismatch, check_dimensions
-from lagrangian.view import Marks, Panel, Picture, Series, draw, joined
+from lagrangian.view import Marks, Panel, Plotted, Series, draw, joined
 from lagrangian.write.labels import Labels
 from lagrangian.write.tables import Column, ColumnTable
 
@@ -222,7 +222,7 @@ def plot(run: Recorded, asked: Sequence[Any], *, energy: bool | None, audit: boo
         panels.append(Panel("imbalance", "J", (Series(r"\Delta E", "ΔE", run.imbalance),)))
     marks = tuple(Marks(name, found.t) for name, found in run.events.items() if len(found))
     footer, failure = f"{run.method}, {run.audit}", "" if run.success else run.message
-    return draw(Picture(run.model.name, run.t, tuple(panels), marks, footer, failure), shown=shown)
+    return draw(Plotted(run.model.name, run.t, tuple(panels), marks, footer, failure), shown=shown)
 
 
 def check_no_file(asked: Any, verb: str) -> None:

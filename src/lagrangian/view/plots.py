@@ -66,7 +66,7 @@ class Marks:
 
 
 @dataclass(frozen=True, eq=False)
-class Picture:
+class Plotted:
     """The content of a figure."""
 
     title: str
@@ -77,7 +77,7 @@ class Picture:
     failure: str = ""
 
 
-def draw(picture: Picture, *, shown: bool = False) -> Figure:
+def draw(picture: Plotted, *, shown: bool = False) -> Figure:
     """Draw the figure: panels below each other, labels with units, legends in panels with several curves.
 
     A failed run is marked by a cross at the end of every curve, and by the reason in red.

@@ -68,3 +68,20 @@ def _sub(part: str) -> list[LetterPiece]:
 def _short(text: str) -> str:
     text = clean(text)
     return text if len(text) <= LONGEST else f"{text[: LONGEST - 1]}…"
+
+
+def width_of(names: tuple[str, ...], size: float) -> float:
+    """About how wide a label is [px]; a label is drawn in whatever serif font there is."""
+    label = Label(names, (0.0, 0.0), "thin")
+    table = {name: replace(x, base=_short(x.base), sub=tuple(map(_short, x.sub))) for name, x in letters(names).items()}
+    scales = (1.0, 0.72, 0.55)
+    return sum(size * scales[piece.lowered] * _advance(c) for piece in pieces(label, table) for c in piece.text)
+
+
+def _advance(c: str) -> float:
+    """The width of a character, in sizes of the letters."""
+    if c in "iljtfI,.'():; ":
+        return 0.32
+    if c in "mwMWΩ":
+        return 0.85
+    return 0.68 if c.isupper() else 0.52

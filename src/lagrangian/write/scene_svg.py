@@ -12,7 +12,7 @@ from itertools import groupby
 
 from lagrangian.page.palette import DARK, LIGHT, Palette
 from lagrangian.page.placing import Array, Drawn, inside, placed, places
-from lagrangian.page.scene import Label, Part, Scene
+from lagrangian.page.scene import Label, Scene, ScenePart
 from lagrangian.write.expression_tree import Letter
 from lagrangian.write.html_page import escape
 from lagrangian.write.scene_letters import LetterPiece, pieces, scene_letters
@@ -107,17 +107,17 @@ def labels(scene: Scene, at: Array) -> Iterator[str]:
         yield _label(label, table, " on-body" if on_body else "")
 
 
-def drawing_order(parts: Iterable[Part]) -> list[Part]:
+def drawing_order(parts: Iterable[ScenePart]) -> list[ScenePart]:
     """Return parts by rising layer."""
     return sorted(parts, key=lambda part: part.layer)
 
 
-def _groups(parts: Iterable[Part], at: Array) -> Iterator[str]:
+def _groups(parts: Iterable[ScenePart], at: Array) -> Iterator[str]:
     for opening, members in groupby(drawing_order(parts), key=group_opening):
         yield opening + "".join(shape(part, outline(placed(part, at))) for part in members) + "</g>"
 
 
-def group_opening(part: Part | Label) -> str:
+def group_opening(part: ScenePart | Label) -> str:
     """Return the beginning of the group of a part or a label."""
     kind = getattr(part, "kind", "label")
     kinds = f" kind-{re.sub(r'[^A-Za-z0-9]+', '-', kind)}" if kind else ""
@@ -130,13 +130,13 @@ def data_element(elements: Iterable[str]) -> str:
     return " ".join("\u00a0".join(name.split()) for name in elements)
 
 
-def shape(part: Part, geometry: str, within: str = "") -> str:
+def shape(part: ScenePart, geometry: str, within: str = "") -> str:
     """Return the element of a part: its ``geometry`` (the name of the element and its attributes), and its style."""
     tag = geometry.partition(" ")[0]
     return f"<{geometry}{_painted(part)}" + (f">{within}</{tag}>" if within else "/>")
 
 
-def _painted(part: Part) -> str:
+def _painted(part: ScenePart) -> str:
     """The attributes of the lines and of the inside of a part."""
     line = LIGHT.line(part.role)
     classes: list[str] = []

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 
 from lagrangian.page.palette import LIGHT
 from lagrangian.page.placing import Drawn, inside, placed, places
-from lagrangian.page.scene import Part, Scene
+from lagrangian.page.scene import Scene, ScenePart
 from lagrangian.write.scene_letters import scene_letters
 from lagrangian.write.scene_svg import dashes, drawing_order, number
 from lagrangian.write.tex import PAGE
@@ -75,7 +75,7 @@ def _inside(role: str) -> str:
     return "scene-inside" if role == "body" else "white"
 
 
-def _style(part: Part) -> Iterator[str]:
+def _style(part: ScenePart) -> Iterator[str]:
     """The options of the path of a part."""
     line = f"scene-{part.role}"
     if part.solid or part.filled:

@@ -1,0 +1,360 @@
+"""Draws bodies, the rods that hold them, the supports of these, and the floors on which bodies slide."""
+
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrangian.look.board import BODY, JOINT, Board
+from lagrangian.look.cast import FLAT, BodyGlyph, Player, direction
+from lagrangian.look.holds import HoldKind
+from lagrangian.look.shapes import (
+    BAR,
+    BLOCK,
+    BOB,
+    CART,
+    INK,
+    WHEEL,
+    arc,
+    box,
+    heading,
+    line,
+    quarters,
+    turned,
+)
+from lagrangian.model import RigidBody
+from lagrangian.page.scene import Disc, Trace
+
+Array = NDArray[np.float64]
+
+COG = 6.0
+"""The radius of the mark of a centre of mass [px]."""
+
+
+def draw_bodies(board: Board, parts: list[Player]) -> None:
+    """Draw every body as what it was cast."""
+    for part in parts:
+        DRAWERS[part.glyph](board, part)
+        board.drawn[part.name] = part.glyph.value
+        if part.glyph is not BodyGlyph.NONE:
+            board.handles.append(board.anchor(part.point))
+
+
+def mass_names(part: Player) -> tuple[str, ...]:
+    """The symbols of the mass and, of a body that turns, of its inertia."""
+    entries = [part.body.mass]
+    if isinstance(part.body, RigidBody):
+        tensor = part.body.tensor
+        entries += [tensor[0][0]] if len(tensor) == 1 else []
+    return tuple(str(x.name) for x in entries if isinstance(x, sp.Symbol))
+
+
+def slide_heading(board: Board, part: Player) -> tuple[float, Array]:
+    """The angle on the screen of what a body slides on, between −90° and 90°, and the outward normal (upward)."""
+    assert part.direction is not None
+    hold = board.motions.holds[part.point]
+    views = board.stage.views([board.q], board.p)
+    e = board.seen(direction(views.J[0, part.point] - views.J[0, hold.holder]))
+    angle = heading((float(e[0]), float(e[1])))
+    angle = (angle + pi / 2) % pi - pi / 2
+    return angle, np.array([np.sin(angle), -np.cos(angle)])
+
+
+# -- one function a glyph -------------------------------------------------------------------------------------------
+
+
+def _ball(board: Board, part: Player) -> None:
+    of = (part.name,)
+    board.put(Disc((0.0, 0.0), BOB), "body", board.placed(part.point), of=of, kind="ball", filled=True, layer=BODY + 2)
+    at = board.at(part.point)
+    board.block(at, 2 * BOB, 2 * BOB)
+    board.wish(mass_names(part), at, (1.0, 0.25), "body", of, distance=BOB + 4)
+
+
+def _cart(board: Board, part: Player) -> None:
+    of, (w, h) = (part.name,), CART
+    place = board.placed(part.point)
+    board.put(box(w, h, round_by=4.0), "body", place, of=of, kind="cart", filled=True, layer=BODY)
+    for x in (-w / 4, w / 4):
+        board.put(Disc((x, h / 2 + WHEEL - 2), WHEEL), "body", place, of=of, kind="cart", filled=True, layer=BODY + 1)
+    at = board.at(part.point)
+    board.block(at + (0, 5), w, h + 10)
+    board.wish(mass_names(part), at, (0.0, 0.0), "body", of, inside=True)
+
+
+def _block(board: Board, part: Player) -> None:
+    of, (w, h) = (part.name,), BLOCK
+    place, at = board.placed(part.point), board.at(part.point)
+    if part.direction is not None:
+        angle, _ = slide_heading(board, part)
+        if abs(np.sin(angle)) < 1 - FLAT:  # on a slope: it lies on the line through its point
+            shape = turned(box(44.0, h, y=-h / 2, round_by=3.0), angle)
+            board.put(shape, "body", place, of=of, kind="block", filled=True)
+            middle = at + h / 2 * np.array([np.sin(angle), -np.cos(angle)])
+            board.block(middle, 50, 34)
+            board.wish(mass_names(part), middle, (0, 0), "body", of, inside=True)
+            return
+    board.put(box(w, h, round_by=3.0), "body", place, of=of, kind="block", filled=True)
+    board.block(at, w, h)
+    board.wish(mass_names(part), at, (0.0, 0.0), "body", of, inside=True)
+
+
+def _wedge(board: Board, part: Player) -> None:
+    """A triangle with its top at the body's point, and the slope of what slides on it."""
+    of, stage = (part.name,), board.stage
+    rider = next(
+        k
+        for k in range(len(stage.points))
+        if board.motions.holds[k].holder == part.point
+        and board.motions.holds[k].how is HoldKind.SLIDE
+        and k != part.point
+    )
+    J = stage.views([board.q], board.p).J[0]
+    e = board.seen(direction(J[rider] - J[part.point]))
+    if e[1] < 0:
+        e = -e
+    slope = float(abs(e[1] / e[0])) if e[0] else 1.0
+    width = 175.0 if slope < 0.75 else 130.0 / max(slope, 0.3)
+    height = slope * width
+    sense = 1.0 if e[0] > 0 else -1.0
+    shape = line((0.0, 0.0), (0.0, height), (sense * width, height), closed=True)
+    at = board.at(part.point)
+    board.put(shape, "body", board.placed(part.point), of=of, kind="wedge", filled=True, layer=BODY - 2)
+    board.fence(at, at + (sense * width, height))
+    board.fence(at + (0, height), at + (sense * width, height))
+    board.wish(mass_names(part), at + (sense * width * 0.28, height * 0.72), (0, 0), "body", of, inside=True)
+    slope_angle(board, at + (sense * width, height), pi if sense > 0 else 0.0, heading((-e[0], -e[1])), e)
+    board.sole[part.point] = height
+
+
+def slope_angle(board: Board, corner: Array, start: float, end: float, e: Array) -> None:
+    """The arc of a slope's angle with the parameter that it is, if it is one."""
+    value = float(np.arctan2(abs(e[1]), abs(e[0])))
+    for parameter, known in zip(board.stage.model.parameters, board.p, strict=True):
+        if abs(known - value) < 1e-9:
+            turn = (end - start + pi) % (2 * pi) - pi
+            board.put(
+                turned(arc(34.0, 0.0, turn), start, float(corner[0]), float(corner[1])),
+                "thin",
+                kind="angle",
+                layer=JOINT,
+                moves=False,
+                width=1.0,
+            )
+            middle = start + turn / 2
+            spot = corner + 34.0 * np.array([np.cos(middle), np.sin(middle)])
+            board.wish((parameter.name,), spot, (np.cos(middle), np.sin(middle)), "thin", distance=3.0)
+            return
+
+
+def _wheel(board: Board, part: Player) -> None:
+    """A circle with a spoke that turns with it, at its true radius."""
+    assert part.radius is not None and part.frame is not None
+    of, k = (part.name,), part.point
+    rim = board.stage.add(k, (part.radius, 0), board.stage.frames[part.frame])
+    radius = float(np.linalg.norm(board.r[rim] - board.r[k])) * board.scale
+    place = board.towards(k, rim, "both")
+    board.put(Disc((0.0, 0.0), 1.0), "body", place, of=of, kind="wheel", filled=True, layer=BODY - 1)
+    board.put(line((0.0, 0.0), (1.0, 0.0)), "thin", place, of=of, kind="wheel", width=1.0, layer=BODY)
+    cog(board, part, 5.0)
+    at = board.at(k)
+    board.block(at, 1.5 * radius, 1.5 * radius)
+    board.wish(mass_names(part), at + (0.75 * radius, 0.4 * radius), (1.0, 0.35), "body", of, distance=0.3 * radius)
+    if isinstance(part.radius, sp.Symbol):
+        spoke = board.at(rim) - at
+        board.wish(
+            (part.radius.name,), at + spoke / 2, (spoke[1], -spoke[0]), "thin", of, distance=2.0, inside=radius > 30
+        )
+
+
+def _disc(board: Board, part: Player) -> None:
+    if board.stage.dimension == 3:
+        _disc_in_space(board, part)
+    else:
+        _wheel(board, part)
+
+
+def _disc_in_space(board: Board, part: Player) -> None:
+    """A circle through points of its rim, and one spoke."""
+    assert part.radius is not None and part.frame is not None
+    axis = int(np.argmax(np.abs(part.direction))) if part.direction is not None else 2
+    frame, of, rim = board.stage.frames[part.frame], (part.name,), list[int]()
+    u, w = [(1, 2), (2, 0), (0, 1)][axis]
+    for n in range(24):
+        offset: list[sp.Expr] = [sp.S.Zero] * 3
+        offset[u], offset[w] = (
+            part.radius * sp.Float(np.cos(2 * pi * n / 24)),
+            part.radius * sp.Float(np.sin(2 * pi * n / 24)),
+        )
+        rim.append(board.stage.add(part.point, offset, frame))
+    anchors = tuple(board.anchor(k) for k in rim)
+    shift = board.shift(part.point)
+    board.put(Trace(anchors, True, (shift,) * 24), "body", of=of, kind="disc", filled=True, layer=BODY - 3)
+    spoke = Trace((board.anchor(part.point), anchors[0]), False, (shift,) * 2)
+    board.put(spoke, "thin", of=of, kind="disc", width=1.0, layer=BODY - 2)
+    cog(board, part, 4.5)
+    spots = np.array([board.at(k) for k in rim])
+    for a, b in zip(spots, np.roll(spots, -1, axis=0), strict=True):
+        board.fence(a, b)
+    low = spots[int(np.argmax(spots[:, 0] + 0.5 * spots[:, 1]))]
+    board.wish(mass_names(part), low, low - board.at(part.point), "body", of, distance=4.0)
+
+
+def _link(board: Board, part: Player) -> None:
+    """A capsule between its farthest points; one that ends at its centre of mass goes on as far again."""
+    assert part.spine is not None
+    a, b = part.spine
+    if part.point in (a, b):
+        joint = b if part.point == a else a
+        position, start = board.stage.model.position, board.stage.points
+        gap = [2 * (x - y) for x, y in zip(position(start[part.point]), position(start[joint]), strict=True)]
+        a, b = joint, board.stage.add(joint, gap)
+    draw_bar(board, a, b, part)
+    cog(board, part, COG)
+    middle = board.at(part.point)
+    e = board.at(b) - board.at(a)
+    board.wish(
+        mass_names(part),
+        middle,
+        (-e[1], e[0]) if e[0] < 0 else (e[1], -e[0]),
+        "body",
+        (part.name,),
+        distance=BAR / 2 + 3,
+    )
+    board.tips[part.point] = b
+
+
+def draw_bar(board: Board, a: int, b: int, part: Player) -> None:
+    """A rigid bar between two points."""
+    of, place = (part.name,), board.towards(a, b)
+    shape = line((0.0, 0.0), (1.0, 0.0))
+    board.put(shape, "body", place, of=of, kind="link", width=BAR, layer=BODY)
+    board.put(shape, "body", place, of=of, kind="link", width=BAR - 2 * INK, layer=BODY, inside=True)
+    start, end = board.at(a), board.at(b)
+    e = (end - start) / (np.linalg.norm(end - start) or 1.0)
+    n = BAR / 2 * np.array([-e[1], e[0]])
+    board.fence(start + n, end + n)
+    board.fence(start - n, end - n)
+
+
+def _plate(board: Board, part: Player) -> None:
+    """The hull of its points, with round corners."""
+    of = (part.name,)
+    everything = [part.point, *part.points]
+    spots = np.array([board.at(k) for k in everything])
+    order = hull(spots)
+    anchors = tuple(board.anchor(everything[i]) for i in order)
+    shape = Trace(anchors, True, tuple(board.shift(everything[i]) for i in order))
+    board.put(shape, "body", of=of, kind="plate", width=12.0, layer=BODY)
+    board.put(shape, "body", of=of, kind="plate", width=12.0 - 2 * INK, filled=True, layer=BODY, inside=True)
+    for i, j in zip(order, [*order[1:], order[0]], strict=True):
+        board.fence(spots[i], spots[j])
+    cog(board, part, COG)
+    board.wish(mass_names(part), board.at(part.point), (1.0, 0.5), "body", of, distance=COG + 4)
+
+
+def hull(points: Array) -> list[int]:
+    """The convex hull of points on the screen, counter-clockwise: the numbers of its corners."""
+    order = sorted(range(len(points)), key=lambda i: (points[i, 0], points[i, 1]))
+
+    def half(numbers: list[int]) -> list[int]:
+        out: list[int] = []
+        for i in numbers:
+            while len(out) > 1 and _turn(points[out[-2]], points[out[-1]], points[i]) <= 0:
+                out.pop()
+            out.append(i)
+        return out[:-1]
+
+    return half(order) + half(order[::-1])
+
+
+def _turn(a: Array, b: Array, c: Array) -> float:
+    return float((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]))
+
+
+def _bar(board: Board, part: Player) -> None:
+    """A free rigid body: a bar as long as a rod with its inertia, √(12 J/m), along its x axis."""
+    assert part.frame is not None
+    stage, tensor = board.stage, part.body.tensor
+    J = tensor[0][0] if len(tensor) == 1 else tensor[2][2]
+    half = sp.sqrt(3 * J / part.body.mass)
+    along = [half, 0, 0][: stage.dimension]
+    frame = stage.frames[part.frame]
+    a = stage.add(part.point, along, frame)
+    b = stage.add(part.point, [-x for x in along], frame)
+    draw_bar(board, b, a, part)
+    cog(board, part, COG)
+    e = board.at(a) - board.at(b)
+    board.wish(mass_names(part), board.at(part.point), (e[1], -e[0]), "body", (part.name,), distance=BAR / 2 + 3)
+    board.tips[part.point] = a
+
+
+def _beam(board: Board, part: Player) -> None:
+    """What something runs along: a bar about its centre, long enough for what runs on it."""
+    assert part.frame is not None
+    stage, frame = board.stage, board.stage.frames[part.frame]
+    runner = next(k for k in range(len(stage.points)) if board.motions.holds[k].frame == part.frame)
+    _, X = board.motions.local(runner, part.point, part.frame)
+    i = board.motions.holds[runner].along
+    assert i is not None
+    e = X[0, :, i] / np.linalg.norm(X[0, :, i])
+    half = 1.6 * max(abs(float(board.q[i])), 1e-3)
+    a = stage.add(part.point, [sp.Float(-half * x) for x in e], frame)
+    b = stage.add(part.point, [sp.Float(half * x) for x in e], frame)
+    of, shape = (part.name,), line((0.0, 0.0), (1.0, 0.0))
+    below = board.at(b) - board.at(a)
+    n = 4.0 * np.array([-below[1], below[0]]) / np.linalg.norm(below)
+    n = n if n[1] > 0 else -n
+    place = board.towards(a, b)
+    board.put(shape, "body", place, of=of, kind="beam", width=8.0, layer=BODY - 4)
+    board.put(shape, "body", place, of=of, kind="beam", width=8.0 - 2 * INK, layer=BODY - 4, inside=True)
+    board.fence(board.at(a), board.at(b))
+    board.wish(mass_names(part), board.at(a), (-0.3, 1.0), "body", of, distance=8.0)
+    board.tips[part.point] = b
+
+
+def _shaft(board: Board, part: Player) -> None:
+    """One of several discs on a common axle, seen from the side; what turns is told by its arrow."""
+    x = 100.0 * len(board.shaft_spots)
+    of = (part.name,)
+    place = board.placed(part.point, x, 0.0)
+    board.put(box(15.0, 68.0, round_by=2.0), "body", place, of=of, kind="disc", filled=True, layer=BODY)
+    at = board.at(part.point) + (x, 0.0)
+    board.block(at, 15.0, 68.0)
+    names = mass_names(part)[-1:]
+    board.wish(names, at + (0, -34.0), (0.0, -1.0), "body", of, distance=4.0)
+    board.shaft_spots[part.body.name] = at
+
+
+def _nothing(board: Board, part: Player) -> None:
+    board.drawn[part.name] = ""
+
+
+def cog(board: Board, part: Player, radius: float) -> None:
+    """The mark of a centre of mass: a circle with two black quarters."""
+    of, place = (part.name,), board.placed(part.point)
+    board.put(Disc((0.0, 0.0), radius), "body", place, of=of, kind="centre", width=1.2, filled=True, layer=JOINT + 1)
+    for quarter in quarters(radius):
+        board.put(quarter, "body", place, of=of, kind="centre", width=0.0, solid=True, layer=JOINT + 2)
+    board.block(board.at(part.point), 2 * radius, 2 * radius)
+
+
+DRAWERS = {
+    BodyGlyph.BALL: _ball,
+    BodyGlyph.CART: _cart,
+    BodyGlyph.BLOCK: _block,
+    BodyGlyph.WEDGE: _wedge,
+    BodyGlyph.WHEEL: _wheel,
+    BodyGlyph.PULLEY: _wheel,
+    BodyGlyph.LINK: _link,
+    BodyGlyph.PLATE: _plate,
+    BodyGlyph.DISC: _disc,
+    BodyGlyph.SHAFT: _shaft,
+    BodyGlyph.BEAM: _beam,
+    BodyGlyph.BAR: _bar,
+    BodyGlyph.NONE: _nothing,
+}
+"""A function for every glyph."""

@@ -1,0 +1,262 @@
+"""What every body is drawn as: the rules, without any drawing."""
+
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrangian.look.holds import HoldKind, Motions
+from lagrangian.model import Body, RigidBody, Rolling
+
+Array = NDArray[np.float64]
+
+FLAT = 0.04
+"""A direction is horizontal or vertical up to this sine."""
+
+
+class BodyGlyph(Enum):
+    """The glyphs of bodies; the values are the words of `[look] kinds` and of descriptions."""
+
+    BALL = "ball"
+    CART = "cart"
+    BLOCK = "block"
+    WEDGE = "wedge"
+    WHEEL = "wheel"
+    PULLEY = "pulley"
+    LINK = "link"
+    PLATE = "plate"
+    DISC = "disc"
+    SHAFT = "disc on a shaft"
+    BEAM = "beam"
+    BAR = "bar"
+    NONE = "none"
+
+
+CHOICES = {
+    "ball": BodyGlyph.BALL, "cart": BodyGlyph.CART, "box": BodyGlyph.BLOCK, "wheel": BodyGlyph.WHEEL, 
+    "disk": BodyGlyph.DISC,
+    "disc": BodyGlyph.DISC, "link": BodyGlyph.LINK,
+    "plate": BodyGlyph.PLATE, "bar": BodyGlyph.BAR, "none": BodyGlyph.NONE,
+}  # fmt: skip
+"""What ``kinds`` may say of a body."""
+
+
+@dataclass
+class Player:
+    """A body and what it is drawn as.
+
+    ``point`` and ``frame`` are its numbers on the stage (``frame`` None for a particle); ``direction`` is the unit
+    vector [fixed axes] along which it slides; ``radius`` is an expression [m]; ``points`` are those at rest in it.
+    """
+
+    body: Body
+    point: int
+    frame: int | None
+    glyph: BodyGlyph
+    direction: Array | None = None
+    radius: sp.Expr | None = None
+    points: tuple[int, ...] = ()
+    spine: tuple[int, int] | None = None
+
+    @property
+    def name(self) -> str:
+        """The name of the body."""
+        return self.body.name
+
+
+def cast(motions: Motions, kinds: Mapping[str, str]) -> list[Player]:
+    """What each body is drawn as."""
+    parts = [_part(motions, body) for body in motions.stage.model.bodies]
+    on_shaft = [x for x in parts if x.glyph is BodyGlyph.DISC and motions.stage.dimension == 2]
+    centres = {x.point for x in on_shaft}
+    for x in on_shaft:
+        if sum(y.point == x.point for y in on_shaft) > 1 and len(centres) == 1:
+            x.glyph = BodyGlyph.SHAFT
+    for x in parts:
+        if any(_slides_on(motions, y, x) for y in parts) and x.glyph in (BodyGlyph.CART, BodyGlyph.BLOCK):
+            x.glyph = BodyGlyph.WEDGE
+        if x.glyph is BodyGlyph.DISC and any(_runs_on(motions, y, x) for y in parts):
+            x.glyph = BodyGlyph.BEAM
+        if x.name in kinds:
+            x.glyph = CHOICES[kinds[x.name]]
+    return parts
+
+
+def _part(motions: Motions, body: Body) -> Player:
+    stage = motions.stage
+    point = stage.index(body.at)
+    if not isinstance(body, RigidBody):
+        return _particle(motions, body, point)
+    frame = stage.frames.index(body.frame)
+    part = Player(body, point, frame, BodyGlyph.BAR, points=_carried(motions, point, frame))
+    if stage.dimension == 2 and _round(motions, part):
+        return part
+    if stage.dimension == 3 and _disc_in_space(motions, part):
+        return part
+    hold = motions.holds[point]
+    if part.points:
+        _linked(motions, part)
+    elif motions.still(point) and motions.turns(frame):
+        part.glyph = BodyGlyph.DISC
+    elif hold.how is HoldKind.SLIDE and not motions.turns(frame):
+        return _particle(motions, body, point)
+    if part.glyph is BodyGlyph.DISC:
+        part.radius = sp.sqrt(2 * body.tensor[0][0] / body.mass)
+    return part
+
+
+def _carried(motions: Motions, point: int, frame: int) -> tuple[int, ...]:
+    """The points that are at rest in a body, apart from its centre.
+
+    In space all points of a joint's axis are at rest in both bodies. Of those that another body carries too, only the
+    one that holds the centre belongs to this one.
+    """
+    stage = motions.stage
+    found = [
+        k
+        for k in range(len(stage.points))
+        if k != point and _apart(motions, k, point) and motions.carried(k, point, frame)
+    ]
+    holder = motions.holds[point].holder
+    for other in stage.model.bodies:
+        if not isinstance(other, RigidBody) or other.at is stage.points[point]:
+            continue
+        home = stage.index(other.at), stage.frames.index(other.frame)
+        if home[1] == frame or stage.frames[home[1]].serial > stage.frames[frame].serial:
+            continue
+        shared = [k for k in found if k == home[0] or motions.carried(k, *home)]
+        if len(shared) > 1:
+            found = [k for k in found if k not in shared or k == holder]
+    return tuple(found)
+
+
+def _apart(motions: Motions, k: int, centre: int) -> bool:
+    return float(np.abs(motions.views.r[:, k] - motions.views.r[:, centre]).max()) > 1e-9 * motions.size
+
+
+def _particle(motions: Motions, body: Body, point: int) -> Player:
+    hold = motions.holds[point]
+    part = Player(body, point, None, BodyGlyph.BALL)
+    if hold.how is not HoldKind.SLIDE or motions.stage.dimension == 3:
+        return part
+    part.direction = direction(motions.views.J[0, point] - motions.views.J[0, hold.holder])
+    part.glyph = BodyGlyph.CART if abs(part.direction[1]) < FLAT else BodyGlyph.BLOCK
+    return part
+
+
+def direction(J: Array) -> Array:
+    """The unit vector of the first column that is not zero."""
+    sizes = np.linalg.norm(J, axis=0)
+    column = J[:, int(np.argmax(sizes > 0.3 * sizes.max()))]
+    return column / np.linalg.norm(column)
+
+
+# -- what is round --------------------------------------------------------------------------------------------------
+
+
+def _round(motions: Motions, part: Player) -> bool:
+    """Whether a body in the plane is a wheel or a pulley: its frame turns by s/R, where s is a length."""
+    stage, hold = motions.stage, motions.holds[part.point]
+    rolling = _rolling(motions, part)
+    if rolling is not None:
+        part.glyph, part.radius = BodyGlyph.WHEEL, rolling
+        J = motions.views.J[0, part.point]
+        part.direction = direction(J) if J.any() else None
+        return True
+    frame = stage.frames[part.frame or 0] if part.frame is not None else None
+    assert frame is not None
+    for i in motions.turns(part.frame):
+        c = stage.model.coordinates[i]
+        slope = sp.diff(stage.model.expand(frame.total_angle), c.symbol)
+        if (
+            slope.free_symbols - set(motions.stage.model.values) - {p.symbol for p in stage.model.parameters}
+            or slope.is_number
+        ):
+            continue
+        radius = 1 / slope
+        if radius.could_extract_minus_sign():
+            radius = -radius
+        if hold.how in (HoldKind.SLIDE, HoldKind.TRACK) and i in hold.moving:
+            part.glyph, part.radius = BodyGlyph.WHEEL, radius
+            J = motions.views.J[0, part.point]
+            part.direction = direction(J)
+            return True
+        if motions.still(part.point):
+            part.glyph, part.radius = BodyGlyph.PULLEY, radius
+            return True
+    return False
+
+
+def _rolling(motions: Motions, part: Player) -> sp.Expr | None:
+    """The radius of a body that a `rolling` constraint lets roll: from its centre to the point of contact."""
+    for element in motions.stage.model.elements:
+        if isinstance(element, Rolling) and element.body is part.body:
+            return motions.length(motions.stage.index(element.at), part.point)
+    return None
+
+
+def _disc_in_space(motions: Motions, part: Player) -> bool:
+    """Whether a body in space is a disc: it rolls, or has one large moment of inertia and no joints but its centre."""
+    tensor = part.body.tensor
+    if len(tensor) != 3:
+        return False
+    rolling = _rolling(motions, part)
+    values = _numbers(motions, [tensor[i][i] for i in range(3)] + [part.body.mass])
+    if values is None:
+        return False
+    moments, mass = values[:3], values[3]
+    axis = int(np.argmax(moments))
+    others = np.delete(moments, axis)
+    round_body = abs(others[0] - others[1]) < 1e-9 * moments[axis] and moments[axis] > 1.2 * others[0]
+    if rolling is None and not (round_body and not part.points and mass > 0):
+        return False
+    part.glyph = BodyGlyph.DISC
+    part.radius = rolling if rolling is not None else sp.sqrt(2 * tensor[axis][axis] / part.body.mass)
+    part.direction = np.eye(3)[axis]
+    return True
+
+
+def _numbers(motions: Motions, expressions: list[Any]) -> Array | None:
+    values: Any = {p.symbol: (1.0 if p.value is None else p.value) for p in motions.stage.model.parameters}
+    found = [sp.sympify(motions.stage.model.expand(x, constants=True)).subs(values) for x in expressions]
+    return np.array([float(x) for x in found]) if all(x.is_number for x in found) else None
+
+
+# -- what is long ---------------------------------------------------------------------------------------------------
+
+
+def _linked(motions: Motions, part: Player) -> None:
+    """A body with joints: a link if they lie on a line with its centre, otherwise a plate."""
+    everything = [part.point, *part.points]
+    offsets = np.array([motions.local(k, part.point, part.frame)[0][0] for k in everything])
+    far = np.linalg.norm(offsets[:, None] - offsets[None, :], axis=2)
+    a, b = (int(x) for x in np.unravel_index(int(np.argmax(far)), far.shape))
+    e = (offsets[b] - offsets[a]) / far[a, b]
+    along = (offsets - offsets[a]) @ e
+    across = np.linalg.norm(offsets - offsets[a] - along[:, None] * e, axis=1).max()
+    part.glyph = BodyGlyph.LINK if across < 0.08 * far[a, b] else BodyGlyph.PLATE
+    part.spine = everything[a], everything[b]
+
+
+def _slides_on(motions: Motions, above: Player, below: Player) -> bool:
+    """Whether a body slides along another one that itself slides in another direction."""
+    hold = motions.holds[above.point]
+    if hold.how is not HoldKind.SLIDE or hold.holder != below.point or below.direction is None or above is below:
+        return False
+    e = direction(motions.views.J[0, above.point] - motions.views.J[0, below.point])
+    return float(abs(e @ below.direction)) < 0.999
+
+
+def _runs_on(motions: Motions, above: Player, below: Player) -> bool:
+    """Whether a body runs along a track that turns with another body."""
+    hold = motions.holds[above.point]
+    return hold.how is HoldKind.TRACK and hold.frame == below.frame and above is not below

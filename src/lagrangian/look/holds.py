@@ -1,0 +1,190 @@
+"""How each point is held: by a rod, on a slide, at a telescope, on a wire, or not at all."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import Enum
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrangian.look.kinematics import Kinematics, Views
+
+Array = NDArray[np.float64]
+
+SAME = 1e-9
+"""What is zero or parallel, relative to the sizes that enter."""
+
+
+class HoldKind(Enum):
+    """How a point moves as seen from its holder."""
+
+    FIRMLY = "at rest against its holder"
+    ROD = "at a constant distance"
+    SLIDE = "along one constant direction"
+    TRACK = "along one direction of a frame that moves"
+    TELESCOPE = "at a distance that is a coordinate, in a direction that turns"
+    WIRE = "along a curve"
+    FREE = "freely"
+
+
+@dataclass(frozen=True)
+class Hold:
+    """A point (by its number), its holder, and how it is held.
+
+    ``moving`` are the numbers of the coordinates that move it against its holder. ``along`` is the coordinate that is a
+    telescope's length, or the only one of a wire. ``frame`` is the number of a track's frame.
+    """
+
+    point: int
+    holder: int
+    how: HoldKind
+    moving: tuple[int, ...] = ()
+    along: int | None = None
+    frame: int | None = None
+
+
+class Motions:
+    """What moves with what, from numbers at random states."""
+
+    def __init__(self, stage: Kinematics, views: Views | None = None) -> None:
+        self.stage, self.views = stage, stage.random_views() if views is None else views
+        v = self.views
+        self.size = float(max(1e-12, np.abs(v.r).max()))
+        self.moves = np.abs(v.J).max(axis=(0, 1, 2)) if v.J.size else np.zeros(0)
+        self.holds: list[Hold] = []
+        for k in range(len(stage.points)):
+            self.holds.append(self._hold(k))
+
+    # -- questions ----------------------------------------------------------------------------------------------
+
+    def still(self, k: int) -> bool:
+        """Whether a point does not move at all."""
+        return not self.coordinates(k) and bool(np.abs(self.views.rt[:, k]).max() < SAME * self.size)
+
+    def coordinates(self, k: int, holder: int = 0) -> tuple[int, ...]:
+        """The coordinates that move a point against another."""
+        change = self.views.J[:, k] - self.views.J[:, holder]
+        return tuple(
+            int(i) for i in np.flatnonzero(np.abs(change).max(axis=(0, 1)) > SAME * np.maximum(1e-3, self.moves))
+        )
+
+    def turns(self, frame: int | None) -> tuple[int, ...]:
+        """The coordinates that turn a frame."""
+        if frame is None:
+            return ()
+        return tuple(int(i) for i in np.flatnonzero(np.abs(self.views.RJ[:, frame]).max(axis=(0, 1, 2)) > SAME))
+
+    def local(self, k: int, centre: int, frame: int | None) -> tuple[Array, Array]:
+        """The offset of a point from another in a frame's axes at every state, and its derivatives by coordinates."""
+        v = self.views
+        d, D = v.r[:, k] - v.r[:, centre], v.J[:, k] - v.J[:, centre]
+        if frame is None:
+            return d, D
+        R, RJ = v.R[:, frame], v.RJ[:, frame]
+        return np.einsum("sji,sj->si", R, d), np.einsum("sji,sjn->sin", R, D) + np.einsum("sjin,sj->sin", RJ, d)
+
+    def carried(self, k: int, centre: int, frame: int | None) -> bool:
+        """Whether a point is at rest in a body: against its centre, in its axes."""
+        x, X = self.local(k, centre, frame)
+        if not X.size:
+            return True
+        steady = np.abs(x - x[0]).max() < 1e-7 * self.size
+        return bool(steady and np.abs(X).max() < 1e-7 * max(1.0, self.size))
+
+    def length(self, a: int, b: int) -> sp.Expr:
+        """A constant distance [m]: the parameter that it is, if it is one, otherwise a number."""
+        v = self.views
+        value = float(np.linalg.norm(v.r[0, a] - v.r[0, b]))
+        for parameter, other in zip(self.stage.model.parameters, v.p, strict=True):
+            if abs(other - value) < 1e-12 * value:
+                return parameter.symbol
+        r = self.stage.views([np.full(len(self.stage.inputs.q), 0.5)], self.stage.parameters()).r[0]
+        return sp.Float(float(np.linalg.norm(r[a] - r[b])), 17)
+
+    def angle_slopes(self, frame: int) -> Array:
+        """In the plane: ∂φ/∂q of a frame's angle (n,), at the first state."""
+        R, RJ = self.views.R[0, frame], self.views.RJ[0, frame]
+        return R[0, 0] * RJ[1, 0] - R[1, 0] * RJ[0, 0]
+
+    def relation(self, k: int, holder: int) -> Hold:
+        """How a point moves as seen from another."""
+        d, D = self.local(k, holder, None)
+        moving = self.coordinates(k, holder)
+        if not moving:
+            return Hold(k, holder, HoldKind.FIRMLY)
+        length = np.abs(d).max()
+        radial = np.abs(np.einsum("sd,sdn->sn", d, D)).max()
+        if length > SAME * self.size and radial < 1e-8 * length * max(np.abs(D).max(), SAME):
+            return Hold(k, holder, HoldKind.ROD, moving)
+        if _one_direction(D):
+            return Hold(k, holder, HoldKind.SLIDE, moving, moving[0] if len(moving) == 1 else None)
+        for s in moving:
+            if self._telescope(d, D, s):
+                return Hold(k, holder, HoldKind.TELESCOPE, moving, s)
+        track = self._track(k, holder, moving)
+        if track is not None:
+            return track
+        if len(moving) == 1:
+            return Hold(k, holder, HoldKind.WIRE, moving, moving[0])
+        return Hold(k, holder, HoldKind.FREE, moving)
+
+    # -- rules --------------------------------------------------------------------------------------------------
+
+    def _telescope(self, d: Array, D: Array, s: int) -> bool:
+        """d = s u, where |u| is constant and the other coordinates turn u."""
+        u = D[:, :, s]
+        lengths = np.linalg.norm(u, axis=1)
+        if lengths.min() < SAME or np.ptp(lengths) > 1e-8 * lengths.max():
+            return False
+        unit = u / lengths[:, None]
+        along = np.einsum("sd,sd->s", d, unit)
+        across = np.abs(d - along[:, None] * unit).max()
+        others = np.delete(np.einsum("sd,sdn->sn", unit, D), s, axis=1)
+        return bool(across < 1e-8 * self.size and (not others.size or np.abs(others).max() < 1e-8 * np.abs(D).max()))
+
+    def _track(self, k: int, holder: int, moving: tuple[int, ...]) -> Hold | None:
+        own = self.stage.points[k].frame
+        if own is None:
+            return None
+        frame = self.stage.frames.index(own)
+        if not self.turns(frame):
+            return None
+        _, X = self.local(k, holder, frame)
+        if not _one_direction(X):
+            return None
+        along = np.flatnonzero(np.abs(X).max(axis=(0, 1)) > SAME * max(1.0, np.abs(X).max()))
+        return Hold(k, holder, HoldKind.TRACK, moving, int(along[0]), frame)
+
+    def _hold(self, k: int) -> Hold:
+        """How a point is held by its parent; where that says little, by the nearest earlier point that holds it."""
+        parent = self.stage.points[k].parent
+        if parent is None:
+            return Hold(k, k, HoldKind.FIRMLY)
+        home = self.stage.index(parent)
+        first = self.relation(k, home)
+        if first.how is HoldKind.FIRMLY and not self.still(home):
+            return self.relation(k, self.holds[home].holder)
+        if first.how not in (HoldKind.FREE, HoldKind.WIRE, HoldKind.TELESCOPE):
+            return first
+        others = [h for h in range(1, k) if h != home and not self.still(h)]
+        others.sort(key=lambda h: float(np.linalg.norm(self.views.r[0, k] - self.views.r[0, h])))
+        for h in others:
+            found = self.relation(k, h)
+            if found.how is HoldKind.ROD and len(found.moving) < len(first.moving) + (first.how is not HoldKind.FREE):
+                return found
+        return first
+
+
+def _one_direction(D: Array) -> bool:
+    """Whether all columns at all states are parallel to one direction."""
+    columns = np.moveaxis(D, 1, -1).reshape(-1, D.shape[1])
+    sizes = np.linalg.norm(columns, axis=1)
+    columns = columns[sizes > SAME * max(sizes.max(initial=0.0), 1e-300)]
+    if not len(columns):
+        return False
+    sizes = np.linalg.norm(columns, axis=1)
+    e = columns[0] / sizes[0]
+    along = columns @ e
+    return bool(np.abs(columns - along[:, None] * e).max() < 1e-8 * sizes.max())

@@ -1,0 +1,189 @@
+"""Where everything is: positions of points and orientations of frames as numbers, and how each coordinate moves them.
+
+The rules of a picture ask what is constant and what is parallel. They ask it of numbers at random states, which is fast
+and does not depend on how an expression is written.
+"""
+
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrangian.dynamics import Inputs, placed
+from lagrangian.errors import ModelError
+from lagrangian.graph import Graph, Output, Program, evaluate, jvp
+from lagrangian.model import Frame, Model, Point
+
+Array = NDArray[np.float64]
+
+STATES = 3
+"""The number of random states at which a rule is asked."""
+
+
+@dataclass(frozen=True)
+class Views:
+    """What a stage looks like at some states: the first axis of every array is the state.
+
+    ``r`` (states, points, d) are positions, ``J`` (states, points, d, n) their derivatives by the coordinates, ``rt``
+    (states, points, d) by time; ``R`` (states, frames, d, d) are the rotations of frames, ``RJ`` (…, n) their slopes.
+    """
+
+    r: Array
+    J: Array
+    rt: Array
+    R: Array
+    RJ: Array
+    p: Array
+    """The parameters at these states."""
+
+
+class Kinematics:
+    """The points and frames of a model, in a fixed order: ``points`` begin with the origin, the named ones follow."""
+
+    def __init__(self, model: Model) -> None:
+        self.model, self.dimension = model, model.dimension
+        self.graph = Graph()
+        self.inputs = Inputs.of(self.graph, model, state=True)
+        self.described, _ = placed(model, self.graph, self.inputs)
+        places, axes = self.described.places, self.described.axes
+        places.setdefault(model.origin, self.described.motion.ground)
+        found = sorted(places, key=lambda p: p.serial)
+        self.points: list[Point] = [model.origin, *(p for p in found if p is not model.origin)]
+        self.frames: list[Frame] = sorted(axes, key=lambda f: f.serial)
+        self._index = {id(p): k for k, p in enumerate(self.points)}
+        self._nodes: list[list[int]] = [self._position(p) for p in self.points]
+
+    def _position(self, point: Point) -> list[int]:
+        motion = self.described.motion
+        return list(motion.position(self.described.places[point]))
+
+    # -- points -------------------------------------------------------------------------------------------------
+
+    def index(self, point: Point) -> int:
+        """The number of a point."""
+        return self._index[id(point)]
+
+    def add(self, parent: int, offset: Sequence[Any], frame: Frame | None = None) -> int:
+        """Add a point at ``offset`` from another, along the axes of ``frame``, and return its number."""
+        components: tuple[sp.Expr, ...] = tuple(sp.sympify(x) for x in offset)
+        point = Point(None, self.points[parent], components, frame)
+        d = self.described
+        axes = d.motion.root if frame is None else d.axes[frame]
+        place = d.motion.place(d.places[self.points[parent]], axes, [self._constant(x) for x in components])
+        d.places[point] = place
+        self.points.append(point)
+        self._index[id(point)] = len(self.points) - 1
+        self._nodes.append(self._position(point))
+        return len(self.points) - 1
+
+    def _constant(self, value: Any) -> int:
+        return self.described.node(value)
+
+    def fixed(self, r: Sequence[float]) -> int:
+        """Add a point at rest at ``r`` [m] in the fixed axes, and return its number."""
+        return self.add(0, [sp.Float(float(x), 17) for x in r])
+
+    # -- numbers ------------------------------------------------------------------------------------------------
+
+    def program(self, anchors: Sequence[int]) -> Program:
+        """x = [q; v], u, p, t → positions r [m] of anchors, shape (anchors, d)."""
+        ids = [i for k in anchors for i in self._nodes[k]]
+        return self._program({"r": Output(tuple(ids), (len(anchors), self.dimension))})
+
+    def _program(self, outputs: dict[str, Output]) -> Program:
+        m = self.model
+        names = {
+            "x": (*(c.name for c in m.coordinates), *(v.name for v in m.velocities)),
+            "u": tuple(u.name for u in m.inputs),
+            "p": tuple(p.name for p in m.parameters),
+            "t": ("t",),
+        }
+        return Program("picture", self.graph, names, outputs, {p.name: p.value for p in m.parameters})
+
+    def _groups(self, q: Array, p: Array, *, u: float = 0.0, t: float = 0.0) -> dict[str, list[float]]:
+        """The inputs of a program at rest."""
+        x = [*map(float, q), *[0.0] * len(self.inputs.v)]
+        return {"x": x, "u": [u] * len(self.inputs.u), "p": [float(v) for v in p], "t": [t]}
+
+    def views(self, states: Sequence[Array], p: Array, *, t: float = 0.0) -> Views:
+        """Positions, rotations and their derivatives at coordinates q, one array for each state."""
+        d, n, count, turns = self.dimension, len(self.inputs.q), len(self.points), len(self.frames)
+        motion = self.described.motion
+        r = [i for node in self._nodes for i in node]
+        rotations = [motion.rotation(self.described.axes[f]) for f in self.frames]
+        R = [x for rows in rotations for row in rows for x in row]
+        seeds = [*self.inputs.q, self.inputs.t]
+        slopes = [jvp(self.graph, [*r, *R], {s: self.graph.one}) for s in seeds]
+        flat = [*r, *R, *(x for column in slopes for x in column)]
+        program = self._program({"all": Output(tuple(flat), (len(flat),))})
+        rows: list[Array] = []
+        for q in states:
+            rows.append(np.array(evaluate(program, self._groups(q, p, t=t))["all"], float))
+        values = np.array(rows)
+        size = count * d
+        width = size + turns * d * d
+        many = len(states)
+        slots = values[:, width:].reshape(many, n + 1, width)
+        return Views(
+            values[:, :size].reshape(many, count, d),
+            np.moveaxis(slots[:, :n, :size].reshape(many, n, count, d), 1, -1),
+            slots[:, n, :size].reshape(many, count, d),
+            values[:, size:width].reshape(many, turns, d, d),
+            np.moveaxis(slots[:, :n, size:].reshape(many, n, turns, d, d), 1, -1),
+            p,
+        )
+
+    def random_views(self) -> Views:
+        """The stage at random states, with random parameters where these give numbers, otherwise the given ones."""
+        rng = np.random.default_rng(3)
+        given = self.parameters()
+        states = [self._whole(rng.uniform(0.4, 1.3, len(self.inputs.q))) for _ in range(STATES)]
+        for parameters in (given * rng.uniform(0.8, 1.25, len(given)), given):
+            views = self.views(states, parameters, t=0.37)
+            if np.isfinite(views.r).all() and np.isfinite(views.J).all():
+                return views
+        raise ModelError(
+            f"the positions of system '{self.model.name}' have no value at ordinary coordinates",
+            fix="check the expressions of its points",
+            code="E402",
+        )
+
+    def parameters(self) -> Array:
+        """The declared values of the parameters, 1 for those without one."""
+        return np.array([1.0 if p.value is None else p.value for p in self.model.parameters], float)
+
+    def _whole(self, q: Array) -> Array:
+        """The coordinates with unit quaternions."""
+        names = [c.name for c in self.model.coordinates]
+        for frame in self.model.floating:
+            assert frame.floating is not None
+            k = names.index(frame.floating.coordinates[3].name)
+            q[k : k + 4] /= np.linalg.norm(q[k : k + 4])
+        return q
+
+    def evaluated(self, expressions: Sequence[sp.Expr], q: Array, p: Array) -> Array:
+        """The values of expressions in coordinates, parameters and t, at v = u = t = 0."""
+        ids = self.described.nodes([self.model.expand(x) for x in expressions])
+        program = self._program({"x": Output(tuple(ids), (len(ids),))})
+        return np.array(evaluate(program, self._groups(q, p))["x"], float)
+
+    def value(self, expression: Any, q: Array, p: Array, *, u: float = 0.0) -> float:
+        """The value of an expression in a state at rest at t = 0, with every input ``u``."""
+        node = self.described.node(self.model.expand(sp.sympify(expression)))
+        program = self._program({"x": Output((node,), ())})
+        return float(evaluate(program, self._groups(q, p, u=u))["x"])
+
+    def slopes(self, expression: sp.Expr, q: Array, p: Array) -> Array:
+        """∂(expression)/∂q (n,) at a state."""
+        node = self.described.node(self.model.expand(expression))
+        ids = [jvp(self.graph, [node], {s: self.graph.one})[0] for s in self.inputs.q]
+        program = self._program({"x": Output(tuple(ids), (len(ids),))})
+        return np.array(evaluate(program, self._groups(q, p))["x"], float)

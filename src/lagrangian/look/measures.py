@@ -1,0 +1,292 @@
+"""Draws coordinates: arrows for lengths, arcs for angles, from where they count to where things are."""
+
+from __future__ import annotations
+
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.look.board import BEHIND, MEASURE, Board
+from lagrangian.look.cast import BodyGlyph, Player
+from lagrangian.look.holds import HoldKind
+from lagrangian.look.shapes import line
+from lagrangian.look.turning import Turn
+
+Array = NDArray[np.float64]
+
+ABOVE = 44.0
+"""How far the arrow of a length is from the middle of its body [px]."""
+LEVEL = 24.0
+"""The distance of parallel arrows [px]."""
+ARC = 42.0
+"""The radius of the arc of an angle [px]."""
+
+
+class MeasureArtist:
+    """Draws the coordinates of a system."""
+
+    def __init__(self, board: Board, parts: list[Player], turns: list[Turn]) -> None:
+        self.board, self.parts, self.turns = board, parts, turns
+        self.levels: dict[tuple[int, int], int] = {}
+        self.arcs: dict[int, int] = {}
+        self.free: dict[int, int] = {}
+
+    def draw(self) -> None:
+        """Draw every coordinate that the rules know; what they do not know is told."""
+        floating = [f.floating for f in self.board.stage.model.floating if f.floating is not None]
+        skipped = {c.name for f in floating for c in f.coordinates}
+        for i, coordinate in enumerate(self.board.stage.model.coordinates):
+            name = coordinate.name
+            if name in self.board.hidden or name in skipped:
+                continue
+            if not (
+                self._slide(i, name) or self._telescope(i, name) or self._angle(i, name) or self._position(i, name)
+            ):
+                self.board.lacks(f"coordinate {name} is not drawn", "[look] pose may show what it moves")
+
+    # -- lengths ------------------------------------------------------------------------------------------------
+
+    def _slide(self, i: int, name: str) -> bool:
+        """An arrow to a sliding body from its reference, or from the body that it is counted from."""
+        motions = self.board.motions
+        sliders = [p for p in self.parts if motions.holds[p.point].how is HoldKind.SLIDE]
+        points = [(p.point, p) for p in sliders]
+        points += [
+            (k, None)
+            for k, h in enumerate(motions.holds)
+            if h.how is HoldKind.SLIDE and k not in [p.point for p in sliders]
+        ]
+        for k, part in points:
+            for h in (0, *(p.point for p in sliders if p.point != k)):
+                if motions.coordinates(k, h) == (i,) and (h == 0 or not motions.still(h)):
+                    J = motions.views.J[0, k] - motions.views.J[0, h]
+                    if h and part is None:
+                        continue
+                    e = self.board.seen(J[:, i])
+                    size = float(np.linalg.norm(e))
+                    if size < 1e-9:
+                        continue
+                    self._length(i, name, k, h, e / size, part)
+                    return True
+        return False
+
+    def _length(self, i: int, name: str, k: int, h: int, e: Array, part: Player | None) -> None:
+        board = self.board
+        end = board.at(k)
+        q = board.q[i] * board.scale
+        start = board.at(h) if h else end - q * e
+        along = (end - start) @ e
+        start = end - along * e
+        if abs(along) < 12.0:
+            start = end - 40.0 * e
+        n, off = self._side(k, e, part)
+        mark_a, mark_b = start + off * n, end + off * n
+        self._arrow(mark_a, mark_b, name)
+        if h:
+            board.put(
+                line(tuple(board.at(h)), tuple(mark_a + 5 * n)),
+                "thin",
+                kind="measure",
+                width=0.9,
+                layer=BEHIND,
+                moves=False,
+            )
+        board.put(line(tuple(end), tuple(mark_b + 5 * n)), "thin", kind="measure", width=0.9, layer=BEHIND, moves=False)
+
+    def _side(self, k: int, e: Array, part: Player | None) -> tuple[Array, float]:
+        """On which side of a body the arrow of its length lies, and how far away."""
+        board = self.board
+        vertical = abs(e[1]) > 0.96
+        n = np.array([1.0, 0.0]) if vertical else np.array([e[1], -e[0]]) if e[0] > 0 else np.array([-e[1], e[0]])
+        off = ABOVE if not vertical else 54.0
+        key = (round(float(board.at(k) @ n) / 30), round(float(n[0]) * 2))
+        if part is not None and part.glyph in (BodyGlyph.WHEEL,) and part.radius is not None:
+            off = board.scale * float(board.stage.evaluated([part.radius], board.q, board.p)[0]) + 22.0
+        elif part is not None and part.glyph is BodyGlyph.WEDGE:
+            n, off = -n, board.sole.get(k, 100.0) + 28.0
+        elif part is not None and part.glyph is BodyGlyph.BLOCK and not vertical and abs(e[1]) > 0.04:
+            off = 52.0
+        elif part is not None and self._crowned(part):
+            n, off = -n, 56.0
+        level = self.levels.get(key, 0)
+        if part is not None and part.glyph is BodyGlyph.CART:
+            taken = [x for x in self.parts if x is not part and x.glyph is BodyGlyph.CART]
+            self.levels[key] = level + (1 if taken and self._overlaps(k, e) else 0)
+            return n, off + LEVEL * level
+        self.levels[key] = level + 1
+        return n, off + LEVEL * level
+
+    def _overlaps(self, k: int, e: Array) -> bool:
+        return any(
+            self.board.motions.holds[p.point].holder != 0
+            and not self.board.motions.still(self.board.motions.holds[p.point].holder)
+            for p in self.parts
+            if p.glyph is BodyGlyph.CART
+        )
+
+    def _crowned(self, part: Player) -> bool:
+        """Whether something stands on a body, so that its arrow lies below."""
+        board = self.board
+        for turn in self.turns:
+            if turn.joint == part.point and (board.at(turn.tip) - board.at(turn.joint))[1] < -20.0:
+                return True
+        return False
+
+    def _arrow(self, start: Array, end: Array, name: str, *, label: Array | None = None) -> None:
+        board = self.board
+        e = (end - start) / (np.linalg.norm(end - start) or 1.0)
+        n = np.array([-e[1], e[0]])
+        board.put(
+            line(tuple(start - 6 * n), tuple(start + 6 * n)),
+            "coordinate",
+            kind="measure",
+            width=1.8,
+            layer=MEASURE,
+            moves=False,
+        )
+        board.arrow(start, end, "coordinate", kind="coordinate", of=(name,), width=1.8)
+        n = n if n[1] < 0 or (abs(n[1]) < 1e-9 and n[0] > 0) else -n
+        board.wish((name,), (start + end) / 2, n if label is None else label, "coordinate", (name,), distance=4.0)
+
+    def _telescope(self, i: int, name: str) -> bool:
+        """An arrow beside a rope from its holder to its end, or along a track from its middle."""
+        board = self.board
+        for hold in board.motions.holds:
+            if hold.along != i or hold.how not in (HoldKind.TELESCOPE, HoldKind.TRACK):
+                continue
+            start, end = board.at(hold.holder), board.at(hold.point)
+            if hold.how is HoldKind.TRACK:
+                views = board.stage.views([board.q], board.p)
+                e = board.seen(views.J[0, hold.point, :, i])
+                size = float(np.linalg.norm(e))
+                if size < 1e-9:
+                    continue
+                start = end - e / size * board.q[i] * board.scale * (size if board.stage.dimension == 3 else 1.0)
+            e = (end - start) / (np.linalg.norm(end - start) or 1.0)
+            n = np.array([-e[1], e[0]])
+            n = n if n[0] > 0 or (n[0] == 0 and n[1] < 0) else -n
+            off = 22.0 if hold.how is HoldKind.TELESCOPE else 34.0
+            if hold.how is HoldKind.TRACK:
+                n = n if n[1] < 0 else -n
+            board.put(
+                line(tuple(end), tuple(end + (off + 5) * n)),
+                "thin",
+                kind="measure",
+                width=0.9,
+                layer=BEHIND,
+                moves=False,
+            )
+            self._arrow(start + off * n, end + off * n, name, label=n)
+            return True
+        return False
+
+    # -- angles -------------------------------------------------------------------------------------------------
+
+    def _angle(self, i: int, name: str) -> bool:
+        """An arc from the direction at 0 to the direction now: absolute, or against another turn."""
+        turns = self.turns
+        unit = np.zeros(len(self.board.q))
+        unit[i] = 1.0
+        for turn in turns:
+            if self._is(turn.slopes, unit):
+                self._arc(i, name, turn, float(turn.slopes[i]))
+                return True
+        for turn in turns:
+            others = sorted((t for t in turns if t is not turn), key=lambda t: -float(np.abs(t.slopes).sum()))
+            for other in others:
+                if self._is(turn.slopes - other.slopes, unit):
+                    self._arc(i, name, turn, float(turn.slopes[i]))
+                    return True
+        return False
+
+    def _is(self, slopes: Array, unit: Array) -> bool:
+        return bool(np.allclose(np.abs(slopes), unit, atol=1e-8))
+
+    def _arc(self, i: int, name: str, turn: Turn, sense: float) -> None:
+        board = self.board
+        if board.stage.dimension == 3:
+            from lagrangian.look.space import arc_in_space
+
+            arc_in_space(board, i, name, turn, self.arcs)
+            return
+        if turn.name in board.shaft_spots:
+            spot = board.shaft_spots[turn.name] + (0.0, 40.0)
+            board.bow(
+                spot + (0.0, -6.0), 20.0, pi * 0.78, pi * 0.22, "coordinate", of=(name,), kind="coordinate", width=1.8
+            )
+            board.wish((name,), spot + (0.0, 16.0), (0.0, 1.0), "coordinate", (name,), distance=4.0)
+            return
+        at, tip = board.at(turn.joint), board.at(turn.tip)
+        d = tip - at
+        length = float(np.linalg.norm(d))
+        now = float(np.arctan2(d[1], d[0])) if length > 1.0 else 0.0
+        turned = -sense * float(board.q[i])  # the screen's angles count clockwise
+        start = now - turned
+        n = self.arcs[turn.joint] = self.arcs.get(turn.joint, -1) + 1
+        radius = min(ARC, max(26.0, 0.6 * length)) + 16.0 * n
+        part = next(
+            (p for p in self.parts if p.point == turn.joint and p.radius is not None and p.glyph is not BodyGlyph.BEAM),
+            None,
+        )
+        if (
+            part is not None
+            and part.radius is not None
+            and part.glyph in (BodyGlyph.WHEEL, BodyGlyph.DISC, BodyGlyph.PULLEY)
+        ):
+            radius = max(20.0, 0.6 * board.scale * float(board.stage.evaluated([part.radius], board.q, board.p)[0]))
+        reference = radius + 26.0
+        foot = at + reference * np.array([np.cos(start), np.sin(start)])
+        board.put(
+            line(tuple(at), tuple(foot)),
+            "thin",
+            kind="reference",
+            width=1.1,
+            dashed=True,
+            layer=BEHIND + 12,
+            moves=False,
+        )
+        board.fence(at, foot)
+        board.bow(at, radius, start, now, "coordinate", of=(name,), kind="coordinate", width=1.8)
+        middle = (start + now) / 2
+        out = np.array([np.cos(middle), np.sin(middle)])
+        board.wish((name,), at + radius * out, out, "coordinate", (name,), distance=4.0)
+
+    # -- free points ----------------------------------------------------------------------------------------------
+
+    def _position(self, i: int, name: str) -> bool:
+        """An arrow at a free point in the direction in which the coordinate moves it."""
+        board = self.board
+        J = board.stage.views([board.q], board.p).J[0]
+        order = [p.point for p in self.parts] + list(range(1, len(board.motions.holds)))
+        candidates = [k for k in order if i in board.motions.coordinates(k)]
+        candidates.sort(key=lambda k: len(board.motions.coordinates(k)))
+        for k in candidates:
+            if k >= len(J):
+                continue
+            hold = board.motions.holds[k]
+            e = board.seen(J[k, :, i])
+            size = float(np.linalg.norm(e))
+            if size < 1e-6 or hold.how not in (HoldKind.FREE, HoldKind.WIRE):
+                continue
+            e = e / size if hold.how is HoldKind.FREE else np.array([np.sign(e[0]) or 1.0, 0.0])
+            at = board.at(k)
+            start = at + 14.0 * e if hold.how is HoldKind.FREE else at
+            if hold.how is HoldKind.WIRE:
+                origin = board.at(0)
+                low = max(float(at[1]), float(origin[1])) + 30.0
+                self._arrow(np.array([origin[0], low]), np.array([at[0], low]), name)
+                board.put(
+                    line(tuple(at), (float(at[0]), low + 5)),
+                    "thin",
+                    kind="measure",
+                    width=0.9,
+                    layer=BEHIND,
+                    moves=False,
+                )
+                return True
+            board.arrow(start, start + 34.0 * e, "coordinate", kind="coordinate", of=(name,), width=1.8)
+            n = np.array([-e[1], e[0]])
+            board.wish((name,), start + 30.0 * e, n + e, "coordinate", (name,), distance=4.0)
+            return True
+        return False

@@ -1,0 +1,250 @@
+"""Makes the picture of a model: what is drawn as what, in which pose, where, and what could not be drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.graph import Program
+from lagrangian.look.board import Board
+from lagrangian.look.bodies import draw_bodies
+from lagrangian.look.cast import BodyGlyph, Player, cast
+from lagrangian.look.constraint_glyphs import draw_constraints
+from lagrangian.look.effort_glyphs import EffortArtist, draw_gravity
+from lagrangian.look.holds import HoldKind, Motions
+from lagrangian.look.kinematics import Kinematics
+from lagrangian.look.labels import placed_labels
+from lagrangian.look.measures import MeasureArtist
+from lagrangian.look.pose import Pose, view_of
+from lagrangian.look.spread import spread
+from lagrangian.look.supports import draw_supports
+from lagrangian.look.tie_glyphs import TieArtist
+from lagrangian.look.ties import Resolver
+from lagrangian.look.turning import turns_of
+from lagrangian.look.words import description
+from lagrangian.model import Model
+from lagrangian.page.scene import Disc, Label, Path, Placement, Scene, Trace
+from lagrangian.page.scene import ScenePart as Shape
+
+Array = NDArray[np.float64]
+
+LARGE, LONGEST = 300.0, 190.0
+"""The size of a picture's structure and of its longest rod [px]."""
+SLIDE = 72.0
+"""How far a sliding body is drawn from its reference [px]."""
+BORDER = 16.0
+AZIMUTH, ELEVATION = 40 * pi / 180, 20 * pi / 180
+
+
+@dataclass(frozen=True)
+class Hints:
+    """What a picture needs and a model does not say; all of it is optional.
+
+    ``pose``: coordinate → value in SI units. ``kinds``: body → glyph (``cast.CHOICES``). ``azimuth``, ``elevation``
+    [rad]: from where a system in space is seen. ``trail``: points whose path is shown. ``hide``: elements and
+    coordinates. ``lines``: points that a wire, string, rod or wall runs through.
+    """
+
+    pose: Mapping[str, float] = field(default_factory=dict[str, float])
+    kinds: Mapping[str, str] = field(default_factory=dict[str, str])
+    azimuth: float = AZIMUTH
+    elevation: float = ELEVATION
+    trail: tuple[str, ...] = ()
+    hide: tuple[str, ...] = ()
+    lines: tuple[tuple[str, tuple[str, ...]], ...] = ()
+
+
+def scene_of(model: Model, hints: Hints | None = None) -> tuple[Scene, Program]:
+    """The picture of a model, and the program x, u, p, t → r of its anchors [m], shape (anchors, d)."""
+    hints = Hints() if hints is None else hints
+    stage = Kinematics(model)
+    motions = Motions(stage)
+    parts = cast(motions, hints.kinds)
+    p = stage.parameters()
+    pose = Pose(motions, p, hints.pose)
+    view = view_of(motions, hints.azimuth, hints.elevation)
+    board = Board(stage, motions, pose.closed(pose.q), p, view, hidden=frozenset(hints.hide))
+    board.scale = _scale(board, parts)
+    _slide_apart(board, pose, parts)
+    turns = turns_of(motions, parts, {})
+    resolver = Resolver(motions, parts, turns)
+    tied = [e for e in model.elements if getattr(e, "between", None) or getattr(e, "deflection", None) is not None]
+    ties = [resolver.resolve(e) for e in tied if e.ledger != "λ"]
+    room = spread(board, parts, ties)
+    draw_bodies(board, parts)
+    turns = turns_of(motions, parts, board.tips)
+    resolver.turns = turns
+    ties = [resolver.resolve(e) for e in tied if e.ledger != "λ"]
+    TieArtist(board, parts, ties).draw()
+    draw_supports(board, parts, ties)
+    draw_constraints(board, parts, hints.lines)
+    EffortArtist(board, parts, turns, ties, resolver).draw()
+    MeasureArtist(board, parts, turns).draw()
+    return _framed(board, model, hints, parts, room)
+
+
+# -- scale ------------------------------------------------------------------------------------------------------------
+
+
+def _scale(board: Board, parts: list[Player]) -> float:
+    """Pixels a metre: so that rods, links and wheels fill the picture, whatever their true size."""
+    board.scale = 1.0
+    structure: list[Array] = []
+    longest = 0.0
+    for k, hold in enumerate(board.motions.holds):
+        if hold.how in (HoldKind.ROD, HoldKind.TELESCOPE, HoldKind.TRACK) and k != hold.holder:
+            a, b = board.view @ board.r[hold.holder], board.view @ board.r[k]
+            structure += [a, b]
+            longest = max(longest, float(np.linalg.norm(board.r[k] - board.r[hold.holder])))
+        elif hold.how is HoldKind.FIRMLY and k:
+            structure.append(board.view @ board.r[k])
+    for part in parts:
+        at = board.view @ board.r[part.point]
+        if part.radius is not None and part.glyph is not BodyGlyph.SHAFT and part.glyph is not BodyGlyph.BEAM:
+            radius = float(board.stage.evaluated([part.radius], board.q, board.p)[0])
+            if radius > 0:
+                structure += [at + (radius, radius), at - (radius, radius)]
+                longest = max(longest, 2.2 * radius)
+        if part.glyph is BodyGlyph.LINK and part.spine is not None and part.point in part.spine:
+            joint = part.spine[0] if part.spine[1] == part.point else part.spine[1]
+            structure.append(2 * at - board.view @ board.r[joint])
+        if part.glyph is BodyGlyph.BAR or not structure:
+            structure.append(at)
+    spots = np.array(structure) if structure else np.zeros((1, 2))
+    size = float(np.ptp(spots, axis=0).max())
+    size = max(size, 1e-9)
+    wanted = LARGE / size if size > 1e-6 else 100.0
+    return min(wanted, LONGEST / longest) if longest > 1e-9 else min(max(wanted, 1e-6), 1e6) if size > 1e-6 else 100.0
+
+
+def _slide_apart(board: Board, pose: Pose, parts: list[Player]) -> None:
+    """Give the coordinates of slides values that can be seen."""
+    if board.stage.model.constraints:
+        return
+    q = board.q.copy()
+    for i in pose.slides:
+        name = pose.names[i]
+        if name in pose.asked:
+            continue
+        speed = max(
+            (
+                float(np.linalg.norm(board.motions.views.J[0, h.point, :, i]))
+                for h in board.motions.holds
+                if h.how is HoldKind.SLIDE
+            ),
+            default=1.0,
+        )
+        q[i] = SLIDE / board.scale / (speed or 1.0)
+    board.posed(q)
+
+
+# -- the frame of the picture -----------------------------------------------------------------------------------------
+
+
+def _framed(board: Board, model: Model, hints: Hints, parts: list[Player], room: float | None) -> tuple[Scene, Program]:
+    """The scene, moved so that everything lies within its frame."""
+    low, high = _extent(board)
+    draw_gravity(board, np.array([high[0] + 26.0, low[1] + 8.0]))
+    labels = placed_labels(board)
+    low, high = _extent(board)
+    for label in labels:
+        x, y, w, h = label.box
+        low, high = np.minimum(low, (x, y)), np.maximum(high, (x + w, y + h))
+    origin = BORDER - low
+    size = high - low + 2 * BORDER
+    anchors = sorted(board.anchors, key=lambda k: board.anchors[k])
+    index = {p.name: k for k, p in enumerate(board.stage.points) if p.name}
+    trail = tuple(board.anchor(index[name]) for name in hints.trail if name in index)
+    anchors = sorted(board.anchors, key=lambda k: board.anchors[k])
+    scene = Scene(
+        model.name,
+        (round(float(size[0]), 1), round(float(size[1]), 1)),
+        (float(origin[0]), float(origin[1])),
+        board.scale,
+        (tuple(map(float, board.view[0])), tuple(map(float, board.view[1]))),
+        tuple(tuple(map(float, board.r[k])) for k in anchors),
+        tuple(_moved(part, origin) for part in sorted(board.parts, key=lambda x: x.layer)),
+        tuple(_moved_label(label, origin) for label in labels),
+        description(board, parts),
+        tuple(dict.fromkeys(board.missing)),
+        trail,
+        tuple(dict.fromkeys(board.handles)),
+        room,
+    )
+    return scene, board.stage.program(anchors)
+
+
+def _extent(board: Board) -> tuple[Array, Array]:
+    """The corners of what is drawn [px]."""
+    spots: list[Array] = []
+    where = {n: k for k, n in board.anchors.items()}
+    for part in board.parts:
+        spots += _corners(board, part, where)
+    found = np.array(spots) if spots else np.zeros((1, 2))
+    return found.min(axis=0), found.max(axis=0)
+
+
+def _corners(board: Board, part: Shape, where: Mapping[int, int]) -> list[Array]:
+    def seen(anchor: int, shift: tuple[float, float]) -> Array:
+        return board.scale * (board.view @ board.r[where[anchor]]) + np.array(shift)
+
+    half = part.outline / 2
+    if isinstance(part.shape, Trace):
+        shifts = part.shape.shifts or ((0.0, 0.0),) * len(part.shape.anchors)
+        found = [seen(a, s) for a, s in zip(part.shape.anchors, shifts, strict=True)]
+    else:
+        found = _of_path(part.shape, part.placement, seen)
+    return [x + d for x in found for d in (np.array([half, half]), np.array([-half, -half]))]
+
+
+def _of_path(shape: Path | Disc, placement: Placement, seen) -> list[Array]:  # type: ignore[no-untyped-def]
+    if isinstance(shape, Disc):
+        (x, y), r = shape.centre, shape.radius
+        points = [np.array([x + a, y + b]) for a in (-r, r) for b in (-r, r)]
+    else:
+        points = [np.array(n[i : i + 2]) for _, n in shape.commands for i in range(0, len(n), 2)]
+    if placement.at is None:
+        return points
+    origin = seen(placement.at, placement.shift)
+    if placement.towards is None:
+        return [origin + p for p in points]
+    d = seen(placement.towards, placement.shift_towards) - origin
+    length = float(np.linalg.norm(d)) or 1.0
+    e = d / length
+    n = np.array([-e[1], e[0]])
+    a = length if placement.scaling in ("along", "both") else 1.0
+    b = length if placement.scaling == "both" else 1.0
+    if isinstance(shape, Disc):
+        centre = origin + a * shape.centre[0] * e + b * shape.centre[1] * n
+        r = shape.radius * a
+        return [centre + np.array([x, y]) for x in (-r, r) for y in (-r, r)]
+    return [origin + a * p[0] * e + b * p[1] * n for p in points]
+
+
+def _moved(part: Shape, by: Array) -> Shape:
+    """A part in the frame of the picture: only what has no anchor has to be moved."""
+    from dataclasses import replace
+
+    if part.placement.at is not None or isinstance(part.shape, Trace):
+        return part
+    dx, dy = float(by[0]), float(by[1])
+    if isinstance(part.shape, Disc):
+        x, y = part.shape.centre
+        return replace(part, shape=Disc((x + dx, y + dy), part.shape.radius))
+    commands = tuple(
+        (letter, tuple(v + (dy if i % 2 else dx) for i, v in enumerate(numbers)))
+        for letter, numbers in part.shape.commands
+    )
+    return replace(part, shape=Path(commands))
+
+
+def _moved_label(label: Label, by: Array) -> Label:
+    from dataclasses import replace
+
+    x, y, w, h = label.box
+    dx, dy = float(by[0]), float(by[1])
+    return replace(label, centre=(label.centre[0] + dx, label.centre[1] + dy), box=(x + dx, y + dy, w, h))

@@ -1,0 +1,249 @@
+"""Rods, ropes and wires that hold points, joints, supports on the ground, and floors."""
+
+from __future__ import annotations
+
+import itertools
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.look.board import BEHIND, BODY, GROUND, JOINT, Board
+from lagrangian.look.bodies import slide_heading, slope_angle
+from lagrangian.look.cast import BodyGlyph, Player
+from lagrangian.look.holds import HoldKind
+from lagrangian.look.shapes import CART, INK, WHEEL, arc, floor, line, pin, turned
+from lagrangian.look.ties import Tie
+from lagrangian.page.scene import Disc, Placement, Trace
+
+Array = NDArray[np.float64]
+
+SOLE = CART[1] / 2 + 2 * WHEEL - 2
+"""How far the floor is below the point of a cart [px]."""
+
+MARGIN = 62.0
+"""How far a floor reaches beyond the bodies on it [px]."""
+
+LINKS = (BodyGlyph.LINK, BodyGlyph.PLATE, BodyGlyph.BAR, BodyGlyph.BEAM)
+
+
+def draw_supports(board: Board, parts: list[Player], ties: list[Tie]) -> None:
+    """Draw what holds the bodies."""
+    needed = _needed(board, parts)
+    springs = {t.b for t in ties if t.way == "telescope" and t.element.kind == "spring"}
+    rods: list[tuple[int, int]] = []
+    for k in needed:
+        hold = board.motions.holds[k]
+        if hold.how not in (HoldKind.ROD, HoldKind.TELESCOPE) or _within_body(parts, k, hold.holder):
+            continue
+        if hold.how is HoldKind.TELESCOPE and k in springs:
+            rods.append((hold.holder, k))
+            continue
+        _rod(board, hold.holder, k, rope=hold.how is HoldKind.TELESCOPE)
+        rods.append((hold.holder, k))
+    _wires(board, parts)
+    _joints(board, parts, rods)
+    _floors(board, parts)
+    _pulleys(board, parts)
+
+
+def _needed(board: Board, parts: list[Player]) -> list[int]:
+    """The points of bodies and elements, and all that hold them."""
+    stage, found = board.stage, set[int]()
+    waiting = [part.point for part in parts]
+    for element in stage.model.elements:
+        waiting += [stage.index(point) for _, point in element.points()]
+    while waiting:
+        k = waiting.pop()
+        if k in found or k >= len(board.motions.holds):
+            continue
+        found.add(k)
+        waiting.append(board.motions.holds[k].holder)
+    return sorted(found)
+
+
+def _within_body(parts: list[Player], a: int, b: int) -> bool:
+    """Whether two points belong to one rigid body, which is drawn itself."""
+    return any(part.frame is not None and {a, b} <= {part.point, *part.points} for part in parts)
+
+
+def _rod(board: Board, a: int, b: int, *, rope: bool = False) -> None:
+    start, end = board.at(a), board.at(b)
+    if np.linalg.norm(end - start) < 1.0:
+        return
+    names = [e.name for e in board.stage.model.bodies if board.stage.index(e.at) == b]
+    board.put(
+        line((0.0, 0.0), (1.0, 0.0)), "rod", board.towards(a, b), of=names, kind="rope" if rope else "rod",
+        width=1.6 if rope else 3.0, layer=BODY - 5,
+    )  # fmt: skip
+    board.fence(start, end)
+
+
+def _wires(board: Board, parts: list[Player]) -> None:
+    """The path of what moves along a curve."""
+    stage = board.stage
+    for part in parts:
+        hold = board.motions.holds[part.point]
+        if hold.how is not HoldKind.WIRE or hold.along is None:
+            continue
+        i, q0 = hold.along, float(board.q[hold.along])
+        reach = 1.8 * max(abs(q0), 0.5)
+        states: list[Array] = []
+        for x in np.linspace(-reach, reach, 41):
+            q = board.q.copy()
+            q[i] = x
+            states.append(q)
+        path = stage.views(states, board.p).r[:, part.point]
+        if not np.isfinite(path).all():
+            continue
+        anchors = [board.anchor(stage.fixed(r)) for r in path]
+        board.put(Trace(tuple(anchors)), "rod", kind="wire", width=2.0, layer=BEHIND)
+        spots = board.scale * path @ board.view.T
+        for a, b in itertools.pairwise(spots):
+            board.fence(a, b)
+
+
+# -- joints and supports --------------------------------------------------------------------------------------------
+
+
+def _joints(board: Board, parts: list[Player], rods: list[tuple[int, int]]) -> None:
+    """A small circle where something turns about a point; a support where that point does not move."""
+    hung: dict[int, list[Array]] = {}
+    for a, b in rods:
+        hung.setdefault(a, []).append(board.at(b) - board.at(a))
+    for part in parts:
+        if part.frame is None or part.glyph not in LINKS or not board.motions.turns(part.frame):
+            continue
+        for k in part.points or ((part.point,) if board.motions.still(part.point) else ()):
+            if _is_joint(board, parts, part, k):
+                hung.setdefault(k, []).append(board.at(part.point) - board.at(k))
+    for k, directions in hung.items():
+        at = board.at(k)
+        if board.motions.still(k):
+            support(board, k, np.sum(directions, axis=0))
+        board.put(Disc((0.0, 0.0), 3.6), "body", board.placed(k), kind="joint", filled=True, layer=JOINT, width=INK)
+        board.block(at, 9.0, 9.0)
+
+
+def _is_joint(board: Board, parts: list[Player], part: Player, k: int) -> bool:
+    if k == board.motions.holds[part.point].holder or board.motions.still(k):
+        return True
+    others = [x for x in parts if x is not part and x.frame is not None]
+    return any(k == x.point or k in x.points for x in others)
+
+
+def support(board: Board, k: int, towards: Array) -> None:
+    """The triangle of a support on hatched ground, away from what it holds."""
+    up = towards[1] > 0.35 * abs(towards[0])
+    angle = pi if up else 0.0
+    triangle, ground = pin()
+    if board.stage.dimension == 3:
+        _stand(board, k)
+        return
+    board.put(turned(triangle, angle), "ground", board.placed(k), kind="pin", layer=BEHIND, filled=False)
+    board.put(turned(ground, angle), "ground", board.placed(k), kind="pin", layer=BEHIND)
+    board.block(board.at(k) + (0, -12 if up else 12), 40, 24)
+
+
+def _stand(board: Board, k: int) -> None:
+    """In space: a small ellipse of ground under the joint."""
+    ring = arc(1.0, 0.0, 2 * pi)
+    flat = type(ring)(
+        tuple((c, tuple(v * (24.0 if i % 2 == 0 else 8.0) for i, v in enumerate(x))) for c, x in ring.commands)
+    )
+    board.put(flat, "ground", board.placed(k), kind="pin", layer=GROUND, width=1.2)
+    board.block(board.at(k), 44, 14)
+
+
+# -- floors ---------------------------------------------------------------------------------------------------------
+
+
+def _floors(board: Board, parts: list[Player]) -> None:
+    """The lines on which bodies slide or roll."""
+    lines: list[tuple[float, Array, Array, list[Array], int]] = []
+    for part in parts:
+        sole = sole_of(board, part)
+        if sole is None or part.direction is None or board.stage.dimension == 3:
+            continue
+        angle, normal = slide_heading(board, part)
+        foot = board.at(part.point) - sole * normal
+        for known, start, along, feet, _ in lines:
+            if abs(known - angle) < 1e-6 and abs((foot - start) @ np.array([-along[1], along[0]])) < 3.0:
+                feet.append(foot)
+                break
+        else:
+            along = np.array([np.cos(angle), np.sin(angle)])
+            lines.append((angle, foot, along, [foot], part.point))
+    for angle, start, along, feet, k in lines:
+        _floor(board, angle, start, along, feet, k)
+
+
+def _floor(board: Board, angle: float, start: Array, along: Array, feet: list[Array], k: int) -> None:
+    ways = [float((foot - start) @ along) for foot in feet]
+    left = min(ways) - MARGIN - board.floor_margin[0]
+    right = max(ways) + MARGIN + board.floor_margin[1]
+    if k in board.sole:
+        right += 150.0
+    base = board.stage.fixed(board.r[k])
+    x, y = start - board.scale * (board.view @ board.r[k])
+    place = Placement(board.anchor(base), shift=(float(x), float(y)))
+    board.put(turned(floor(left, right), angle), "ground", place, kind="floor", layer=GROUND)
+    board.fence(start + left * along, start + right * along)
+    if abs(np.sin(angle)) > 0.04:
+        _incline(board, angle, start + (right if angle > 0 else left) * along, along)
+
+
+def _incline(board: Board, angle: float, corner: Array, along: Array) -> None:
+    """The angle of a slope against the horizontal, with the parameter that it is."""
+    sense = -1.0 if angle > 0 else 1.0
+    flat = corner + (sense * 80.0, 0.0)
+    board.put(line(tuple(corner), tuple(flat)), "thin", kind="angle", dashed=True, layer=GROUND, moves=False, width=1.0)
+    e = sense * along
+    slope_angle(board, corner, 0.0 if sense > 0 else pi, float(np.arctan2(e[1], e[0])), e)
+
+
+def sole_of(board: Board, part: Player) -> float | None:
+    """How far the floor is below a body's point [px]; None for a body without a floor."""
+    hold = board.motions.holds[part.point]
+    if hold.how is not HoldKind.SLIDE or not board.motions.still(hold.holder):
+        return None
+    if part.glyph is BodyGlyph.CART:
+        return SOLE
+    if part.glyph is BodyGlyph.WEDGE:
+        return board.sole.get(part.point)
+    if part.glyph is BodyGlyph.WHEEL and part.radius is not None:
+        return board.scale * float(board.stage.evaluated([part.radius], board.q, board.p)[0])
+    if part.glyph is BodyGlyph.BLOCK:
+        angle, _ = slide_heading(board, part)
+        return 0.0 if abs(np.sin(angle)) < 0.96 else None
+    return None
+
+
+def _pulleys(board: Board, parts: list[Player]) -> None:
+    """What a pulley hangs from, and the strings to the blocks beside it."""
+    for pulley in (x for x in parts if x.glyph is BodyGlyph.PULLEY and x.radius is not None):
+        radius = board.scale * float(board.stage.evaluated([pulley.radius], board.q, board.p)[0])  # type: ignore[list-item]
+        place, at = board.placed(pulley.point), board.at(pulley.point)
+        top = -radius - 26.0
+        board.put(line((0.0, 0.0), (0.0, top)), "rod", place, kind="pin", width=2.0, layer=BODY - 3)
+        board.put(turned(floor(-26.0, 26.0), pi, 0.0, top), "ground", place, kind="pin", layer=GROUND)
+        board.block(at + (0, top), 52, 16)
+        for part in parts:
+            if part.glyph is not BodyGlyph.BLOCK:
+                continue
+            spot = board.at(part.point)
+            side = spot[0] - at[0]
+            if abs(abs(side) - radius) < 3.0:
+                rim = board.stage.fixed(
+                    board.stage.views([board.q], board.p).r[0, pulley.point] + _sideways(board, side)
+                )
+                string = board.towards(rim, part.point)
+                board.put(line((0.0, 0.0), (1.0, 0.0)), "rod", string, of=(part.name,), kind="rope", layer=BODY - 6)
+                board.fence((spot[0], at[1]), spot)
+
+
+def _sideways(board: Board, side: float) -> Array:
+    """A step on the screen of ``side`` pixels to the right, in metres of the fixed axes."""
+    step = np.zeros(board.stage.dimension)
+    step[0] = side / board.scale
+    return step

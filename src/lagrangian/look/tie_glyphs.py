@@ -1,0 +1,327 @@
+"""Draws springs, dampers and friction: between bodies, to walls, at joints, along ropes."""
+
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import pi
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrangian.look.board import GROUND, JOINT, TIE, Board
+from lagrangian.look.cast import BodyGlyph, Player
+from lagrangian.look.shapes import BLOCK, CART, arc, coil, dashpot, floor, heading, line, lines, spiral, turned
+from lagrangian.look.spread import slide_along
+from lagrangian.look.supports import sole_of
+from lagrangian.look.ties import Tie
+from lagrangian.look.turning import Turn
+from lagrangian.model import Element
+from lagrangian.page.scene import Disc, Path, Placement, Role
+
+Array = NDArray[np.float64]
+
+WALL = 92.0
+"""How far a wall is from the edge of the body that is tied to it [px]."""
+APART = 20.0
+"""The distance of parallel ties [px]."""
+ARM = 105.0
+"""How far the wall is from a lever [px]."""
+
+ROLES: dict[str, Role] = {"spring": "stiffness", "damper": "damping", "friction": "friction"}
+
+
+class TieArtist:
+    """Draws the ties of a system, those between the same bodies side by side."""
+
+    def __init__(self, board: Board, parts: list[Player], ties: list[Tie]) -> None:
+        self.board, self.parts = board, parts
+        self.by_point = {part.point: part for part in parts}
+        self.ties = [t for t in ties if t.element.kind in ROLES and t.element.name not in board.hidden]
+        self.springs = {t.b for t in self.ties if t.element.kind == "spring" and t.way == "slides" and t.a is None}
+        self.walls: dict[tuple[float, float], list[float]] = {}
+        self.right: dict[int, int] = {}
+        self.arms = 0
+        self.rings: dict[int, int] = {}
+
+    def draw(self) -> None:
+        """Draw all ties."""
+        groups: dict[object, list[Tie]] = {}
+        for tie in self.ties:
+            groups.setdefault(self._pair(tie), []).append(tie)
+        for group in groups.values():
+            for n, tie in enumerate(group):
+                self._one(tie, (n - (len(group) - 1) / 2) * APART)
+
+    def _pair(self, tie: Tie) -> object:
+        if tie.way == "slides" and tie.a is None:
+            if self._is_friction(tie):
+                return ("friction", tie.element.name)
+            return ("wall", tie.b, self._side(tie))
+        ends = tuple(id(x) if isinstance(x, Turn) else x for x in (tie.a, tie.b))
+        return (tie.way, frozenset(ends) if tie.way != "arm" else tie.element.name)
+
+    def _is_friction(self, tie: Tie) -> bool:
+        part = self.by_point.get(tie.b) if isinstance(tie.b, int) else None
+        wheels = part is not None and part.glyph in (BodyGlyph.CART, BodyGlyph.BLOCK, BodyGlyph.WHEEL)
+        return wheels and tie.element.kind != "spring" and tie.b not in self.springs and self.board.stage.dimension == 2
+
+    def _one(self, tie: Tie, offset: float) -> None:
+        board = self.board
+        names = symbol_names(tie.element)
+        role = ROLES[tie.element.kind]
+        if (tie.way == "points" and isinstance(tie.a, int) and isinstance(tie.b, int)) or (
+            tie.way == "telescope" and isinstance(tie.a, int) and isinstance(tie.b, int)
+        ):
+            self._between(tie, tie.a, tie.b, offset, names, role)
+        elif tie.way == "slides" and isinstance(tie.b, int):
+            if isinstance(tie.a, int):
+                self._between_slides(tie, tie.a, tie.b, offset, names, role)
+            elif self._is_friction(tie):
+                self._friction(tie, tie.b, names, role)
+            else:
+                self._to_wall(tie, tie.b, offset, names, role)
+        elif tie.way == "arm" and isinstance(tie.b, Turn):
+            self._lever(tie, tie.b, names, role)
+        elif tie.way == "joint" and isinstance(tie.b, Turn):
+            self._at_joint(tie, tie.b, names, role)
+        else:
+            board.lacks(
+                f"{tie.element.title} is not drawn, because its deflection belongs to no pair of points or bodies",
+                'a [[look.line]] with kind = "string" shows where it runs',
+            )
+
+    # -- along a line -------------------------------------------------------------------------------------------
+
+    def _glyph(self, tie: Tie, length: float) -> Path:
+        if tie.element.kind == "spring":
+            return coil(int(np.clip(length / 14.0, 4, 10)))
+        return dashpot()
+
+    def _strung(self, tie: Tie, place: Placement, start: Array, end: Array, names: tuple[str, ...], role: Role) -> None:
+        """A spring or dashpot between two seen places, with its label beside the middle."""
+        length = float(np.linalg.norm(end - start))
+        kind = tie.element.kind
+        self.board.put(self._glyph(tie, length), role, place, of=(tie.element.name,), kind=kind, layer=TIE, width=1.7)
+        n = np.array([end[1] - start[1], start[0] - end[0]]) / (length or 1.0)
+        n = -n if n[1] > 0 or (abs(n[1]) < 1e-9 and n[0] < 0) else n
+        middle = (start + end) / 2
+        for side in (-6.0, 6.0):
+            self.board.fence(start + 0.15 * (end - start) + side * n, end - 0.15 * (end - start) + side * n)
+        self.board.wish(names, middle, n, role, (tie.element.name,), distance=12.0)
+
+    def _between(self, tie: Tie, a: int, b: int, offset: float, names: tuple[str, ...], role: Role) -> None:
+        board = self.board
+        start, end = board.at(a), board.at(b)
+        length = float(np.linalg.norm(end - start)) or 1.0
+        n = np.array([end[1] - start[1], start[0] - end[0]]) / length
+        by = offset * n
+        place = board.towards(a, b, by=(float(by[0]), float(by[1])))
+        self._strung(tie, place, start + by, end + by, names, role)
+        for k in (a, b):
+            if board.motions.still(k):
+                self._anchorage(k, end - start if k == a else start - end)
+
+    def _anchorage(self, k: int, towards: Array) -> None:
+        """The piece of wall at which a tie ends, across its direction."""
+        board = self.board
+        key = (float(round(board.at(k)[0])), float(round(board.at(k)[1])))
+        if key in self.walls:
+            return
+        self.walls[key] = []
+        steep = abs(towards[1]) > abs(towards[0])
+        angle = (pi if towards[1] > 0 else 0.0) if steep else (pi / 2 if towards[0] > 0 else -pi / 2)
+        board.put(turned(floor(-20.0, 20.0), angle), "ground", board.placed(k), kind="wall", layer=GROUND)
+        board.put(Disc((0.0, 0.0), 2.2), "ground", board.placed(k), kind="wall", solid=True, filled=True, layer=JOINT)
+        board.block(board.at(k), 30, 20)
+
+    # -- sliding bodies -----------------------------------------------------------------------------------------
+
+    def _half(self, k: int, e: Array) -> float:
+        part = self.by_point.get(k)
+        if part is None:
+            return 0.0
+        w, h = CART if part.glyph is BodyGlyph.CART else BLOCK if part.glyph is BodyGlyph.BLOCK else (16.0, 16.0)
+        if part.glyph is BodyGlyph.WHEEL:
+            return 0.0
+        if part.glyph is BodyGlyph.BLOCK and 0.1 < abs(e[1]) < 0.95:
+            return 22.0
+        return w / 2 if abs(e[0]) > 0.5 else h / 2
+
+    def _shifted(self, k: int, by: Array) -> tuple[float, float]:
+        x, y = self.board.shift(k)
+        return x + float(by[0]), y + float(by[1])
+
+    def _lift(self, k: int, e: Array) -> Array:
+        """From a body's point to the height at which ties hold it: a block on a slope lies above its point."""
+        part = self.by_point.get(k)
+        if part is not None and part.glyph is BodyGlyph.BLOCK and 0.1 < abs(e[1]) < 0.95:
+            n = np.array([-e[1], e[0]])
+            return (n if n[1] < 0 else -n) * BLOCK[1] / 2
+        return np.zeros(2)
+
+    def _between_slides(self, tie: Tie, a: int, b: int, offset: float, names: tuple[str, ...], role: Role) -> None:
+        board = self.board
+        e = slide_along(board, self.by_point[a])
+        if float((board.at(b) - board.at(a)) @ e) < 0:
+            a, b = b, a
+        n = np.array([-e[1], e[0]])
+        da = self._half(a, e) * e + offset * n + self._lift(a, e)
+        db = -self._half(b, e) * e + offset * n + self._lift(b, e)
+        place = Placement(board.anchor(a), board.anchor(b), "along", self._shifted(a, da), self._shifted(b, db))
+        self._strung(tie, place, board.at(a) + da, board.at(b) + db, names, role)
+
+    def _side(self, tie: Tie) -> float:
+        """On which side of a body its wall is: −1 for the left or below, 1 for the right or above."""
+        board, k = self.board, tie.b
+        assert isinstance(k, int)
+        part = self.by_point[k]
+        e = slide_along(board, part)
+        others = [p for p in self.parts if p is not part and p.direction is not None and p.glyph is part.glyph]
+        before = [p for p in others if (board.at(p.point) - board.at(k)) @ e < -30.0]
+        after = [p for p in others if (board.at(p.point) - board.at(k)) @ e > 30.0]
+        return 1.0 if before and not after else -1.0
+
+    def _to_wall(self, tie: Tie, k: int, offset: float, names: tuple[str, ...], role: Role) -> None:
+        board, side = self.board, self._side(tie)
+        e = slide_along(board, self.by_point[k])
+        n = np.array([-e[1], e[0]])
+        edge = side * self._half(k, e) * e + offset * n + self._lift(k, e)
+        away = side * (self._half(k, e) + WALL) * e + offset * n + self._lift(k, e)
+        base = board.stage.fixed(board.r[k])
+        x, y = board.shift(k)
+        far = (x + float(away[0]), y + float(away[1]))
+        place = Placement(board.anchor(k), board.anchor(base), "along", self._shifted(k, edge), far)
+        self._strung(tie, place, board.at(k) + edge, board.at(k) + away, names, role)
+        key = (float(round(board.at(k)[0])), side)
+        if key not in self.walls:
+            self.walls[key] = []
+            foot = side * (self._half(k, e) + WALL) * e + self._lift(k, e)
+            angle = heading((float(e[0]), float(e[1]))) + (pi / 2 if side < 0 else -pi / 2)
+            wall = Placement(board.anchor(base), shift=(x + float(foot[0]), y + float(foot[1])))
+            board.put(turned(floor(-29.0, 29.0), angle), "ground", wall, kind="wall", layer=GROUND)
+            board.block(board.at(k) + foot + 4 * side * e, 16 + 44 * abs(e[1]), 16 + 44 * abs(e[0]))
+
+    def _friction(self, tie: Tie, k: int, names: tuple[str, ...], role: Role) -> None:
+        """A thick dashed line where the body meets its floor."""
+        board = self.board
+        e = slide_along(board, self.by_point[k])
+        n = np.array([-e[1], e[0]])
+        n = n if n[1] > 0 else -n
+        foot = (sole_of(board, self.by_point[k]) or 0.0) * n + 3.0 * n
+        angle = heading((float(e[0]), float(e[1])))
+        place = board.placed(k, float(foot[0]), float(foot[1]))
+        shape = turned(line((-32.0, 0.0), (32.0, 0.0)), angle)
+        board.put(shape, role, place, of=(tie.element.name,), kind="friction", width=4.0, dashed=True, layer=GROUND + 1)
+        board.wish(names, board.at(k) + foot - 38.0 * e, n - e, role, (tie.element.name,), distance=5.0)
+
+    # -- what turns ---------------------------------------------------------------------------------------------
+
+    def _lever(self, tie: Tie, turn: Turn, names: tuple[str, ...], role: Role) -> None:
+        """A tie from a point of a lever to a wall beside it, and the length of the arm."""
+        board, stage = self.board, self.board.stage
+        assert tie.arm is not None
+        length = board.motions.length(turn.joint, turn.tip)
+        gap = [
+            tie.arm / length * (x - y)
+            for x, y in zip(
+                stage.model.position(stage.points[turn.tip]),
+                stage.model.position(stage.points[turn.joint]),
+                strict=True,
+            )
+        ]
+        k = stage.add(turn.joint, gap)
+        at = board.at(k)
+        side = -1.0 if self.arms % 2 == 0 else 1.0
+        self.arms += 1
+        base = stage.fixed(board.r[k])
+        x, y = board.shift(k)
+        place = Placement(board.anchor(k), board.anchor(base), "along", (x, y), (x + side * ARM, y))
+        self._strung(tie, place, at, at + (side * ARM, 0.0), names, role)
+        wall = Placement(board.anchor(base), shift=(x + side * ARM, y))
+        board.put(
+            turned(floor(-22.0, 22.0), pi / 2 if side < 0 else -pi / 2), "ground", wall, kind="wall", layer=GROUND
+        )
+        board.block(at + (side * (ARM + 4), 0.0), 16, 44)
+        board.put(Disc((0.0, 0.0), 3.0), "body", board.placed(k), kind="joint", filled=True, layer=JOINT)
+        if isinstance(tie.arm, sp.Symbol):
+            self._measure(turn.joint, k, tie.arm.name, 14.0 * self.arms)
+
+    def _measure(self, a: int, b: int, name: str, off: float) -> None:
+        """A thin line beside a lever from its joint to a point of it, with the name of this length."""
+        board = self.board
+        start, end = board.at(a), board.at(b)
+        e = (end - start) / (np.linalg.norm(end - start) or 1.0)
+        n = np.array([-e[1], e[0]])
+        n = n if n[0] > 0 else -n
+        p, q = start + off * n, end + off * n
+        pieces = [(tuple(p), tuple(q))] + [(tuple(s + 3 * n), tuple(t + 3 * n)) for s, t in ((start, p), (end, q))]
+        for i, (s, t) in enumerate(pieces):
+            board.put(line(s, t), "thin", kind="measure", width=0.9, layer=GROUND, moves=False, dashed=i > 0)
+        board.fence(p, q)
+        board.wish((name,), (p + q) / 2, n, "thin", distance=4.0)
+
+    def _at_joint(self, tie: Tie, turn: Turn, names: tuple[str, ...], role: Role) -> None:
+        board, of = self.board, (tie.element.name,)
+        if turn.name in board.shaft_spots:
+            self._on_shaft(tie, turn, names, role)
+            return
+        at = board.at(turn.joint)
+        rings = self.rings[turn.joint] = self.rings.get(turn.joint, -1) + 1
+        place = board.placed(turn.joint)
+        if tie.element.kind == "spring":
+            board.put(spiral(outer=15.0 + 4 * rings), role, place, of=of, kind="spring", layer=JOINT + 1)
+        else:
+            ring = arc(9.0 + 4.5 * rings, 0.0, 2 * pi)
+            board.put(ring, role, place, of=of, kind=tie.element.kind, dashed=True, width=2.2, layer=JOINT + 1)
+        tip = board.at(turn.tip) - at
+        board.block(at, 22 + 9 * rings, 22 + 9 * rings)
+        board.wish(names, at, -tip + (-8.0, 0.0), role, of, distance=14.0 + 5 * rings)
+
+    def _on_shaft(self, tie: Tie, turn: Turn, names: tuple[str, ...], role: Role) -> None:
+        """The piece of shaft between two discs, or the bearing of one."""
+        board, of = self.board, (tie.element.name,)
+        spot = board.shaft_spots[turn.name]
+        if isinstance(tie.a, Turn) and tie.a.name in board.shaft_spots:
+            a, b = sorted((board.shaft_spots[tie.a.name], spot), key=lambda s: float(s[0]))
+            before = self.rings.get(-1, 0)
+            self.rings[-1] = before + 1
+            board.wish(names, (a + b) / 2 + ((before - 0.3) * 16, -5.0), (0.0, -1.0), role, of, distance=8.0)
+            y = float(a[1])
+            hatch = [((x, y + 4.0), (x + 5.0, y - 4.0)) for x in np.arange(a[0] + 14, b[0] - 14, 8.0)]
+            if tie.element.kind == "spring":
+                board.put(lines(*hatch), role, of=of, kind="spring", width=1.2, layer=TIE + 1)
+            return
+        used = self.rings.get(-2, 0)
+        self.rings[-2] = used + 1
+        board.wish(names, spot + (58.0, 14.0 + 16 * used), (0.2, 1.0), role, of, distance=8.0)
+
+
+def symbol_names(element: Element) -> tuple[str, ...]:
+    """The symbols by which an element is known in a picture: its stiffness, its coefficient, its value."""
+    for key in ("k", "b", "mu", "limit", "value"):
+        value = getattr(element, key, None)
+        values = value if isinstance(value, tuple) else (value,)
+        found: list[str] = []
+        for x in values:
+            if isinstance(x, sp.Expr):
+                found += sorted(
+                    {str(getattr(a, "name", None) or getattr(a.func, "__name__", a)) for a in _main_symbols(x)}
+                )
+        if found:
+            return tuple(dict.fromkeys(found))
+    return (element.name,) if element.kind in ROLES and element.name else ()
+
+
+def _main_symbols(expr: sp.Expr) -> Sequence[sp.Expr]:
+    """An expression that is a symbol, a function of time, or a number times one; otherwise nothing of it."""
+    _, bare = expr.as_coeff_Mul()
+    if isinstance(bare, sp.Symbol) or (
+        isinstance(bare, sp.Function) and len(bare.args) == 1 and bare.args[0].is_Symbol
+    ):
+        return [bare]
+    inputs = sorted(expr.atoms(sp.core.function.AppliedUndef), key=str)
+    return [x for x in inputs if not expr.has(sp.Derivative)][:1]

@@ -1,0 +1,136 @@
+"""Springs, dampers, friction and forces along a deflection: what they tie together."""
+
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrangian.look.cast import Player
+from lagrangian.look.holds import HoldKind, Motions
+from lagrangian.look.turning import Turn
+from lagrangian.model import Element
+
+Array = NDArray[np.float64]
+Way = Literal["points", "slides", "joint", "arm", "telescope", "unknown"]
+
+
+@dataclass(frozen=True)
+class Tie:
+    """An element along a deflection, and what it ties together.
+
+    ``points``: two points. ``slides``: one or two sliding bodies by their points (``a`` is None for the ground), where
+    ``sign`` tells on which side of ``b`` a positive deflection pulls. ``joint``: turns ``b`` against turn ``a``.
+    ``arm``: a lever of length ``arm`` on turn ``b``. ``telescope``: the point ``b``, along its holder's line.
+    """
+
+    element: Element
+    way: Way
+    a: int | Turn | None = None
+    b: int | Turn | None = None
+    sign: float = 1.0
+    arm: sp.Expr | None = None
+
+
+class Resolver:
+    """Finds what a deflection ties together, from its slopes ∂δ/∂q at random states."""
+
+    def __init__(self, motions: Motions, parts: list[Player], turns: list[Turn]) -> None:
+        self.motions, self.parts, self.turns = motions, parts, turns
+        rng = np.random.default_rng(5)
+        n = len(motions.stage.inputs.q)
+        self.states = [rng.uniform(0.4, 1.3, n) for _ in range(2)]
+        self.p = motions.views.p
+
+    def resolve(self, element: Element) -> Tie:
+        """What an element ties together."""
+        between = getattr(element, "between", None)
+        stage = self.motions.stage
+        if between:
+            return Tie(element, "points", stage.index(between[0]), stage.index(between[1]))
+        return self.along(element, getattr(element, "deflection"))  # noqa: B009
+
+    def along(self, element: Element, deflection: Any) -> Tie:
+        """What a deflection ties together."""
+        first, second = (self.motions.stage.slopes(deflection, q, self.p) for q in self.states)
+        if np.abs(first - second).max(initial=0.0) > 1e-7 * max(1.0, np.abs(first).max(initial=0.0)):
+            return Tie(element, "unknown")
+        g = first
+        return (
+            self._slides(element, g)
+            or self._telescope(element, g)
+            or self._joint(element, g)
+            or Tie(element, "unknown")
+        )
+
+    def _slope_of(self, part: Player) -> Array | None:
+        """e · ∂r/∂q of a body that slides on something in the direction e."""
+        hold = self.motions.holds[part.point]
+        if part.direction is None or hold.how is not HoldKind.SLIDE:
+            return None
+        return part.direction @ self.motions.views.J[0, part.point]
+
+    def _slides(self, element: Element, g: Array) -> Tie | None:
+        slopes = [(part, s) for part in self.parts if (s := self._slope_of(part)) is not None]
+        for part, s in slopes:
+            for sign in (1.0, -1.0):
+                if np.allclose(g, sign * s, atol=1e-8):
+                    return Tie(element, "slides", None, part.point, sign)
+        for i, (one, s1) in enumerate(slopes):
+            for two, s2 in slopes[i + 1 :]:
+                assert one.direction is not None and two.direction is not None
+                cosine = float(one.direction @ two.direction)
+                if abs(abs(cosine) - 1.0) > 1e-9:
+                    continue
+                difference = cosine * s2 - s1
+                for sign in (1.0, -1.0):
+                    if np.allclose(g, sign * difference, atol=1e-8):
+                        return Tie(element, "slides", one.point, two.point, sign)
+        return None
+
+    def _telescope(self, element: Element, g: Array) -> Tie | None:
+        moving = np.flatnonzero(np.abs(g) > 1e-9)
+        if len(moving) != 1 or abs(abs(g[moving[0]]) - 1.0) > 1e-9:
+            return None
+        for hold in self.motions.holds:
+            if hold.how in (HoldKind.TELESCOPE, HoldKind.TRACK) and hold.along == moving[0]:
+                return Tie(element, "telescope", hold.holder, hold.point, float(np.sign(g[moving[0]])))
+        return None
+
+    def _joint(self, element: Element, g: Array) -> Tie | None:
+        if not g.any():
+            return None
+        for turn in self.turns:
+            ratio = _ratio(g, turn.slopes)
+            if ratio is not None:
+                if abs(abs(ratio) - 1.0) < 1e-9:
+                    return Tie(element, "joint", None, turn, float(np.sign(ratio)))
+                return Tie(element, "arm", None, turn, float(np.sign(ratio)), self._named(abs(ratio)))
+        for i, one in enumerate(self.turns):
+            for two in self.turns[i + 1 :]:
+                ratio = _ratio(g, two.slopes - one.slopes)
+                if ratio is not None and abs(abs(ratio) - 1.0) < 1e-9:
+                    return Tie(element, "joint", one, two, float(np.sign(ratio)))
+        return None
+
+    def _named(self, value: float) -> sp.Expr:
+        """The parameter that has a value at the random parameters, otherwise the value at the given ones."""
+        for parameter, known in zip(self.motions.stage.model.parameters, self.p, strict=True):
+            if abs(known - value) < 1e-12 * abs(value):
+                return parameter.symbol
+        return sp.Float(value, 17)
+
+
+def _ratio(g: Array, slopes: Array) -> float | None:
+    """c with g = c · slopes, if there is one."""
+    square = float(slopes @ slopes)
+    if square < 1e-18:
+        return None
+    c = float(g @ slopes) / square
+    return c if abs(c) > 1e-9 and np.allclose(g, c * slopes, atol=1e-8 * max(1.0, abs(c))) else None

@@ -1,0 +1,90 @@
+"""What turns: links, rods and frames with their joints, and how each coordinate turns them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.look.cast import BodyGlyph, Player
+from lagrangian.look.holds import HoldKind, Motions
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Turn:
+    """Something that turns about a joint.
+
+    ``joint`` and ``tip`` are points; the direction from one to the other turns. ``slopes`` (n,) are ∂φ/∂q of its angle
+    in the plane, counter-clockwise; in space they are 1 for the coordinates that turn it. ``frame`` is the number of
+    its frame, ``name`` the name of its body.
+    """
+
+    joint: int
+    tip: int
+    slopes: Array
+    frame: int | None = None
+    name: str = ""
+
+
+def turns_of(motions: Motions, parts: list[Player], tips: dict[int, int]) -> list[Turn]:
+    """What turns in a system, in the order of its bodies; ``tips`` are the far ends of links that were drawn."""
+    found: list[Turn] = []
+    for part in parts:
+        if part.frame is not None and motions.turns(part.frame):
+            joint, tip = _ends(motions, part, tips)
+            slopes = _frame_slopes(motions, part.frame)
+            found.append(Turn(joint, tip, slopes, part.frame, part.name))
+        _rods(motions, part, found)
+    return found
+
+
+def _ends(motions: Motions, part: Player, tips: dict[int, int]) -> tuple[int, int]:
+    k = part.point
+    if part.glyph in (BodyGlyph.LINK, BodyGlyph.PLATE) and part.points:
+        holder = motions.holds[k].holder
+        joint = holder if holder in part.points else part.points[0]
+        tip = tips.get(k, k)
+        return joint, (k if tip == joint else tip)
+    return k, tips.get(k, k)
+
+
+def _rods(motions: Motions, part: Player, found: list[Turn]) -> None:
+    """The rods and ropes that hold a body, up to the ground."""
+    k = part.point
+    while True:
+        hold = motions.holds[k]
+        if hold.holder == k:
+            return
+        known = any(t.tip == k and t.joint == hold.holder for t in found)
+        carried = part.frame is not None and (hold.holder in part.points or k in part.points)
+        if hold.how in (HoldKind.ROD, HoldKind.TELESCOPE) and not known and not carried:
+            slopes = rod_slopes(motions, k, hold.holder)
+            if slopes is not None:
+                found.append(Turn(hold.holder, k, slopes, None, part.name))
+        k = hold.holder
+
+
+def _frame_slopes(motions: Motions, frame: int) -> Array:
+    if motions.stage.dimension == 2:
+        return motions.angle_slopes(frame)
+    slopes = np.zeros(len(motions.stage.inputs.q))
+    slopes[list(motions.turns(frame))] = 1.0
+    return slopes
+
+
+def rod_slopes(motions: Motions, k: int, holder: int) -> Array | None:
+    """∂φ/∂q of the direction from a holder to a point: (d × ∂d)/|d|²; None where it is not constant."""
+    d, D = motions.local(k, holder, None)
+    if motions.stage.dimension == 3:
+        slopes = np.zeros(D.shape[2])
+        hold = motions.holds[k]
+        slopes[[i for i in hold.moving if i != hold.along or hold.how is HoldKind.ROD]] = 1.0
+        return slopes
+    square = (d**2).sum(axis=1)
+    slopes = (d[:, 0, None] * D[:, 1] - d[:, 1, None] * D[:, 0]) / square[:, None]
+    if np.ptp(slopes, axis=0).max(initial=0.0) > 1e-7:
+        return None
+    return np.where(np.abs(slopes[0]) < 1e-9, 0.0, slopes[0])
