@@ -42,7 +42,7 @@ class BodyGlyph(Enum):
 
 
 CHOICES = {
-    "ball": BodyGlyph.BALL, "cart": BodyGlyph.CART, "box": BodyGlyph.BLOCK, "wheel": BodyGlyph.WHEEL, 
+    "ball": BodyGlyph.BALL, "cart": BodyGlyph.CART, "box": BodyGlyph.BLOCK, "wheel": BodyGlyph.WHEEL,
     "disk": BodyGlyph.DISC,
     "disc": BodyGlyph.DISC, "link": BodyGlyph.LINK,
     "plate": BodyGlyph.PLATE, "bar": BodyGlyph.BAR, "none": BodyGlyph.NONE,
