@@ -123,7 +123,7 @@ class Sticking:
     def _kernels(self) -> tuple[Kernel, Kernel]:
         with self._lock:
             if self._field is None or self._surfaces is None:
-                self._field, self._surfaces = compile(self.rates, threads=1), compile(self._program(), threads=1)
+                self._field, self._surfaces = compile(self.rates, threads=1), compile(self.surfaces(), threads=1)
             return self._field, self._surfaces
 
     def _called(self, kernel: Kernel, x: Array, u: Array, p: Array, t: Array) -> dict[str, Array]:
@@ -140,8 +140,8 @@ class Sticking:
                 raise
         return made
 
-    def _program(self) -> Program:
-        """``s`` (m,), ``normal`` = ∂s/∂x (m, nx) and ``drift`` = ∂s/∂t (m,)."""
+    def surfaces(self) -> Program:
+        """Return the program of ``s`` (m,), ``normal`` = ∂s/∂x (m, nx) and ``drift`` = ∂s/∂t (m,)."""
         program, g = self.rates, self.rates.graph
         n, m = len(program.inputs["x"]), len(self.pairs)
         s = [g.sub(a, b) for a, b in self.pairs]

@@ -57,11 +57,11 @@ class Machine:
         self.variant = variant
         self._loaded = build.extended(name, printer)
         self.call = _RUN(self._loaded.address("run"))
-        facts = (ctypes.c_int64 * (1 + len(_BLOCKS) + len(PLACES)))()
+        facts = (ctypes.c_int64 * (1 + len(BLOCKS) + len(PLACES)))()
         ctypes.CFUNCTYPE(None, ctypes.c_void_p)(self._loaded.address("facts"))(ctypes.addressof(facts))
         self.slots, *rest = facts
-        self._shared = rest[: len(_BLOCKS)]
-        self.places = dict(zip(PLACES, rest[len(_BLOCKS) :], strict=True))
+        self._shared = rest[: len(BLOCKS)]
+        self.places = dict(zip(PLACES, rest[len(BLOCKS) :], strict=True))
 
     def space(self) -> NDArray[np.float64]:
         """Work space for a range of runs, with empty lanes."""
@@ -70,7 +70,7 @@ class Machine:
     def shared(self, p: NDArray[np.float64]) -> dict[str, NDArray[np.float64]]:
         """The results that depend only on one parameter set for all runs, for the table."""
         blocks = {}
-        for (entry, name), count in zip(_BLOCKS.items(), self._shared, strict=True):
+        for (entry, name), count in zip(BLOCKS.items(), self._shared, strict=True):
             block = blocks[entry] = aligned(count)
             if count and not self.variant.own:
                 given = aligned(len(p))
@@ -80,7 +80,7 @@ class Machine:
         return blocks
 
 
-_BLOCKS = {
+BLOCKS = {
     "shared": "body_prologue_1",
     "guard_shared": "guard_prologue_1",
     "after_shared": "after_prologue_1",

@@ -1,7 +1,7 @@
 """An integrator as a module of WebAssembly, with the same steps, events and projection as in machine code.
 
 The module has the functions ``run(table, work, budget)`` and ``facts(place)``. What the host needs to fill their
-memory is in ``layout``; ``browser.js`` is a host.
+memory is in ``layout``; the scripts in the folder ``browser`` are a host.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from lagrangian.codegen.ir import Module
 from lagrangian.errors import RunError, did_you_mean
 
 from . import check
-from .machine import identified
+from .machine import BLOCKS, identified
 from .methods import METHODS, memory_layout
 from .methods.events import ROUNDS
 from .methods.loop import IntegratorVariant, Loop
@@ -36,6 +36,13 @@ STACK = 1 << 16
 HEAD = {"cursor": memory_layout.CURSOR, "last": memory_layout.LAST, "logged": memory_layout.LOGGED,
         "quit": memory_layout.QUIT, "log": memory_layout.LOG, "room": memory_layout.ROOM}  # fmt: skip
 """Words at the head of the work space that the host reads or writes."""
+
+
+PARTS = ("about", "arguments", "signals", "sticking", "solver", "machine", "fallback")
+"""The files of the driver, each after those whose functions it uses."""
+
+DRIVER = ("makeSolver", "makeFallback", "load")
+"""What the driver offers."""
 
 
 @dataclass(frozen=True)
@@ -92,8 +99,11 @@ def portable(
         "data": made.data,
         "stack": STACK,
         "rounds": 3 * ROUNDS,
-        "drift": len(DRIFT),
+        "drift": list(DRIFT),
+        "facts": ["slots", *BLOCKS, *memory_layout.PLACES],
         "done": memory_layout.DONE,
+        "running": memory_layout.RUNNING,
+        "ended": memory_layout.ENDED,
         "budget": max(1, BUDGET // max(1, cost)),
         "head": HEAD,
         "table": list(memory_layout.TABLE),
@@ -102,5 +112,8 @@ def portable(
 
 
 def driver() -> str:
-    """The text of ``browser.js``, a plain script that runs such modules in a browser, a worker or Node."""
-    return (files("lagrangian.integrate") / "browser.js").read_text(encoding="utf-8")
+    """A plain script that defines ``lagrangianSolver``, which runs such modules in a browser, a worker or Node."""
+    folder = files("lagrangian.integrate") / "browser"
+    about, *parts = ((folder / f"{name}.js").read_text(encoding="utf-8").rstrip() for name in PARTS)
+    head = [about, '"use strict";', "", "const lagrangianSolver = (() => {"]
+    return "\n\n".join(["\n".join(head), *parts, f"return {{ {', '.join(DRIVER)} }};\n}})();\n"])

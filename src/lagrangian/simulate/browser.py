@@ -11,30 +11,27 @@ from __future__ import annotations
 import json
 from base64 import b64encode
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Any, TypeAlias
+from dataclasses import dataclass
+from typing import Any
 
-from lagrangian import codegen as machine
-from lagrangian import dynamics
-from lagrangian.codegen.javascript import names_function
+import numpy as np
+from numpy.typing import NDArray
+
 from lagrangian.errors import RunError
-from lagrangian.graph import Program
-from lagrangian.integrate import METHODS, Events, Projection, RunStatus
+from lagrangian.integrate import METHODS, RunStatus
 from lagrangian.integrate.portable import driver, portable
 from lagrangian.model import Model
 from lagrangian.simulate import drift
 from lagrangian.simulate.admission import check_masses
+from lagrangian.simulate.browser_parts import BrowserParts, Quantities
 from lagrangian.simulate.events import Event, listed_events
-from lagrangian.simulate.inputs import InputSignals, driving
-from lagrangian.simulate.integrating import SYMPLECTIC, projection, right_hand_side
+from lagrangian.simulate.inputs import InputSignals, SampledInput, driving
+from lagrangian.simulate.integrating import right_hand_side
 from lagrangian.simulate.plot import Units
 from lagrangian.simulate.settings import DEFAULT, RunSettings
 from lagrangian.simulate.simulation import initial_state, named
 from lagrangian.simulate.starts import held, onto_constraints
 from lagrangian.values.values import Given
-
-Quantities: TypeAlias = Program | Mapping[str, Any]
-"""A program over x, u, p, t; or expressions and points of the model by name."""
 
 VERSION = 1
 """The version of the layout; the driver and the module of one version belong together."""
@@ -50,11 +47,12 @@ CODES = {
     "notFinite": RunStatus.NOT_FINITE,
     "tooMany": RunStatus.TOO_MANY,
     "late": RunStatus.LATE,
+    "underflow": RunStatus.UNDERFLOW,
+    "noConvergence": RunStatus.NO_CONVERGENCE,
+    "chatters": RunStatus.CHATTERS,
+    "broken": RunStatus.BROKEN,
 }
-"""The statuses with which runs in JavaScript end, by the names that the driver uses."""
-
-ORDER = ("x", "p", "u", "t")
-"""The order in which functions in JavaScript take the groups."""
+"""The statuses that the driver gives or reads, by its names for them."""
 
 
 @dataclass(frozen=True)
@@ -102,41 +100,46 @@ def browser_module(
     atol: float = 1e-12,
     step: float | str | None = None,
     functions: Mapping[str, Quantities] | None = None,
+    fallback: bool = True,
     lanes: int = 1,
 ) -> BrowserModule:
     """Compile a system, or its model, for a browser.
 
-    The state is [q; v]. Inputs given as expressions, in the model file or in ``inputs``, are compiled in; the others
-    are held constant, and the page may change them. ``initial``, ``params`` and ``inputs`` set the values with which
-    the page begins, ``rtol``, ``atol`` and ``step`` the defaults of a run, as in `lagrangian.System.simulate`.
+    The state is [q; v]. Inputs given as expressions, in the model file or in ``inputs``, are compiled in; tables are
+    followed; the others are held constant, and the page may change them. ``initial``, ``params`` and ``inputs`` set the
+    values with which the page begins, ``rtol``, ``atol`` and ``step`` the defaults of a run, as in
+    `lagrangian.System.simulate`.
 
     ``functions``: further functions of JavaScript, by name: expressions and points of the model, or a program over x,
-    u, p, t. ``energy``, which returns T and V, is always among them. ``lanes``: 2 computes two runs side by side.
+    u, p, t. ``energy``, which returns T and V, is always among them. ``fallback``: with what runs in JavaScript need,
+    where WebAssembly is forbidden. ``lanes``: 2 computes two runs side by side.
 
-    Raises `RunError` for a method that WebAssembly cannot run, and otherwise as a simulation does.
+    Raises `RunError` for a method that WebAssembly cannot run, for dry friction, for inputs that are Python functions,
+    and otherwise as a simulation does.
     """
     model: Model = getattr(system, "model", system)
     settings = RunSettings(method=method, rtol=rtol, atol=atol, step=_step(method, step), events=events)
-    _check(model, method)
     given = Given.of(model, named(model))
     dims = dict(zip(given.inputs.names, given.inputs.dims, strict=True))
     drive = driving(model, inputs, model.settings.get("inputs", {}), dims)
+    _check(model, method, drive)
     program = right_hand_side(model, drive)
     p = given.parameter_values(params)
     check_masses(model, p)
     guess = initial_state(given, model, program, model.settings.get("initial", {}), initial, {})
     x0, _ = onto_constraints(model, guess, p, float(settings.start), held(model, None))
-    watched = listed_events(settings.events)
-    rows = projection(model, program, project=True)
     relative, absolute = settings.of_a_step()
+    parts = BrowserParts.of(model, drive, method, listed_events(settings.events))
     made = portable(
-        program,
+        parts.rates,
         method,
-        events=_events(model, drive, program, watched),
-        projection=rows,
+        events=parts.events,
+        projection=parts.rows,
+        signals=parts.signals,
         lanes=lanes,
         tolerance=relative,
     )
+    duration = _duration(model)
     layout = {
         "version": VERSION,
         "name": model.name,
@@ -144,22 +147,21 @@ def browser_module(
         "adaptive": METHODS[method].adaptive,
         **_named_values(model, drive, p),
         "start": x0[: len(model.coordinates) + len(model.velocities)].tolist(),
-        "duration": _duration(model),
+        "duration": duration,
         "defaults": {
             "rtol": relative,
             "atol": absolute,
             "step": STEP if settings.step is None else float(settings.step),
+            "maxStep": parts.longest(p, duration),
             "maxSteps": MAX_STEPS,
             "maxEvents": settings.max_events,
         },
-        "events": [
-            {"name": e.title, "direction": e.direction, "terminal": e.terminal, "reset": bool(e.reset)} for e in watched
-        ],
+        **parts.layout(),
         "statuses": {str(int(s)): s.message for s in RunStatus},
         "codes": {name: int(status) for name, status in CODES.items()},
         "machine": made.layout,
     }
-    return BrowserModule(made.code, layout, _functions(model, drive, program, rows, functions or {}), driver())
+    return BrowserModule(made.code, layout, parts.functions(functions or {}, fallback=fallback), driver())
 
 
 def _step(method: str, step: float | str | None) -> float | str | None:
@@ -168,38 +170,26 @@ def _step(method: str, step: float | str | None) -> float | str | None:
     return STEP if fixed and step is None else step
 
 
-def _check(model: Model, method: str) -> None:
+def _check(model: Model, method: str, drive: InputSignals) -> None:
     """Raise `RunError` for what a browser cannot integrate."""
     if method not in METHODS:
         raise RunError(
             f"method '{method}' does not run in a browser", fix=f"use one of {', '.join(METHODS)}", code="E402"
         )
-    if method in SYMPLECTIC:
-        raise RunError(
-            f"method '{method}' integrates momenta, which a browser does not convert",
-            fix="use 'dop853'",
-            code="E501",
-        )
     drift.check_method(model, method)
     if model.frictions:
         raise RunError(
-            f"{model.frictions[0].title} sticks and slips: the equations change during a run, which a browser cannot",
+            f"{model.frictions[0].title} sticks and slips, so that the equations change during a run",
             fix="simulate the system in Python",
             code="E501",
         )
-
-
-def _events(model: Model, drive: InputSignals, program: Program, watched: Sequence[Event]) -> Events | None:
-    if not watched:
-        return None
-    impacts = [(e.title, e.expression, e.reset) for e in watched]
-    supply = dynamics.SUPPLY in program.inputs["x"]
-    return Events(
-        dynamics.impacts(model, impacts, drive.feedback, supply=supply),
-        tuple(e.direction for e in watched),
-        tuple(e.terminal for e in watched),
-        tuple(bool(e.reset) for e in watched),
-    )
+    called = [u.name for u, source in zip(drive.free, drive.sources, strict=True) if callable(source)]
+    if called:
+        raise RunError(
+            f"input '{called[0]}' is a Python function, which a browser cannot call",
+            fix="give the input as an expression or a table",
+            code="E501",
+        )
 
 
 def _duration(model: Model) -> float:
@@ -210,46 +200,23 @@ def _duration(model: Model) -> float:
     return float(times[-1] - times[0]) or 10.0
 
 
-def _named_values(model: Model, drive: InputSignals, p: Any) -> dict[str, Any]:
+def _named_values(model: Model, drive: InputSignals, p: NDArray[np.float64]) -> dict[str, Any]:
     """States, parameters and inputs with their units, and the values with which a page begins."""
     units = Units(model)
 
     def row(x: Any, **more: Any) -> dict[str, Any]:
         return {"name": x.name, "unit": units.of(x.symbol), **more}
 
+    def source(given: Any) -> dict[str, Any]:
+        if isinstance(given, SampledInput):
+            table = {"times": given.times.tolist(), "values": given.values.tolist(), "hold": given.hold}
+            return {"value": float(given.values[0]), "table": table}
+        return {"value": float(given)}
+
     return {
         "coordinates": len(model.coordinates),
         "states": [row(x) for x in (*model.coordinates, *model.velocities)],
         "parameters": [row(x, value=float(value)) for x, value in zip(model.parameters, p, strict=True)],
-        "inputs": [row(u, value=source) for u, source in zip(drive.free, drive.sources, strict=True)],
+        "inputs": [row(u, **source(given)) for u, given in zip(drive.free, drive.sources, strict=True)],
         "driven": [u.name for u in model.inputs if u.symbol in drive.feedback],
     }
-
-
-def _functions(
-    model: Model, drive: InputSignals, program: Program, rows: Projection | None, more: Mapping[str, Quantities]
-) -> str:
-    """An expression of JavaScript: the object of all functions, by name."""
-    power = dynamics.power_closed(model, drive.feedback)
-    energy = replace(power, name="energy", outputs={name: power.outputs[name] for name in ("T", "V")})
-    programs: dict[str, tuple[Program, bool]] = {"rhs": (program, False)}
-    if rows is not None and rows.corrects:
-        if rows.approach is not None:
-            programs["approach"] = (rows.approach, False)
-        programs["landing"] = (rows.landing(program), False)
-    programs["energy"] = (energy, True)
-    for name, asked in more.items():
-        if name in programs or not names_function(name):
-            raise RunError(f"'{name}' cannot name a function", fix="use letters, digits and underscores", code="E702")
-        found = asked if isinstance(asked, Program) else dynamics.observe_closed(model, asked, drive.feedback)
-        programs[name] = (found, True)
-    texts = [
-        machine.to_javascript(_ordered(found), name=name, checked=checked)
-        for name, (found, checked) in programs.items()
-    ]
-    return "\n".join(["(() => {", *texts, f"return {{{', '.join(programs)}}};", "})()"])
-
-
-def _ordered(program: Program) -> Program:
-    """The program with its groups in the order x, p, u, t."""
-    return replace(program, inputs={group: program.inputs.get(group, ()) for group in ORDER} | {"t": ("t",)})

@@ -7,7 +7,7 @@ converted to momenta before and back afterwards.
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -124,9 +124,17 @@ def _event_key(task: Task) -> Any:
     return tuple((e.expression, e.direction, e.terminal, frozenset(e.reset.items())) for e in task.events)
 
 
+def event_program(
+    model: Model, events: Iterable[Event], drive: InputSignals, rates: Program, *, momenta: bool
+) -> Program:
+    """The functions of events, and the states after them, over the groups of the right-hand side ``rates``."""
+    make = dynamics.canonical_impacts if momenta else dynamics.impacts
+    impacts = [(e.title, e.expression, e.reset) for e in events]
+    return make(model, impacts, drive.feedback, supply=dynamics.SUPPLY in rates.inputs["x"])
+
+
 def _event_program(task: Task, program: Program) -> Program:
-    make = dynamics.canonical_impacts if task.method in SYMPLECTIC else dynamics.impacts
-    return make(task.model, task.impacts, task.drive.feedback, supply=dynamics.SUPPLY in program.inputs["x"])
+    return event_program(task.model, task.events, task.drive, program, momenta=task.method in SYMPLECTIC)
 
 
 def _jacobian(program: Program) -> Program:

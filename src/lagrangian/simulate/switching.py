@@ -142,11 +142,14 @@ class Switches:
         a, b = out[:, 0::2], out[:, 1::2]
         return (a > b).astype(np.int8) - (a < b).astype(np.int8)
 
-    def _kernel(self) -> Any:
+    def compared(self) -> Program:
+        """The program of what conditions compare, a₁ b₁ a₂ b₂ …"""
         ids = tuple(i for pair in self.pairs for i in pair)
         program = self.program
-        made = Program("switches", program.graph, program.inputs, {"g": Output(ids, (len(ids),))}, program.defaults)
-        return machine.compile(made)
+        return Program("switches", program.graph, program.inputs, {"g": Output(ids, (len(ids),))}, program.defaults)
+
+    def _kernel(self) -> Any:
+        return machine.compile(self.compared())
 
 
 def merged(times: Array, start: float, end: float) -> Array:

@@ -1,0 +1,162 @@
+"""What a run in a browser is made of: programs for WebAssembly, and functions in JavaScript for what is around it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian import codegen as machine
+from lagrangian import dynamics
+from lagrangian.codegen.javascript import names_function
+from lagrangian.errors import RunError
+from lagrangian.graph import Program
+from lagrangian.integrate import Events, Projection
+from lagrangian.integrate.chattering import ASIDE, LEAST, NEAR, RESTS, Sticking
+from lagrangian.integrate.projection import BREAKS
+from lagrangian.model import Model
+from lagrangian.simulate.events import Event
+from lagrangian.simulate.inputs import InputSignals
+from lagrangian.simulate.integrating import SYMPLECTIC, event_program, projection, right_hand_side
+from lagrangian.simulate.pulses import Pulses
+from lagrangian.simulate.switching import Switches
+
+Quantities: TypeAlias = Program | Mapping[str, Any]
+"""A program over x, u, p, t; or expressions and points of the model by name."""
+
+ORDER = ("x", "p", "u", "t")
+"""The order in which functions in JavaScript take the groups."""
+
+MOST = 100_000
+"""The largest number of steps to which pulses in time may force a run."""
+
+
+@dataclass(frozen=True)
+class BrowserParts:
+    """The programs of one model, method and list of events.
+
+    ``field`` is ẋ of x = [q; v], ``rates`` what the method integrates: the same, or over momenta.
+    """
+
+    model: Model
+    drive: InputSignals
+    watched: tuple[Event, ...]
+    momenta: bool
+    field: Program
+    rates: Program
+    rows: Projection | None
+
+    @classmethod
+    def of(cls, model: Model, drive: InputSignals, method: str, watched: Sequence[Event]) -> BrowserParts:
+        """The parts of a run by a method. Raises `ModelError` if there are no momenta and the method needs them."""
+        field = right_hand_side(model, drive)
+        momenta = method in SYMPLECTIC
+        rates = right_hand_side(model, drive, canonical=True) if momenta else field
+        return cls(model, drive, tuple(watched), momenta, field, rates, projection(model, field, project=True))
+
+    @cached_property
+    def events(self) -> Events | None:
+        """The events for the integrator, None if there are none."""
+        if not self.watched:
+            return None
+        return Events(
+            event_program(self.model, self.watched, self.drive, self.rates, momenta=self.momenta),
+            tuple(e.direction for e in self.watched),
+            tuple(e.terminal for e in self.watched),
+            tuple(bool(e.reset) for e in self.watched),
+        )
+
+    @cached_property
+    def switches(self) -> Switches:
+        """Conditions that depend only on time."""
+        return Switches(self.model, self.drive)
+
+    @cached_property
+    def sticking(self) -> Sticking:
+        """Surfaces on which a run may stick."""
+        return Sticking(self.field)
+
+    @property
+    def signals(self) -> bool:
+        """Whether steps have to end at certain times: knots of tables, and times at which conditions switch."""
+        return bool(self.switches) or not self.drive.constant
+
+    def longest(self, p: NDArray[np.float64], duration: float) -> float | None:
+        """The longest step [s] that does not jump over a pulse in time, None if there are no pulses."""
+        pulses = Pulses(self.model, self.drive)
+        if not pulses:
+            return None
+        x = np.zeros((1, self.drive.size))
+        u = self.drive.at(np.zeros(1), x)[0] if self.drive.constant else np.zeros(len(self.drive.free))
+        times = pulses.times(p, u, 0.0, duration)
+        if not len(times):
+            return None
+        return max(float(np.diff(np.concatenate([[0.0], times, [duration]])).min()), duration / MOST)
+
+    @cached_property
+    def _around(self) -> dict[str, Program]:
+        """The programs that a run in WebAssembly needs around it."""
+        found: dict[str, Program] = {}
+        if self.momenta:
+            found |= {"momenta": dynamics.momenta(self.model), "velocities": dynamics.velocities(self.model)}
+        if self.switches:
+            found["switches"] = self.switches.compared()
+        if self.sticking:
+            found |= {"rhs": self.field, "surfaces": self.sticking.surfaces()}
+        return found
+
+    @cached_property
+    def _projections(self) -> dict[str, Program]:
+        """The programs that project a state onto the constraints."""
+        if self.rows is None:
+            return {}
+        approach = {} if self.rows.approach is None else {"approach": self.rows.approach}
+        return {**approach, "landing": self.rows.landing(self.field)}
+
+    def layout(self) -> dict[str, Any]:
+        """What the driver has to know of them, as plain data."""
+        sticking = {"near": NEAR, "aside": ASIDE, "rests": RESTS, "least": LEAST} if self.sticking else None
+        broken = {"names": ["reset_position", "reset_velocity"], "limit": BREAKS} if self.rows and self.events else None
+        return {
+            "events": [
+                {"name": e.title, "direction": e.direction, "terminal": e.terminal, "reset": bool(e.reset)}
+                for e in self.watched
+            ],
+            "momenta": self.momenta,
+            "switching": bool(self.switches),
+            "sticking": sticking,
+            "broken": broken,
+            "projected": list(self._projections),
+            "needs": list(self._around),
+        }
+
+    def functions(self, more: Mapping[str, Quantities], *, fallback: bool) -> str:
+        """An expression of JavaScript: the object of all functions, by name.
+
+        ``more``: those that the page asked for. ``fallback``: also those that runs in JavaScript need. Raises
+        `RunError` for a name that a function cannot have.
+        """
+        model, feedback = self.model, self.drive.feedback
+        power = dynamics.power_closed(model, feedback)
+        unchecked = {**self._around, **({"rhs": self.field, **self._projections} if fallback else {})}
+        checked = {"energy": replace(power, name="energy", outputs={n: power.outputs[n] for n in ("T", "V")})}
+        for name, asked in more.items():
+            if name in unchecked or name in checked or not names_function(name):
+                raise RunError(
+                    f"'{name}' cannot name a function", fix="use letters, digits and underscores", code="E702"
+                )
+            checked[name] = asked if isinstance(asked, Program) else dynamics.observe_closed(model, asked, feedback)
+        texts = [
+            machine.to_javascript(_ordered(program), name=name, checked=name in checked)
+            for name, program in (*unchecked.items(), *checked.items())
+        ]
+        return "\n".join(["(() => {", *texts, f"return {{{', '.join((*unchecked, *checked))}}};", "})()"])
+
+
+def _ordered(program: Program) -> Program:
+    """The program with its groups in the order x, p, u, t."""
+    return replace(program, inputs={group: program.inputs.get(group, ()) for group in ORDER} | {"t": ("t",)})
