@@ -8,7 +8,7 @@ import pytest
 from hand_scenes import TURN, carts, pendulum
 from lagrangian.page.palette import DARK, LIGHT
 from lagrangian.page.placing import axes, inside, placed, places
-from lagrangian.page.scene import Disc, Part, Path, Placement, Scaling, Trace
+from lagrangian.page.scene import Disc, Path, Placement, Scaling, ScenePart, Trace
 
 AT = np.array([[10.0, 20.0], [13.0, 24.0], [10.0, 20.0]])
 CURVE = Path((("M", (1, 0)), ("C", (0, 1, 2, 0.5, -1, -2)), ("Z", ())))
@@ -31,7 +31,7 @@ def test_places_of_many_poses_are_those_of_each() -> None:
 @pytest.mark.parametrize(("scaling", "x", "y"), [("none", 1, 1), ("along", 5, 1), ("both", 5, 5)])
 def test_a_part_towards_an_anchor_is_turned_and_scaled(scaling: Scaling, x: float, y: float) -> None:
     unit = (3 + 4j) / 5
-    drawn = placed(Part(CURVE, "body", Placement(0, 1, scaling)), AT)
+    drawn = placed(ScenePart(CURVE, "body", Placement(0, 1, scaling)), AT)
     assert [letter for letter, _ in drawn] == ["M", "C", "Z"]
     for (_, got), (_, own) in zip(drawn, CURVE.commands, strict=True):
         wanted = [10 + 20j + unit * (x * a + 1j * y * b) for a, b in zip(own[::2], own[1::2], strict=True)]
@@ -53,17 +53,17 @@ def test_anchors_at_one_place_have_a_direction_all_the_same() -> None:
 
 
 def test_a_part_without_anchors_lies_in_the_picture() -> None:
-    ((letter, numbers),) = placed(Part(Disc((5, 6), 7), "body"), AT)
+    ((letter, numbers),) = placed(ScenePart(Disc((5, 6), 7), "body"), AT)
     assert (letter, numbers.tolist()) == ("O", [5, 6, 7])
 
 
 def test_the_radius_of_a_disc_follows_its_rim() -> None:
-    ((_, numbers),) = placed(Part(Disc((0, 0), 1), "body", Placement(0, 1, "both")), AT)
+    ((_, numbers),) = placed(ScenePart(Disc((0, 0), 1), "body", Placement(0, 1, "both")), AT)
     assert numbers == pytest.approx([10, 20, 5])
 
 
 def test_a_trace_goes_from_anchor_to_anchor() -> None:
-    drawn = placed(Part(Trace((0, 1), True, ((1, 1), (0, 0))), "body"), AT)
+    drawn = placed(ScenePart(Trace((0, 1), True, ((1, 1), (0, 0))), "body"), AT)
     assert [(letter, numbers.tolist()) for letter, numbers in drawn] == [("M", [11, 21]), ("L", [13, 24]), ("Z", [])]
 
 
@@ -83,7 +83,7 @@ def test_what_lies_inside_a_shape() -> None:
     cart = placed(carts().parts[1], at)
     assert inside((160, 100), cart)
     assert not inside((190, 100), cart)
-    disc = placed(Part(Disc((0, 0), 5), "body", Placement(0)), at)
+    disc = placed(ScenePart(Disc((0, 0), 5), "body", Placement(0)), at)
     assert inside((33, 103), disc)
     assert not inside((34, 104), disc)
 
@@ -107,3 +107,15 @@ def test_letters_of_every_role_can_be_read(palette) -> None:
         assert (high + 0.05) / (low + 0.05) >= 4.5
     low, high = sorted((luminance(palette.line("body")), luminance(palette.body)))
     assert (high + 0.05) / (low + 0.05) >= 7
+
+
+def test_a_part_in_a_plane_in_space_has_oblique_axes_and_one_side() -> None:
+    at = np.array([[10.0, 20.0], [40.0, 25.0], [5.0, -10.0]])
+    square = Path((("M", (0.0, 0.0)), ("L", (2.0, 0.0)), ("L", (1.0, 1.0))))
+    place = Placement(0, 1, across=2)
+    drawn = [numbers.tolist() for _, numbers in placed(ScenePart(square, "body", place), at)]
+    assert drawn == [[10.0, 20.0], [70.0, 30.0], [35.0, -5.0]]
+    seen = placed(ScenePart(square, "body", place, facing=True), at)  # y is counter-clockwise from x on the screen
+    assert [numbers.tolist() for _, numbers in seen] == drawn
+    behind = placed(ScenePart(square, "body", Placement(0, 2, across=1), facing=True), at)
+    assert all(numbers.tolist() == [10.0, 20.0] for _, numbers in behind)

@@ -216,6 +216,9 @@ def _of_path(shape: Path | Disc, placement: Placement, seen) -> list[Array]:  # 
     length = float(np.linalg.norm(d)) or 1.0
     e = d / length
     n = np.array([-e[1], e[0]])
+    if placement.across is not None and isinstance(shape, Path):
+        u = seen(placement.across, placement.shift) - origin
+        return [origin + p[0] * d + p[1] * u for p in points]
     a = length if placement.scaling in ("along", "both") else 1.0
     b = length if placement.scaling == "both" else 1.0
     if isinstance(shape, Disc):

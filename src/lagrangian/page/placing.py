@@ -36,6 +36,9 @@ def placed(part: ScenePart, at: Array) -> list[Drawn]:
     if isinstance(shape, Trace):
         return _trace(shape, at)
     origin, x, y = axes(part.placement, at)
+    if part.facing:  # the other side is seen: nothing is left of the shape
+        seen = (x[..., 0] * y[..., 1] - x[..., 1] * y[..., 0] < 0)[..., None]
+        x, y = np.where(seen, x, 0.0), np.where(seen, y, 0.0)
     if isinstance(shape, Disc):
         centre = origin + shape.centre[0] * x + shape.centre[1] * y
         radius = shape.radius * np.hypot(x[..., 0], x[..., 1])
@@ -59,7 +62,7 @@ def _trace(trace: Trace, at: Array) -> list[Drawn]:
 def axes(placement: Placement, at: Array) -> tuple[Array, Array, Array]:
     """Return the origin of a part's axes and its unit vectors x and y, each (…, 2), in pixels.
 
-    Two anchors at the same place have no direction; x then points to the right.
+    They are oblique for a part in a plane in space. Two anchors at the same place have no direction; x then points to the right.
     """
     lead = at.shape[:-2]
     origin = _anchor(placement.at, placement.shift, at)
@@ -67,6 +70,8 @@ def axes(placement: Placement, at: Array) -> tuple[Array, Array, Array]:
         right, down = np.array([1.0, 0.0]), np.array([0.0, 1.0])
         return origin, np.broadcast_to(right, (*lead, 2)), np.broadcast_to(down, (*lead, 2))
     along = _anchor(placement.towards, placement.shift_towards, at) - origin
+    if placement.across is not None:
+        return origin, along, _anchor(placement.across, placement.shift, at) - origin
     length = np.hypot(along[..., 0], along[..., 1])[..., None]
     unit = np.where(length > 0, along / np.where(length > 0, length, 1.0), np.array([1.0, 0.0]))
     across = np.stack([-unit[..., 1], unit[..., 0]], axis=-1)

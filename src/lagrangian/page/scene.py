@@ -37,6 +37,9 @@ class Placement:
     distance of the two anchors is: nothing (``none``), the unit of x alone (``along``, such as for a spring), or the
     unit of both axes (``both``, such as for a wheel with an anchor on its rim). ``shift`` and ``shift_towards`` [px]
     are added to the places of the anchors.
+
+    With ``across`` the part lies in a plane in space: x = 1 is seen at ``towards`` and y = 1 at ``across``, so that a
+    circle of radius 1 becomes the ellipse as which it is seen. The axes are then oblique.
     """
 
     at: int | None = None
@@ -44,6 +47,7 @@ class Placement:
     scaling: Scaling = "none"
     shift: Pair = (0.0, 0.0)
     shift_towards: Pair = (0.0, 0.0)
+    across: int | None = None
 
 
 FIXED = Placement()
@@ -100,6 +104,8 @@ class ScenePart:
     """Whether it is filled with the colour of its line, such as the head of an arrow."""
     paint: Literal["line", "inside"] = "line"
     """The colour of its line: that of lines, or that of insides (a thin one of these on a wide one is a bar)."""
+    facing: bool = False
+    """Whether it is one side of a plane in space: drawn only where y = 1 is counter-clockwise from x = 1 as seen."""
 
 
 @dataclass(frozen=True)
@@ -179,7 +185,9 @@ def _part(part: ScenePart) -> dict[str, Any]:
         "scaling": placement.scaling,
         "shift": placement.shift,
         "shiftTowards": placement.shift_towards,
+        "across": placement.across,
     }
+    data["facing"] = part.facing
     if isinstance(shape, Disc):
         data["disc"] = [*shape.centre, shape.radius]
     elif isinstance(shape, Trace):
