@@ -54,12 +54,12 @@ KINDS: Mapping[TermKind, str] = {
 def page(document: Document, subject: str) -> str:
     """Return a document as a self-contained HTML page; its title contains ``subject`` and the title of the document."""
     title = escape(document.title)
-    body = "\n".join(_section(section, brief=document.brief) for section in document.sections)
+    body = "\n".join(section_html(section, brief=document.brief) for section in document.sections)
     return (
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         '<meta name="color-scheme" content="light dark">\n'
-        f"<title>{title}: {escape(subject)}</title>\n<style>\n{_style()}</style>\n</head>\n<body>\n"
+        f"<title>{title}: {escape(subject)}</title>\n<style>\n{style_sheet()}</style>\n</head>\n<body>\n"
         f'<main class="{"brief" if document.brief else "whole"}">\n<header><h1>{title}</h1></header>\n'
         f"{_contents(document)}{body}\n</main>\n</body>\n</html>\n"
     )
@@ -67,8 +67,8 @@ def page(document: Document, subject: str) -> str:
 
 def fragment(document: Document) -> str:
     """Return a document as a piece of HTML that contains its own style."""
-    body = "\n".join(_section(section, brief=document.brief, anchors=False) for section in document.sections)
-    nested = _style().replace(":root", "&").replace("body {", "& {")  # the page's style rules, restricted to this piece
+    body = "\n".join(section_html(section, brief=document.brief, anchors=False) for section in document.sections)
+    nested = style_sheet().replace(":root", "&").replace("body {", "& {")  # the page's style rules, restricted to this piece
     style = f"<style>\n.lagrangian {{\n{nested}}}\n</style>"
     head = f'<div class="lagrangian" lang="en">{style}\n<div class="{"brief" if document.brief else "whole"}">'
     return f"{head}\n<h3>{escape(document.title)}</h3>\n{body}\n</div></div>"
@@ -77,12 +77,13 @@ def fragment(document: Document) -> str:
 def pieces(document: Document) -> list[dict[str, str]]:
     """Return the sections of a document as pieces of HTML without style, each with the name of its place."""
     return [
-        {"anchor": section.anchor, "html": _section(section, brief=document.brief, anchors=False)}
+        {"anchor": section.anchor, "html": section_html(section, brief=document.brief, anchors=False)}
         for section in document.sections
     ]
 
 
-def _style() -> str:
+def style_sheet() -> str:
+    """Return the style sheet of pages."""
     return files("lagrangian.write").joinpath("page.css").read_text(encoding="utf-8")
 
 
@@ -117,14 +118,20 @@ def _number(section: Section) -> str:
     return f'<span class="number">{section.number}</span> ' if section.number is not None else ""
 
 
-def _section(section: Section, *, brief: bool, anchors: bool = True) -> str:
+def section_html(section: Section, *, brief: bool = False, anchors: bool = True) -> str:
+    """Return a section; a step can be folded."""
     identity = f' id="{section.anchor}"' if anchors else ""
-    blocks = "\n".join(line for block in section.blocks for line in _block(block, anchors))
+    inner = blocks_html(section, anchors=anchors)
     title = f"<h2>{_number(section)}{inline(section.title)}</h2>"
     if section.number is None or brief:
-        return f"<section{identity}>\n{title}\n{blocks}\n</section>"
-    step = f'<details class="step" open><summary>{title}</summary>\n{blocks}\n</details>'
+        return f"<section{identity}>\n{title}\n{inner}\n</section>"
+    step = f'<details class="step" open><summary>{title}</summary>\n{inner}\n</details>'
     return f"<section{identity}>\n{step}\n</section>"
+
+
+def blocks_html(section: Section, *, anchors: bool = True) -> str:
+    """Return what a section contains, without its title."""
+    return "\n".join(line for block in section.blocks for line in _block(block, anchors))
 
 
 def _block(block: Block, anchors: bool) -> Iterator[str]:

@@ -1,0 +1,183 @@
+"""The live page of a system: its picture, sliders with their ranges, the solver, and its derivation, as one HTML file."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+from lagrangian import dynamics
+from lagrangian.derive import pages
+from lagrangian.derive.derived import Derived
+from lagrangian.errors import ModelError
+from lagrangian.graph import Output, Program, replaced
+from lagrangian.model import Model
+from lagrangian.page.scene import Scene, as_data
+from lagrangian.read import dumps
+from lagrangian.quantities.quantity import unit_factor
+from lagrangian.simulate.browser import BrowserModule, browser_module
+from lagrangian.simulate.inputs import driving
+from lagrangian.simulate.simulation import named
+from lagrangian.values.values import Given
+from lagrangian.write.expression import Expressions
+from lagrangian.write.interactive import Adjustable, PageContents, page_html
+from lagrangian.write.numerals import unit as unit_text
+from lagrangian.write.scene_svg import scene_svg
+from lagrangian.write.unicode_math import unicode
+
+FASTEST, SLOWEST = 0.5, 300.0
+"""A run of a duration [s] between these is shown in its own time, others within ten seconds."""
+
+NEVER_ZERO = ("kg", "m", "kg m^2")
+"""Units of parameters that are not set to 0 by a slider: masses, lengths and inertias."""
+
+
+def live_page(derivation: Derived, scene: Scene, anchors: Program) -> str:
+    """Return the page.
+
+    ``anchors`` is the program of the scene, q, v, u, p, t → r. Raises `RunError` for a system that a browser cannot
+    integrate, such as one with dry friction, and for parameters without a value.
+    """
+    model = derivation.model
+    module = _module(model, anchors)
+    adjustables = _adjustables(model, module.layout, 0.5 * max(scene.size) / scene.scale)
+    contents = PageContents(
+        pages.lay_out(derivation, details=True),
+        scene_svg(scene, embedded=True),
+        adjustables,
+        len(model.coordinates),
+        _data(model, module.layout, scene, adjustables),
+        module,
+        subtitle=scene.description,
+        missing=scene.missing,
+        space=len(scene.view[0]) == 3,
+    )
+    return page_html(contents)
+
+
+def _module(model: Model, anchors: Program) -> BrowserModule:
+    """The solver, with the energy balance and the places of the anchors as functions of the state."""
+    given = Given.of(model, named(model))
+    dims = dict(zip(given.inputs.names, given.inputs.dims, strict=True))
+    drive = driving(model, None, model.settings.get("inputs", {}), dims)
+    free = {u.name: k for k, u in enumerate(drive.free)}
+    functions = {"power": dynamics.power_closed(model, drive.feedback), "anchors": _of_states(anchors, free)}
+    return browser_module(model, functions=functions)
+
+
+def _of_states(program: Program, free: Mapping[str, int]) -> Program:
+    """The same program over x = [q; v] and the free inputs, instead of q, v and all inputs."""
+    graph, groups = program.graph, program.inputs
+    q, v, u = groups["q"], groups["v"], groups["u"]
+    known = {graph.input("q", i): graph.input("x", i) for i in range(len(q))}
+    known |= {graph.input("v", i): graph.input("x", len(q) + i) for i in range(len(v))}
+    known |= {graph.input("u", i): graph.input("u", free[name]) for i, name in enumerate(u) if name in free}
+    outputs = {
+        name: Output(tuple(replaced(graph, output.ids, known)), output.shape) for name, output in program.outputs.items()
+    }
+    inputs = {"x": (*q, *v), "u": tuple(free), "p": groups["p"], "t": ("t",)}
+    return Program(program.name, graph, inputs, outputs, program.defaults)
+
+
+# -- sliders ----------------------------------------------------------------------------------------------------------
+
+
+def _adjustables(model: Model, layout: Mapping[str, Any], reach: float) -> list[Adjustable]:
+    """Sliders for parameters, free inputs and the initial state; ``reach`` [m] is half the size of the picture."""
+    laid = Expressions(model)
+
+    def made(group: Any, entry: Mapping[str, Any], thing: Any, value: float, ends: tuple[float, float]) -> Adjustable:
+        label, (low, high) = laid(thing.symbol), sorted(ends)
+        unit = unit_text(entry["unit"])
+        return Adjustable(group, entry["name"], label, value, low, high, unit, thing.description, unicode(label))
+
+    found = [
+        made("p", entry, p, entry["value"], _of_parameter(entry["value"], entry["unit"]))
+        for entry, p in zip(layout["parameters"], model.parameters, strict=True)
+    ]
+    free = [u for u in model.inputs if u.name not in layout["driven"]]
+    for entry, u in zip(layout["inputs"], free, strict=True):
+        value = _constant(entry["value"])
+        size = 3 * abs(value) or _scale(model)
+        found.append(made("u", entry, u, value, (-size, size)))
+    states = (*model.coordinates, *model.velocities)
+    for k, (entry, thing, value) in enumerate(zip(layout["states"], states, layout["start"], strict=True)):
+        turning, rate = entry["unit"].startswith("rad"), k >= len(model.coordinates)
+        size = (10.0 if rate else math.pi) if turning else reach * (3 if rate else 1)
+        size = max(size, abs(value) if turning and not rate else 1.5 * abs(value))
+        positive = not rate and getattr(thing, "positive", False)
+        found.append(made("x", entry, thing, value, (0.02 * size if positive else -size, size)))
+    return found
+
+
+def _of_parameter(value: float, unit: str) -> tuple[float, float]:
+    if value == 0:
+        return -1.0, 1.0
+    return (0.05 if unit in NEVER_ZERO else 0.0) * value, 3 * value
+
+
+def _constant(source: Any) -> float:
+    return float(source) if isinstance(source, (int, float)) else 0.0
+
+
+def _scale(model: Model) -> float:
+    """A force that moves the system visibly: about the weight of its heaviest parameter in kg."""
+    masses = [abs(p.value) for p in model.parameters if p.unit == "kg" and p.value]
+    return float(f"{10 * max(masses, default=1.0):.1g}")
+
+
+# -- data for the scripts ---------------------------------------------------------------------------------------------
+
+
+def _data(model: Model, layout: Mapping[str, Any], scene: Scene, adjustables: Sequence[Adjustable]) -> dict[str, Any]:
+    def group(kind: str) -> dict[str, Any]:
+        own = [a for a in adjustables if a.group == kind]
+        return {"names": [a.name for a in own], "values": [a.value for a in own], "units": [a.unit for a in own]}
+
+    duration = float(layout["duration"])
+    return {
+        "name": model.name,
+        "scene": as_data(scene),
+        "coordinates": len(model.coordinates),
+        "angles": [entry["unit"] == "rad" for entry in layout["states"][: len(model.coordinates)]],
+        "machine": layout["machine"]["size"],
+        "x": group("x"),
+        "p": group("p"),
+        "u": group("u"),
+        "duration": duration,
+        "pace": 1.0 if FASTEST <= duration <= SLOWEST else duration / 10,
+        "trail": scene.trail,
+        "elements": {element.name: element.title for element in model.elements},
+        "model": _file(model, adjustables),
+    }
+
+
+_SLOT = re.compile(r"7\.25(\d{5})1e-301")
+
+
+def _file(model: Model, adjustables: Sequence[Adjustable]) -> list[Any]:
+    """The model file as texts with places for numbers between them: [group, index, unit, its
+    factor].
+
+    Empty if the model cannot be written as a file. Numbers that occur nowhere else mark the places.
+    """
+    marks = [float(f"7.25{k:05d}1e-301") for k in range(len(adjustables))]
+    mark = {(a.group, a.name): x for a, x in zip(adjustables, marks, strict=True)}
+    parameters = tuple(replace(p, value=mark["p", p.name], unit=None) for p in model.parameters)
+    settings = {**model.settings, "initial": {a.name: mark["x", a.name] for a in adjustables if a.group == "x"}}
+    inputs = {a.name: mark["u", a.name] for a in adjustables if a.group == "u"}
+    if inputs:
+        settings["inputs"] = {**model.settings.get("inputs", {}), **inputs}
+    try:
+        text = dumps(replace(model, parameters=parameters, settings=settings, _memo={}))
+    except ModelError:
+        return []
+    pieces: list[Any] = list(_SLOT.split(text))
+    for n in range(1, len(pieces), 2):
+        a = adjustables[int(pieces[n])]
+        unit = next((p.unit or "" for p in model.parameters if a.group == "p" and p.name == a.name), "")
+        place = [b.name for b in adjustables if b.group == a.group].index(a.name)
+        pieces[n] = [a.group, place, unit, unit_factor(unit) if unit else 1.0]
+    return pieces

@@ -1,0 +1,189 @@
+"""Composes the interactive page: HTML around a schematic, sliders, plots and a derivation, with its data and scripts.
+
+The page is one file that opens without a network. It forbids itself every request (Content-Security-Policy), and it
+runs no text of a model: names are escaped in HTML, and the data is JSON in which no ``<`` occurs.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from importlib.resources import files
+from string import Template
+from typing import Any, Literal
+
+from lagrangian.write import html_page
+from lagrangian.write.document import Boxed, Document, Section
+from lagrangian.write.expression_tree import Math
+from lagrangian.write.html_page import escape
+from lagrangian.write.mathml import mathml
+
+SCRIPTS = ("history.js", "run.js", "picture.js", "dragging.js", "plots.js", "page.js")
+"""The scripts of the page itself, in this order."""
+
+
+@dataclass(frozen=True)
+class Adjustable:
+    """A number that the reader can change: a parameter (``p``), an input (``u``) or a part of the initial state (``x``).
+
+    ``value``, ``low`` and ``high`` are in SI units; ``words`` describe it.
+    """
+
+    group: Literal["p", "u", "x"]
+    name: str
+    label: Math
+    value: float
+    low: float
+    high: float
+    unit: str = ""
+    words: str = ""
+    plain: str = ""
+
+
+@dataclass(frozen=True)
+class PageContents:
+    """What a page is made of.
+
+    ``schematic`` is SVG; ``adjustables`` the sliders in order; ``coordinates`` the number of those entries of the
+    initial state that are coordinates; ``data`` is given to the scripts; ``physics`` is the script that
+    defines ``physics``: the solver and the functions of the system.
+    """
+
+    document: Document
+    schematic: str
+    adjustables: Sequence[Adjustable]
+    coordinates: int
+    data: Mapping[str, Any]
+    physics: str
+    subtitle: str = ""
+    missing: Sequence[str] = field(default=())
+    space: bool = False
+
+
+def page_html(contents: PageContents) -> str:
+    """Return the page."""
+    states = [a for a in contents.adjustables if a.group == "x"]
+    coordinates, rates = states[: contents.coordinates], states[contents.coordinates :]
+    title = escape(contents.document.title)
+    return Template(_file("page.html")).substitute(
+        title=title,
+        subtitle=f"<p>{escape(contents.subtitle)}</p>" if contents.subtitle else "",
+        style=html_page.style_sheet() + _file("page.css"),
+        schematic=contents.schematic,
+        missing=_missing(contents.missing),
+        motion_hint="drag a body to place it" + ("; drag beside it to turn the view" if contents.space else ""),
+        equations=_equations(contents.document),
+        controls=_controls(contents.adjustables, contents.coordinates),
+        coordinate_legend=_legend(coordinates),
+        energy_legend=_ENERGIES,
+        phase_up=_choice("phase-y", "vertical axis", states, len(coordinates) if rates else 0),
+        phase_across=_choice("phase-x", "horizontal axis", states, 0),
+        numbers=_numbers(states),
+        derivation="\n".join(html_page.section_html(s) for s in contents.document.sections if s.anchor != "result"),
+        data=embedded(contents.data),
+        engine=contents.physics,
+        scripts="\n".join(map(_file, SCRIPTS)),
+    )
+
+
+def embedded(data: Mapping[str, Any]) -> str:
+    """Return data as JSON that can stand within a script element: no ``<``, and no line separators of JavaScript."""
+    text = json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":"))
+    for character in "<>&\u2028\u2029":
+        text = text.replace(character, f"\\u{ord(character):04x}")
+    return text
+
+
+def _file(name: str) -> str:
+    return files("lagrangian.write.interactive").joinpath(name).read_text(encoding="utf-8")
+
+
+def _missing(listed: Sequence[str]) -> str:
+    if not listed:
+        return ""
+    items = "".join(f"<li>{escape(words)}</li>" for words in listed)
+    return f'<details class="missing"><summary>Not drawn: {len(listed)}</summary><ul>{items}</ul></details>\n'
+
+
+def _equations(document: Document) -> str:
+    """The boxed equations with their legend, without the other blocks of the result."""
+    for section in document.sections:
+        if section.anchor == "result":
+            boxed = tuple(block for block in section.blocks if isinstance(block, Boxed))
+            return html_page.blocks_html(Section(section.anchor, (), boxed or section.blocks))
+    return ""
+
+
+# -- sliders ----------------------------------------------------------------------------------------------------------
+
+
+def _controls(adjustables: Sequence[Adjustable], coordinates: int) -> str:
+    titles = {"p": "Parameters", "u": "Inputs", "x": "Initial state"}
+    return "\n".join(
+        f'<fieldset class="{kind}"><legend>{title}</legend><div class="sliders">{"".join(rows)}</div></fieldset>'
+        for kind, title in titles.items()
+        if (rows := [_control(a, i) for i, a in enumerate(a for a in adjustables if a.group == kind)])
+    )
+
+
+def _control(a: Adjustable, index: int) -> str:
+    identity = f"{a.group}-{index}"
+    said = ", ".join(filter(None, (a.plain or a.name, a.words)))
+    hint = f' title="{escape(a.words)}"' if a.words else ""
+    pushes = ""
+    if a.group == "u":
+        by = max(abs(a.low), abs(a.high)) / 2
+        pushes = "".join(
+            f'<button type="button" class="push" data-push="{sign * by!r}" '
+            f'aria-label="Push {escape(a.plain or a.name)} {way} while held">{arrow}</button>'
+            for sign, way, arrow in ((-1, "down", "−"), (1, "up", "+"))
+        )
+    return (
+        f'<div class="control" data-group="{a.group}" data-index="{index}" data-unit="{escape(a.unit)}">'
+        f'<label for="{identity}"{hint}>{mathml(a.label)}</label>'
+        f'<input type="range" id="{identity}" min="{a.low!r}" max="{a.high!r}" step="any" value="{a.value!r}" '
+        f'aria-label="{escape(said)}">{pushes}'
+        f'<input type="text" inputmode="decimal" aria-label="{escape(a.plain or a.name)}, exact value" '
+        f'autocomplete="off" size="7"><span class="unit">{escape(a.unit)}</span></div>'
+    )
+
+
+# -- plots ------------------------------------------------------------------------------------------------------------
+
+_ENERGIES = (
+    '<span class="key key-0">T</span> <span class="key key-1">V</span> '
+    '<span class="key key-2 dashed">T + V − supplied</span> [J] over t [s]'
+)
+
+
+def _legend(coordinates: Sequence[Adjustable]) -> str:
+    keys = "".join(
+        f'<button type="button" class="key key-{i % 6}" data-series="{i}" aria-pressed="true">{mathml(a.label)}</button> '
+        for i, a in enumerate(coordinates)
+    )
+    units = ", ".join(dict.fromkeys(a.unit for a in coordinates if a.unit))
+    return f"{keys}{f'[{escape(units)}] ' if units else ''}over t [s]"
+
+
+def _choice(identity: str, what: str, states: Sequence[Adjustable], chosen: int) -> str:
+    options = "".join(
+        f'<option value="{i}"{" selected" if i == chosen else ""}>{escape(a.plain or a.name)}'
+        f"{f' [{escape(a.unit)}]' if a.unit else ''}</option>"
+        for i, a in enumerate(states)
+    )
+    return f'<span class="unseen">{what}</span><select id="{identity}">{options}</select>'
+
+
+def _numbers(states: Sequence[Adjustable]) -> str:
+    rows: list[tuple[str, str, str]] = [
+        (mathml(a.label), f"number-{i}", escape(a.unit)) for i, a in enumerate(states)
+    ]
+    rows += [("T", "number-T", "J"), ("V", "number-V", "J"), ("T + V − supplied", "number-balance", "J")]
+    rows += [("its change since the start", "number-audit", "J")]
+    return "".join(_number(*row) for row in rows)
+
+
+def _number(label: str, identity: str, unit: str) -> str:
+    return f'<tr><th scope="row">{label}</th><td id="{identity}">0</td><td class="unit">{unit}</td></tr>\n'
+

@@ -1,0 +1,101 @@
+"use strict";
+// A run that grows while it is shown: computed ahead piece by piece, sampled at equal distances in time, with energies.
+
+/**
+ * @param {any} solver  of lagrangianSolver
+ * @param {Record<string, Function>} functions  of the system: (x, p, u, t, out) → out
+ * @param {any} data
+ */
+function makeRun(solver, functions, data) {
+  const size = data.x.names.length, inputs = data.u.names.length, interval = data.duration / 2400, piece = 24;
+  const history = makeHistory(size, inputs), powers = new Float64Array(4);
+  const self = { history, interval, size, p: new Float64Array(0), u: new Float64Array(inputs), end: 0, trouble: "", occurred: /** @type {any[]} */ ([]), begin, goOn, computeTo, cut, consistent, energies, measure };
+  /** The energy that hands and signals have supplied since the start. */
+  let supplied = 0;
+
+  /** T, V and the energy of the balance, in `powers`: h, P, T, V. */
+  function energies(x, t) {
+    return functions.power(x, self.p, self.u, t, powers);
+  }
+
+  function sample(x, t) {
+    energies(x, t);
+    history.add(t, x, powers[2], powers[3], powers[0] - supplied, self.u);
+    self.end = t;
+  }
+
+  /** The state nearest to x that satisfies all constraints. */
+  function consistent(x, t, { velocities = true } = {}) {
+    const { approach, landing } = functions, y = Float64Array.from([...x, 0].slice(0, data.machine));
+    for (let round = 0, gap = Infinity; approach && gap > 1e-12 && round < 30; round++) {
+      const change = approach(y, self.p, self.u, t);
+      for (let i = 0; i < size; i++) y[i] += change[i];
+      gap = change[y.length]; // before this step
+      if (!Number.isFinite(gap)) return Float64Array.from(x);
+    }
+    if (landing && velocities) landing(y, self.p, self.u, t).subarray(0, size).forEach((change, i) => (y[i] += change));
+    return y.every(Number.isFinite) ? y.slice(0, size) : Float64Array.from(x);
+  }
+
+  /** Begin anew at t = 0. */
+  function begin(x, p, u) {
+    [self.p, self.u, self.trouble, self.occurred] = [Float64Array.from(p), Float64Array.from(u), "", []];
+    supplied = 0;
+    history.clear();
+    sample(consistent(x, 0), 0);
+  }
+
+  /** Forget what lies beyond a time. */
+  function cut(t) {
+    if (t >= self.end) return;
+    history.count = history.index(t) + 1;
+    self.end = history.at(history.count - 1, 0);
+    self.occurred = self.occurred.filter((event) => event.t <= self.end);
+    energies(last(), self.end);
+    supplied = powers[0] - history.at(history.count - 1, history.balance);
+  }
+
+  function last() {
+    return Float64Array.from({ length: size }, (_, i) => history.at(history.count - 1, 1 + i));
+  }
+
+  /** Go on from a time with other parameters and inputs; what this change supplies is counted as supplied. */
+  function goOn(t, p, u) {
+    cut(t);
+    const before = history.at(history.count - 1, history.balance);
+    [self.p, self.u, self.trouble] = [Float64Array.from(p), Float64Array.from(u), ""];
+    const x = consistent(last(), self.end);
+    energies(x, self.end);
+    supplied = powers[0] - before;
+    history.count--;
+    sample(x, self.end);
+  }
+
+  /** Compute until a time at least; false if the motion ends before it. */
+  function computeTo(t) {
+    while (self.end < t - 1e-9 * interval && !self.trouble) {
+      const t0 = self.end, n = piece, x = last();
+      const found = solver.solve({ state: x, params: self.p, inputs: self.u, t0, t1: t0 + n * interval, samples: n + 1, maxSteps: 200000, seconds: 2, step: interval / 4 });
+      const before = supplied, own = found.supplied;
+      try {
+        for (let i = 1; i < found.states.length; i++) {
+          supplied = before + (own ? own[i] : 0);
+          sample(found.states[i], found.t[i]);
+        }
+      } catch (error) {
+        self.trouble = String(error.message);
+      }
+      self.occurred.push(...found.events);
+      if (found.status !== 0 && !self.trouble) self.trouble = `${found.message}, at t = ${found.reached.toPrecision(4)} s`;
+    }
+    return self.end >= t - 1e-9 * interval;
+  }
+
+  /** Run ahead, to know how far things go: `visit(x, t)` sees the states. */
+  function measure(x, span, visit) {
+    const found = solver.solve({ state: x, params: self.p, inputs: self.u, t0: 0, t1: span, samples: 241, rtol: 1e-6, atol: 1e-9, maxSteps: 20000, seconds: 0.5, step: span / 2000 });
+    found.states.forEach((state, i) => visit(state, found.t[i]));
+  }
+
+  return self;
+}
