@@ -1,4 +1,4 @@
-"""The live page of a system: its picture, sliders with their ranges, the solver, and its derivation, as one HTML file."""
+"""The live page of a system as one HTML file: picture, sliders with their ranges, solver and derivation."""
 
 from __future__ import annotations
 
@@ -15,16 +15,18 @@ from lagrangian.errors import ModelError
 from lagrangian.graph import Output, Program, replaced
 from lagrangian.model import Model
 from lagrangian.page.scene import Scene, as_data
-from lagrangian.read import dumps
 from lagrangian.quantities.quantity import unit_factor
+from lagrangian.read import dumps
 from lagrangian.simulate.browser import BrowserModule, browser_module
 from lagrangian.simulate.inputs import driving
 from lagrangian.simulate.simulation import named
 from lagrangian.values.values import Given
+from lagrangian.write.blocks import Items
 from lagrangian.write.expression import Expressions
-from lagrangian.write.interactive import Adjustable, PageContents, page_html
+from lagrangian.write.interactive import Adjustable, Engine, PageContents, page_html
 from lagrangian.write.numerals import unit as unit_text
 from lagrangian.write.scene_svg import scene_svg
+from lagrangian.write.text import clean
 from lagrangian.write.unicode_math import unicode
 
 FASTEST, SLOWEST = 0.5, 300.0
@@ -49,7 +51,7 @@ def live_page(derivation: Derived, scene: Scene, anchors: Program) -> str:
         adjustables,
         len(model.coordinates),
         _data(model, module.layout, scene, adjustables),
-        module,
+        Engine(module.code, module.layout, module.functions, module.driver),
         subtitle=scene.description,
         missing=scene.missing,
         space=len(scene.view[0]) == 3,
@@ -75,7 +77,8 @@ def _of_states(program: Program, free: Mapping[str, int]) -> Program:
     known |= {graph.input("v", i): graph.input("x", len(q) + i) for i in range(len(v))}
     known |= {graph.input("u", i): graph.input("u", free[name]) for i, name in enumerate(u) if name in free}
     outputs = {
-        name: Output(tuple(replaced(graph, output.ids, known)), output.shape) for name, output in program.outputs.items()
+        name: Output(tuple(replaced(graph, output.ids, known)), output.shape)
+        for name, output in program.outputs.items()
     }
     inputs = {"x": (*q, *v), "u": tuple(free), "p": groups["p"], "t": ("t",)}
     return Program(program.name, graph, inputs, outputs, program.defaults)
@@ -139,6 +142,7 @@ def _data(model: Model, layout: Mapping[str, Any], scene: Scene, adjustables: Se
     duration = float(layout["duration"])
     return {
         "name": model.name,
+        "file": re.sub(r"[^A-Za-z0-9]+", "-", model.name).strip("-")[:60] or "motion",
         "scene": as_data(scene),
         "coordinates": len(model.coordinates),
         "angles": [entry["unit"] == "rad" for entry in layout["states"][: len(model.coordinates)]],
@@ -149,9 +153,15 @@ def _data(model: Model, layout: Mapping[str, Any], scene: Scene, adjustables: Se
         "duration": duration,
         "pace": 1.0 if FASTEST <= duration <= SLOWEST else duration / 10,
         "trail": scene.trail,
-        "elements": {element.name: element.title for element in model.elements},
+        "elements": _titles(model),
         "model": _file(model, adjustables),
     }
+
+
+def _titles(model: Model) -> dict[str, str]:
+    """The names of elements with their titles, as terms of the equations name them."""
+    titles = Items(model, "lecture", brief=False, full=False, details=True).spoken(e.title for e in model.elements)
+    return {e.name: clean(title) for e, title in zip(model.elements, titles, strict=True)}
 
 
 _SLOT = re.compile(r"7\.25(\d{5})1e-301")

@@ -114,7 +114,8 @@
       canvas.height = Math.round(height * ratio);
     }
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
-    context.clearRect(0, 0, width, height);
+    context.fillStyle = colours.paper; // a recording has no background of its own
+    context.fillRect(0, 0, width, height);
     picture.fit(reach.box, width, height);
     if (set.trail) drawTrail();
     picture.place(now.subarray(1, 1 + size), shown);
@@ -415,7 +416,9 @@
     const from = `, ${node.getAttribute("data-from")}, `;
     return { node, names: Object.keys(data.elements).filter((name) => from.includes(`, ${data.elements[name]}, `)) };
   });
-  const drawing = element("drawing"), glyphs = [...drawing.querySelectorAll("[data-element]")].map((node) => ({ node, names: (node.getAttribute("data-element") ?? "").split(" ").filter(Boolean) }));
+  /** In the picture, names are separated by spaces; a space within a name is a no-break space there. */
+  const spelled = new Map(Object.keys(data.elements).map((name) => [name.split(/\s+/).join("\u00a0"), name]));
+  const drawing = element("drawing"), glyphs = [...drawing.querySelectorAll("[data-element]")].map((node) => ({ node, names: (node.getAttribute("data-element") ?? "").split(" ").map((name) => spelled.get(name) ?? name).filter(Boolean) }));
 
   function light(names) {
     lit = names && names.length ? new Set(names) : null;
@@ -444,20 +447,25 @@
 
   // -- the address ----------------------------------------------------------------------------------------------------
 
+  /** What differs from the model, as the part of an address after #. */
+  function address() {
+    const kept = new URLSearchParams();
+    for (const group of ["p", "u", "x"])
+      set[group].forEach((value, i) => value !== data[group].values[i] && kept.set(`${group}.${data[group].names[i]}`, String(value)));
+    if (set.speed !== 1) kept.set("speed", String(set.speed));
+    return `#${kept}`;
+  }
+
   let pending = 0;
-  function remember() {
+  function remember(wait = 200) {
     clearTimeout(pending);
     pending = setTimeout(() => {
-      const kept = new URLSearchParams();
-      for (const group of ["p", "u", "x"])
-        set[group].forEach((value, i) => value !== data[group].values[i] && kept.set(`${group}.${data[group].names[i]}`, String(value)));
-      if (set.speed !== 1) kept.set("speed", String(set.speed));
       try {
-        window.history.replaceState(null, "", `#${kept}`);
+        window.history.replaceState(null, "", address());
       } catch {
         // a page without an address of its own, such as in a notebook
       }
-    }, 200);
+    }, wait);
   }
 
   function recall() {
@@ -475,6 +483,95 @@
 
   window.addEventListener("hashchange", recall);
 
+  // -- reading the plots ------------------------------------------------------------------------------------------------
+
+  for (const plot of [plots.coordinates, plots.energy]) {
+    const go = (event) => {
+      hold();
+      shown = Math.min(run.end, Math.max(history.at(0, 0), plot.at(event)[0]));
+      stale = true;
+    };
+    plot.canvas.addEventListener("pointerdown", (event) => {
+      plot.canvas.setPointerCapture(event.pointerId);
+      go(event);
+    });
+    plot.canvas.addEventListener("pointermove", (event) => event.buttons && go(event));
+  }
+
+  // -- taking it along --------------------------------------------------------------------------------------------------
+
+  /** The model file with the values of the sliders. */
+  function modelText() {
+    return data.model.map((piece) => {
+      if (typeof piece === "string") return piece;
+      const [group, index, unit, factor] = piece, value = set[group][index] / factor;
+      const number = String(Number(value.toPrecision(12)));
+      return unit ? `"${number} ${unit}"` : number;
+    }).join("");
+  }
+
+  /** Samples, a row each: what spreadsheets read. */
+  function csvText() {
+    const quoted = (name) => (/[",\n]/.test(name) ? `"${name.replaceAll('"', '""')}"` : name);
+    const head = ["t", ...data.x.names, ...data.u.names, "T", "V"].map(quoted).join(",");
+    const columns = [0, ...data.x.names.map((_, i) => 1 + i), ...data.u.names.map((_, i) => history.u + i), history.T, history.V];
+    const rows = Array.from({ length: history.index(shown) + 1 }, (_, i) => columns.map((column) => history.at(i, column)).join(","));
+    return [head, ...rows].join("\n") + "\n";
+  }
+
+  function save(blob, ending) {
+    const link = document.createElement("a");
+    link.href = URL.createObjectURL(blob);
+    link.download = `${data.file}.${ending}`;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+  }
+
+  /** Put a text on the clipboard; where that is not allowed, show it to be copied by hand. */
+  async function copy(knob, text) {
+    try {
+      await navigator.clipboard.writeText(text);
+      const words = knob.textContent;
+      knob.textContent = "Copied";
+      setTimeout(() => (knob.textContent = words), 1200);
+    } catch {
+      const dialog = element("copy"), area = dialog.querySelector("textarea");
+      area.value = text;
+      dialog.showModal();
+      area.select();
+    }
+  }
+
+  element("copy-link").addEventListener("click", (event) => {
+    remember(0);
+    copy(event.currentTarget, location.href.split("#")[0] + address());
+  });
+  element("copy-model").addEventListener("click", (event) => copy(event.currentTarget, modelText()));
+  element("copy-model").hidden = !data.model.length;
+  element("csv").addEventListener("click", () => save(new Blob([csvText()], { type: "text/csv" }), "csv"));
+
+  let recorder = null;
+  element("record").hidden = typeof MediaRecorder === "undefined" || !canvas.captureStream;
+  element("record").addEventListener("click", () => {
+    if (recorder) return recorder.stop();
+    const pieces = [];
+    recorder = new MediaRecorder(canvas.captureStream(60), { videoBitsPerSecond: 8e6 });
+    recorder.addEventListener("dataavailable", (event) => pieces.push(event.data));
+    recorder.addEventListener("stop", () => {
+      save(new Blob(pieces, { type: recorder.mimeType }), recorder.mimeType.includes("mp4") ? "mp4" : "webm");
+      recorder = null;
+      recording(false);
+    });
+    recorder.start();
+    recording(true);
+    if (!playing) play();
+  });
+
+  function recording(on) {
+    element("record").textContent = on ? "Stop" : "Record";
+    element("record").setAttribute("aria-pressed", String(on));
+  }
+
   // -- begin ----------------------------------------------------------------------------------------------------------
 
   for (const id of ["phase-x", "phase-y"]) element(id).addEventListener("change", () => (stale = true));
@@ -487,6 +584,11 @@
       stale = true;
     });
   }
+  /** Where there is one column, the sliders follow the motion; the order for the keyboard is that of the eye. */
+  const wide = matchMedia("(min-width: 62rem)");
+  const arrange = () => (wide.matches ? element("equations").after(element("controls")) : element("equations").before(element("controls")));
+  wide.addEventListener("change", arrange);
+  arrange();
   new ResizeObserver(() => (stale = true)).observe(document.body);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
     colours = readColours();
@@ -494,6 +596,8 @@
   });
   element("trail").setAttribute("aria-pressed", "true");
   recall();
+  /** What scripts beside the page can ask: the time, the sample that is shown, the places of bodies on the canvas. */
+  Object.assign(globalThis, { motion: { kind: data.kind, time: () => shown, playing: () => playing, sample: () => Array.from(now), handles: () => scene.handles.map(onCanvas) } });
   if (matchMedia("(prefers-reduced-motion: reduce)").matches) hold();
   else play();
   requestAnimationFrame(frame);

@@ -7,11 +7,14 @@ runs no text of a model: names are escaped in HTML, and the data is JSON in whic
 from __future__ import annotations
 
 import json
+import re
+from base64 import b64encode
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from importlib.resources import files
 from string import Template
 from typing import Any, Literal
+from zlib import compress
 
 from lagrangian.write import html_page
 from lagrangian.write.document import Boxed, Document, Section
@@ -25,7 +28,7 @@ SCRIPTS = ("history.js", "run.js", "picture.js", "dragging.js", "plots.js", "pag
 
 @dataclass(frozen=True)
 class Adjustable:
-    """A number that the reader can change: a parameter (``p``), an input (``u``) or a part of the initial state (``x``).
+    """A number that the reader can change: a parameter (``p``), an input (``u``) or one of the initial state (``x``).
 
     ``value``, ``low`` and ``high`` are in SI units; ``words`` describe it.
     """
@@ -42,12 +45,38 @@ class Adjustable:
 
 
 @dataclass(frozen=True)
+class Engine:
+    """An integrator for the page: WebAssembly, its description, and functions and driver in JavaScript."""
+
+    code: bytes
+    layout: Mapping[str, Any]
+    functions: str
+    driver: str
+
+    def script(self) -> str:
+        """Return the script that defines ``physics``: {layout, functions, solver()}; it also runs in a worker."""
+        packed = b64encode(compress(self.code, 9)).decode("ascii")
+        lines = [
+            squeezed(self.driver),
+            "const physics = (() => {",
+            f'const packed = Uint8Array.from(atob("{packed}"), (c) => c.charCodeAt(0));',
+            'const unpacked = () => new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));',
+            "const code = () => new Response(unpacked()).arrayBuffer();",
+            f"const layout = {embedded(self.layout)};",
+            f"const functions = {self.functions};",
+            "const solver = async () => lagrangianSolver.load(await code(), layout, functions);",
+            "return {layout, functions, solver};",
+            "})();",
+        ]
+        return "\n".join(lines)
+
+
+@dataclass(frozen=True)
 class PageContents:
     """What a page is made of.
 
     ``schematic`` is SVG; ``adjustables`` the sliders in order; ``coordinates`` the number of those entries of the
-    initial state that are coordinates; ``data`` is given to the scripts; ``physics`` is the script that
-    defines ``physics``: the solver and the functions of the system.
+    initial state that are coordinates; ``data`` is given to the scripts; ``engine`` integrates.
     """
 
     document: Document
@@ -55,7 +84,7 @@ class PageContents:
     adjustables: Sequence[Adjustable]
     coordinates: int
     data: Mapping[str, Any]
-    physics: str
+    engine: Engine
     subtitle: str = ""
     missing: Sequence[str] = field(default=())
     space: bool = False
@@ -69,7 +98,7 @@ def page_html(contents: PageContents) -> str:
     return Template(_file("page.html")).substitute(
         title=title,
         subtitle=f"<p>{escape(contents.subtitle)}</p>" if contents.subtitle else "",
-        style=html_page.style_sheet() + _file("page.css"),
+        style=squeezed(html_page.style_sheet() + _file("page.css")),
         schematic=contents.schematic,
         missing=_missing(contents.missing),
         motion_hint="drag a body to place it" + ("; drag beside it to turn the view" if contents.space else ""),
@@ -80,10 +109,10 @@ def page_html(contents: PageContents) -> str:
         phase_up=_choice("phase-y", "vertical axis", states, len(coordinates) if rates else 0),
         phase_across=_choice("phase-x", "horizontal axis", states, 0),
         numbers=_numbers(states),
-        derivation="\n".join(html_page.section_html(s) for s in contents.document.sections if s.anchor != "result"),
+        derivation=_steps(contents.document),
         data=embedded(contents.data),
-        engine=contents.physics,
-        scripts="\n".join(map(_file, SCRIPTS)),
+        engine=contents.engine.script(),
+        scripts="\n".join(squeezed(_file(name)) for name in SCRIPTS),
     )
 
 
@@ -93,6 +122,13 @@ def embedded(data: Mapping[str, Any]) -> str:
     for character in "<>&\u2028\u2029":
         text = text.replace(character, f"\\u{ord(character):04x}")
     return text
+
+
+def squeezed(script: str) -> str:
+    """Return a script or style sheet without indentation, and without lines and blocks that are only comments."""
+    text = re.sub(r"^[ \t]*/\*.*?\*/[ \t]*$", "", script, flags=re.DOTALL | re.MULTILINE)
+    lines = (line.strip() for line in text.splitlines())
+    return "\n".join(line for line in lines if line and not line.startswith("//"))
 
 
 def _file(name: str) -> str:
@@ -113,6 +149,15 @@ def _equations(document: Document) -> str:
             boxed = tuple(block for block in section.blocks if isinstance(block, Boxed))
             return html_page.blocks_html(Section(section.anchor, (), boxed or section.blocks))
     return ""
+
+
+_ALONE = re.compile(r"<mrow>(<(m[ion]|mtext)\b[^<>]*>[^<>]*</\2>)</mrow>")
+
+
+def _steps(document: Document) -> str:
+    """Everything but the result; a row around a single letter is left out, because a page has thousands of these."""
+    listed = [html_page.section_html(section) for section in document.sections if section.anchor != "result"]
+    return _ALONE.sub(r"\1", "\n".join(listed))
 
 
 # -- sliders ----------------------------------------------------------------------------------------------------------
@@ -159,7 +204,8 @@ _ENERGIES = (
 
 def _legend(coordinates: Sequence[Adjustable]) -> str:
     keys = "".join(
-        f'<button type="button" class="key key-{i % 6}" data-series="{i}" aria-pressed="true">{mathml(a.label)}</button> '
+        f'<button type="button" class="key key-{i % 6}" data-series="{i}" aria-pressed="true">'
+        f"{mathml(a.label)}</button> "
         for i, a in enumerate(coordinates)
     )
     units = ", ".join(dict.fromkeys(a.unit for a in coordinates if a.unit))
@@ -176,9 +222,7 @@ def _choice(identity: str, what: str, states: Sequence[Adjustable], chosen: int)
 
 
 def _numbers(states: Sequence[Adjustable]) -> str:
-    rows: list[tuple[str, str, str]] = [
-        (mathml(a.label), f"number-{i}", escape(a.unit)) for i, a in enumerate(states)
-    ]
+    rows: list[tuple[str, str, str]] = [(mathml(a.label), f"number-{i}", escape(a.unit)) for i, a in enumerate(states)]
     rows += [("T", "number-T", "J"), ("V", "number-V", "J"), ("T + V − supplied", "number-balance", "J")]
     rows += [("its change since the start", "number-audit", "J")]
     return "".join(_number(*row) for row in rows)
@@ -186,4 +230,3 @@ def _numbers(states: Sequence[Adjustable]) -> str:
 
 def _number(label: str, identity: str, unit: str) -> str:
     return f'<tr><th scope="row">{label}</th><td id="{identity}">0</td><td class="unit">{unit}</td></tr>\n'
-

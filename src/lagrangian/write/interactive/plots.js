@@ -49,7 +49,7 @@ function makePlot(canvas) {
     context.font = "11px system-ui, sans-serif";
     context.lineWidth = 1;
     context.setLineDash([]);
-    const across = ticks(xs[0], xs[1], Math.max(2, width / 90)), up = ticks(ys[0], ys[1], Math.max(2, height / 38));
+    const across = ticks(xs[0], xs[1], Math.max(4, width / 70)), up = ticks(ys[0], ys[1], Math.max(3, height / 36));
     const labels = up.found.map((y) => tickText(y, up.step));
     const wide = Math.max(18, ...labels.map((text) => context.measureText(text).width));
     box = { left: wide + 10, top: 8, width: Math.max(1, width - wide - 18), height: Math.max(1, height - 30) };

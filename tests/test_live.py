@@ -1,0 +1,224 @@
+"""The live page in a browser: it moves, it answers, it asks for nothing, and hostile names run nothing."""
+
+from __future__ import annotations
+
+import json
+import math
+import re
+import shutil
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from drawn_systems import double_pendulum
+from lagrangian.live import live_page
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
+in_browser = pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium on this machine")
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    path = tmp_path_factory.mktemp("live") / "double-pendulum.html"
+    path.write_text(live_page(*double_pendulum()), encoding="utf-8")
+    return path
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    playwright = pytest.importorskip("playwright.sync_api")
+    with playwright.sync_playwright() as running:
+        found = running.chromium.launch(executable_path=CHROMIUM)
+        yield found
+        found.close()
+
+
+class Opened:
+    """A page with what it said on its console and what it asked for."""
+
+    def __init__(self, browser: Any, address: str, *, held: bool = True, **options: Any) -> None:
+        self.context = browser.new_context(reduced_motion="reduce" if held else "no-preference", **options)
+        self.page = self.context.new_page()
+        self.trouble: list[str] = []
+        self.asked: list[str] = []
+        self.page.on("console", lambda said: self.trouble.append(said.text) if said.type != "log" else None)
+        self.page.on("pageerror", lambda error: self.trouble.append(str(error)))
+        self.page.on("dialog", lambda dialog: self.trouble.append(f"dialog: {dialog.message}"))
+        self.page.on("request", lambda request: self.asked.append(request.url))
+        self.page.goto(address)
+        self.wait_for("globalThis.motion !== undefined")
+
+    def wait_for(self, condition: str) -> None:
+        """Ask again and again: the page's own rules forbid a function that waits inside it."""
+        while not self.page.evaluate(condition):
+            self.page.wait_for_timeout(20)
+            assert not self.trouble
+
+    def sample(self) -> list[float]:
+        return self.page.evaluate("motion.sample()")
+
+    def run_to(self, t: float) -> None:
+        """Play until a time, then hold."""
+        self.page.evaluate("document.activeElement.blur()")
+        self.page.keyboard.press("Space")
+        self.wait_for(f"motion.time() >= {t}")
+        self.page.keyboard.press("Space")
+
+    def slide(self, identity: str, value: float) -> None:
+        self.page.locator(f"#{identity}").evaluate(
+            "(slider, x) => { slider.value = x; slider.dispatchEvent(new Event('input')); }", value
+        )
+
+
+@pytest.fixture
+def opened(browser: Any, file: Path) -> Iterator[Opened]:
+    made = Opened(browser, file.as_uri())
+    yield made
+    made.context.close()
+    assert made.trouble == []
+    assert {url.split("#")[0] for url in made.asked} == {file.as_uri()}
+
+
+def test_the_page_is_one_small_file_that_forbids_itself_every_request(file: Path) -> None:
+    text = file.read_text(encoding="utf-8")
+    assert len(text.encode()) < 170_000
+    policy = re.search(r'http-equiv="Content-Security-Policy" content="([^"]*)"', text)
+    assert policy is not None and policy[1].startswith("default-src 'none'")
+    assert "'unsafe-eval'" not in policy[1]
+    assert not re.search(r"""(src|href|action)\s*=\s*["']?https?:""", text)
+    for id_ in ("schematic", "motion", "equations", "controls", "plots", "steps"):
+        assert f'id="{id_}"' in text
+
+
+@in_browser
+def test_energy_is_kept_over_five_seconds(opened: Opened) -> None:
+    opened.run_to(5.0)
+    size = 4
+    t, *rest = opened.sample()
+    T, V, balance = rest[size : size + 3]
+    at_start = 1.0 * 9.81 * (-2 * math.cos(2.0) - math.cos(2.5))  # both masses 1 kg, both rods 1 m, at rest
+    assert t >= 5.0
+    assert pytest.approx(T + V, abs=1e-12) == balance
+    assert abs(balance - at_start) < 1e-6
+
+
+@in_browser
+def test_a_slider_changes_the_motion(opened: Opened) -> None:
+    opened.run_to(1.0)
+    opened.page.keyboard.press("ArrowRight")
+    before = opened.page.evaluate("motion.time()")
+    opened.slide("p-4", 1.62)  # on the moon
+    opened.run_to(before + 0.5)
+    opened.wait_for("location.hash.includes('p.g=1.62')")
+    assert opened.page.locator("#p-4").get_attribute("aria-valuetext") == "1.62 m/s²"
+    # from rest, gravity alone: half a second on the moon is slower
+    opened.slide("x-0", 1.0)
+    assert opened.page.evaluate("motion.time()") == 0.0
+    opened.run_to(0.2)
+    moon = opened.sample()
+    opened.slide("p-4", 9.81)
+    opened.slide("x-0", 1.0)
+    opened.run_to(0.2)
+    assert abs(opened.sample()[1] - 1.0) > 3 * abs(moon[1] - 1.0)
+
+
+@in_browser
+def test_a_body_follows_the_pointer_to_3_px(opened: Opened) -> None:
+    page = opened.page
+    box = page.locator("#canvas").bounding_box()
+    assert box is not None
+    page.wait_for_timeout(100)
+    x, y = page.evaluate("motion.handles()")[1]
+    page.mouse.move(box["x"] + x, box["y"] + y)
+    page.mouse.down()
+    goal = (x - 40, y + 35)
+    page.mouse.move(box["x"] + goal[0], box["y"] + goal[1], steps=8)
+    page.wait_for_timeout(100)
+    found = page.evaluate("motion.handles()")[1]
+    assert max(abs(a - b) for a, b in zip(found, goal, strict=True)) < 3
+    page.mouse.up()
+    assert page.evaluate("motion.time()") == 0.0
+    opened.wait_for("location.hash.includes('x.theta1=')")
+
+
+@in_browser
+def test_terms_and_glyphs_light_each_other(opened: Opened) -> None:
+    page = opened.page
+    term = page.locator('#equations .term[data-from="particle m₂"]').first
+    term.hover()
+    lit = page.eval_on_selector_all("#drawing .lit", "nodes => nodes.map(n => n.dataset.element)")
+    assert lit and set(lit) == {"m2"}
+    page.mouse.move(0, 0)
+    assert page.locator("#drawing .lit").count() == 0
+    page.locator('#drawing [data-element="m1"]').first.focus()
+    sources = page.eval_on_selector_all(".term.lit", "nodes => nodes.map(n => n.dataset.from)")
+    assert sources and all("m₁" in source for source in sources)
+
+
+@in_browser
+def test_the_keyboard_plays_holds_and_steps(opened: Opened) -> None:
+    page = opened.page
+    assert page.evaluate("motion.playing()") is False  # reduced motion: it starts held
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("ArrowRight")
+    assert page.evaluate("motion.time()") == pytest.approx(2 / 30)
+    page.keyboard.press("ArrowLeft")
+    assert page.evaluate("motion.time()") == pytest.approx(1 / 30)
+    page.keyboard.press("Space")
+    assert page.evaluate("motion.playing()") is True
+
+
+@in_browser
+def test_a_link_restores_the_state(browser: Any, file: Path) -> None:
+    made = Opened(browser, file.as_uri() + "#p.m2=2.5&x.theta1=-0.5&speed=0.5")
+    assert made.page.locator("#p-1").input_value() == "2.5"
+    assert made.sample()[1] == -0.5
+    assert made.page.locator("#speed-value").inner_text() == "0.50×"
+    made.context.close()
+
+
+@in_browser
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_320_pixels_are_enough(browser: Any, file: Path, scheme: str) -> None:
+    made = Opened(browser, file.as_uri(), viewport={"width": 320, "height": 640}, color_scheme=scheme)
+    width = made.page.evaluate("document.documentElement.scrollWidth")
+    assert width <= 320
+    assert made.trouble == []
+    made.context.close()
+
+
+HOSTILE = ("</script><script>alert(1)</script>", '"><img src=x onerror=alert(1)>', "n" * 10_000, "<!--<script>", "]]>")
+
+
+@in_browser
+@pytest.mark.parametrize("name", HOSTILE, ids=lambda name: name[:12])
+def test_hostile_names_run_nothing(browser: Any, tmp_path: Path, name: str) -> None:
+    derivation, scene, program = double_pendulum()
+    model = replace(
+        derivation.model,
+        name=name,
+        parameters=tuple(replace(p, description=name) for p in derivation.model.parameters),
+        _memo={},
+    )
+    elements = tuple(e.named(f"{name}{k}") for k, e in enumerate(model.elements))
+    hostile = replace(derivation, model=replace(model, elements=elements, _memo={}))
+    drawn = replace(scene, name=name, description=name, missing=(name,))
+    path = tmp_path / "hostile.html"
+    path.write_text(live_page(hostile, drawn, program), encoding="utf-8")
+    made = Opened(browser, path.as_uri())
+    assert made.trouble == []
+    assert made.asked == [path.as_uri()]
+    assert made.page.locator("h1").inner_text()[:100] == name[:100]
+    assert made.page.locator("img").count() == 0
+    made.context.close()
+
+
+def test_data_cannot_end_its_element() -> None:
+    from lagrangian.write.interactive.page import embedded
+
+    text = embedded({"a": "</script><!-- &\u2028"})
+    assert not set("<>&\u2028") & set(text)
+    assert json.loads(text) == {"a": "</script><!-- &\u2028"}
