@@ -13,11 +13,20 @@ from typing import Any
 
 import pytest
 
-from drawn_systems import double_pendulum
+import lagrangian as lg
+from lagrangian.derive import Derived, derive
+from lagrangian.graph import Program
 from lagrangian.live import live_page
+from lagrangian.page.scene import Scene
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 in_browser = pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium on this machine")
+
+
+def double_pendulum() -> tuple[Derived, Scene, Program]:
+    system = lg.example("double-pendulum")
+    picture = system.look()
+    return derive(system.model), picture.scene, picture.program
 
 
 @pytest.fixture(scope="module")

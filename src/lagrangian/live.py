@@ -39,7 +39,7 @@ NEVER_ZERO = ("kg", "m", "kg m^2")
 def live_page(derivation: Derived, scene: Scene, anchors: Program) -> str:
     """Return the page.
 
-    ``anchors`` is the program of the scene, q, v, u, p, t → r. Raises `RunError` for a system that a browser cannot
+    ``anchors`` is the program of the scene, x, u, p, t → r. Raises `RunError` for a system that a browser cannot
     integrate, such as one with dry friction, and for parameters without a value.
     """
     model = derivation.model
@@ -65,23 +65,19 @@ def _module(model: Model, anchors: Program) -> BrowserModule:
     dims = dict(zip(given.inputs.names, given.inputs.dims, strict=True))
     drive = driving(model, None, model.settings.get("inputs", {}), dims)
     free = {u.name: k for k, u in enumerate(drive.free)}
-    functions = {"power": dynamics.power_closed(model, drive.feedback), "anchors": _of_states(anchors, free)}
+    functions = {"power": dynamics.power_closed(model, drive.feedback), "anchors": _of_free_inputs(anchors, free)}
     return browser_module(model, functions=functions)
 
 
-def _of_states(program: Program, free: Mapping[str, int]) -> Program:
-    """The same program over x = [q; v] and the free inputs, instead of q, v and all inputs."""
-    graph, groups = program.graph, program.inputs
-    q, v, u = groups["q"], groups["v"], groups["u"]
-    known = {graph.input("q", i): graph.input("x", i) for i in range(len(q))}
-    known |= {graph.input("v", i): graph.input("x", len(q) + i) for i in range(len(v))}
-    known |= {graph.input("u", i): graph.input("u", free[name]) for i, name in enumerate(u) if name in free}
+def _of_free_inputs(program: Program, free: Mapping[str, int]) -> Program:
+    """The same program with the free inputs alone instead of all inputs."""
+    graph, names = program.graph, program.inputs["u"]
+    known = {graph.input("u", i): graph.input("u", free[name]) for i, name in enumerate(names) if name in free}
     outputs = {
         name: Output(tuple(replaced(graph, output.ids, known)), output.shape)
         for name, output in program.outputs.items()
     }
-    inputs = {"x": (*q, *v), "u": tuple(free), "p": groups["p"], "t": ("t",)}
-    return Program(program.name, graph, inputs, outputs, program.defaults)
+    return replace(program, inputs={**program.inputs, "u": tuple(free)}, outputs=outputs)
 
 
 # -- sliders ----------------------------------------------------------------------------------------------------------

@@ -71,10 +71,22 @@ class Picture(Brief):
         """Return the picture as a TikZ picture for LaTeX, which needs only the package ``tikz``."""
         return scene_tikz(self.scene)
 
-    def save(self, path: str | os.PathLike[str], *, overwrite: bool = True) -> Path:
-        """Write the picture to a file and return its path; the ending chooses the format: ``.svg`` or ``.tex``.
+    def to_html(self) -> str:
+        """Return a page that moves: the schematic, the motion, sliders, plots and the derivation in one HTML file.
 
-        Raises `Error` for another ending.
+        It needs neither a network nor Python. Raises `RunError` for a system that a browser cannot integrate, such as
+        one with dry friction, and if a parameter has no value.
+        """
+        from lagrangian.derive import derive
+        from lagrangian.live import live_page
+
+        return live_page(derive(self.model), self.scene, self.program)
+
+    def save(self, path: str | os.PathLike[str], *, overwrite: bool = True) -> Path:
+        """Write the picture to a file and return its path; the ending chooses the format.
+
+        ``.svg`` and ``.tex`` (TikZ) are the schematic; ``.html`` is a page with the motion, sliders, plots and the
+        derivation. Raises `Error` for another ending, and for ``.html`` as `to_html` does.
         """
         ending = Path(path).suffix.lower()
         check_free(path, overwrite=overwrite)
@@ -82,9 +94,11 @@ class Picture(Brief):
             return write_file(path, self.to_svg())
         if ending == ".tex":
             return write_file(path, scene_tikz(self.scene, document=True))
+        if ending == ".html":
+            return write_file(path, self.to_html())
         raise Error(
             f"a picture cannot be written as '{ending or Path(path).name}'",
-            fix="choose a name that ends in .svg or .tex",
+            fix="choose a name that ends in .svg, .tex or .html",
             code="E802",
         )
 
