@@ -93,7 +93,7 @@ def opened(browser: Any, file: Path) -> Iterator[Opened]:
 
 def test_the_page_is_one_small_file_that_forbids_itself_every_request(file: Path) -> None:
     text = file.read_text(encoding="utf-8")
-    assert len(text.encode()) < 170_000
+    assert len(text.encode()) < 150_000
     policy = re.search(r'http-equiv="Content-Security-Policy" content="([^"]*)"', text)
     assert policy is not None and policy[1].startswith("default-src 'none'")
     assert "'unsafe-eval'" not in policy[1]

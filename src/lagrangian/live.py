@@ -23,7 +23,7 @@ from lagrangian.simulate.simulation import named
 from lagrangian.values.values import Given
 from lagrangian.write.blocks import Items
 from lagrangian.write.expression import Expressions
-from lagrangian.write.interactive import Adjustable, Engine, PageContents, page_html
+from lagrangian.write.interactive import Adjustable, PageContents, PageSolver, page_html
 from lagrangian.write.numerals import unit as unit_text
 from lagrangian.write.scene_svg import scene_svg
 from lagrangian.write.text import clean
@@ -51,12 +51,18 @@ def live_page(derivation: Derived, scene: Scene, anchors: Program) -> str:
         adjustables,
         len(model.coordinates),
         _data(model, module.layout, scene, adjustables),
-        Engine(module.code, module.layout, module.functions, module.driver),
-        subtitle=scene.description,
+        PageSolver(module.code, module.layout, module.functions, module.driver),
+        subtitle=_subtitle(scene),
         missing=scene.missing,
         space=len(scene.view[0]) == 3,
     )
     return page_html(contents)
+
+
+def _subtitle(scene: Scene) -> str:
+    """The description without the name, which stands above it."""
+    words = scene.description.removeprefix(f"{scene.name}: ")
+    return words[:1].upper() + words[1:]
 
 
 def _module(model: Model, anchors: Program) -> BrowserModule:

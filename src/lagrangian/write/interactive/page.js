@@ -63,17 +63,16 @@
     const box = [Infinity, Infinity, -Infinity, -Infinity], states = Array.from({ length: size }, () => [Infinity, -Infinity]), energy = [Infinity, -Infinity];
     const widen = (pair, x) => ([pair[0], pair[1]] = [Math.min(pair[0], x), Math.max(pair[1], x)]);
     const start = Float64Array.from({ length: size }, (_, i) => history.at(0, 1 + i));
-    run.measure(start, Math.min(data.duration, 12 * data.pace), (x, t) => {
+    const passed = run.measure(start, Math.min(data.duration, 12 * data.pace));
+    picture.spread(passed);
+    for (const { x, t } of passed) {
       picture.place(x, t);
-      for (let anchor = 0; anchor < picture.count; anchor++) {
-        const [X, Y] = picture.seen(anchor);
-        [box[0], box[1], box[2], box[3]] = [Math.min(box[0], X), Math.min(box[1], Y), Math.max(box[2], X), Math.max(box[3], Y)];
-      }
+      picture.cover(box);
       x.forEach((value, i) => widen(states[i], value));
       const [h, , T, V] = run.energies(x, t);
       for (const e of [T, V, h]) widen(energy, e);
-    });
-    const margin = 0.06 * Math.max(...scene.size);
+    }
+    const margin = 6;
     for (const [low, high, least] of [[0, 2, 0.3 * scene.size[0]], [1, 3, 0.3 * scene.size[1]]]) {
       const lacking = Math.max(0, least - (box[high] - box[low])) / 2;
       box[low] -= lacking + margin;
@@ -412,6 +411,8 @@
 
   // -- terms and glyphs light each other --------------------------------------------------------------------------------
 
+  // the derivation is the largest part of the page, and comes packed
+  element("whole").innerHTML = await unpacked(element("packed-steps").textContent).text();
   const terms = [...document.querySelectorAll(".term[data-from]")].map((node) => {
     const from = `, ${node.getAttribute("data-from")}, `;
     return { node, names: Object.keys(data.elements).filter((name) => from.includes(`, ${data.elements[name]}, `)) };

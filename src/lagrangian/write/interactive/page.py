@@ -44,8 +44,20 @@ class Adjustable:
     plain: str = ""
 
 
+UNPACKED = (
+    "const unpacked = (text) => new Response(new Blob([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))])"
+    '.stream().pipeThrough(new DecompressionStream("deflate")));'
+)
+"""The inverse of `packed`, in JavaScript."""
+
+
+def packed(content: bytes) -> str:
+    """Return bytes compressed and in base64, a fifth of their size where they are the MathML of a derivation."""
+    return b64encode(compress(content, 9)).decode("ascii")
+
+
 @dataclass(frozen=True)
-class Engine:
+class PageSolver:
     """An integrator for the page: WebAssembly, its description, and functions and driver in JavaScript."""
 
     code: bytes
@@ -55,15 +67,13 @@ class Engine:
 
     def script(self) -> str:
         """Return the script that defines ``physics``: {layout, functions, solver()}; it also runs in a worker."""
-        packed = b64encode(compress(self.code, 9)).decode("ascii")
         lines = [
+            UNPACKED,
             squeezed(self.driver),
             "const physics = (() => {",
-            f'const packed = Uint8Array.from(atob("{packed}"), (c) => c.charCodeAt(0));',
-            'const unpacked = () => new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate"));',
-            "const code = () => new Response(unpacked()).arrayBuffer();",
+            f'const code = () => unpacked("{packed(self.code)}").arrayBuffer();',
             f"const layout = {embedded(self.layout)};",
-            f"const functions = {self.functions};",
+            f"const functions = {squeezed(self.functions)};",
             "const solver = async () => lagrangianSolver.load(await code(), layout, functions);",
             "return {layout, functions, solver};",
             "})();",
@@ -76,7 +86,7 @@ class PageContents:
     """What a page is made of.
 
     ``schematic`` is SVG; ``adjustables`` the sliders in order; ``coordinates`` the number of those entries of the
-    initial state that are coordinates; ``data`` is given to the scripts; ``engine`` integrates.
+    initial state that are coordinates; ``data`` is given to the scripts; ``solver`` integrates.
     """
 
     document: Document
@@ -84,7 +94,7 @@ class PageContents:
     adjustables: Sequence[Adjustable]
     coordinates: int
     data: Mapping[str, Any]
-    engine: Engine
+    solver: PageSolver
     subtitle: str = ""
     missing: Sequence[str] = field(default=())
     space: bool = False
@@ -109,9 +119,9 @@ def page_html(contents: PageContents) -> str:
         phase_up=_choice("phase-y", "vertical axis", states, len(coordinates) if rates else 0),
         phase_across=_choice("phase-x", "horizontal axis", states, 0),
         numbers=_numbers(states),
-        derivation=_steps(contents.document),
+        derivation=packed(_steps(contents.document).encode()),
         data=embedded(contents.data),
-        engine=contents.engine.script(),
+        engine=contents.solver.script(),
         scripts="\n".join(squeezed(_file(name)) for name in SCRIPTS),
     )
 
@@ -151,13 +161,9 @@ def _equations(document: Document) -> str:
     return ""
 
 
-_ALONE = re.compile(r"<mrow>(<(m[ion]|mtext)\b[^<>]*>[^<>]*</\2>)</mrow>")
-
-
 def _steps(document: Document) -> str:
-    """Everything but the result; a row around a single letter is left out, because a page has thousands of these."""
-    listed = [html_page.section_html(section) for section in document.sections if section.anchor != "result"]
-    return _ALONE.sub(r"\1", "\n".join(listed))
+    """Everything but the result."""
+    return "\n".join(html_page.section_html(s) for s in document.sections if s.anchor != "result")
 
 
 # -- sliders ----------------------------------------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 "use strict";
 // The moving picture: a small interpreter of the parts of a scene on a canvas.
 // The place of an anchor is  origin + scale · view · r + shift  in pixels of the picture, then a zoom that fits them all.
+// Where bodies were moved apart to be seen, each moves about its place at rest, with displacements that have room there.
 
 /**
  * @param {any} scene  the scene as data
@@ -10,11 +11,23 @@ function makePicture(scene, anchors) {
   const depth = scene.view[0].length, count = scene.positions.length;
   const r = new Float64Array(count * depth);
   const parts = scene.parts.filter((part) => part.moves).sort((a, b) => a.layer - b.layer);
-  const self = { view: scene.view.map((row) => [...row]), zoom: 1, left: 0, top: 0, place, seen, draw, fit, orbit, r, depth, count };
+  const bounds = parts.filter((part) => part.kind !== "floor").map((part) => ({ part, corners: part.trace ? [] : cornersOf(part) }));
+  /** Displacements: r is replaced by rest + factor · (r − middle). */
+  const displaced = { factor: 1, middle: /** @type {Float64Array | null} */ (null), rest: Float64Array.from(scene.positions.flat()) };
+  const self = { displaced, view: scene.view.map((row) => [...row]), zoom: 1, left: 0, top: 0, place, seen, draw, fit, cover, spread, orbit, r, depth, count };
+
+  /** The corners of the box around a shape, in its own axes. */
+  function cornersOf({ disc, path }) {
+    const points = disc ? [[disc[0] - disc[2], disc[1] - disc[2]], [disc[0] + disc[2], disc[1] + disc[2]]] : path.flatMap(([, ...n]) => n.flatMap((x, i) => (i % 2 ? [] : [[x, n[i + 1]]])));
+    const [xs, ys] = [points.map(([x]) => x), points.map(([, y]) => y)];
+    return [Math.min(...xs), Math.max(...xs)].flatMap((x) => [Math.min(...ys), Math.max(...ys)].map((y) => [x, y]));
+  }
 
   /** Compute the positions of all anchors. */
   function place(x, t) {
     anchors(x, t, r);
+    const { factor, middle, rest } = displaced;
+    if (middle) for (let i = 0; i < r.length; i++) r[i] = rest[i] + factor * (r[i] - middle[i]);
     return r;
   }
 
@@ -108,9 +121,37 @@ function makePicture(scene, anchors) {
     context.globalAlpha = 1;
   }
 
+  /** Widen a box [left, top, right, bottom], in pixels of the picture, by everything that moves. */
+  function cover(box) {
+    const add = (x, y) => ([box[0], box[1], box[2], box[3]] = [Math.min(box[0], x), Math.min(box[1], y), Math.max(box[2], x), Math.max(box[3], y)]);
+    for (const { part, corners } of bounds) {
+      if (part.trace) part.trace.anchors.forEach((anchor, i) => add(...seen(anchor, part.trace.shifts[i])));
+      else {
+        const [a, b, c, d, e, f] = axes(part.placement);
+        for (const [x, y] of corners) add(a * x + c * y + e, b * x + d * y + f);
+      }
+    }
+  }
+
+  /** Choose the displacements of a picture in which bodies were moved apart, from states that a run goes through. */
+  function spread(states) {
+    if (scene.room === null || !states.length) return;
+    const keep = displaced.middle;
+    displaced.middle = null;
+    const seen_ = states.map(({ x, t }) => Float64Array.from(place(x, t)));
+    const middle = keep ?? r.map((_, i) => (Math.min(...seen_.map((s) => s[i])) + Math.max(...seen_.map((s) => s[i]))) / 2);
+    let largest = 0;
+    for (const s of seen_)
+      for (const a of scene.handles)
+        for (const b of scene.handles)
+          for (let i = 0; i < depth; i++) largest = Math.max(largest, Math.abs(s[a * depth + i] - middle[a * depth + i] - s[b * depth + i] + middle[b * depth + i]));
+    displaced.middle = middle;
+    displaced.factor = Math.min(4, (2 * scene.room) / Math.max(1e-12, scene.scale * largest));
+  }
+
   /** Zoom so that a box in pixels of the picture fills a canvas of a size, with a margin. */
   function fit([x0, y0, x1, y1], width, height, largest = 1.6) {
-    const margin = Math.min(56, 0.12 * Math.min(width, height));
+    const margin = Math.min(30, 0.08 * Math.min(width, height));
     self.zoom = Math.min(largest, (width - 2 * margin) / Math.max(1, x1 - x0), (height - 2 * margin) / Math.max(1, y1 - y0));
     self.left = width / 2 - (self.zoom * (x0 + x1)) / 2;
     self.top = height / 2 - (self.zoom * (y0 + y1)) / 2;

@@ -91,10 +91,10 @@ function makeRun(solver, functions, data) {
     return self.end >= t - 1e-9 * interval;
   }
 
-  /** Run ahead, to know how far things go: `visit(x, t)` sees the states. */
-  function measure(x, span, visit) {
+  /** The states of a run ahead, from which the page knows how far things go. */
+  function measure(x, span) {
     const found = solver.solve({ state: x, params: self.p, inputs: self.u, t0: 0, t1: span, samples: 241, rtol: 1e-6, atol: 1e-9, maxSteps: 20000, seconds: 0.5, step: span / 2000 });
-    found.states.forEach((state, i) => visit(state, found.t[i]));
+    return found.states.map((state, i) => ({ x: state, t: found.t[i] }));
   }
 
   return self;
