@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.look.holds import HoldKind, Motions
-from lagrangian.look.kinematics import Kinematics
+from lagrangian.look.kinematics import Kinematics, Views
 from lagrangian.look.shapes import INK, arc, arc_end, head, line
 from lagrangian.page.scene import FIXED, Disc, Pair, Path, Placement, Role, ScenePart, Trace
 
@@ -65,23 +65,30 @@ class Board:
     """Where a disc on a shaft is seen, by the name of its body."""
     floor_margin: Pair = (0.0, 0.0)
     """How much farther floors reach to the left and to the right, to walls [px]."""
+    pinned: frozenset[int] = frozenset()
+    """The points at which joints close loops."""
     hidden: frozenset[str] = frozenset()
     """The names of elements that are not to be drawn."""
-    _r: Array | None = None
+    _views: Views | None = None
 
     # -- where ----------------------------------------------------------------------------------------------------
 
     @property
     def r(self) -> Array:
         """The positions [m] of all points in the pose."""
-        found = self._r
-        if found is None or len(found) != len(self.stage.points):
-            found = self._r = self.stage.views([self.q], self.p).r[0]
+        return self.views.r[0]
+
+    @property
+    def views(self) -> Views:
+        """The stage in the pose, with all points that there are."""
+        found = self._views
+        if found is None or found.r.shape[1] != len(self.stage.points):
+            found = self._views = self.stage.views([self.q], self.p)
         return found
 
     def posed(self, q: Array) -> None:
         """Take another pose."""
-        self.q, self._r = q, None
+        self.q, self._views = q, None
 
     def anchor(self, k: int) -> int:
         """The number of a point among the anchors of the scene."""
@@ -242,6 +249,20 @@ class Board:
         for a, b in itertools.pairwise(spots):
             self.fence(a, b)
 
+    def measure(self, a: int, b: int, name: str, off: float) -> None:
+        """A thin line beside the straight line between two points, ``off`` [px] to its left, with a length's name."""
+        start, end = self.at(a), self.at(b)
+        e = (end - start) / (np.linalg.norm(end - start) or 1.0)
+        n = np.array([e[1], -e[0]]) * (1.0 if off > 0 else -1.0)
+        p, q = start + abs(off) * n, end + abs(off) * n
+        foot, top = start + (abs(off) + 3.0) * n, end + (abs(off) + 3.0) * n
+        for s, t, dashed in ((p, q, False), (start, foot, True), (end, top, True)):
+            self.put(
+                line(_pair(s), _pair(t)), "thin", kind="measure", width=0.9, layer=GROUND, moves=False, dashed=dashed
+            )
+        self.fence(p, q)
+        self.wish((name,), (p + q) / 2, n, "thin", distance=3.0)
+
     def lacks(self, what: str, help_by: str) -> None:
         """Say what is not drawn, and the line that helps."""
         self.missing.append(f"{what}: {help_by}" if help_by else what)
@@ -250,3 +271,7 @@ class Board:
         """Whether the holder of a point does not move."""
         hold = self.motions.holds[k]
         return hold.how is not HoldKind.FIRMLY and self.motions.still(hold.holder)
+
+
+def _pair(v: Array) -> Pair:
+    return float(v[0]), float(v[1])

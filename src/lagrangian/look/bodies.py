@@ -30,6 +30,8 @@ from lagrangian.page.scene import Disc, Trace
 
 Array = NDArray[np.float64]
 
+TURNING = (HoldKind.ROD, HoldKind.TELESCOPE)
+
 COG = 6.0
 """The radius of the mark of a centre of mass [px]."""
 
@@ -56,7 +58,7 @@ def slide_heading(board: Board, part: Player) -> tuple[float, Array]:
     """The angle on the screen of what a body slides on, between −90° and 90°, and the outward normal (upward)."""
     assert part.direction is not None
     hold = board.motions.holds[part.point]
-    views = board.stage.views([board.q], board.p)
+    views = board.views
     e = board.seen(direction(views.J[0, part.point] - views.J[0, hold.holder]))
     angle = heading((float(e[0]), float(e[1])))
     angle = (angle + pi / 2) % pi - pi / 2
@@ -82,7 +84,12 @@ def _cart(board: Board, part: Player) -> None:
         board.put(Disc((x, h / 2 + WHEEL - 2), WHEEL), "body", place, of=of, kind="cart", filled=True, layer=BODY + 1)
     at = board.at(part.point)
     board.block(at + (0, 5), w, h + 10)
-    board.wish(mass_names(part), at, (0.0, 0.0), "body", of, inside=True)
+    hinged = any(
+        h.holder == part.point and h.how is not HoldKind.FIRMLY for h in board.motions.holds if h.point != h.holder
+    )
+    hinged = hinged and any(h.holder == part.point and h.how in TURNING for h in board.motions.holds)
+    spot = at - (w / 4, 0.0) if hinged or part.point in board.pinned else at
+    board.wish(mass_names(part), spot, (0.0, 0.0), "body", of, inside=True)
 
 
 def _block(board: Board, part: Player) -> None:
@@ -112,7 +119,7 @@ def _wedge(board: Board, part: Player) -> None:
         and board.motions.holds[k].how is HoldKind.SLIDE
         and k != part.point
     )
-    J = stage.views([board.q], board.p).J[0]
+    J = board.views.J[0]
     e = board.seen(direction(J[rider] - J[part.point]))
     if e[1] < 0:
         e = -e
@@ -207,7 +214,8 @@ def _link(board: Board, part: Player) -> None:
     """A capsule between its farthest points; one that ends at its centre of mass goes on as far again."""
     assert part.spine is not None
     a, b = part.spine
-    if part.point in (a, b):
+    holder = board.motions.holds[part.point].holder
+    if part.point in (a, b) and holder in (a, b) and holder != part.point:
         joint = b if part.point == a else a
         position, start = board.stage.model.position, board.stage.points
         gap = [2 * (x - y) for x, y in zip(position(start[part.point]), position(start[joint]), strict=True)]
@@ -225,6 +233,25 @@ def _link(board: Board, part: Player) -> None:
         distance=BAR / 2 + 3,
     )
     board.tips[part.point] = b
+    _lengths(board, part, e)
+
+
+def _lengths(board: Board, part: Player, e: Array) -> None:
+    """The names of a link's lengths: to its centre of mass along a thin line, to its other joints beside it."""
+    holder, k = board.motions.holds[part.point].holder, part.point
+    if board.stage.dimension == 3 or holder not in part.points:
+        return
+    named = {board.motions.length(holder, k): k}
+    name = next((x.name for x in named if isinstance(x, sp.Symbol)), "")
+    side = -1.0 if e[0] > 0 else 1.0
+    if name:
+        board.measure(holder, k, name, side * (BAR / 2 + 8.0))
+    for other in part.points:
+        length = board.motions.length(holder, other)
+        if other != holder and isinstance(length, sp.Symbol):
+            middle = (board.at(holder) + board.at(other)) / 2
+            n = side * np.array([-e[1], e[0]])
+            board.wish((length.name,), middle, n, "thin", (part.name,), distance=BAR / 2 + (14.0 if name else 4.0))
 
 
 def draw_bar(board: Board, a: int, b: int, part: Player) -> None:

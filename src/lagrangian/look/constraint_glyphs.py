@@ -6,12 +6,16 @@ import itertools
 from math import pi
 
 import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
 
 from lagrangian.look.board import BEHIND, BODY, GROUND, JOINT, Board
 from lagrangian.look.cast import Player
-from lagrangian.look.shapes import box, floor, heading, line, turned
-from lagrangian.model import Ball, Constraint, Element, Pin, Rolling, Rope, Slider, VelocityConstraint, Weld
+from lagrangian.look.shapes import BAR, box, floor, heading, line, turned
+from lagrangian.model import Ball, Constraint, Element, Frame, Pin, Rolling, Rope, Slider, VelocityConstraint, Weld
 from lagrangian.page.scene import Disc, Role, Trace
+
+Array = NDArray[np.float64]
 
 LINE_KINDS: dict[str, tuple[Role, float]] = {
     "string": ("rod", 1.6), "rod": ("rod", 3.0), "wire": ("rod", 2.0),
@@ -69,20 +73,99 @@ def _one(board: Board, parts: list[Player], element: Element) -> None:
                     support(board, k, board.at(b if k == a else a) - board.at(k))
     elif isinstance(element, Rolling):
         _contact(board, parts, element)
-    elif isinstance(element, VelocityConstraint) and getattr(element, "at", None) is not None:
-        k = board.stage.index(element.at)
-        board.put(
-            line((-13.0, 0.0), (13.0, 0.0)), "constraint", board.placed(k), of=of, kind="edge", width=4.0, layer=JOINT
-        )
-    else:
+    elif not _of_expression(board, element):
         board.lacks(f"{element.title} is not drawn, because it is an expression", "")
+
+
+def _of_expression(board: Board, element: Element) -> bool:
+    """Draw a constraint that is an expression, if it keeps a point on a line, or from moving sideways."""
+    if isinstance(element, Constraint):
+        return _stop(board, element)
+    return isinstance(element, VelocityConstraint) and _edge(board, element)
+
+
+def _stop(board: Board, element: Constraint) -> bool:
+    """The floor or wall of an expression that keeps a point on a horizontal or vertical line; whether it is one."""
+    if board.stage.dimension == 3 or element.expression is None:
+        return False
+    rng, p = np.random.default_rng(9), board.motions.views.p
+    states = [rng.uniform(0.4, 1.3, len(board.q)) for _ in range(2)]
+    slopes = [board.stage.slopes(element.expression, q, p) for q in states]
+    J = board.stage.views(states, p).J
+    for k in range(1, len(board.stage.points)):
+        for axis in (1, 0):
+            for sign in (1.0, -1.0):
+                if all(np.abs(sign * j[k, axis] - g).max() < 1e-9 for j, g in zip(J, slopes, strict=True)):
+                    _wall(board, element, k, axis)
+                    return True
+    return False
+
+
+def _wall(board: Board, element: Constraint, k: int, axis: int) -> None:
+    """Hatched ground at a point: below it, or on the side away from the other bodies."""
+    middle = np.mean([board.at(board.stage.index(b.at)) for b in board.stage.model.bodies], axis=0)
+    away = board.at(k) - middle
+    upright, level = (pi / 2 if away[0] < 0 else -pi / 2), (0.0 if away[1] >= 0 else pi)
+    angle = level if axis == 1 else upright
+    base = board.stage.fixed(board.r[k])
+    half = BAR / 2 * np.array([-np.sin(angle), np.cos(angle)])
+    place = board.placed(base, float(half[0]), float(half[1]))
+    shape = turned(floor(-70.0, 70.0), angle)
+    board.put(shape, "ground", place, of=(element.name,), kind="floor", layer=GROUND)
+    e = 70.0 * np.array([np.cos(angle), np.sin(angle)])
+    board.fence(board.at(k) + half - e, board.at(k) + half + e)
+
+
+def _edge(board: Board, element: VelocityConstraint) -> bool:
+    """What cannot move sideways, seen from above: a wheel at its point; whether there is such a point."""
+    if board.stage.dimension == 3:
+        return False
+    found = _named_edge(board, element) if element.expression is None else _found_edge(board, element)
+    if found is None:
+        return False
+    k, along, frame = found
+    offset = [sp.Float(float(x) * 20.0 / board.scale) for x in along]
+    tip = board.stage.add(k, offset, frame)
+    place = board.towards(k, tip, "none")
+    of = (element.name,)
+    board.put(box(30.0, 9.0, round_by=3.0), "constraint", place, of=of, kind="wheel", filled=True, layer=JOINT)
+    board.block(board.at(k), 24, 24)
+    return True
+
+
+def _named_edge(board: Board, element: VelocityConstraint) -> tuple[int, Array, Frame | None] | None:
+    """The point of a row with one direction that is given, and the direction in which it can move."""
+    rows = [element.along] if not isinstance(element.along[0], tuple) else list(element.along)
+    if len(rows) != 1:
+        return None
+    across = np.array([board.stage.value(x, board.q, board.p) for x in rows[0]])
+    return board.stage.index(element.at), np.array([across[1], -across[0]]), element.axes
+
+
+def _found_edge(board: Board, element: VelocityConstraint) -> tuple[int, Array, Frame | None] | None:
+    """The point and frame of which a row says n·v = 0, with n at rest in the frame; found by numbers."""
+    stage, views = board.stage, board.motions.views
+    rng = np.random.default_rng(7)
+    states = [rng.uniform(0.4, 1.3, len(board.q)) for _ in range(3)]
+    seen = stage.views(states, views.p)
+    rows = [stage.rate_slopes(element.expression, q, views.p) for q in states]
+    for k in range(1, len(board.motions.holds)):
+        normals = [np.linalg.lstsq(J[k].T, row, rcond=None)[0] for J, row in zip(seen.J, rows, strict=True)]
+        fits = [np.abs(J[k].T @ n - row).max() < 1e-9 for J, row, n in zip(seen.J, rows, normals, strict=True)]
+        if not all(fits) or min(float(np.linalg.norm(n)) for n in normals) < 1e-6:
+            continue
+        for f, frame in enumerate(stage.frames):
+            own = np.array([R[f].T @ (n / np.linalg.norm(n)) for R, n in zip(seen.R, normals, strict=True)])
+            if np.ptp(own, axis=0).max() < 1e-9:
+                return k, np.array([own[0][1], -own[0][0]]), frame
+    return None
 
 
 def _slider(board: Board, element: Slider) -> None:
     """A guide through the second point along its direction, and a sleeve at the first."""
     a, b = (board.stage.index(p) for p in element.between)
     along = [board.stage.value(x, board.q, board.p) for x in element.along]
-    views = board.stage.views([board.q], board.p)
+    views = board.views
     if element.axes is not None:
         along = list(views.R[0, board.stage.frames.index(element.axes)] @ np.array(along))
     e = board.seen(along)

@@ -83,6 +83,11 @@ class EffortArtist:
         )
         if push and pull is None and self._taken(k, -e):
             push = False
+        beside = not push and part is not None and part.direction is not None and self._taken(k, e)
+        if beside and part is not None:
+            w, h = CART if part.glyph is BodyGlyph.CART else BLOCK
+            across = np.array([-abs(e[1]), -abs(e[0])])
+            at, reach = at + ((w if abs(e[1]) > 0.7 else h) / 2 + 9.0) * across, 0.0
         if part is not None and part.glyph is BodyGlyph.WEDGE:
             at = at + (0.0, board.sole.get(k, 0.0) / 2)
             reach = 0.0
@@ -246,6 +251,8 @@ class EffortArtist:
             radius = board.scale * float(board.stage.evaluated([part.radius], board.q, board.p)[0]) + 9.0
         tip = board.at(turn.tip) - at
         back = float(np.arctan2(-tip[1], -tip[0])) if np.linalg.norm(tip) > 1 else pi
+        if board.motions.still(turn.joint) and np.linalg.norm(tip) > 1:  # beside its support
+            back = pi if tip[0] >= 0 else 0.0
         if turn.slopes[np.flatnonzero(turn.slopes)].sum() < 0 and board.stage.dimension == 2 and turn.frame is None:
             sense = -sense
         half = 65 * pi / 180

@@ -181,6 +181,13 @@ class Kinematics:
         program = self._program({"x": Output((node,), ())})
         return float(evaluate(program, self._groups(q, p, u=u))["x"])
 
+    def rate_slopes(self, expression: sp.Expr, q: Array, p: Array) -> Array:
+        """∂(expression)/∂v (m,) of an expression that is linear in the rates, at a state."""
+        node = self.described.node(self.model.expand(expression))
+        ids = [jvp(self.graph, [node], {s: self.graph.one})[0] for s in self.inputs.v]
+        program = self._program({"x": Output(tuple(ids), (len(ids),))})
+        return np.array(evaluate(program, self._groups(q, p))["x"], float)
+
     def slopes(self, expression: sp.Expr, q: Array, p: Array) -> Array:
         """∂(expression)/∂q (n,) at a state."""
         node = self.described.node(self.model.expand(expression))

@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 from lagrangian.look.board import BEHIND, MEASURE, Board
 from lagrangian.look.cast import BodyGlyph, Player
 from lagrangian.look.holds import HoldKind
+from lagrangian.look.labels import crosses
 from lagrangian.look.shapes import line
 from lagrangian.look.turning import Turn
+from lagrangian.page.scene import Pair
 
 Array = NDArray[np.float64]
 
@@ -23,14 +25,22 @@ ARC = 42.0
 """The radius of the arc of an angle [px]."""
 
 
+def _crossing(a: Pair, b: Pair, c: Pair, d: Pair) -> bool:
+    """Whether two pieces of line cross."""
+
+    def side(p: Pair, q: Pair, r: Pair) -> float:
+        return (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+
+    return side(a, b, c) * side(a, b, d) < 0 and side(c, d, a) * side(c, d, b) < 0
+
+
 class MeasureArtist:
     """Draws the coordinates of a system."""
 
     def __init__(self, board: Board, parts: list[Player], turns: list[Turn]) -> None:
         self.board, self.parts, self.turns = board, parts, turns
-        self.levels: dict[tuple[int, int], int] = {}
+        self.arrows: list[tuple[Array, Array]] = []
         self.arcs: dict[int, int] = {}
-        self.free: dict[int, int] = {}
 
     def draw(self) -> None:
         """Draw every coordinate that the rules know; what they do not know is told."""
@@ -59,7 +69,8 @@ class MeasureArtist:
         ]
         for k, part in points:
             for h in (0, *(p.point for p in sliders if p.point != k)):
-                if motions.coordinates(k, h) == (i,) and (h == 0 or not motions.still(h)):
+                known = motions.coordinates(k)
+                if motions.coordinates(k, h) == (i,) and i in known and (h == 0 or i not in motions.coordinates(h)):
                     J = motions.views.J[0, k] - motions.views.J[0, h]
                     if h and part is None:
                         continue
@@ -80,7 +91,7 @@ class MeasureArtist:
         start = end - along * e
         if abs(along) < 12.0:
             start = end - 40.0 * e
-        n, off = self._side(k, e, part)
+        n, off = self._side(k, start, end, e, part)
         mark_a, mark_b = start + off * n, end + off * n
         self._arrow(mark_a, mark_b, name)
         if h:
@@ -94,44 +105,53 @@ class MeasureArtist:
             )
         board.put(line(tuple(end), tuple(mark_b + 5 * n)), "thin", kind="measure", width=0.9, layer=BEHIND, moves=False)
 
-    def _side(self, k: int, e: Array, part: Player | None) -> tuple[Array, float]:
-        """On which side of a body the arrow of its length lies, and how far away."""
-        board = self.board
+    def _side(self, k: int, start: Array, end: Array, e: Array, part: Player | None) -> tuple[Array, float]:
+        """On which side of a body the arrow of its length lies, and how far away: where it meets the least."""
         vertical = abs(e[1]) > 0.96
         n = np.array([1.0, 0.0]) if vertical else np.array([e[1], -e[0]]) if e[0] > 0 else np.array([-e[1], e[0]])
-        off = ABOVE if not vertical else 54.0
-        key = (round(float(board.at(k) @ n) / 30), round(float(n[0]) * 2))
-        if part is not None and part.glyph in (BodyGlyph.WHEEL,) and part.radius is not None:
-            off = board.scale * float(board.stage.evaluated([part.radius], board.q, board.p)[0]) + 22.0
-        elif part is not None and part.glyph is BodyGlyph.WEDGE:
-            n, off = -n, board.sole.get(k, 100.0) + 28.0
-        elif part is not None and part.glyph is BodyGlyph.BLOCK and not vertical and abs(e[1]) > 0.04:
-            off = 52.0
-        elif part is not None and self._crowned(part):
-            n, off = -n, 56.0
-        level = self.levels.get(key, 0)
-        if part is not None and part.glyph is BodyGlyph.CART:
-            taken = [x for x in self.parts if x is not part and x.glyph is BodyGlyph.CART]
-            self.levels[key] = level + (1 if taken and self._overlaps(k, e) else 0)
-            return n, off + LEVEL * level
-        self.levels[key] = level + 1
-        return n, off + LEVEL * level
+        near, far = self._distances(k, vertical, abs(e[1]) > 0.04, part)
+        options = [(n, near + LEVEL * level, 0.6 * level) for level in range(3)]
+        options += [(-n, far + LEVEL * level, 1.0 + 0.6 * level) for level in range(2)]
+        if part is not None and part.glyph is BodyGlyph.WEDGE:
+            options = [(-n, far + LEVEL * level, 0.6 * level) for level in range(3)]
 
-    def _overlaps(self, k: int, e: Array) -> bool:
-        return any(
-            self.board.motions.holds[p.point].holder != 0
-            and not self.board.motions.still(self.board.motions.holds[p.point].holder)
-            for p in self.parts
-            if p.glyph is BodyGlyph.CART
-        )
+        def cost(option: tuple[Array, float, float]) -> float:
+            m, off, price = option
+            return price + self._met(start + off * m, end + off * m)
 
-    def _crowned(self, part: Player) -> bool:
-        """Whether something stands on a body, so that its arrow lies below."""
-        board = self.board
-        for turn in self.turns:
-            if turn.joint == part.point and (board.at(turn.tip) - board.at(turn.joint))[1] < -20.0:
-                return True
-        return False
+        m, off, _ = min(options, key=cost)
+        self.arrows.append((start + off * m, end + off * m))
+        return m, off
+
+    def _distances(self, k: int, vertical: bool, sloped: bool, part: Player | None) -> tuple[float, float]:
+        """How far the arrow is from the middle of a body on its near (upper or right) side and on the other."""
+        if part is None:
+            return (54.0, 54.0) if vertical else (ABOVE, ABOVE)
+        if part.glyph is BodyGlyph.WHEEL and part.radius is not None:
+            radius = self.board.scale * float(self.board.stage.evaluated([part.radius], self.board.q, self.board.p)[0])
+            return radius + 22.0, radius + 26.0
+        if part.glyph is BodyGlyph.WEDGE:
+            return 30.0, self.board.sole.get(k, 100.0) + 28.0
+        if vertical:
+            return 54.0, 54.0
+        if part.glyph is BodyGlyph.BLOCK:
+            return (52.0, 30.0) if sloped else (ABOVE, ABOVE)
+        return ABOVE, 58.0
+
+    def _met(self, a: Array, b: Array) -> float:
+        """What an arrow would lie on: lines, bodies, and arrows that are there."""
+        p, q = (float(a[0]), float(a[1])), (float(b[0]), float(b[1]))
+        found = sum(2.0 for s, t in self.board.segments if _crossing(p, q, s, t))
+        found += sum(3.0 for box in self.board.boxes if crosses(box, p, q))
+        for s, t in self.arrows:
+            box = (min(s[0], t[0]) - 6, min(s[1], t[1]) - 10, abs(t[0] - s[0]) + 12, abs(t[1] - s[1]) + 20)
+            shrunk = (a + 0.1 * (b - a), b - 0.1 * (b - a))
+            found += (
+                4.0
+                if crosses(box, (float(shrunk[0][0]), float(shrunk[0][1])), (float(shrunk[1][0]), float(shrunk[1][1])))
+                else 0.0
+            )
+        return found
 
     def _arrow(self, start: Array, end: Array, name: str, *, label: Array | None = None) -> None:
         board = self.board
@@ -157,7 +177,7 @@ class MeasureArtist:
                 continue
             start, end = board.at(hold.holder), board.at(hold.point)
             if hold.how is HoldKind.TRACK:
-                views = board.stage.views([board.q], board.p)
+                views = board.views
                 e = board.seen(views.J[0, hold.point, :, i])
                 size = float(np.linalg.norm(e))
                 if size < 1e-9:
@@ -195,7 +215,7 @@ class MeasureArtist:
         for turn in turns:
             others = sorted((t for t in turns if t is not turn), key=lambda t: -float(np.abs(t.slopes).sum()))
             for other in others:
-                if self._is(turn.slopes - other.slopes, unit):
+                if other.slopes[i] == 0.0 and self._is(turn.slopes - other.slopes, unit):
                     self._arc(i, name, turn, float(turn.slopes[i]))
                     return True
         return False
@@ -257,7 +277,7 @@ class MeasureArtist:
     def _position(self, i: int, name: str) -> bool:
         """An arrow at a free point in the direction in which the coordinate moves it."""
         board = self.board
-        J = board.stage.views([board.q], board.p).J[0]
+        J = board.views.J[0]
         order = [p.point for p in self.parts] + list(range(1, len(board.motions.holds)))
         candidates = [k for k in order if i in board.motions.coordinates(k)]
         candidates.sort(key=lambda k: len(board.motions.coordinates(k)))

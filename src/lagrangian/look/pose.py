@@ -55,6 +55,9 @@ class Pose:
 
     def _turns(self, i: int) -> bool:
         """Whether a coordinate turns a frame, a rod or a telescope."""
+        lengths = (HoldKind.TELESCOPE, HoldKind.TRACK, HoldKind.WIRE)
+        if any(h.along == i and h.how in lengths for h in self.motions.holds):
+            return False
         if any(i in self.motions.turns(k) for k in range(len(self.stage.frames))):
             return True
         return any(
@@ -84,7 +87,9 @@ class Pose:
         for i, name in enumerate(self.names):
             if name in self.asked:
                 q[i] = self.asked[name]
-            elif self.stage.model.constraints and self.start:
+            elif self.start and any(
+                row.on_positions for e in self.stage.model.constraints for row in e.conditions(self.stage.model)
+            ):
                 q[i] = self.start.get(name, q[i])
             elif i in self.angles and not self._floats(name):
                 if first or self._alone(i):

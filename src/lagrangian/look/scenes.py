@@ -70,6 +70,9 @@ def scene_of(model: Model, hints: Hints | None = None) -> tuple[Scene, Program]:
     board = Board(stage, motions, pose.closed(pose.q), p, view, hidden=frozenset(hints.hide))
     board.scale = _scale(board, parts)
     _slide_apart(board, pose, parts)
+    board.pinned = frozenset(
+        stage.index(point) for e in model.constraints for _, point in e.points() if e.kind in ("pin", "ball", "weld")
+    )
     turns = turns_of(motions, parts, {})
     resolver = Resolver(motions, parts, turns)
     tied = [e for e in model.elements if getattr(e, "between", None) or getattr(e, "deflection", None) is not None]
@@ -108,10 +111,14 @@ def _scale(board: Board, parts: list[Player]) -> float:
             radius = float(board.stage.evaluated([part.radius], board.q, board.p)[0])
             if radius > 0:
                 structure += [at + (radius, radius), at - (radius, radius)]
-                longest = max(longest, 2.2 * radius)
+                longest = max(longest, 3.8 * radius)
         if part.glyph is BodyGlyph.LINK and part.spine is not None and part.point in part.spine:
             joint = part.spine[0] if part.spine[1] == part.point else part.spine[1]
             structure.append(2 * at - board.view @ board.r[joint])
+        if part.glyph is BodyGlyph.BEAM:
+            runners = [h for h in board.motions.holds if h.frame == part.frame and h.along is not None]
+            reach = max((1.6 * abs(float(board.q[h.along or 0])) for h in runners), default=0.0)
+            structure += [at + (reach, 0.0), at - (reach, 0.0)]
         if part.glyph is BodyGlyph.BAR or not structure:
             structure.append(at)
     spots = np.array(structure) if structure else np.zeros((1, 2))

@@ -19,7 +19,7 @@ ARC = 46.0
 
 def axis_of(board: Board, frame: int, i: int) -> Array | None:
     """The axis about which coordinate i turns a frame in the pose, as a unit vector in the fixed axes."""
-    views = board.stage.views([board.q], board.p)
+    views = board.views
     R, RJ = views.R[0, frame], views.RJ[0, frame, :, :, i]
     W = RJ @ R.T
     n = np.array([W[2, 1], W[0, 2], W[1, 0]])
@@ -73,7 +73,7 @@ def _axis(board: Board, i: int, turn: Turn) -> Array | None:
     """The axis of a frame's turn, or that of a rod: d × ∂d/∂q."""
     if turn.frame is not None:
         return axis_of(board, turn.frame, i)
-    views = board.stage.views([board.q], board.p)
+    views = board.views
     d = views.r[0, turn.tip] - views.r[0, turn.joint]
     D = views.J[0, turn.tip, :, i] - views.J[0, turn.joint, :, i]
     n = _rod_axis(board, i, turn, d, D)

@@ -45,7 +45,7 @@ def spread(board: Board, parts: list[Player], ties: list[Tie]) -> float | None:
 def slide_along(board: Board, part: Player) -> Array:
     """The direction of a slide on the screen, to the right or, on a vertical line, upward."""
     hold = board.motions.holds[part.point]
-    J = board.stage.views([board.q], board.p).J[0]
+    J = board.views.J[0]
     e = board.seen(direction(J[part.point] - J[hold.holder]))
     e = e / np.linalg.norm(e)
     return -e if e[0] < -1e-9 or (abs(e[0]) < 1e-9 and e[1] > 0) else e

@@ -6,11 +6,12 @@ import itertools
 from math import pi
 
 import numpy as np
+import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian.look.board import BEHIND, BODY, GROUND, JOINT, Board
 from lagrangian.look.bodies import slide_heading, slope_angle
-from lagrangian.look.cast import BodyGlyph, Player
+from lagrangian.look.cast import BodyGlyph, Player, direction
 from lagrangian.look.holds import HoldKind
 from lagrangian.look.shapes import CART, INK, WHEEL, arc, floor, line, pin, turned
 from lagrangian.look.ties import Tie
@@ -77,6 +78,11 @@ def _rod(board: Board, a: int, b: int, *, rope: bool = False) -> None:
         width=1.6 if rope else 3.0, layer=BODY - 5,
     )  # fmt: skip
     board.fence(start, end)
+    length = board.motions.length(a, b)
+    if isinstance(length, sp.Symbol) and not rope:
+        n = np.array([end[1] - start[1], start[0] - end[0]])
+        n = n if n[0] > 0 or (n[0] == 0 and n[1] < 0) else -n
+        board.wish((length.name,), (start + end) / 2, n, "thin", names, distance=4.0)
 
 
 def _wires(board: Board, parts: list[Player]) -> None:
@@ -114,13 +120,17 @@ def _joints(board: Board, parts: list[Player], rods: list[tuple[int, int]]) -> N
     for part in parts:
         if part.frame is None or part.glyph not in LINKS or not board.motions.turns(part.frame):
             continue
-        for k in part.points or ((part.point,) if board.motions.still(part.point) else ()):
+        centre = (part.point,) if board.motions.still(part.point) else ()
+        for k in (*part.points, *centre):
             if _is_joint(board, parts, part, k):
                 hung.setdefault(k, []).append(board.at(part.point) - board.at(k))
     for k, directions in hung.items():
         at = board.at(k)
         if board.motions.still(k):
             support(board, k, np.sum(directions, axis=0))
+        elif not board.motions.coordinates(k):
+            support(board, k, np.sum(directions, axis=0))
+            _driven(board, k)
         board.put(Disc((0.0, 0.0), 3.6), "body", board.placed(k), kind="joint", filled=True, layer=JOINT, width=INK)
         board.block(at, 9.0, 9.0)
 
@@ -143,6 +153,17 @@ def support(board: Board, k: int, towards: Array) -> None:
     board.put(turned(triangle, angle), "ground", board.placed(k), kind="pin", layer=BEHIND, filled=False)
     board.put(turned(ground, angle), "ground", board.placed(k), kind="pin", layer=BEHIND)
     board.block(board.at(k) + (0, -12 if up else 12), 40, 24)
+
+
+def _driven(board: Board, k: int) -> None:
+    """A double arrow beside a support that is moved as a function of time."""
+    rate = board.seen(board.motions.views.rt[0, k])
+    e = rate / (np.linalg.norm(rate) or 1.0)
+    n = np.array([-e[1], e[0]])
+    n = n if n[0] < 0 else -n
+    at = board.at(k) + 32.0 * n
+    board.arrow(at, at + 20.0 * e, "input", kind="driven", width=1.6)
+    board.arrow(at, at - 20.0 * e, "input", kind="driven", width=1.6)
 
 
 def _stand(board: Board, k: int) -> None:
@@ -205,7 +226,7 @@ def _incline(board: Board, angle: float, corner: Array, along: Array) -> None:
 def sole_of(board: Board, part: Player) -> float | None:
     """How far the floor is below a body's point [px]; None for a body without a floor."""
     hold = board.motions.holds[part.point]
-    if hold.how is not HoldKind.SLIDE or not board.motions.still(hold.holder):
+    if hold.how is not HoldKind.SLIDE or not _grounded(board, part):
         return None
     if part.glyph is BodyGlyph.CART:
         return SOLE
@@ -217,6 +238,17 @@ def sole_of(board: Board, part: Player) -> float | None:
         angle, _ = slide_heading(board, part)
         return 0.0 if abs(np.sin(angle)) < 0.96 else None
     return None
+
+
+def _grounded(board: Board, part: Player) -> bool:
+    """Whether a body slides on the ground: its slide does not move, or moves along the same line."""
+    holder = board.motions.holds[part.point].holder
+    if board.motions.still(holder):
+        return True
+    J = board.motions.views.J[0, holder]
+    if part.direction is None or not J.any():
+        return False
+    return float(abs(direction(J) @ part.direction)) > 0.9999
 
 
 def _pulleys(board: Board, parts: list[Player]) -> None:
@@ -234,9 +266,7 @@ def _pulleys(board: Board, parts: list[Player]) -> None:
             spot = board.at(part.point)
             side = spot[0] - at[0]
             if abs(abs(side) - radius) < 3.0:
-                rim = board.stage.fixed(
-                    board.stage.views([board.q], board.p).r[0, pulley.point] + _sideways(board, side)
-                )
+                rim = board.stage.fixed(board.views.r[0, pulley.point] + _sideways(board, side))
                 string = board.towards(rim, part.point)
                 board.put(line((0.0, 0.0), (1.0, 0.0)), "rod", string, of=(part.name,), kind="rope", layer=BODY - 6)
                 board.fence((spot[0], at[1]), spot)

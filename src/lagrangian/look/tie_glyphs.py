@@ -49,6 +49,7 @@ class TieArtist:
 
     def draw(self) -> None:
         """Draw all ties."""
+        self.draw_shaft()
         groups: dict[object, list[Tie]] = {}
         for tie in self.ties:
             groups.setdefault(self._pair(tie), []).append(tie)
@@ -122,7 +123,7 @@ class TieArtist:
         place = board.towards(a, b, by=(float(by[0]), float(by[1])))
         self._strung(tie, place, start + by, end + by, names, role)
         for k in (a, b):
-            if board.motions.still(k):
+            if board.motions.still(k) and tie.way == "points":
                 self._anchorage(k, end - start if k == a else start - end)
 
     def _anchorage(self, k: int, towards: Array) -> None:
@@ -248,21 +249,7 @@ class TieArtist:
         board.block(at + (side * (ARM + 4), 0.0), 16, 44)
         board.put(Disc((0.0, 0.0), 3.0), "body", board.placed(k), kind="joint", filled=True, layer=JOINT)
         if isinstance(tie.arm, sp.Symbol):
-            self._measure(turn.joint, k, tie.arm.name, 14.0 * self.arms)
-
-    def _measure(self, a: int, b: int, name: str, off: float) -> None:
-        """A thin line beside a lever from its joint to a point of it, with the name of this length."""
-        board = self.board
-        start, end = board.at(a), board.at(b)
-        e = (end - start) / (np.linalg.norm(end - start) or 1.0)
-        n = np.array([-e[1], e[0]])
-        n = n if n[0] > 0 else -n
-        p, q = start + off * n, end + off * n
-        pieces = [(tuple(p), tuple(q))] + [(tuple(s + 3 * n), tuple(t + 3 * n)) for s, t in ((start, p), (end, q))]
-        for i, (s, t) in enumerate(pieces):
-            board.put(line(s, t), "thin", kind="measure", width=0.9, layer=GROUND, moves=False, dashed=i > 0)
-        board.fence(p, q)
-        board.wish((name,), (p + q) / 2, n, "thin", distance=4.0)
+            board.measure(turn.joint, k, tie.arm.name, 14.0 * self.arms)
 
     def _at_joint(self, tie: Tie, turn: Turn, names: tuple[str, ...], role: Role) -> None:
         board, of = self.board, (tie.element.name,)
@@ -281,6 +268,22 @@ class TieArtist:
         board.block(at, 22 + 9 * rings, 22 + 9 * rings)
         board.wish(names, at, -tip + (-8.0, 0.0), role, of, distance=14.0 + 5 * rings)
 
+    def draw_shaft(self) -> None:
+        """The shaft through discs that turn about one axis, in bearings at both ends."""
+        spots = [*self.board.shaft_spots.values()]
+        if not spots:
+            return
+        board = self.board
+        left, right, y = min(s[0] for s in spots) - 46.0, max(s[0] for s in spots) + 46.0, float(spots[0][1])
+        inner = min(s[0] for s in spots), max(s[0] for s in spots)
+        board.put(line((left - 10, y), (right + 10, y)), "thin", kind="axis", width=0.9, layer=TIE - 1)
+        for side in (-4.0, 4.0):
+            board.put(line((inner[0], y + side), (inner[1], y + side)), "rod", kind="shaft", width=1.4, layer=TIE - 1)
+        for x in (left + 8.0, right - 8.0):
+            for side, angle in ((-7.0, pi), (7.0, 0.0)):
+                board.put(turned(floor(-12.0, 12.0), angle, float(x), y + side), "ground", kind="bearing", layer=GROUND)
+            board.block((x, y), 26, 30)
+
     def _on_shaft(self, tie: Tie, turn: Turn, names: tuple[str, ...], role: Role) -> None:
         """The piece of shaft between two discs, or the bearing of one."""
         board, of = self.board, (tie.element.name,)
@@ -297,23 +300,24 @@ class TieArtist:
             return
         used = self.rings.get(-2, 0)
         self.rings[-2] = used + 1
-        board.wish(names, spot + (58.0, 14.0 + 16 * used), (0.2, 1.0), role, of, distance=8.0)
+        board.wish(names, spot + (38.0, 12.0 + 16 * used), (0.2, 1.0), role, of, distance=8.0)
 
 
 def symbol_names(element: Element) -> tuple[str, ...]:
-    """The symbols by which an element is known in a picture: its stiffness, its coefficient, its value."""
-    for key in ("k", "b", "mu", "limit", "value"):
+    """The symbols by which an element is known in a picture: its stiffness, its coefficient, its value, its law."""
+    for key in ("k", "b", "mu", "limit", "value", "law", "energy"):
         value = getattr(element, key, None)
         values = value if isinstance(value, tuple) else (value,)
         found: list[str] = []
         for x in values:
             if isinstance(x, sp.Expr):
-                found += sorted(
-                    {str(getattr(a, "name", None) or getattr(a.func, "__name__", a)) for a in _main_symbols(x)}
+                listed = _main_symbols(x) or sorted(
+                    (a for a in x.free_symbols if a.name not in ("delta", "t")), key=str
                 )
+                found += [str(getattr(a, "name", None) or getattr(a.func, "__name__", a)) for a in listed]
         if found:
-            return tuple(dict.fromkeys(found))
-    return (element.name,) if element.kind in ROLES and element.name else ()
+            return tuple(dict.fromkeys(found))[:2]
+    return ()
 
 
 def _main_symbols(expr: sp.Expr) -> Sequence[sp.Expr]:

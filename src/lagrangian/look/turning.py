@@ -45,9 +45,11 @@ def _ends(motions: Motions, part: Player, tips: dict[int, int]) -> tuple[int, in
     k = part.point
     if part.glyph in (BodyGlyph.LINK, BodyGlyph.PLATE) and part.points:
         holder = motions.holds[k].holder
-        joint = holder if holder in part.points else part.points[0]
         tip = tips.get(k, k)
-        return joint, (k if tip == joint else tip)
+        if holder not in part.points:  # it turns about its centre
+            spine = part.spine or (k, k)
+            return k, spine[1] if spine[0] == k else spine[0] if spine[1] == k else spine[1]
+        return holder, (k if tip == holder else tip)
     return k, tips.get(k, k)
 
 

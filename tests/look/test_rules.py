@@ -1,0 +1,142 @@
+"""The rules of pictures: what is drawn as what, where coordinates count from, and labels that meet nothing."""
+
+from collections import Counter
+from itertools import combinations
+
+import numpy as np
+import pytest
+from sympy import cos, sin
+
+import lagrangian as lg
+from lagrangian.examples import names
+from lagrangian.page.scene import Scene
+
+IN_THE_PLANE = [name for name in names() if lg.example(name).model.dimension == 2]
+
+UNDRAWN = {"planar-quadrotor": ("force 'drag' is not drawn, because it is nothing at rest",)}
+"""What is not drawn of an example, as its picture says."""
+
+
+def _kinds(scene: Scene, *wanted: str) -> Counter[str]:
+    return Counter(part.kind for part in scene.parts if part.kind in wanted)
+
+
+@pytest.mark.parametrize("name", IN_THE_PLANE)
+def test_nothing_of_an_example_in_the_plane_is_left_out(name: str) -> None:
+    assert lg.example(name).look().missing == UNDRAWN.get(name, ())
+
+
+@pytest.mark.parametrize("name", IN_THE_PLANE)
+def test_every_coordinate_has_a_label(name: str) -> None:
+    system = lg.example(name)
+    labels = {x for label in system.look().scene.labels if label.role == "coordinate" for x in label.names}
+    assert labels == {c.name for c in system.model.coordinates}
+
+
+@pytest.mark.parametrize("name", names())
+def test_no_label_meets_another(name: str) -> None:
+    boxes = [(label.names, label.box) for label in lg.example(name).look().scene.labels]
+    for (first, (x, y, w, h)), (second, (a, b, c, d)) in combinations(boxes, 2):
+        apart = x + w <= a or a + c <= x or y + h <= b or b + d <= y
+        assert apart, f"{first} meets {second}"
+
+
+@pytest.mark.parametrize(
+    ("absolute", "relative"),
+    [
+        ("double-pendulum", "double-pendulum-relative"),
+        ("triple-pendulum", "triple-pendulum-relative"),
+        ("lecture-2-absolute", "lecture-2"),
+        ("lecture-3a", "lecture-3b"),
+    ],
+)
+def test_two_sets_of_coordinates_show_the_same_bodies(absolute: str, relative: str) -> None:
+    kinds = ("ball", "rod", "cart", "spring", "link", "pin", "joint", "force", "torque", "floor")
+    first, second = (lg.example(name).look().scene for name in (absolute, relative))
+    assert _kinds(first, *kinds) == _kinds(second, *kinds)
+
+
+def _arc_ends(scene: Scene, name: str) -> tuple[np.ndarray, np.ndarray]:
+    """Where the arc of a coordinate begins and where its arrow ends."""
+    arcs = [p for p in scene.parts if p.kind == "coordinate" and name in p.elements]
+    bow, arrow = (next(p for p in arcs if p.solid is solid) for solid in (False, True))
+    return np.array(bow.shape.commands[0][1]), np.array(arrow.shape.commands[0][1])
+
+
+def _towards(scene: Scene, joint: np.ndarray, spot: np.ndarray) -> float:
+    """The angle, counter-clockwise from x, in which a spot of the picture is seen from a point of the system [m]."""
+    at = np.array(scene.origin) + scene.scale * (np.array(scene.view) @ joint)
+    d = spot - at
+    return float(np.arctan2(-d[1], d[0]))
+
+
+def test_an_absolute_angle_counts_from_the_fixed_direction_and_a_relative_one_from_the_rod_before_it() -> None:
+    pose = {"theta1": 0.4, "theta2": 0.7}
+    for name, first in (("double-pendulum", 0.0), ("double-pendulum-relative", 0.4)):
+        system = lg.example(name)
+        scene = system.look(pose=pose).scene
+        L1 = system.model.values[system["L1"]]
+        joint = np.array([L1 * np.sin(0.4), -L1 * np.cos(0.4)])
+        start, end = _arc_ends(scene, "theta2")
+        assert _towards(scene, joint, start) == pytest.approx(-np.pi / 2 + first, abs=1e-9)
+        assert _towards(scene, joint, end) == pytest.approx(-np.pi / 2 + first + 0.7, abs=1e-9)
+
+
+def test_a_relative_length_is_measured_from_the_other_body() -> None:
+    scene = lg.example("lecture-3b").look().scene
+    carts = sorted(
+        scene.seen(p.placement.at, p.placement.shift)[0] for p in scene.parts if p.kind == "cart" and p.layer == 20
+    )
+    arrow = next(p for p in scene.parts if p.kind == "coordinate" and "x2r" in p.elements and not p.solid)
+    head = next(p for p in scene.parts if p.kind == "coordinate" and "x2r" in p.elements and p.solid)
+    assert arrow.shape.commands[0][1][0] == pytest.approx(carts[0])
+    assert head.shape.commands[0][1][0] == pytest.approx(carts[1])
+
+
+def test_a_wheel_has_its_radius_and_touches_its_floor() -> None:
+    system = lg.example("rolling-cylinder")
+    scene = system.look().scene
+    wheel = next(p for p in scene.parts if p.kind == "wheel" and p.placement.scaling == "both")
+    centre, rim = (np.array(scene.positions[k]) for k in (wheel.placement.at, wheel.placement.towards))
+    R = system.model.values[system["R"]]
+    assert np.linalg.norm(rim - centre) == pytest.approx(R)
+    floor = next(p for p in scene.parts if p.kind == "floor")
+    (_, a), (_, b) = floor.shape.commands[:2]
+    foot = np.array(scene.seen(floor.placement.at, floor.placement.shift))
+    e = (np.array(b) - np.array(a)) / np.linalg.norm(np.array(b) - np.array(a))
+    d = np.array(scene.seen(wheel.placement.at, wheel.placement.shift)) - foot - np.array(a)
+    assert abs(d[0] * e[1] - d[1] * e[0]) == pytest.approx(R * scene.scale, abs=1e-6)
+
+
+def test_a_system_in_python_without_values_is_drawn() -> None:
+    s = lg.System("rod on a cart")
+    x, th = s.coordinates("x theta")
+    M, m, L, k = s.parameters("M m L k")
+    cart = s.point("cart", (x, 0))
+    s.particle(M, at=cart)
+    s.particle(m, at=cart + (L * sin(th), -L * cos(th)))
+    s.spring(k, deflection=x)
+    s.gravity(direction=(0, -1), g=9.81)
+    picture = s.look(pose={th: 0.5}, kinds={"M": "box"})
+    assert picture.missing == ()
+    assert _kinds(picture.scene, "cart", "block", "rod", "spring", "wall")["cart"] == 0
+    assert "block" in {p.kind for p in picture.scene.parts}
+
+
+@pytest.mark.parametrize(
+    ("named", "code"),
+    [
+        ({"pose": {"alpha": 1}}, "E402"),
+        ({"pose": {"theta1'": 1}}, "E402"),
+        ({"kinds": {"m1": "car"}}, "E402"),
+        ({"kinds": {"m9": "cart"}}, "E412"),
+        ({"trail": ["P9"]}, "E412"),
+        ({"hide": ["nothing"]}, "E412"),
+        ({"azimuth": "north"}, "E406"),
+        ({"elevation": float("nan")}, "E406"),
+    ],
+)
+def test_a_wrong_request_is_told(named: dict, code: str) -> None:
+    with pytest.raises(lg.Error) as caught:
+        lg.example("double-pendulum").look(**named)
+    assert caught.value.code == code
