@@ -312,7 +312,7 @@ def symbol_names(element: Element) -> tuple[str, ...]:
         for x in values:
             if isinstance(x, sp.Expr):
                 listed = _main_symbols(x) or sorted(
-                    (a for a in x.free_symbols if a.name not in ("delta", "t")), key=str
+                    (a for a in x.free_symbols if str(a) not in ("delta", "t")), key=str
                 )
                 found += [str(getattr(a, "name", None) or getattr(a.func, "__name__", a)) for a in listed]
         if found:
