@@ -259,6 +259,20 @@ def test_javascript_source_runs_in_node_and_agrees(tmp_path: pathlib.Path) -> No
     assert "theta1 [rad]" in path.read_text(encoding="utf-8")
 
 
+@pytest.mark.skipif(shutil.which("node") is None, reason="node is not installed")
+def test_webassembly_is_exported_with_what_runs_it(tmp_path: pathlib.Path) -> None:
+    s = system("furuta-pendulum")
+    assert sorted(p.name for p in s.export(tmp_path / "furuta.wasm")) == ["furuta.js", "furuta.json", "furuta.wasm"]
+    code = """const { lagrangianSolver, furuta } = require("./furuta.js"), fs = require("fs");
+    const layout = JSON.parse(fs.readFileSync("furuta.json", "utf8"));
+    lagrangianSolver.load(fs.readFileSync("furuta.wasm"), layout, furuta)
+      .then((s) => console.log(JSON.stringify(Array.from(s.solve({t1: 1, samples: 2}).final))));"""
+    done = subprocess.run(["node", "-e", code], cwd=tmp_path, capture_output=True, text=True, check=True)
+    np.testing.assert_allclose(json.loads(done.stdout), s.simulate(1.0, samples=2).y[:, -1], rtol=1e-9)
+    with pytest.raises(lg.RunError, match="cannot name a constant"):
+        s.export(tmp_path / "class.wasm")
+
+
 @pytest.mark.parametrize("name", ["x.f90", "x", "1x.c", "a b.py"])
 def test_an_export_that_cannot_be_named_is_refused(name: str, tmp_path: pathlib.Path) -> None:
     with pytest.raises(lg.ModelError):

@@ -277,18 +277,30 @@ LANGUAGES = {"c": ".c", "python": ".py", "javascript": ".js"}
 """The languages of exported source, and the endings of their files."""
 
 
+ENDINGS = {**LANGUAGES, "wasm": ".wasm"}
+"""Everything that can be exported, and the endings of the files."""
+
+
 LONGEST_STEM = 200
 """The largest number of characters before the ending of a source file, so that file systems accept the name."""
 
 
-def sources(model: Model, language: str, stem: str) -> dict[str, str]:
-    """Return source code as file name → text: C99 with its header, Python with NumPy, or JavaScript.
+def exported_files(model: Model, language: str, stem: str) -> dict[str, str | bytes]:
+    """Return everything that an export writes, as file name → text or bytes.
 
-    Each contains forward dynamics, inverse dynamics, mass matrix and energies as functions ``stem_forward``, …, and the
-    rates of the coordinates if there are floating frames. The code runs without this package.
+    ``language`` is one of `ENDINGS`. For "wasm" these are the integrator of the default method, its layout, and the
+    script that runs it.
     """
-    if language not in LANGUAGES:
-        raise ModelError(f"there is no export to '{language}'", fix=f"use one of {', '.join(LANGUAGES)}", code="E402")
+    if language != "wasm":
+        return dict(sources(model, language, stem))
+    from lagrangian.simulate.browser import browser_module  # imported here because source code needs no LLVM
+
+    _check_stem(stem)
+    return browser_module(model).files(stem)
+
+
+def _check_stem(stem: str) -> None:
+    """Raise `ModelError` for a name after which functions cannot be called."""
     if len(stem) > LONGEST_STEM:
         raise ModelError(
             f"the name {stem[:20]}… has {len(stem)} characters, and functions are called after it",
@@ -299,6 +311,17 @@ def sources(model: Model, language: str, stem: str) -> dict[str, str]:
         raise ModelError(
             f"'{stem}' cannot begin the name of a function", fix="use letters, digits and underscores", code="E702"
         )
+
+
+def sources(model: Model, language: str, stem: str) -> dict[str, str]:
+    """Return source code as file name → text: C99 with its header, Python with NumPy, or JavaScript.
+
+    Each contains forward dynamics, inverse dynamics, mass matrix and energies as functions ``stem_forward``, …, and the
+    rates of the coordinates if there are floating frames. The code runs without this package.
+    """
+    if language not in LANGUAGES:
+        raise ModelError(f"there is no export to '{language}'", fix=f"use one of {', '.join(LANGUAGES)}", code="E402")
+    _check_stem(stem)
     _log.info("writing %s", language)
     programs = {f"{stem}_{name}": _PROGRAMS[name](model) for name in exported(model)}
     if language == "javascript":

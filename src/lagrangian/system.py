@@ -228,23 +228,25 @@ class System(Simulated):
         return compare(self, other, change)
 
     def export(self, path: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
-        """Write the dynamics as source code to ``name.c`` (with ``name.h``), ``name.py`` or ``name.js``; return the
-        paths of the files.
+        """Write the dynamics as source code to ``name.c`` (with ``name.h``), ``name.py`` or ``name.js``.
+
+        ``name.wasm`` is the integrator for browsers, written with its layout ``name.json`` and the script ``name.js``
+        that runs it. Return the paths of the files.
 
         Raises `Error` if a file exists, unless ``overwrite``, or if it cannot be written.
         """
-        from lagrangian.compiled import LANGUAGES, sources
+        from lagrangian.compiled import ENDINGS, exported_files
 
         check_no_friction(self.model, "there is nothing to export")
         target = _path(path)
-        languages = {suffix: language for language, suffix in LANGUAGES.items()}
+        languages = {suffix: language for language, suffix in ENDINGS.items()}
         if target.suffix not in languages:
             raise ModelError(
                 f"the ending of '{target.name}' is not supported",
                 fix=f"use one of {', '.join(languages)}",
                 code="E402",
             )
-        files = sources(self.model, languages[target.suffix], target.stem)
+        files = exported_files(self.model, languages[target.suffix], target.stem)
         found = {target.parent / name: text for name, text in files.items()}
         for file in found:
             check_free(file, overwrite=overwrite)

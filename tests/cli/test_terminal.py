@@ -128,7 +128,7 @@ MISTAKES = {
     "data and markup": (["derive", "-e", "pendulum", "-f", "latex", "--json"], "contradict each other"),
     "another language": (
         ["export", "-e", "pendulum", "--to", "rust"],
-        "'--to': 'rust' is not one of 'c', 'python', 'javascript'",
+        "'--to': 'rust' is not one of 'c', 'python', 'javascript', 'wasm'",
     ),
     "no table": (["simulate", "-e", "cart-pole", "--input", "F=@none.csv"], "cannot read the table"),
     "no language": (["export", "-e", "pendulum"], "--to"),

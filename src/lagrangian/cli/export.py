@@ -1,4 +1,4 @@
-"""``lagrangian export``: write the dynamics as source code."""
+"""``lagrangian export``: write the dynamics as source code, or runs as WebAssembly."""
 
 from __future__ import annotations
 
@@ -12,21 +12,22 @@ from lagrangian import write
 from lagrangian.cli.door import put, say
 from lagrangian.cli.formats import as_json
 from lagrangian.cli.terminal import Example, Force, Json, OptionalFile, open_system
-from lagrangian.compiled import sources
+from lagrangian.compiled import exported_files
 from lagrangian.errors import Error
 from lagrangian.model.without_friction import check_no_friction
 
 
 class Language(StrEnum):
-    """The language of the source code."""
+    """What is written: source code in a language, or the integrator as WebAssembly."""
 
     C = "c"
     PYTHON = "python"
     JAVASCRIPT = "javascript"
+    WASM = "wasm"
 
 
 def export(
-    to: Annotated[Language, typer.Option("--to", help="The programming language.")],
+    to: Annotated[Language, typer.Option("--to", help="The programming language, or wasm.")],
     file: OptionalFile = None,
     example: Example = None,
     output: Annotated[
@@ -38,18 +39,19 @@ def export(
     json: Json = False,
     force: Force = False,
 ) -> None:
-    """Write the dynamics as source code that runs without this package.
+    """Write the dynamics as source code, or the integrator as WebAssembly; both run without this package.
 
     \b
     Examples:
       lagrangian export carts.toml --to c -o out
       lagrangian export --example robot-arm --to python --name arm
+      lagrangian export -e double-pendulum --to wasm -o page
     """
     if output.exists() and not output.is_dir():
         raise Error(f"'{output}' is a file, not a folder", fix="name a folder with -o: -o out", code="E801")
     model = open_system(file, example).model
     check_no_friction(model, "there is nothing to export")
-    files = {output / title: text for title, text in sources(model, to.value, name).items()}
+    files = {output / title: text for title, text in exported_files(model, to.value, name).items()}
     if output.is_dir():
         for path in files:
             write.check_free(path, overwrite=force)

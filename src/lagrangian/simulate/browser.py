@@ -17,6 +17,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrangian.codegen.javascript import names_function
+from lagrangian.codegen.labels import comment
 from lagrangian.errors import RunError
 from lagrangian.integrate import METHODS, RunStatus
 from lagrangian.integrate.portable import driver, portable
@@ -55,6 +57,26 @@ CODES = {
 """The statuses that the driver gives or reads, by its names for them."""
 
 
+_ABOUT = """/* Runs of a system with coordinates {names}, in a browser, a worker or Node.
+
+   {stem}.wasm  the integrator by the method {method}, compiled from the equations of motion
+   {stem}.json  its layout: states, parameters and inputs with their names, units and values
+   {stem}.js    this script: the solver, and functions (state, params, inputs, t) such as {stem}.energy: T and V
+
+   In a page, with this script loaded before:
+
+     const bytes = await (await fetch("{stem}.wasm")).arrayBuffer();
+     const layout = await (await fetch("{stem}.json")).json();
+     const solver = await lagrangianSolver.load(bytes, layout, {stem});
+     const run = solver.solve({{ t1: 10, samples: 601 }});          // run.t, run.states, run.status, run.message
+     solver.start().advance(1 / 60).state;                          // or step by step, for a picture that moves
+
+   In Node: const {{ lagrangianSolver, {stem} }} = require("./{stem}.js"), and the files by fs. A page whose policy
+   (Content-Security-Policy) lacks 'wasm-unsafe-eval' gets fixed steps in JavaScript instead. Steps, events and
+   constraints are those of the Python package; the last digits differ, because WebAssembly has no fused products. */
+"""
+
+
 @dataclass(frozen=True)
 class BrowserModule:
     """An integrator for browsers; see the module's text for its parts."""
@@ -81,6 +103,29 @@ class BrowserModule:
             "})();",
         ]
         return "\n".join(lines) + "\n"
+
+    def files(self, stem: str) -> dict[str, str | bytes]:
+        """The module, its layout and a script as files, by name; the constant ``stem`` of the script has the functions.
+
+        Raises `RunError` if a constant of JavaScript cannot have this name.
+        """
+        if not names_function(stem) or stem == "lagrangianSolver":
+            raise RunError(f"'{stem}' cannot name a constant of JavaScript", fix="choose another name", code="E702")
+        moving = self.layout["states"][: self.layout["coordinates"]]
+        names = ", ".join(comment(state["name"]) for state in moving)
+        about = _ABOUT.format(names=names, stem=stem, method=self.layout["method"])
+        script = [
+            about,
+            self.driver,
+            f"const {stem} = {self.functions};",
+            "",
+            f'if (typeof module !== "undefined") module.exports = {{ lagrangianSolver, {stem} }};',
+        ]
+        return {
+            f"{stem}.wasm": self.code,
+            f"{stem}.json": self.layout_text + "\n",
+            f"{stem}.js": "\n".join(script) + "\n",
+        }
 
     @property
     def layout_text(self) -> str:

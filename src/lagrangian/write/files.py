@@ -11,20 +11,15 @@ from lagrangian.advice import Advice, Argument
 from lagrangian.errors import Error
 
 
-def write_file(path: str | os.PathLike[str], text: str) -> Path:
-    """Write ``text`` as UTF-8 to ``path`` and return the path; a device or pipe is written to directly.
+def write_file(path: str | os.PathLike[str], text: str | bytes) -> Path:
+    """Write ``text`` as UTF-8, or bytes, to ``path`` and return the path; a device or pipe is written to directly.
 
     Raises the same errors as `write_with`.
     """
     given = Path(path)
     if given.exists() and not given.is_file() and not given.is_dir():
-        return _into(given, text)
-
-    def fill(beside: Path) -> None:
-        with beside.open("w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
-
-    return write_with(path, fill)
+        return _into(given, _bytes(text))
+    return write_with(path, lambda beside: beside.write_bytes(_bytes(text)))
 
 
 def write_with(path: str | os.PathLike[str], fill: Callable[[Path], object]) -> Path:
@@ -80,11 +75,15 @@ def _target(path: str | os.PathLike[str]) -> Path:
     return target
 
 
-def _into(device: Path, text: str) -> Path:
+def _bytes(text: str | bytes) -> bytes:
+    return text.encode("utf-8") if isinstance(text, str) else text
+
+
+def _into(device: Path, content: bytes) -> Path:
     """Write directly to a device or a named pipe, which must never be replaced by a file."""
     try:
-        with device.open("w", encoding="utf-8", newline="\n") as file:
-            file.write(text)
+        with device.open("wb") as file:
+            file.write(content)
     except OSError as problem:
         raise Error(f"cannot write '{device}': {(problem.strerror or str(problem)).lower()}", code="E801") from problem
     return device
