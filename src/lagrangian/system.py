@@ -71,16 +71,21 @@ class System(Simulated):
         kinds: Mapping[str, str] | None = None,
         azimuth: float | None = None,
         elevation: float | None = None,
-        trail: Sequence[str] = (),
-        hide: Sequence[str] = (),
+        trail: Sequence[Any] | None = None,
+        hide: Sequence[str] | None = None,
+        lines: Sequence[Mapping[str, Any]] | None = None,
+        shapes: Sequence[Mapping[str, Any]] | None = None,
     ) -> Picture:
         """Return the schematic of the system: rods, carts, wheels, springs, forces and coordinates, as in a textbook.
 
         Everything is found from the model. ``pose`` gives coordinates other values than those that were chosen,
         ``kinds`` says what bodies are drawn as (``{"cart": "box"}``: ball, cart, box, wheel, disk, link, plate, bar or
         none), ``azimuth`` and ``elevation`` [rad] from where a system in space is seen, ``trail`` the points whose
-        paths are shown in motion, and ``hide`` the elements and coordinates that are left out. `Picture.missing` says
-        what is not drawn. Raises `ModelError` for names that the system does not have.
+        paths are shown in motion, and ``hide`` the elements and coordinates that are left out. ``lines`` adds strings,
+        wires and walls (``{"through": ["A", "B"], "kind": "string"}``), and ``shapes`` outlines in the axes of a frame
+        or body (``{"frame": "pole", "box": [0.05, 0.6]}`` in metres, or ``"points": [[x, y], …]``). What is not given
+        comes from ``[look]`` in the model file. `Picture.missing` says what is not drawn. Raises `ModelError` for names
+        that the system does not have.
         """
         from lagrangian.look import picture
 
@@ -90,8 +95,10 @@ class System(Simulated):
             kinds=kinds,
             azimuth=azimuth,
             elevation=elevation,
-            trail=tuple(trail),
-            hide=tuple(hide),
+            trail=trail,
+            hide=hide,
+            lines=lines,
+            shapes=shapes,
         )
 
     def verify(self, *, states: int = 50, seed: int = 1) -> tuple[Check, ...]:

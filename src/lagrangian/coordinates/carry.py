@@ -11,6 +11,7 @@ import sympy as sp
 
 from lagrangian.coordinates.change import Change, read_change
 from lagrangian.coordinates.initial import carried_settings
+from lagrangian.coordinates.pose import carried_look
 from lagrangian.coordinates.signals import carried_signals
 from lagrangian.model import Builder, Element, Frame, GeneralizedForce, Model, Point
 from lagrangian.page.plain import plain
@@ -70,6 +71,7 @@ class _Carrier:
         b.settings.update(carried_settings(model, self.change))
         if inputs := model.settings.get("inputs"):
             b.settings["inputs"] = carried_signals(model, self.change, inputs)
+        b.look.update(carried_look(model, self.change, [e.name for e in b.elements]))
         return b
 
     def _floating(self, frame: Frame) -> None:

@@ -42,6 +42,12 @@ def carried_settings(model: Model, change: Change) -> dict[str, Any]:
     return settings
 
 
+def solved_pose(model: Model, change: Change, pose: dict[str, Any]) -> dict[str, float]:
+    """Return the new coordinates of a pose that gives all the old ones. Raises `ModelError` if there are none."""
+    found = _solved(model, change, {name: _number(name, value) for name, value in pose.items()})
+    return {c.name: found[c.name] for c in change.new}
+
+
 def _number(name: str, value: Any) -> float:
     return parse_quantity(value, what=f"the initial {name}").value if isinstance(value, str) else float(value)
 

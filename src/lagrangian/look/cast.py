@@ -87,8 +87,30 @@ def cast(motions: Motions, kinds: Mapping[str, str]) -> list[Player]:
         if x.glyph is BodyGlyph.DISC and any(_runs_on(motions, y, x) for y in parts):
             x.glyph = BodyGlyph.BEAM
         if x.name in kinds:
-            x.glyph = CHOICES[kinds[x.name]]
+            _choose(motions, x, CHOICES[kinds[x.name]])
     return parts
+
+
+def _choose(motions: Motions, part: Player, glyph: BodyGlyph) -> None:
+    """Draw a body as a hint asks for, if it has what that needs: a frame, or a joint besides its centre."""
+    space = motions.stage.dimension == 3
+    if glyph in (BodyGlyph.LINK, BodyGlyph.PLATE, BodyGlyph.BAR) and part.frame is None:
+        return
+    if glyph in (BodyGlyph.LINK, BodyGlyph.PLATE) and part.spine is None:
+        if not part.points:
+            return
+        _linked(motions, part)
+    if glyph in (BodyGlyph.WHEEL, BodyGlyph.DISC):
+        if part.frame is None:
+            return
+        glyph = BodyGlyph.DISC if space else glyph
+        values = _numbers(motions, [part.body.tensor[i][i] for i in range(3 if space else 1)])
+        axis = 0 if values is None else int(np.argmax(values))
+        if part.radius is None:
+            part.radius = sp.sqrt(2 * part.body.tensor[axis][axis] / part.body.mass)
+        if space:
+            part.direction = np.eye(3)[axis]
+    part.glyph = glyph
 
 
 def _part(motions: Motions, body: Body) -> Player:

@@ -1,4 +1,4 @@
-"""Draws constraints: pins, sliders, welds, ropes, rods, wheels that roll; and lines that a hint asks for."""
+"""Draws constraints: pins, sliders, welds, ropes, rods, wheels that roll."""
 
 from __future__ import annotations
 
@@ -13,29 +13,16 @@ from lagrangian.look.board import BEHIND, BODY, GROUND, JOINT, Board
 from lagrangian.look.cast import Player
 from lagrangian.look.shapes import BAR, box, floor, heading, line, turned
 from lagrangian.model import Ball, Constraint, Element, Frame, Pin, Rolling, Rope, Slider, VelocityConstraint, Weld
-from lagrangian.page.scene import Disc, Role, Trace
+from lagrangian.page.scene import Disc, Trace
 
 Array = NDArray[np.float64]
 
-LINE_KINDS: dict[str, tuple[Role, float]] = {
-    "string": ("rod", 1.6), "rod": ("rod", 3.0), "wire": ("rod", 2.0),
-    "wall": ("ground", 2.0), "floor": ("ground", 2.0),
-}  # fmt: skip
 
-
-def draw_constraints(board: Board, parts: list[Player], lines: tuple[tuple[str, tuple[str, ...]], ...]) -> None:
+def draw_constraints(board: Board, parts: list[Player]) -> None:
     """Draw every constraint that has points; an expression has nothing to show and is told."""
     for element in board.stage.model.constraints:
         if element.name not in board.hidden:
             _one(board, parts, element)
-    names = {p.name: k for k, p in enumerate(board.stage.points) if p.name} | {"origin": 0}
-    for kind, through in lines:
-        role, width = LINE_KINDS[kind]
-        numbers = [names[name] for name in through]
-        anchors, shifts = tuple(board.anchor(k) for k in numbers), tuple(board.shift(k) for k in numbers)
-        board.put(Trace(anchors, False, shifts), role, kind=kind, width=width, layer=BODY - 6)
-        for a, b in itertools.pairwise(numbers):
-            board.fence(board.at(a), board.at(b))
 
 
 def _one(board: Board, parts: list[Player], element: Element) -> None:

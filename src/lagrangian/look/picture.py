@@ -6,20 +6,17 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import cached_property
-from math import pi
 from pathlib import Path
 from typing import Any
 
-from lagrangian.errors import Error, ModelError, did_you_mean
+from lagrangian.errors import Error
 from lagrangian.graph import Program
-from lagrangian.look.cast import CHOICES
-from lagrangian.look.kinematics import Kinematics
-from lagrangian.look.scenes import AZIMUTH, ELEVATION, Hints, scene_of
+from lagrangian.look.hints import Hints, hints_of
+from lagrangian.look.scenes import scene_of
 from lagrangian.model import Model
 from lagrangian.page.scene import Scene
-from lagrangian.values.values import Given, key_name
 from lagrangian.viewed import Brief, cut
 from lagrangian.write import check_free, write_file
 from lagrangian.write.scene_svg import scene_svg
@@ -57,6 +54,11 @@ class Picture(Brief):
     def missing(self) -> tuple[str, ...]:
         """What is not drawn, each with what helps."""
         return self.scene.missing
+
+    @property
+    def pose(self) -> Mapping[str, float]:
+        """The coordinates that are drawn, in SI units, by name."""
+        return self.scene.pose
 
     @property
     def description(self) -> str:
@@ -112,48 +114,6 @@ class Picture(Brief):
         return cut(f"<Picture of '{self.model.name}'>")
 
 
-def picture(
-    model: Model,
-    *,
-    pose: Mapping[Any, Any] | None = None,
-    kinds: Mapping[str, str] | None = None,
-    azimuth: float | None = None,
-    elevation: float | None = None,
-    trail: Sequence[str] = (),
-    hide: Sequence[str] = (),
-) -> Picture:
-    """The picture of a model; see `System.look`. Raises `ModelError` for names that the model does not have."""
-    names = [c.name for c in model.coordinates]
-    given = Given.of(model, Kinematics(model).program(()))
-    values = given.states.values({key_name(k): v for k, v in (pose or {}).items()})
-    if rates := [name for name in values if name not in names]:
-        raise ModelError(f"'{rates[0]}' is no coordinate, and a pose has only these", code="E402")
-    _known("body", kinds or {}, [b.name for b in model.bodies])
-    for body, kind in (kinds or {}).items():
-        if kind not in CHOICES:
-            fix = did_you_mean(kind, CHOICES) or f"kinds: {', '.join(CHOICES)}"
-            raise ModelError(f"body '{body}' cannot be drawn as '{str(kind)[:40]}'", fix=fix, code="E402")
-    _known("point", trail, [p.name for p in model.points if p.name])
-    _known("element or coordinate", hide, [*(e.name for e in model.elements), *names])
-    hints = Hints(
-        pose=values,
-        kinds=dict(kinds or {}),
-        azimuth=AZIMUTH if azimuth is None else _angle(azimuth, "azimuth"),
-        elevation=ELEVATION if elevation is None else _angle(elevation, "elevation"),
-        trail=tuple(trail),
-        hide=tuple(hide),
-    )
-    return Picture(model, hints)
-
-
-def _angle(value: float, what: str) -> float:
-    if not isinstance(value, int | float) or not abs(value) <= 4 * pi:
-        raise ModelError(f"{what} must be an angle in radians (got {value!r:.60})", code="E406")
-    return float(value)
-
-
-def _known(what: str, asked: Any, names: list[str]) -> None:
-    for name in asked:
-        if name not in names:
-            fix = did_you_mean(str(name), names) or f"{what}: {', '.join(names) or 'none has a name'}"
-            raise ModelError(f"there is no {what} '{str(name)[:64]}'", fix=fix, code="E412")
+def picture(model: Model, **hints: Any) -> Picture:
+    """The picture of a model; ``hints`` are those of `hints_of`. Raises `ModelError` as that does."""
+    return Picture(model, hints_of(model, **hints))

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from math import pi
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,10 +13,12 @@ from lagrangian.look.bodies import draw_bodies
 from lagrangian.look.cast import BodyGlyph, Player, cast
 from lagrangian.look.constraint_glyphs import draw_constraints
 from lagrangian.look.effort_glyphs import EffortArtist, draw_gravity
+from lagrangian.look.hints import Hints
 from lagrangian.look.holds import HoldKind, Motions
 from lagrangian.look.kinematics import Kinematics
 from lagrangian.look.labels import placed_labels
 from lagrangian.look.measures import MeasureArtist
+from lagrangian.look.outlines import draw_hints
 from lagrangian.look.pose import Pose, view_of
 from lagrangian.look.spread import spread
 from lagrangian.look.supports import draw_supports
@@ -37,25 +37,6 @@ LARGE, LONGEST = 300.0, 190.0
 SLIDE = 72.0
 """How far a sliding body is drawn from its reference [px]."""
 BORDER = 16.0
-AZIMUTH, ELEVATION = 40 * pi / 180, 20 * pi / 180
-
-
-@dataclass(frozen=True)
-class Hints:
-    """What a picture needs and a model does not say; all of it is optional.
-
-    ``pose``: coordinate → value in SI units. ``kinds``: body → glyph (``cast.CHOICES``). ``azimuth``, ``elevation``
-    [rad]: from where a system in space is seen. ``trail``: points whose path is shown. ``hide``: elements and
-    coordinates. ``lines``: points that a wire, string, rod or wall runs through.
-    """
-
-    pose: Mapping[str, float] = field(default_factory=dict[str, float])
-    kinds: Mapping[str, str] = field(default_factory=dict[str, str])
-    azimuth: float = AZIMUTH
-    elevation: float = ELEVATION
-    trail: tuple[str, ...] = ()
-    hide: tuple[str, ...] = ()
-    lines: tuple[tuple[str, tuple[str, ...]], ...] = ()
 
 
 def scene_of(model: Model, hints: Hints | None = None) -> tuple[Scene, Program]:
@@ -84,7 +65,8 @@ def scene_of(model: Model, hints: Hints | None = None) -> tuple[Scene, Program]:
     ties = [resolver.resolve(e) for e in tied if e.ledger != "λ"]
     TieArtist(board, parts, ties).draw()
     draw_supports(board, parts, ties)
-    draw_constraints(board, parts, hints.lines)
+    draw_constraints(board, parts)
+    draw_hints(board, parts, hints)
     EffortArtist(board, parts, turns, ties, resolver).draw()
     MeasureArtist(board, parts, turns).draw()
     return _framed(board, model, hints, parts, room)
@@ -164,8 +146,7 @@ def _framed(board: Board, model: Model, hints: Hints, parts: list[Player], room:
     origin = BORDER - low
     size = high - low + 2 * BORDER
     anchors = sorted(board.anchors, key=lambda k: board.anchors[k])
-    index = {p.name: k for k, p in enumerate(board.stage.points) if p.name}
-    trail = tuple(board.anchor(index[name]) for name in hints.trail if name in index)
+    trail = tuple(board.anchor(board.stage.index(point)) for point in hints.trail)
     anchors = sorted(board.anchors, key=lambda k: board.anchors[k])
     scene = Scene(
         model.name,
@@ -181,6 +162,7 @@ def _framed(board: Board, model: Model, hints: Hints, parts: list[Player], room:
         trail,
         tuple(dict.fromkeys(board.handles)),
         room,
+        {c.name: float(x) for c, x in zip(model.coordinates, board.q, strict=True)},
     )
     return scene, board.stage.program(anchors)
 

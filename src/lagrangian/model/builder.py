@@ -39,6 +39,7 @@ class Builder(Declarations):
         self.name = name.strip()
         self.origin = Point("origin", None, (), None, self)
         self.settings: dict[str, Any] = {}
+        self.look: dict[str, Any] = {}
         self._points: dict[str, Point] = {"origin": self.origin}
         self._frames: dict[str, Frame] = {}
         self._elements: list[Element] = []
@@ -58,6 +59,21 @@ class Builder(Declarations):
         """The names by which reactions may be asked for: constraints, points and bodies."""
         acting = [e.name for e in self._elements if e.ledger == "λ" or isinstance(e, Body)]
         return list(dict.fromkeys([*acting, *self._points]))
+
+    @property
+    def point_names(self) -> list[str]:
+        """The names of the points, the origin first."""
+        return list(self._points)
+
+    @property
+    def frame_names(self) -> list[str]:
+        """The names of the frames, in order."""
+        return list(self._frames)
+
+    @property
+    def dimension(self) -> int:
+        """2 in the plane and 3 in space."""
+        return self._dimension[0] if self._dimension else 2
 
     # -- geometry -----------------------------------------------------------------------------------------------
 
@@ -355,7 +371,7 @@ class Builder(Declarations):
             )
         made = Model(
             name=self.name,
-            dimension=self._dimension[0] if self._dimension else 2,
+            dimension=self.dimension,
             origin=self.origin,
             coordinates=tuple(self._coordinates.values()),
             parameters=tuple(self._parameters.values()),
@@ -365,6 +381,7 @@ class Builder(Declarations):
             frames=tuple(self._frames.values()),
             elements=tuple(self._elements),
             settings=dict(self.settings),
+            look=dict(self.look),
         )
         check_effect(made)
         check_rows(made)

@@ -37,8 +37,9 @@ class Model(Brief):
     """A frozen description, complete and checked. It is made by `Builder.model`.
 
     ``points`` and ``frames`` are the named ones, in order; unnamed ones are reached from the elements. ``dimension`` is
-    2 in the plane and 3 in space. ``settings`` contains the simulation settings of a file, as plain data. ``spare``
-    says which rows of constraints follow from others along the motion, if that is known.
+    2 in the plane and 3 in space. ``settings`` contains the simulation settings of a file,
+    and ``look`` its hints for the picture, both as plain data. ``spare`` says which rows of constraints follow from
+    others along the motion, if that is known.
     """
 
     name: str
@@ -52,6 +53,7 @@ class Model(Brief):
     frames: tuple[Frame, ...]
     elements: tuple[Element, ...]
     settings: Mapping[str, Any] = field(default_factory=dict[str, Any], repr=False)
+    look: Mapping[str, Any] = field(default_factory=dict[str, Any], repr=False)
     spare: tuple[SpareRows, ...] = ()
     _memo: dict[Any, Any] = field(default_factory=dict[Any, Any], repr=False)
 

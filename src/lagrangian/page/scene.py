@@ -12,6 +12,7 @@ second, only has to place shapes; springs, wheels and carts need no code of thei
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
@@ -144,6 +145,8 @@ class Scene:
     """The anchors that a pointer can take hold of in the page: the bodies' centres."""
     room: float | None = None
     """How far [px] bodies that are shifted apart can move without meeting; None if the picture is to scale."""
+    pose: Mapping[str, float] = field(default_factory=dict[str, float])
+    """The coordinates that are drawn, in SI units, by name."""
 
     def seen(self, anchor: int, shift: Pair = (0.0, 0.0)) -> Pair:
         """The place of an anchor in the picture [px]."""
@@ -171,6 +174,7 @@ def as_data(scene: Scene) -> dict[str, Any]:
         "trail": scene.trail,
         "handles": scene.handles,
         "room": scene.room,
+        "pose": dict(scene.pose),
     }
 
 

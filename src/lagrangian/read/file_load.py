@@ -19,6 +19,7 @@ from lagrangian.read import file_schema as schema
 from lagrangian.read.file_elements import add_element
 from lagrangian.read.file_floating import FloatingFrames
 from lagrangian.read.file_geometry import Geometry
+from lagrangian.read.file_look import LookReader
 from lagrangian.read.file_reading import Reading
 from lagrangian.read.letters import normal, spelled, twin
 from lagrangian.read.toml_index import Path
@@ -70,6 +71,7 @@ class Loader(Reading):
         self.geometry.read()
         self._elements()
         self._simulate()
+        LookReader(self).read()
         return self.builder
 
     # -- names --------------------------------------------------------------------------------------------------

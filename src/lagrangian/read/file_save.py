@@ -256,6 +256,12 @@ class _Writer:
         if self.model.settings:
             self.lines += ["", "[simulate]"]
             self.lines += [f"{_key(key)} = {_value(value)}" for key, value in self.model.settings.items()]
+        if self.model.look:
+            arrays = {key: value for key, value in self.model.look.items() if key in ("line", "shape")}
+            self._section("look", ((k, _value(v)) for k, v in self.model.look.items() if k not in arrays))
+            for key, tables in arrays.items():
+                for table in tables:
+                    self.lines += ["", f"[[look.{key}]]", *(f"{_key(k)} = {_value(v)}" for k, v in table.items())]
 
 
 def _named(things: Iterable[Any], letter: str, taken: set[str]) -> dict[int, str]:
@@ -347,4 +353,4 @@ def _value(value: Any) -> str:
         return "[" + ", ".join(map(_value, value)) + "]"
     if isinstance(value, dict):
         return "{ " + ", ".join(f"{_key(str(k))} = {_value(v)}" for k, v in value.items()) + " }" if value else "{}"
-    raise ModelError(f"{value!r} under [simulate] cannot be written to a model file", fix="use numbers and text")
+    raise ModelError(f"{value!r} in [simulate] or [look] cannot be written to a file", fix="use numbers and text")

@@ -8,6 +8,7 @@ from pydantic import BaseModel, ConfigDict, Discriminator, Field, Tag, create_mo
 
 from lagrangian.model import REGISTRY, Element
 from lagrangian.model.elements import FieldKind
+from lagrangian.model.hints import BODY_KINDS, LINE_KINDS
 
 
 def _form(value: object) -> str | None:
@@ -195,6 +196,57 @@ class SimulateTable(_Table):
     inputs: dict[str, Expression] = Field(default_factory=dict, description="Inputs as expressions in t.")
 
 
+class ViewTable(_Table):
+    """From where a system in space is seen."""
+
+    azimuth: Quantity | None = Field(None, description="The direction of the eye about the vertical, such as '40 deg'.")
+    elevation: Quantity | None = Field(None, description="How high the eye is above the floor, such as '20 deg'.")
+
+
+_Names: TypeAlias = Annotated[list[str], Field(max_length=1000)]
+
+
+class LookLineTable(_Table):
+    """A line of the picture that carries no mass and no force: a string, a wire, a wall."""
+
+    through: Points = Field(description="The points, or bodies, that it runs through, in order.")
+    kind: str = Field("string", description="What it is drawn as.", json_schema_extra={"enum": list(LINE_KINDS)})
+
+
+_Corner: TypeAlias = Annotated[list[Quantity], Field(min_length=2, max_length=3)]
+
+
+class LookShapeTable(_Table):
+    """An outline that moves with a body or a frame."""
+
+    frame: str = Field(description="The frame, or the body, in whose axes the outline is given.")
+    at: str | None = Field(None, description="Its origin, a point or body; if left out, that of the frame or body.")
+    box: Annotated[list[Quantity], Field(min_length=2, max_length=2)] | None = Field(
+        None, description="A rectangle about the origin: width along x and height along y."
+    )
+    points: Annotated[list[_Corner], Field(min_length=2, max_length=1000)] | None = Field(
+        None, description="The corners of the outline, in order."
+    )
+
+
+class LookTable(_Table):
+    """What a picture needs and the mechanics does not say."""
+
+    pose: dict[str, Quantity] = Field(default_factory=dict, description="The coordinates of the picture.")
+    kinds: dict[str, str] = Field(
+        default_factory=dict,
+        description="What bodies are drawn as.",
+        json_schema_extra={"additionalProperties": {"type": "string", "enum": list(BODY_KINDS)}},
+    )
+    view: ViewTable | None = Field(None, description="From where a system in space is seen.")
+    trail: _Names = Field(default_factory=list, description="Points whose paths are shown in motion.")
+    hide: _Names = Field(default_factory=list, description="Elements and coordinates that are left out.")
+    line: Annotated[list[LookLineTable], Field(max_length=200)] = Field(
+        default_factory=list, description="Strings, wires, walls."
+    )
+    shape: Annotated[list[LookShapeTable], Field(max_length=200)] = Field(default_factory=list, description="Outlines.")
+
+
 Coordinate: TypeAlias = Annotated[_Text | Annotated[CoordinateTable, Tag("table")], _ByForm]
 Parameter: TypeAlias = Annotated[_Text | _Number | Annotated[ParameterTable, Tag("table")], _ByForm]
 Input: TypeAlias = Annotated[_Text | Annotated[InputTable, Tag("table")], _ByForm]
@@ -228,6 +280,7 @@ class ModelFile(_WithElements):
 
     energies: EnergiesTable | None = Field(None, description="Energies of the whole system.")
     simulate: SimulateTable | None = Field(None, description="What to simulate.")
+    look: LookTable | None = Field(None, description="What a picture needs and the mechanics does not say.")
 
 
 def schema() -> dict[str, Any]:

@@ -301,9 +301,19 @@ def _table_of(path: Path, data: dict[str, Any]) -> type[BaseModel]:
         "frame": schema.FrameTable,
         **schema.TABLES,
     }
+    if section == "look":
+        return _look_table(path[1:])
     if len(path) >= 3:  # a table inside an element can only be a point
         return schema.PointTable
     return tables[section]
+
+
+def _look_table(path: Path) -> type[BaseModel]:
+    """The pydantic model of a table within [look]."""
+    from lagrangian.read import file_schema as schema
+
+    inner = {"view": schema.ViewTable, "line": schema.LookLineTable, "shape": schema.LookShapeTable}
+    return inner.get(str(path[0]), schema.LookTable) if path else schema.LookTable
 
 
 def _description(path: Path, data: dict[str, Any]) -> str:
