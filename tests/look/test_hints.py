@@ -88,7 +88,8 @@ def test_a_line_runs_through_its_points() -> None:
 
 def test_a_wall_at_rest_is_hatched() -> None:
     arm = lg.loads(lg.example("lecture-1").to_toml())
-    arm.point("A", (-1, 0)), arm.point("B", (1, 0))
+    arm.point("A", (-1, 0))
+    arm.point("B", (1, 0))
     picture = arm.look(lines=[{"through": ["A", "B"], "kind": "wall"}])
     (wall,) = [p for p in picture.scene.parts if p.kind == "wall" and not p.elements and p.outline == 2.0]
     assert len(wall.shape.commands) > 10  # type: ignore[union-attr]

@@ -135,8 +135,8 @@ class _Names:
 
     def axes(self, name: Any) -> tuple[str, Point, Frame | None]:
         """The origin and axes of a frame or of a body."""
-        text = name.name if isinstance(name, Frame) else name
-        _known("frame or body", text, {**self.frames, **self.bodies})
+        asked = name.name if isinstance(name, Frame) else name
+        text = _known("frame or body", asked, {**self.frames, **self.bodies})
         if (frame := self.frames.get(text)) is not None:
             return text, frame.origin, frame
         body = self.bodies[text]
