@@ -110,7 +110,30 @@ def test_a_circle_of_rests_is_one_family_and_the_hilltop_another_rest() -> None:
     (top,) = [e for e in found if not e.dimension]
     assert math.hypot(family["x"], family["y"]) == pytest.approx(2)
     assert family.moves == ("x", "y")
+    assert (family["x"], family["y"]) == (pytest.approx(2, rel=1e-12), 0.0)  # |x| + |y| is least at four places
     assert top["x"] == pytest.approx(0, abs=1e-9) and top.stability.stable is False
+
+
+def test_the_place_that_stands_for_a_curve_is_the_nearest_to_0() -> None:
+    """On the line 3 x + 4 y = 12 that is (0, 3); on the parabola y = (x − 1)² + 1, where 2 (1 − x) = 1, (1/2, 5/4)."""
+    for law, x, y in ((lambda x, y: 3 * x + 4 * y - 12, 0.0, 3.0), (lambda x, y: y - (x - 1) ** 2 - 1, 0.5, 1.25)):
+        system = lg.System("valley")
+        q = system.coordinates("x y")
+        system.particle(1.0, at=system.origin + q)
+        system.potential(law(*q) ** 2)
+        (rest,) = system.equilibria(box={"x": (-5, 5), "y": (-5, 5)})
+        assert (rest["x"], rest["y"]) == (pytest.approx(x, abs=1e-7), pytest.approx(y, abs=1e-7))
+
+
+def test_a_surface_of_rests_has_coordinates_that_are_0() -> None:
+    system = lg.System("shell")
+    x, y, z = system.coordinates("x y z")
+    system.particle(1.0, at=system.origin + (x, y, z))
+    system.potential((x**2 + 4 * y**2 + z**2 - 9) ** 2)
+    found = system.equilibria(box=dict.fromkeys(("x", "y", "z"), (-5, 5)))
+    (rest,) = [e for e in found if e.dimension]
+    assert rest.dimension == 2
+    assert (rest["x"], abs(rest["y"]), rest["z"]) == (0.0, pytest.approx(1.5, rel=1e-9), 0.0)
 
 
 def test_what_nothing_balances_is_said() -> None:

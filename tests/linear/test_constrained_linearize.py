@@ -162,3 +162,47 @@ def test_rows_are_solved_for_clear_entries_in_order() -> None:
     assert pivots(np.array([[1.0, 0, 1], [2.0, 0, 2]]), [2, 1, 0]) == [2]
     assert sorted(pivots(np.array([[1.0, 0, 1], [0.0, 1, 1e-3]]), [2, 1, 0])) == [1, 2]
     assert pivots(np.zeros((2, 3)), [0, 1, 2]) == []
+
+
+def test_what_rolling_ties_together_is_what_inputs_do_not_reach() -> None:
+    """Upright, x − r (φ_l + φ_r)/2 and ψ + r (φ_l − φ_r)/2w are constant, and y as nothing moves sideways."""
+    found = lg.example("balancing-robot").linearize().controllability
+    r, w = 0.08, 0.15
+    assert (found.rank, found.order) == (6, 9)
+    expected = [
+        {"x": 1.0, "phi_l": -r / 2, "phi_r": -r / 2},
+        {"y": 1.0},
+        {"psi": 1.0, "phi_l": r / (2 * w), "phi_r": -r / (2 * w)},
+    ]
+    assert [m.combination.keys() for m in found.missing] == [e.keys() for e in expected]
+    for m, e in zip(found.missing, expected, strict=True):
+        assert m.pole == 0 and m.times == 3
+        assert [m.combination[k] for k in e] == pytest.approx(list(e.values()), rel=1e-12)
+
+
+def test_what_rounding_leaves_of_0_is_0() -> None:
+    """Of Whipple's bicycle no acceleration depends on where it stands, where it heads, or on how far wheels turned."""
+    linear = lg.example("whipple-bicycle").linearize()
+    idle = [k for k, name in enumerate(linear.states) if name in ("x", "y", "psi", "theta_r", "theta_f")]
+    assert len(idle) >= 4 and (linear.A[:, idle] == 0).all()
+    missing = linear.controllability.missing
+    assert {m.pole for m in missing} == {0} and missing[0].times == linear.controllability.order - 4
+    for m in missing:  # Popov, Belevitch, Hautus
+        left = np.array([m.combination.get(name, 0.0) for name in linear.states])
+        assert np.abs(left @ linear.B).max() < 1e-9 * np.abs(linear.B).max()
+    plain = {frozenset(m.combination) for m in missing}
+    assert frozenset({"y"}) in plain and frozenset({"x'"}) in plain
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_other_last_digits_of_a_matrix_leave_its_report_as_it_is(seed: int) -> None:
+    """The entries of A and B of a system with a pole 0 that counts six times, each moved by its rounding error."""
+    from lagrangian.linear.reach import controllable
+
+    linear = lg.example("whipple-bicycle").linearize()
+    source = np.random.default_rng(seed)
+    A, B = (a * (1 + 1e-15 * source.uniform(-1, 1, a.shape)) for a in (linear.A, linear.B))
+    found, expected = controllable(A, B, linear.states), linear.controllability
+    assert [m.combination.keys() for m in found.missing] == [m.combination.keys() for m in expected.missing]
+    for mine, other in zip(found.missing, expected.missing, strict=True):
+        assert list(mine.combination.values()) == pytest.approx(list(other.combination.values()), rel=1e-9)

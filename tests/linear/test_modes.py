@@ -245,12 +245,16 @@ import lagrangian as lg
 from lagrangian import examples
 for name in examples.names():
     system = lg.loads(examples.text(name))
-    if system.model.constraints:
-        continue  # known fault: some of their last digits are those of the processor
     try:
         rests = system.equilibria()
         print(name, rests.to_text(), *(system.linearize(e).to_text() for e in rests[:3]))
-        print(name, system.linearize().to_text(), system.conserved_quantities().to_text())
+        print(name, system.linearize().to_text())
+    except lg.Error as trouble:
+        print(name, trouble)
+    if name == "whipple-bicycle":
+        continue  # minutes of symbols
+    try:
+        print(name, system.conserved_quantities().to_text())
     except lg.Error as trouble:
         print(name, trouble)
 """
@@ -260,7 +264,7 @@ for name in examples.names():
 def test_every_text_is_the_same_whatever_the_processor() -> None:
     """OpenBLAS has kernels for many processors, each with other last digits; where another library is, all agree."""
     texts = []
-    for core in ("Haswell", "SkylakeX", "Prescott"):
+    for core in ("Haswell", "SkylakeX", "Prescott", "Sandybridge"):
         known = {**os.environ, "OPENBLAS_CORETYPE": core, "PYTHONIOENCODING": "utf-8"}
         done = subprocess.run([sys.executable, "-c", _TEXTS], env=known, capture_output=True, check=False)
         if done.returncode < 0 and core == "SkylakeX":

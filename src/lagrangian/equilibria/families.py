@@ -6,7 +6,8 @@ belongs to a family; if it returns, the root is isolated but degenerate.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +27,9 @@ STRIDE = 0.01
 """The length of a step along a family, in widths of the box."""
 
 MAX_ROOTS = 1500
+
+NARROWED = 60
+"""The number of times that the place of the simplest root is narrowed to three fifths."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -57,7 +61,8 @@ def split(search: Search, roots: Array, low: Array, high: Array) -> tuple[Array,
             path = np.array(
                 [root, *(r for r in left if len(_directions(search, r, _flat(search, r))) == len(directions))]
             )
-        families.append(Family(_simplest(path), len(directions), _moving(path, search.width)))
+        simplest = _simplest(search, path) if len(directions) == 1 else _with_zeros(search, path, len(directions))
+        families.append(Family(simplest, len(directions), _moving(path, search.width)))
         left = [r for r in left if search.distance(path, r).min() > 2 * STRIDE]
     return np.array(isolated).reshape(-1, roots.shape[1]), families
 
@@ -116,9 +121,60 @@ def _inside(q: Array, low: Array, high: Array, search: Search) -> bool:
     return bool(((q >= low) & (q <= high))[held].all())
 
 
-def _simplest(path: Array) -> Array:
-    """The root nearest to 0."""
-    return path[int(np.argmin(np.abs(path).sum(axis=1)))]
+def _size(q: Array) -> Array:
+    """How far positions (…, n) are from 0: Σ|q|, which is least where coordinates are 0."""
+    return np.abs(q).sum(axis=-1)
+
+
+def _simplest(search: Search, path: Array) -> Array:
+    """The root of a curve nearest to 0, wherever the roots of ``path`` lie on it; of several, that of the greatest
+    first coordinate."""
+    sizes = _size(path)
+    near = sizes <= sizes.min() + STRIDE * search.width.sum()
+    before, after = np.append(np.inf, sizes[:-1]), np.append(sizes[1:], np.inf)
+    lowest = np.flatnonzero(near & (sizes <= before) & (sizes <= after))
+    refined = [_refined(search, path, int(k)) for k in lowest]
+    return min(refined, key=lambda q: (round(float(_size(q)), 9), (-q.round(9)).tolist()))
+
+
+def _refined(search: Search, path: Array, k: int) -> Array:
+    """The least root between the neighbours of number k: where a coordinate is 0, else where Σ|q| is stationary."""
+    here, zeros = path[k], list[Array]()
+    for j in search.seek:
+        found = _where_zero(search, here, [int(j)])
+        if found is not None and search.distance(found, here) < 2 * STRIDE:
+            zeros.append(found)
+    if zeros and _size(best := min(zeros, key=lambda q: float(_size(q)))) <= _size(here) + SINGULAR:
+        return best
+    low, high = path[max(k - 1, 0)], path[min(k + 1, len(path) - 1)]
+    for _ in range(NARROWED):
+        ends = [search.polish((low + (high - low) * share)[None])[0] for share in (0.4, 0.6)]
+        if _size(ends[0]) < _size(ends[1]):
+            high = ends[1]
+        else:
+            low = ends[0]
+    return low
+
+
+def _where_zero(search: Search, q: Array, zeros: Sequence[int]) -> Array | None:
+    """The root near q where some coordinates are 0."""
+    trial = q.copy()
+    trial[list(zeros)] = 0.0
+    left = np.array([j for j in search.seek if j not in zeros], np.int64)
+    found = replace(search, seek=left).polish(trial[None])[0] if len(left) else trial
+    return found if search.residual(found[None])[0] < EXACT else None
+
+
+def _with_zeros(search: Search, path: Array, dimension: int) -> Array:
+    """A root of a surface in which one coordinate after the other is 0, as far as the surface has such roots."""
+    best = path[int(np.argmin(_size(path)))]
+    zeros: list[int] = []
+    for j in search.seek:
+        found = _where_zero(search, best, [*zeros, int(j)])
+        if found is not None and len(_directions(search, found, _flat(search, found))) == dimension:
+            best = found
+            zeros.append(int(j))
+    return best
 
 
 def _moving(path: Array, width: Array) -> tuple[int, ...]:

@@ -37,6 +37,9 @@ _log = logging.getLogger(__name__)
 PERTURBED = 1e-12
 """The relative change of parameters and point from which rounding errors are estimated."""
 
+UNSETTLED = 1e-4
+"""If these errors change an entry of A by more than this part of it, the entry is nothing but rounding."""
+
 STEP = 1e-6
 """The step with which a kink in the motion is looked for."""
 
@@ -148,10 +151,11 @@ class Linearizer:
         if may_kink(y.program, "y"):
             self._sloped(y.program, "y", seen["C"], here, t, "an output")
         second = None if here.kind == "operating point" else self._second_order(here, t, tangent)
-        noise, noise_of_K = self._noise(here, t, found, second, tangent)
+        noise, noise_of_K, settled = self._noise(here, t, found, second, tangent)
         multipliers = None if tangent is None else self._multipliers(here, t, found, tangent)
         if tangent is not None:
             found, seen = tangent.reduced(found), {**seen, "C": seen["C"] @ tangent.basis}
+            found |= {name: np.where(settled[name], found[name], 0.0) for name in settled}
         return Linearization(
             model=self.model,
             A=found["A"],
@@ -267,13 +271,15 @@ class Linearizer:
 
     def _noise(
         self, here: OperatingPoint, t: float, found: Arrays, second: Arrays | None, tangent: Tangent | None
-    ) -> tuple[tuple[float, float], float]:
+    ) -> tuple[tuple[float, float], float, dict[str, NDArray[np.bool_]]]:
         """The rounding errors in A and M⁻¹K, and in K: their change when all digits after the twelfth change.
 
-        If terms cancel, as at a bifurcation, the errors are much larger than ε times the result.
+        If terms cancel, as at a bifurcation, the errors are much larger than ε times the result. The last result says
+        which entries of A and B keep most of their digits then; the others are what rounding leaves of 0.
         """
         source = np.random.default_rng(5)
         dA = dK = dMK = 0.0
+        changes = {name: np.zeros_like(found[name]) for name in ("A", "B")}
         for _ in range(3):
             x, p = (v * (1 + PERTURBED * source.uniform(-1, 1, len(v))) for v in (here.x, here.p))
             moved = replace(here, x=x, p=p)
@@ -282,13 +288,19 @@ class Linearizer:
             if self.manifold is not None and tangent is not None:
                 there = self.manifold.tangent(x, p, t, tangent.kept)
                 near, mine = there.reduced(near), tangent.reduced(found)
+                changes = {k: np.maximum(np.abs(near[k] - mine[k]), d[: len(mine[k]), : mine[k].shape[1]])
+                           for k, d in changes.items()}  # fmt: skip
             dA = max(dA, _largest(near["A"] - mine["A"]))
             if second is not None and (other := self._second_order(moved, t, there)) is not None:
                 dK = max(dK, _largest(other["K"] - second["K"]))
                 n = len(second["K"])
                 dMK = max(dMK, _largest(near["A"][n:, :n] - mine["A"][n:, :n]))
         digits = SLACK * EPSILON / PERTURBED
-        return (dA * digits, dMK * digits), dK * digits
+        settled: dict[str, NDArray[np.bool_]] = {}
+        if tangent is not None:
+            mine = tangent.reduced(found)
+            settled = {k: np.asarray(d <= UNSETTLED * np.abs(mine[k]), bool) for k, d in changes.items()}
+        return (dA * digits, dMK * digits), dK * digits, settled
 
     def _minimum(self, second: Arrays, here: OperatingPoint, noise: float) -> bool:
         n = len(self.forces.inputs["q"])

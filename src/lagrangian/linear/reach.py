@@ -25,6 +25,10 @@ SMALL = 1e-11
 """A singular value below this fraction of the norm of the balanced A and B counts as zero."""
 
 
+LEFT_OVER = 1e-13
+"""The rounding error of what the staircase leaves over, relative to that norm; it may all be 0."""
+
+
 @dataclass(frozen=True)
 class Missing(Brief):
     """A pole that the inputs cannot control (or the outputs cannot show), with its combination of states.
@@ -91,7 +95,7 @@ def _reach(A: Array, B: Array, states: tuple[str, ...]) -> Reach:
     rest = basis[:, rank:]
     own = rest.T @ balanced @ rest
     missing = []
-    for space in eigenspaces(own.T) if len(own) else []:
+    for space in eigenspaces(own.T, LEFT_OVER * size) if len(own) else []:
         pole = _clean(space.pole, size)
         if pole.imag >= 0:
             basis = plain_basis(rest @ space.basis) / scale[:, None]
