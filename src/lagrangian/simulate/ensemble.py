@@ -105,6 +105,14 @@ class Ensemble(Mapping[str, NDArray[Any]]):
         fix = f"use one of {', '.join(short)}" if short else did_you_mean(name, known) or f"known: {', '.join(known)}"
         raise NoSuchEntry(f"there is no result '{name}'", fix=fix, code="E402")
 
+    def axes_of(self, name: str) -> tuple[str, ...]:
+        """Return the names of the axes of a result."""
+        return self._dims[name]
+
+    def words_of(self, name: str) -> Mapping[str, Any]:
+        """Return what is known of a result or a varied value: its long name, and its unit if it has one."""
+        return self._words.get(name, {})
+
     def __contains__(self, name: object) -> bool:
         return name in self._arrays
 

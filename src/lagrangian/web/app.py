@@ -12,7 +12,7 @@ from typing import Any
 
 from starlette.applications import Starlette
 from starlette.requests import ClientDisconnect, Request
-from starlette.responses import JSONResponse, Response
+from starlette.responses import JSONResponse, Response, StreamingResponse
 from starlette.routing import Route
 
 from lagrangian import __version__, examples
@@ -21,6 +21,9 @@ from lagrangian.web.pool import PoolLimits, Refused, WorkerPool
 
 SECONDS = 10.0
 """The time [s] that a job may take."""
+
+SWEEP_SECONDS = 300.0
+"""The time [s] that a sweep may take."""
 
 BODY_SECONDS = 10.0
 """The time [s] in which the body of a request must arrive."""
@@ -48,9 +51,11 @@ class Desk:
         *,
         limits: PoolLimits | None = None,
         seconds: float = SECONDS,
+        sweep_seconds: float = SWEEP_SECONDS,
         body_seconds: float = BODY_SECONDS,
     ) -> None:
         self.model, self.seconds, self.body_seconds = model, seconds, body_seconds
+        self.sweep_seconds = sweep_seconds
         self.pool = WorkerPool(limits)
         self.asked = time.monotonic()
         """When the last request came [s]."""
@@ -58,6 +63,7 @@ class Desk:
     def application(self, token: str, port: int) -> Gate:
         """Return the app as an ASGI application."""
         routes = [Route(f"/api/{verb}", self._job(verb), methods=["POST"]) for verb in JOBS]
+        routes.append(Route("/api/sweep", self._sweep, methods=["POST"]))
         routes.append(Route("/api/models", self._counted(self._models), methods=["POST"]))
         routes += [Route(path, _file(*found), methods=["GET"]) for path, found in _files().items()]
         return Gate(Starlette(routes=routes, lifespan=self._lifespan), token, port)
@@ -97,6 +103,40 @@ class Desk:
             return JSONResponse(message["answer"] if "answer" in message else {"error": message["error"]})
 
         return respond
+
+    async def _sweep(self, request: Request) -> Response:
+        """The route of a sweep: parts of the answer as they are found, a line of JSON each, and the answer last."""
+        self.asked = time.monotonic()
+        try:
+            arguments = await self._arguments(request)
+        except Refused as refused:
+            return refusal(refused)
+        return StreamingResponse(self._lines(arguments), media_type="application/x-ndjson")
+
+    async def _lines(self, arguments: dict[str, Any]) -> AsyncIterator[bytes]:
+        lines: asyncio.Queue[dict[str, Any]] = asyncio.Queue()
+
+        async def take(part: Any) -> None:
+            await lines.put({"part": part})
+
+        async def work() -> None:
+            try:
+                message = await self.pool.run("sweep", arguments, seconds=self.sweep_seconds, on_part=take)
+                if "fault" in message:
+                    raise Refused(int(message["status"]), str(message["fault"]))
+                await lines.put(message)
+            except Refused as refused:
+                await lines.put({"error": {"what": refused.what, "fix": refused.fix, "status": refused.status}})
+
+        working = asyncio.create_task(work())
+        try:
+            message: dict[str, Any] = {"part": None}
+            while "part" in message:
+                message = await lines.get()
+                yield json.dumps(message).encode() + b"\n"
+        finally:  # also if nobody listens any more
+            working.cancel()
+            await asyncio.gather(working, return_exceptions=True)
 
     async def _arguments(self, request: Request) -> dict[str, Any]:
         """Return the body of a request as an object of JSON, within the limits on time and size."""

@@ -111,8 +111,9 @@ def told(error: Error) -> dict[str, Any]:
 
 def _jobs() -> Mapping[str, Task]:
     from lagrangian.web.jobs import JOBS
+    from lagrangian.web.sweeps import sweep_job
 
-    return JOBS
+    return {**JOBS, "sweep": sweep_job}
 
 
 if __name__ == "__main__":

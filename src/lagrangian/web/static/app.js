@@ -4,8 +4,10 @@ import { startAnswer } from "./answer.js";
 import { ask, Lost, takeToken } from "./ask.js";
 import { startEditor } from "./editor.js";
 import { startModels } from "./models.js";
+import { startMotion } from "./motion.js";
 import { byId } from "./page.js";
 import { kept, model, open, whenOpened } from "./state.js";
+import { startSweep } from "./sweep.js";
 
 const VIEWS = ["models", "editor", "answer", "motion", "sweep"];
 
@@ -40,6 +42,8 @@ async function start() {
   const { examples, opened } = await ask("models");
   startEditor(lose);
   startAnswer(lose);
+  startMotion(lose);
+  startSweep(lose);
   startModels(examples);
   whenOpened(() => { byId("file-name").textContent = model.name; });
   addEventListener("hashchange", () => route());

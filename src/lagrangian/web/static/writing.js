@@ -86,7 +86,7 @@ export class Writing {
     let at = 0;
     for (const found of this.text.matchAll(TOML)) {
       const kind = COLOURS[found.slice(1).findIndex((part) => part !== undefined)];
-      made.push(document.createTextNode(this.text.slice(at, found.index)), make("span", { class: kind }, found[0]));
+      made.push(document.createTextNode(this.text.slice(at, found.index)), make("span", { class: `tok-${kind}` }, found[0]));
       at = found.index + found[0].length;
     }
     made.push(document.createTextNode(this.text.slice(at)));
