@@ -42,8 +42,9 @@ def opened(arguments: Arguments) -> System:
     system = _loaded(arguments.text("model"), arguments.title("name", UNNAMED))
     model = system.model
     counts = ((len(model.coordinates), MAX_COORDINATES, "coordinates"), (len(model.elements), MAX_ELEMENTS, "elements"))
+    anyway = arguments.truth("anyway")
     for count, most, what in counts:
-        if count > most and not arguments.truth("anyway"):
+        if count > most and not anyway:
             raise LargeModel(
                 f"this model has {count} {what}, more than the {most} that are derived while you type",
                 fix="try anyway, or use the command",

@@ -36,7 +36,9 @@ def sweep_job(given: dict[str, Any], part: Part) -> dict[str, Any]:
         raise Error("both axes have the same name", fix="vary two different quantities", code="E404")
     runs = int(np.prod([len(values) for values in axes.values()]))
     if runs > MAX_RUNS:
-        raise Error(f"these are {runs} runs, more than {MAX_RUNS}", fix="take fewer values, or the command", code="E703")
+        raise Error(
+            f"these are {runs} runs, more than {MAX_RUNS}", fix="take fewer values, or the command", code="E703"
+        )
     output = arguments.text("output")
     system = opened(arguments)
     (first, values), *other = axes.items()
