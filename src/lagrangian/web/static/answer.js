@@ -8,8 +8,12 @@ import { Writing } from "./writing.js";
 
 /** @type {Writing} */
 let writing;
-/** @type {AbortController|null} */
+/** @type {{abort: AbortController, judging: boolean}|null} */
 let asking = null;
+/** @type {"preview"|"check"|null} */
+let wanted = null;
+/** The text of the verdict that is shown. @type {string|null} */
+let judged = null;
 
 /** @param {(error: unknown) => void} lose */
 export function startAnswer(lose) {
@@ -20,6 +24,7 @@ export function startAnswer(lose) {
     describedby: "answer-names answer-error",
     rows: 9,
     changed: () => {
+      judged = null;
       byId("verdict").classList.add("old");
       byId("answer-report").classList.add("old");
       writing.mark([]);
@@ -53,27 +58,37 @@ function names() {
 }
 
 function clear() {
+  judged = null;
   for (const id of ["verdict", "answer-lines", "answer-report"]) byId(id).replaceChildren();
   tell(byId("answer-error"), null);
   byId("answer-state").textContent = "";
 }
 
-/** Have the answer read, or judged too. @param {"preview"|"check"} verb */
+/** Have the answer read, or judged too; one request at a time, and the newest wish is the next.
+ *  @param {"preview"|"check"} verb */
 async function read(verb) {
-  asking?.abort();
+  if (asking) {
+    wanted = wanted === "check" ? "check" : verb;
+    if (verb === "check" && asking.judging) asking.abort.abort();
+    return;
+  }
   if (!writing.text.trim()) return clear();
-  const mine = asking = new AbortController();
+  if (verb === "preview" && writing.text === judged) return;
+  const mine = asking = { abort: new AbortController(), judging: verb === "check" };
   const hint = Number(/** @type {any} */ (document.querySelector("input[name=hint]:checked")).value);
   const text = writing.text;
   if (verb === "check") byId("answer-state").textContent = "Checking …";
   try {
     const asked = { ...about(), answer: text, ...(verb === "check" ? { hint } : {}) };
-    const answer = await ask(verb, asked, mine.signal);
+    const answer = await ask(verb, asked, mine.abort.signal);
     if (text === writing.text) show(answer, verb);
   } catch (error) {
-    if (error instanceof Lost || !mine.signal.aborted) throw error;
+    if (error instanceof Lost || !mine.abort.signal.aborted) throw error;
   } finally {
-    if (asking === mine) asking = null;
+    asking = null;
+    const next = wanted;
+    wanted = null;
+    if (next) await read(next);
   }
 }
 
@@ -90,6 +105,7 @@ function show(answer, verb) {
   }
   const findings = answer.data?.lines ?? [];
   byId("answer-lines").replaceChildren(...answer.lines.map((/** @type {any} */ line) => lineOf(line, findings)));
+  judged = verb === "check" ? writing.text : null;
   if (verb !== "check") return;
   writing.mark(findings.map((/** @type {any} */ f) => ({
     line: f.line, kind: f.right ? "right" : "wrong", words: f.verdict,
