@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from lagrangian import derive, dynamics
+from lagrangian import bounded, derive, dynamics
 from lagrangian.calls import DERIVATION, Guided
 from lagrangian.derive import pages
 from lagrangian.model import Model
@@ -94,6 +94,7 @@ def verify_floating(model: Model, *, states: int, seed: int) -> tuple[Check, ...
     return (*found, *verify_compiled(model, states=states, seed=seed))
 
 
+@bounded.answered("writing the equations out", lambda model, **_: model.is_hard)
 def derive_and_verify(model: Model, *, detail: derive.Detail = "usual") -> Derivation:
     """Derive a model and add the checks at the end; ``detail="full"`` writes d/dt out term by term."""
     check_dimensions(model)

@@ -4,11 +4,14 @@ Expanded, an expression may be exponentially longer than it was when written: (a
 each use another twice, a chain of frames in space. So the size of a result is predicted from the structure of an
 expression. Beyond `MAX_OPERATIONS` the expression is left as it is (`expand`) or refused (`diff`, `written_out`). The
 cost of a search for a closed form or a common factor cannot be predicted: `searched` counts the calls that it makes and
-gives up after `CALLS`. Both count operations, so the answer does not depend on how fast or how busy a machine is.
+gives up after `CALLS`, and `answered` counts those of a whole question about a system. All of them count operations, so
+the answer does not depend on how fast or how busy a machine is.
 """
 
+from lagrangian.bounded.effort import count_operations
 from lagrangian.bounded.operations import operations
 from lagrangian.bounded.parts import rebuilt, replaced
+from lagrangian.bounded.questions import answered, hard
 from lagrangian.bounded.searches import absolute, cancel, searched, simplify, together, trigsimp
 from lagrangian.bounded.sizes import (
     MAX_OPERATIONS,
@@ -29,11 +32,14 @@ __all__ = [
     "Budget",
     "TooLarge",
     "absolute",
+    "answered",
     "cancel",
     "check_size",
+    "count_operations",
     "diff",
     "expand",
     "expand_angles",
+    "hard",
     "is_one",
     "names",
     "operations",

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Callable
-from inspect import CO_GENERATOR
 from typing import Any, TypeVar, cast
 
 import sympy as sp
-from sympy.core.cache import clear_cache
 
+from lagrangian.bounded.effort import CallCount, SpentError
 from lagrangian.bounded.sizes import MAX_OPERATIONS, TERMS, size, terms
 
 T = TypeVar("T")
@@ -21,37 +19,17 @@ PROOFS = 10_000
 """The number of calls after which the sign of an argument is left undecided; x² + 1 takes a hundredth of it."""
 
 
-class _SpentError(BaseException):
-    """All calls are spent. Not an `Exception`, so that no routine on the way catches it."""
-
-
 def searched(routine: Callable[..., T], *arguments: Any, calls: int = CALLS) -> T | None:
     """Return the result of one of SymPy's routines, or None if it makes more than ``calls`` calls."""
-    left = calls
-
-    def count(frame: Any, event: str, argument: Any) -> None:
-        nonlocal left
-        if event == "call":
-            left -= 1
-            # an exception raised while a generator is closed is lost, and Python would stop counting
-            if left < 0 and not frame.f_code.co_flags & CO_GENERATOR:
-                raise _SpentError
-
-    before = sys.getprofile()
-    sys.setprofile(count)
+    counted = CallCount(calls, anywhere=True)
     try:
-        return routine(*arguments)
-    except _SpentError:
-        clear_cache()  # unfinished results in SymPy's cache must not be used later
+        return counted.run(lambda: routine(*arguments))
+    except SpentError:
+        if counted.outer is not None and counted.outer.left < 0:
+            raise  # the question within which it was searched is given up, too
         return None
     except RecursionError:
         return None
-    finally:
-        if before is None or callable(before):
-            sys.setprofile(before)
-        else:  # the standard library's profiler is not a function, and starts itself again
-            sys.setprofile(None)
-            before.enable()
 
 
 def absolute(function: Callable[..., Any], argument: sp.Expr) -> sp.Expr:

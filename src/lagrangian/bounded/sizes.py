@@ -9,6 +9,7 @@ from typing import Any, cast
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian.bounded.effort import count_operations
 from lagrangian.errors import ModelError
 
 MAX_OPERATIONS = 20_000
@@ -35,6 +36,7 @@ class Budget:
     def spend(self, operations: int) -> None:
         """Subtract operations; raise an error if none are left."""
         self.left -= operations
+        count_operations(operations)
         if self.left < 0:
             raise self._error(self.limit)
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.candidates import too_long
 from lagrangian.check.constrained import check_constrained
 from lagrangian.check.coordinates import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
@@ -24,7 +25,15 @@ from lagrangian.page.formula import Terms, Text, text
 
 _log = logging.getLogger(__name__)
 
+LONG = 1_500
+"""The total size of its lines above which an answer counts as hard, see `bounded.hard`."""
 
+
+def _hard(derivation: Derived, lines: Sequence[AnsweredLine], **_: object) -> bool:
+    return derivation.model.is_hard or bounded.hard((line.expr for line in lines), LONG)
+
+
+@bounded.answered("checking the answer", _hard, "shorten the lines of the answer, and the expressions of the system")
 def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3) -> Verdict:
     """Return what is right and what is wrong in an answer, line by line and as a whole.
 

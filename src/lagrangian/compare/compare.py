@@ -13,6 +13,7 @@ from typing import Any, Protocol, cast
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.advice import Advice, Argument
 from lagrangian.compare.comparison import Comparison
 from lagrangian.compare.differences import differing, parameter_differences, unmatched
@@ -39,6 +40,12 @@ class Derivable(Protocol):
         ...
 
 
+def _hard(a: Derivable | Derived, b: Derivable | Derived, change: object = None) -> bool:
+    models = (getattr(x, "model", None) for x in (a, b))
+    return any(model.is_hard for model in models if model is not None)
+
+
+@bounded.answered("the comparison of the systems", _hard)
 def compare(a: Derivable | Derived, b: Derivable | Derived, change: Mapping[Any, Any] | None = None) -> Comparison:
     """Return a comparison of two systems (or their derivations): are they the same motion, and where do they differ?
 

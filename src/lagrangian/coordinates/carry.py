@@ -9,6 +9,7 @@ from typing import Any
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.coordinates.change import Change, read_change
 from lagrangian.coordinates.initial import carried_settings
 from lagrangian.coordinates.pose import carried_look
@@ -27,6 +28,7 @@ def changed(model: Model, change: Mapping[Any, Any] | Change, *, name: str | Non
     return carried(model, change, name=name).model()
 
 
+@bounded.answered("a change of coordinates", lambda model, *_, **__: model.is_hard)
 def carried(model: Model, change: Mapping[Any, Any] | Change, *, name: str | None = None) -> Builder:
     """Return the same as `changed`, as a builder that can still be extended."""
     found = change if isinstance(change, Change) else read_change(model, change)

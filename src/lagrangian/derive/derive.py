@@ -11,6 +11,7 @@ from typing import Any, get_args
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.derive.algebra import Algebra
 from lagrangian.derive.constraints.page import constraints
 from lagrangian.derive.context import Context, fit
@@ -32,6 +33,7 @@ from lagrangian.page.formula import Text, text
 _log = logging.getLogger(__name__)
 
 
+@bounded.answered("writing the equations out", lambda model, **_: model.is_hard)
 def derive(model: Model, *, detail: Detail = "usual") -> Derived:
     """Return the equations of motion of a model and the steps that lead to them.
 

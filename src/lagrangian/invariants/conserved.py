@@ -36,6 +36,7 @@ TRIES = 5
 """The number of random initial states that are tried until a run reaches its end."""
 
 
+@bounded.answered("the search for conserved quantities", lambda model, **_: model.is_hard)
 def conserved_quantities(model: Model, *, params: Named | None = None, seed: int = 1) -> ConservedQuantities:
     """Return the conserved quantities of a model.
 

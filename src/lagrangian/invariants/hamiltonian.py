@@ -31,6 +31,7 @@ STATES = 20
 TOLERANCE = 1e-9
 
 
+@bounded.answered("Hamilton's form", lambda model: model.is_hard)
 def hamiltonian(model: Model) -> Hamiltonian:
     """Return Hamilton's form of a model. Raises `RunError` if the inverse of M is too long to write out."""
     system = LagrangianForm.of(model).without_rows("Hamilton's form")

@@ -29,6 +29,7 @@ from lagrangian.page.plain import plain
 from lagrangian.values.values import key_name
 
 
+@bounded.answered("Routh's form", lambda model, *_: model.is_hard)
 def routhian(model: Model, ignorable: Sequence[Any] | None = None) -> Routhian:
     """Return Routh's form of a model; ``ignorable`` names the coordinates to eliminate, by default all that are
     ignorable.

@@ -13,7 +13,7 @@ from typing import Any, cast
 import numpy as np
 import sympy as sp
 
-from lagrangian import derive
+from lagrangian import bounded, derive
 from lagrangian.derive.algebra import Algebra, Form, OutOfReach
 from lagrangian.derive.algebra.ratios import FormRatio, inverse, written
 from lagrangian.errors import RunError
@@ -47,6 +47,7 @@ class SymbolicLinearization(Brief):
     conditions: tuple[sp.Eq, ...]
 
 
+@bounded.answered("writing the matrices out", lambda linear: linear.model.is_hard)
 def symbolic(linear: LinearModel) -> SymbolicLinearization:
     """Return a linearization in symbols. Raises `RunError` if it is not about an equilibrium, or too long to write
     out."""

@@ -110,6 +110,16 @@ class Model(Brief):
         return {p.symbol: p.value for p in self.parameters if p.value is not None}
 
     @cached_property
+    def is_hard(self) -> bool:
+        """Whether SymPy may take long over what the elements are described by, see `bounded.hard`."""
+        points = [p for e in self.elements for _, p in e.points()]
+        frames = [f for e in self.elements for _, f in e.frames()]
+        described = [use.expr for e in self.elements for use in e.uses()] + [d.expression for d in self.definitions]
+        described += [x for p in {id(p): p for p in points}.values() for x in self.position(p)]
+        described += [x for f in {id(f): f for f in frames}.values() for x in (*(f.axis or ()), f.angle)]
+        return bounded.hard(sp.sympify(x) for x in described)
+
+    @cached_property
     def symbols(self) -> dict[str, sp.Expr]:
         """Every name with its symbol: coordinates, quasi-velocities, parameters, inputs, definitions."""
         quasi = [v for f in self.floating if f.floating is not None for v in f.floating.velocities]

@@ -108,8 +108,9 @@ class Generators:
     def index(self, symbol: sp.Expr) -> int:
         """Return the number of a symbol, a function of time or a derivative of one."""
         if symbol not in self._index:
+            found = self._symbolic(symbol)
             self._index[symbol] = len(self.table)
-            self.table.append(self._symbolic(symbol))
+            self.table.append(found)
             if not isinstance(symbol, sp.Symbol):
                 self.placeholders[symbol] = sp.Symbol(f"u{self._index[symbol]}")
         return self._index[symbol]
@@ -160,19 +161,20 @@ class Generators:
         """Return the number of a sine or cosine on the page; a sine has the sign that SymPy preserves."""
         key = ("trig", harmonic)
         if key not in self._index:
-            self._index[key] = len(self.table)
             expr = self.trig(harmonic) * (self.sign(harmonic[0]) if harmonic[1] else 1)
-            self.table.append(Trig(harmonic, expr, self.turning(harmonic[0])))
+            made = Trig(harmonic, expr, self.turning(harmonic[0]))
+            self._index[key] = len(self.table)
+            self.table.append(made)
         return self._index[key]
 
     def sum_letter(self, base: Mapping[int, Fraction]) -> int:
         """Return the number of a sum of parameters on the page; ``base`` is its polynomial."""
         key = ("sum", frozenset(base.items()))
         if key not in self._index:
+            terms = [sp.Rational(c.numerator, c.denominator) * self.expr(m) for m, c in base.items()]
+            made = Sum(sp.Add(*terms))
             self._index[key] = len(self.table)
-            self.table.append(
-                Sum(sp.Add(*[sp.Rational(c.numerator, c.denominator) * self.expr(m) for m, c in base.items()]))
-            )
+            self.table.append(made)
         return self._index[key]
 
     def sign(self, h: Packed) -> int:
@@ -324,6 +326,7 @@ class Generators:
     def affords(self, operations: int) -> bool:
         """Count operations of a search for a shorter form; return False once none are left."""
         self.writing -= operations
+        bounded.count_operations(operations)
         if self.writing < 0:
             self.writing = -1
         return self.writing >= 0

@@ -1,0 +1,89 @@
+"""Whole questions about a system, such as a derivation, which are counted if the system's expressions are hard.
+
+Counting takes time, so questions about plain expressions are not counted: what they cost is bounded by their size.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from functools import wraps
+from typing import ParamSpec, TypeVar
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian.advice import Advice, Verb
+from lagrangian.bounded.effort import CallCount, SpentError, is_counted
+from lagrangian.bounded.sizes import TooLarge, each, size
+
+P = ParamSpec("P")
+T = TypeVar("T")
+
+QUESTION = 6_000_000
+"""The number of calls after which a question about a system with hard expressions is given up."""
+
+PLAIN = 400
+"""The total size above which expressions count as hard, whatever is in them."""
+
+INSIDE = 12
+"""The size of an argument of a function, a base of a high power or a case above which an expression is hard."""
+
+HIGH = 6
+"""A power of a sum is hard if its exponent has a larger numerator or denominator."""
+
+NUMBERS = Advice(
+    *("shorten the expressions, or use ", Verb("simulate"), ", ", Verb("linearize"), ", ", Verb("export")),
+    " or, in Python, compile(), which do not need the written equations",
+)
+"""What helps if a question takes too many steps."""
+
+
+def answered(doing: str, is_hard: Callable[P, bool], fix: str = NUMBERS) -> Callable[[Callable[P, T]], Callable[P, T]]:
+    """Decorate a question about a system: it ends with `TooLarge` after `QUESTION` calls if ``is_hard`` says so.
+
+    Questions inside a counted question share its count. ``doing`` is the subject of the error's sentence.
+    """
+
+    def decorate(question: Callable[P, T]) -> Callable[P, T]:
+        @wraps(question)
+        def asked(*args: P.args, **named: P.kwargs) -> T:
+            if is_counted() or not is_hard(*args, **named):
+                return question(*args, **named)
+            try:
+                return CallCount(QUESTION, anywhere=False).run(lambda: question(*args, **named))
+            except SpentError:
+                pass
+            raise TooLarge(f"{doing} takes more than {QUESTION} steps", fix=fix, code="E601")
+
+        return asked
+
+    return decorate
+
+
+def hard(expressions: Iterable[sp.Basic], plain: int = PLAIN) -> bool:
+    """Whether SymPy may take long over expressions: long ones, high powers of sums, functions of sums or functions."""
+    total = 0
+    for expr in expressions:
+        total += size(expr)
+        if total > plain or any(_hard(node) for node in each(expr)):
+            return True
+    return False
+
+
+def _hard(node: sp.Basic) -> bool:
+    if isinstance(node, (AppliedUndef, sp.Derivative)) or not node.args:
+        return False
+    if isinstance(node, sp.Pow):
+        base, exponent = node.args
+        if not isinstance(exponent, sp.Rational):
+            return size(exponent) > INSIDE
+        return max(abs(exponent.p), exponent.q) > HIGH and size(base) > 1
+    if isinstance(node, (sp.Function, sp.Piecewise, sp.Max, sp.Min)):
+        most = 3 * INSIDE if isinstance(node, (sp.sin, sp.cos)) else INSIDE
+        return max(size(a) for a in node.args) > most or any(_turns(part) for a in node.args for part in each(a))
+    return False
+
+
+def _turns(part: sp.Basic) -> bool:
+    """Whether a part is a function, but not one of time alone."""
+    return isinstance(part, sp.Function) and not isinstance(part, AppliedUndef)
