@@ -55,6 +55,13 @@ class Source:
         cases = ", ".join(f"{sub(2)} {r.choice(('<', '>='))} {sub(2)}, {sub(2)}" for _ in range(r.randint(1, 3)))
         return f"piecewise({cases}, {sub(2)})"
 
+    def smooth(self, names: tuple[str, ...], depth: int) -> str:
+        """An expression without kinks, as the position of a point must be."""
+        bent, self.bent = self.bent, False
+        made = self.expr(names, depth)
+        self.bent = bent
+        return made
+
     def sized(self, names: tuple[str, ...], length: int) -> str:
         """An expression about so long."""
         parts = [self.expr(names, self.random.randint(2, 5))]
@@ -127,8 +134,10 @@ def _springs(s: Source, room: int) -> str:
     q = _names(s.random.randint(2, 4))
     local = ("delta", "delta", *PARAMETERS)
     how = s.random.choice(("law", "energy", "energy"))
-    where = s.random.choice((f'deflection = "{s.sized((*q, *PARAMETERS), room // 3)}"', 'between = ["origin", "A"]'))
-    text = _head("springs", q) + f'[points]\nA = ["{q[0]}", "{s.expr((*q, *PARAMETERS), 3)}"]\n' + _bodies(q)
+    where = s.random.choice(
+        (f'deflection = "{q[1]}+{s.sized((*q, *PARAMETERS), room // 3)}"', 'between = ["origin", "A"]')
+    )
+    text = _head("springs", q) + f'[points]\nA = ["{q[0]}", "{s.smooth((*q, *PARAMETERS), 3)}"]\n' + _bodies(q)
     text += f'[[spring]]\n{how} = "{s.sized(local, room // 2)}"\n{where}\n'
     text += f'[[damper]]\nlaw = "{s.sized(("rate", *PARAMETERS), room // 6)}"\nbetween = ["origin", "A"]\n'
     return text
@@ -152,24 +161,38 @@ def _crowd(s: Source, room: int) -> str:
     while True:
         x = s.random.choice(q)
         more = s.random.choice((
-            f'[[spring]]\nk = "{s.expr(PARAMETERS, 1)}"\ndeflection = "{s.expr((*q, *PARAMETERS), 2)}"\n',
-            f'[[damper]]\nb = "a"\ndeflection = "{s.expr((*q, *PARAMETERS), 2)}"\n',
-            f'[[force]]\nvalue = ["F*t", "{s.expr((*q, *PARAMETERS), 1)}"]\nat = ["{x}", "{s.expr((*q, "t"), 2)}"]\n',
+            f'[[spring]]\nk = "{s.expr(PARAMETERS, 1)}"\ndeflection = "{x}+{s.expr((*q, *PARAMETERS), 2)}"\n',
+            f'[[damper]]\nb = "a"\ndeflection = "{x}-{s.smooth((*q, *PARAMETERS), 2)}"\n',
+            f'[[force]]\nvalue = ["F*t", "{s.expr((*q, *PARAMETERS), 1)}"]\nat = ["{x}", "{s.smooth((*q, "t"), 2)}"]\n',
             f'[[generalized_force]]\ncoordinate = "{x}"\nvalue = "{s.expr((*q, f"{x}" + chr(39), "t"), 2)}"\n',
-            f'[[particle]]\nmass = "m"\nat = ["{s.expr((*q, *PARAMETERS), 2)}", "{x}"]\n',
+            f'[[particle]]\nmass = "m"\nat = ["{s.smooth((*q, *PARAMETERS), 2)}", "{x}"]\n',
         ))  # fmt: skip
         if len(text) + len(more) > room + 400:
             return text
         text += more
 
 
+def _constrained(s: Source, room: int) -> str:
+    """Constraints on positions and rates, of anything that moves."""
+    q = _names(s.random.randint(2, 4))
+    leaves, s.bent = (*q, *q, *PARAMETERS), False
+    text = _head("constrained", q) + _bodies(q) + '[[gravity]]\ndirection = ["0", "-1"]\n'
+    for k in range(s.random.randint(1, len(q) - 1)):
+        if s.random.random() < 0.6:
+            text += f'[[constraint]]\nname = "c{k}"\nexpression = "{q[k]}-{s.sized((*leaves, "t"), room // 3)}"\n'
+        else:
+            rates = "+".join(f"({s.sized(leaves, room // 6)})*{x}'" for x in q[:2])
+            text += f'[[velocity_constraint]]\nname = "c{k}"\nexpression = "{q[-1]}\'-({rates})"\n'
+    return text
+
+
 KINDS: tuple[Callable[[Source, int], str], ...] = (_points, _energy, _energies, _springs, _gravity, _crowd)
 
 
 def model(seed: int) -> str:
-    """The model file of a seed."""
+    """The model file of a seed; those from 100 on have constraints."""
     source = Source(seed)
-    kind = KINDS[seed % len(KINDS)]
+    kind = _constrained if seed >= 100 else KINDS[seed % len(KINDS)]
     room = source.random.choice((150, 400, 400, 1200, 3000, 8000))
     while True:
         text = kind(source, room) + '[simulate]\nduration = "1 s"\n[simulate.initial]\nq0 = 0.1\n'

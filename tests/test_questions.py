@@ -1,7 +1,10 @@
 """A question about a system of hard expressions ends after a number of calls, and leaves everything usable."""
 
+import cProfile
 import sys
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from types import FrameType
 from typing import Any, cast
 
 import pytest
@@ -13,6 +16,7 @@ from effort import at_most
 from lagrangian import ModelError, bounded, examples
 from lagrangian.bounded import questions
 from lagrangian.check import Status
+from lagrangian.model import is_hard
 
 a, b, c, d, e = sp.symbols("a b c d e")
 q, w = dynamicsymbols("q w")
@@ -38,12 +42,12 @@ def test_high_powers_and_functions_of_functions_are_hard(expr: sp.Expr) -> None:
 
 
 def test_many_plain_expressions_are_hard() -> None:
-    assert bounded.hard([sp.sin(q - w) * a] * 100)
+    assert bounded.hard([sp.sin(q - w) * a] * 1_000)
 
 
 @pytest.mark.parametrize("name", examples.names())
 def test_no_example_is_hard(name: str) -> None:
-    assert not lg.loads(examples.text(name)).model.is_hard
+    assert not is_hard(lg.example(name).model)
 
 
 def _question(is_hard: bool) -> Callable[[Callable[[], object]], object]:
@@ -108,3 +112,58 @@ def test_after_an_answer_that_was_given_up_others_are_judged(calls: int, monkeyp
     assert derivation.check(right).status is Status.RIGHT
     wrong = derivation.check([sp.Eq(2 * right[0].lhs + sp.diff(first, "t", 2), right[0].rhs), right[1]])
     assert not wrong.right
+
+
+def test_whoever_profiles_goes_on_seeing_every_call() -> None:
+    seen: list[str] = []
+
+    def profile(frame: FrameType, event: str, argument: object) -> None:
+        if event == "call":
+            seen.append(frame.f_code.co_name)
+
+    sys.setprofile(profile)
+    try:
+        _question(True)(lambda: bounded.searched(_short))
+        assert sys.getprofile() is profile
+    finally:
+        sys.setprofile(None)
+    assert seen.count("_short") == 1
+
+
+def test_a_profiler_of_the_standard_library_goes_on_afterwards() -> None:
+    profiler = cProfile.Profile()
+    profiler.enable()
+    try:
+        _question(True)(_short)
+        _in_sympy()
+    finally:
+        profiler.disable()
+    names = {entry.code.co_name for entry in profiler.getstats() if not isinstance(entry.code, str)}
+    assert "_in_sympy" in names
+
+
+def test_threads_count_for_themselves(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A question that is given up in one thread leaves those of the others alone."""
+    monkeypatch.setattr(questions, "QUESTION", 50_000)
+    inner = _question(True)
+    with ThreadPoolExecutor(4) as pool:
+        long = [pool.submit(inner, lambda: [_short() for _ in range(500)]) for _ in range(3)]
+        short = [pool.submit(inner, _short) for _ in range(6)]
+        assert all(isinstance(job.exception(), ModelError) for job in long)
+        assert all(job.exception() is None for job in short)
+    assert sys.getprofile() is None
+
+
+def test_a_debugger_beside_the_count_goes_on() -> None:
+    seen: list[str] = []
+
+    def trace(frame: FrameType, event: str, argument: object) -> None:
+        seen.append(frame.f_code.co_name)
+
+    before = sys.gettrace()
+    sys.settrace(trace)
+    try:
+        _question(True)(_short)
+    finally:
+        sys.settrace(before)
+    assert "_short" in seen

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from lagrangian import bounded, derive, dynamics
 from lagrangian.calls import DERIVATION, Guided
 from lagrangian.derive import pages
-from lagrangian.model import Model
+from lagrangian.model import Model, is_hard
 from lagrangian.values.dimensions import check_dimensions
 from lagrangian.verify.equations import verify
 from lagrangian.viewed import Viewed
@@ -94,7 +94,7 @@ def verify_floating(model: Model, *, states: int, seed: int) -> tuple[Check, ...
     return (*found, *verify_compiled(model, states=states, seed=seed))
 
 
-@bounded.answered("writing the equations out", lambda model, **_: model.is_hard)
+@bounded.answered("writing the equations out", is_hard)
 def derive_and_verify(model: Model, *, detail: derive.Detail = "usual") -> Derivation:
     """Derive a model and add the checks at the end; ``detail="full"`` writes d/dt out term by term."""
     check_dimensions(model)

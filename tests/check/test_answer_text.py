@@ -120,6 +120,24 @@ def test_conditions_stand_in_piecewise():
         assert line.rhs.subs(at) == meant
 
 
+@pytest.mark.parametrize(
+    ("written", "meant"),
+    [
+        ("max({}, k)", lambda value, k: max(value, k)),
+        ("max(({}), k)", lambda value, k: max(value, k)),
+        ("cos({})", lambda value, k: sp.cos(value)),
+        ("sin²(({})*k)", lambda value, k: sp.sin(value * k) ** 2),
+        ("piecewise(k > 2, 3*{}, k)", lambda value, k: 3 * value if k > 2 else k),
+        ("piecewise({} > k, 1, 0)", lambda value, k: int(value > k)),
+    ],
+)
+def test_a_piecewise_value_may_be_an_argument_of_a_function(written, meant):
+    """Its comparison belongs to it, not to the function around it."""
+    (line,) = parse_answer(f"x1'' = {written.format('piecewise(x1 > 1, m1, 2)')}", model("lecture-3b")).lines
+    for at in ({x1: a, k: b, m1: 3} for a in (0.2, 3) for b in (1, 5)):
+        assert line.rhs.subs(at) == meant(at[m1] if at[x1] > 1 else 2, at[k])
+
+
 def test_several_statements_on_a_line_and_two_equations_that_begin_with_minus():
     answer = parse_answer("Xi_1 = 0, Xi_2 = F; V = k*x2r^2/2\n-F = -k*x2r\n-F = m1*x1''", model("lecture-3b"))
     assert [line.kind for line in answer.lines] == ["Xi", "Xi", "V", "equation", "equation"]

@@ -11,12 +11,13 @@ from collections.abc import Callable
 from inspect import CO_GENERATOR
 from pathlib import Path
 from types import FrameType
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import sympy as sp
 from sympy.core.cache import clear_cache
 
 T = TypeVar("T")
+Hook = Callable[[FrameType, Any, Any], object]
 
 _SYMPY = str(Path(sp.__file__).parent)
 _running = threading.local()
@@ -31,11 +32,14 @@ class CallCount:
 
     def __init__(self, calls: int, *, anywhere: bool) -> None:
         self.outer: CallCount | None = getattr(_running, "count", None)
+        self.former: Hook | None = None if self.outer is None else self.outer.former
         self.limit = self.left = calls if self.outer is None else min(calls, self.outer.left)
         self.anywhere = anywhere
 
     def called(self, frame: FrameType, event: str, argument: object) -> None:
         """Count a call; raise `SpentError` where an exception does no harm if none are left."""
+        if self.former is not None:
+            self.former(frame, event, argument)
         if event == "call":
             self.left -= 1
             # an exception raised while a generator is closed is lost, and Python would stop counting; our own objects
@@ -50,6 +54,8 @@ class CallCount:
     def run(self, routine: Callable[[], T]) -> T:
         """Return the result of a routine; raise `SpentError` if it makes too many calls."""
         before = sys.getprofile()
+        if self.outer is None and callable(before):
+            self.former = before  # whoever profiles goes on seeing every call
         _running.count = self
         sys.setprofile(self.called)
         try:

@@ -22,7 +22,7 @@ T = TypeVar("T")
 QUESTION = 6_000_000
 """The number of calls after which a question about a system with hard expressions is given up."""
 
-PLAIN = 400
+PLAIN = 3_000
 """The total size above which expressions count as hard, whatever is in them."""
 
 INSIDE = 12
@@ -38,7 +38,9 @@ NUMBERS = Advice(
 """What helps if a question takes too many steps."""
 
 
-def answered(doing: str, is_hard: Callable[P, bool], fix: str = NUMBERS) -> Callable[[Callable[P, T]], Callable[P, T]]:
+def answered(
+    doing: str, is_hard: Callable[..., bool], fix: str = NUMBERS
+) -> Callable[[Callable[P, T]], Callable[P, T]]:
     """Decorate a question about a system: it ends with `TooLarge` after `QUESTION` calls if ``is_hard`` says so.
 
     Questions inside a counted question share its count. ``doing`` is the subject of the error's sentence.

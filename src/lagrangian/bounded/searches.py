@@ -32,6 +32,11 @@ def searched(routine: Callable[..., T], *arguments: Any, calls: int = CALLS) -> 
         return None
 
 
+def is_zero(value: Any) -> bool:
+    """Whether a value is zero. Of one with variables SymPy is not asked: the proof that it vanishes may take long."""
+    return bool(value == 0 or (value.is_number and value.is_zero))
+
+
 def absolute(function: Callable[..., Any], argument: sp.Expr) -> sp.Expr:
     """Return abs or sign of a real number, unevaluated if SymPy would split it into real and imaginary parts."""
     value = searched(function, argument, calls=PROOFS)

@@ -97,8 +97,8 @@ def terms(expr: sp.Basic, *, angles: bool = False) -> int:
         elif isinstance(node, sp.Mul):
             for n in inner:
                 count = min(count * n, BEYOND)
-        elif isinstance(node, sp.Pow) and isinstance(node.exp, sp.Integer):
-            power = abs(int(node.exp))
+        elif isinstance(node, sp.Pow) and isinstance(node.exp, sp.Rational):
+            power = abs(node.exp.p) // node.exp.q  # SymPy multiplies out (a + b)^(7/2) as (a + b)³ √(a + b)
             raised = inner[0] if inner[0] == 1 else min(comb(min(inner[0], 10**6) + power - 1, power), BEYOND)
             count, longest = (raised, longest) if node.exp > 0 else (1, max(longest, raised))  # so does a denominator
         elif angles and isinstance(node, (sp.sin, sp.cos)):

@@ -21,6 +21,7 @@ from lagrangian.check.spelling import Spelling, in_numbers, not_there, spelled
 from lagrangian.check.stated import StatedQuantity, equations_follow, given, judge
 from lagrangian.check.verdict import AnsweredLine, Finding, Status, Verdict
 from lagrangian.derive import Derived
+from lagrangian.model import is_hard
 from lagrangian.page.formula import Terms, Text, text
 
 _log = logging.getLogger(__name__)
@@ -30,7 +31,7 @@ LONG = 1_500
 
 
 def _hard(derivation: Derived, lines: Sequence[AnsweredLine], **_: object) -> bool:
-    return derivation.model.is_hard or bounded.hard((line.expr for line in lines), LONG)
+    return is_hard(derivation.model) or bounded.hard((line.expr for line in lines), LONG)
 
 
 @bounded.answered("checking the answer", _hard, "shorten the lines of the answer, and the expressions of the system")

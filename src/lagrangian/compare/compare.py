@@ -26,7 +26,7 @@ from lagrangian.compare.zero import Zero, ZeroVerdict
 from lagrangian.coordinates import Change, check_regular, is_regular
 from lagrangian.derive import Derived
 from lagrangian.errors import ModelError
-from lagrangian.model import Model
+from lagrangian.model import Model, is_hard
 from lagrangian.page.formula import Check, Name, Partial, text
 
 _log = logging.getLogger(__name__)
@@ -42,7 +42,7 @@ class Derivable(Protocol):
 
 def _hard(a: Derivable | Derived, b: Derivable | Derived, change: object = None) -> bool:
     models = (getattr(x, "model", None) for x in (a, b))
-    return any(model.is_hard for model in models if model is not None)
+    return any(is_hard(model) for model in models if model is not None)
 
 
 @bounded.answered("the comparison of the systems", _hard)

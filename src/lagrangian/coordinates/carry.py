@@ -14,7 +14,7 @@ from lagrangian.coordinates.change import Change, read_change
 from lagrangian.coordinates.initial import carried_settings
 from lagrangian.coordinates.pose import carried_look
 from lagrangian.coordinates.signals import carried_signals
-from lagrangian.model import Builder, Element, Frame, GeneralizedForce, Model, Point
+from lagrangian.model import Builder, Element, Frame, GeneralizedForce, Model, Point, is_hard
 from lagrangian.page.plain import plain
 
 
@@ -28,7 +28,7 @@ def changed(model: Model, change: Mapping[Any, Any] | Change, *, name: str | Non
     return carried(model, change, name=name).model()
 
 
-@bounded.answered("a change of coordinates", lambda model, *_, **__: model.is_hard)
+@bounded.answered("a change of coordinates", is_hard)
 def carried(model: Model, change: Mapping[Any, Any] | Change, *, name: str | None = None) -> Builder:
     """Return the same as `changed`, as a builder that can still be extended."""
     found = change if isinstance(change, Change) else read_change(model, change)

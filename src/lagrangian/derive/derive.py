@@ -27,13 +27,13 @@ from lagrangian.derive.multipliers.step import by_multipliers, introduced
 from lagrangian.derive.result import Shares, closing, equations, ledger, ledger_items, matrices
 from lagrangian.derive.wiggle import study
 from lagrangian.errors import ModelError, did_you_mean
-from lagrangian.model import Model
+from lagrangian.model import Model, is_hard
 from lagrangian.page.formula import Text, text
 
 _log = logging.getLogger(__name__)
 
 
-@bounded.answered("writing the equations out", lambda model, **_: model.is_hard)
+@bounded.answered("writing the equations out", is_hard)
 def derive(model: Model, *, detail: Detail = "usual") -> Derived:
     """Return the equations of motion of a model and the steps that lead to them.
 

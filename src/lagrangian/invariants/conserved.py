@@ -20,7 +20,7 @@ from lagrangian.invariants.conserved_quantities import Conserved, ConservedQuant
 from lagrangian.invariants.lagrangian_form import LagrangianForm
 from lagrangian.invariants.symmetries import Symmetry, symmetries
 from lagrangian.linear.jacobians import rates, values
-from lagrangian.model import Model
+from lagrangian.model import Model, is_hard
 from lagrangian.page.formula import Name, Text, text
 from lagrangian.page.plain import plain
 from lagrangian.simulate.integrating import projection
@@ -36,7 +36,7 @@ TRIES = 5
 """The number of random initial states that are tried until a run reaches its end."""
 
 
-@bounded.answered("the search for conserved quantities", lambda model, **_: model.is_hard)
+@bounded.answered("the search for conserved quantities", is_hard)
 def conserved_quantities(model: Model, *, params: Named | None = None, seed: int = 1) -> ConservedQuantities:
     """Return the conserved quantities of a model.
 

@@ -21,7 +21,7 @@ from lagrangian.errors import RunError
 from lagrangian.invariants.canonical_forms import Hamiltonian
 from lagrangian.invariants.lagrangian_form import LagrangianForm
 from lagrangian.invariants.squares import SquarePiece, half_square, summed
-from lagrangian.model import Model
+from lagrangian.model import Model, is_hard
 from lagrangian.model.names import moving_symbol
 from lagrangian.page.formula import Check, text
 
@@ -31,7 +31,7 @@ STATES = 20
 TOLERANCE = 1e-9
 
 
-@bounded.answered("Hamilton's form", lambda model: model.is_hard)
+@bounded.answered("Hamilton's form", is_hard)
 def hamiltonian(model: Model) -> Hamiltonian:
     """Return Hamilton's form of a model. Raises `RunError` if the inverse of M is too long to write out."""
     system = LagrangianForm.of(model).without_rows("Hamilton's form")

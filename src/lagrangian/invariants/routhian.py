@@ -23,13 +23,13 @@ from lagrangian.invariants.canonical_forms import Routhian
 from lagrangian.invariants.hamiltonian import STATES, TOLERANCE, momentum_names, split
 from lagrangian.invariants.lagrangian_form import LagrangianForm
 from lagrangian.invariants.squares import SquarePiece, half_square, summed
-from lagrangian.model import Model, time
+from lagrangian.model import Model, is_hard, time
 from lagrangian.page.formula import Check, text
 from lagrangian.page.plain import plain
 from lagrangian.values.values import key_name
 
 
-@bounded.answered("Routh's form", lambda model, *_: model.is_hard)
+@bounded.answered("Routh's form", is_hard)
 def routhian(model: Model, ignorable: Sequence[Any] | None = None) -> Routhian:
     """Return Routh's form of a model; ``ignorable`` names the coordinates to eliminate, by default all that are
     ignorable.

@@ -18,7 +18,7 @@ from lagrangian.derive.algebra import Algebra, Form, OutOfReach
 from lagrangian.derive.algebra.ratios import FormRatio, inverse, written
 from lagrangian.errors import RunError
 from lagrangian.linear.linear_model import LinearModel
-from lagrangian.model import Model, time
+from lagrangian.model import Model, is_hard, time
 from lagrangian.page.plain import plain
 from lagrangian.viewed import Brief
 
@@ -47,7 +47,11 @@ class SymbolicLinearization(Brief):
     conditions: tuple[sp.Eq, ...]
 
 
-@bounded.answered("writing the matrices out", lambda linear: linear.model.is_hard)
+def _hard(linear: LinearModel) -> bool:
+    return is_hard(linear.model)
+
+
+@bounded.answered("writing the matrices out", _hard)
 def symbolic(linear: LinearModel) -> SymbolicLinearization:
     """Return a linearization in symbols. Raises `RunError` if it is not about an equilibrium, or too long to write
     out."""

@@ -34,7 +34,7 @@ from lagrangian.model.elements import (
 )
 from lagrangian.model.floating import Floating
 from lagrangian.model.geometry import Frame, Point, as_expr
-from lagrangian.model.model import Model
+from lagrangian.model.model import Model, is_hard
 from lagrangian.model.names import RESERVED, check_name, time
 from lagrangian.model.rows import Row
 from lagrangian.model.symbols import Coordinate, Definition, Input, Parameter, Velocity
@@ -80,5 +80,6 @@ __all__ = [
     "Words",
     "as_expr",
     "check_name",
+    "is_hard",
     "time",
 ]

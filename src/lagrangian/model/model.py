@@ -110,16 +110,6 @@ class Model(Brief):
         return {p.symbol: p.value for p in self.parameters if p.value is not None}
 
     @cached_property
-    def is_hard(self) -> bool:
-        """Whether SymPy may take long over what the elements are described by, see `bounded.hard`."""
-        points = [p for e in self.elements for _, p in e.points()]
-        frames = [f for e in self.elements for _, f in e.frames()]
-        described = [use.expr for e in self.elements for use in e.uses()] + [d.expression for d in self.definitions]
-        described += [x for p in {id(p): p for p in points}.values() for x in self.position(p)]
-        described += [x for f in {id(f): f for f in frames}.values() for x in (*(f.axis or ()), f.angle)]
-        return bounded.hard(sp.sympify(x) for x in described)
-
-    @cached_property
     def symbols(self) -> dict[str, sp.Expr]:
         """Every name with its symbol: coordinates, quasi-velocities, parameters, inputs, definitions."""
         quasi = [v for f in self.floating if f.floating is not None for v in f.floating.velocities]
@@ -183,3 +173,22 @@ class Model(Brief):
                 if not free.has(AppliedUndef, time):
                     return (body.title,)
         return ("what turns with ", angle)
+
+
+def is_hard(model: Model, *_: object, **__: object) -> bool:
+    """Whether SymPy may take long over what the elements are described by, see `bounded.hard`.
+
+    Further arguments, those of a question about the model, make no difference.
+    """
+    return model.remembered("is_hard", lambda: bounded.hard(_described(model)))
+
+
+def _described(model: Model) -> list[sp.Basic]:
+    """The expressions of the elements, the definitions, and the points and frames in use, each point and frame once."""
+    points = {id(p): p for e in model.elements for _, p in e.points()}
+    frames = {id(f): f for e in model.elements for _, f in e.frames()}
+    found: list[Any] = [use.expr for e in model.elements for use in e.uses()]
+    found += [d.expression for d in model.definitions]
+    found += [x for p in points.values() for x in model.position(p)]
+    found += [x for f in frames.values() for x in (*(f.axis or ()), f.angle)]
+    return [sp.sympify(x) for x in found]

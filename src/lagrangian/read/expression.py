@@ -136,7 +136,7 @@ class ExpressionReader:
         for operator, child in ((None, first), *zip(rest[::2], rest[1::2], strict=True)):
             factor = self.value(child)
             if operator is not None and operator in "/÷∕":
-                if factor.is_zero and (factor.is_number or factor == 0):
+                if bounded.is_zero(factor):
                     self.fail("division by zero", child, fix="divide by something that is not 0", code="E705")
                 factor = factor**-1
             if factor.is_Rational:
@@ -182,7 +182,7 @@ class ExpressionReader:
                     fix=f"powers go up to {MAX_EXPONENT}, roots up to the {MAX_EXPONENT}th",
                     code="E703",
                 )
-            if base.is_zero and exponent < 0:
+            if exponent < 0 and bounded.is_zero(base):
                 self.fail(
                     "zero to a negative power is a division by zero", node, fix="use a positive power", code="E705"
                 )
@@ -301,7 +301,7 @@ class ExpressionReader:
                 code="E704",
             )
         values = [self.value(a) for a in arguments]
-        if token in ("log", "ln") and values[0].is_zero:
+        if token in ("log", "ln") and bounded.is_zero(values[0]):
             self.fail("the logarithm of zero is not finite", arguments[0], fix="use a positive number", code="E705")
         return self._real(self._bounded(known.make(*values), token), token)
 

@@ -27,7 +27,7 @@ from lagrangian import bounded, dynamics
 from lagrangian.derive import Derived
 from lagrangian.derive.sample import Sampler
 from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy, hessian, jacobian, jvp, vjp
-from lagrangian.model import Model, time
+from lagrangian.model import Model, is_hard, time
 from lagrangian.page.formula import Check, Name, text
 from lagrangian.values.dimensions import Mismatch, check_dimensions, check_terms
 from lagrangian.values.values import check_sampling
@@ -41,7 +41,11 @@ TOLERANCE = 1e-9
 """The relative difference up to which two numbers count as equal: no more than rounding of long expressions."""
 
 
-@bounded.answered("the comparison of the equations", lambda derivation, **_: derivation.model.is_hard)
+def _hard(derivation: Derived, **_: object) -> bool:
+    return is_hard(derivation.model)
+
+
+@bounded.answered("the comparison of the equations", _hard)
 def verify(derivation: Derived, *, states: int = 50, seed: int = 1) -> tuple[Check, ...]:
     """Return the checks at ``states`` random states, each with its figure."""
     check_sampling(states, seed)

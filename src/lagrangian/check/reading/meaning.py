@@ -9,6 +9,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
+from lagrangian import bounded
 from lagrangian.check.reading.names import Names, Value
 from lagrangian.check.reading.nodes import Node, only_name
 from lagrangian.check.reading.placeholders import ENERGIES, is_vector, variation
@@ -181,7 +182,7 @@ class Meaning(ExpressionReader):
         total: Value = sp.S.One
         for operator, child, value in values:
             if operator is not None and operator == "/":
-                if isinstance(value, MatrixBase) or value.is_zero:
+                if isinstance(value, MatrixBase) or bounded.is_zero(value):
                     self.fail("a matrix can be divided only by a number that is not 0", child)
                 value = 1 / value
             both = isinstance(total, MatrixBase) and isinstance(value, MatrixBase)

@@ -52,6 +52,7 @@ _KINDS = [
 _TOKEN = re.compile("|".join(f"(?P<{'eq' if kind == '=' else kind}>{form})" for kind, form in _KINDS), re.DOTALL)
 _ORDERS = {"'": 1, "’": 1, "′": 1, "″": 2, "‴": 3}
 _DIFFERENTIATE = frozenset(["diff", "Derivative", "D"])
+OR, AND, NOT = ("or", "|", "||", "∨"), ("and", "&", "&&", "∧"), ("not", "~", "¬")
 _DOTS = {"dot": 1, "ddot": 2}
 
 
@@ -243,22 +244,31 @@ class PlainParser(Parser):
         return self._condition() if self._compares(self.i) else self.sum()
 
     def _compares(self, at: int) -> bool:
-        """Whether there is a comparison before the end of the argument or bracket that begins here."""
+        """Whether there is a comparison before the end of the argument or bracket that begins here.
+
+        A comparison inside a factor or a function does not count: max(piecewise(x > 0, 1, 2), 3) is no condition.
+        """
         depth = 0
-        for token in self.tokens[at:]:
+        factor: int | None = None  # the depth outside the bracket, no condition, that is being passed over
+        for k in range(at, len(self.tokens)):
+            token, before = self.tokens[k], self.tokens[k - 1].text
+            if factor is None and token.kind in "([" and before not in ("(", ",", *OR, *AND, *NOT):
+                factor = depth
             depth += (token.kind in "([") - (token.kind in ")]")
             if depth < 0 or (depth == 0 and token.kind in (",", "end")):
                 return False
-            if token.kind == "relation" or token.text == "==":
+            if factor is not None:
+                factor = factor if depth > factor else None
+            elif token.kind == "relation" or token.text == "==":
                 return True
         return False
 
     def _condition(self) -> Tree:
         """Read conditions joined by or, each of which consists of conditions joined by and."""
-        return self._joined("condition", ("or", "|", "||", "∨"), self._conjunction)
+        return self._joined("condition", OR, self._conjunction)
 
     def _conjunction(self) -> Tree:
-        return self._joined("conjunction", ("and", "&", "&&", "∧"), self._truth)
+        return self._joined("conjunction", AND, self._truth)
 
     def _joined(self, kind: str, words: tuple[str, ...], part: Callable[[], Tree]) -> Tree:
         start = self.next.start
@@ -271,7 +281,7 @@ class PlainParser(Parser):
     def _truth(self) -> Tree:
         """Read a comparison, a condition in brackets, or the negation of one."""
         token = self.next
-        if token.text in ("not", "~", "¬"):
+        if token.text in NOT:
             self.take()
             self.deeper(token.start)
             made = node("negation", token.start, leaf("NOT", token.text, token.start), self._truth())
