@@ -35,7 +35,9 @@ FILES = {
     + '[[potential]]\nvalue = "d59"\n',
     "fractions": HEAD
     + '[[particle]]\nmass = "m"\nat = ["1/(1+1/(1+1/(1+1/(1+1/(q^2+w)))))", "(w+q)/(a+b/(q+c/(w+1/q)))"]\n',
-    "signs": HEAD + BODY + f'[[potential]]\nvalue = "{"*".join(f"1/cosh(atan(q/{i})+tanh(w*a)^{i})^0.5" for i in range(1, 9))}"\n',
+    "signs": HEAD
+    + BODY
+    + f'[[potential]]\nvalue = "{"*".join(f"1/cosh(atan(q/{i})+tanh(w*a)^{i})^0.5" for i in range(1, 9))}"\n',
     "nested": HEAD + f'[[particle]]\nmass = "m"\nat = ["{"sin(" * 40}q{")" * 40}", "w"]\n',
 }
 READING = 3_000_000
