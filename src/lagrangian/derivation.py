@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from lagrangian.check.verb import CheckedAnswer
     from lagrangian.page.formula import Check
     from lagrangian.write import Notation
+    from lagrangian.write.document import HeadPicture
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,6 +70,13 @@ class Derivation(Guided, derive.Derived):
         from lagrangian.check.verb import check_answer
 
         return check_answer(self, answer, hint=hint)
+
+    @property
+    def picture(self) -> HeadPicture | None:
+        """The picture at the head of the HTML and LaTeX pages, made when it is first asked for."""
+        from lagrangian.look.heading import head_picture
+
+        return head_picture(self.model)
 
     def _repr_html_(self) -> str:
         return pages.to_html_fragment(self)

@@ -277,13 +277,15 @@ class System(Simulated):
         return cut(f"<System {self.name!r}: {self._builder.summary()}{self._told()}>")
 
     def _repr_html_(self) -> str:
+        from lagrangian.look.heading import head_picture
         from lagrangian.write.views import system_view, words_view
 
         words = f"{self._builder.summary()}{self._told()}"
         try:
-            return system_view(self.model, words)
+            model = self.model
         except ModelError:  # not complete yet
             return words_view(self.name, [words])
+        return system_view(model, words, head_picture(model))
 
     def _told(self) -> str:
         """The notices of a complete system, for its repr."""

@@ -30,6 +30,9 @@ def derive(
     brief: Annotated[bool, typer.Option("--brief", help="Write only the one-page checklist.")] = False,
     full: Annotated[bool, typer.Option("--full", help="Write out even expressions that are too long to read.")] = False,
     detail: Annotated[Detail, typer.Option(help="“full” differentiates term by term in step 5.")] = Detail.USUAL,
+    describe: Annotated[
+        bool, typer.Option("--describe", help="Begin with what the system looks like, in words.")
+    ] = False,
     json: Json = False,
     width: Width = None,
     output: Output = None,
@@ -46,7 +49,7 @@ def derive(
     wanted = chosen(format, json, output, force)
     derivation = open_system(file, example).derive(detail=detail.value)
     if wanted is Format.TEXT:
-        document = pages.lay_out(derivation, notation=notation.value, brief=brief, full=full)
+        document = pages.lay_out(derivation, notation=notation.value, brief=brief, full=full, described=describe)
         put(write.page_rows(document, columns(width, output)), output)
     else:
         put(pages.FORMATS[wanted.value](derivation, notation=notation.value, brief=brief, full=full), output)

@@ -22,6 +22,7 @@ from lagrangian.viewed import Brief, cut
 if TYPE_CHECKING:
     from lagrangian.derive.constraints.page import Constraints
     from lagrangian.model import Element, Model
+    from lagrangian.write.document import HeadPicture
 
 
 @dataclass(frozen=True)
@@ -119,6 +120,11 @@ class Derived(Brief):
     notes: tuple[Text, ...] = ()
     notices: tuple[Notice, ...] = ()
     constraints: Constraints | None = None
+
+    @property
+    def picture(self) -> HeadPicture | None:
+        """The picture at the head of a page; a derivation without the room that draws has none."""
+        return None
 
     @property
     def coordinates(self) -> tuple[sp.Expr, ...]:

@@ -25,14 +25,16 @@ def lay_out(
     brief: bool = False,
     full: bool = False,
     details: bool = False,
+    drawn: bool = False,
+    described: bool = False,
 ) -> Document:
     """Lay out a derivation.
 
     ``brief`` keeps only the titles of steps and what is marked for the one-page checklist. ``full`` writes out what
-    would be summarized because of its length; ``details`` puts it under collapsible summaries instead. Raises
-    `ModelError` for an unknown notation.
+    would be summarized because of its length; ``details`` puts it under collapsible summaries instead. ``drawn`` puts
+    the picture at the head, and ``described`` what is seen in it, in words. Raises `ModelError` for an unknown notation.
     """
-    return _Layout(derivation, notation, brief, full, details).document()
+    return _Layout(derivation, notation, brief, full, details).document(drawn=drawn, described=described)
 
 
 class _Layout(Items):
@@ -40,9 +42,15 @@ class _Layout(Items):
         super().__init__(derivation.model, notation, brief=brief, full=full, details=details)
         self.derivation = derivation
 
-    def document(self) -> Document:
+    def document(self, *, drawn: bool, described: bool) -> Document:
         d = self.derivation
-        sections = [Section("notices", ("Notices",), tuple(self.noticed()))]
+        picture = d.picture if drawn or described else None
+        notices = list(self.noticed())
+        if picture is not None and picture.trouble:
+            notices.append(Paragraph((f"picture: {picture.trouble}",), "note"))
+        sections = [Section("notices", ("Notices",), tuple(notices))]
+        if described and picture is not None and picture.description:
+            sections.insert(0, Section("seen", ("What it looks like",), (Paragraph((picture.description,)),)))
         if not self.brief or d.model.definitions:
             sections.append(self.system())
         for step in d.steps:
@@ -56,7 +64,8 @@ class _Layout(Items):
             sections.append(Section("verified", ("Verified",), (self.checks(d.verified),)))
         if notes := self.notes():
             sections.append(Section("notes", ("Notes",), notes))
-        return Document(d.model.name, tuple(s for s in sections if s.blocks or s.number is not None), self.brief)
+        kept = tuple(s for s in sections if s.blocks or s.number is not None)
+        return Document(d.model.name, kept, self.brief, picture if drawn else None)
 
     # -- sections ---------------------------------------------------------------------------------------------------
 
@@ -115,18 +124,18 @@ def to_markdown(derivation: Derived, *, notation: Notation = "lecture", brief: b
 
 def to_latex(derivation: Derived, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
     """Return the derivation as a complete LaTeX article. Raises `ModelError` for an unknown notation."""
-    return latex.page(lay_out(derivation, notation=notation, brief=brief, full=full))
+    return latex.page(lay_out(derivation, notation=notation, brief=brief, full=full, drawn=True))
 
 
 def to_html(derivation: Derived, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
     """Return the derivation as a self-contained HTML page. Raises `ModelError` for an unknown notation."""
-    page = lay_out(derivation, notation=notation, brief=brief, full=full, details=True)
+    page = lay_out(derivation, notation=notation, brief=brief, full=full, details=True, drawn=True)
     return html_page.page(page, "equations of motion")
 
 
 def to_html_fragment(derivation: Derived, *, notation: Notation = "lecture", brief: bool = True) -> str:
     """Return the derivation as a piece of HTML for a notebook: the checklist unless ``brief`` is False."""
-    return html_page.fragment(lay_out(derivation, notation=notation, brief=brief, details=True))
+    return html_page.fragment(lay_out(derivation, notation=notation, brief=brief, details=True, drawn=True))
 
 
 def section_to_html(derivation: Derived, anchor: str) -> str:

@@ -47,6 +47,7 @@ class Items:
         spoken = (*model.coordinates, *model.parameters, *model.inputs)
         self.given = frozenset(x.description for x in spoken if x.description)
         self.elided = False
+        self.names = {e.title: e.name for e in model.elements}
 
     def items(
         self, items: Iterable[data.Item], anchor: str, *, terms: Sequence[Sequence[EquationTerm]] = ()
@@ -123,7 +124,10 @@ class Items:
 
     def tagged(self, item: data.Formula, sides: tuple[Math, ...], known: Sequence[EquationTerm]) -> tuple[Math, ...]:
         """Mark each term of an equation of motion with the elements that contribute to it."""
-        origin = {term.expr: (self.spoken(term.elements), term.kind) for term in known}
+        origin = {
+            term.expr: (self.spoken(term.elements), term.kind, tuple(self.names.get(t, t) for t in term.elements))
+            for term in known
+        }
         if not origin or len(sides) != len(item.sides):
             return sides
         made: list[Math] = []

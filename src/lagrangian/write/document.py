@@ -101,9 +101,27 @@ class Section:
 
 
 @dataclass(frozen=True)
+class HeadPicture:
+    """A picture at the head of a document: as SVG for HTML, as TikZ, and in words.
+
+    ``size`` is its width and height [px]. ``trouble`` says why there is none, and the texts are empty then.
+    """
+
+    svg: str
+    tikz: str
+    description: str
+    size: tuple[float, float] = (0.0, 0.0)
+    trouble: str = ""
+
+
+@dataclass(frozen=True)
 class Document:
-    """A title and sections; ``brief`` distinguishes the one-page checklist from the whole derivation."""
+    """A title and sections; ``brief`` distinguishes the one-page checklist from the whole derivation.
+
+    ``picture`` stands before the sections where the format has pictures.
+    """
 
     title: str
     sections: tuple[Section, ...]
     brief: bool = False
+    picture: HeadPicture | None = None

@@ -191,11 +191,12 @@ class Cases:
 
 @dataclass(frozen=True)
 class Tagged:
-    """A term with its kind and the elements that it came from."""
+    """A term with its kind and the elements that it came from, as words and by their names."""
 
     of: Math
     elements: tuple[str, ...]
     kind: str
+    names: tuple[str, ...] = ()
 
 
 Math: TypeAlias = (

@@ -6,7 +6,7 @@ focus. Every step can be folded; in print all steps are open. A formula that is 
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from html import escape as _escape
 from importlib.resources import files
 
@@ -59,19 +59,22 @@ def page(document: Document, subject: str) -> str:
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         '<meta name="color-scheme" content="light dark">\n'
-        f"<title>{title}: {escape(subject)}</title>\n<style>\n{style_sheet()}</style>\n</head>\n<body>\n"
+        f"<title>{title}: {escape(subject)}</title>\n<style>\n{style_sheet()}{_pointing(document)}</style>\n"
+        "</head>\n<body>\n"
         f'<main class="{"brief" if document.brief else "whole"}">\n<header><h1>{title}</h1></header>\n'
-        f"{_contents(document)}{body}\n</main>\n</body>\n</html>\n"
+        f"{_picture(document)}{_contents(document)}{body}\n</main>\n</body>\n</html>\n"
     )
 
 
 def fragment(document: Document) -> str:
     """Return a document as a piece of HTML that contains its own style."""
     body = "\n".join(section_html(section, brief=document.brief, anchors=False) for section in document.sections)
-    nested = style_sheet().replace(":root", "&").replace("body {", "& {")  # restricted to this piece
+    nested = (
+        (style_sheet() + _pointing(document)).replace(":root", "&").replace("body {", "& {")
+    )  # restricted to this piece
     style = f"<style>\n.lagrangian {{\n{nested}}}\n</style>"
     head = f'<div class="lagrangian" lang="en">{style}\n<div class="{"brief" if document.brief else "whole"}">'
-    return f"{head}\n<h3>{escape(document.title)}</h3>\n{body}\n</div></div>"
+    return f"{head}\n<h3>{escape(document.title)}</h3>\n{_picture(document)}{body}\n</div></div>"
 
 
 def pieces(document: Document) -> list[dict[str, str]]:
@@ -85,6 +88,51 @@ def pieces(document: Document) -> list[dict[str, str]]:
 def style_sheet() -> str:
     """Return the style sheet of pages."""
     return files("lagrangian.write").joinpath("page.css").read_text(encoding="utf-8")
+
+
+def _picture(document: Document) -> str:
+    """The picture at the head, in a frame that keeps its place while the picture follows the pointer."""
+    if document.picture is None or not document.picture.svg:
+        return ""
+    w, h = document.picture.size
+    frame = f"width: {w:.0f}px; aspect-ratio: {w:.0f}/{h:.0f}"
+    return f'<figure class="schematic" style="{frame}">{document.picture.svg}</figure>\n'
+
+
+def _pointing(document: Document) -> str:
+    """The style rules by which a term that is pointed at fades the parts of the picture that it did not come from.
+
+    A part that is pointed at marks its terms. There is one rule for each set of elements that some term came from.
+    """
+    if document.picture is None or not document.picture.svg:
+        return ""
+    boxes = [b for s in document.sections for b in s.blocks if isinstance(b, Boxed)]
+    sides = [side for box in boxes for formula in box.displays for side in formula.sides]
+    origins = dict.fromkeys(term.names for side in sides for term in _tagged(side))
+    rules: list[str] = []
+    for names in origins:
+        others = "".join(f':not([data-element~="{_css(data_element((name,)))}"])' for name in names)
+        here = f':is(.whole, .brief):has(.term[data-element="{_css(data_element(names))}"]:is(:hover, :focus))'
+        rules.append(f"{here} .glyph[data-element]:not(.role-coordinate){others} {{ opacity: .15; }}")
+    for name in dict.fromkeys(name for names in origins for name in names):
+        one = f'[data-element~="{_css(data_element((name,)))}"]'
+        rules.append(f":is(.whole, .brief):has(.glyph{one}:hover) .term{one} {{ background: var(--line); }}")
+    return "".join(rule + "\n" for rule in rules)
+
+
+def _tagged(side: Math) -> Iterator[Tagged]:
+    pairs = side.terms if isinstance(side, Addition) else ((False, side),)
+    yield from (term for _, term in pairs if isinstance(term, Tagged) and term.names)
+
+
+def _css(text: str) -> str:
+    """Any text within a string of a style sheet: everything but plain letters and digits by its number."""
+    return "".join(c if c.isascii() and c.isalnum() else f"\\{ord(c):x} " for c in text)
+
+
+def data_element(elements: Iterable[str]) -> str:
+    """Return names of elements separated by spaces; white space within a name is a no-break space."""
+    return " ".join("\u00a0".join(name.split()) for name in elements)
 
 
 def escape(words: str) -> str:
@@ -235,6 +283,8 @@ def _terms(side: Math, kinds: list[str]) -> str:
                 kinds.append(kind)
             origin, colour = escape(", ".join(term.elements)), _colour(kind)
             said = f'tabindex="0" aria-label="from {origin}" data-from="{origin}"'
+            if term.names:
+                said += f' data-element="{escape(data_element(term.names))}"'
             out.append(f'<span class="term {colour}" {said}>{inner}</span>')
         else:
             out.append(f'<span class="sign">{inner}</span>')

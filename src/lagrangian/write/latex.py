@@ -12,6 +12,7 @@ from lagrangian.write.document import (
     Display,
     Document,
     HeadingBlock,
+    HeadPicture,
     Inline,
     Paragraph,
     TableBlock,
@@ -30,6 +31,9 @@ MOST_ROWS = 30
 """A table with at most this many rows is kept on one page."""
 MOST_ALIGNED = 20
 """A formula with at most this many rows is kept on one page."""
+
+PIXEL, WIDEST = 0.75, 460.0
+"""A pixel of a picture, and the largest width of a picture, in big points."""
 
 _PREAMBLE = r"""\documentclass[11pt,a4paper,fleqn]{article}
 \usepackage[utf8]{inputenc}
@@ -63,6 +67,9 @@ def page(document: Document) -> str:
     """Return a document as a complete LaTeX article."""
     preamble = _PREAMBLE.replace("margin=22mm", "margin=15mm") if document.brief else _PREAMBLE
     blocks = [preamble + r"\begin{document}", rf"\section*{{\Large {words(document.title)}}}"]
+    if document.picture is not None and document.picture.tikz:
+        blocks[0] = blocks[0].replace("\\begin{document}", "\\usepackage{tikz}\n\\begin{document}")
+        blocks.append(_centred(document.picture))
     if document.brief:
         blocks.append(_SMALL)
     for section in document.sections:
@@ -75,6 +82,14 @@ def page(document: Document) -> str:
     for block in blocks[1:]:  # an empty line before a displayed formula would be an empty paragraph
         text += ("\n" if block.startswith((r"\begin{gather*}", r"\begin{align*}")) else "\n\n") + block
     return text + "\n"
+
+
+def _centred(picture: HeadPicture) -> str:
+    """The picture between the margins; one that is too wide is made smaller."""
+    tikz = picture.tikz.rstrip("\n")
+    if (points := PIXEL * picture.size[0]) > WIDEST:
+        tikz = f"\\scalebox{{{WIDEST / points:.3f}}}{{%\n{tikz}}}"
+    return f"\\begin{{center}}\n{tikz}\n\\end{{center}}"
 
 
 def _blocks(blocks: Iterable[Block]) -> Iterator[str]:

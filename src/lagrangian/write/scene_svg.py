@@ -14,7 +14,7 @@ from lagrangian.page.palette import DARK, LIGHT, Palette
 from lagrangian.page.placing import Array, Drawn, inside, placed, places
 from lagrangian.page.scene import Label, Scene, ScenePart
 from lagrangian.write.expression_tree import Letter
-from lagrangian.write.html_page import escape
+from lagrangian.write.html_page import data_element, escape
 from lagrangian.write.scene_letters import LetterPiece, pieces, scene_letters
 
 FONTS = "'Latin Modern Roman','CMU Serif','STIX Two Text',Cambria,'Times New Roman','Liberation Serif',serif"
@@ -123,11 +123,6 @@ def group_opening(part: ScenePart | Label) -> str:
     kinds = f" kind-{re.sub(r'[^A-Za-z0-9]+', '-', kind)}" if kind else ""
     elements = f' data-element="{escape(data_element(part.elements))}"' if part.elements else ""
     return f'<g class="glyph{kinds} role-{part.role}"{elements}>'
-
-
-def data_element(elements: Iterable[str]) -> str:
-    """Return names of elements separated by spaces; white space within a name is a no-break space."""
-    return " ".join("\u00a0".join(name.split()) for name in elements)
 
 
 def shape(part: ScenePart, geometry: str, within: str = "") -> str:

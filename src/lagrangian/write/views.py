@@ -7,18 +7,18 @@ from typing import TYPE_CHECKING
 
 from lagrangian.write import html_page
 from lagrangian.write.described import system_section
-from lagrangian.write.document import Document, Inline, Paragraph, Section, TableBlock
+from lagrangian.write.document import Document, HeadPicture, Inline, Paragraph, Section, TableBlock
 
 if TYPE_CHECKING:
     from lagrangian.model import Model
 
 
-def system_view(model: Model, words: str) -> str:
-    """Return a system: its symbols with their values, its elements and its notices."""
+def system_view(model: Model, words: str, picture: HeadPicture | None = None) -> str:
+    """Return a system: its picture, its symbols with their values, its elements and its notices."""
     rows = [(element.title, element.ledger) for element in model.elements]
     elements = Section("elements", ("Elements",), (_table(("element", "booked in"), rows),))
     said = Section("summary", ("Description",), (Paragraph((words,)),))
-    return html_page.fragment(Document(model.name, (said, system_section(model), elements)))
+    return html_page.fragment(Document(model.name, (said, system_section(model), elements), picture=picture))
 
 
 def words_view(title: str, words: Sequence[str]) -> str:
