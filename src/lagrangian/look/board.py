@@ -16,7 +16,7 @@ from lagrangian.page.scene import FIXED, Disc, Pair, Path, Placement, Role, Scen
 
 Array = NDArray[np.float64]
 
-GROUND, BEHIND, BODY, JOINT, TIE, EFFORT, MEASURE = 0, 10, 20, 30, 15, 40, 50
+GROUND, BEHIND, BODY, TIE, JOINT, EFFORT, MEASURE = 0, 10, 20, 21, 30, 40, 50
 """The layers, from back to front."""
 
 

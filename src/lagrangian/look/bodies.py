@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from math import pi
 
 import numpy as np
@@ -133,34 +134,61 @@ def _wedge(board: Board, part: Player) -> None:
     board.fence(at, at + (sense * width, height))
     board.fence(at + (0, height), at + (sense * width, height))
     board.wish(mass_names(part), at + (sense * width * 0.28, height * 0.72), (0, 0), "body", of, inside=True)
-    slope_angle(board, at + (sense * width, height), pi if sense > 0 else 0.0, heading((-e[0], -e[1])), e)
+    J = board.motions.views.J[0]
+    name = board.motions.slope_name(direction(J[rider] - J[part.point]))
+    slope_angle(board, at + (sense * width, height), pi if sense > 0 else 0.0, heading((-e[0], -e[1])), name)
     board.sole[part.point] = height
 
 
-def slope_angle(board: Board, corner: Array, start: float, end: float, e: Array) -> None:
-    """The arc of a slope's angle with the parameter that it is, if it is one."""
-    value = float(np.arctan2(abs(e[1]), abs(e[0])))
-    for parameter, known in zip(board.stage.model.parameters, board.p, strict=True):
-        if abs(known - value) < 1e-9:
-            turn = (end - start + pi) % (2 * pi) - pi
-            board.put(
-                turned(arc(34.0, 0.0, turn), start, float(corner[0]), float(corner[1])),
-                "thin",
-                kind="angle",
-                layer=JOINT,
-                moves=False,
-                width=1.0,
-            )
-            middle = start + turn / 2
-            spot = corner + 34.0 * np.array([np.cos(middle), np.sin(middle)])
-            board.wish((parameter.name,), spot, (np.cos(middle), np.sin(middle)), "thin", distance=3.0)
-            return
+def slope_angle(board: Board, corner: Array, start: float, end: float, name: str) -> None:
+    """The arc of a slope's angle, with the name of the parameter that it is."""
+    if not name:
+        return
+    turn = (end - start + pi) % (2 * pi) - pi
+    shape = turned(arc(34.0, 0.0, turn), start, float(corner[0]), float(corner[1]))
+    board.put(shape, "thin", kind="angle", layer=JOINT, moves=False, width=1.0)
+    middle = start + turn / 2
+    out = np.array([np.cos(middle), np.sin(middle)])
+    board.wish((name,), corner + 34.0 * out, out, "thin", distance=3.0)
+
+
+def _track(board: Board, part: Player) -> None:
+    """The circle on which a wheel rolls, inside or outside, if its radius is a parameter."""
+    hold = board.motions.holds[part.point]
+    if hold.how is not HoldKind.ROD or part.radius is None or board.stage.dimension == 3:
+        return
+    r = board.motions.views.r[0]
+    orbit = float(np.linalg.norm(r[part.point] - r[hold.holder]))
+    own = dict(zip((x.symbol for x in board.stage.model.parameters), board.motions.views.p, strict=True)).get(
+        part.radius
+    )
+    if own is None:
+        return
+    for outside, value in ((False, orbit + own), (True, abs(orbit - own))):
+        radius = board.motions.named(value)
+        if radius is None:
+            continue
+        size = float(board.stage.evaluated([radius], board.q, board.p)[0])
+        way = board.r[part.point] - board.r[hold.holder]
+        down = float(np.arctan2(way[1], way[0]))
+        spots = [
+            board.r[hold.holder] + size * np.array([np.cos(a), np.sin(a)])
+            for a in (np.linspace(0, 2 * pi, 49) if outside else np.linspace(down - 1.2, down + 1.2, 33))
+        ]
+        anchors = tuple(board.anchor(board.stage.fixed(spot)) for spot in spots)
+        board.put(Trace(anchors), "rod", kind="wire", width=2.2, layer=BODY - 6)
+        seen = [board.scale * (board.view @ spot) for spot in spots]
+        for a, b in itertools.pairwise(seen):
+            board.fence(a, b)
+        board.wish((radius.name,), seen[-3], seen[-3] - seen[len(seen) // 2], "thin", distance=4.0)
+        return
 
 
 def _wheel(board: Board, part: Player) -> None:
     """A circle with a spoke that turns with it, at its true radius."""
     assert part.radius is not None and part.frame is not None
     of, k = (part.name,), part.point
+    _track(board, part)
     rim = board.stage.add(k, (part.radius, 0), board.stage.frames[part.frame])
     radius = float(np.linalg.norm(board.r[rim] - board.r[k])) * board.scale
     place = board.towards(k, rim, "both")
@@ -323,7 +351,11 @@ def _beam(board: Board, part: Player) -> None:
     """What something runs along: a bar about its centre, long enough for what runs on it."""
     assert part.frame is not None
     stage, frame = board.stage, board.stage.frames[part.frame]
-    runner = next(k for k in range(len(stage.points)) if board.motions.holds[k].frame == part.frame)
+    frames = [
+        None if p.frame is None else stage.frames.index(p.frame) for p in stage.points[: len(board.motions.holds)]
+    ]
+    lengths = (HoldKind.TRACK, HoldKind.TELESCOPE)
+    runner = next(h.point for h in board.motions.holds if h.how in lengths and frames[h.point] == part.frame)
     _, X = board.motions.local(runner, part.point, part.frame)
     i = board.motions.holds[runner].along
     assert i is not None

@@ -81,6 +81,7 @@ def cast(motions: Motions, kinds: Mapping[str, str]) -> list[Player]:
     for x in on_shaft:
         if sum(y.point == x.point for y in on_shaft) > 1 and len(centres) == 1:
             x.glyph = BodyGlyph.SHAFT
+    _mesh(motions, parts)
     for x in parts:
         if any(_slides_on(motions, y, x) for y in parts) and x.glyph in (BodyGlyph.CART, BodyGlyph.BLOCK):
             x.glyph = BodyGlyph.WEDGE
@@ -111,6 +112,24 @@ def _choose(motions: Motions, part: Player, glyph: BodyGlyph) -> None:
         if space:
             part.direction = np.eye(3)[axis]
     part.glyph = glyph
+
+
+def _mesh(motions: Motions, parts: list[Player]) -> None:
+    """Discs at different fixed centres whose angles keep a ratio are gears: their radii meet between the centres."""
+    discs = [x for x in parts if x.glyph is BodyGlyph.DISC and x.frame is not None]
+    for i, one in enumerate(discs):
+        for two in discs[i + 1 :]:
+            if motions.stage.dimension == 3 or one.point == two.point:
+                continue
+            a, b = (motions.angle_slopes(x.frame or 0) for x in (one, two))
+            size = float(np.linalg.norm(a)) * float(np.linalg.norm(b))
+            if size < 1e-12 or float(a @ b) > -size * (1 - 1e-9):
+                continue
+            ratio = float(np.linalg.norm(a)) / float(np.linalg.norm(b))
+            gap = float(np.linalg.norm(motions.views.r[0, one.point] - motions.views.r[0, two.point]))
+            first, second = motions.named(gap / (1 + ratio)), motions.named(gap * ratio / (1 + ratio))
+            if first is not None and second is not None:
+                one.radius, two.radius = first, second
 
 
 def _part(motions: Motions, body: Body) -> Player:
@@ -209,13 +228,30 @@ def _round(motions: Motions, part: Player) -> bool:
             radius = -radius
         if hold.how in (HoldKind.SLIDE, HoldKind.TRACK) and i in hold.moving:
             part.glyph, part.radius = BodyGlyph.WHEEL, radius
-            J = motions.views.J[0, part.point]
-            part.direction = direction(J)
+            part.direction = direction(motions.views.J[0, part.point] - motions.views.J[0, hold.holder])
             return True
-        if motions.still(part.point):
+        if motions.still(part.point) and any(h.how is HoldKind.SLIDE and i in h.moving for h in motions.holds):
             part.glyph, part.radius = BodyGlyph.PULLEY, radius
             return True
-    return False
+    return _rolls_around(motions, part)
+
+
+def _rolls_around(motions: Motions, part: Player) -> bool:
+    """Whether a body rolls on a circle: its centre moves about a fixed point with speed r ω, and r is a parameter."""
+    hold = motions.holds[part.point]
+    if hold.how is not HoldKind.ROD or not motions.still(hold.holder) or len(hold.moving) != 1 or part.frame is None:
+        return False
+    if motions.carried(hold.holder, part.point, part.frame):
+        return False
+    i = hold.moving[0]
+    turn = float(abs(motions.angle_slopes(part.frame)[i]))
+    if turn < 1e-9:
+        return False
+    radius = motions.named(float(np.linalg.norm(motions.views.J[0, part.point, :, i])) / turn)
+    if radius is None:
+        return False
+    part.glyph, part.radius = BodyGlyph.WHEEL, radius
+    return True
 
 
 def _rolling(motions: Motions, part: Player) -> sp.Expr | None:
@@ -281,4 +317,7 @@ def _slides_on(motions: Motions, above: Player, below: Player) -> bool:
 def _runs_on(motions: Motions, above: Player, below: Player) -> bool:
     """Whether a body runs along a track that turns with another body."""
     hold = motions.holds[above.point]
+    if hold.how is HoldKind.TELESCOPE and hold.holder == below.point:
+        own = motions.stage.points[above.point].frame
+        return own is not None and below.frame is not None and motions.stage.frames[below.frame] is own
     return hold.how is HoldKind.TRACK and hold.frame == below.frame and above is not below

@@ -44,6 +44,9 @@ def _one(board: Board, parts: list[Player], element: Element) -> None:
         numbers = [board.stage.index(p) for p in element.through]
         anchors, shifts = tuple(board.anchor(k) for k in numbers), tuple(board.shift(k) for k in numbers)
         board.put(Trace(anchors, False, shifts), "constraint", of=of, kind="rope", width=1.8, layer=BODY - 6)
+        for k in numbers[1:-1]:
+            board.put(Disc((0.0, 0.0), 7.0), "ground", board.placed(k), kind="peg", filled=True, layer=BODY - 5)
+            board.block(board.at(k), 15, 15)
         for a, b in itertools.pairwise(numbers):
             board.fence(board.at(a), board.at(b))
     elif isinstance(element, Constraint) and element.between:

@@ -277,5 +277,6 @@ def draw_gravity(board: Board, corner: Array) -> None:
         start, end = corner, corner + 46.0 * e
         board.arrow(start, end, "gravity", of=(element.name,), kind="gravity")
         board.block((start + end) / 2, 14, 14)
-        names = tuple(s.name for s in sp.sympify(getattr(element, "g")).free_symbols)[:1]  # noqa: B009
+        strength = sp.sympify(getattr(element, "g"))  # noqa: B009
+        names = tuple(s.name for s in strength.free_symbols)[:1] or ("g",)
         board.wish(names, (start + end) / 2 + 6.0 * e, (1.0, 0.0), "gravity", (element.name,))

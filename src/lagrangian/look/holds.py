@@ -96,12 +96,26 @@ class Motions:
     def length(self, a: int, b: int) -> sp.Expr:
         """A constant distance [m]: the parameter that it is, if it is one, otherwise a number."""
         v = self.views
-        value = float(np.linalg.norm(v.r[0, a] - v.r[0, b]))
-        for parameter, other in zip(self.stage.model.parameters, v.p, strict=True):
-            if abs(other - value) < 1e-12 * value:
-                return parameter.symbol
+        name = self.named(float(np.linalg.norm(v.r[0, a] - v.r[0, b])))
+        if name is not None:
+            return name
         r = self.stage.views([np.full(len(self.stage.inputs.q), 0.5)], self.stage.parameters()).r[0]
         return sp.Float(float(np.linalg.norm(r[a] - r[b])), 17)
+
+    def named(self, value: float) -> sp.Symbol | None:
+        """The parameter that has a value at the random parameters."""
+        for parameter, known in zip(self.stage.model.parameters, self.views.p, strict=True):
+            if abs(known - value) < 1e-11 * abs(value):
+                return parameter.symbol
+        return None
+
+    def slope_name(self, e: Array) -> str:
+        """The parameter that is the angle of a direction at the random parameters against the horizontal, if any."""
+        value = float(np.arctan2(abs(e[1]), abs(e[0])))
+        for parameter, known in zip(self.stage.model.parameters, self.views.p, strict=True):
+            if abs(known - value) < 1e-9:
+                return parameter.name
+        return ""
 
     def angle_slopes(self, frame: int) -> Array:
         """In the plane: ∂φ/∂q of a frame's angle (n,), at the first state."""

@@ -157,8 +157,16 @@ class Kinematics:
         )
 
     def parameters(self) -> Array:
-        """The declared values of the parameters, 1 for those without one."""
-        return np.array([1.0 if p.value is None else p.value for p in self.model.parameters], float)
+        """The declared values of the parameters; those without one differ, and angles are half a radian."""
+        offsets = [x for point in self.points for x in point.offset] + [f.angle for f in self.frames]
+        inside = {s for x in offsets for f in x.atoms(sp.sin, sp.cos) for s in f.args[0].free_symbols}
+        return np.array(
+            [
+                p.value if p.value is not None else 0.5 if p.symbol in inside else max(0.35, 0.88**n)
+                for n, p in enumerate(self.model.parameters)
+            ],
+            float,
+        )
 
     def _whole(self, q: Array) -> Array:
         """The coordinates with unit quaternions."""

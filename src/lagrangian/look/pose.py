@@ -23,6 +23,9 @@ Array = NDArray[np.float64]
 FIRST, RELATIVE, STEP = 32 * pi / 180, 35 * pi / 180, 26 * pi / 180
 """The first angle, angles counted from another body, and by how much an absolute angle exceeds the one before it."""
 
+SMALL = 12 * pi / 180
+"""The angle of a body on springs."""
+
 STRETCHED = 1.15
 """The length of a spring that is drawn, relative to its rest length."""
 
@@ -92,7 +95,9 @@ class Pose:
             ):
                 q[i] = self.start.get(name, q[i])
             elif i in self.angles and not self._floats(name):
-                if first or self._alone(i):
+                if self._sprung(i):
+                    q[i] = SMALL
+                elif first or self._alone(i):
                     last += STEP
                     q[i] = last
                 else:
@@ -101,6 +106,15 @@ class Pose:
             elif i not in self.slides:
                 q[i] = self._length(i, name, float(q[i]))
         return q
+
+    def _sprung(self, i: int) -> bool:
+        """Whether an angle turns a body about its own centre, which is free, in a system with springs."""
+        model, holds = self.stage.model, self.motions.holds
+        if not any(isinstance(e, Spring) for e in model.elements) or self.stage.dimension == 3:
+            return False
+        free = (HoldKind.FREE, HoldKind.SLIDE)
+        bodies = [b for b in model.bodies if b.axes is not None and holds[self.stage.index(b.at)].how in free]
+        return any(self.motions.turns(self.stage.frames.index(b.axes)) == (i,) for b in bodies if b.axes is not None)
 
     def _floats(self, name: str) -> bool:
         floats = [f.floating for f in self.stage.model.floating if f.floating is not None]

@@ -112,12 +112,10 @@ def _scale(board: Board, parts: list[Player]) -> float:
 
 def _slide_apart(board: Board, pose: Pose, parts: list[Player]) -> None:
     """Give the coordinates of slides values that can be seen."""
-    if board.stage.model.constraints:
-        return
     q = board.q.copy()
     for i in pose.slides:
         name = pose.names[i]
-        if name in pose.asked:
+        if name in pose.asked or (board.stage.model.constraints and pose.start):
             continue
         speed = max(
             (
@@ -128,7 +126,7 @@ def _slide_apart(board: Board, pose: Pose, parts: list[Player]) -> None:
             default=1.0,
         )
         q[i] = SLIDE / board.scale / (speed or 1.0)
-    board.posed(q)
+    board.posed(pose.closed(q))
 
 
 # -- the frame of the picture -----------------------------------------------------------------------------------------

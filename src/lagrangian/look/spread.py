@@ -32,9 +32,11 @@ def spread(board: Board, parts: list[Player], ties: list[Tie]) -> float | None:
         e = slide_along(board, ordered[0])
         gap = ACROSS if abs(e[0]) > 0.5 else UPWARD
         base = float(board.at(ordered[0].point) @ e)
+        walls = [t for t in ties if t.way == "slides" and t.a is None and t.b == ordered[0].point]
+        way = -wall_side(board, ordered[0], walls[0]) if walls else 1.0
         for n, part in enumerate(ordered):
             now = float(board.at(part.point) @ e)
-            dx, dy = (base + n * gap - now) * e
+            dx, dy = (base + way * n * gap - now) * e
             x, y = board.shifts.get(part.point, (0.0, 0.0))
             board.shifts[part.point] = (x + float(dx), y + float(dy))
         room = (gap - 62.0) / 2
@@ -49,6 +51,16 @@ def slide_along(board: Board, part: Player) -> Array:
     e = board.seen(direction(J[part.point] - J[hold.holder]))
     e = e / np.linalg.norm(e)
     return -e if e[0] < -1e-9 or (abs(e[0]) < 1e-9 and e[1] > 0) else e
+
+
+def wall_side(board: Board, part: Player, tie: Tie) -> float:
+    """On which side of a body the wall of a tie is: where the body comes from as the deflection grows.
+
+    −1 is left or below, 1 right or above.
+    """
+    assert part.direction is not None
+    grows = tie.sign * float(board.seen(part.direction) @ slide_along(board, part))
+    return -1.0 if grows > 0 else 1.0
 
 
 def _groups(board: Board, parts: list[Player]) -> list[list[Player]]:

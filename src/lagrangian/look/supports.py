@@ -37,6 +37,8 @@ def draw_supports(board: Board, parts: list[Player], ties: list[Tie]) -> None:
         hold = board.motions.holds[k]
         if hold.how not in (HoldKind.ROD, HoldKind.TELESCOPE) or _within_body(parts, k, hold.holder):
             continue
+        if any(part.point == k and part.glyph is BodyGlyph.WHEEL for part in parts):
+            continue  # it rolls on a circle
         if hold.how is HoldKind.TELESCOPE and k in springs:
             rods.append((hold.holder, k))
             continue
@@ -211,16 +213,18 @@ def _floor(board: Board, angle: float, start: Array, along: Array, feet: list[Ar
     board.put(turned(floor(left, right), angle), "ground", place, kind="floor", layer=GROUND)
     board.fence(start + left * along, start + right * along)
     if abs(np.sin(angle)) > 0.04:
-        _incline(board, angle, start + (right if angle > 0 else left) * along, along)
+        moved = board.motions.views.J[0, k] - board.motions.views.J[0, board.motions.holds[k].holder]
+        name = board.motions.slope_name(direction(moved))
+        _incline(board, angle, start + (right if angle > 0 else left) * along, along, name)
 
 
-def _incline(board: Board, angle: float, corner: Array, along: Array) -> None:
+def _incline(board: Board, angle: float, corner: Array, along: Array, name: str) -> None:
     """The angle of a slope against the horizontal, with the parameter that it is."""
     sense = -1.0 if angle > 0 else 1.0
     flat = corner + (sense * 80.0, 0.0)
     board.put(line(tuple(corner), tuple(flat)), "thin", kind="angle", dashed=True, layer=GROUND, moves=False, width=1.0)
     e = sense * along
-    slope_angle(board, corner, 0.0 if sense > 0 else pi, float(np.arctan2(e[1], e[0])), e)
+    slope_angle(board, corner, 0.0 if sense > 0 else pi, float(np.arctan2(e[1], e[0])), name)
 
 
 def sole_of(board: Board, part: Player) -> float | None:

@@ -12,10 +12,11 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from lagrangian.look.board import GROUND, JOINT, TIE, Board
+from lagrangian.look.board import BEHIND, GROUND, JOINT, TIE, Board
 from lagrangian.look.cast import BodyGlyph, Player
+from lagrangian.look.holds import HoldKind
 from lagrangian.look.shapes import BLOCK, CART, arc, coil, dashpot, floor, heading, line, lines, spiral, turned
-from lagrangian.look.spread import slide_along
+from lagrangian.look.spread import slide_along, wall_side
 from lagrangian.look.supports import sole_of
 from lagrangian.look.ties import Tie
 from lagrangian.look.turning import Turn
@@ -73,6 +74,9 @@ class TieArtist:
     def _one(self, tie: Tie, offset: float) -> None:
         board = self.board
         names = symbol_names(tie.element)
+        if tie.way == "stop" and isinstance(tie.b, int):
+            self._stop(tie, tie.b, offset, names, ROLES[tie.element.kind])
+            return
         role = ROLES[tie.element.kind]
         if (tie.way == "points" and isinstance(tie.a, int) and isinstance(tie.b, int)) or (
             tie.way == "telescope" and isinstance(tie.a, int) and isinstance(tie.b, int)
@@ -123,8 +127,14 @@ class TieArtist:
         place = board.towards(a, b, by=(float(by[0]), float(by[1])))
         self._strung(tie, place, start + by, end + by, names, role)
         for k in (a, b):
-            if board.motions.still(k) and tie.way == "points":
+            if board.motions.still(k) and tie.way == "points" and not self._supported(k):
                 self._anchorage(k, end - start if k == a else start - end)
+
+    def _supported(self, k: int) -> bool:
+        """Whether a link or a rod has its support at a point."""
+        turning = (HoldKind.ROD, HoldKind.TELESCOPE)
+        held = any(h.holder == k and h.how in turning and h.point != k for h in self.board.motions.holds)
+        return held or any(k in part.points for part in self.parts)
 
     def _anchorage(self, k: int, towards: Array) -> None:
         """The piece of wall at which a tie ends, across its direction."""
@@ -151,6 +161,13 @@ class TieArtist:
         if part.glyph is BodyGlyph.BLOCK and 0.1 < abs(e[1]) < 0.95:
             return 22.0
         return w / 2 if abs(e[0]) > 0.5 else h / 2
+
+    def _rim(self, k: int) -> float:
+        """The radius of a wheel [px]; 0 for other bodies."""
+        part = self.by_point.get(k)
+        if part is None or part.glyph is not BodyGlyph.WHEEL or part.radius is None:
+            return 0.0
+        return self.board.scale * float(self.board.stage.evaluated([part.radius], self.board.q, self.board.p)[0])
 
     def _shifted(self, k: int, by: Array) -> tuple[float, float]:
         x, y = self.board.shift(k)
@@ -184,14 +201,21 @@ class TieArtist:
         others = [p for p in self.parts if p is not part and p.direction is not None and p.glyph is part.glyph]
         before = [p for p in others if (board.at(p.point) - board.at(k)) @ e < -30.0]
         after = [p for p in others if (board.at(p.point) - board.at(k)) @ e > 30.0]
-        return 1.0 if before and not after else -1.0
+        if before != after and not (before and after):
+            return 1.0 if before else -1.0
+        side = wall_side(board, part, tie)
+        springs = [
+            t for t in self.ties if t.way == "slides" and t.a is None and t.b == k and t.element.kind == "spring"
+        ]
+        return -side if tie in springs[1::2] else side
 
     def _to_wall(self, tie: Tie, k: int, offset: float, names: tuple[str, ...], role: Role) -> None:
         board, side = self.board, self._side(tie)
         e = slide_along(board, self.by_point[k])
         n = np.array([-e[1], e[0]])
         edge = side * self._half(k, e) * e + offset * n + self._lift(k, e)
-        away = side * (self._half(k, e) + WALL) * e + offset * n + self._lift(k, e)
+        wall_at = self._half(k, e) + WALL + self._rim(k)
+        away = side * wall_at * e + offset * n + self._lift(k, e)
         base = board.stage.fixed(board.r[k])
         x, y = board.shift(k)
         far = (x + float(away[0]), y + float(away[1]))
@@ -200,11 +224,32 @@ class TieArtist:
         key = (float(round(board.at(k)[0])), side)
         if key not in self.walls:
             self.walls[key] = []
-            foot = side * (self._half(k, e) + WALL) * e + self._lift(k, e)
+            foot = side * wall_at * e + self._lift(k, e)
             angle = heading((float(e[0]), float(e[1]))) + (pi / 2 if side < 0 else -pi / 2)
             wall = Placement(board.anchor(base), shift=(x + float(foot[0]), y + float(foot[1])))
             board.put(turned(floor(-29.0, 29.0), angle), "ground", wall, kind="wall", layer=GROUND)
             board.block(board.at(k) + foot + 4 * side * e, 16 + 44 * abs(e[1]), 16 + 44 * abs(e[0]))
+
+    def _stop(self, tie: Tie, k: int, offset: float, names: tuple[str, ...], role: Role) -> None:
+        """A tie from a point of a body to the ground, along x or y."""
+        board = self.board
+        e = np.array([-tie.sign, 0.0]) if tie.axis == 0 else np.array([0.0, tie.sign])
+        n = np.array([-e[1], e[0]])
+        base = board.stage.fixed(board.r[k])
+        x, y = board.shift(k)
+        near, far = offset * n, offset * n + WALL * e
+        place = Placement(
+            board.anchor(k), board.anchor(base), "along", self._shifted(k, near), (x + float(far[0]), y + float(far[1]))
+        )
+        self._strung(tie, place, board.at(k) + near, board.at(k) + far, names, role)
+        key = (float(round(board.at(k)[0])), float(round(board.at(k)[1])) + 0.5)
+        if key not in self.walls:
+            self.walls[key] = []
+            angle = heading((float(e[0]), float(e[1]))) - pi / 2
+            spot = WALL * e
+            wall = Placement(board.anchor(base), shift=(x + float(spot[0]), y + float(spot[1])))
+            board.put(turned(floor(-26.0, 26.0), angle), "ground", wall, kind="wall", layer=GROUND)
+            board.block(board.at(k) + spot + 4 * e, 16 + 40 * abs(e[1]), 16 + 40 * abs(e[0]))
 
     def _friction(self, tie: Tie, k: int, names: tuple[str, ...], role: Role) -> None:
         """A thick dashed line where the body meets its floor."""
@@ -276,9 +321,9 @@ class TieArtist:
         board = self.board
         left, right, y = min(s[0] for s in spots) - 46.0, max(s[0] for s in spots) + 46.0, float(spots[0][1])
         inner = min(s[0] for s in spots), max(s[0] for s in spots)
-        board.put(line((left - 10, y), (right + 10, y)), "thin", kind="axis", width=0.9, layer=TIE - 1)
+        board.put(line((left - 10, y), (right + 10, y)), "thin", kind="axis", width=0.9, layer=BEHIND)
         for side in (-4.0, 4.0):
-            board.put(line((inner[0], y + side), (inner[1], y + side)), "rod", kind="shaft", width=1.4, layer=TIE - 1)
+            board.put(line((inner[0], y + side), (inner[1], y + side)), "rod", kind="shaft", width=1.4, layer=BEHIND)
         for x in (left + 8.0, right - 8.0):
             for side, angle in ((-7.0, pi), (7.0, 0.0)):
                 board.put(turned(floor(-12.0, 12.0), angle, float(x), y + side), "ground", kind="bearing", layer=GROUND)

@@ -18,7 +18,7 @@ from lagrangian.look.turning import Turn
 from lagrangian.model import Element
 
 Array = NDArray[np.float64]
-Way = Literal["points", "slides", "joint", "arm", "telescope", "unknown"]
+Way = Literal["points", "slides", "joint", "arm", "telescope", "stop", "unknown"]
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,8 @@ class Tie:
 
     ``points``: two points. ``slides``: one or two sliding bodies by their points (``a`` is None for the ground), where
     ``sign`` tells on which side of ``b`` a positive deflection pulls. ``joint``: turns ``b`` against turn ``a``.
-    ``arm``: a lever of length ``arm`` on turn ``b``. ``telescope``: the point ``b``, along its holder's line.
+    ``stop``: the point ``b`` and the ground, along the coordinate axis number ``axis``. ``arm``: a lever of length
+    ``arm`` on turn ``b``. ``telescope``: the point ``b``, along the line of its holder.
     """
 
     element: Element
@@ -36,6 +37,7 @@ class Tie:
     b: int | Turn | None = None
     sign: float = 1.0
     arm: sp.Expr | None = None
+    axis: int = 0
 
 
 class Resolver:
@@ -62,12 +64,22 @@ class Resolver:
         if np.abs(first - second).max(initial=0.0) > 1e-7 * max(1.0, np.abs(first).max(initial=0.0)):
             return Tie(element, "unknown")
         g = first
-        return (
-            self._slides(element, g)
-            or self._telescope(element, g)
-            or self._joint(element, g)
-            or Tie(element, "unknown")
-        )
+        rules = (self._slides, self._telescope, self._joint, self._stop)
+        found = (rule(element, g) for rule in rules)
+        return next((tie for tie in found if tie is not None), Tie(element, "unknown"))
+
+    def _stop(self, element: Element, g: Array) -> Tie | None:
+        """A point whose displacement along an axis it is, as long as all coordinates are small."""
+        stage = self.motions.stage
+        if stage.dimension == 3 or not g.any():
+            return None
+        J = stage.views([np.zeros(len(g))], self.p).J[0]
+        for k in range(1, len(self.motions.holds)):
+            for axis in (1, 0):
+                for sign in (1.0, -1.0):
+                    if np.allclose(g, sign * J[k, axis], atol=1e-9):
+                        return Tie(element, "stop", None, k, sign, None, axis)
+        return None
 
     def _slope_of(self, part: Player) -> Array | None:
         """e · ∂r/∂q of a body that slides on something in the direction e."""
