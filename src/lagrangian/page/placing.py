@@ -62,7 +62,8 @@ def _trace(trace: Trace, at: Array) -> list[Drawn]:
 def axes(placement: Placement, at: Array) -> tuple[Array, Array, Array]:
     """Return the origin of a part's axes and its unit vectors x and y, each (…, 2), in pixels.
 
-    They are oblique for a part in a plane in space. Two anchors at the same place have no direction; x then points to the right.
+    They are oblique for a part in a plane in space. Two anchors at the same place have no direction; x then points to
+    the right.
     """
     lead = at.shape[:-2]
     origin = _anchor(placement.at, placement.shift, at)
