@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import itertools
 from math import pi
+from typing import Any
 
 import numpy as np
 import sympy as sp
