@@ -113,7 +113,7 @@ def test_a_live_run_is_the_whole_run_and_can_be_changed(tmp_path: Path) -> None:
 def test_two_lanes_give_the_numbers_of_one(method: str, tmp_path: Path) -> None:
     system = lg.example("double-pendulum")
     script = """const n = 7, states = Float64Array.from({length: 4 * n}, (_, k) => (k % 4 < 2 ? 0.1 * k : 0));
-    show(compiled().many({states, count: n, t1: 1}));"""
+    show(compiled().many({states, t1: 1}));"""
     one, two = (in_node(browser_module(system, method, lanes=lanes), script, tmp_path)[0] for lanes in (1, 2))
     assert one["status"] == two["status"] == [0] * 7
     np.testing.assert_allclose(two["final"], one["final"], rtol=1e-9, atol=1e-9)
@@ -176,6 +176,17 @@ def test_a_short_pulse_is_not_jumped_over(kind: str, method: str, tmp_path: Path
     for k, found in enumerate(in_node(module, script, tmp_path)):
         first = 3.0 if k == 2 else 5.0
         assert found["final"] == pytest.approx([travelled(30.0, first, first + 0.01, 10.0), 0.15], rel=1e-7)
+
+
+@pytest.mark.parametrize("kind", ["compiled", "fallback"])
+def test_the_energy_supplied_is_told(kind: str, tmp_path: Path) -> None:
+    """2 N on 2 kg: after 3 s they move at 3 m/s, and have 9 J."""
+    script = f"""const s = {kind}(); show(physics.layout.supply); show(s.solve({{t1: 3, samples: 4}}));
+    show(s.start().advance(3));"""
+    supply, run, live = in_node(browser_module(pushed(), inputs={"F": 2.0}), script, tmp_path)
+    assert supply is True
+    np.testing.assert_allclose(run["supplied"], [0.0, 1.0, 4.0, 9.0], rtol=1e-12)
+    assert live["supplied"] == pytest.approx(9.0, rel=1e-12)
 
 
 def test_a_table_of_straight_lines_is_followed(tmp_path: Path) -> None:

@@ -23,6 +23,13 @@ CHUNK = 1000  # operations in each of several functions …
 MAX_SHARED_LENGTH = 10_000  # … up to this length; beyond it,
 MIN_SHARED_LENGTH = 300  # this gives a few per cent of speed for a third of LLVM's time
 
+PORTABLE_CHUNK, MAX_PORTABLE_LENGTH = 150, 1200
+"""Operations in each of several functions of WebAssembly, for tapes up to a length.
+
+Its compilers keep the values of short functions in registers: a 7-joint arm takes a quarter less time than in one
+function. Longer tapes hand on too many values from function to function.
+"""
+
 COMPANY = 64  # angles whose sines and cosines are computed consecutively in vector code
 
 ARITHMETIC = {"add": "fadd", "sub": "fsub", "mul": "fmul", "div": "fdiv"}
@@ -50,9 +57,14 @@ class Plan:
     scratch: int
 
 
-def plan(tape: Tape, chunk: int | None = None) -> Plan:
-    """Split a tape into chunks of equal length; a scratch slot is reused after the chunk of its last reader."""
+def plan(tape: Tape, chunk: int | None = None, *, portable: bool = False) -> Plan:
+    """Split a tape into chunks of equal length; a scratch slot is reused after the chunk of its last reader.
+
+    ``portable``: the functions are for WebAssembly.
+    """
     computed = [i for i, op in enumerate(tape.ops) if op[0] not in LEAVES]
+    if chunk is None and portable and len(computed) <= MAX_PORTABLE_LENGTH:
+        chunk = PORTABLE_CHUNK
     if chunk is None:
         chunk = WHOLE if len(computed) <= WHOLE else CHUNK if len(computed) <= MAX_SHARED_LENGTH else MIN_SHARED_LENGTH
     count = max(1, -(-len(computed) // chunk))
@@ -89,7 +101,7 @@ def emit(
 
     ``own_shared``: the shared block has ``lanes`` doubles per slot, as in a sweep with a parameter set for each lane.
     """
-    cut = plan(tape, chunk)
+    cut = plan(tape, chunk, portable=module.target.imports)
     stores: dict[int, list[int]] = {}
     for slot, i in enumerate(tape.outputs):
         stores.setdefault(i, []).append(slot)

@@ -126,6 +126,7 @@ class BrowserParts:
                 {"name": e.title, "direction": e.direction, "terminal": e.terminal, "reset": bool(e.reset)}
                 for e in self.watched
             ],
+            "supply": dynamics.SUPPLY in self.field.inputs["x"],
             "momenta": self.momenta,
             "switching": bool(self.switches),
             "sticking": sticking,

@@ -6,12 +6,15 @@
                                                          forbidden; solver.kind is "wasm" or "javascript"
 
    solver.solve({state, params, inputs, t0, t1, samples | every | times, rtol, atol, step, maxSteps, maxStep, maxEvents,
-                 seconds}) -> {status, message, t, states, final, reached, events, steps, rejected, evaluations}
+                 seconds})
+      -> {status, message, t, states, supplied, final, reached, events, steps, rejected, evaluations}
    solver.start({state, params, inputs, t, ...})      begins a run that is shown while it is computed
-   solver.advance(dt) -> {status, message, t, state, events, steps}
+   solver.advance(dt) -> {status, message, t, state, supplied, events, steps}
    solver.change({state, params, inputs})             between two calls of advance
-   solver.many({states, count, params, inputs, ...})  many runs, one row of states each -> {status, final, reached, ...}
+   solver.many({states, params, inputs, t0, t1, ...}) many runs, one row of states each (only in WebAssembly)
+      -> {status, final, reached, supplied, events, steps, rejected, evaluations}, and with samples or times also states
 
    States, parameters and inputs are arrays in the order of the layout, or objects by name; what is left out keeps the
-   value of the layout (start, change: the value it has). SI units. status: 0 the end was reached, 1 a terminal event,
-   negative: the run failed, and message says why. */
+   value of the layout (start, change: the value it has). SI units. supplied: the energy that inputs, dampers and
+   prescribed motions have supplied since the start of the call; layout.supply says whether they can. status: 0 the end
+   was reached, 1 a terminal event, negative: the run failed, and message says why. */

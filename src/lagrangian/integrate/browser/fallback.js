@@ -12,16 +12,18 @@ class FallbackSolver extends Solver {
 
   integrate({ state, u, p }, times, o, store) {
     const l = this.layout, codes = l.codes, shown = l.states.length, last = times[times.length - 1];
-    const constant = { knots: [times[0]], start: u, slope: new Float64Array(u.length) };
-    const signal = l.machine.signals ? pieces(l, this.functions, u, p, times[0], last) : constant;
+    const signal = l.machine.signals ? pieces(l, this.functions, u, p, times[0], last) : null;
+    const input = signal ? (t) => inputsAt(signal, t, u.length) : () => u;
     const states = store ? new Float64Array(times.length * shown).fill(NaN) : null;
     const until = o.seconds === Infinity ? Infinity : performance.now() + 1000 * o.seconds;
-    const stops = [...new Set([...times, ...signal.knots])].sort((a, b) => a - b);
+    const stops = [...new Set([...times, ...(signal?.knots ?? [])])].sort((a, b) => a - b);
     const x = new Float64Array(l.machine.size), wanted = new Map(Array.from(times, (t, k) => [t, k]));
     let t = times[0], steps = 0, status = codes.reached;
+    const supplied = new Float64Array(store ? times.length : 1);
+    const room = Array.from({ length: 3 }, () => new Float64Array(x.length)), [y] = room;
     x.set(state);
     if (store) states.set(state);
-    this.project(x, inputsAt(signal, t, u.length), p, t);
+    this.project(x, input(t), p, t);
     for (let s = 1; s < stops.length && status === codes.reached; s++) {
       // equal steps up to the next time at which a state is wanted or an input bends
       const from = t, stop = stops[s], longest = Math.min(o.fallbackStep, o.maxStep);
@@ -30,8 +32,8 @@ class FallbackSolver extends Solver {
       const before = Math.max(from, stop - Math.abs(stop) * 2 ** -50), held = (at) => Math.min(at, before);
       for (let n = 0; n < count && status === codes.reached; n++) {
         const end = n + 1 === count ? stop : from + (n + 1) * h;
-        const y = this.step(x, p, t, h, held, signal, u.length);
-        this.project(y, inputsAt(signal, held(end), u.length), p, end);
+        this.step(x, p, t, h, held, input, room);
+        this.project(y, input(held(end)), p, end);
         if (steps >= o.maxSteps) status = codes.tooMany;
         else if ((steps & 255) === 255 && performance.now() > until) status = codes.late;
         else if (!y.every(Number.isFinite)) status = codes.notFinite;
@@ -41,24 +43,28 @@ class FallbackSolver extends Solver {
           steps++;
         }
       }
-      if (store && status === codes.reached && wanted.has(t)) states.set(x.subarray(0, shown), wanted.get(t) * shown);
+      if (store && status === codes.reached && wanted.has(t)) {
+        states.set(x.subarray(0, shown), wanted.get(t) * shown);
+        if (l.supply) supplied[wanted.get(t)] = x[shown];
+      }
     }
+    if (!store && l.supply) supplied[0] = x[shown];
     const counts = { status, steps, rejected: 0, evaluations: 4 * steps };
-    return { ...counts, reached: t, events: [], states, final: x.slice(0, shown) };
+    return { ...counts, reached: t, events: [], states, final: x.slice(0, shown), supplied };
   }
 
-  /* The classical Runge-Kutta step of order 4: slopes at the start, twice in the middle, at the end. */
-  step(x, p, t, h, held, signal, inputs) {
-    const size = x.length, y = x.slice(), sum = new Float64Array(size);
-    let k = null;
-    for (const [c, weight] of [[0, 1], [0.5, 2], [0.5, 2], [1, 1]]) {
-      if (k) for (let i = 0; i < size; i++) y[i] = x[i] + c * h * k[i];
+  /* The classical Runge-Kutta step of order 4 from x to y: slopes at the start, twice in the middle, at the end. */
+  step(x, p, t, h, held, input, [y, k, sum]) {
+    const size = x.length;
+    sum.fill(0);
+    for (let stage = 0; stage < 4; stage++) {
+      const c = stage === 0 ? 0 : stage === 3 ? 1 : 0.5, weight = stage === 0 || stage === 3 ? 1 : 2;
+      for (let i = 0; i < size; i++) y[i] = x[i] + (c ? c * h * k[i] : 0);
       const at = held(t + c * h);
-      k = this.functions.rhs(y, p, inputsAt(signal, at, inputs), at);
+      this.functions.rhs(y, p, input(at), at, k);
       for (let i = 0; i < size; i++) sum[i] += weight * k[i];
     }
     for (let i = 0; i < size; i++) y[i] = x[i] + (h / 6) * sum[i];
-    return y;
   }
 
   /* Newton steps on the constraints of positions until they are met, then one on those of velocities. */

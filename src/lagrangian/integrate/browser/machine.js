@@ -41,9 +41,10 @@ class WasmSolver extends Solver {
     return run;
   }
 
-  /* Many runs at once: `states` has a row for each of `count`; params and inputs one row for all, or one for each. */
+  /* Many runs at once: `states` has a row for each; params and inputs one row for all, or one for each. */
   many(o) {
-    const { states, count, params, inputs } = o, l = this.layout, known = this.initial();
+    const { states, params, inputs } = o, l = this.layout, known = this.initial();
+    const count = o.count ?? states.length / l.states.length;
     const given = {
       state: Float64Array.from(states),
       u: Float64Array.from(inputs ?? known.u),
@@ -80,8 +81,12 @@ class WasmSolver extends Solver {
     };
     const samples = store ? times.length : 0;
     if (l.sticking && count === 1) this.stuck(run, at, samples, times, found.sticking);
+    // the energy supplied since the start is a state after [q; v]
+    const supplied = (name, n) => Float64Array.from({ length: n }, (_, k) =>
+      (l.supply ? new Float64Array(buffer, at[name] + 8 * (k * size + shown), 1)[0] : 0));
     if (store) run.states = rows("states", count * samples, (k) => times[k % samples]);
     run.final = rows("final", count, (k) => run.reached[k]);
+    run.supplied = store ? supplied("states", count * samples) : supplied("final", count);
     if (l.broken && count === 1) this.broken(run, new Float64Array(buffer, at.drift, m.drift.length));
     return run;
   }

@@ -20,7 +20,8 @@ class Solver {
     while (there(kept)) kept++;
     return {
       ...this.told(run), t: times.slice(0, kept), states: Array.from({ length: kept }, (_, k) => row(k)),
-      final: run.final, reached: run.reached, rejected: run.rejected, evaluations: run.evaluations,
+      supplied: run.supplied.slice(0, kept), final: run.final, reached: run.reached, rejected: run.rejected,
+      evaluations: run.evaluations,
     };
   }
 
@@ -44,7 +45,7 @@ class Solver {
     const run = this.integrate(now, times, this.options, false);
     now.state = run.final;
     now.t = run.reached;
-    return { ...this.told(run), t: now.t, state: now.state.slice() };
+    return { ...this.told(run), t: now.t, state: now.state.slice(), supplied: run.supplied[0] };
   }
 
   initial() {

@@ -32,7 +32,8 @@ class Tapes:
         self.groups = {group: len(program.inputs[group]) for group in self.low.groups}
         self.inline = p.unrolled and self.low.body.operations * copies <= INLINE
         self.count = len(self.low.body.outputs)
-        cuts = plan(self.low.body), plan(self.low.prologue)
+        portable = p.f.module.target.imports
+        cuts = plan(self.low.body, portable=portable), plan(self.low.prologue, portable=portable)
         self.scratch = p.reserve(max(cut.scratch for cut in cuts))
         self.inputs = p.reserve(sum(self.groups.values()))
         self.shared = p.reserve(len(self.low.prologue.outputs)) if own else 0
