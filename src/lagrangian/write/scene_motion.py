@@ -1,0 +1,238 @@
+"""Writes a motion as an animated SVG without script: it plays wherever an image is shown, also in a README.
+
+What only moves and turns is a group with a moving transformation; springs, ropes and the like have a moving path. Who
+asks for reduced motion sees the first frame and the paths.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import groupby
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.page.motion import Motion, extent
+from lagrangian.page.placing import Drawn, axes, placed
+from lagrangian.page.scene import Disc, Part, Path, Placement, Trace
+from lagrangian.write.html_page import escape
+from lagrangian.write.scene_svg import document, group_opening, number, outline, pair_text, shape
+from lagrangian.write.tracks import Timing, animate, keys, moved, stretched, timed, turned
+
+Array = NDArray[np.float64]
+
+STILL = 0.04
+"""What moves less [px] stands still."""
+
+THIN = 0.7
+"""Lines are widened so that they are shown with at least this share of their width."""
+
+_STYLE = (
+    ".lagrangian-scene .still{display:none}"
+    "@media (prefers-reduced-motion:reduce){.lagrangian-scene:not(.playing) .still{display:inline}"
+    ".lagrangian-scene:not(.playing) .moving{display:none}}"
+)
+
+
+def scene_motion(motion: Motion, *, embedded: bool = False, width: float | None = None, tolerance: float = 0.15) -> str:
+    """Return a motion as animated SVG that repeats for ever; ``embedded`` for use within HTML.
+
+    ``width`` [px] is how wide it is shown; by default, at the scale of the schematic, within 320 and 640 pixels.
+    ``tolerance`` [px] is how far anything may be from its true place between two frames.
+    """
+    left, top, w, h = motion.frame
+    shown = min(max(w, 320.0), 640.0) if width is None else float(width)
+    zoom = w / shown
+    timing = Timing(motion.duration, tolerance * max(zoom, 1.0), zoom)
+    parts = [replace(x, outline=x.outline * max(1.0, THIN * zoom)) for x in motion.parts]
+    span = f"t = {motion.times[0]:.4g} … {motion.times[-1]:.4g} s"
+    body = [f'<g transform="translate({number(-left)},{number(-top)})">']
+    body += ['<g class="moving">', *_trails(motion, timing, zoom), *_groups(motion, parts, timing), "</g>"]
+    body += ['<g class="still">', *_trails(motion, None, zoom), *_groups(motion, parts, None), "</g>", "</g>"]
+    body += _footer(motion, zoom, timing)
+    scene = replace(motion.scene, description=f"{motion.scene.description or motion.scene.name}; in motion, {span}")
+    return document(scene, body, size=(w, h), embedded=embedded, style=_STYLE, width=shown)
+
+
+# -- parts ------------------------------------------------------------------------------------------------------------
+
+
+def _groups(motion: Motion, parts: list[Part], timing: Timing | None) -> Iterator[str]:
+    """Parts that follow each other and move together share a group; without a timing, they stand in the first frame."""
+    for (opening, placement), found in groupby(parts, key=lambda part: (group_opening(part), _common(part))):
+        members = list(found)
+        if timing is None or placement is None or motion.count < 2:
+            inner = "".join(_alone(part, motion.at, timing) for part in members)
+        else:
+            inner = _together(members, placement, motion.at, timing)
+        yield f"{opening}{inner}</g>"
+
+
+def _common(part: Part) -> Placement | None:
+    return None if isinstance(part.shape, Trace) else part.placement
+
+
+def _together(parts: list[Part], placement: Placement, at: Array, timing: Timing) -> str:
+    """Parts with one placement: in a group that moves and turns if that is all they do, otherwise one by one."""
+    origin, x, y = axes(placement, at)
+    sizes = [np.hypot(v[..., 0], v[..., 1]) for v in (x, y)]
+    if any(np.ptp(size * _reach(part, i)) > STILL for i, size in enumerate(sizes) for part in parts):
+        if placement.scaling == "along" and all(_is_long(part) for part in parts):
+            return _stretched(parts, origin, x, timing)
+        return "".join(_alone(part, at, timing) for part in parts)
+    angles = np.unwrap(np.arctan2(x[..., 1], x[..., 0]))
+    local = [_local(part, at[0], origin[0], float(angles[0])) for part in parts]
+    far = max((_far(drawn) for drawn in local), default=0.0)
+    turns = bool(np.ptp(angles) * far > STILL)
+    moves = bool(np.ptp(origin, axis=0).max() > STILL)
+    if not turns and not moves:
+        return "".join(_alone(part, at, None) for part in parts)
+    if not turns:  # the shapes as they are turned for good
+        local = [[(c, _shifted(c, n[0], -origin[0])) for c, n in placed(part, at)] for part in parts]
+    shapes = "".join(shape(part, outline(drawn)) for part, drawn in zip(parts, local, strict=True))
+    if not turns:
+        return f"<g>{moved(origin, timing)}{shapes}</g>"
+    turn = turned(angles, far, timing, added=moves)
+    if moves:
+        return f"<g>{moved(origin, timing)}{turn}{shapes}</g>"
+    ox, oy = (number(v) for v in origin[0])
+    return f'<g transform="translate({ox},{oy})"><g>{turn}{shapes}</g></g>'
+
+
+LAID = Placement(0, 1, "along")
+
+
+def _is_long(part: Part) -> bool:
+    """Whether the form of a part is too long to be written in every frame."""
+    return isinstance(part.shape, Path) and len(part.shape.commands) > 4
+
+
+def _stretched(parts: list[Part], origin: Array, x: Array, timing: Timing) -> str:
+    """Springs and dampers: moved, turned and stretched along their x axis, with lines that keep their width."""
+    lengths, angles = np.hypot(x[:, 0], x[:, 1]), np.unwrap(np.arctan2(x[:, 1], x[:, 0]))
+    longest = float(lengths.max())
+    flat = np.array([[0.0, 0.0], [longest, 0.0]])
+    shapes = "".join(
+        shape(
+            replace(part, outline=part.outline / timing.zoom),
+            outline(placed(replace(part, placement=LAID), flat)) + ' vector-effect="non-scaling-stroke"',
+        )
+        for part in parts
+    )
+    turn = turned(angles, longest, timing, added=True)
+    return f"<g>{moved(origin, timing)}{turn}{stretched(lengths / longest, longest, timing)}{shapes}</g>"
+
+
+def _reach(part: Part, axis: int) -> float:
+    """The largest coordinate of a shape along one of its axes."""
+    if isinstance(part.shape, Disc):
+        return abs(part.shape.centre[axis]) + part.shape.radius
+    assert not isinstance(part.shape, Trace)
+    return max((abs(v) for _, numbers in part.shape.commands for v in numbers[axis::2]), default=0.0)
+
+
+def _local(part: Part, at: Array, origin: Array, angle: float) -> list[Drawn]:
+    """A part about the origin of its axes, turned back by their angle."""
+    c, s = np.cos(angle), np.sin(angle)
+    back = np.array([[c, s], [-s, c]])
+    drawn: list[Drawn] = []
+    for letter, numbers in placed(part, at):
+        pairs = _shifted(letter, numbers, -origin)
+        count = 2 * (len(pairs) // 2)
+        drawn.append((letter, np.concatenate([(pairs[:count].reshape(-1, 2) @ back.T).ravel(), pairs[count:]])))
+    return drawn
+
+
+def _shifted(letter: str, numbers: Array, by: Array) -> Array:
+    found = numbers.copy()
+    count = 2 if letter == "O" else len(found)
+    found[:count] += np.tile(by, count // 2)
+    return found
+
+
+def _far(drawn: list[Drawn]) -> float:
+    """How far the farthest point of a shape is from the origin."""
+    box = extent(drawn)
+    return 0.0 if box is None else float(np.hypot(max(abs(box[0]), abs(box[2])), max(abs(box[1]), abs(box[3]))))
+
+
+def _alone(part: Part, at: Array, timing: Timing | None) -> str:
+    """A part whose shape changes: its path, or its circle, has a new form in every frame."""
+    drawn = placed(part, at)
+    first = [(letter, numbers[0]) for letter, numbers in drawn]
+    geometry = _rounded(first)
+    if timing is None or len(at) < 2 or all(np.ptp(n, axis=0).max(initial=0.0) <= STILL for _, n in drawn):
+        return shape(part, outline(first))
+    if len(drawn) == 1 and drawn[0][0] == "O":
+        within = "".join(
+            animate(name, drawn[0][1][:, [i]], lambda row: number(float(row[0]), 1), timing)
+            for i, name in enumerate(("cx", "cy", "r"))
+        )
+        return shape(part, geometry, within)
+    letters, counts = [letter for letter, _ in drawn], [n.shape[-1] for _, n in drawn]
+    ends = np.cumsum([0, *counts]).tolist()
+
+    def write(row: Array) -> str:
+        pieces = zip(letters, ends, ends[1:], strict=False)
+        return "".join(letter + pair_text(row[a:b].tolist(), 1) for letter, a, b in pieces)
+
+    track = np.concatenate([n for _, n in drawn], axis=-1)
+    return shape(part, geometry, animate("d", track, write, timing))
+
+
+def _rounded(drawn: list[Drawn]) -> str:
+    """The geometry of the first frame, rounded like the others."""
+    return outline([(letter, np.round(numbers, 1)) for letter, numbers in drawn])
+
+
+# -- what is not a part of the system ---------------------------------------------------------------------------------
+
+
+def _trails(motion: Motion, timing: Timing | None, zoom: float) -> Iterator[str]:
+    """Paths of anchors: all of it faint, and stronger as far as the motion has come."""
+    for anchor in motion.trails:
+        track = motion.at[:, anchor]
+        chosen = keys(track, TRAIL * max(zoom, 1.0))
+        corners = track[chosen]
+        steps = np.hypot(*np.diff(corners, axis=0).T)
+        length = float(steps.sum())
+        if length < 1.0:
+            continue
+        d = "".join(("L" if i else "M") + pair_text(x.tolist(), 1) for i, x in enumerate(corners))
+        width = number(1.4 * max(1.0, THIN * zoom))
+        path = f'path class="line" d="{d}" fill="none" stroke="#1f5f8b" stroke-width="{width}"'
+        yield f'<g class="glyph role-coordinate"><{path} opacity="0.25"/>'
+        if timing is not None:
+            share = np.concatenate([[0.0], np.cumsum(steps) / length])
+            every = np.interp(np.arange(motion.count), chosen, share)
+            values = timed(
+                1000 * (1 - every)[:, None], lambda row: number(float(row[0]) / 1000, 4), Timing(timing.duration, 1.0)
+            )
+            yield (
+                f'<{path} opacity="0.65" pathLength="1" stroke-dasharray="1" stroke-dashoffset="1" '
+                f'stroke-linecap="butt"><animate attributeName="stroke-dashoffset" {values}/></path>'
+            )
+        yield "</g>"
+
+
+TRAIL = 0.2
+"""How far a drawn path may be from the true one [px]."""
+
+
+def _footer(motion: Motion, zoom: float, timing: Timing) -> Iterator[str]:
+    """A thin line that grows with time, and why the motion ends early."""
+    _, _, w, h = motion.frame
+    thick = number(2.0 * zoom)
+    y = number(h - 2.0 * zoom)
+    if motion.count > 1:
+        yield (
+            f'<g class="moving role-thin"><rect class="solid" y="{y}" width="{number(w)}" height="{thick}" '
+            f'fill="#5a646d" opacity="0.5"><animate attributeName="width" from="0" to="{number(w)}" '
+            f'dur="{number(timing.duration, 3)}s" repeatCount="indefinite"/></rect></g>'
+        )
+    if motion.ending:
+        yield (
+            f'<g class="glyph role-input"><text class="solid" x="{number(8 * zoom)}" y="{number(h - 8 * zoom)}" '
+            f'font-size="{number(13 * zoom)}" fill="#b02a4c">{escape(motion.ending)}</text></g>'
+        )
