@@ -162,7 +162,8 @@ SYSTEM: Mapping[str, str] = {
     ),
     **dict.fromkeys(("ground", "world", "O"), "origin"),
     **dict.fromkeys(("forward", "rhs", "lambdify"), "compile().forward(q, v)"),
-    **dict.fromkeys(("plot", "animate"), "simulate(10.0).plot()"),
+    "plot": "simulate(10.0).plot()",
+    "animate": "simulate(10.0).animate()",
     "actuator": "torque(tau, on=angle) or force((F, 0), at=P)",
     "motor": "torque(tau, on=angle, reaction=other_angle)",
 }
@@ -188,6 +189,12 @@ TRAJECTORY: Mapping[str, str] = {
     "parameters": "params",
 }
 """Common names that a run does not have, with advice."""
+
+ENSEMBLE: Mapping[str, str] = {
+    **dict.fromkeys(("animate", "animation"), "system.simulate(10.0, params={…}).animate() shows one of the runs"),
+    **dict.fromkeys(("t", "time"), "times"),
+}
+"""Common names that an ensemble does not have, with advice."""
 
 COMPILED: Mapping[str, str] = {
     **dict.fromkeys(("accelerations", "acceleration", "qdd", "forward_dynamics", "aba"), "forward(q, v, u)"),

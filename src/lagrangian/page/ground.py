@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.page.placing import axes
-from lagrangian.page.scene import Command, Part, Path
+from lagrangian.page.scene import Command, Path, ScenePart
 
 Array = NDArray[np.float64]
 
@@ -19,7 +19,7 @@ MOST = 2000
 """The largest number of strokes of the hatching."""
 
 
-def extended(part: Part, at: Array, frame: tuple[float, float, float, float]) -> Part:
+def extended(part: ScenePart, at: Array, frame: tuple[float, float, float, float]) -> ScenePart:
     """Return a floor that reaches as far as the frame (left, top, right, bottom) [px]; any other part as it is.
 
     ``at`` (anchors, 2) are the places of the anchors. The longest straight line of the shape is the floor; the other
@@ -62,7 +62,7 @@ def _strokes(path: Path) -> list[tuple[Array, Array]]:
 
 
 def _reach(
-    part: Part, at: Array, frame: tuple[float, float, float, float], start: Array, e: Array
+    part: ScenePart, at: Array, frame: tuple[float, float, float, float], start: Array, e: Array
 ) -> tuple[float, float] | None:
     """From where to where along its line the floor is within the frame; None if it is outside of it."""
     origin, x, y = axes(part.placement, at)

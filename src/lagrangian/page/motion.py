@@ -11,14 +11,20 @@ from numpy.typing import NDArray
 
 from lagrangian.page.ground import extended
 from lagrangian.page.placing import Drawn, placed, places
-from lagrangian.page.scene import Part, Scene
+from lagrangian.page.scene import Scene, ScenePart
 
 Array = NDArray[np.float64]
 
 MARGIN = 18.0
 """The space around everything that moves [px]."""
 
-NARROWEST = 0.4
+WORDS = 0.04
+"""The height of the line of words below the picture, as a share of the width."""
+
+WIDEST, HIGHEST = 640.0, 480.0
+"""The largest usual size of the picture [px]."""
+
+NARROWEST = 0.22
 """The smallest ratio of the shorter side of the frame to the longer one."""
 
 
@@ -28,8 +34,8 @@ class Motion:
 
     ``at`` (frames, anchors, 2) are the places of the anchors [px], ``times`` (frames,) the times of the run [s],
     ``duration`` is how long all of it is shown [s]. ``frame`` is the part of the plane that is shown: left, top, width,
-    height [px]. ``trails`` are the anchors whose paths are drawn. ``ending`` says why the motion ends early, if it
-    does.
+    height [px]. ``paths`` (places, 2) are paths that are drawn [px], at equal steps of time, which may be finer than
+    those of the frames. ``ending`` says why the motion ends early, if it does.
     """
 
     scene: Scene
@@ -37,7 +43,7 @@ class Motion:
     times: Array
     duration: float
     frame: tuple[float, float, float, float]
-    trails: tuple[int, ...] = ()
+    paths: tuple[Array, ...] = ()
     ending: str = ""
 
     @property
@@ -46,7 +52,19 @@ class Motion:
         return len(self.times)
 
     @property
-    def parts(self) -> list[Part]:
+    def pace(self) -> str:
+        """How fast the motion is shown, unless it is real time."""
+        speed = float(self.times[-1] - self.times[0]) / self.duration
+        return "" if abs(speed - 1.0) < 0.02 else f"{speed:.2g} × real time"
+
+    @property
+    def usual_width(self) -> float:
+        """The width [px] in which the picture has the scale of the schematic, or is as large as it may be."""
+        _, _, w, h = self.frame
+        return min(w, WIDEST, HIGHEST * w / h)
+
+    @property
+    def parts(self) -> list[ScenePart]:
         """The parts that are drawn in motion, from back to front."""
         return sorted((part for part in self.scene.parts if part.moves), key=lambda part: part.layer)
 
@@ -59,21 +77,26 @@ class Motion:
 
 
 def motion(
-    scene: Scene,
-    positions: Array,
-    times: Array,
-    *,
-    duration: float,
-    trails: tuple[int, ...] = (),
-    ending: str = "",
+    scene: Scene, positions: Array, times: Array, *, duration: float, finer: int = 1, ending: str = ""
 ) -> Motion:
-    """Return the motion of a scene whose anchors have ``positions`` [m], (frames, anchors, d), at ``times`` [s]."""
-    at = restrained(scene, places(scene, positions))
-    box = _bounds(scene.parts, at, trails)
-    left, top, right, bottom = _proportioned(*box)
-    parts = tuple(extended(part, at[0], (left, top, right, bottom)) for part in scene.parts)
-    frame = (left, top, right - left, bottom - top)
-    return Motion(replace(scene, parts=parts), at, times, duration, frame, trails, ending)
+    """Return the motion of a scene whose anchors have ``positions`` [m], (places, anchors, d), at equal steps of time.
+
+    Every ``finer``-th place is a frame, the first and the last one too; ``times`` (frames,) are the times of the frames
+    [s]. The paths of the scene's trail go through all places.
+    """
+    fine = restrained(scene, places(scene, positions))
+    paths = tuple(fine[:, anchor] + _drawn_at(scene, anchor) for anchor in scene.trail)
+    whole = Motion(scene, fine[::finer], times, duration, (0.0, 0.0, 0.0, 0.0), paths, ending)
+    left, top, right, bottom = _proportioned(*_bounds(whole))
+    bottom += WORDS * (right - left) if ending or whole.pace else 0.0
+    parts = tuple(extended(part, fine[0], (left, top, right, bottom)) for part in scene.parts)
+    return replace(whole, scene=replace(scene, parts=parts), frame=(left, top, right - left, bottom - top))
+
+
+def _drawn_at(scene: Scene, anchor: int) -> Array:
+    """How far from an anchor [px] its body is drawn."""
+    bodies = (x.placement.shift for x in scene.parts if x.role == "body" and x.moves and x.placement.at == anchor)
+    return np.array(next(bodies, (0.0, 0.0)))
 
 
 def restrained(scene: Scene, at: Array) -> Array:
@@ -129,14 +152,14 @@ def extent(drawn: list[Drawn]) -> tuple[float, float, float, float] | None:
     return None if np.isinf(low).any() else (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
 
 
-def _bounds(parts: tuple[Part, ...], at: Array, trails: tuple[int, ...]) -> tuple[float, float, float, float]:
+def _bounds(motion: Motion) -> tuple[float, float, float, float]:
     """The smallest frame that holds all parts in all frames, with the margin around it."""
-    boxes = [
-        (box[0] - part.outline / 2, box[1] - part.outline / 2, box[2] + part.outline / 2, box[3] + part.outline / 2)
-        for part in parts
-        if part.moves and (box := extent(placed(part, at))) is not None
-    ]
-    boxes += [box for a in trails if (box := extent([("M", at[:, a])])) is not None]
+    boxes: list[tuple[float, float, float, float]] = []
+    for part in motion.parts:
+        if (box := extent(placed(part, motion.at))) is not None:
+            half = part.outline / 2
+            boxes.append((box[0] - half, box[1] - half, box[2] + half, box[3] + half))
+    boxes += [box for path in motion.paths if (box := extent([("M", path)])) is not None]
     if not boxes:
         return 0.0, 0.0, 100.0, 100.0
     left, top = min(b[0] for b in boxes), min(b[1] for b in boxes)

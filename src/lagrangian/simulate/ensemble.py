@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrangian.calls import ENSEMBLE, Guided
 from lagrangian.errors import NoSuchEntry, RunError, did_you_mean
 from lagrangian.integrate.observe import DRIFTED
 from lagrangian.integrate.status import RunStatus
@@ -51,7 +52,7 @@ class Failure:
         return f"{where}: stopped at t = {self.reached:.6g} s: {self.reason}"
 
 
-class Ensemble(Mapping[str, NDArray[Any]]):
+class Ensemble(Guided, Mapping[str, NDArray[Any]]):
     """The results of many runs by name, as arrays over the axes of the ensemble; NaN if a run failed.
 
     ``dims`` and ``shape`` are the axes; ``coordinates`` are the varied values: name → (axes, values); ``times`` are the
@@ -59,6 +60,8 @@ class Ensemble(Mapping[str, NDArray[Any]]):
     only one result for theta1. Samples have time as their last axis. ``status`` says how each run ended. If a terminal
     event ends a run, or its events accumulate (status −4), results are taken over the part that was simulated.
     """
+
+    _guide = ENSEMBLE
 
     def __init__(
         self,

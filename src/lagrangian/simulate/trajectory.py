@@ -12,11 +12,15 @@ from lagrangian.viewed import cut
 from lagrangian.write import tables
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from pathlib import Path
 
     import pandas
     import xarray
     from matplotlib.figure import Figure
+
+    from lagrangian.look import Picture
+    from lagrangian.simulate.animation import Animation
 
 
 @dataclass(eq=False)
@@ -63,6 +67,27 @@ class Trajectory(Recorded):
     def figure(self, *quantities: Any, energy: bool | None = None, audit: bool = False) -> Figure:
         """Return the same figure as `plot` without using pyplot, for programs, threads and servers."""
         return plot.plot(self, quantities, energy=energy, audit=audit)
+
+    def animate(
+        self,
+        *,
+        speed: float | None = None,
+        trail: Sequence[str] = (),
+        fps: float = 25.0,
+        width: float | None = None,
+        look: Picture | None = None,
+    ) -> Animation:
+        """Return the run as an `Animation`, which shows itself in notebooks and is saved to a file.
+
+        ``speed`` is how many seconds of the run are shown in a second; by default 1, but for runs of less than 2 s or
+        more than 30 s, and the picture says so. ``trail`` names points whose paths are drawn, ``fps`` is the number of
+        frames a second, ``width`` [px] is how wide it is. ``look`` is the picture that moves, by default
+        ``system.look()``. The frame holds the whole motion. Raises `RunError` if the samples of the run are too far
+        apart, and `ModelError` for an unknown point.
+        """
+        from lagrangian.simulate.animating import animate
+
+        return animate(self, speed=speed, trail=trail, fps=fps, width=width, look=look)
 
     def _repr_html_(self) -> str:
         from lagrangian.write.views import table_view

@@ -13,7 +13,7 @@ from lagrangian.errors import MissingExtra
 from lagrangian.page.motion import Motion
 from lagrangian.page.palette import LIGHT, Palette
 from lagrangian.page.placing import Drawn, placed
-from lagrangian.page.scene import Part
+from lagrangian.page.scene import Role, ScenePart
 
 if TYPE_CHECKING:
     from PIL.Image import Image
@@ -55,7 +55,7 @@ class FramePainter:
         self._corner = np.array([left, top])
         self._thick = self._scale * max(1.0, THIN * w / self.width)
         self._parts = [(part, self._scaled(placed(part, motion.at))) for part in motion.parts]
-        self._paths = [self._scale * (motion.at[:, a] - self._corner) for a in motion.trails]
+        self._paths = [self._scale * (path - self._corner) for path in motion.paths]
 
     def _scaled(self, drawn: list[Drawn]) -> list[Drawn]:
         """The commands of a part in pixels of the large image."""
@@ -78,14 +78,17 @@ class FramePainter:
         strong = _mixed(self._palette.line("coordinate"), self._palette.paper, 0.65)
         for path in self._paths:
             self._line(draw, path, blend, 1.4 * self._thick)
-            self._line(draw, path[: k + 1], strong, 1.4 * self._thick)
+            gone = k * (len(path) - 1) // max(self._motion.count - 1, 1)
+            self._line(draw, path[: gone + 1], strong, 1.4 * self._thick)
         for part, drawn in self._parts:
             self._part(draw, part, [(letter, numbers[k]) for letter, numbers in drawn])
         if self._motion.ending:
-            self._words(draw, self._motion.ending)
+            self._words(draw, self._motion.ending, "input")
+        if self._motion.pace:
+            self._words(draw, self._motion.pace, "thin", right=True)
         return image.resize((self.width, self.height), self._image.Resampling.BOX)
 
-    def _part(self, draw: Any, part: Part, drawn: list[Drawn]) -> None:
+    def _part(self, draw: Any, part: ScenePart, drawn: list[Drawn]) -> None:
         ink, inside = self._palette.line(part.role), self._palette.inside(part.role)
         fill = ink if part.solid else inside if part.filled else None
         line = inside if part.paint == "inside" else ink
@@ -122,21 +125,12 @@ class FramePainter:
             for x, y in (listed[0], listed[-1]):
                 draw.ellipse((x - r, y - r, x + r, y + r), fill=colour)
 
-    def _words(self, draw: Any, words: str) -> None:
+    def _words(self, draw: Any, words: str, role: Role, *, right: bool = False) -> None:
         size = FINER * LETTERS
         font = self._font.load_default(size)
-        place = (FINER * 8, FINER * self.height - 2 * size)
-        shown = words.encode("ascii", "replace").decode() if not _has_letters(font, words) else words
-        draw.text(place, shown, fill=self._palette.line("input"), font=font)
-
-
-def _has_letters(font: Any, words: str) -> bool:
-    """Whether a font can be asked for these words at all: Pillow's font without FreeType knows Latin letters only."""
-    try:
-        font.getbbox(words)
-    except UnicodeEncodeError:
-        return False
-    return True
+        shown = words.replace("×", "x").encode("ascii", "replace").decode()  # letters that every font of Pillow has
+        x = FINER * self.width - FINER * 8 - draw.textlength(shown, font=font) if right else FINER * 8
+        draw.text((x, FINER * self.height - 1.6 * size), shown, fill=self._palette.line(role), font=font)
 
 
 def _mixed(ink: str, paper: str, share: float) -> str:

@@ -14,8 +14,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.page.motion import Motion, extent
+from lagrangian.page.palette import LIGHT
 from lagrangian.page.placing import Drawn, axes, placed
-from lagrangian.page.scene import Disc, Part, Path, Placement, Trace
+from lagrangian.page.scene import Disc, Path, Placement, ScenePart, Trace
 from lagrangian.write.html_page import escape
 from lagrangian.write.scene_svg import document, group_opening, number, outline, pair_text, shape
 from lagrangian.write.tracks import Timing, animate, keys, moved, stretched, timed, turned
@@ -38,18 +39,20 @@ _STYLE = (
 def scene_motion(motion: Motion, *, embedded: bool = False, width: float | None = None, tolerance: float = 0.15) -> str:
     """Return a motion as animated SVG that repeats for ever; ``embedded`` for use within HTML.
 
-    ``width`` [px] is how wide it is shown; by default, at the scale of the schematic, within 320 and 640 pixels.
+    ``width`` [px] is how wide it is shown; by default, at the scale of the schematic if it is not too large then.
     ``tolerance`` [px] is how far anything may be from its true place between two frames.
     """
     left, top, w, h = motion.frame
-    shown = min(max(w, 320.0), 640.0) if width is None else float(width)
+    shown = motion.usual_width if width is None else float(width)
     zoom = w / shown
     timing = Timing(motion.duration, tolerance * max(zoom, 1.0), zoom)
     parts = [replace(x, outline=x.outline * max(1.0, THIN * zoom)) for x in motion.parts]
     span = f"t = {motion.times[0]:.4g} … {motion.times[-1]:.4g} s"
-    body = [f'<g transform="translate({number(-left)},{number(-top)})">']
-    body += ['<g class="moving">', *_trails(motion, timing, zoom), *_groups(motion, parts, timing), "</g>"]
-    body += ['<g class="still">', *_trails(motion, None, zoom), *_groups(motion, parts, None), "</g>", "</g>"]
+    behind = next((i for i, part in enumerate(parts) if not _stands(part, motion.at)), len(parts))
+    back, front = parts[:behind], parts[behind:]
+    body = [f'<g transform="translate({number(-left)},{number(-top)})">', *_groups(motion, back, None)]
+    body += ['<g class="moving">', *_trails(motion, timing, zoom), *_groups(motion, front, timing), "</g>"]
+    body += ['<g class="still">', *_trails(motion, None, zoom), *_groups(motion, front, None), "</g>", "</g>"]
     body += _footer(motion, zoom, timing)
     scene = replace(motion.scene, description=f"{motion.scene.description or motion.scene.name}; in motion, {span}")
     return document(scene, body, size=(w, h), embedded=embedded, style=_STYLE, width=shown)
@@ -58,7 +61,7 @@ def scene_motion(motion: Motion, *, embedded: bool = False, width: float | None 
 # -- parts ------------------------------------------------------------------------------------------------------------
 
 
-def _groups(motion: Motion, parts: list[Part], timing: Timing | None) -> Iterator[str]:
+def _groups(motion: Motion, parts: list[ScenePart], timing: Timing | None) -> Iterator[str]:
     """Parts that follow each other and move together share a group; without a timing, they stand in the first frame."""
     for (opening, placement), found in groupby(parts, key=lambda part: (group_opening(part), _common(part))):
         members = list(found)
@@ -69,11 +72,16 @@ def _groups(motion: Motion, parts: list[Part], timing: Timing | None) -> Iterato
         yield f"{opening}{inner}</g>"
 
 
-def _common(part: Part) -> Placement | None:
+def _stands(part: ScenePart, at: Array) -> bool:
+    """Whether a part is the same in all frames."""
+    return all(np.ptp(numbers, axis=0).max(initial=0.0) <= STILL for _, numbers in placed(part, at))
+
+
+def _common(part: ScenePart) -> Placement | None:
     return None if isinstance(part.shape, Trace) else part.placement
 
 
-def _together(parts: list[Part], placement: Placement, at: Array, timing: Timing) -> str:
+def _together(parts: list[ScenePart], placement: Placement, at: Array, timing: Timing) -> str:
     """Parts with one placement: in a group that moves and turns if that is all they do, otherwise one by one."""
     origin, x, y = axes(placement, at)
     sizes = [np.hypot(v[..., 0], v[..., 1]) for v in (x, y)]
@@ -103,12 +111,12 @@ def _together(parts: list[Part], placement: Placement, at: Array, timing: Timing
 LAID = Placement(0, 1, "along")
 
 
-def _is_long(part: Part) -> bool:
+def _is_long(part: ScenePart) -> bool:
     """Whether the form of a part is too long to be written in every frame."""
     return isinstance(part.shape, Path) and len(part.shape.commands) > 4
 
 
-def _stretched(parts: list[Part], origin: Array, x: Array, timing: Timing) -> str:
+def _stretched(parts: list[ScenePart], origin: Array, x: Array, timing: Timing) -> str:
     """Springs and dampers: moved, turned and stretched along their x axis, with lines that keep their width."""
     lengths, angles = np.hypot(x[:, 0], x[:, 1]), np.unwrap(np.arctan2(x[:, 1], x[:, 0]))
     longest = float(lengths.max())
@@ -124,7 +132,7 @@ def _stretched(parts: list[Part], origin: Array, x: Array, timing: Timing) -> st
     return f"<g>{moved(origin, timing)}{turn}{stretched(lengths / longest, longest, timing)}{shapes}</g>"
 
 
-def _reach(part: Part, axis: int) -> float:
+def _reach(part: ScenePart, axis: int) -> float:
     """The largest coordinate of a shape along one of its axes."""
     if isinstance(part.shape, Disc):
         return abs(part.shape.centre[axis]) + part.shape.radius
@@ -132,7 +140,7 @@ def _reach(part: Part, axis: int) -> float:
     return max((abs(v) for _, numbers in part.shape.commands for v in numbers[axis::2]), default=0.0)
 
 
-def _local(part: Part, at: Array, origin: Array, angle: float) -> list[Drawn]:
+def _local(part: ScenePart, at: Array, origin: Array, angle: float) -> list[Drawn]:
     """A part about the origin of its axes, turned back by their angle."""
     c, s = np.cos(angle), np.sin(angle)
     back = np.array([[c, s], [-s, c]])
@@ -157,12 +165,12 @@ def _far(drawn: list[Drawn]) -> float:
     return 0.0 if box is None else float(np.hypot(max(abs(box[0]), abs(box[2])), max(abs(box[1]), abs(box[3]))))
 
 
-def _alone(part: Part, at: Array, timing: Timing | None) -> str:
+def _alone(part: ScenePart, at: Array, timing: Timing | None) -> str:
     """A part whose shape changes: its path, or its circle, has a new form in every frame."""
     drawn = placed(part, at)
     first = [(letter, numbers[0]) for letter, numbers in drawn]
     geometry = _rounded(first)
-    if timing is None or len(at) < 2 or all(np.ptp(n, axis=0).max(initial=0.0) <= STILL for _, n in drawn):
+    if timing is None or len(at) < 2 or _stands(part, at):
         return shape(part, outline(first))
     if len(drawn) == 1 and drawn[0][0] == "O":
         within = "".join(
@@ -191,8 +199,7 @@ def _rounded(drawn: list[Drawn]) -> str:
 
 def _trails(motion: Motion, timing: Timing | None, zoom: float) -> Iterator[str]:
     """Paths of anchors: all of it faint, and stronger as far as the motion has come."""
-    for anchor in motion.trails:
-        track = motion.at[:, anchor]
+    for track in motion.paths:
         chosen = keys(track, TRAIL * max(zoom, 1.0))
         corners = track[chosen]
         steps = np.hypot(*np.diff(corners, axis=0).T)
@@ -201,11 +208,11 @@ def _trails(motion: Motion, timing: Timing | None, zoom: float) -> Iterator[str]
             continue
         d = "".join(("L" if i else "M") + pair_text(x.tolist(), 1) for i, x in enumerate(corners))
         width = number(1.4 * max(1.0, THIN * zoom))
-        path = f'path class="line" d="{d}" fill="none" stroke="#1f5f8b" stroke-width="{width}"'
+        path = f'path class="line" d="{d}" fill="none" stroke="{LIGHT.line("coordinate")}" stroke-width="{width}"'
         yield f'<g class="glyph role-coordinate"><{path} opacity="0.25"/>'
         if timing is not None:
             share = np.concatenate([[0.0], np.cumsum(steps) / length])
-            every = np.interp(np.arange(motion.count), chosen, share)
+            every = np.interp(np.linspace(0, len(track) - 1, motion.count), chosen, share)
             values = timed(
                 1000 * (1 - every)[:, None], lambda row: number(float(row[0]) / 1000, 4), Timing(timing.duration, 1.0)
             )
@@ -221,18 +228,24 @@ TRAIL = 0.2
 
 
 def _footer(motion: Motion, zoom: float, timing: Timing) -> Iterator[str]:
-    """A thin line that grows with time, and why the motion ends early."""
+    """A thin line that grows with time, why the motion ends early, and how fast it is shown."""
     _, _, w, h = motion.frame
     thick = number(2.0 * zoom)
     y = number(h - 2.0 * zoom)
     if motion.count > 1:
         yield (
             f'<g class="moving role-thin"><rect class="solid" y="{y}" width="{number(w)}" height="{thick}" '
-            f'fill="#5a646d" opacity="0.5"><animate attributeName="width" from="0" to="{number(w)}" '
+            f'fill="{LIGHT.line("thin")}" opacity="0.5"><animate attributeName="width" from="0" to="{number(w)}" '
             f'dur="{number(timing.duration, 3)}s" repeatCount="indefinite"/></rect></g>'
         )
+    place = f'y="{number(h - 8 * zoom)}" font-size="{number(13 * zoom)}"'
     if motion.ending:
         yield (
-            f'<g class="glyph role-input"><text class="solid" x="{number(8 * zoom)}" y="{number(h - 8 * zoom)}" '
-            f'font-size="{number(13 * zoom)}" fill="#b02a4c">{escape(motion.ending)}</text></g>'
+            f'<g class="glyph role-input"><text class="solid" x="{number(8 * zoom)}" {place} '
+            f'fill="{LIGHT.line("input")}">{escape(motion.ending)}</text></g>'
+        )
+    if motion.pace:
+        yield (
+            f'<g class="glyph role-thin"><text class="solid" x="{number(w - 8 * zoom)}" {place} '
+            f'text-anchor="end" fill="{LIGHT.line("thin")}">{escape(motion.pace)}</text></g>'
         )

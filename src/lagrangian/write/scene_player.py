@@ -94,9 +94,9 @@ def player_frame(motion: Motion, *, width: float | None = None, tolerance: float
     """Return the page in a frame for a notebook, which can reach nothing outside of it."""
     page = player_page(motion, width=width, tolerance=tolerance, framed=True)
     _, _, w, h = motion.frame
-    shown = min(max(w, 320.0), 640.0) if width is None else width
+    shown = motion.usual_width if width is None else width
     high = shown * h / w + 70
-    style = f"width:100%;max-width:{number(shown + 30)}px;height:{number(high)}px;border:0"
+    style = f"width:100%;max-width:{number(max(shown, 300) + 30)}px;height:{number(high)}px;border:0"
     words = escape(f"{motion.scene.name} in motion")
     quoted = page.replace("&", "&amp;").replace('"', "&quot;")
     return f'<iframe sandbox="allow-scripts" title="{words}" style="{style}" srcdoc="{quoted}"></iframe>'
