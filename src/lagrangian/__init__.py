@@ -22,9 +22,10 @@ if _typing.TYPE_CHECKING:
     from lagrangian.linear.regulator import Regulator
     from lagrangian.linear.stability import Stability
     from lagrangian.linear.symbolic import SymbolicLinearization
-    from lagrangian.look.picture import Picture
     from lagrangian.page.formula import Check, EquationTerm
     from lagrangian.page.report import Report
+    from lagrangian.picture import Picture
+    from lagrangian.simulate.animation import Animation
     from lagrangian.simulate.ensemble import Ensemble
     from lagrangian.simulate.events import Event, event
     from lagrangian.simulate.reaction import Reaction
@@ -52,9 +53,10 @@ else:
             "linear.regulator": "Regulator",
             "linear.stability": "Stability",
             "linear.symbolic": "SymbolicLinearization",
-            "look.picture": "Picture",
             "page.formula": "Check EquationTerm",
             "page.report": "Report",
+            "picture": "Picture",
+            "simulate.animation": "Animation",
             "simulate.ensemble": "Ensemble",
             "simulate.events": "Event event",
             "simulate.reaction": "Reaction",
@@ -66,6 +68,7 @@ else:
     )
 
 __all__ = [
+    "Animation",
     "Audit",
     "Check",
     "CheckedAnswer",

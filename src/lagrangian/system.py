@@ -25,8 +25,8 @@ if TYPE_CHECKING:  # every verb imports what it needs, so that describing a syst
     from lagrangian.invariants.conserved_quantities import ConservedQuantities
     from lagrangian.linear.along import LinearizationAlong
     from lagrangian.linear.linearization import Linearization
-    from lagrangian.look import Picture
     from lagrangian.page.formula import Check
+    from lagrangian.picture import Picture
 
 
 @worded
@@ -87,7 +87,7 @@ class System(Simulated):
         comes from ``[look]`` in the model file. `Picture.missing` says what is not drawn. Raises `ModelError` for names
         that the system does not have.
         """
-        from lagrangian.look import picture
+        from lagrangian.picture import picture
 
         return picture(
             self.model,

@@ -8,11 +8,7 @@ import pytest
 from hand_scenes import TURN, carts, pendulum
 from lagrangian.page.palette import DARK, LIGHT
 from lagrangian.page.placing import axes, inside, placed, places
-<<<<<<< HEAD
 from lagrangian.page.scene import Disc, Path, Placement, Scaling, ScenePart, Trace
-=======
-from lagrangian.page.scene import Disc, ScenePart, Path, Placement, Scaling, Trace
->>>>>>> aff5da7 (wip)
 
 AT = np.array([[10.0, 20.0], [13.0, 24.0], [10.0, 20.0]])
 CURVE = Path((("M", (1, 0)), ("C", (0, 1, 2, 0.5, -1, -2)), ("Z", ())))

@@ -29,7 +29,7 @@ NARROWEST = 0.22
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class SceneMotion:
     """A motion of a scene in frames at equal steps of time.
 
     ``at`` (frames, anchors, 2) are the places of the anchors [px], ``times`` (frames,) the times of the run [s],
@@ -68,7 +68,7 @@ class Motion:
         """The parts that are drawn in motion, from back to front."""
         return sorted((part for part in self.scene.parts if part.moves), key=lambda part: part.layer)
 
-    def fewer(self, every: int) -> Motion:
+    def fewer(self, every: int) -> SceneMotion:
         """Return the same motion with every second, third, … frame, and its last frame."""
         kept = np.unique(np.append(np.arange(0, self.count, every), self.count - 1))
         even = np.linspace(float(self.times[0]), float(self.times[-1]), len(kept), dtype=np.float64)
@@ -78,7 +78,7 @@ class Motion:
 
 def motion(
     scene: Scene, positions: Array, times: Array, *, duration: float, finer: int = 1, ending: str = ""
-) -> Motion:
+) -> SceneMotion:
     """Return the motion of a scene whose anchors have ``positions`` [m], (places, anchors, d), at equal steps of time.
 
     Every ``finer``-th place is a frame, the first and the last one too; ``times`` (frames,) are the times of the frames
@@ -86,7 +86,7 @@ def motion(
     """
     fine = restrained(scene, places(scene, positions))
     paths = tuple(fine[:, anchor] + _drawn_at(scene, anchor) for anchor in scene.trail)
-    whole = Motion(scene, fine[::finer], times, duration, (0.0, 0.0, 0.0, 0.0), paths, ending)
+    whole = SceneMotion(scene, fine[::finer], times, duration, (0.0, 0.0, 0.0, 0.0), paths, ending)
     left, top, right, bottom = _proportioned(*_bounds(whole))
     bottom += WORDS * (right - left) if ending or whole.pace else 0.0
     parts = tuple(extended(part, fine[0], (left, top, right, bottom)) for part in scene.parts)
@@ -152,7 +152,7 @@ def extent(drawn: list[Drawn]) -> tuple[float, float, float, float] | None:
     return None if np.isinf(low).any() else (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
 
 
-def _bounds(motion: Motion) -> tuple[float, float, float, float]:
+def _bounds(motion: SceneMotion) -> tuple[float, float, float, float]:
     """The smallest frame that holds all parts in all frames, with the margin around it."""
     boxes: list[tuple[float, float, float, float]] = []
     for part in motion.parts:

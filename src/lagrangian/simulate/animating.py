@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,15 +16,17 @@ from numpy.typing import NDArray
 from lagrangian import codegen as machine
 from lagrangian import dynamics
 from lagrangian.advice import Advice, Argument
-from lagrangian.errors import RunError
-from lagrangian.look import Picture, picture
+from lagrangian.errors import NoSuchEntry, RunError
+from lagrangian.look import Hints, scene_of
 from lagrangian.page.motion import motion
 from lagrangian.page.placing import places
 from lagrangian.simulate.animation import Animation
 from lagrangian.simulate.integrating import remembered
 
 if TYPE_CHECKING:
+    from lagrangian.graph import Program
     from lagrangian.model import Model
+    from lagrangian.page.scene import Scene
     from lagrangian.simulate.recorded import Recorded
 
 Array = NDArray[np.float64]
@@ -41,6 +43,26 @@ FINER = 4
 COARSE = 4.0
 """A point may be this far [px] from where the samples around it predict it to be."""
 
+
+class Pictured(Protocol):
+    """The picture of a system, such as `system.look` returns."""
+
+    @property
+    def model(self) -> Model:
+        """The system."""
+        ...
+
+    @property
+    def scene(self) -> Scene:
+        """The picture as data."""
+        ...
+
+    @property
+    def program(self) -> Program:
+        """The positions [m] of the scene's anchors."""
+        ...
+
+
 SHARE = 0.98
 """This share of the samples must be close enough; at an impact, one is not."""
 
@@ -55,7 +77,7 @@ def animate(
     trail: Sequence[str] = (),
     fps: float = FPS,
     width: float | None = None,
-    look: Picture | None = None,
+    look: Pictured | None = None,
 ) -> Animation:
     """Return a run as moving pictures; see `Trajectory.animate`."""
     for name, value, most in (("speed", speed, 1e9), ("fps", fps, MOST_FPS), ("width", width, 4000.0)):
@@ -64,31 +86,35 @@ def animate(
             raise RunError(what, fix=f"{name}={min(1.0 if name == 'speed' else 25.0, most):g}", code="E406")
     if look is not None and trail:
         raise RunError("trail and look were both given", fix="give the trail to look(trail=…)", code="E404")
-    shown, kernel = _drawn(run, (trail,) if isinstance(trail, str) else tuple(trail), look)
+    scene, kernel = _drawn(run, (trail,) if isinstance(trail, str) else tuple(trail), look)
     times, duration = _times(run, speed, float(fps))
-    _check_samples(run, shown, kernel)
-    n, fine = len(run.model.coordinates), FINER * (len(times) - 1) + 1 if shown.scene.trail else len(times)
+    _check_samples(run, scene, kernel)
+    n, fine = len(run.model.coordinates), FINER * (len(times) - 1) + 1 if scene.trail else len(times)
     at = np.linspace(times[0], times[-1], fine)
     q = hermite(run.t, run.y[:n].T, _rates(run), at)
     r = _anchors(run, kernel, q, _between(run.t, run.y[n:].T, at), _between(run.t, _inputs(run), at), at)
     finer = (fine - 1) // (len(times) - 1)
-    made = motion(shown.scene, r, times, duration=duration, finer=finer, ending=_ending(run))
+    made = motion(scene, r, times, duration=duration, finer=finer, ending=_ending(run))
     return Animation(made, float(fps), made.usual_width if width is None else float(width))
 
 
-def _drawn(run: Recorded, trail: tuple[str, ...], look: Picture | None) -> tuple[Picture, machine.Kernel]:
-    """The picture that moves, and the machine code for the positions of its anchors."""
+def _drawn(run: Recorded, trail: tuple[str, ...], look: Pictured | None) -> tuple[Scene, machine.Kernel]:
+    """The scene that moves, and the machine code for the positions of its anchors."""
     if look is None:
+        known = [p.name for p in run.model.points if p.name]
+        for name in trail:
+            if name not in known:
+                raise NoSuchEntry.among("trail: there is no point", str(name), known)
 
-        def make() -> tuple[Picture, machine.Kernel]:
-            made = picture(run.model, trail=trail)
-            return made, machine.compile(made.program)
+        def make() -> tuple[Scene, machine.Kernel]:
+            scene, program = scene_of(run.model, Hints(trail=trail))
+            return scene, machine.compile(program)
 
         return remembered(run.model, ("picture", trail), make)
     if look.model is not run.model and _names(look.model) != _names(run.model):
         what = f"the picture is of another system, '{look.model.name}'"
         raise RunError(what, fix="give the picture of the system that was simulated", code="E406")
-    return look, machine.compile(look.program)
+    return look.scene, machine.compile(look.program)
 
 
 def _names(model: Model) -> tuple[str, ...]:
@@ -188,7 +214,7 @@ def hermite(t: Array, q: Array, rates: Array, wanted: Array) -> Array:
     )
 
 
-def _check_samples(run: Recorded, shown: Picture, kernel: machine.Kernel) -> None:
+def _check_samples(run: Recorded, scene: Scene, kernel: machine.Kernel) -> None:
     """Raise an error if the samples of a run are too far apart to say where things are between them.
 
     Every second sample is predicted from its neighbours; prediction over half the distance is about 16 times better.
@@ -200,7 +226,7 @@ def _check_samples(run: Recorded, shown: Picture, kernel: machine.Kernel) -> Non
     q = hermite(run.t[::2], run.y[:n, ::2].T, rates[::2], run.t[middle])
     v, u, times = run.y[n:, middle].T, _inputs(run)[middle], run.t[middle]
     guessed, true = (_anchors(run, kernel, x, v, u, times) for x in (q, run.y[:n, middle].T))
-    off = np.linalg.norm(places(shown.scene, guessed) - places(shown.scene, true), axis=-1).max(axis=-1, initial=0.0)
+    off = np.linalg.norm(places(scene, guessed) - places(scene, true), axis=-1).max(axis=-1, initial=0.0)
     if float(np.quantile(off / 16, SHARE)) > COARSE:
         raise _too_few(run)
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from lagrangian.calls import worded
 from lagrangian.errors import RunError
-from lagrangian.page.motion import Motion
+from lagrangian.page.motion import SceneMotion
 from lagrangian.page.palette import DARK, LIGHT
 from lagrangian.view.frames import FramePainter
 from lagrangian.view.movies import FASTEST, ffmpeg, write_gif, write_video
@@ -42,7 +42,7 @@ class Animation(Brief):
     the animation shows itself.
     """
 
-    motion: Motion = field(repr=False)
+    motion: SceneMotion = field(repr=False)
     fps: float
     width: float
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import xarray
     from matplotlib.figure import Figure
 
-    from lagrangian.look import Picture
+    from lagrangian.simulate.animating import Pictured
     from lagrangian.simulate.animation import Animation
 
 
@@ -75,7 +75,7 @@ class Trajectory(Recorded):
         trail: Sequence[str] = (),
         fps: float = 25.0,
         width: float | None = None,
-        look: Picture | None = None,
+        look: Pictured | None = None,
     ) -> Animation:
         """Return the run as an `Animation`, which shows itself in notebooks and is saved to a file.
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.errors import MissingExtra
-from lagrangian.page.motion import Motion
+from lagrangian.page.motion import SceneMotion
 from lagrangian.page.palette import LIGHT, Palette
 from lagrangian.page.placing import Drawn, placed
 from lagrangian.page.scene import Role, ScenePart
@@ -45,7 +45,7 @@ def pillow(module: str) -> Any:
 class FramePainter:
     """Draws the frames of a motion in an image of ``width`` × ``height`` pixels; both are even, as videos need."""
 
-    def __init__(self, motion: Motion, width: float, palette: Palette = LIGHT) -> None:
+    def __init__(self, motion: SceneMotion, width: float, palette: Palette = LIGHT) -> None:
         self._image, self._draw, self._font = pillow("Image"), pillow("ImageDraw"), pillow("ImageFont")
         self._motion, self._palette = motion, palette
         left, top, w, h = motion.frame

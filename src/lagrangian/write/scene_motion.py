@@ -13,7 +13,7 @@ from itertools import groupby
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.page.motion import Motion, extent
+from lagrangian.page.motion import SceneMotion, extent
 from lagrangian.page.palette import LIGHT
 from lagrangian.page.placing import Drawn, axes, placed
 from lagrangian.page.scene import Disc, Path, Placement, ScenePart, Trace
@@ -36,7 +36,9 @@ _STYLE = (
 )
 
 
-def scene_motion(motion: Motion, *, embedded: bool = False, width: float | None = None, tolerance: float = 0.15) -> str:
+def scene_motion(
+    motion: SceneMotion, *, embedded: bool = False, width: float | None = None, tolerance: float = 0.15
+) -> str:
     """Return a motion as animated SVG that repeats for ever; ``embedded`` for use within HTML.
 
     ``width`` [px] is how wide it is shown; by default, at the scale of the schematic if it is not too large then.
@@ -61,7 +63,7 @@ def scene_motion(motion: Motion, *, embedded: bool = False, width: float | None 
 # -- parts ------------------------------------------------------------------------------------------------------------
 
 
-def _groups(motion: Motion, parts: list[ScenePart], timing: Timing | None) -> Iterator[str]:
+def _groups(motion: SceneMotion, parts: list[ScenePart], timing: Timing | None) -> Iterator[str]:
     """Parts that follow each other and move together share a group; without a timing, they stand in the first frame."""
     for (opening, placement), found in groupby(parts, key=lambda part: (group_opening(part), _common(part))):
         members = list(found)
@@ -84,6 +86,9 @@ def _common(part: ScenePart) -> Placement | None:
 def _together(parts: list[ScenePart], placement: Placement, at: Array, timing: Timing) -> str:
     """Parts with one placement: in a group that moves and turns if that is all they do, otherwise one by one."""
     origin, x, y = axes(placement, at)
+    oblique = np.abs((x * y).sum(axis=-1)).max() > 1e-6 * np.abs(x).max() * np.abs(y).max()
+    if oblique or any(part.facing for part in parts):
+        return "".join(_alone(part, at, timing) for part in parts)
     sizes = [np.hypot(v[..., 0], v[..., 1]) for v in (x, y)]
     if any(np.ptp(size * _reach(part, i)) > STILL for i, size in enumerate(sizes) for part in parts):
         if placement.scaling == "along" and all(_is_long(part) for part in parts):
@@ -197,7 +202,7 @@ def _rounded(drawn: list[Drawn]) -> str:
 # -- what is not a part of the system ---------------------------------------------------------------------------------
 
 
-def _trails(motion: Motion, timing: Timing | None, zoom: float) -> Iterator[str]:
+def _trails(motion: SceneMotion, timing: Timing | None, zoom: float) -> Iterator[str]:
     """Paths of anchors: all of it faint, and stronger as far as the motion has come."""
     for track in motion.paths:
         chosen = keys(track, TRAIL * max(zoom, 1.0))
@@ -227,7 +232,7 @@ TRAIL = 0.2
 """How far a drawn path may be from the true one [px]."""
 
 
-def _footer(motion: Motion, zoom: float, timing: Timing) -> Iterator[str]:
+def _footer(motion: SceneMotion, zoom: float, timing: Timing) -> Iterator[str]:
     """A thin line that grows with time, why the motion ends early, and how fast it is shown."""
     _, _, w, h = motion.frame
     thick = number(2.0 * zoom)

@@ -5,7 +5,7 @@ The animation runs without script; the script only holds it, and moves it to ano
 
 from __future__ import annotations
 
-from lagrangian.page.motion import Motion
+from lagrangian.page.motion import SceneMotion
 from lagrangian.page.palette import DARK, LIGHT
 from lagrangian.write.html_page import escape
 from lagrangian.write.scene_motion import scene_motion
@@ -70,7 +70,9 @@ _SCRIPT = """
 """
 
 
-def player_page(motion: Motion, *, width: float | None = None, tolerance: float = 0.15, framed: bool = False) -> str:
+def player_page(
+    motion: SceneMotion, *, width: float | None = None, tolerance: float = 0.15, framed: bool = False
+) -> str:
     """Return an HTML page with the motion, a button that holds it, and a slider of time; ``framed`` without a title."""
     svg = scene_motion(motion, embedded=True, width=width, tolerance=tolerance)
     title = escape(motion.scene.name)
@@ -90,7 +92,7 @@ def player_page(motion: Motion, *, width: float | None = None, tolerance: float 
     )
 
 
-def player_frame(motion: Motion, *, width: float | None = None, tolerance: float = 0.15) -> str:
+def player_frame(motion: SceneMotion, *, width: float | None = None, tolerance: float = 0.15) -> str:
     """Return the page in a frame for a notebook, which can reach nothing outside of it."""
     page = player_page(motion, width=width, tolerance=tolerance, framed=True)
     _, _, w, h = motion.frame
