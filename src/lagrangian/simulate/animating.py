@@ -16,8 +16,9 @@ from numpy.typing import NDArray
 from lagrangian import codegen as machine
 from lagrangian import dynamics
 from lagrangian.advice import Advice, Argument
-from lagrangian.errors import NoSuchEntry, RunError
-from lagrangian.look import Hints, scene_of
+from lagrangian.errors import RunError
+from lagrangian.look import hints_of, scene_of
+from lagrangian.model import Point
 from lagrangian.page.motion import motion
 from lagrangian.page.placing import places
 from lagrangian.simulate.animation import Animation
@@ -74,7 +75,7 @@ def animate(
     run: Recorded,
     *,
     speed: float | None = None,
-    trail: Sequence[str] = (),
+    trail: Sequence[Any] | None = None,
     fps: float = FPS,
     width: float | None = None,
     look: Pictured | None = None,
@@ -84,9 +85,9 @@ def animate(
         if value is not None and not (isinstance(value, (int, float)) and 0 < value <= most):
             what = f"{name} must be a number above 0 and up to {most:g} (got {value!r:.40})"
             raise RunError(what, fix=f"{name}={min(1.0 if name == 'speed' else 25.0, most):g}", code="E406")
-    if look is not None and trail:
+    if look is not None and trail is not None:
         raise RunError("trail and look were both given", fix="give the trail to look(trail=…)", code="E404")
-    scene, kernel = _drawn(run, (trail,) if isinstance(trail, str) else tuple(trail), look)
+    scene, kernel = _drawn(run, (trail,) if isinstance(trail, (str, Point)) else trail, look)
     times, duration = _times(run, speed, float(fps))
     _check_samples(run, scene, kernel)
     n, fine = len(run.model.coordinates), FINER * (len(times) - 1) + 1 if scene.trail else len(times)
@@ -98,19 +99,16 @@ def animate(
     return Animation(made, float(fps), made.usual_width if width is None else float(width))
 
 
-def _drawn(run: Recorded, trail: tuple[str, ...], look: Pictured | None) -> tuple[Scene, machine.Kernel]:
+def _drawn(run: Recorded, trail: Sequence[Any] | None, look: Pictured | None) -> tuple[Scene, machine.Kernel]:
     """The scene that moves, and the machine code for the positions of its anchors."""
     if look is None:
-        known = [p.name for p in run.model.points if p.name]
-        for name in trail:
-            if name not in known:
-                raise NoSuchEntry.among("trail: there is no point", str(name), known)
+        hints = hints_of(run.model, trail=trail)
 
         def make() -> tuple[Scene, machine.Kernel]:
-            scene, program = scene_of(run.model, Hints(trail=trail))
+            scene, program = scene_of(run.model, hints)
             return scene, machine.compile(program)
 
-        return remembered(run.model, ("picture", trail), make)
+        return remembered(run.model, ("picture", tuple(map(id, hints.trail))), make)
     if look.model is not run.model and _names(look.model) != _names(run.model):
         what = f"the picture is of another system, '{look.model.name}'"
         raise RunError(what, fix="give the picture of the system that was simulated", code="E406")

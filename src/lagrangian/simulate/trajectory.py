@@ -72,7 +72,7 @@ class Trajectory(Recorded):
         self,
         *,
         speed: float | None = None,
-        trail: Sequence[str] = (),
+        trail: Sequence[Any] | None = None,
         fps: float = 25.0,
         width: float | None = None,
         look: Pictured | None = None,
@@ -80,10 +80,10 @@ class Trajectory(Recorded):
         """Return the run as an `Animation`, which shows itself in notebooks and is saved to a file.
 
         ``speed`` is how many seconds of the run are shown in a second; by default 1, but for runs of less than 2 s or
-        more than 30 s, and the picture says so. ``trail`` names points whose paths are drawn, ``fps`` is the number of
-        frames a second, ``width`` [px] is how wide it is. ``look`` is the picture that moves, by default
-        ``system.look()``. The frame holds the whole motion. Raises `RunError` if the samples of the run are too far
-        apart, and `ModelError` for an unknown point.
+        more than 30 s, and the picture says so. ``trail`` names points whose paths are drawn, by default those of the
+        model file. ``fps`` is the number of frames a second, ``width`` [px] is how wide it is. ``look`` is the picture
+        that moves, by default ``system.look()``. The frame holds the whole motion. Raises `RunError` if the samples of
+        the run are too far apart, and `ModelError` for an unknown point.
         """
         from lagrangian.simulate.animating import animate
 
