@@ -5,10 +5,12 @@ from __future__ import annotations
 import logging
 
 from lagrangian.errors import Error
-from lagrangian.look.picture import picture
+from lagrangian.look.hints import hints_of
+from lagrangian.look.scenes import scene_of
 from lagrangian.model import Model
 from lagrangian.write.document import HeadPicture
 from lagrangian.write.scene_svg import scene_svg
+from lagrangian.write.scene_tikz import scene_tikz
 
 _log = logging.getLogger(__name__)
 
@@ -30,11 +32,10 @@ def _made(model: Model) -> HeadPicture | None:
     if len(model.bodies) > MOST_BODIES:
         return _without(f"{len(model.bodies)} bodies are too many for a picture here; system.look() draws them")
     try:
-        found = picture(model)
-        scene = found.scene
+        scene, _ = scene_of(model, hints_of(model))
         if not any(part.elements for part in scene.parts):
             return None
-        return HeadPicture(scene_svg(scene, embedded=True), _bare(found.to_tikz()), scene.description, scene.size)
+        return HeadPicture(scene_svg(scene, embedded=True), _bare(scene_tikz(scene)), scene.description, scene.size)
     except Error as error:
         return _without(f"none could be drawn: {error.what}")
     except Exception as error:  # a fault in the rules of pictures must not cost a derivation
