@@ -49,6 +49,7 @@ VERBS = {
         "sweep",
         "Simulate every combination of values and keep a few numbers of each run; exit 1 if all runs fail.",
     ),
+    "look": ("look", "look", "Draw the system and open a page on which it moves, with sliders, plots and equations."),
     "web": (
         "lagrangian.web.verb",
         "web",
