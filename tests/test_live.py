@@ -14,19 +14,19 @@ from typing import Any
 import pytest
 
 import lagrangian as lg
-from lagrangian.derive import Derived, derive
 from lagrangian.graph import Program
 from lagrangian.live import live_page
+from lagrangian.model import Model
 from lagrangian.page.scene import Scene
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
 in_browser = pytest.mark.skipif(CHROMIUM is None, reason="there is no Chromium on this machine")
 
 
-def double_pendulum() -> tuple[Derived, Scene, Program]:
+def double_pendulum() -> tuple[Model, Scene, Program]:
     system = lg.example("double-pendulum")
     picture = system.look()
-    return derive(system.model), picture.scene, picture.program
+    return system.model, picture.scene, picture.program
 
 
 @pytest.fixture(scope="module")
@@ -199,21 +199,95 @@ def test_320_pixels_are_enough(browser: Any, file: Path, scheme: str) -> None:
     made.context.close()
 
 
+@in_browser
+def test_the_map_shows_where_starts_lead(opened: Opened, file: Path) -> None:
+    """Near hanging at rest the pendulum stays near; the map's worker runs the same solver as the motion."""
+    page = opened.page
+    page.click("#map summary")
+    page.fill("#map-end", "0.1")
+    page.locator("#map-end").blur()
+    opened.wait_for("document.getElementById('map-told').textContent.includes('starts in')")
+    assert "110,592 starts" in page.inner_text("#map-told")
+    box = page.locator("#map-canvas").bounding_box()
+    assert box is not None
+    page.mouse.click(box["x"] + 0.75 * box["width"], box["y"] + 0.25 * box["height"])
+    state = opened.sample()
+    assert state[1:3] == pytest.approx([math.pi / 2, math.pi / 2], abs=0.02)
+    opened.asked = [url for url in opened.asked if not url.startswith("blob:")]
+
+
+@in_browser
+def test_without_webassembly_javascript_takes_over_and_says_so(browser: Any, file: Path, tmp_path: Path) -> None:
+    path = tmp_path / "forbidden.html"
+    path.write_text(file.read_text(encoding="utf-8").replace(" 'wasm-unsafe-eval'", ""), encoding="utf-8")
+    made = Opened(browser, path.as_uri())
+    assert made.page.evaluate("motion.kind") == "javascript"
+    assert made.page.locator("#fallback").is_visible()
+    made.run_to(1.0)
+    balance = made.sample()[7]
+    assert balance == pytest.approx(9.81 * (-2 * math.cos(2.0) - math.cos(2.5)), abs=1e-6)
+    made.context.close()
+
+
+@in_browser
+def test_print_shows_the_equations_and_no_controls(opened: Opened) -> None:
+    opened.page.emulate_media(media="print")
+    assert opened.page.locator("#equations").is_visible()
+    assert opened.page.locator("#drawing svg").is_visible()
+    assert not opened.page.locator("#controls").is_visible()
+    assert not opened.page.locator("#play").is_visible()
+
+
+@in_browser
+def test_copied_models_read_back_with_the_values_of_the_sliders(opened: Opened) -> None:
+    opened.slide("p-1", 2.5)
+    opened.slide("x-0", 0.25)
+    opened.page.evaluate("void (navigator.clipboard.writeText = () => Promise.reject())")
+    opened.page.click("#copy-model")
+    opened.wait_for("document.getElementById('copy').open")
+    model = lg.loads(opened.page.input_value("#copy textarea")).model
+    assert {p.name: p.value for p in model.parameters}["m2"] == 2.5
+    assert float(model.settings["initial"]["theta1"]) == 0.25
+
+
+@in_browser
+def test_a_loop_stays_closed_while_it_is_dragged(browser: Any, tmp_path: Path) -> None:
+    path = tmp_path / "four-bar.html"
+    lg.example("four-bar").look().save(path)
+    made = Opened(browser, path.as_uri())
+    page = made.page
+    page.wait_for_timeout(100)
+    box = page.locator("#canvas").bounding_box()
+    x, y = page.evaluate("motion.handles()")[0]
+    page.mouse.move(box["x"] + x, box["y"] + y)
+    page.mouse.down()
+    page.mouse.move(box["x"] + x + 20, box["y"] + y + 10, steps=5)
+    page.mouse.up()
+    page.wait_for_timeout(100)
+    t1, t2, t3 = made.sample()[1:4]
+    closed = complex(0.5 * math.cos(t1) + 1.2 * math.cos(t2) - 0.9 * math.cos(t3) - 1.0,
+                     0.5 * math.sin(t1) + 1.2 * math.sin(t2) - 0.9 * math.sin(t3))  # fmt: skip
+    assert abs(closed) < 1e-9
+    assert abs(t1 - math.radians(60)) > 0.01
+    assert made.trouble == []
+    made.context.close()
+
+
 HOSTILE = ("</script><script>alert(1)</script>", '"><img src=x onerror=alert(1)>', "n" * 10_000, "<!--<script>", "]]>")
 
 
 @in_browser
 @pytest.mark.parametrize("name", HOSTILE, ids=lambda name: name[:12])
 def test_hostile_names_run_nothing(browser: Any, tmp_path: Path, name: str) -> None:
-    derivation, scene, program = double_pendulum()
+    given, scene, program = double_pendulum()
     model = replace(
-        derivation.model,
+        given,
         name=name,
-        parameters=tuple(replace(p, description=name) for p in derivation.model.parameters),
+        parameters=tuple(replace(p, description=name) for p in given.parameters),
         _memo={},
     )
     elements = tuple(e.named(f"{name}{k}") for k, e in enumerate(model.elements))
-    hostile = replace(derivation, model=replace(model, elements=elements, _memo={}))
+    hostile = replace(model, elements=elements, _memo={})
     drawn = replace(scene, name=name, description=name, missing=(name,))
     path = tmp_path / "hostile.html"
     path.write_text(live_page(hostile, drawn, program), encoding="utf-8")

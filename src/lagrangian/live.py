@@ -9,8 +9,8 @@ from dataclasses import replace
 from typing import Any
 
 from lagrangian import dynamics
-from lagrangian.derive import pages
-from lagrangian.derive.derived import Derived
+from lagrangian.derive import derive, pages
+from lagrangian.derive.algebra import OutOfReach
 from lagrangian.errors import ModelError
 from lagrangian.graph import Output, Program, replaced
 from lagrangian.model import Model
@@ -22,6 +22,8 @@ from lagrangian.simulate.inputs import driving
 from lagrangian.simulate.simulation import named
 from lagrangian.values.values import Given
 from lagrangian.write.blocks import Items
+from lagrangian.write.described import system_section
+from lagrangian.write.document import Document, Paragraph, Section
 from lagrangian.write.expression import Expressions
 from lagrangian.write.interactive import Adjustable, PageContents, PageSolver, page_html
 from lagrangian.write.numerals import unit as unit_text
@@ -36,17 +38,21 @@ NEVER_ZERO = ("kg", "m", "kg m^2")
 """Units of parameters that are not set to 0 by a slider: masses, lengths and inertias."""
 
 
-def live_page(derivation: Derived, scene: Scene, anchors: Program) -> str:
+MAX_FUNCTIONS = 60_000
+"""Functions in JavaScript of more characters are left out as far as WebAssembly replaces them."""
+
+
+def live_page(model: Model, scene: Scene, anchors: Program) -> str:
     """Return the page.
 
-    ``anchors`` is the program of the scene, x, u, p, t → r. Raises `RunError` for a system that a browser cannot
-    integrate, such as one with dry friction, and for parameters without a value.
+    ``anchors`` is the program of the scene, x, u, p, t → r. A system whose equations cannot be written out moves
+    nevertheless, and the page says why it has none. Raises `RunError` for a system that a browser cannot integrate,
+    and for parameters without a value.
     """
-    model = derivation.model
     module = _module(model, anchors)
     adjustables = _adjustables(model, module.layout, 0.5 * max(scene.size) / scene.scale)
     contents = PageContents(
-        pages.lay_out(derivation, details=True),
+        _document(model),
         scene_svg(scene, embedded=True),
         adjustables,
         len(model.coordinates),
@@ -59,9 +65,19 @@ def live_page(derivation: Derived, scene: Scene, anchors: Program) -> str:
     return page_html(contents)
 
 
+def _document(model: Model) -> Document:
+    """The derivation, or the description of the system and the reason why its equations cannot be written out."""
+    try:
+        return pages.lay_out(derive(model), details=True)
+    except (ModelError, OutOfReach) as reason:
+        words = f"The equations are not written out: {reason.what}."
+        said = Section("result", ("Result",), (Paragraph((words,), "note"),))
+        return Document(model.name, (system_section(model), said))
+
+
 def _subtitle(scene: Scene) -> str:
-    """The description without the name, which stands above it."""
-    words = scene.description.removeprefix(f"{scene.name}: ")
+    """What is seen, without the name, which stands above it, and the coordinates, which have sliders."""
+    words = scene.description.removeprefix(f"{scene.name}: ").partition(" Coordinates: ")[0]
     return words[:1].upper() + words[1:]
 
 
@@ -72,7 +88,10 @@ def _module(model: Model, anchors: Program) -> BrowserModule:
     drive = driving(model, None, model.settings.get("inputs", {}), dims)
     free = {u.name: k for k, u in enumerate(drive.free)}
     functions = {"power": dynamics.power_closed(model, drive.feedback), "anchors": _of_free_inputs(anchors, free)}
-    return browser_module(model, functions=functions)
+    module = browser_module(model, functions=functions)
+    return (
+        module if len(module.functions) <= MAX_FUNCTIONS else browser_module(model, functions=functions, fallback=False)
+    )
 
 
 def _of_free_inputs(program: Program, free: Mapping[str, int]) -> Program:

@@ -79,10 +79,9 @@ class Picture(Brief):
         It needs neither a network nor Python. Raises `RunError` for a system that a browser cannot integrate, such as
         one with dry friction, and if a parameter has no value.
         """
-        from lagrangian.derive import derive
         from lagrangian.live import live_page
 
-        return live_page(derive(self.model), self.scene, self.program)
+        return live_page(self.model, self.scene, self.program)
 
     def save(self, path: str | os.PathLike[str], *, overwrite: bool = True) -> Path:
         """Write the picture to a file and return its path; the ending chooses the format.

@@ -8,7 +8,9 @@
   const { scene } = data, nq = data.coordinates, size = data.x.names.length;
   const canvas = /** @type {HTMLCanvasElement} */ (element("canvas")), context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
   const plots = { coordinates: makePlot(element("plot-coordinates")), energy: makePlot(element("plot-energy")), phase: makePlot(element("plot-phase")) };
-  const run = makeRun(await physics.solver(), physics.functions, data), { history } = run;
+  const solver = await physics.solver().catch((error) => tell_(`Nothing moves here: ${error.message}`));
+  if (!solver) return;
+  const run = makeRun(solver, physics.functions, data), { history } = run;
   const picture = makePicture(scene, (x, t, r) => physics.functions.anchors(x, run.p, run.u, t, r));
   const now = new Float64Array(history.width), push = new Float64Array(data.u.names.length);
   /** What the reader sets. */
@@ -17,6 +19,10 @@
   /** How far things go: of the anchors on the picture, of each state, and of the energies. */
   let reach = { box: [0, 0, 1, 1], states: [[0, 0]], energy: [0, 0] };
   const hidden = new Set(data.x.names.map((_, i) => i).filter((i) => i >= 4));
+
+  function tell_(words) {
+    element("status").textContent = words;
+  }
 
   function element(id) {
     return /** @type {any} */ (document.getElementById(id));
@@ -209,7 +215,7 @@
     if (x === 0 || Math.abs(x) < 1e-12) return "0";
     const size = Math.abs(x);
     const text = size >= 1e5 || size < 1e-3 ? x.toExponential(n - 1).replace("e+", "e") : x.toFixed(Math.max(0, n - 1 - Math.floor(Math.log10(size))));
-    return text.replace("-", "−");
+    return (size < 0.01 ? text.replace(/\.?0+(?=e|$)/, "") : text).replace("-", "−");
   }
 
   let told = -1;
@@ -317,6 +323,7 @@
     if (control.group === "x" || shown === 0) begin();
     else goOn();
     remember();
+    redraw();
   }
 
   for (const control of controls) {
@@ -399,7 +406,7 @@
 
   /** Move the coordinates so that the body that is held comes to the pointer: damped least squares. */
   function follow(x, y) {
-    const x0 = dragged(picture, held.anchor, [x + held.dx, y + held.dy], held.x, nq, (trial) => run.consistent(trial, 0, { velocities: false }));
+    const x0 = dragged(picture, held.anchor, [x + held.dx, y + held.dy], held.x, nq, (trial) => run.closed(trial, 0, false));
     set.x.set(x0);
     held.x.set(x0);
     controls.filter((control) => control.group === "x").forEach(show);
@@ -483,6 +490,40 @@
   }
 
   window.addEventListener("hashchange", recall);
+
+  // -- the map of starts ------------------------------------------------------------------------------------------------
+
+  const pickers = Object.fromEntries(["map-x", "map-y", "map-of"].map((id) => [id, element(id)]));
+  const ends = (state) => {
+    const { range } = controls.find((control) => control.group === "x" && control.index === state);
+    return { state, low: Number(range.min), high: Number(range.max) };
+  };
+  const map = makeMap({
+    canvas: element("map-canvas"),
+    job: () => ({ x: set.x, p: set.p, u: set.u, across: ends(Number(pickers["map-x"].value)), up: ends(Number(pickers["map-y"].value)), which: Number(pickers["map-of"].value), end: Number(element("map-end").value), machine: data.machine }),
+    angle: (state) => state < nq && data.angles[state],
+    told: (words) => (element("map-told").textContent = words),
+  });
+  let soon = 0;
+  function redraw() {
+    clearTimeout(soon);
+    if (element("map").querySelector("details").open) soon = setTimeout(map.draw, 40);
+    else map.stop();
+  }
+  element("map").querySelector("details").addEventListener("toggle", redraw);
+  for (const picker of [...Object.values(pickers), element("map-end")]) picker.addEventListener("change", redraw);
+  const pick = (event) => {
+    if (!map.asked()) return;
+    const { across, up } = map.asked(), [a, b] = map.at(event);
+    set.x[across.state] = a;
+    set.x[up.state] = b;
+    controls.filter((control) => control.group === "x").forEach(show);
+    begin();
+    remember();
+    map.show();
+  };
+  element("map-canvas").addEventListener("pointerdown", pick);
+  element("map-canvas").addEventListener("pointermove", (event) => event.buttons && pick(event));
 
   // -- reading the plots ------------------------------------------------------------------------------------------------
 
@@ -597,8 +638,9 @@
   });
   element("trail").setAttribute("aria-pressed", "true");
   recall();
+  if (solver.kind !== "wasm") element("fallback").hidden = false;
   /** What scripts beside the page can ask: the time, the sample that is shown, the places of bodies on the canvas. */
-  Object.assign(globalThis, { motion: { kind: data.kind, time: () => shown, playing: () => playing, sample: () => Array.from(now), handles: () => scene.handles.map(onCanvas) } });
+  Object.assign(globalThis, { motion: { kind: solver.kind, time: () => shown, playing: () => playing, sample: () => Array.from(now), handles: () => scene.handles.map(onCanvas) } });
   if (matchMedia("(prefers-reduced-motion: reduce)").matches) hold();
   else play();
   requestAnimationFrame(frame);

@@ -22,7 +22,7 @@ from lagrangian.write.expression_tree import Math
 from lagrangian.write.html_page import escape
 from lagrangian.write.mathml import mathml
 
-SCRIPTS = ("history.js", "run.js", "picture.js", "dragging.js", "plots.js", "page.js")
+SCRIPTS = ("history.js", "run.js", "picture.js", "dragging.js", "plots.js", "map.js", "page.js")
 """The scripts of the page itself, in this order."""
 
 
@@ -122,6 +122,12 @@ def page_html(contents: PageContents) -> str:
         derivation=packed(_steps(contents.document).encode()),
         data=embedded(contents.data),
         engine=contents.solver.script(),
+        shared=squeezed(_file("closing.js")),
+        worker=squeezed(_file("worker.js")),
+        map_of=_choice("map-of", "what is coloured", coordinates, 0),
+        map_across=_choice("map-x", "from left to right", states, 0),
+        map_up=_choice("map-y", "upward", states, 1 if len(states) > 1 else 0),
+        map_end=f"{float(contents.data['duration']) / 4:.3g}",
         scripts="\n".join(squeezed(_file(name)) for name in SCRIPTS),
     )
 

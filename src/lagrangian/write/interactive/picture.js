@@ -44,10 +44,14 @@ function makePicture(scene, anchors) {
 
   /** The transformation of a part's own axes: (x, y) → (a x + c y + e, b x + d y + f), and the factor of radii. */
   function axes(placement) {
-    const { at, towards, scaling, shift, shiftTowards } = placement;
+    const { at, towards, across, scaling, shift, shiftTowards } = placement;
     const [e, f] = at === null ? shift : seen(at, shift);
     if (towards === null) return [1, 0, 0, 1, e, f, 1];
     const [x, y] = seen(towards, shiftTowards);
+    if (across !== null) {
+      const [u, v] = seen(across, shift);
+      return [x - e, y - f, u - e, v - f, e, f, Math.hypot(x - e, y - f)];
+    }
     const length = Math.hypot(x - e, y - f);
     const cos = length > 1e-9 ? (x - e) / length : 1, sin = length > 1e-9 ? (y - f) / length : 0;
     const along = scaling === "none" ? 1 : length, beside = scaling === "both" ? length : 1;
@@ -101,6 +105,7 @@ function makePicture(scene, anchors) {
     context.lineCap = context.lineJoin = "round";
     for (const part of parts) {
       const transform = part.trace ? null : axes(part.placement);
+      if (part.facing && transform && transform[0] * transform[3] >= transform[1] * transform[2]) continue; // its back is seen
       context.globalAlpha = !lit || part.elements.some((name) => lit.has(name)) ? 1 : 0.22;
       const line = colours[part.paint === "inside" ? "inside" : part.role] ?? colours.ink;
       context.setLineDash(part.dashed ? [5 * bold, 4 * bold] : []);

@@ -9,7 +9,7 @@
 function makeRun(solver, functions, data) {
   const size = data.x.names.length, inputs = data.u.names.length, interval = data.duration / 2400, piece = 24;
   const history = makeHistory(size, inputs), powers = new Float64Array(4);
-  const self = { history, interval, size, p: new Float64Array(0), u: new Float64Array(inputs), end: 0, trouble: "", occurred: /** @type {any[]} */ ([]), begin, goOn, computeTo, cut, consistent, energies, measure };
+  const self = { history, interval, size, p: new Float64Array(0), u: new Float64Array(inputs), end: 0, trouble: "", occurred: /** @type {any[]} */ ([]), begin, goOn, computeTo, cut, closed, energies, measure };
   /** The energy that hands and signals have supplied since the start. */
   let supplied = 0;
 
@@ -24,17 +24,9 @@ function makeRun(solver, functions, data) {
     self.end = t;
   }
 
-  /** The state nearest to x that satisfies all constraints. */
-  function consistent(x, t, { velocities = true } = {}) {
-    const { approach, landing } = functions, y = Float64Array.from([...x, 0].slice(0, data.machine));
-    for (let round = 0, gap = Infinity; approach && gap > 1e-12 && round < 30; round++) {
-      const change = approach(y, self.p, self.u, t);
-      for (let i = 0; i < size; i++) y[i] += change[i];
-      gap = change[y.length]; // before this step
-      if (!Number.isFinite(gap)) return Float64Array.from(x);
-    }
-    if (landing && velocities) landing(y, self.p, self.u, t).subarray(0, size).forEach((change, i) => (y[i] += change));
-    return y.every(Number.isFinite) ? y.slice(0, size) : Float64Array.from(x);
+  /** The state nearest to x that satisfies all constraints, with the values of now. */
+  function closed(x, t, velocities = true) {
+    return consistent(functions, x, self.p, self.u, t, data.machine, velocities);
   }
 
   /** Begin anew at t = 0. */
@@ -42,7 +34,7 @@ function makeRun(solver, functions, data) {
     [self.p, self.u, self.trouble, self.occurred] = [Float64Array.from(p), Float64Array.from(u), "", []];
     supplied = 0;
     history.clear();
-    sample(consistent(x, 0), 0);
+    sample(closed(x, 0), 0);
   }
 
   /** Forget what lies beyond a time. */
@@ -64,7 +56,7 @@ function makeRun(solver, functions, data) {
     cut(t);
     const before = history.at(history.count - 1, history.balance);
     [self.p, self.u, self.trouble] = [Float64Array.from(p), Float64Array.from(u), ""];
-    const x = consistent(last(), self.end);
+    const x = closed(last(), self.end);
     energies(x, self.end);
     supplied = powers[0] - before;
     history.count--;
