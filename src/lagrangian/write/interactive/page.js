@@ -640,7 +640,7 @@
   recall();
   if (solver.kind !== "wasm") element("fallback").hidden = false;
   /** What scripts beside the page can ask: the time, the sample that is shown, the places of bodies on the canvas. */
-  Object.assign(globalThis, { motion: { kind: solver.kind, time: () => shown, playing: () => playing, sample: () => Array.from(now), handles: () => scene.handles.map(onCanvas) } });
+  Object.assign(globalThis, { livePage: { kind: solver.kind, time: () => shown, playing: () => playing, sample: () => Array.from(now), handles: () => scene.handles.map(onCanvas) } });
   if (matchMedia("(prefers-reduced-motion: reduce)").matches) hold();
   else play();
   requestAnimationFrame(frame);
