@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -303,3 +304,14 @@ def test_the_layout_is_plain_data_with_names_units_and_values() -> None:
     assert {"name": "F", "unit": "N", "value": 0.0} in layout["inputs"] or layout["driven"] == ["F"]
     assert {"name": "M", "unit": "kg", "value": 1.0} in layout["parameters"]
     assert layout["statuses"]["-3"] == "the limit on the number of steps was reached"
+
+
+def test_the_python_of_the_manual_runs(tmp_path: Path) -> None:
+    manual = (Path(__file__).parents[2] / "docs" / "browser.md").read_text(encoding="utf-8")
+    (code,) = re.findall(r"```python\n(.*?)```", manual, re.DOTALL)
+    names: dict[str, Any] = {}
+    exec(compile(code, "docs/browser.md", "exec"), names)
+    script = """const p = physics.layout.parameters.map((x) => x.value);
+    show(physics.functions.bobs(Float64Array.of(0.5, 0.25, 0, 0), p, [], 0)); show(compiled().solve({t1: 5}).events);"""
+    (total,), events = in_node(names["module"], script, tmp_path)
+    assert total == 0.75 and {e["name"] for e in events} == {"through"}

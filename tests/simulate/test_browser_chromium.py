@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import re
+import threading
 from collections.abc import Iterator
+from functools import partial
+from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 from typing import Any
 
@@ -73,3 +77,29 @@ def test_events_are_found_on_a_page_and_refused_without_webassembly(browser: Any
     np.testing.assert_allclose(found["events"], np.sqrt(2 / 9.81) * np.array([1, 2]), rtol=1e-9)
     script = "return physics.solver().then(() => '', (error) => error.message);"
     assert "only by WebAssembly" in in_page(browser, module, script, tmp_path, POLICY)
+
+
+class _Quiet(SimpleHTTPRequestHandler):
+    def log_message(self, format: str, *args: Any) -> None:
+        pass
+
+
+def test_the_page_of_the_manual_moves(browser: Any, tmp_path: Path) -> None:
+    manual = (Path(__file__).parents[2] / "docs" / "browser.md").read_text(encoding="utf-8")
+    (html,) = re.findall(r"```html\n(.*?)```", manual, re.DOTALL)
+    html = html.replace("requestAnimationFrame(frame)", "{ last = state; requestAnimationFrame(frame); }")
+    (tmp_path / "index.html").write_text(html.replace("<script>", "<script>let last;", 1), encoding="utf-8")
+    lg.example("double-pendulum").export(tmp_path / "pendulum.wasm")
+    server = ThreadingHTTPServer(("127.0.0.1", 0), partial(_Quiet, directory=str(tmp_path)))
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    try:
+        page = browser.new_page()
+        errors = []
+        page.on("pageerror", lambda error: errors.append(str(error)))
+        page.goto(f"http://127.0.0.1:{server.server_port}/")
+        page.wait_for_function("typeof last !== 'undefined' && Math.abs(last[0] - 2) > 0.1")
+        page.close()
+    finally:
+        server.shutdown()
+        server.server_close()
+    assert errors == []
