@@ -103,6 +103,11 @@ class Code(StrEnum):
         "a position that contains a rate or a kink",
         "A position may depend on coordinates, parameters and t, and must have two derivatives.",
     )
+    E309 = (
+        "E309",
+        "a constraint without a slope",
+        "Where it holds, its gradient is 0, as that of x² = 0 is: it restricts no rate, and no force follows.",
+    )
     E310 = (
         "E310",
         "friction whose share cannot be told",
@@ -260,9 +265,9 @@ class Code(StrEnum):
 
 CodeText = Literal[
     "E101", "E102", "E103", "E104", "E105", "E106", "E107", "E201", "E202", "E203", "E210", "E301", "E302", "E303",
-    "E304", "E305", "E306", "E308", "E310", "E311", "E401", "E402", "E403", "E404", "E405", "E406", "E408", "E409",
-    "E410", "E412", "E413", "E414", "E415", "E416", "E417", "E418", "E419", "E501", "E502", "E503", "E504", "E505",
-    "E506", "E507", "E508", "E509", "E510", "E521", "E522", "E523", "E524", "E525", "E601", "E701", "E702", "E703",
-    "E704", "E705", "E801", "E802", "E803", "E804",
+    "E304", "E305", "E306", "E308", "E309", "E310", "E311", "E401", "E402", "E403", "E404", "E405", "E406", "E408",
+    "E409", "E410", "E412", "E413", "E414", "E415", "E416", "E417", "E418", "E419", "E501", "E502", "E503", "E504",
+    "E505", "E506", "E507", "E508", "E509", "E510", "E521", "E522", "E523", "E524", "E525", "E601", "E701", "E702",
+    "E703", "E704", "E705", "E801", "E802", "E803", "E804",
 ]  # fmt: skip
 """The codes as literal texts: a type checker rejects any other code where an error is made."""

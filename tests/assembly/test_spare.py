@@ -72,3 +72,33 @@ def test_rows_of_an_expression_given_in_two_ways_are_spare():
     s.constraint(sp.sqrt(x**2 + y**2) - 1, name="root")
     s.constraint(x**2 + y**2 + (x**2 + y**2 - 1) * x - 1, name="square")
     assert spare(s, {"x": 1.0, "y": 0.1}) == [({"root", "square"}, 1)]
+
+
+@pytest.mark.parametrize(
+    ("law", "start"),
+    [
+        (lambda x, y: x**2, {"x": 0.0, "y": 1.0}),
+        (lambda x, y: x**2, {"x": 0.3, "y": 1.0}),
+        (lambda x, y: (x**2 + y**2 - 1) ** 2, {"x": 0.3, "y": 0.9}),
+        (lambda x, y: x * y, {"x": 0.0, "y": 0.0}),
+    ],
+)
+def test_a_row_without_a_slope_is_named(law, start):
+    """x² = 0 has the gradient 2 x, which is 0 where it holds; x y = 0 has none at the crossing."""
+    s = lg.System("wall")
+    x, y = s.coordinates("x y")
+    s.particle(1.0, at=s.origin + (x, y))
+    s.constraint(law(x, y), name="wall")
+    with pytest.raises(lg.RunError, match="'wall' has no slope") as caught:
+        s.simulate(1.0, initial=start)
+    assert caught.value.code == "E309"
+    with pytest.raises(lg.RunError, match="'wall' has no slope"):
+        s.ensemble(1.0, initial={name: [value, value] for name, value in start.items()})
+
+
+def test_a_slope_that_is_small_everywhere_is_one():
+    s = lg.System("wall")
+    x, y = s.coordinates("x y")
+    s.particle(1.0, at=s.origin + (x, y))
+    s.constraint(1e-9 * (x + y**2), name="wall")
+    assert s.simulate(0.1, x=-1.0, y=1.0).success

@@ -239,6 +239,8 @@ def test_constraints_that_are_missed_after_the_projection_too_are_told(monkeypat
     run = s.simulate(2.0, initial=START)
     assert max(run.drift.position_after, run.drift.velocity_after) > 1e-6
     assert any("still missed by up to" in str(notice) for notice in run.notices)
+    runs = s.ensemble(2.0, initial={name: [value, value] for name, value in START.items()})
+    assert any("in 2 runs after the projection they are still missed" in said for said in runs.notices)
     fine = s.simulate(2.0, initial=START, method="rk4", step=1e-3)
     assert max(fine.drift.position_after, fine.drift.velocity_after) < 1e-6
     assert not any("still missed" in str(notice) for notice in fine.notices)

@@ -113,3 +113,19 @@ def test_a_driven_constraint_supplies_its_force_times_the_speed_that_it_prescrib
 
 def test_a_constraint_that_stands_still_supplies_no_power(run: lg.Trajectory) -> None:
     assert np.array_equal(run.powers["rod"], np.zeros(len(run.t)))
+
+
+@pytest.mark.parametrize("asked", ["Rod", "ROD", "rodd"])
+def test_a_row_that_is_spelled_wrong_is_suggested(asked):
+    run = lg.example("rod-pendulum").simulate(0.01)
+    with pytest.raises(lg.ModelError) as caught:
+        run[asked]
+    assert "Did you mean 'rod'?" in str(caught.value)
+
+
+def test_a_symbol_that_is_spelled_wrong_is_not_taken_for_a_row():
+    run = lg.example("four-bar").simulate(0.01)
+    name = run.states[0]
+    with pytest.raises(lg.ModelError) as caught:
+        run[name[:-1] + "_"]
+    assert "constraint row" not in str(caught.value)

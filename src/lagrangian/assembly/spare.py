@@ -32,11 +32,36 @@ NOTHING, SOMETHING = 1e-9, 1e-5
 SHARE = 1e-6
 """A row whose entry of a null vector is below this part of the largest one has none."""
 
+FLAT, ASIDE = 1e-3, 1e-2
+"""A row has no slope if it is below the first part of what it is at the second distance, relative to 1 + |q|."""
+
 DIRECTIONS, STEPS = 3, 4
 """The number of directions in which neighbours are sought, and of neighbours in each."""
 
 STRIDE = 0.06
 """The distance of neighbours: the largest change of a coordinate, relative to 1 + |q|."""
+
+
+def check_slopes(model: Model, q: Array, p: Array, t: float = 0.0) -> None:
+    """Raise `RunError` for a row whose gradient is 0 where the row holds, though not beside, as that of x² = 0."""
+    assembler = assembler_of(model)
+    source = np.random.default_rng(6)
+    here = _sizes(assembler, q, p, t)
+    if not (here < FLAT * (1 + here.max(initial=0.0))).any():
+        return
+    beside = [_sizes(assembler, q + ASIDE * (1 + np.abs(q)) * source.uniform(-1, 1, len(q)), p, t) for _ in range(3)]
+    for row, size, others in zip(assembler.rows, here, np.array(beside).T, strict=True):
+        if size < FLAT * float(np.nanmin(others)):
+            raise RunError(
+                f"the constraint '{row.name}' has no slope where it holds, so that it restricts no rate",
+                fix="write what is 0 itself instead of a power of it, x = 0 for x^2 = 0, or start elsewhere",
+                code="E309",
+            )
+
+
+def _sizes(assembler: Assembler, q: Array, p: Array, t: float) -> Array:
+    """The largest entry of every row of A."""
+    return np.abs(_matrix(assembler, q, p, t)).max(axis=1, initial=0.0)
 
 
 def spare_rows(model: Model, q: Array, v: Array, p: Array, t: float = 0.0) -> tuple[SpareRows, ...]:

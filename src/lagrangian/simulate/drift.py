@@ -77,22 +77,31 @@ def _missed(task: Task, outcome: Outcome, drift: RunDrift) -> tuple[Notice, ...]
     left = max(drift.position_after, drift.velocity_after)
     if not task.project or left <= LARGEST or outcome.status == RunStatus.APART:  # which has its own message
         return ()
-    said = (
-        f"after the projection they are still missed by up to {left:.2g} (SI units), so that fewer digits of the run "
-        "are right than its tolerances say; leave out rows that follow from others, or compare with a smaller max_step"
-    )
-    return (Notice(Code.E508, WHERE, said),)
+    return (Notice(Code.E508, WHERE, _still_missed(left)),)
 
 
-def of_runs(method: str, project: bool, position: Array, velocity: Array, margin: Array) -> tuple[str, ...]:
-    """The notices about many runs, from the drift before correction and the least margin of each."""
+def of_runs(
+    method: str, project: bool, position: Array, velocity: Array, margin: Array, left: Array
+) -> tuple[str, ...]:
+    """The notices about many runs, from the drift before and after (``left``) correction, and the least margins."""
     largest = max((float(np.nanmax(a)) for a in (position, velocity) if np.isfinite(a).any()), default=0.0)
     said = [str(notice) for notice in _too_long(method, largest, project)]
     near = np.flatnonzero((margin.ravel() < CLOSE) & (margin.ravel() >= DEPENDENT))
     if len(near):
         text = f"{len(near)} runs come within a margin of {CLOSE:g} of a position where a constraint depends on others"
         said.append(str(Notice(Code.E508, WHERE, text)))
+    missed = left[left > LARGEST] if project else left[:0]  # NaN of runs without results is not greater
+    if missed.size:
+        text = f"in {missed.size} runs {_still_missed(float(missed.max()))}"
+        said.append(str(Notice(Code.E508, WHERE, text)))
     return tuple(said)
+
+
+def _still_missed(most: float) -> str:
+    return (
+        f"after the projection they are still missed by up to {most:.2g} (SI units), so that fewer digits are right "
+        "than the tolerances say; leave out rows that follow from others, or compare with a smaller max_step"
+    )
 
 
 def _too_long(method: str, largest: float, project: bool) -> tuple[Notice, ...]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import sympy as sp
 
 from lagrangian import read
@@ -30,10 +32,18 @@ def quantity(model: Model, text: str, what: str) -> sp.Expr:
     try:
         return read.parse_expression(text, read.Scope(model.symbols), what=what)
     except ModelError:
-        meant = did_you_mean(name, names) if "." in name else None
+        meant = _row_meant(model, name, names)
         if meant is None:
             raise
-        raise ModelError(f"there is no constraint row '{name[:64]}'", fix=meant, code="E402") from None
+        raise ModelError(f"there is no quantity and no constraint row '{name[:64]}'", fix=meant, code="E402") from None
+
+
+def _row_meant(model: Model, name: str, rows: Sequence[str]) -> str | None:
+    """The question whether a row was meant; None if the name is more like that of something else."""
+    known = [*model.symbols, *rows]
+    same = [other for other in known if other.casefold() == name.casefold()]
+    found = f"Did you mean '{same[0]}'?" if same else did_you_mean(name, known)
+    return found if any(found == f"Did you mean '{row}'?" for row in rows) else None
 
 
 def row_of(model: Model, expr: object) -> Row | None:

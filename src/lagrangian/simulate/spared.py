@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.assembly.spare import spare_rows
+from lagrangian.assembly.spare import check_slopes, spare_rows
 from lagrangian.codes import Code
 from lagrangian.errors import Notice
 from lagrangian.integrate.closing import Closing
@@ -26,6 +26,7 @@ def of_run(model: Model, x: Array, p: Array, t: float) -> tuple[Model, tuple[Not
     if not model.constraints:
         return model, ()
     n, m = len(model.coordinates), len(model.velocities)
+    check_slopes(model, x[:n], p, t)
     return _knowing(model, spare_rows(model, x[:n], x[n : n + m], p, t))
 
 
@@ -41,6 +42,7 @@ def of_runs(model: Model, design: Design, closing: Closing | None, t: float) -> 
         x, closed = closing.closed(row.x, p, t)
         if not closed[0]:
             continue
+        check_slopes(model, x[0, :n], p, t)
         found = set(spare_rows(model, x[0, :n], x[0, n : n + m], p, t))
         common = found if common is None else common & found
         if not common:

@@ -185,7 +185,7 @@ def _drifted(made: Ensemble, study: Study) -> tuple[str, ...]:
     """The notice about the drift of the runs from their constraints."""
     if study.projection is None:
         return ()
-    found = (made[name] for name in ("drift position", "drift velocity", "drift margin"))
+    found = (made[f"drift {name}"] for name in ("position", "velocity", "margin", "left"))
     return of_runs(study.method, study.projection.corrects, *found)
 
 
