@@ -32,7 +32,8 @@ def lay_out(
 
     ``brief`` keeps only the titles of steps and what is marked for the one-page checklist. ``full`` writes out what
     would be summarized because of its length; ``details`` puts it under collapsible summaries instead. ``drawn`` puts
-    the picture at the head, and ``described`` what is seen in it, in words. Raises `ModelError` for an unknown notation.
+    the picture at the head, and ``described`` says in words what is seen in it. Raises `ModelError` for an unknown
+    notation.
     """
     return _Layout(derivation, notation, brief, full, details).document(drawn=drawn, described=described)
 

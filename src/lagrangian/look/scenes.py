@@ -69,7 +69,7 @@ def scene_of(model: Model, hints: Hints | None = None) -> tuple[Scene, Program]:
     draw_hints(board, parts, hints)
     EffortArtist(board, parts, turns, ties, resolver).draw()
     MeasureArtist(board, parts, turns).draw()
-    return _framed(board, model, hints, parts, room)
+    return _framed(board, model, hints, description(board, parts, ties, turns), room)
 
 
 # -- scale ------------------------------------------------------------------------------------------------------------
@@ -132,7 +132,7 @@ def _slide_apart(board: Board, pose: Pose, parts: list[Player]) -> None:
 # -- the frame of the picture -----------------------------------------------------------------------------------------
 
 
-def _framed(board: Board, model: Model, hints: Hints, parts: list[Player], room: float | None) -> tuple[Scene, Program]:
+def _framed(board: Board, model: Model, hints: Hints, said: str, room: float | None) -> tuple[Scene, Program]:
     """The scene, moved so that everything lies within its frame."""
     low, high = _extent(board)
     draw_gravity(board, np.array([high[0] + 26.0, low[1] + 8.0]))
@@ -155,7 +155,7 @@ def _framed(board: Board, model: Model, hints: Hints, parts: list[Player], room:
         tuple(tuple(map(float, board.r[k])) for k in anchors),
         tuple(_moved(part, origin) for part in sorted(board.parts, key=lambda x: x.layer)),
         tuple(_moved_label(label, origin) for label in labels),
-        description(board, parts),
+        said,
         tuple(dict.fromkeys(board.missing)),
         trail,
         tuple(dict.fromkeys(board.handles)),

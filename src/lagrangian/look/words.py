@@ -1,44 +1,314 @@
-"""A sentence that says what a picture shows, for those who cannot see it."""
+"""Sentences that say what a picture shows, for those who cannot see it: what holds what, what ties what together."""
+
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false
 
 from __future__ import annotations
 
-from collections import Counter
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
 
 from lagrangian.look.board import Board
-from lagrangian.look.cast import Player
+from lagrangian.look.cast import FLAT, BodyGlyph, Player, direction
+from lagrangian.look.holds import Hold, HoldKind
+from lagrangian.look.ties import Tie
+from lagrangian.look.turning import Turn
+from lagrangian.model import Element, Frame, Point, Rolling, Rope
 
-PLURALS = {"bar": "bars", "ball": "balls", "disc on a shaft": "discs on a shaft"}
+MOST = 14
+"""At most so many bodies, ties and coordinates are named; the rest is counted."""
 
+LONGEST_NAME = 48
 
-def description(board: Board, parts: list[Player]) -> str:
-    """The bodies by what they are drawn as, what ties them, and the coordinates."""
-    model = board.stage.model
-    bodies = Counter(part.glyph.value for part in parts)
-    shown = [f"{_count(n)} {_plural(word, n)}" for word, n in bodies.items()]
-    kinds = Counter(e.kind.replace("_", " ") for e in model.elements if e not in model.bodies)
-    others = [f"{_count(n)} {_plural(word, n)}" for word, n in kinds.items() if word != "gravity"]
-    text = f"{model.name}: {_listed(shown)}" if shown else model.name
-    if others:
-        text += f", with {_listed(others)}"
-    text += ". " + _coordinates(board)
-    return text
+GROUND = "the ground"
 
+PLAIN = re.compile(r"[^\W\d_]{3,}([ -][^\W\d_]+)*\Z")
+"""A name that is an ordinary word or several: ``pole``, ``upper arm``, but not ``m1`` or ``K2``."""
 
-def _coordinates(board: Board) -> str:
-    named = [f"{c.name} ({c.description})" if c.description else c.name for c in board.stage.model.coordinates[:12]]
-    rest = len(board.stage.model.coordinates) - len(named)
-    more = f" and {rest} more" if rest else ""
-    return f"Coordinates: {', '.join(named)}{more}."
+WORDS = {
+    BodyGlyph.BALL: "mass", BodyGlyph.SHAFT: "disc", BodyGlyph.BEAM: "beam", BodyGlyph.NONE: "body",
+}  # fmt: skip
+"""What a glyph is called in a sentence, where that is not its own word."""
 
 
-def _plural(word: str, n: int) -> str:
-    return word if n == 1 else PLURALS.get(word, f"{word}s")
+def description(board: Board, parts: list[Player], ties: Sequence[Tie], turns: Sequence[Turn]) -> str:
+    """The bodies and what holds them; what ties them together; what acts on them; the coordinates."""
+    words = _Sentences(board, parts, list(ties), list(turns))
+    sentences = ["; ".join(_cut(list(words.bodies()), "more bodies"))]
+    sentences.append("; ".join(_cut(list(words.ties_between()), "more")))
+    sentences.append("; ".join(_cut(list(words.constraints()), "more constraints")))
+    sentences.append("; ".join(_cut(list(words.actions()), "more")))
+    coordinates = [_coordinate(c.name, c.description) for c in board.stage.model.coordinates]
+    text = " ".join(f"{_capital(s)}." for s in sentences if s)
+    return f"{text} Coordinates: {'; '.join(_cut(coordinates, 'more'))}."
 
 
-def _count(n: int) -> str:
-    words = ("no", "one", "two", "three", "four", "five", "six", "seven", "eight", "nine", "ten")
-    return words[n] if n < len(words) else str(n)
+def _coordinate(name: str, words: str) -> str:
+    return f"{_short(name)}: {_short(words, 120)}" if words else _short(name)
 
 
-def _listed(words: list[str]) -> str:
-    return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
+def _cut(listed: list[str], rest: str) -> list[str]:
+    return listed if len(listed) <= MOST else [*listed[: MOST - 1], f"and {len(listed) - MOST + 1} {rest}"]
+
+
+def _short(name: str, most: int = LONGEST_NAME) -> str:
+    text = " ".join(name.split())
+    return text if len(text) <= most else text[: most - 1] + "…"
+
+
+def _capital(text: str) -> str:
+    """A sentence with a capital letter at its start, unless it starts with a symbol such as m1."""
+    first = re.split(r"[ ,;]", text, maxsplit=1)[0]
+    return text[:1].upper() + text[1:] if first.isalpha() or "-" in first else text
+
+
+class _Sentences:
+    """The phrases of one picture."""
+
+    def __init__(self, board: Board, parts: list[Player], ties: list[Tie], turns: list[Turn]) -> None:
+        self.turns = turns
+        self.board, self.motions, self.stage = board, board.motions, board.stage
+        self.parts = [p for p in parts if p.name not in board.hidden]
+        self.ties = [t for t in ties if t.element.name not in board.hidden]
+        self.space = self.stage.dimension == 3
+
+    # -- names --------------------------------------------------------------------------------------------------
+
+    def body(self, part: Player) -> str:
+        """A body as it is mentioned again: ``the pole``, ``mass m1``, ``cart 1``."""
+        word = WORDS.get(part.glyph, part.glyph.value)
+        name = _short(part.name)
+        if PLAIN.match(name):
+            return f"the {name}"
+        return name if any(len(w) > 2 and w.isalpha() for w in name.split()) else f"{word} {name}"
+
+    def first(self, part: Player) -> str:
+        """A body as it is first mentioned: ``a pole``."""
+        text = self.body(part)
+        if not text.startswith("the "):
+            return text
+        if text.endswith("s") and not text.endswith("ss"):  # several, such as wheels
+            return text[4:]
+        return f"{'an' if text[4] in 'aeiouAEIOU' else 'a'} {text[4:]}"
+
+    def owner(self, k: int, but: Player | None = None) -> str:
+        """What a point belongs to: a body, the ground, or what holds it."""
+        for part in self.parts:
+            if part is not but and k == part.point:
+                return self.body(part)
+        if self.motions.still(k):
+            return GROUND
+        for part in reversed(self.parts):
+            if part is not but and k in part.points:
+                return self.body(part)
+        if not self.motions.coordinates(k):
+            return "a driven point"
+        hold = self.motions.holds[k] if k < len(self.motions.holds) else None
+        if hold is not None and hold.holder != k and hold.how is HoldKind.FIRMLY:
+            return self.owner(hold.holder, but)
+        name = self.stage.points[k].name
+        return f"point {_short(name)}" if name else "a point that moves"
+
+    def of_point(self, point: Point) -> str:
+        return self.owner(self.stage.index(point))
+
+    def of_turn(self, turn: Turn | int | None) -> str:
+        """What turns: its body."""
+        if not isinstance(turn, Turn):
+            return GROUND
+        part = next((p for p in self.parts if p.name == turn.name), None)
+        if part is None:
+            return "what turns"
+        return self.body(part) if turn.frame is not None else f"the rod of {self.body(part)}"
+
+    def of_axes(self, thing: Any) -> str | None:
+        """The body that turns with a frame, or whose angle an expression is."""
+        if isinstance(thing, Frame):
+            part = next((p for p in self.parts if p.body.axes is thing), None)
+            return self.body(part) if part is not None else f"frame {_short(thing.name)}" if thing.name else None
+        words = self.stage.model.angle_words(thing)
+        found = next((p for p in self.parts if words == (p.body.title,)), None)
+        if found is not None:
+            return self.body(found)
+        board = self.board
+        slopes = self.stage.slopes(thing, board.q, board.p)
+        turn = next((t for t in self.turns if np.allclose(np.abs(t.slopes), np.abs(slopes), atol=1e-9)), None)
+        return None if turn is None else self.of_turn(turn)
+
+    # -- bodies -------------------------------------------------------------------------------------------------
+
+    def bodies(self) -> Iterator[str]:
+        for part in self.parts:
+            yield f"{self.first(part)} {self.held(part)}"
+
+    def held(self, part: Player) -> str:
+        """How a body is held."""
+        hold = self.motions.holds[part.point]
+        special = self._round(part)
+        if special:
+            return special
+        if part.frame is not None and part.points and hold.holder in part.points:
+            return self._jointed(part, hold.holder)
+        if hold.how is HoldKind.FIRMLY:
+            return self._resting(part, hold)
+        return self._moving(part, hold)
+
+    def _jointed(self, part: Player, joint: int) -> str:
+        """How a body with a joint besides its centre is held there."""
+        on, turns = self.owner(joint, part), self.motions.turns(part.frame)
+        if on.startswith("point ") and self.motions.holds[joint].how is HoldKind.FREE:
+            return self._free
+        if on == GROUND and len(turns) > 1 and self.space:
+            return "turning about a fixed point"
+        return f"{'hinged on' if turns else 'fixed to'} {on}"
+
+    @property
+    def _free(self) -> str:
+        return f"free to move in {'space' if self.space else 'the plane'}"
+
+    def _round(self, part: Player) -> str:
+        hold = self.motions.holds[part.point]
+        if part.glyph is BodyGlyph.WHEEL and hold.how is HoldKind.TRACK:
+            return f"rolling along {self._frame_owner(hold, part)}"
+        if part.glyph is BodyGlyph.SHAFT:
+            return "on a common shaft"
+        if part.glyph is BodyGlyph.PULLEY:
+            return "on a fixed axle"
+        if part.glyph is BodyGlyph.WHEEL and part.direction is not None and not self.space:
+            return f"rolling on {self._line(part.direction)}"
+        if any(isinstance(e, Rolling) and e.body is part.body for e in self.stage.model.elements):
+            return f"rolling on {GROUND}"
+        return ""
+
+    def _resting(self, part: Player, hold: Hold) -> str:
+        on = self.owner(hold.holder, part)
+        if part.frame is not None and self.motions.turns(part.frame):
+            return "turning about a fixed point" if on == GROUND else f"turning about its centre, on {on}"
+        return f"fixed to {on}"
+
+    def _moving(self, part: Player, hold: Hold) -> str:
+        k, on = part.point, self.owner(hold.holder, part)
+        from_where = "a fixed point" if on == GROUND else on
+        match hold.how:
+            case HoldKind.SLIDE:
+                whole = self.motions.relation(k, 0)
+                if whole.how is HoldKind.SLIDE:
+                    e = direction(self.motions.views.J[0, k])
+                    return f"on {self._line(e)}" if not self.space else "sliding along a fixed line"
+                e = direction(self.motions.views.J[0, k] - self.motions.views.J[0, hold.holder])
+                on = "a moving line" if on.startswith("a point") else on
+                return f"sliding along {on}"
+            case HoldKind.TRACK:
+                return f"moving along {self._frame_owner(hold, part)}"
+            case HoldKind.ROD:
+                return f"on a rod from {from_where}"
+            case HoldKind.TELESCOPE:
+                spring = any(t.way == "telescope" and t.b == k and t.element.kind == "spring" for t in self.ties)
+                return f"on {'a spring' if spring else 'a line of changing length'} from {from_where}"
+            case HoldKind.WIRE:
+                return "on a curve"
+            case _:
+                return self._free
+
+    def _frame_owner(self, hold: Hold, part: Player) -> str:
+        for other in self.parts:
+            if other is not part and other.frame is not None and other.frame == hold.frame:
+                return self.body(other)
+        return "a line that turns"
+
+    def _line(self, e: np.ndarray[Any, Any]) -> str:
+        """A straight line by its direction in the plane."""
+        if abs(e[1]) < FLAT:
+            return "a horizontal track"
+        return "a vertical line" if abs(e[0]) < FLAT else "a slope"
+
+    # -- elements -----------------------------------------------------------------------------------------------
+
+    def ties_between(self) -> Iterator[str]:
+        """Springs, dampers and forces along a deflection."""
+        for tie in self.ties:
+            a, b = self._ends(tie)
+            said = _said(tie.element)
+            if a is None or b is None:
+                yield said
+            elif a == b:
+                yield f"{said} at {a}"
+            else:
+                a, b = (b, a) if a == GROUND else (a, b)
+                yield f"{said} between {a} and {b}"
+
+    def _ends(self, tie: Tie) -> tuple[str | None, str | None]:
+        match tie.way:
+            case "points" | "slides":
+                return self._end(tie.a), self._end(tie.b)
+            case "telescope":
+                return (self._end(tie.a), self._end(tie.b)) if isinstance(tie.b, int) else (None, None)
+            case "joint" | "arm":
+                return self.of_turn(tie.a), self.of_turn(tie.b)
+            case _:
+                return None, None
+
+    def _end(self, k: int | Turn | None) -> str:
+        return GROUND if k is None else self.of_turn(k) if isinstance(k, Turn) else self.owner(k)
+
+    def constraints(self) -> Iterator[str]:
+        for element in self.stage.model.constraints:
+            if element.name in self.board.hidden:
+                continue
+            between: Any = getattr(element, "between", None)
+            if isinstance(element, Rope):
+                yield f"{_said(element)} through {_listed(dict.fromkeys(self.of_point(p) for p in element.through))}"
+            elif isinstance(element, Rolling):
+                continue  # said of its body
+            elif between:
+                ends = [self._beside(p, i, between) for i, p in enumerate(between)]
+                yield f"{_said(element)} joins {_listed(dict.fromkeys(ends))}"
+            else:
+                yield _said(element)
+
+    def _beside(self, point: Point, i: int, between: Sequence[Point]) -> str:
+        """What a point of a joint belongs to, as long as that is another body than at the joint's other end."""
+        other = self.stage.index(between[1 - i])
+        known = next((p for p in self.parts if i and other in (p.point, *p.points)), None)
+        return self.owner(self.stage.index(point), known)
+
+    def actions(self) -> Iterator[str]:
+        """Forces at points, torques, gravity."""
+        tied = {t.element.name for t in self.ties}
+        for element in self.stage.model.elements:
+            if element.name in tied | set(self.board.hidden) or element.ledger in ("T*", "λ"):
+                continue
+            at, on = getattr(element, "at", None), getattr(element, "on", None)
+            if element.kind == "gravity":
+                yield "gravity acts"
+            elif isinstance(at, Point):
+                reaction = getattr(element, "reaction", None)
+                pair = f", its opposite on {self.of_point(reaction)}" if isinstance(reaction, Point) else ""
+                yield f"{_said(element)} acts on {self.of_point(at)}{pair}"
+            elif on is not None:
+                yield f"{_said(element)} {self._turned(element)}"
+            else:
+                yield f"{_said(element)} acts"
+
+    def _turned(self, element: Element) -> str:
+        on, reaction = getattr(element, "on"), getattr(element, "reaction", None)  # noqa: B009
+        what, against = self.of_axes(on), self.of_axes(reaction) if reaction is not None else None
+        if what is None:
+            return "acts"
+        return f"turns {what}, its opposite {against}" if against else f"turns {what}"
+
+
+def _said(element: Element) -> str:
+    """An element by its kind and name: ``spring k``, ``the damper`` where these are the same."""
+    kind, name = element.kind.replace("_", " "), _short(element.name)
+    if name.startswith(kind):
+        return name if name != kind else f"the {kind}"
+    return f"{kind} {name}" if name else f"a {kind}"
+
+
+def _listed(words: Iterable[str]) -> str:
+    listed = list(words)
+    return listed[0] if len(listed) == 1 else f"{', '.join(listed[:-1])} and {listed[-1]}"
