@@ -280,3 +280,28 @@ def test_every_control_has_a_name(page: Any) -> None:
         page.get_by_role("link", name=view, exact=True).click()
         nameless = page.evaluate(NAMELESS)
         assert nameless == [], view
+
+
+def test_the_schematic_and_the_terms_light_each_other(page: Any) -> None:
+    opened(page, "lecture 3b")
+    page.wait_for_selector(".part-look svg")
+    page.locator("#derivation .term.stiffness").first.hover()
+    lit = page.locator(".part-look .glyph.lit")
+    assert lit.count() >= 1
+    assert {node.get_attribute("data-element") for node in lit.all()} == {"k"}
+    page.locator(".part-look [data-element=k]").first.hover()
+    assert page.locator("#derivation .term.lit").count() == page.locator("#derivation .term.stiffness").count()
+
+
+def test_the_motion_runs_in_a_frame_that_cannot_reach_the_app(page: Any) -> None:
+    opened(page, "double pendulum")
+    page.get_by_role("link", name="Motion").click()
+    frame = page.frame_locator("#motion iframe")
+    expect(frame.locator("#clock")).to_have_text(re.compile(r"t = [1-9]"))
+    inside = page.frames[1]
+    assert inside.evaluate("self.origin") == "null"
+    for reach in ("parent.document.title", "sessionStorage.length", "document.cookie"):
+        tried = f"(() => {{ try {{ return {reach}; }} catch (error) {{ return error.name; }} }})()"
+        assert inside.evaluate(tried) == "SecurityError"
+    page.get_by_role("link", name="Editor").click()
+    assert page.locator("#model-editor textarea").is_visible()

@@ -5,11 +5,14 @@ from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
+import httpx
 import pytest
 from served_app import Served
 
+import lagrangian as lg
 from lagrangian import examples
 from lagrangian.cli import main
+from lagrangian.web.app import PAGES
 
 CART = "\n".join(
     ['name = "cart"', "[coordinates]", 'x = "m"', "[parameters]", 'm = "2 kg"', 'k = "8 N/m"', "[inputs]", 'F = "N"']
@@ -173,7 +176,7 @@ MISFITS: dict[str, dict[str, Any]] = {
 }
 
 
-@pytest.mark.parametrize("verb", ["derive", "check", "preview", "simulate"])
+@pytest.mark.parametrize("verb", ["derive", "look", "page", "check", "preview", "simulate"])
 @pytest.mark.parametrize("case", MISFITS)
 def test_arguments_that_do_not_fit_are_one_error(kind_app: Served, verb: str, case: str) -> None:
     given = {"answer": "x = 0"} if verb in ("check", "preview") else {}
@@ -182,7 +185,7 @@ def test_arguments_that_do_not_fit_are_one_error(kind_app: Served, verb: str, ca
     assert answer.json()["error"]["code"] in ("E405", "E406")
 
 
-@pytest.mark.parametrize("verb", ["derive", "check", "preview", "simulate"])
+@pytest.mark.parametrize("verb", ["derive", "look", "page", "check", "preview", "simulate"])
 def test_a_request_without_a_model_is_one_error(kind_app: Served, verb: str) -> None:
     answer = kind_app.ask(verb, {})
     assert answer.json()["error"]["code"] == "E401"
@@ -219,3 +222,38 @@ def test_examples_are_those_of_the_package(kind_app: Served) -> None:
     assert [example["name"] for example in found["examples"]] == list(examples.names())
     assert all(example["text"] == examples.text(example["name"]) for example in found["examples"])
     assert found["opened"] is None
+
+
+@pytest.mark.parametrize("name", ["lecture-3b", "cart-pole", "four-bar", "spinning-top"])
+def test_a_schematic_is_that_of_the_system(kind_app: Served, name: str) -> None:
+    found = kind_app.ask("look", {"model": examples.text(name)}).json()
+    system = lg.example(name)
+    whole = found["svg"].replace("</desc>\n", f"</desc>\n<style>{found['style']}</style>", 1)
+    picture = system.look()
+    assert "".join(whole.split()) == "".join(picture._repr_html_().split())
+    assert found["elements"].keys() == {element.name for element in system.model.elements}
+    assert (found["description"], found["missing"]) == (picture.description, list(picture.missing))
+
+
+def test_a_page_that_moves_has_an_address_that_nobody_guesses_and_a_policy_of_its_own(kind_app: Served) -> None:
+    addresses = [kind_app.ask("page", {"model": CART}).json()["address"] for _ in range(PAGES + 1)]
+    assert len(set(addresses)) == PAGES + 1
+    assert all(len(address) == len("/page/") + 32 for address in addresses)
+    first, *kept = (httpx.get(kind_app.address + address) for address in addresses)
+    assert first.status_code == 404  # the oldest one has made room
+    for page in kept:
+        policy = page.headers["content-security-policy"]
+        assert policy.startswith("sandbox allow-scripts allow-downloads; default-src 'none'")
+        assert "allow-same-origin" not in policy
+        assert "connect-src" not in policy
+        assert "frame-ancestors 'self'" in policy
+        assert page.text == lg.loads(CART).look().to_html()
+    assert httpx.get(f"{kind_app.address}/page/{'a' * 32}").status_code == 404
+
+
+def test_a_motion_that_no_browser_can_integrate_is_refused(kind_app: Served) -> None:
+    friction = '[[friction]]\nname = "f"\ncoefficient = 0.3\nnormal = "m*9.81"\nalong = "x"\n'
+    unknown = CART.replace('k = "8 N/m"', 'k = { unit = "N/m" }')
+    for model in (CART + "\n" + friction, unknown):
+        error = kind_app.ask("page", {"model": model}).json()["error"]
+        assert error["what"] and error["code"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
+import secrets
 import time
 from collections.abc import AsyncIterator, Awaitable, Callable
 from importlib.resources import files
@@ -28,7 +29,7 @@ SWEEP_SECONDS = 300.0
 BODY_SECONDS = 10.0
 """The time [s] in which the body of a request must arrive."""
 
-JOBS = ("derive", "check", "preview", "simulate")
+JOBS = ("derive", "look", "check", "preview", "simulate")
 """The routes that pass a request on to a process."""
 
 TYPES = {
@@ -37,6 +38,17 @@ TYPES = {
     ".css": "text/css; charset=utf-8",
     ".svg": "image/svg+xml",
 }
+
+PAGE_POLICY = (
+    "sandbox allow-scripts allow-downloads; default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; "
+    "style-src 'unsafe-inline'; img-src data:; worker-src blob:; base-uri 'none'; form-action 'none'; "
+    "frame-ancestors 'self'"
+)
+"""The Content-Security-Policy of a page that moves. It is shown in a frame, has an origin of its own that is nobody's,
+and cannot reach the app: it has neither the token nor a way to connect."""
+
+PAGES = 4
+"""So many pages that move are kept, the newest; they are found by a random name."""
 
 GONE = 499
 """The status of a request that was given up; nobody receives it."""
@@ -59,10 +71,13 @@ class Desk:
         self.pool = WorkerPool(limits)
         self.asked = time.monotonic()
         """When the last request came [s]."""
+        self._pages: dict[str, bytes] = {}
 
     def application(self, token: str, port: int) -> Gate:
         """Return the app as an ASGI application."""
         routes = [Route(f"/api/{verb}", self._job(verb), methods=["POST"]) for verb in JOBS]
+        routes.append(Route("/api/page", self._page, methods=["POST"]))
+        routes.append(Route("/page/{name}", self._shown, methods=["GET"]))
         routes.append(Route("/api/sweep", self._sweep, methods=["POST"]))
         routes.append(Route("/api/models", self._counted(self._models), methods=["POST"]))
         routes += [Route(path, _file(*found), methods=["GET"]) for path, found in _files().items()]
@@ -92,17 +107,44 @@ class Desk:
         """A route that passes the arguments on to a process, and kills it if the request is given up."""
 
         async def respond(request: Request) -> Response:
-            self.asked = time.monotonic()
             try:
-                arguments = await self._arguments(request)
-                message = await _unless_gone(request, self.pool.run(verb, arguments, seconds=self.seconds))
+                message = await self._worked(request, verb)
             except Refused as refused:
                 return refusal(refused)
-            if "fault" in message:
-                return refusal(Refused(int(message["status"]), str(message["fault"])))
             return JSONResponse(message["answer"] if "answer" in message else {"error": message["error"]})
 
         return respond
+
+    async def _worked(self, request: Request, verb: str) -> dict[str, Any]:
+        """The message of a process about a request."""
+        self.asked = time.monotonic()
+        arguments = await self._arguments(request)
+        message = await _unless_gone(request, self.pool.run(verb, arguments, seconds=self.seconds))
+        if "fault" in message:
+            raise Refused(int(message["status"]), str(message["fault"]))
+        return message
+
+    async def _page(self, request: Request) -> Response:
+        """Make the page of a model that moves, and say where it is."""
+        try:
+            message = await self._worked(request, "page")
+        except Refused as refused:
+            return refusal(refused)
+        if "answer" not in message:
+            return JSONResponse({"error": message["error"]})
+        name = secrets.token_urlsafe(24)
+        self._pages[name] = str(message["answer"]).encode()
+        for old in list(self._pages)[:-PAGES]:
+            del self._pages[old]
+        return JSONResponse({"address": f"/page/{name}"})
+
+    async def _shown(self, request: Request) -> Response:
+        """A page that was made."""
+        found = self._pages.get(request.path_params["name"])
+        if found is None:
+            return Response("There is no such page.", 404)
+        own = {"content-security-policy": PAGE_POLICY, "x-frame-options": "SAMEORIGIN"}
+        return Response(found, headers={"content-type": TYPES[".html"], **own})
 
     async def _sweep(self, request: Request) -> Response:
         """The route of a sweep: parts of the answer as they are found, a line of JSON each, and the answer last."""

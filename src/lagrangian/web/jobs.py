@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping
 from functools import lru_cache
 from typing import Any
@@ -19,8 +20,10 @@ from lagrangian.simulate.trajectory import Trajectory
 from lagrangian.system import System, loads
 from lagrangian.web.answers import lines_of_answer, report_pieces
 from lagrangian.web.requests import Arguments, LargeModel, Part, Task
+from lagrangian.write.blocks import Items
 from lagrangian.write.html_page import pieces
 from lagrangian.write.quantities import NOTATIONS, Notation
+from lagrangian.write.scene_svg import scene_svg
 
 MAX_COORDINATES, MAX_ELEMENTS = 24, 200
 """A model with more of them is derived only if that is asked for expressly."""
@@ -32,6 +35,8 @@ UNNAMED = "model.toml"
 
 SERIES = 2001
 """The largest number of samples of a run."""
+
+_STYLE = re.compile(r"<style>(.*?)</style>", re.DOTALL)
 
 FIGURES = 6
 """Significant digits of the numbers that are plotted."""
@@ -85,6 +90,28 @@ def derive_job(given: dict[str, Any], part: Part) -> dict[str, Any]:
     document = pages.lay_out(derivation, notation=notation, details=True)
     data = json.loads(pages.to_json(derivation, notation=notation))
     return {"data": data, "title": document.title, "sections": pieces(document)}
+
+
+def look_job(given: dict[str, Any], part: Part) -> dict[str, Any]:
+    """Draw a model: the schematic as SVG, the rules of its colours apart, and what its parts are called."""
+    system = opened(Arguments(given, MODEL))
+    picture = system.look()
+    svg = scene_svg(picture.scene, embedded=True)
+    style = "".join(_STYLE.findall(svg))
+    items = Items(system.model, NOTATIONS[0], brief=False, full=False, details=True)
+    titles = items.spoken(element.title for element in system.model.elements)
+    return {
+        "svg": _STYLE.sub("", svg),
+        "style": style,
+        "description": picture.description,
+        "missing": list(picture.missing),
+        "elements": dict(zip((element.name for element in system.model.elements), titles, strict=True)),
+    }
+
+
+def page_job(given: dict[str, Any], part: Part) -> str:
+    """Return the page of a model that moves, with its integrator in WebAssembly."""
+    return opened(Arguments(given, MODEL)).look().to_html()
 
 
 def check_job(given: dict[str, Any], part: Part) -> dict[str, Any]:
@@ -141,6 +168,8 @@ def rounded(values: Any) -> list[float | None]:
 
 JOBS: Mapping[str, Task] = {
     "derive": derive_job,
+    "look": look_job,
+    "page": page_job,
     "check": check_job,
     "preview": preview_job,
     "simulate": simulate_job,

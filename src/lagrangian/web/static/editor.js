@@ -2,6 +2,7 @@
 
 import { ask, Lost } from "./ask.js";
 import { adopted, byId, download, make, settled } from "./page.js";
+import { draw } from "./schematic.js";
 import { about, keep, model, whenOpened } from "./state.js";
 import { tell } from "./trouble.js";
 import { Writing } from "./writing.js";
@@ -100,7 +101,9 @@ function show(answer, text) {
   model.dataOf = text;
   const sheet = byId("derivation");
   const closed = new Set([...sheet.querySelectorAll("details.step:not([open])")].map((d) => d.dataset.step));
-  sheet.replaceChildren(make("h2", { class: "name" }, answer.title), ...inOrder(answer.sections).map((s) => {
+  const marker = make("h2", { class: "name" }, answer.title);
+  const drawn = changed ? null : sheet.querySelector(".part-look");
+  sheet.replaceChildren(marker, ...(drawn ? [drawn] : []), ...inOrder(answer.sections).map((s) => {
     const made = make("div", { class: `part part-${s.anchor}` }, adopted(s.html));
     const step = made.querySelector("details.step");
     if (step) {
@@ -113,6 +116,7 @@ function show(answer, text) {
   const checks = answer.data.verified;
   const failed = checks.filter((/** @type {any} */ c) => c.holds === false).length;
   say(failed ? `${failed} checks fail` : `${checks.length} checks hold`, failed ? "wrong" : "right");
+  draw(() => model.dataOf === text && sheet.contains(marker)).catch(() => {});
   if (changed) document.dispatchEvent(new CustomEvent("derived"));
 }
 

@@ -1,5 +1,6 @@
 /** The models to open: built-in examples, a file, or a new one. */
 
+import { ask } from "./ask.js";
 import { byId, make } from "./page.js";
 import { open, openNew } from "./state.js";
 
@@ -10,6 +11,7 @@ export function startModels(examples) {
   const cards = byId("cards");
   const listed = examples.map((example) => ({ example, card: cardOf(example) }));
   cards.replaceChildren(...listed.map(({ card }) => card));
+  drawSeen(listed);
   byId("search").addEventListener("input", (/** @type {any} */ event) => {
     const words = event.target.value.toLowerCase().split(/\s+/);
     let count = 0;
@@ -47,4 +49,40 @@ function cardOf({ name, description, text }) {
       make("span", { class: "card-name" }, name.replaceAll("-", " ")),
       topic ? make("span", { class: "card-topic" }, topic) : null,
       make("span", { class: "card-words" }, rest)));
+}
+
+/** Draw the examples that are in sight, one after another, as long as nobody works on a model.
+ *  @param {{example: Example, card: HTMLElement}[]} listed */
+function drawSeen(listed) {
+  /** @type {Map<Element, Example>} */
+  const waiting = new Map();
+  let drawing = false;
+  const next = async () => {
+    if (drawing) return;
+    drawing = true;
+    for (const [card, example] of waiting) {
+      if (document.body.dataset.view !== "models") break;
+      waiting.delete(card);
+      const answer = await ask("look", { model: example.text, name: `${example.name}.toml` }).catch(() => null);
+      if (answer?.svg) card.querySelector("button")?.prepend(pictureOf(answer));
+    }
+    drawing = false;
+  };
+  const watching = new IntersectionObserver((entries) => {
+    for (const { target, isIntersecting } of entries) {
+      const example = listed.find(({ card }) => card === target)?.example;
+      if (!isIntersecting || !example) continue;
+      watching.unobserve(target);
+      waiting.set(target, example);
+    }
+    next();
+  });
+  for (const { card } of listed) watching.observe(card);
+  document.addEventListener("shown", next);
+}
+
+/** A schematic as an image: what is in it stays in it. @param {{svg: string, style: string}} answer */
+function pictureOf({ svg, style }) {
+  const whole = svg.replace(/(<svg[^>]*>)/, (head) => `${head}<style>${style}.lagrangian-scene{background:none!important}</style>`);
+  return make("img", { src: `data:image/svg+xml,${encodeURIComponent(whole)}`, alt: "" });
 }

@@ -1,4 +1,4 @@
-/** The motion: a run with the values of the model, as curves over time. */
+/** The motion: the page of the model, which integrates by itself; where a browser cannot, a run as curves over time. */
 
 import { ask } from "./ask.js";
 import { byId, make, settled } from "./page.js";
@@ -13,14 +13,28 @@ export function startMotion(lose) {
   const fresh = () => {
     if (document.body.dataset.view !== "motion" || !model.data || madeOf === model.dataOf) return;
     madeOf = model.dataOf;
-    build(lose);
+    start(lose).catch(lose);
   };
   document.addEventListener("shown", fresh);
   document.addEventListener("derived", fresh);
 }
 
 /** @param {(error: unknown) => void} lose */
-function build(lose) {
+async function start(lose) {
+  const text = madeOf;
+  byId("motion-lead").textContent = model.data.name;
+  byId("motion").replaceChildren(make("p", { class: "state busy", role: "status" }, "Building the motion …"));
+  const answer = await ask("page", about());
+  if (text !== madeOf) return;
+  document.body.classList.toggle("moving", !answer.error);
+  if (answer.error) return build(lose, answer.error);
+  byId("motion").replaceChildren(make("iframe", {
+    src: answer.address, sandbox: "allow-scripts allow-downloads", title: `The motion of ${model.data.name}`,
+  }));
+}
+
+/** @param {(error: unknown) => void} lose @param {import("./ask.js").Trouble} reason why there is no page */
+function build(lose, reason) {
   const { parameters, coordinates } = model.data;
   const place = make("div", { class: "plots" });
   const said = make("p", { class: "small", role: "status" });
@@ -44,10 +58,11 @@ function build(lose) {
   };
   const form = make("form", { class: "values", oninput: settled(act, 500), onsubmit: (/** @type {Event} */ e) => { e.preventDefault(); act(); } },
     ...fields.map((f) => f.made), make("button", { type: "submit", class: "primary" }, "Run"));
-  byId("motion").replaceChildren(make("div", { class: "panes narrow" },
+  const why = make("div", { class: "trouble" });
+  tell(why, reason);
+  byId("motion").replaceChildren(why, make("p", { class: "small" }, "So the app computes the run, and shows it as curves."), make("div", { class: "panes narrow" },
     make("div", { class: "pane" }, make("h2", {}, "Values"), make("p", { class: "small" }, "SI units, or with a unit: 30 deg, 12 mm. What is left empty is taken from the model."), form),
     make("div", { class: "pane" }, trouble, place, said)));
-  byId("motion-lead").textContent = model.data.name;
   act();
 }
 
