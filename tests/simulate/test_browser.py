@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 from browser_runs import in_node, needs_node
 from run_systems import ball, oscillator
+from test_drift import RELEASED, START, growing, plate_on_cranks
 from test_sticking import FILE, last_stop
 from test_switching import pushed, travelled
 
@@ -225,6 +226,20 @@ def test_a_reset_that_breaks_a_constraint_ends_the_run(tmp_path: Path) -> None:
     (found,) = in_node(module, "show(compiled().solve({t1: 1, samples: 11}));", tmp_path)
     run = s.simulate(1.0, samples=11, events=event)
     assert found["status"] == run.status == -11
+
+
+def test_rows_that_follow_from_others_are_left_out_as_long_as_they_do(tmp_path: Path) -> None:
+    """The plate has a spare row all the time; the growing rod contradicts the other one after a while."""
+    plate, rods = plate_on_cranks(), growing()
+    script = "const s = compiled(); show(s.solve({t1: 2, samples: 201})); show(s.start().advance(2).status);"
+    turned, status = in_node(browser_module(plate, initial=START), script, tmp_path)
+    run = plate.simulate(2.0, initial=START, samples=201)
+    assert turned["status"] == run.status == status == 0
+    np.testing.assert_allclose(np.array(turned["states"]).T, run.y, rtol=1e-7, atol=1e-7)
+    found, status = in_node(browser_module(rods, initial=RELEASED), script, tmp_path)
+    run = rods.simulate(2.0, samples=201, **RELEASED)
+    assert found["status"] == run.status == status == -13
+    assert found["reached"] == pytest.approx(run.t[-1], abs=0.011)
 
 
 def test_limits_end_runs(tmp_path: Path) -> None:

@@ -23,7 +23,7 @@ from lagrangian.errors import RunError
 from lagrangian.integrate import METHODS, RunStatus
 from lagrangian.integrate.portable import driver, portable
 from lagrangian.model import Model
-from lagrangian.simulate import drift
+from lagrangian.simulate import drift, spared
 from lagrangian.simulate.admission import check_masses
 from lagrangian.simulate.browser_parts import BrowserParts, Quantities
 from lagrangian.simulate.events import Event, listed_events
@@ -53,6 +53,7 @@ CODES = {
     "noConvergence": RunStatus.NO_CONVERGENCE,
     "chatters": RunStatus.CHATTERS,
     "broken": RunStatus.BROKEN,
+    "apart": RunStatus.APART,
 }
 """The statuses that the driver gives or reads, by its names for them."""
 
@@ -174,7 +175,8 @@ def browser_module(
     guess = initial_state(given, model, program, model.settings.get("initial", {}), initial, {})
     x0, _ = onto_constraints(model, guess, p, float(settings.start), held(model, None))
     relative, absolute = settings.of_a_step()
-    parts = BrowserParts.of(model, drive, method, listed_events(settings.events))
+    knowing, _ = spared.of_run(model, x0, p, float(settings.start))
+    parts = BrowserParts.of(knowing, drive, method, listed_events(settings.events))
     made = portable(
         parts.rates,
         method,

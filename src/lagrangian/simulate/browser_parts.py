@@ -105,6 +105,8 @@ class BrowserParts:
             found |= {"momenta": dynamics.momenta(self.model), "velocities": dynamics.velocities(self.model)}
         if self.switches:
             found["switches"] = self.switches.compared()
+        if self.rows is not None and self.rows.spare:
+            found["landing"] = self.rows.landing(self.field)
         if self.sticking:
             found |= {"rhs": self.field, "surfaces": self.sticking.surfaces()}
         return found
@@ -127,6 +129,9 @@ class BrowserParts:
                 for e in self.watched
             ],
             "supply": dynamics.SUPPLY in self.field.inputs["x"],
+            "spare": {"names": ["position_after", "velocity_after"], "limit": BREAKS}
+            if "landing" in self._around
+            else None,
             "momenta": self.momenta,
             "switching": bool(self.switches),
             "sticking": sticking,

@@ -87,7 +87,10 @@ class WasmSolver extends Solver {
     if (store) run.states = rows("states", count * samples, (k) => times[k % samples]);
     run.final = rows("final", count, (k) => run.reached[k]);
     run.supplied = store ? supplied("states", count * samples) : supplied("final", count);
-    if (l.broken && count === 1) this.broken(run, new Float64Array(buffer, at.drift, m.drift.length));
+    const drift = new Float64Array(buffer, at.drift, count * m.drift.length);
+    const beyond = (rule) => rule && count === 1 && rule.names.some((name) => drift[m.drift.indexOf(name)] > rule.limit);
+    if (beyond(l.spare)) this.apart(run, u, p, times);
+    if (beyond(l.broken)) this.broken(run);
     return run;
   }
 
@@ -215,11 +218,28 @@ class WasmSolver extends Solver {
     if (sticking(final, run.reached[0])) run.status[0] = codes.chatters;
   }
 
-  /* End a run at its first reset, if the state after a reset breaks a constraint. */
-  broken(run, drift) {
-    const { names, limit } = this.layout.broken, places = names.map((name) => this.layout.machine.drift.indexOf(name));
+  /* End a run before the first sample that violates a row of constraints that followed from others at the start. */
+  apart(run, u, p, times) {
+    const l = this.layout, shown = l.states.length, x = new Float64Array(l.machine.size);
+    const violates = (state, t) => {
+      x.set(state);
+      const [rest, gap] = this.functions.landing(x, p, u, t).subarray(x.length);
+      return Math.max(rest, gap) > l.spare.limit;
+    };
+    const row = (k) => run.states.subarray(k * shown, (k + 1) * shown);
+    const k = run.states ? times.findIndex((t, n) => n > 0 && t <= run.reached[0] && violates(row(n), t)) : -1;
+    if (k < 0 && (run.states || !violates(run.final, run.reached[0]))) return;
+    run.status[0] = l.codes.apart;
+    if (k < 0) return;
+    run.reached[0] = times[k - 1];
+    run.final.set(row(k - 1));
+    run.events = run.events.filter((e) => e.t <= times[k - 1]);
+  }
+
+  /* End a run in which the state after a reset breaks a constraint, at its first reset. */
+  broken(run) {
     const k = run.events.findIndex((e) => this.layout.events[e.index].reset);
-    if (k < 0 || !places.some((place) => drift[place] > limit)) return;
+    if (k < 0) return;
     run.status[0] = this.layout.codes.broken;
     run.reached[0] = run.events[k].t;
     run.final.set(run.events[k].state);
