@@ -7,7 +7,7 @@ from lagrangian.lazily import lazily as _lazily
 
 if _typing.TYPE_CHECKING:
     from lagrangian.check.verb import CheckedAnswer
-    from lagrangian.compare import Comparison, compare
+    from lagrangian.compare import Comparison, PicturePair, compare
     from lagrangian.compiled import Compiled
     from lagrangian.derivation import Derivation
     from lagrangian.derive import LedgerRow, Origin, Step
@@ -38,7 +38,7 @@ else:
         __name__,
         {
             "check.verb": "CheckedAnswer",
-            "compare": "Comparison compare",
+            "compare": "Comparison PicturePair compare",
             "compiled": "Compiled",
             "derivation": "Derivation",
             "derive": "LedgerRow Origin Step",
@@ -96,6 +96,7 @@ __all__ = [
     "Origin",
     "ParseError",
     "Picture",
+    "PicturePair",
     "Place",
     "Reaction",
     "Regulator",

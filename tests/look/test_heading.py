@@ -5,6 +5,7 @@ import shutil
 import subprocess
 import xml.etree.ElementTree as ET
 from pathlib import Path
+from typing import Any
 
 import pytest
 import sympy as sp
@@ -24,7 +25,7 @@ def cart_pole() -> lg.Derivation:
 
 
 def energies() -> lg.System:
-    q = dynamicsymbols("q")
+    q: Any = dynamicsymbols("q")
     m, k = sp.symbols("m k")
     return lg.System.from_energies([q], T=m * q.diff() ** 2 / 2, V=k * q**2 / 2)
 
@@ -70,7 +71,7 @@ def test_a_fault_in_the_rules_costs_no_derivation(monkeypatch: pytest.MonkeyPatc
     def broken(*_: object, **__: object) -> None:
         raise error
 
-    monkeypatch.setattr(heading, "picture", broken)
+    monkeypatch.setattr(heading, "scene_of", broken)
     derivation = lg.example("pendulum").derive()
     html = derivation.to_html()
     assert "picture: none could be drawn" in html and "<figure" not in html

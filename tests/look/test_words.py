@@ -10,8 +10,8 @@ from lagrangian.examples import names
 
 KNOWN = {
     "cart-pole": "A cart on a horizontal track; a pole hinged on the cart. Damper b between the cart and the ground. "
-    "Gravity acts; force F acts on the cart. Coordinates: x: cart, along the track; theta: pole, from upright, positive "
-    "where it leans forward.",
+    "Gravity acts; force F acts on the cart. Coordinates: x: cart, along the track; theta: pole, from upright, "
+    "positive where it leans forward.",
     "double-pendulum": "Mass m1 on a rod from a fixed point; mass m2 on a rod from mass m1. Gravity acts. Coordinates: "
     "theta1: rod 1, from hanging straight down; theta2: rod 2, from hanging straight down.",
     "lecture-3b": "Cart m1 on a horizontal track; cart m2 on a horizontal track. Spring k between cart m1 and cart m2; "
@@ -22,8 +22,8 @@ KNOWN = {
     "base; theta2: coupler, from the base; theta3: rocker, from the base.",
     "atwood": "Block m1 on a vertical line; block m2 on a vertical line; a pulley on a fixed axle. Gravity acts. "
     "Coordinates: x: mass 1, downward.",
-    "ball-and-beam": "A ball rolling along the beam; a beam turning about a fixed point. Gravity acts; torque tau turns "
-    "the beam. Coordinates: r: ball, along the beam, from the pivot; theta: tilt of the beam, counter-clockwise.",
+    "ball-and-beam": "A ball rolling along the beam; a beam turning about a fixed point. Gravity acts; torque tau "
+    "turns the beam. Coordinates: r: ball, along the beam, from the pivot; theta: tilt of the beam, counter-clockwise.",
 }
 
 

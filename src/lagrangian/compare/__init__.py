@@ -2,6 +2,7 @@
 
 from lagrangian.compare.compare import compare
 from lagrangian.compare.comparison import Comparison, comparison_report
+from lagrangian.compare.pictures import PicturePair
 from lagrangian.compare.rows import ComparedSystem, Difference, EquationRow, ParameterDifference, Rewritten
 
 __all__ = [
@@ -10,6 +11,7 @@ __all__ = [
     "Difference",
     "EquationRow",
     "ParameterDifference",
+    "PicturePair",
     "Rewritten",
     "compare",
     "comparison_report",

@@ -9,6 +9,7 @@ from typing import Any, cast
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.compare.pictures import PicturePair, pictures
 from lagrangian.compare.rows import ComparedSystem, Difference, EquationRow, ParameterDifference, Rewritten
 from lagrangian.compare.words import commas, recipe, symbols, within
 from lagrangian.coordinates import Change
@@ -54,6 +55,10 @@ class Comparison(Written):
     differences: tuple[Difference, ...] = ()
     parameters: tuple[ParameterDifference, ...] = ()
     why: Text | None = None
+
+    def look(self) -> PicturePair:
+        """Return the schematics of both systems side by side, in the same pose where the coordinates correspond."""
+        return pictures(self.source, self.into, self.change)
 
     def report(self) -> Report[Model]:
         """Return the report."""

@@ -35,9 +35,13 @@ def scene_svg(scene: Scene, *, embedded: bool = False) -> str:
     Every part is in a group ``<g class="glyph kind-… role-…" data-element="…">``; `data_element` says how the names of
     elements are written there.
     """
+    return document(scene, scene_body(scene), size=scene.size, embedded=embedded)
+
+
+def scene_body(scene: Scene) -> list[str]:
+    """Return the groups of a scene's parts and labels, for a document of any size."""
     at = places(scene)
-    body = [*_groups(scene.parts, at), *labels(scene, at)]
-    return document(scene, body, size=scene.size, embedded=embedded)
+    return [*_groups(scene.parts, at), *labels(scene, at)]
 
 
 def document(
