@@ -31,6 +31,7 @@ VERBS = {
     "conserved": ["conserved", "FILE"],
     "export": ["export", "FILE", "--to", "c", "-o", "OUT"],
     "simulate": ["simulate", "FILE", "-d", "1"],
+    "animate": ["animate", "FILE", "-d", "1", "-o", "-"],
     "sweep": ["sweep", "FILE", "m=1:2:2", "-d", "0.5", "--threads", "1"],
 }
 METHODS: dict[str, Callable[[lg.System], object]] = {

@@ -23,6 +23,7 @@ from lagrangian.cli.terminal import (
     Fixed,
     Force,
     Initial,
+    InputSignals,
     MaxStep,
     MaxSteps,
     OptionalFile,
@@ -53,16 +54,7 @@ def simulate(
     init: Initial = None,
     fixed: Fixed = None,
     set_: Parameters = None,
-    input_: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--input",
-            "-i",
-            metavar="NAME=VALUE",
-            help='An input: tau=2, "tau=3*sin(t)", "F=-k*x", or a table of times and values: F=@force.csv (straight '
-            'lines between them), "F=@force.csv hold" (steps). Repeatable.',
-        ),
-    ] = None,
+    input_: InputSignals = None,
     output: Annotated[
         Path | None,
         typer.Option(
@@ -132,7 +124,7 @@ def simulate(
         initial=assignments(init, "--init"),
         fixed=fixed,
         params=assignments(set_, "--set"),
-        inputs={name: _signal(name, value) for name, value in assignments(input_, "--input").items()},
+        inputs={name: input_signal(name, value) for name, value in assignments(input_, "--input").items()},
         method=method,
         step=step,
         rtol=rtol,
@@ -165,7 +157,7 @@ def simulate(
         raise typer.Exit(1)
 
 
-def _signal(name: str, value: str) -> Any:
+def input_signal(name: str, value: str) -> Any:
     """Return an input as given, or read the table of ``@force.csv``, which has a time and a value on each line."""
     if not value.startswith("@"):
         return value

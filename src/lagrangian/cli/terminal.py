@@ -74,7 +74,18 @@ ConstantInputs = Annotated[
     typer.Option("--input", "-i", metavar="NAME=VALUE", help="Constant value of an input: F=2. Repeatable."),
 ]
 
-# -- shared by `simulate` and `sweep` --------------------------------------------------------------------------------
+InputSignals = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--input",
+        "-i",
+        metavar="NAME=VALUE",
+        help='An input: tau=2, "tau=3*sin(t)", "F=-k*x", or a table of times and values: F=@force.csv (straight '
+        'lines between them), "F=@force.csv hold" (steps). Repeatable.',
+    ),
+]
+
+# -- shared by `simulate`, `animate` and `sweep` ---------------------------------------------------------------------
 
 Duration = Annotated[
     str | None,

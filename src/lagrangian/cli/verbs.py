@@ -44,6 +44,12 @@ VERBS = {
         "simulate",
         "Simulate the system and print a summary; exit 1 if the run stopped early (its results up to then are kept).",
     ),
+    "animate": (
+        "animate",
+        "animate",
+        "Write an animation of a run: SVG, HTML, GIF or a video; exit 1 if the run stopped early (it is shown up to "
+        "then).",
+    ),
     "sweep": (
         "sweep",
         "sweep",

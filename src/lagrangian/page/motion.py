@@ -55,7 +55,7 @@ class SceneMotion:
     def pace(self) -> str:
         """How fast the motion is shown, unless it is real time."""
         speed = float(self.times[-1] - self.times[0]) / self.duration
-        return "" if abs(speed - 1.0) < 0.02 else f"{speed:.2g} × real time"
+        return "" if abs(speed - 1.0) < 0.02 else f"{speed:.4g} × real time"
 
     @property
     def usual_width(self) -> float:

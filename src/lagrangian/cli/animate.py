@@ -1,0 +1,151 @@
+"""``lagrangian animate``: one run as moving pictures, in a file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from lagrangian.cli.assignments import assignments
+from lagrangian.cli.door import fail, put, say
+from lagrangian.cli.formats import as_json
+from lagrangian.cli.progress import status
+from lagrangian.cli.simulate import input_signal
+from lagrangian.cli.terminal import (
+    OUTPUT,
+    Duration,
+    Example,
+    Fixed,
+    Force,
+    Initial,
+    InputSignals,
+    Json,
+    OptionalFile,
+    Parameters,
+    open_system,
+)
+from lagrangian.cli.wording import in_options
+from lagrangian.errors import Error
+from lagrangian.simulate.animation import ENDINGS
+from lagrangian.write.tables import check_target
+
+if TYPE_CHECKING:
+    from lagrangian.simulate.animation import Animation
+    from lagrangian.simulate.trajectory import Trajectory
+
+SAMPLES = 2001
+"""The number of samples of a run; between them, the animation follows smooth curves."""
+
+
+def animate(
+    file: OptionalFile = None,
+    example: Example = None,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output",
+            "-o",
+            metavar="PATH",
+            help="The file to write (.svg, .html, .gif, .mp4, .webm); - writes SVG to standard output.",
+            show_default=False,
+            rich_help_panel=OUTPUT,
+        ),
+    ] = None,
+    duration: Duration = None,
+    init: Initial = None,
+    fixed: Fixed = None,
+    set_: Parameters = None,
+    input_: InputSignals = None,
+    trail: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--trail", metavar="POINT[,POINT]", help="Draw the paths of these points. By default, as the file says."
+        ),
+    ] = None,
+    speed: Annotated[
+        float | None,
+        typer.Option(
+            metavar="NUMBER",
+            help="Seconds of the run shown in a second. By default 1, but slower for very short runs and faster for "
+            "long ones.",
+            show_default=False,
+        ),
+    ] = None,
+    fps: Annotated[float, typer.Option(metavar="NUMBER", help="Frames a second.", rich_help_panel=OUTPUT)] = 25.0,
+    width: Annotated[
+        float | None,
+        typer.Option(metavar="PIXELS", help="Width of the picture.", show_default=False, rich_help_panel=OUTPUT),
+    ] = None,
+    dark: Annotated[
+        bool, typer.Option("--dark", help="Light on dark, in .gif, .mp4 and .webm.", rich_help_panel=OUTPUT)
+    ] = False,
+    samples: Annotated[
+        int, typer.Option(metavar="N", help="Number of evenly spaced times at which the run is stored.")
+    ] = SAMPLES,
+    json: Json = False,
+    force: Force = False,
+) -> None:
+    """Write an animation of a run: SVG, HTML, GIF or a video; exit 1 if the run stopped early (it is shown up to then).
+
+    SVG plays wherever images do. GIF needs the extra 'animate', videos need ffmpeg besides.
+
+    \b
+    Examples:
+      lagrangian animate --example double-pendulum -d 10 --trail P2 -o pendulum.svg
+      lagrangian animate carts.toml -o carts.gif --set k=80 --init "x2=0.4 m" --speed 0.5
+      lagrangian animate cart.toml -d 5 --input "F=3*sin(t)" --fps 50 --width 800 -o cart.mp4
+    """
+    if output is None:
+        raise Error("no file was given", fix="name one with -o: -o motion.svg, .html, .gif, .mp4 or .webm", code="E401")
+    shown = str(output) == "-"
+    if not shown:
+        check_target(output, list(ENDINGS), overwrite=force)
+    system = open_system(file, example)
+    run = system.simulate(
+        duration,
+        initial=assignments(init, "--init"),
+        fixed=fixed,
+        params=assignments(set_, "--set"),
+        inputs={name: input_signal(name, value) for name, value in assignments(input_, "--input").items()},
+        samples=samples,
+    )
+    points = None if trail is None else [name.strip() for item in trail for name in item.split(",") if name.strip()]
+    animation = run.animate(speed=speed, trail=points, fps=fps, width=width)
+    if shown:
+        put(animation.to_svg())
+    else:
+        animation.save(output, overwrite=force, dark=dark, progress=status.counted("frames"))
+        put(as_json(figures(run, animation, output)) if json else summary(animation, output))
+    for notice in run.notices:
+        say(f"note: {notice}")
+    if not run.success:
+        fail(in_options(run.message))
+        raise typer.Exit(1)
+
+
+def summary(animation: Animation, path: Path) -> list[str]:
+    """Return what was written, in a line."""
+    motion = animation.motion
+    pace = f", {motion.pace}" if motion.pace else ""
+    span = f"t = {motion.times[0]:g} … {motion.times[-1]:g} s"
+    return [f"wrote {path}: {span}, {animation.frames} frames, {animation.duration:g} s{pace}"]
+
+
+def figures(run: Trajectory, animation: Animation, path: Path) -> dict[str, Any]:
+    """Return the same as data."""
+    times = animation.motion.times
+    return {
+        "name": run.model.name,
+        "path": str(path),
+        "success": bool(run.success),
+        "message": in_options(run.message),
+        "notices": [str(notice) for notice in run.notices],
+        "start": float(times[0]),
+        "end": float(times[-1]),
+        "frames": animation.frames,
+        "fps": animation.fps,
+        "duration": animation.duration,
+        "width": animation.width,
+        "bytes": path.stat().st_size,
+    }
