@@ -1,27 +1,19 @@
 """Rows in the order given: which are independent, which are redundant, and which contradict others."""
 
-# mpmath has no type stubs:
-# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownVariableType=false
-# pyright: reportUnknownArgumentType=false
-
 from __future__ import annotations
 
-import random
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
-
-import mpmath
 
 from lagrangian.derive.constraints.pfaffian import RowForm, Sheet
-from lagrangian.derive.constraints.spans import DIGITS, GenericPoint, evaluated
-from lagrangian.graph import reached
+from lagrangian.derive.constraints.satisfied import satisfied
+from lagrangian.derive.constraints.spans import GenericPoint
 
 STARTS = 6
 """The number of points from which a position that satisfies the earlier rows is sought."""
 
-STEPS = 60
-"""The number of Newton steps from each of them."""
+CLOSED, ZERO = 1e-40, 1e-30
+"""The largest residual of such a position, and the largest value there of a row that agrees."""
 
 
 @dataclass(frozen=True)
@@ -87,39 +79,8 @@ def _agrees(sheet: Sheet, place: GenericPoint, form: RowForm, repeated: Sequence
 
 
 def _at_satisfied(sheet: Sheet, position: int, others: list[int], start: int) -> bool | None:
-    """Whether f = 0 at a position that satisfies the others, which Newton's method finds from a random start."""
+    """Whether f = 0 at a position that satisfies the others; None if none was found from this start."""
     if not others:
         return False  # f does not depend on the coordinates, and is not 0
-    graph, draw = sheet.graph, random.Random(start)
-    slopes = [sheet.differential(f)[:-1] for f in others]
-    wanted = [position, *others, *(x for row in slopes for x in row)]
-    inputs = [i for i in reached(graph, wanted) if graph.nodes[i][0] == "input"]
-    with mpmath.workdps(DIGITS):
-        values: dict[int, Any] = {}
-        for i in inputs:
-            number = sheet.numbers.get(i)
-            values[i] = (
-                +mpmath.pi
-                if i == sheet.pi
-                else mpmath.mpf(draw.randrange(10**DIGITS)) / 10**DIGITS + mpmath.mpf("0.3")
-                if number is None
-                else mpmath.mpf(number.numerator) / number.denominator
-            )
-        columns = sheet.columns[:-1]
-        for _ in range(STEPS):
-            found = evaluated(sheet, wanted, values)
-            if not all(mpmath.isfinite(x) for x in found):
-                return None
-            residual = mpmath.matrix(found[1 : 1 + len(others)])
-            if mpmath.norm(residual) < mpmath.mpf(10) ** -40:
-                return bool(abs(found[0]) < mpmath.mpf(10) ** -30)
-            width = len(columns)
-            flat = found[1 + len(others) :]
-            slope = mpmath.matrix([flat[k * width : (k + 1) * width] for k in range(len(others))])
-            try:
-                step = slope.T * mpmath.lu_solve(slope * slope.T, residual)
-            except ZeroDivisionError:
-                return None
-            for k, column in enumerate(columns):
-                values[column] = values.get(column, mpmath.mpf(0)) - step[k]
-    return None
+    there = satisfied(sheet, others, start, within=CLOSED, others=[position])
+    return None if there is None else bool(abs(there.others[0]) < ZERO)
