@@ -167,6 +167,7 @@ def _data(model: Model, layout: Mapping[str, Any], scene: Scene, adjustables: Se
         "scene": as_data(scene),
         "coordinates": len(model.coordinates),
         "angles": [entry["unit"] == "rad" for entry in layout["states"][: len(model.coordinates)]],
+        "constrained": bool(model.constraints),
         "machine": layout["machine"]["size"],
         "x": group("x"),
         "p": group("p"),

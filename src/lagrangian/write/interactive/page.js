@@ -18,6 +18,8 @@
   let playing = false, shown = 0, last = 0, lit = null, stale = true, colours = readColours(), held = null, turning = null;
   /** How far things go: of the anchors on the picture, of each state, and of the energies. */
   let reach = { box: [0, 0, 1, 1], states: [[0, 0]], energy: [0, 0] };
+  /** Without the functions that close loops nothing can be dragged. */
+  const draggable = data.constrained && !physics.functions.approach ? [] : scene.handles;
   const hidden = new Set(data.x.names.map((_, i) => i).filter((i) => i >= 4));
 
   function tell_(words) {
@@ -364,7 +366,7 @@
     history.state(shown, now);
     picture.place(now.subarray(1, 1 + size), shown);
     let nearest = null, best = 32;
-    for (const anchor of scene.handles) {
+    for (const anchor of draggable) {
       const [X, Y] = onCanvas(anchor), distance = Math.hypot(X - x, Y - y);
       if (distance < best) [nearest, best] = [{ anchor, dx: X - x, dy: Y - y }, distance];
     }
@@ -421,6 +423,7 @@
   // the derivation is the largest part of the page, and comes packed
   element("whole").innerHTML = await unpacked(element("packed-steps").textContent).text();
   const terms = [...document.querySelectorAll(".term[data-from]")].map((node) => {
+    node.setAttribute("role", "group"); // it has a label
     const from = `, ${node.getAttribute("data-from")}, `;
     return { node, names: Object.keys(data.elements).filter((name) => from.includes(`, ${data.elements[name]}, `)) };
   });

@@ -217,7 +217,7 @@ _ENERGIES = (
 def _legend(coordinates: Sequence[Adjustable]) -> str:
     keys = "".join(
         f'<button type="button" class="key key-{i % 6}" data-series="{i}" aria-pressed="true">'
-        f"{mathml(a.label)}</button> "
+        f"{_both(a)}</button> "
         for i, a in enumerate(coordinates)
     )
     units = ", ".join(dict.fromkeys(a.unit for a in coordinates if a.unit))
@@ -234,10 +234,15 @@ def _choice(identity: str, what: str, states: Sequence[Adjustable], chosen: int)
 
 
 def _numbers(states: Sequence[Adjustable]) -> str:
-    rows: list[tuple[str, str, str]] = [(mathml(a.label), f"number-{i}", escape(a.unit)) for i, a in enumerate(states)]
+    rows = [(_both(a), f"number-{i}", escape(a.unit)) for i, a in enumerate(states)]
     rows += [("T", "number-T", "J"), ("V", "number-V", "J"), ("T + V − supplied", "number-balance", "J")]
     rows += [("its change since the start", "number-audit", "J")]
     return "".join(_number(*row) for row in rows)
+
+
+def _both(a: Adjustable) -> str:
+    """The formula to look at, and its name for readers of the screen that do not speak formulas."""
+    return f'<span aria-hidden="true">{mathml(a.label)}</span><span class="unseen">{escape(a.plain or a.name)}</span>'
 
 
 def _number(label: str, identity: str, unit: str) -> str:
