@@ -275,6 +275,30 @@ def test_a_loop_stays_closed_while_it_is_dragged(browser: Any, tmp_path: Path) -
     made.context.close()
 
 
+@in_browser
+def test_a_push_is_counted_as_supplied(browser: Any, tmp_path: Path) -> None:
+    path = tmp_path / "cart-pole.html"
+    lg.example("cart-pole").look().save(path)
+    made = Opened(browser, path.as_uri())
+    page = made.page
+    knob = page.locator("[data-push]").nth(1)
+    page.keyboard.press("Space")
+    knob.focus()
+    page.keyboard.down("Space")
+    made.wait_for("livePage.time() > 0.5")
+    page.keyboard.up("Space")
+    made.wait_for("livePage.time() > 0.8")
+    page.locator("#play").click()
+    page.wait_for_timeout(100)
+    *_, T, V, balance, force = made.sample()
+    assert force == 0.0
+    assert T + V > balance + 0.1  # the push has done work
+    at_start = 0.2 * 9.81 * 0.3 * math.cos(0.1)  # m g l cos θ, at rest
+    assert balance == pytest.approx(at_start, abs=1e-6)
+    assert made.trouble == []
+    made.context.close()
+
+
 HOSTILE = ("</script><script>alert(1)</script>", '"><img src=x onerror=alert(1)>', "n" * 10_000, "<!--<script>", "]]>")
 
 

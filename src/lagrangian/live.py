@@ -161,12 +161,13 @@ def _data(model: Model, layout: Mapping[str, Any], scene: Scene, adjustables: Se
         return {"names": [a.name for a in own], "values": [a.value for a in own], "units": [a.unit for a in own]}
 
     duration = float(layout["duration"])
+    angles = [entry["unit"] == "rad" for entry in layout["states"][: len(model.coordinates)]]
     return {
         "name": model.name,
         "file": re.sub(r"[^A-Za-z0-9]+", "-", model.name).strip("-")[:60] or "motion",
         "scene": as_data(scene),
         "coordinates": len(model.coordinates),
-        "angles": [entry["unit"] == "rad" for entry in layout["states"][: len(model.coordinates)]],
+        "angles": angles,
         "constrained": bool(model.constraints),
         "machine": layout["machine"]["size"],
         "x": group("x"),
@@ -174,7 +175,7 @@ def _data(model: Model, layout: Mapping[str, Any], scene: Scene, adjustables: Se
         "u": group("u"),
         "duration": duration,
         "pace": 1.0 if FASTEST <= duration <= SLOWEST else duration / 10,
-        "trail": scene.trail,
+        "trail": scene.trail or (scene.handles[-1:] if any(angles) else ()),
         "elements": _titles(model),
         "model": _file(model, adjustables),
     }
