@@ -242,6 +242,20 @@ def test_rows_that_follow_from_others_are_left_out_as_long_as_they_do(tmp_path: 
     assert found["reached"] == pytest.approx(run.t[-1], abs=0.011)
 
 
+@pytest.mark.parametrize("kind", ["compiled", "fallback"])
+def test_a_mass_that_cannot_be_ends_a_run_where_it_begins(kind: str, tmp_path: Path) -> None:
+    script = f"""const s = {kind}(), params = {{m2: 0}};
+    show(s.solve({{t1: 1, params}})); show(s.start({{params}}).advance(1));
+    show(s.change({{params: {{m2: 1}}}}).advance(1).status);
+    const many = () => s.many({{states: physics.layout.start, t1: 1, params: [1, -1, 1, 1, 9.81]}});
+    show(s.many ? refused(many) : "run 0: a mass");"""
+    module = browser_module(lg.example("double-pendulum"))
+    run, live, healed, many = in_node(module, script, tmp_path)
+    assert run["status"] == live["status"] == -7 and "a mass is not above 0" in run["message"]
+    assert run["states"] == [module.layout["start"]] and live["state"] == module.layout["start"]
+    assert healed == 0 and "run 0: a mass" in many
+
+
 def test_limits_end_runs(tmp_path: Path) -> None:
     shown = in_node(
         browser_module(lg.example("double-pendulum")),

@@ -54,6 +54,7 @@ CODES = {
     "chatters": RunStatus.CHATTERS,
     "broken": RunStatus.BROKEN,
     "apart": RunStatus.APART,
+    "unfit": RunStatus.UNFIT,
 }
 """The statuses that the driver gives or reads, by its names for them."""
 

@@ -101,6 +101,8 @@ class BrowserParts:
     def _around(self) -> dict[str, Program]:
         """The programs that a run in WebAssembly needs around it."""
         found: dict[str, Program] = {}
+        if self._masses is not None:
+            found["masses"] = self._masses
         if self.momenta:
             found |= {"momenta": dynamics.momenta(self.model), "velocities": dynamics.velocities(self.model)}
         if self.switches:
@@ -110,6 +112,15 @@ class BrowserParts:
         if self.sticking:
             found |= {"rhs": self.field, "surfaces": self.sticking.surfaces()}
         return found
+
+    @cached_property
+    def _masses(self) -> Program | None:
+        """p → the masses that depend on parameters, None if there are none."""
+        bodies = dynamics.body_numbers(self.model, (p.name for p in self.model.parameters))
+        if bodies is None:
+            return None
+        outputs = {name: output for name, output in bodies.outputs.items() if "mass" in name}
+        return replace(bodies, name="masses", outputs=outputs) if outputs else None
 
     @cached_property
     def _projections(self) -> dict[str, Program]:
@@ -128,6 +139,9 @@ class BrowserParts:
                 {"name": e.title, "direction": e.direction, "terminal": e.terminal, "reset": bool(e.reset)}
                 for e in self.watched
             ],
+            "masses": [{"name": name, "rests": name.startswith("resting")} for name in self._masses.outputs]
+            if self._masses is not None
+            else [],
             "supply": dynamics.SUPPLY in self.field.inputs["x"],
             "spare": {"names": ["position_after", "velocity_after"], "limit": BREAKS}
             if "landing" in self._around

@@ -57,6 +57,9 @@ class WasmSolver extends Solver {
       }
       if (!given[name].every(Number.isFinite)) throw new RangeError("a number of a run is not finite");
     }
+    for (let k = 0, n = l.parameters.length; k < given.p.length; k += n) {
+      if (this.unfit(given.p.subarray(k, k + n))) throw new RangeError(`run ${k / n}: ${l.statuses[l.codes.unfit]}`);
+    }
     const store = o.samples !== undefined || o.times !== undefined || o.every !== undefined;
     return this.runs(given, instants(store ? o : { ...o, samples: 2 }, l), settings(o, l), store, count);
   }
@@ -88,7 +91,8 @@ class WasmSolver extends Solver {
     run.final = rows("final", count, (k) => run.reached[k]);
     run.supplied = store ? supplied("states", count * samples) : supplied("final", count);
     const drift = new Float64Array(buffer, at.drift, count * m.drift.length);
-    const beyond = (rule) => rule && count === 1 && rule.names.some((name) => drift[m.drift.indexOf(name)] > rule.limit);
+    const worst = (names) => Math.max(...names.map((name) => drift[m.drift.indexOf(name)]));
+    const beyond = (rule) => rule && count === 1 && worst(rule.names) > rule.limit;
     if (beyond(l.spare)) this.apart(run, u, p, times);
     if (beyond(l.broken)) this.broken(run);
     return run;

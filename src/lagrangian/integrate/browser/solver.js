@@ -13,7 +13,7 @@ class Solver {
   /* One run, sampled. */
   solve(o = {}) {
     const l = this.layout, times = instants(o, l), size = l.states.length;
-    const run = this.integrate(this.given(o), times, settings(o, l), true);
+    const run = this.run(this.given(o), times, settings(o, l), true);
     const row = (k) => run.states.subarray(k * size, (k + 1) * size);
     let kept = 0;
     const there = (k) => k < times.length && row(k).every(Number.isFinite) && (k === 0 || times[k] <= run.reached);
@@ -42,10 +42,25 @@ class Solver {
   advance(dt) {
     if (this.now === null) this.start();
     const now = this.now, times = Float64Array.of(now.t, now.t + positive(dt, "dt"));
-    const run = this.integrate(now, times, this.options, false);
+    const run = this.run(now, times, this.options, false);
     now.state = run.final;
     now.t = run.reached;
     return { ...this.told(run), t: now.t, state: now.state.slice(), supplied: run.supplied[0] };
+  }
+
+  /* Integrate, unless a parameter makes a mass impossible: such a run ends where it begins. */
+  run(given, times, o, store) {
+    if (!this.unfit(given.p)) return this.integrate(given, times, o, store);
+    const size = given.state.length, states = store ? new Float64Array(times.length * size).fill(NaN) : null;
+    states?.set(given.state);
+    const none = { steps: 0, rejected: 0, evaluations: 0, events: [], supplied: new Float64Array(times.length) };
+    return { ...none, status: this.layout.codes.unfit, states, final: given.state.slice(), reached: times[0] };
+  }
+
+  unfit(p) {
+    const { masses } = this.layout;
+    if (!masses.length) return false;
+    return this.functions.masses([], p, [], 0).some((m, k) => !(m > 0 || (m === 0 && masses[k].rests)));
   }
 
   initial() {
