@@ -13,6 +13,7 @@ from lagrangian.cli.door import width as columns
 from lagrangian.cli.formats import Format, FormatOption, Notation, NotationOption, chosen
 from lagrangian.cli.terminal import Example, Force, Json, OptionalFile, Output, Width, open_system
 from lagrangian.derive import pages
+from lagrangian.errors import Error
 
 
 class Detail(StrEnum):
@@ -47,10 +48,15 @@ def derive(
       lagrangian derive carts.toml --notation physics -o carts.tex
     """
     wanted = chosen(format, json, output, force)
+    if describe and wanted not in (Format.TEXT, Format.MARKDOWN):
+        what = f"--describe is for text and Markdown; {wanted.value} has the picture, or data, instead"
+        raise Error(what, fix="--format markdown", code="E406")
     derivation = open_system(file, example).derive(detail=detail.value)
     if wanted is Format.TEXT:
         document = pages.lay_out(derivation, notation=notation.value, brief=brief, full=full, described=describe)
         put(write.page_rows(document, columns(width, output)), output)
+    elif wanted is Format.MARKDOWN:
+        put(pages.to_markdown(derivation, notation=notation.value, brief=brief, full=full, described=describe), output)
     else:
         put(pages.FORMATS[wanted.value](derivation, notation=notation.value, brief=brief, full=full), output)
     if any(check.holds is False for check in derivation.verified):

@@ -118,9 +118,16 @@ def to_text(
     return text.page(lay_out(derivation, notation=notation, brief=brief, full=full), width)
 
 
-def to_markdown(derivation: Derived, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
+def to_markdown(
+    derivation: Derived,
+    *,
+    notation: Notation = "lecture",
+    brief: bool = False,
+    full: bool = False,
+    described: bool = False,
+) -> str:
     """Return the derivation as Markdown. Raises `ModelError` for an unknown notation."""
-    return markdown.page(lay_out(derivation, notation=notation, brief=brief, full=full))
+    return markdown.page(lay_out(derivation, notation=notation, brief=brief, full=full, described=described))
 
 
 def to_latex(derivation: Derived, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:

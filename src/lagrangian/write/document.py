@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
+from lagrangian.viewed import Brief
 from lagrangian.write.expression_tree import Math
 
 Inline: TypeAlias = tuple[str | Math, ...]
@@ -101,14 +102,14 @@ class Section:
 
 
 @dataclass(frozen=True)
-class HeadPicture:
+class HeadPicture(Brief):
     """A picture at the head of a document: as SVG for HTML, as TikZ, and in words.
 
     ``size`` is its width and height [px]. ``trouble`` says why there is none, and the texts are empty then.
     """
 
-    svg: str
-    tikz: str
+    svg: str = field(repr=False)
+    tikz: str = field(repr=False)
     description: str
     size: tuple[float, float] = (0.0, 0.0)
     trouble: str = ""
