@@ -216,8 +216,7 @@ _ENERGIES = (
 
 def _legend(coordinates: Sequence[Adjustable]) -> str:
     keys = "".join(
-        f'<button type="button" class="key key-{i % 6}" data-series="{i}" aria-pressed="true">'
-        f"{_both(a)}</button> "
+        f'<button type="button" class="key key-{i % 6}" data-series="{i}" aria-pressed="true">{_both(a)}</button> '
         for i, a in enumerate(coordinates)
     )
     units = ", ".join(dict.fromkeys(a.unit for a in coordinates if a.unit))
