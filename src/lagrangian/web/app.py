@@ -119,7 +119,10 @@ class Desk:
         """The message of a process about a request."""
         self.asked = time.monotonic()
         arguments = await self._arguments(request)
-        message = await _unless_gone(request, self.pool.run(verb, arguments, seconds=self.seconds))
+        try:
+            message = await _unless_gone(request, self.pool.run(verb, arguments, seconds=self.seconds))
+        except asyncio.CancelledError:  # only the end of the server cancels a request
+            raise Refused(503, "the app has ended") from None
         if "fault" in message:
             raise Refused(int(message["status"]), str(message["fault"]))
         return message

@@ -166,6 +166,11 @@ class WorkerPool:
         """The number of jobs at work."""
         return self._busy
 
+    @property
+    def waiting(self) -> int:
+        """The number of jobs in the queue."""
+        return self._waiting
+
     def fill(self) -> None:
         """Start as many processes as are missing."""
         wanted = self.limits.workers + self.limits.spare - len(self._all) - len(self._starting)

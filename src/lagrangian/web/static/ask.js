@@ -46,6 +46,8 @@ export async function ask(verb, data, signal) {
   const response = await post(verb, data, signal);
   const answer = await response.json();
   if (response.status === 401) throw new Lost(`${answer.error.what[0].toUpperCase()}${answer.error.what.slice(1)}.`);
+  const lost = document.getElementById("lost");
+  if (lost) lost.hidden = true;
   if (answer.error) answer.error.status = response.status;
   return answer;
 }
