@@ -165,7 +165,7 @@ def _data(model: Model, layout: Mapping[str, Any], scene: Scene, adjustables: Se
     return {
         "name": model.name,
         "file": re.sub(r"[^A-Za-z0-9]+", "-", model.name).strip("-")[:60] or "motion",
-        "scene": as_data(scene),
+        "scene": _moving(scene),
         "coordinates": len(model.coordinates),
         "angles": angles,
         "constrained": bool(model.constraints),
@@ -179,6 +179,23 @@ def _data(model: Model, layout: Mapping[str, Any], scene: Scene, adjustables: Se
         "elements": _titles(model),
         "model": _file(model, adjustables),
     }
+
+
+def _moving(scene: Scene) -> dict[str, Any]:
+    """The scene as data, without what belongs to the picture at rest alone, in hundredths of a pixel."""
+    found = as_data(replace(scene, parts=tuple(part for part in scene.parts if part.moves), labels=()))
+    return {key: _rounded(value) if key == "parts" else value for key, value in found.items()}
+
+
+def _rounded(value: Any) -> Any:
+    match value:
+        case float():
+            return round(value, 2 if abs(value) > 3 else 4)
+        case dict():
+            return {key: _rounded(x) for key, x in value.items()}
+        case list() | tuple():
+            return [_rounded(x) for x in value]
+    return value
 
 
 def _titles(model: Model) -> dict[str, str]:
