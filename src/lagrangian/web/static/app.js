@@ -31,6 +31,7 @@ function route(focus = true) {
     else link.removeAttribute("aria-current");
   }
   document.body.dataset.view = view;
+  scrollTo(0, 0);
   const words = byId(`${view}-title`).textContent;
   document.title = `${words} – lagrangian`;
   if (focus) byId(`${view}-title`).focus({ preventScroll: true });
