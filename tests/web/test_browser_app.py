@@ -85,6 +85,7 @@ def test_a_model_that_is_typed_shows_its_equations(page: Any) -> None:
 
 def test_a_mistake_is_shown_at_its_line_and_the_last_good_derivation_stays(page: Any) -> None:
     field = opened(page, "cart pole")
+    page.wait_for_selector(".part-look svg")
     before = page.locator("#derivation").inner_text()
     text = field.input_value()
     line = 1 + text[: text.index("l*cos(theta)")].count("\n")
