@@ -90,6 +90,11 @@ class Board:
         """Take another pose."""
         self.q, self._views = q, None
 
+    def extend(self, r: Array) -> None:
+        """Tell where the point is that was added last [m], so that it need not be computed."""
+        if self._r is not None and len(self._r) == len(self.stage.points) - 1:
+            self._r = np.vstack([self._r, r])
+
     def anchor(self, k: int) -> int:
         """The number of a point among the anchors of the scene."""
         return self.anchors.setdefault(k, len(self.anchors))
@@ -146,6 +151,7 @@ class Board:
         layer: int = BODY,
         moves: bool = True,
         inside: bool = False,
+        facing: bool = False,
     ) -> None:
         """Add a shape."""
         self.parts.append(
@@ -162,6 +168,7 @@ class Board:
                 moves,
                 solid,
                 "inside" if inside else "line",
+                facing,
             )
         )
 

@@ -1,0 +1,269 @@
+"""Solids in space: discs with a rim, boxes, cylinders, rings and patches of ground, each right from every side.
+
+The outline of a solid is that of the union of its sections: all of them are drawn with a line, and then again without
+one. Faces that show only one side lie on top. So a solid may turn, and the eye may move, without a new shape.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from math import pi
+
+import numpy as np
+import sympy as sp
+from numpy.typing import NDArray
+
+from lagrangian.look.board import BODY, Board
+from lagrangian.look.shapes import INK, arc, line, lines
+from lagrangian.page.scene import Disc, Path, Placement, Role
+
+Array = NDArray[np.float64]
+
+CIRCLE = arc(1.0, 0.0, 2 * pi)
+SECTIONS = (-1.0, -1 / 3, 1 / 3, 1.0)
+"""Where a disc is cut, in halves of its thickness."""
+
+
+@dataclass(frozen=True)
+class Item:
+    """What is drawn at one depth: the numbers of its parts, and the line [m] about which it lies, ``radius`` [px]."""
+
+    first: int
+    last: int
+    a: Array
+    b: Array
+    radius: float
+    lift: float
+
+
+class Solids:
+    """Draws solids on a board, and sorts them by their distance from the eye."""
+
+    def __init__(self, board: Board) -> None:
+        self.board, self.items = board, list[Item]()
+        views = board.stage.views([board.q], board.p)
+        self.rotations = views.R[0]
+        self.pixel = 1.0 / board.scale
+        self.eye = np.cross(board.view[0], -board.view[1])
+        self._factors: dict[sp.Expr, float] = {}
+
+    # -- points ---------------------------------------------------------------------------------------------------
+
+    def axes(self, frame: int | None) -> Array:
+        """The rotation of a frame in the pose, (3, 3)."""
+        return np.eye(3) if frame is None else self.rotations[frame]
+
+    def point(
+        self, parent: int, offset: Sequence[float] | Array, frame: int | None = None, factor: sp.Expr | None = None
+    ) -> int:
+        """Add a point at ``factor`` · offset [m] from another in the axes of a frame, and return its number."""
+        board, stage = self.board, self.board.stage
+        known = board.r
+        size = 1.0 if factor is None else self.value(factor)
+        by = [sp.Float(float(x), 17) if abs(x) > 1e-14 else sp.S.Zero for x in offset]
+        number = stage.add(
+            parent, by if factor is None else [factor * x for x in by], None if frame is None else stage.frames[frame]
+        )
+        board.extend(known[parent] + self.axes(frame) @ (size * np.asarray(offset, float)))
+        return number
+
+    def value(self, expression: sp.Expr) -> float:
+        """The value of an expression in parameters."""
+        if expression not in self._factors:
+            self._factors[expression] = self.board.stage.value(expression, self.board.q, self.board.p)
+        return self._factors[expression]
+
+    def plane(self, k: int, u: Array, v: Array, frame: int | None = None, factor: sp.Expr | None = None) -> Placement:
+        """The plane through a point along two vectors [m]."""
+        a, b = self.point(k, u, frame, factor), self.point(k, v, frame, factor)
+        return Placement(self.board.anchor(k), self.board.anchor(a), across=self.board.anchor(b))
+
+    # -- depth ----------------------------------------------------------------------------------------------------
+
+    @contextmanager
+    def item(self, a: int, b: int | None = None, radius: float = 8.0, lift: float = 0.0) -> Iterator[None]:
+        """What is drawn within lies about the line between two points; ``lift`` [px] brings it towards the eye."""
+        first = len(self.board.parts)
+        yield
+        r = self.board.r
+        self.items.append(Item(first, len(self.board.parts), r[a], r[a if b is None else b], radius, lift))
+
+    def sort(self) -> None:
+        """Put what is nearer to the eye on top."""
+        parts = self.board.parts
+        order = self._order()
+        inside = {n for item in self.items for n in range(item.first, item.last)}
+        sorted_parts = [parts[n] for item in order for n in range(item.first, item.last)]
+        self.board.parts = [x for n, x in enumerate(parts) if n not in inside] + sorted_parts
+        self.items = []
+
+    def _order(self) -> list[Item]:
+        """From back to front: each after all that it covers; where that goes in a circle, by the middle."""
+        items, eye = self.items, self.eye
+        ends = [(self._seen(x.a), self._seen(x.b)) for x in items]
+        behind: list[set[int]] = [set() for _ in items]
+        for i, one in enumerate(items):
+            for j in range(i):
+                two = items[j]
+                s, t, gap = nearest(ends[i], ends[j])
+                if gap > one.radius + two.radius:
+                    continue
+                di = float(eye @ (one.a + s * (one.b - one.a))) + one.lift * self.pixel
+                dj = float(eye @ (two.a + t * (two.b - two.a))) + two.lift * self.pixel
+                if di > dj:
+                    behind[i].add(j)
+                elif dj > di:
+                    behind[j].add(i)
+        depth = [float(eye @ (x.a + x.b)) / 2 + x.lift * self.pixel for x in items]
+        waiting, order = set(range(len(items))), list[Item]()
+        while waiting:
+            ready = [i for i in waiting if not behind[i] & waiting] or list(waiting)
+            n = min(ready, key=lambda i: depth[i])
+            waiting.remove(n)
+            order.append(items[n])
+        return order
+
+    def _seen(self, r: Array) -> Array:
+        return self.board.scale * (self.board.view @ r)
+
+    # -- solids ---------------------------------------------------------------------------------------------------
+
+    def union(
+        self, shapes: Sequence[tuple[Path | Disc, Placement]], role: Role = "body", *, of: Sequence[str] = (), kind: str
+    ) -> None:
+        """Several shapes as one: with a line around all of them."""
+        for width in (2 * INK, 0.0):
+            for shape, place in shapes:
+                self.board.put(shape, role, place, of=of, kind=kind, width=width, filled=True, layer=BODY)
+
+    def drum(
+        self,
+        k: int,
+        frame: int | None,
+        axis: Array,
+        radius: float,
+        half: float,
+        *,
+        factor: sp.Expr | None = None,
+        of: Sequence[str] = (),
+        kind: str = "disc",
+        spoke: Array | None = None,
+    ) -> None:
+        """A disc about a point across an axis [axes of the frame]; ``radius`` · factor and half its thickness [m]."""
+        u, v = across(axis) if spoke is None else (spoke, np.cross(axis, spoke))
+        put = self.board.put
+        places = list[Placement]()
+        for s in SECTIONS if half > 0 else (0.0,):
+            centre = self.point(k, s * half * axis, frame) if s else k
+            places.append(self.plane(centre, radius * u, radius * v, frame, factor))
+        self.union([(CIRCLE, place) for place in places], of=of, kind=kind)
+        for place in (swapped(places[0]), places[-1]):
+            put(CIRCLE, "body", place, of=of, kind=kind, width=1.2, layer=BODY, facing=True)
+            put(
+                Path((*CIRCLE.commands, ("M", (0.0, 0.0)))), "thin", place, of=of, kind=kind, width=0.0, layer=BODY,
+                facing=True,
+            )  # fmt: skip
+            if spoke is not None:
+                ray = line((0.0, 0.0), (1.0, 0.0)) if place is places[-1] else line((0.0, 0.0), (0.0, 1.0))
+                put(ray, "thin", place, of=of, kind=kind, width=1.0, layer=BODY, facing=True)
+
+    def box(
+        self, k: int, frame: int | None, half: Array, *, of: Sequence[str] = (), kind: str = "box", filled: bool = True
+    ) -> None:
+        """A box about a point, with half its edges [m] along the axes of a frame."""
+        corners = {
+            signs: self.point(k, half * np.array(signs), frame)
+            for signs in ((x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1))
+        }
+        square = line((0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), closed=True)
+        anchor = self.board.anchor
+        for i in range(3):
+            j, l = (i + 1) % 3, (i + 2) % 3
+            for side in (-1, 1):
+                base, u, v = [-1, -1, -1], [-1, -1, -1], [-1, -1, -1]
+                base[i] = u[i] = v[i] = side
+                first, second = (j, l) if side > 0 else (l, j)
+                u[first], v[second] = 1, 1
+                a, b, c = (anchor(corners[(x[0], x[1], x[2])]) for x in (base, u, v))
+                place = Placement(a, b, across=c)
+                self.board.put(
+                    square, "body", place, of=of, kind=kind, filled=filled, layer=BODY, facing=filled,
+                    width=INK if filled else 1.0,
+                )  # fmt: skip
+
+    def cylinder(
+        self, a: int, b: int, frame: int | None, axis: Array, radius: float, *, of: Sequence[str] = (), kind: str,
+        role: Role = "body",
+    ) -> None:  # fmt: skip
+        """A cylinder between two points along an axis [axes of the frame], ``radius`` [px]."""
+        u, v = across(axis)
+        size = radius * self.pixel
+        start, end = (self.plane(k, size * u, size * v, frame) for k in (a, b))
+        sides = line((0.0, -radius), (1.0, -radius), (1.0, radius), (0.0, radius), closed=True)
+        self.union([(CIRCLE, start), (sides, self.board.towards(a, b)), (CIRCLE, end)], role, of=of, kind=kind)
+        for place in (swapped(start), end):
+            self.board.put(CIRCLE, role, place, of=of, kind=kind, width=1.0, layer=BODY, facing=True)
+
+    def ring(self, k: int, frame: int | None, axis: Array, radius: float, width: float, *, of: Sequence[str]) -> None:
+        """A ring about a point across an axis, ``radius`` [m]."""
+        u, v = across(axis)
+        place = self.plane(k, radius * u, radius * v, frame)
+        for outline, inside in ((width, False), (width - 2 * INK, True)):
+            self.board.put(CIRCLE, "body", place, of=of, kind="ring", width=outline, layer=BODY, inside=inside)
+
+    def patch(self, k: int, normal: Array, radius: float, *, layer: int) -> None:
+        """A hatched ellipse of ground [px] about a fixed point."""
+        u, v = across(normal)
+        size = radius * self.pixel
+        place = self.plane(k, size * u, size * v)
+        chords: list[list[tuple[float, float]]] = []
+        c = np.sqrt(0.5)
+        for s in np.linspace(-0.8, 0.8, 7):
+            h = float(np.sqrt(1 - s * s))
+            chords.append([(float(c * (s - h)), float(c * (s + h))), (float(c * (s + h)), float(c * (s - h)))])
+        put = self.board.put
+        put(CIRCLE, "ground", place, kind="pin", width=0.0, filled=True, layer=layer)
+        put(lines(*chords), "ground", place, kind="pin", width=0.8, layer=layer)
+        put(CIRCLE, "ground", place, kind="pin", width=1.4, layer=layer)
+
+
+def across(axis: Array) -> tuple[Array, Array]:
+    """Two unit vectors across a unit vector, u × v = axis; the first is along a coordinate axis where one is across."""
+    options = [np.eye(3)[i] - axis[i] * axis for i in range(3)]
+    u = max(options, key=lambda x: float(np.linalg.norm(x)))
+    u = u / np.linalg.norm(u)
+    return u, np.cross(axis, u)
+
+
+def swapped(place: Placement) -> Placement:
+    """The other side of a plane."""
+    return Placement(place.at, place.across, place.scaling, place.shift, place.shift, place.towards)
+
+
+def nearest(one: tuple[Array, Array], two: tuple[Array, Array]) -> tuple[float, float, float]:
+    """Where two pieces of lines are nearest to each other, by their parameters in [0, 1], and how far they are."""
+    best = (0.5, 0.5, float("inf"))
+    (a, b), (c, d) = one, two
+    e, f = b - a, d - c
+    cross = float(e[0] * f[1] - e[1] * f[0])
+    tried: list[tuple[float, float]] = []
+    if abs(cross) > 1e-9:
+        g = c - a
+        tried.append((float(g[0] * f[1] - g[1] * f[0]) / cross, float(g[0] * e[1] - g[1] * e[0]) / cross))
+    for s in (0.0, 1.0):
+        tried.append((s, _foot(c, f, a + s * e)))
+    for t in (0.0, 1.0):
+        tried.append((_foot(a, e, c + t * f), t))
+    for s, t in tried:
+        s, t = min(1.0, max(0.0, s)), min(1.0, max(0.0, t))
+        gap = float(np.linalg.norm(a + s * e - c - t * f))
+        if gap < best[2] - 1e-9:
+            best = (s, t, gap)
+    return best
+
+
+def _foot(a: Array, e: Array, p: Array) -> float:
+    square = float(e @ e)
+    return float((p - a) @ e) / square if square > 1e-12 else 0.5
