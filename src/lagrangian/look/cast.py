@@ -38,6 +38,9 @@ class BodyGlyph(Enum):
     SHAFT = "disc on a shaft"
     BEAM = "beam"
     BAR = "bar"
+    STAND = "turntable"
+    RING = "ring"
+    STAR = "frame with arms"
     NONE = "none"
 
 
@@ -138,14 +141,14 @@ def _part(motions: Motions, body: Body) -> Player:
     if not isinstance(body, RigidBody):
         return _particle(motions, body, point)
     frame = stage.frames.index(body.frame)
-    part = Player(body, point, frame, BodyGlyph.BAR, points=_carried(motions, point, frame))
+    part = Player(body, point, frame, BodyGlyph.BAR, points=carried_points(motions, point, frame))
     if stage.dimension == 2 and _round(motions, part):
         return part
     if stage.dimension == 3 and _disc_in_space(motions, part):
         return part
     hold = motions.holds[point]
     if part.points:
-        _linked(motions, part)
+        linked(motions, part)
     elif motions.still(point) and motions.turns(frame):
         part.glyph = BodyGlyph.DISC
     elif hold.how is HoldKind.SLIDE and not motions.turns(frame):
@@ -155,7 +158,7 @@ def _part(motions: Motions, body: Body) -> Player:
     return part
 
 
-def _carried(motions: Motions, point: int, frame: int) -> tuple[int, ...]:
+def carried_points(motions: Motions, point: int, frame: int) -> tuple[int, ...]:
     """The points that are at rest in a body, apart from its centre.
 
     In space all points of a joint's axis are at rest in both bodies. Of those that another body carries too, only the
@@ -207,7 +210,7 @@ def direction(J: Array) -> Array:
 def _round(motions: Motions, part: Player) -> bool:
     """Whether a body in the plane is a wheel or a pulley: its frame turns by s/R, where s is a length."""
     stage, hold = motions.stage, motions.holds[part.point]
-    rolling = _rolling(motions, part)
+    rolling = rolling_radius(motions, part)
     if rolling is not None:
         part.glyph, part.radius = BodyGlyph.WHEEL, rolling
         J = motions.views.J[0, part.point]
@@ -254,7 +257,7 @@ def _rolls_around(motions: Motions, part: Player) -> bool:
     return True
 
 
-def _rolling(motions: Motions, part: Player) -> sp.Expr | None:
+def rolling_radius(motions: Motions, part: Player) -> sp.Expr | None:
     """The radius of a body that a `rolling` constraint lets roll: from its centre to the point of contact."""
     for element in motions.stage.model.elements:
         if isinstance(element, Rolling) and element.body is part.body:
@@ -267,7 +270,7 @@ def _disc_in_space(motions: Motions, part: Player) -> bool:
     tensor = part.body.tensor
     if len(tensor) != 3:
         return False
-    rolling = _rolling(motions, part)
+    rolling = rolling_radius(motions, part)
     values = _numbers(motions, [tensor[i][i] for i in range(3)] + [part.body.mass])
     if values is None:
         return False
@@ -292,7 +295,7 @@ def _numbers(motions: Motions, expressions: list[Any]) -> Array | None:
 # -- what is long ---------------------------------------------------------------------------------------------------
 
 
-def _linked(motions: Motions, part: Player) -> None:
+def linked(motions: Motions, part: Player) -> None:
     """A body with joints: a link if they lie on a line with its centre, otherwise a plate."""
     everything = [part.point, *part.points]
     offsets = np.array([motions.local(k, part.point, part.frame)[0][0] for k in everything])

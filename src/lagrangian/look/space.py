@@ -1,30 +1,24 @@
-"""Arcs in space: an angle is drawn in the plane across its axis."""
+"""Arcs in space: an angle is drawn in the plane across its axis, from where it counts to where things are."""
 
 from __future__ import annotations
-
-import itertools
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.look.board import BEHIND, MEASURE, Board
-from lagrangian.look.shapes import head, line
-from lagrangian.look.turning import Turn
+from lagrangian.look.cast import BodyGlyph
+from lagrangian.look.shapes import line
+from lagrangian.look.space_bodies import SpaceBodies
+from lagrangian.look.space_solids import across
+from lagrangian.look.space_supports import curved_arrow
+from lagrangian.look.space_turns import Spin, axis_now
 
 Array = NDArray[np.float64]
 
 ARC = 46.0
 """The radius of an arc in space [px]."""
-
-
-def axis_of(board: Board, frame: int, i: int) -> Array | None:
-    """The axis about which coordinate i turns a frame in the pose, as a unit vector in the fixed axes."""
-    views = board.views
-    R, RJ = views.R[0, frame], views.RJ[0, frame, :, :, i]
-    W = RJ @ R.T
-    n = np.array([W[2, 1], W[0, 2], W[1, 0]])
-    size = float(np.linalg.norm(n))
-    return n / size if size > 1e-9 else None
+SMALL = 0.12
+"""A smaller angle [rad] is shown by an arrow around its axis."""
 
 
 def rotated(n: Array, angle: float, d: Array) -> Array:
@@ -32,66 +26,95 @@ def rotated(n: Array, angle: float, d: Array) -> Array:
     return d * np.cos(angle) + np.cross(n, d) * np.sin(angle) + n * (n @ d) * (1 - np.cos(angle))
 
 
-def arc_in_space(board: Board, i: int, name: str, turn: Turn, used: dict[int, int]) -> None:
-    """An arc across the axis of an angle, from where the direction is at 0 to where it is now."""
-    n = _axis(board, i, turn)
-    if n is None:
-        board.lacks(f"coordinate {name} is not drawn", "")
-        return
-    joint, tip = board.r[turn.joint], board.r[turn.tip]
-    d = tip - joint
-    flat = d - (d @ n) * n
-    if np.linalg.norm(flat) < 0.05 * max(float(np.linalg.norm(d)), 1e-9) or not np.linalg.norm(d):
-        flat = _across(board, n)
-    flat = flat / np.linalg.norm(flat)
-    level = used[turn.joint] = used.get(turn.joint, -1) + 1
-    radius = (ARC + 14.0 * level) / board.scale
-    angles = np.linspace(-float(board.q[i]), 0.0, 25)
-    origin = board.at(turn.joint)
-    path = [origin + board.scale * (board.view @ (radius * rotated(n, a, flat))) for a in angles]
-    spots = [(float(x), float(y)) for x, y in path]
-    board.put(line(*spots[:-1]), "coordinate", of=(name,), kind="coordinate", width=1.8, layer=MEASURE, moves=False)
-    end, before = path[-1], path[-4]
-    if np.linalg.norm(end - before) > 1e-6:
-        e = end - before
-        tip_shape = head(spots[-1], (float(e[0]), float(e[1])))
+class ArcArtist:
+    """Draws the angles of a system in space."""
+
+    def __init__(self, bodies: SpaceBodies) -> None:
+        self.bodies, self.board, self.solids = bodies, bodies.board, bodies.solids
+        self.levels: dict[int, int] = {}
+        self.drawn: dict[int, Array] = {}
+        """The axis of every arc [fixed axes], by the number of its coordinate."""
+
+    def arc(self, spin: Spin, name: str) -> None:
+        """The arc of one angle: dashed lines are where it counts from and, where no body shows it, where it is."""
+        board = self.board
+        n = axis_now(board.motions, spin, board.q, board.p)
+        now, shown = self._direction(spin, n)
+        centre, radius = self._place(spin, n)
+        angle = float(board.q[spin.coordinate])
+        self.drawn[spin.coordinate] = n
+        origin = board.scale * (board.view @ centre)
+
+        def spot(a: float, size: float) -> Array:
+            return origin + size * (board.view @ rotated(n, a, now))
+
+        if abs(angle) < SMALL:
+            path = [spot(a, 0.75 * radius) for a in np.linspace(-0.9, 0.9, 25)]
+        else:
+            path = [spot(a, radius) for a in np.linspace(-angle, 0.0, 33)]
+            self._reference(origin, spot(-angle, radius + 20.0))
+            if not shown:
+                self._reference(origin, spot(0.0, radius + 20.0))
+        curved_arrow(board, path, "coordinate", (name,), kind="coordinate", layer=MEASURE)
+        middle = path[len(path) // 2]
+        board.wish((name,), middle, middle - origin, "coordinate", (name,), distance=4.0)
+        if spin.frame is None and spin.axis is not None and spin.tip is not None:
+            self._shadow(spin, n)
+
+    def _reference(self, start: Array, end: Array) -> None:
+        board = self.board
         board.put(
-            tip_shape, "coordinate", of=(name,), kind="coordinate", width=0.0, solid=True, layer=MEASURE, moves=False
-        )
-    for spot in (path[0], path[-1]):
-        far = origin + 1.25 * (spot - origin)
-        board.put(
-            line(tuple(origin), tuple(far)), "thin", kind="reference", width=1.0, dashed=True, layer=BEHIND, moves=False
-        )
-    for a, b in itertools.pairwise(path):
-        board.fence(a, b)
-    middle = path[len(path) // 2]
-    board.wish((name,), middle, middle - origin, "coordinate", (name,), distance=4.0)
+            line((float(start[0]), float(start[1])), (float(end[0]), float(end[1]))), "thin", kind="reference",
+            width=1.1, dashed=True, layer=BEHIND, moves=False,
+        )  # fmt: skip
+        board.fence(start, end)
 
+    def _direction(self, spin: Spin, n: Array) -> tuple[Array, bool]:
+        """The direction that turns, across the axis, as a unit vector, and whether a body shows it."""
+        board, r = self.board, self.board.r
+        if spin.tip is not None:
+            d = r[spin.tip] - r[spin.joint]
+            flat = d - (d @ n) * n
+            size = float(np.linalg.norm(flat))
+            if size > 0.05 * float(np.linalg.norm(d)):
+                return flat / size, size > 0.98 * float(np.linalg.norm(d))
+        if spin.frame is None:
+            return across(n)[0], False
+        axes = self.solids.axes(spin.frame)
+        options = [axes[:, i] for i in range(3) if abs(float(axes[:, i] @ n)) < 1e-6] or [across(n)[0]]
+        disc = self._disc_of(spin)
+        return options[0], disc is not None
 
-def _axis(board: Board, i: int, turn: Turn) -> Array | None:
-    """The axis of a frame's turn, or that of a rod: d × ∂d/∂q."""
-    if turn.frame is not None:
-        return axis_of(board, turn.frame, i)
-    views = board.views
-    d = views.r[0, turn.tip] - views.r[0, turn.joint]
-    D = views.J[0, turn.tip, :, i] - views.J[0, turn.joint, :, i]
-    n = _rod_axis(board, i, turn, d, D)
-    size = float(np.linalg.norm(n))
-    return n / size if size > 1e-9 else None
+    def _disc_of(self, spin: Spin) -> BodyGlyph | None:
+        """What a body that turns about its own middle is drawn as."""
+        for x in self.bodies.players:
+            if x.frame == spin.frame and x.point == spin.joint and x.glyph in (BodyGlyph.WHEEL, BodyGlyph.DISC):
+                return x.glyph
+        return None
 
+    def _place(self, spin: Spin, n: Array) -> tuple[Array, float]:
+        """The centre of an arc [m] and its radius [px]."""
+        board = self.board
+        centre = board.r[spin.joint]
+        player = next((x for x in self.bodies.players if x.frame == spin.frame and x.point == spin.joint), None)
+        foot = self.bodies.feet.get(spin.joint)
+        if player is not None and player.glyph is BodyGlyph.STAND and foot is not None:
+            return board.r[foot], ARC
+        if player is not None and player.name in self.bodies.reach:
+            size = self.bodies.reach[player.name] * board.scale
+            if player.glyph in (BodyGlyph.WHEEL, BodyGlyph.DISC):
+                lift = player.thickness if float(n @ self.solids.eye) > 0 else -player.thickness
+                return centre + lift * n, 0.62 * size if size > 62 else size + 9.0
+            return centre, size + 12.0
+        level = self.levels[spin.joint] = self.levels.get(spin.joint, -1) + 1
+        return centre, ARC + 9.0 * level
 
-def _rod_axis(board: Board, i: int, turn: Turn, d: Array, D: Array) -> Array:
-    """The axis of a rod's turn: perpendicular to the change of direction in this pose and in a neighbouring one."""
-    q = board.q.copy()
-    q[i] += 0.3
-    views = board.stage.views([q], board.p)
-    D2 = views.J[0, turn.tip, :, i] - views.J[0, turn.joint, :, i]
-    n = np.cross(D, D2)
-    return n if np.linalg.norm(n) > 1e-9 else np.cross(d, D)
-
-
-def _across(board: Board, n: Array) -> Array:
-    """A direction across an axis that is seen well."""
-    options = [np.eye(3)[k] - n[k] * n for k in range(3)]
-    return max(options, key=lambda x: float(np.linalg.norm(board.view @ x)) if np.linalg.norm(x) > 0.1 else 0.0)
+    def _shadow(self, spin: Spin, n: Array) -> None:
+        """From the end of a rod along the axis down to the plane of its direction."""
+        board, r = self.board, self.board.r
+        assert spin.tip is not None
+        d = r[spin.tip] - r[spin.joint]
+        foot = r[spin.joint] + d - (d @ n) * n
+        a, b = (board.scale * (board.view @ x) for x in (r[spin.joint], foot))
+        self._reference(a, b)
+        self._reference(board.at(spin.tip), b)

@@ -112,9 +112,9 @@ class Solids:
                     continue
                 di = float(eye @ (one.a + s * (one.b - one.a))) + one.lift * self.pixel
                 dj = float(eye @ (two.a + t * (two.b - two.a))) + two.lift * self.pixel
-                if di > dj:
+                if di > dj + 0.75 * self.pixel:
                     behind[i].add(j)
-                elif dj > di:
+                elif dj > di + 0.75 * self.pixel:
                     behind[j].add(i)
         depth = [float(eye @ (x.a + x.b)) / 2 + x.lift * self.pixel for x in items]
         waiting, order = set(range(len(items))), list[Item]()

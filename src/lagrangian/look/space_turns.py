@@ -1,0 +1,145 @@
+"""Which coordinate turns what about which axis in space: an angle belongs to the frame whose own turn it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from lagrangian.look.holds import HoldKind, Motions
+from lagrangian.look.turning import Turn
+
+Array = NDArray[np.float64]
+
+SAME = 1e-8
+
+
+@dataclass(frozen=True)
+class Spin:
+    """A coordinate that is an angle.
+
+    It turns ``frame`` against ``base`` (None: the fixed axes) about ``axis``, a unit vector in the axes of ``base``; or,
+    with ``frame`` None, the direction from ``joint`` to ``tip``, where an axis that itself moves is None. ``sense`` is
+    +1 where the angle grows by the right hand. ``tip`` is a point that turns with it, if there is one.
+    """
+
+    coordinate: int
+    joint: int
+    tip: int | None
+    frame: int | None
+    base: int | None
+    axis: Array | None
+    sense: float = 1.0
+
+    def turn(self, count: int, name: str = "") -> Turn:
+        """The same as what turns about a joint, for ties and torques."""
+        slopes = np.zeros(count)
+        slopes[self.coordinate] = 1.0
+        return Turn(self.joint, self.joint if self.tip is None else self.tip, slopes, self.frame, name)
+
+
+def spins_of(motions: Motions, floating: frozenset[int]) -> list[Spin]:
+    """The angles among the coordinates, apart from those of ``floating`` frames."""
+    found: list[Spin] = []
+    for i in range(len(motions.stage.inputs.q)):
+        if i in floating:
+            continue
+        spin = _of_frames(motions, i) or _of_rods(motions, i)
+        if spin is not None:
+            found.append(spin)
+    return found
+
+
+def relative(motions: Motions, frame: int, base: int | None) -> tuple[Array, Array]:
+    """The rotation of a frame against another at every state, and its slopes by the coordinates."""
+    v = motions.views
+    R, RJ = v.R[:, frame], v.RJ[:, frame]
+    if base is None:
+        return R, RJ
+    B, BJ = v.R[:, base], v.RJ[:, base]
+    return np.einsum("sji,sjk->sik", B, R), np.einsum("sji,sjkn->sikn", B, RJ) + np.einsum("sjin,sjk->sikn", BJ, R)
+
+
+def own_axis(motions: Motions, i: int, frame: int, base: int | None) -> tuple[Array, float] | None:
+    """The constant axis about which coordinate i alone turns a frame against another by itself, and its sense."""
+    R, RJ = relative(motions, frame, base)
+    moving = np.flatnonzero(np.abs(RJ).max(axis=(0, 1, 2)) > SAME)
+    if list(moving) != [i]:
+        return None
+    W = np.einsum("sik,sjk->sij", RJ[..., i], R)
+    n = np.stack([W[:, 2, 1], W[:, 0, 2], W[:, 1, 0]], axis=-1)
+    if np.abs(n - n[0]).max() > SAME or abs(float(np.linalg.norm(n[0])) - 1.0) > 1e-6:
+        return None
+    return n[0], 1.0
+
+
+def _of_frames(motions: Motions, i: int) -> Spin | None:
+    stage = motions.stage
+    numbers = {id(f): k for k, f in enumerate(stage.frames)}
+    parents = [None if f.parent is None else numbers.get(id(f.parent)) for f in stage.frames]
+    for f in range(len(stage.frames)):
+        found = own_axis(motions, i, f, parents[f])
+        if found is not None:
+            return _made(motions, i, f, parents[f], found[0])
+    for f in range(len(stage.frames)):
+        for base in (None, *range(f)):
+            found = own_axis(motions, i, f, base)
+            if found is not None:
+                return _made(motions, i, f, base, found[0])
+    return None
+
+
+def _made(motions: Motions, i: int, frame: int, base: int | None, axis: Array) -> Spin:
+    """The joint of a frame: from where its points are counted, or those of the frames on it, or its body's centre."""
+    stage = motions.stage
+    family = [frame]
+    for f in range(frame + 1, len(stage.frames)):
+        parent = stage.frames[f].parent
+        if parent is not None and stage.frames.index(parent) in family:
+            family.append(f)
+    for level, f in enumerate(family):
+        for k, point in enumerate(stage.points):
+            if point.parent is not None and point.frame is stage.frames[f]:
+                joint = stage.index(point.parent)
+                direct = level == 0 and motions.carried(k, joint, frame)
+                return Spin(i, joint, k if direct else None, frame, base, axis)
+        for body in stage.model.bodies:
+            if getattr(body, "frame", None) is stage.frames[f]:
+                return Spin(i, stage.index(body.at), None, frame, base, axis)
+    return Spin(i, 0, None, frame, base, axis)
+
+
+def _of_rods(motions: Motions, i: int) -> Spin | None:
+    """A coordinate that turns a rod or rope without a frame: about a constant axis, or about one that moves."""
+    for k, hold in enumerate(motions.holds):
+        if hold.how not in (HoldKind.ROD, HoldKind.TELESCOPE) or i not in hold.moving or i == hold.along:
+            continue
+        d, D = motions.local(k, hold.holder, None)
+        column = D[:, :, i]
+        rows = np.concatenate([_cross(-x) for x in d])
+        n, *_ = np.linalg.lstsq(rows, column.ravel(), rcond=None)
+        if np.abs(rows @ n - column.ravel()).max() < 1e-8 * motions.size and abs(np.linalg.norm(n) - 1.0) < 1e-6:
+            if float(np.abs(np.einsum("sd,d->s", d, n)).max()) > 1e-6 * motions.size:
+                return Spin(i, hold.holder, k, None, None, n)
+        lengths, rates = np.linalg.norm(d, axis=1), np.linalg.norm(column, axis=1)
+        if np.abs(lengths - rates).max() < 1e-8 * lengths.max():
+            return Spin(i, hold.holder, k, None, None, None)
+    return None
+
+
+def _cross(a: Array) -> Array:
+    return np.array([[0.0, -a[2], a[1]], [a[2], 0.0, -a[0]], [-a[1], a[0], 0.0]])
+
+
+def axis_now(motions: Motions, spin: Spin, q: Array, p: Array) -> Array:
+    """The axis of a spin in a pose, as a unit vector in the fixed axes."""
+    views = motions.stage.views([q], p)
+    if spin.axis is not None:
+        return spin.axis if spin.base is None else views.R[0, spin.base] @ spin.axis
+    assert spin.tip is not None
+    d = views.r[0, spin.tip] - views.r[0, spin.joint]
+    D = views.J[0, spin.tip, :, spin.coordinate] - views.J[0, spin.joint, :, spin.coordinate]
+    n = np.cross(d, D)
+    size = float(np.linalg.norm(n))
+    return n / size if size > 1e-12 else np.array([0.0, 0.0, 1.0])
