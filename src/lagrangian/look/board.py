@@ -70,13 +70,17 @@ class Board:
     hidden: frozenset[str] = frozenset()
     """The names of elements that are not to be drawn."""
     _views: Views | None = None
+    _r: Array | None = None
 
     # -- where ----------------------------------------------------------------------------------------------------
 
     @property
     def r(self) -> Array:
         """The positions [m] of all points in the pose."""
-        return self.views.r[0]
+        found = self._r
+        if found is None or len(found) != len(self.stage.points):
+            found = self._r = self.views.r[0]
+        return found
 
     @property
     def views(self) -> Views:
@@ -88,7 +92,7 @@ class Board:
 
     def posed(self, q: Array) -> None:
         """Take another pose."""
-        self.q, self._views = q, None
+        self.q, self._views, self._r = q, None, None
 
     def extend(self, r: Array) -> None:
         """Tell where the point is that was added last [m], so that it need not be computed."""

@@ -103,7 +103,7 @@ def _choose(motions: Motions, part: Player, glyph: BodyGlyph) -> None:
     if glyph in (BodyGlyph.LINK, BodyGlyph.PLATE) and part.spine is None:
         if not part.points:
             return
-        _linked(motions, part)
+        linked(motions, part)
     if glyph in (BodyGlyph.WHEEL, BodyGlyph.DISC):
         if part.frame is None:
             return

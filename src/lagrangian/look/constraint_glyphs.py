@@ -22,10 +22,11 @@ def draw_constraints(board: Board, parts: list[Player]) -> None:
     """Draw every constraint that has points; an expression has nothing to show and is told."""
     for element in board.stage.model.constraints:
         if element.name not in board.hidden:
-            _one(board, parts, element)
+            draw_one(board, parts, element)
 
 
-def _one(board: Board, parts: list[Player], element: Element) -> None:
+def draw_one(board: Board, parts: list[Player], element: Element) -> None:
+    """Draw one constraint."""
     of = (element.name,)
     if isinstance(element, Pin | Ball | Weld):
         k = board.stage.index(element.between[0])

@@ -15,8 +15,6 @@ from lagrangian.model.hints import BODY_KINDS, LINE_KINDS
 from lagrangian.quantities.quantity import parse_quantity
 from lagrangian.values.values import Given, key_name
 
-AZIMUTH, ELEVATION = 40 * pi / 180, 20 * pi / 180
-
 MOST = 1000
 """The largest number of lines, of shapes, and of points of each."""
 
@@ -49,14 +47,14 @@ class Hints:
     """What a picture needs and a model does not say; all of it is optional.
 
     ``pose``: coordinate → value in SI units. ``kinds``: body → glyph (``model.hints.BODY_KINDS``). ``azimuth``,
-    ``elevation`` [rad]: from where a system in space is seen. ``trail``: points whose path is shown. ``hide``: elements
-    and coordinates. ``lines`` and ``shapes``: what is drawn besides.
+    ``elevation`` [rad]: from where a system in space is seen; None where that is to be chosen. ``trail``: points whose
+    path is shown. ``hide``: elements and coordinates. ``lines`` and ``shapes``: what is drawn besides.
     """
 
     pose: Mapping[str, float] = field(default_factory=dict[str, float])
     kinds: Mapping[str, str] = field(default_factory=dict[str, str])
-    azimuth: float = AZIMUTH
-    elevation: float = ELEVATION
+    azimuth: float | None = None
+    elevation: float | None = None
     trail: tuple[Point, ...] = ()
     hide: tuple[str, ...] = ()
     lines: tuple[LookLine, ...] = ()
@@ -88,8 +86,8 @@ def hints_of(
     return Hints(
         pose=_pose(model, asked),
         kinds=_kinds(model, chosen),
-        azimuth=_angle(_first(azimuth, view.get("azimuth"), AZIMUTH), "azimuth"),
-        elevation=_angle(_first(elevation, view.get("elevation"), ELEVATION), "elevation"),
+        azimuth=_angle(_first(azimuth, view.get("azimuth")), "azimuth"),
+        elevation=_angle(_first(elevation, view.get("elevation")), "elevation"),
         trail=tuple(names.point(x) for x in _listed(_first(trail, table.get("trail"), ()), "trail")),
         hide=names.seen(_listed(_first(hide, table.get("hide"), ()), "hide")),
         lines=tuple(_line(names, x) for x in _listed(_first(lines, table.get("line"), ()), "lines")),
@@ -98,7 +96,7 @@ def hints_of(
 
 
 def _first(*values: Any) -> Any:
-    return next(x for x in values if x is not None)
+    return next((x for x in values if x is not None), None)
 
 
 def _listed(things: Any, what: str) -> list[Any]:
@@ -175,7 +173,9 @@ def _kinds(model: Model, chosen: Named) -> dict[str, str]:
     return dict(chosen)
 
 
-def _angle(value: Any, what: str) -> float:
+def _angle(value: Any, what: str) -> float | None:
+    if value is None:
+        return None
     angle = parse_quantity(value, what=what).value if isinstance(value, str) else value
     if isinstance(angle, bool) or not isinstance(angle, int | float) or not abs(angle) <= 4 * pi:
         raise ModelError(f"{what} must be an angle within two turns (got {value!r:.60})", code="E406")

@@ -60,8 +60,12 @@ class Motions:
     # -- questions ----------------------------------------------------------------------------------------------
 
     def still(self, k: int) -> bool:
-        """Whether a point does not move at all."""
-        return not self.coordinates(k) and bool(np.abs(self.views.rt[:, k]).max() < SAME * self.size)
+        """Whether a point of the model does not move at all."""
+        return (
+            k < self.views.J.shape[1]
+            and not self.coordinates(k)
+            and bool(np.abs(self.views.rt[:, k]).max() < SAME * self.size)
+        )
 
     def coordinates(self, k: int, holder: int = 0) -> tuple[int, ...]:
         """The coordinates that move a point against another."""

@@ -225,11 +225,6 @@ class MeasureArtist:
 
     def _arc(self, i: int, name: str, turn: Turn, sense: float) -> None:
         board = self.board
-        if board.stage.dimension == 3:
-            from lagrangian.look.space import arc_in_space
-
-            arc_in_space(board, i, name, turn, self.arcs)
-            return
         if turn.name in board.shaft_spots:
             spot = board.shaft_spots[turn.name] + (0.0, 40.0)
             board.bow(

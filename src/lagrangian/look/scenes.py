@@ -19,7 +19,9 @@ from lagrangian.look.kinematics import Kinematics
 from lagrangian.look.labels import placed_labels
 from lagrangian.look.measures import MeasureArtist
 from lagrangian.look.outlines import draw_hints
-from lagrangian.look.pose import Pose, view_of
+from lagrangian.look.pose import Pose
+from lagrangian.look.space_scene import draw_in_space
+from lagrangian.look.space_supports import draw_fixed_axes
 from lagrangian.look.spread import spread
 from lagrangian.look.supports import draw_supports
 from lagrangian.look.tie_glyphs import TieArtist
@@ -37,6 +39,8 @@ LARGE, LONGEST = 300.0, 190.0
 SLIDE = 72.0
 """How far a sliding body is drawn from its reference [px]."""
 BORDER = 16.0
+PLANE = np.array([[1.0, 0.0], [0.0, -1.0]])
+"""The projection of the plane onto the screen, where y points downward."""
 
 
 def scene_of(model: Model, hints: Hints | None = None) -> tuple[Scene, Program]:
@@ -44,11 +48,13 @@ def scene_of(model: Model, hints: Hints | None = None) -> tuple[Scene, Program]:
     hints = Hints() if hints is None else hints
     stage = Kinematics(model)
     motions = Motions(stage)
-    parts = cast(motions, hints.kinds)
     p = stage.parameters()
+    if stage.dimension == 3:
+        board, bodies = draw_in_space(motions, p, hints)
+        return _framed(board, model, hints, list(bodies), None)
+    parts = cast(motions, hints.kinds)
     pose = Pose(motions, p, hints.pose)
-    view = view_of(motions, hints.azimuth, hints.elevation)
-    board = Board(stage, motions, pose.closed(pose.q), p, view, hidden=frozenset(hints.hide))
+    board = Board(stage, motions, pose.closed(pose.q), p, PLANE, hidden=frozenset(hints.hide))
     board.scale = _scale(board, parts)
     _slide_apart(board, pose, parts)
     board.pinned = frozenset(
@@ -136,6 +142,9 @@ def _framed(board: Board, model: Model, hints: Hints, said: str, room: float | N
     """The scene, moved so that everything lies within its frame."""
     low, high = _extent(board)
     draw_gravity(board, np.array([high[0] + 26.0, low[1] + 8.0]))
+    if board.stage.dimension == 3:
+        draw_fixed_axes(board, np.array([low[0] - 12.0, high[1] + 10.0]))
+        low, high = _extent(board)
     labels = placed_labels(board)
     low, high = _extent(board)
     for label in labels:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.look.board import BEHIND, MEASURE, Board
+from lagrangian.look.board import BEHIND, MEASURE
 from lagrangian.look.cast import BodyGlyph
 from lagrangian.look.shapes import line
 from lagrangian.look.space_bodies import SpaceBodies
@@ -15,7 +15,7 @@ from lagrangian.look.space_turns import Spin, axis_now
 
 Array = NDArray[np.float64]
 
-ARC = 46.0
+ARC = 52.0
 """The radius of an arc in space [px]."""
 SMALL = 0.12
 """A smaller angle [rad] is shown by an arrow around its axis."""
@@ -38,7 +38,7 @@ class ArcArtist:
     def arc(self, spin: Spin, name: str) -> None:
         """The arc of one angle: dashed lines are where it counts from and, where no body shows it, where it is."""
         board = self.board
-        n = axis_now(board.motions, spin, board.q, board.p)
+        n = axis_now(spin, self.solids.views)
         now, shown = self._direction(spin, n)
         centre, radius = self._place(spin, n)
         angle = float(board.q[spin.coordinate])
@@ -71,7 +71,7 @@ class ArcArtist:
 
     def _direction(self, spin: Spin, n: Array) -> tuple[Array, bool]:
         """The direction that turns, across the axis, as a unit vector, and whether a body shows it."""
-        board, r = self.board, self.board.r
+        r = self.board.r
         if spin.tip is not None:
             d = r[spin.tip] - r[spin.joint]
             flat = d - (d @ n) * n
@@ -106,8 +106,26 @@ class ArcArtist:
                 lift = player.thickness if float(n @ self.solids.eye) > 0 else -player.thickness
                 return centre + lift * n, 0.62 * size if size > 62 else size + 9.0
             return centre, size + 12.0
+        if not board.motions.still(spin.joint) and spin.frame is not None:
+            centre = centre + self._height(spin, n) * n
         level = self.levels[spin.joint] = self.levels.get(spin.joint, -1) + 1
         return centre, ARC + 9.0 * level
+
+    def _height(self, spin: Spin, n: Array) -> float:
+        """How far along its axis an arc lies from its joint [m]: at the middle of a body that is far up the axis."""
+        r = self.board.r
+        heights = [
+            float((r[x.point] - r[spin.joint]) @ n) for x in self.bodies.players if self._turned_by(spin, x.point)
+        ]
+        best = max(heights, key=abs, default=0.0)
+        return best if abs(best) * self.board.scale > 36.0 else 0.0
+
+    def _turned_by(self, spin: Spin, k: int) -> bool:
+        """Whether a body hangs on the joint of a spin itself, a little off its axis."""
+        r = self.board.r
+        d = r[k] - r[spin.joint]
+        off = float(np.linalg.norm(np.cross(axis_now(spin, self.solids.views), d))) > 1e-6 * float(np.linalg.norm(d))
+        return off and k not in (spin.joint, spin.tip) and self.board.motions.carried(k, spin.joint, spin.frame)
 
     def _shadow(self, spin: Spin, n: Array) -> None:
         """From the end of a rod along the axis down to the plane of its direction."""

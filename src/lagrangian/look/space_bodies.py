@@ -5,7 +5,9 @@
 
 from __future__ import annotations
 
+import itertools
 from dataclasses import dataclass
+from math import pi
 
 import numpy as np
 import sympy as sp
@@ -16,11 +18,11 @@ from lagrangian.look.bodies import cog, mass_names
 from lagrangian.look.cast import BodyGlyph
 from lagrangian.look.holds import HoldKind
 from lagrangian.look.pose import up_axis
-from lagrangian.look.shapes import BOB, INK, line
+from lagrangian.look.shapes import BOB, INK, arc, line
 from lagrangian.look.space_cast import SpacePlayer
 from lagrangian.look.space_solids import CIRCLE, Solids, across
 from lagrangian.look.space_turns import Spin, axis_now
-from lagrangian.page.scene import Disc, Trace
+from lagrangian.page.scene import Disc, Placement, Trace
 
 Array = NDArray[np.float64]
 
@@ -74,7 +76,7 @@ class SpaceBodies:
         self.feet: dict[int, int] = {}
         self.reach: dict[str, float] = {}
         """How far a body reaches from its centre [m]."""
-        self.label_at: dict[str, tuple[Array, Array, float]] = {}
+        self.said: set[tuple[str, ...]] = set()
 
     def draw(self) -> None:
         """Draw all bodies."""
@@ -103,7 +105,11 @@ class SpaceBodies:
             self.board.handles.append(self.board.anchor(x.point))
 
     def _say(self, x: SpacePlayer, near: Array, away: Array, distance: float) -> None:
-        self.board.wish(mass_names(x), near, away, "body", (x.name,), distance=distance)
+        names = mass_names(x)
+        alike = sum(mass_names(y) == names for y in self.players)
+        if alike < 3 or names not in self.said:  # the same letter for many bodies is written once
+            self.board.wish(names, near, away, "body", (x.name,), distance=distance)
+        self.said.add(names)
 
     # -- small and round ------------------------------------------------------------------------------------------
 
@@ -148,7 +154,7 @@ class SpaceBodies:
         u, v = (self.solids.axes(frame) @ w for w in across(axis))
         turns = np.linspace(0, 2 * np.pi, 13)
         spots = [board.at(k) + board.scale * radius * board.seen(np.cos(a) * u + np.sin(a) * v) for a in turns]
-        for a, b in zip(spots, spots[1:], strict=False):
+        for a, b in itertools.pairwise(spots):
             board.fence(a, b)
 
     def _stem(self, x: SpacePlayer, foot: int) -> None:
@@ -197,11 +203,11 @@ class SpaceBodies:
     def _ends(self, x: SpacePlayer) -> tuple[int, int] | None:
         """The two ends of a link, from its joint outward."""
         board, solids, r = self.board, self.solids, self.board.r
-        own = next((t for t in self.tracks if t.point == x.point and t.frame != x.frame or t.point == x.point), None)
+        own = next((t for t in self.tracks if t.point == x.point), None)
         if own is not None and not x.points:
             beyond = solids.point(own.foot, -44.0 * solids.pixel * self._outward(own), own.frame)
             return beyond, x.point
-        inside = [t.foot for t in self.tracks if self._carries(x, t)]
+        inside = [t.foot for t in self.tracks if self.carries(x, t)]
         everything = [x.point, *x.points, *inside]
         if len(everything) < 2:
             return None
@@ -216,7 +222,7 @@ class SpaceBodies:
     def _outward(self, track: Track) -> Array:
         return track.way if float(self.board.q[track.coordinate]) >= 0 else -track.way
 
-    def _carries(self, x: SpacePlayer, track: Track) -> bool:
+    def carries(self, x: SpacePlayer, track: Track) -> bool:
         """Whether a body is what something slides in: the foot of the track is at rest in it."""
         if x.point == track.point or x.frame != track.frame or x.frame is None:
             return False
@@ -263,12 +269,21 @@ class SpaceBodies:
             solids.box(x.point, x.frame, half, of=(x.name,), kind="box", filled=not hollow)
         corners = [
             board.at(x.point) + board.scale * board.seen(solids.axes(x.frame) @ (half * np.array(s)))
-            for s in ((1, 1, 1), (1, 1, -1), (1, -1, 1), (1, -1, -1), (-1, 1, 1), (-1, 1, -1), (-1, -1, 1), (-1, -1, -1))
+            for s in (
+                (1, 1, 1),
+                (1, 1, -1),
+                (1, -1, 1),
+                (1, -1, -1),
+                (-1, 1, 1),
+                (-1, 1, -1),
+                (-1, -1, 1),
+                (-1, -1, -1),
+            )
         ]
         low, high = np.min(corners, axis=0), np.max(corners, axis=0)
         board.block((low + high) / 2, *(0.8 * (high - low)))
         cog(board, x, 4.5)
-        self._say(x, np.array([high[0], (low[1] + high[1]) / 2]), np.array([1.0, 0.3]), 3.0)
+        self._say(x, max(corners, key=lambda c: float(c[0] - 0.6 * c[1])), np.array([1.0, 0.3]), 3.0)
         self.body_axes(x, half)
 
     def body_axes(self, x: SpacePlayer, half: Array) -> None:
@@ -291,8 +306,6 @@ class SpaceBodies:
         place = board.towards(k, end)
         board.put(line((0.0, 0.0), (1.0, 0.0)), "thin", place, kind="axis", width=1.1, layer=BODY + 5)
         e = (tip - start) / size
-        from lagrangian.page.scene import Placement
-
         point = Placement(board.anchor(end), board.anchor(k), "none")
         head = line((0.0, 0.0), (7.0, 2.6), (7.0, -2.6), closed=True)
         board.put(head, "thin", point, kind="axis", width=0.0, solid=True, layer=BODY + 5)
@@ -326,7 +339,7 @@ class SpaceBodies:
         """A turntable: a short column below its joint."""
         board, solids = self.board, self.solids
         spin = next((s for s in self.spins if s.frame == x.frame), None)
-        axis = self.up if spin is None else axis_now(board.motions, spin, board.q, board.p)
+        axis = self.up if spin is None else axis_now(spin, self.solids.views)
         inside = solids.axes(x.frame).T @ axis
         if float(axis @ self.up) < 0:
             inside = -inside
@@ -350,12 +363,11 @@ class SpaceBodies:
         radius = 1.3 * base + 4.0 * solids.pixel
         self.reach[x.name] = radius
         axes = solids.axes(x.frame).T
-        n = np.array([0.0, 0.0, 1.0]) if own is None else axes @ axis_now(board.motions, own, board.q, board.p)
-        c = across(n)[0] if child is None else axes @ axis_now(board.motions, child, board.q, board.p)
+        n = np.array([0.0, 0.0, 1.0]) if own is None else axes @ axis_now(own, solids.views)
+        c = across(n)[0] if child is None else axes @ axis_now(child, solids.views)
         normal = np.cross(n, c)
         size = float(np.linalg.norm(normal))
         normal = across(n)[0] if size < 1e-6 else normal / size
-        first = len(solids.items)
         for side in (-1.0, 1.0):
             inside = base if x.level > 1 else 0.0
             a = solids.point(x.point, side * inside * c, x.frame)
@@ -365,7 +377,6 @@ class SpaceBodies:
                     line((0.0, 0.0), (1.0, 0.0)), "rod", board.towards(a, b), of=(x.name,), kind="pin", width=3.4,
                     layer=BODY,
                 )  # fmt: skip
-        assert first >= 0
         self._half_rings(x, normal, radius)
         self._round_fence(x.point, x.frame, normal, radius)
         spot = board.at(x.point) + self._edge(x.frame, normal, radius, np.array([-1.0, 0.6]))
@@ -373,19 +384,14 @@ class SpaceBodies:
 
     def _half_rings(self, x: SpacePlayer, normal: Array, radius: float) -> None:
         """A ring as eight arcs, so that what is in it lies before one half and behind the other."""
-        from math import pi
-
-        from lagrangian.look.shapes import arc
-
         board, solids = self.board, self.solids
         u, v = across(normal)
         place = solids.plane(x.point, radius * u, radius * v, x.frame)
         pieces = [(n * pi / 4, (n + 1) * pi / 4) for n in range(8)]
+        more = 4.0 * solids.pixel / radius  # the inside covers the round end of the line
         for start, end in pieces:
             a, b = (solids.point(x.point, radius * (np.cos(t) * u + np.sin(t) * v), x.frame) for t in (start, end))
             with solids.item(a, b, radius=4.0):
-                for width, inside in ((7.0, False), (7.0 - 2 * INK, True)):
-                    board.put(
-                        arc(1.0, start, end), "body", place, of=(x.name,), kind="ring", width=width, layer=BODY,
-                        inside=inside,
-                    )  # fmt: skip
+                for width, by, inside in ((7.0, 0.0, False), (7.0 - 2 * INK, more, True)):
+                    shape = arc(1.0, start - by, end + by)
+                    board.put(shape, "body", place, of=(x.name,), kind="ring", width=width, layer=BODY, inside=inside)

@@ -58,7 +58,7 @@ def _player(motions: Motions, body: Body) -> SpacePlayer:
     if not isinstance(body, RigidBody):
         return SpacePlayer(body, point, None, BodyGlyph.BALL)
     frame = stage.frames.index(body.frame)
-    player = SpacePlayer(body, point, frame, BodyGlyph.BLOCK, points=carried_points(motions, point, frame))
+    player = SpacePlayer(body, point, frame, BodyGlyph.BLOCK, points=_joints(motions, point, frame))
     player.moments = moments_of(motions, body)
     _sized(motions, player)
     hold = motions.holds[point]
@@ -69,7 +69,7 @@ def _player(motions: Motions, body: Body) -> SpacePlayer:
         player.glyph = BodyGlyph.STAR
     elif player.radius is not None and (not player.points or _on_axis(motions, player)):
         player.glyph = BodyGlyph.DISC
-        player.stem = player.points[0] if player.points else None
+        player.stem = player.points[0] if player.points and not _mounted(motions, player) else None
     elif player.points and not _stands_up(player):
         linked(motions, player)
     elif player.points:
@@ -79,6 +79,25 @@ def _player(motions: Motions, body: Body) -> SpacePlayer:
     elif motions.still(point) and motions.turns(frame) and not floats:
         player.glyph = BodyGlyph.STAND
     return player
+
+
+def _joints(motions: Motions, point: int, frame: int) -> tuple[int, ...]:
+    """The points at rest in a body; of those on one line along its own axis, the one that holds its centre."""
+    found = carried_points(motions, point, frame)
+    given = motions.stage.frames[frame].axis
+    if given is None or len(found) < 2:
+        return found
+    n = np.array([float(x) for x in given])
+    holder = motions.holds[point].holder
+    kept: list[int] = []
+    places: list[Array] = []
+    for k in sorted(found, key=lambda k: k != holder):
+        x = motions.local(k, point, frame)[0][0]
+        x = x - (x @ n) * n
+        if all(float(np.linalg.norm(x - y)) > 1e-9 * motions.size for y in places):
+            kept.append(k)
+            places.append(x)
+    return tuple(sorted(kept))
 
 
 def moments_of(motions: Motions, body: RigidBody) -> Array | None:
@@ -112,7 +131,7 @@ def _sized(motions: Motions, player: SpacePlayer) -> None:
     player.radius = rolling if rolling is not None else sp.Float(float(np.sqrt(2 * J[axis] / m)), 17)
     r = motions.stage.value(player.radius, np.zeros(len(motions.stage.inputs.q)), motions.stage.parameters())
     h = float(np.sqrt(max(0.0, 12 * (others[0] / m - r * r / 4)))) / 2
-    player.thickness = 0.09 * r if rolling is not None else float(np.clip(h, 0.08 * r, 0.35 * r))
+    player.thickness = 0.09 * r if rolling is not None else float(np.clip(h, 0.06 * r, 0.13 * r))
 
 
 def _on_axis(motions: Motions, player: SpacePlayer) -> bool:
@@ -120,6 +139,16 @@ def _on_axis(motions: Motions, player: SpacePlayer) -> bool:
     assert player.direction is not None
     offsets = [motions.local(k, player.point, player.frame)[0][0] for k in player.points]
     return all(float(np.linalg.norm(np.cross(x, player.direction))) < 1e-6 * motions.size for x in offsets)
+
+
+def _mounted(motions: Motions, player: SpacePlayer) -> bool:
+    """Whether the centre of a disc is at rest in another body, which holds its axle."""
+    for body in motions.stage.model.bodies:
+        if isinstance(body, RigidBody) and body is not player.body:
+            point, frame = motions.stage.index(body.at), motions.stage.frames.index(body.frame)
+            if point != player.point and frame != player.frame and motions.carried(player.point, point, frame):
+                return True
+    return False
 
 
 def _stands_up(player: SpacePlayer) -> bool:

@@ -5,6 +5,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from dataclasses import replace
 from math import pi
 from typing import Any
 
@@ -12,9 +14,11 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from lagrangian.look.board import BODY, EFFORT, GROUND, JOINT
+from lagrangian.look.board import EFFORT, GROUND, JOINT
+from lagrangian.look.cast import Player
 from lagrangian.look.effort_glyphs import LENGTH, EffortArtist
-from lagrangian.look.space_bodies import SpaceBodies
+from lagrangian.look.holds import Motions
+from lagrangian.look.space_bodies import SpaceBodies, Track
 from lagrangian.look.space_solids import CIRCLE, across
 from lagrangian.look.space_supports import curved_arrow, round_axis
 from lagrangian.look.space_turns import axis_now
@@ -47,7 +51,8 @@ class SpaceTies(TieArtist):
             self.said.add(names)
             self._between(tie, tie.a, tie.b, 1.3 * offset, shown, ROLE[tie.element.kind])
             return
-        super()._one(tie, offset)
+        beside = any(t.point == tie.b for t in self.bodies.tracks) and tie.way == "telescope"
+        super()._one(tie, offset - 20.0 if beside else offset)
 
     def _anchorage(self, k: int, towards: Array) -> None:
         if not self.crowded:
@@ -65,13 +70,27 @@ class SpaceTies(TieArtist):
         size = (15.0 + 5.0 * level) * solids.pixel
         place = solids.plane(turn.joint, size * u, size * v, spin.base)
         spring = tie.element.kind == "spring"
-        board.put(
-            CIRCLE, role, place, of=of, kind=tie.element.kind, dashed=not spring, width=2.2, layer=JOINT + 1
-        )
+        board.put(CIRCLE, role, place, of=of, kind=tie.element.kind, dashed=not spring, width=2.2, layer=JOINT + 1)
         at = board.at(turn.joint)
         board.block(at, 22 + 8 * level, 22 + 8 * level)
         tip = board.at(turn.tip) - at
         board.wish(names, at, -tip + (-8.0, 0.0), role, of, distance=16.0 + 5 * level)
+
+
+class TrackResolver(Resolver):
+    """What a deflection ties together, where sliding joints are counted from where they are at 0."""
+
+    def __init__(self, motions: Motions, parts: list[Player], turns: list[Turn], tracks: Sequence[Track]) -> None:
+        super().__init__(motions, parts, turns)
+        self.tracks = tracks
+
+    def along(self, element: Element, deflection: Any) -> Tie:
+        """What a deflection ties together."""
+        tie = super().along(element, deflection)
+        for track in self.tracks:
+            if tie.way == "telescope" and tie.b == track.point:
+                return replace(tie, a=track.foot)
+        return tie
 
 
 ROLE: dict[str, Role] = {"spring": "stiffness", "damper": "damping", "friction": "friction"}
@@ -138,7 +157,11 @@ class SpaceEfforts(EffortArtist):
             value = self._unit_value(x)
             if abs(value) < 1e-12:
                 continue
-            names = tuple(sorted(str(getattr(s, "name", s)) for s in sp.sympify(x).atoms(sp.Symbol, sp.core.function.AppliedUndef)))[:1]
+            names = tuple(
+                sorted(
+                    str(getattr(s, "name", s)) for s in sp.sympify(x).atoms(sp.Symbol, sp.core.function.AppliedUndef)
+                )
+            )[:1]
             centre = board.r[joint] + (reach + 14.0 * self.bodies.solids.pixel) * axes[:, i]
             self._bow(element, centre, axes[:, i], 15.0, float(np.sign(value)), names)
 
@@ -151,7 +174,7 @@ class SpaceEfforts(EffortArtist):
         if spin is None:
             super()._around(element, turn, sense)
             return
-        n = axis_now(board.motions, spin, board.q, board.p)
+        n = axis_now(spin, bodies.solids.views)
         player = next((x for x in bodies.players if x.point == spin.joint and x.frame == spin.frame), None)
         centre = board.r[spin.joint]
         level = self.rounds[spin.joint] = self.rounds.get(spin.joint, -1) + 1
@@ -186,6 +209,3 @@ class SpaceEfforts(EffortArtist):
         middle = board.scale * (board.view @ centre)
         spot = max(path, key=lambda x: float(-x[0] - 0.3 * x[1]))
         board.wish(names, spot, spot - middle, "input", (element.name,), distance=4.0)
-
-
-__all__ = ["BODY", "SpaceEfforts", "SpaceTies"]

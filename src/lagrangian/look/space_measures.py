@@ -8,11 +8,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.look.board import BEHIND, MEASURE
+from lagrangian.look.board import BEHIND, GROUND
 from lagrangian.look.holds import HoldKind
 from lagrangian.look.shapes import line
 from lagrangian.look.space import ArcArtist
 from lagrangian.look.space_bodies import SpaceBodies
+from lagrangian.look.space_supports import curved_arrow
 from lagrangian.look.space_turns import Spin
 from lagrangian.page.scene import Disc
 
@@ -97,14 +98,14 @@ class SpaceMeasures:
             if length < 14.0:
                 board.lacks(f"coordinate {names[i]} is not drawn, because it is too short here", "[look] pose")
                 continue
-            board.arrow(start, end, "coordinate", of=(names[i],), kind="coordinate", width=1.8)
+            curved_arrow(board, [start, end], "coordinate", (names[i],), kind="coordinate", layer=GROUND + 2)
             n = np.array([start[1] - end[1], end[0] - start[0]]) / length
             n = n if n[1] > 0 else -n
             board.wish((names[i],), (start + end) / 2, n, "coordinate", (names[i],), distance=4.0)
         spot = board.scale * (board.view @ at)
         board.put(
             Disc((float(spot[0]), float(spot[1])), 2.4), "coordinate", kind="coordinate", solid=True, width=0.0,
-            layer=MEASURE, moves=False,
+            layer=GROUND + 2, moves=False,
         )  # fmt: skip
 
     def _along(self, i: int, name: str) -> bool:

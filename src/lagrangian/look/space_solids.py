@@ -22,7 +22,7 @@ from lagrangian.page.scene import Disc, Path, Placement, Role
 Array = NDArray[np.float64]
 
 CIRCLE = arc(1.0, 0.0, 2 * pi)
-SECTIONS = (-1.0, -1 / 3, 1 / 3, 1.0)
+SECTIONS = (-1.0, -0.5, 0.0, 0.5, 1.0)
 """Where a disc is cut, in halves of its thickness."""
 
 
@@ -43,8 +43,8 @@ class Solids:
 
     def __init__(self, board: Board) -> None:
         self.board, self.items = board, list[Item]()
-        views = board.stage.views([board.q], board.p)
-        self.rotations = views.R[0]
+        self.views = board.views
+        self.rotations = self.views.R[0]
         self.pixel = 1.0 / board.scale
         self.eye = np.cross(board.view[0], -board.view[1])
         self._factors: dict[sp.Expr, float] = {}
@@ -161,10 +161,6 @@ class Solids:
         self.union([(CIRCLE, place) for place in places], of=of, kind=kind)
         for place in (swapped(places[0]), places[-1]):
             put(CIRCLE, "body", place, of=of, kind=kind, width=1.2, layer=BODY, facing=True)
-            put(
-                Path((*CIRCLE.commands, ("M", (0.0, 0.0)))), "thin", place, of=of, kind=kind, width=0.0, layer=BODY,
-                facing=True,
-            )  # fmt: skip
             if spoke is not None:
                 ray = line((0.0, 0.0), (1.0, 0.0)) if place is places[-1] else line((0.0, 0.0), (0.0, 1.0))
                 put(ray, "thin", place, of=of, kind=kind, width=1.0, layer=BODY, facing=True)
@@ -223,6 +219,9 @@ class Solids:
         for s in np.linspace(-0.8, 0.8, 7):
             h = float(np.sqrt(1 - s * s))
             chords.append([(float(c * (s - h)), float(c * (s + h))), (float(c * (s + h)), float(c * (s - h)))])
+        seen = self.board.view @ normal
+        flat = float(np.sqrt(max(0.0, 1.0 - seen @ seen)))
+        self.board.block(self.board.at(k), 1.9 * radius, 1.9 * radius * flat + 4.0)
         put = self.board.put
         put(CIRCLE, "ground", place, kind="pin", width=0.0, filled=True, layer=layer)
         put(lines(*chords), "ground", place, kind="pin", width=0.8, layer=layer)
@@ -231,10 +230,11 @@ class Solids:
 
 def across(axis: Array) -> tuple[Array, Array]:
     """Two unit vectors across a unit vector, u × v = axis; the first is along a coordinate axis where one is across."""
-    options = [np.eye(3)[i] - axis[i] * axis for i in range(3)]
-    u = max(options, key=lambda x: float(np.linalg.norm(x)))
-    u = u / np.linalg.norm(u)
-    return u, np.cross(axis, u)
+    options: list[Array] = [np.eye(3)[i] - axis[i] * axis for i in range(3)]
+    longest = max(options, key=lambda x: float(np.linalg.norm(x)))
+    u: Array = longest / float(np.linalg.norm(longest))
+    v: Array = np.asarray(np.cross(axis, u), dtype=float)
+    return u, v
 
 
 def swapped(place: Placement) -> Placement:

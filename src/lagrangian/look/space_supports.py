@@ -5,6 +5,7 @@
 
 from __future__ import annotations
 
+import itertools
 from math import pi
 
 import numpy as np
@@ -13,10 +14,10 @@ from numpy.typing import NDArray
 from lagrangian.look.board import BEHIND, BODY, GROUND, MEASURE, Board
 from lagrangian.look.cast import BodyGlyph
 from lagrangian.look.holds import HoldKind
-from lagrangian.look.shapes import INK, line, lines
+from lagrangian.look.shapes import INK, head, line, lines
 from lagrangian.look.space_bodies import SpaceBodies
 from lagrangian.look.space_cast import SpacePlayer
-from lagrangian.look.space_solids import CIRCLE, Solids, across
+from lagrangian.look.space_solids import CIRCLE, across
 from lagrangian.look.space_turns import Spin, axis_now
 from lagrangian.model import Ball, Rolling, time
 from lagrangian.page.scene import Disc, Placement
@@ -55,7 +56,10 @@ class SpaceSupports:
             h = hold.holder
             if hold.how not in (HoldKind.ROD, HoldKind.TELESCOPE) or h in contacts or k in contacts:
                 continue
-            if any(x.frame is not None and {k, h} <= {x.point, *x.points} for x in self.players) or self._hoop(k):
+            if (
+                any(x.frame is not None and {k, h} <= {x.point, *x.points} for x in self.players)
+                or self._hoop(k) is not None
+            ):
                 continue
             if float(np.linalg.norm(board.at(k) - board.at(h))) < 1.0 or self._on_track(k):
                 continue
@@ -88,13 +92,7 @@ class SpaceSupports:
     # -- hoops ----------------------------------------------------------------------------------------------------
 
     def _hoop(self, k: int) -> int | None:
-        """The frame that time turns and in which a point runs on a circle."""
-        board, point = self.board, self.board.stage.points[k]
-        if point.frame is None or len(board.motions.holds[k].moving) != 1:
-            return None
-        frame = board.stage.frames.index(point.frame)
-        angle = point.frame.angle
-        return frame if not board.motions.turns(frame) and time in angle.free_symbols else None
+        return hooped(self.board, k)
 
     def _hoops(self) -> None:
         """The circle on which a point runs in a plane that time turns, and the axis of that turn."""
@@ -117,7 +115,7 @@ class SpaceSupports:
                 + board.scale * radius * board.seen(solids.axes(frame) @ (np.cos(a) * u + np.sin(a) * v))
                 for a in turns
             ]
-            for a, b in zip(spots, spots[1:], strict=False):
+            for a, b in itertools.pairwise(spots):
                 board.fence(a, b)
             name = getattr(factor, "name", None)
             if name:
@@ -152,7 +150,7 @@ class SpaceSupports:
             )
         foot = solids.point(k, -(radius + 22.0 * solids.pixel) * axis)
         solids.patch(foot, self.up, 26.0, layer=GROUND)
-        names = tuple(sorted(s.name for s in given.angle.free_symbols if s is not time))
+        names = tuple(sorted(str(s) for s in given.angle.free_symbols if s is not time))
         centre = board.r[k] + (radius + 20.0 * solids.pixel) * (solids.axes(frame) @ axis)
         path = [
             board.scale * (board.view @ (centre + 19.0 * solids.pixel * w))
@@ -165,7 +163,7 @@ class SpaceSupports:
 
     def _joints(self) -> None:
         """A hinge along each axis about which something turns at a joint."""
-        board, solids = self.board, self.solids
+        board = self.board
         groups: dict[int, list[Spin]] = {}
         for spin in self.spins:
             if not self._own_axle(spin):
@@ -176,7 +174,7 @@ class SpaceSupports:
             pedestal = next((x for x in self.players if x.point == k and x.glyph is BodyGlyph.STAND), None)
             if pedestal is not None:
                 hinged = [s for s in hinged if s.frame != pedestal.frame]
-            if self._contact(k):
+            if self._contact(k) or self._tip(k):
                 continue
             if len(hinged) == 1:
                 self._hinge(k, hinged[0], 7.5, 11.0)
@@ -189,6 +187,10 @@ class SpaceSupports:
         for element in board.stage.model.constraints:
             if isinstance(element, Ball):
                 self._ball(board.stage.index(element.between[0]), element.name)
+
+    def _tip(self, k: int) -> bool:
+        """Whether a top stands on a point."""
+        return any(x.stem == k and x.glyph is BodyGlyph.DISC for x in self.players) and self.board.motions.still(k)
 
     def _contact(self, k: int) -> bool:
         return any(
@@ -224,7 +226,7 @@ class SpaceSupports:
         """A guide where something slides through a body."""
         solids = self.solids
         for track in self.bodies.tracks:
-            carrier = next((x for x in self.players if self.bodies._carries(x, track)), None)  # noqa: SLF001
+            carrier = next((x for x in self.players if self.bodies.carries(x, track)), None)
             if carrier is None or track.foot == carrier.point or self._within(carrier, track.foot):
                 continue
             a = solids.point(track.foot, -15.0 * solids.pixel * track.way, track.frame)
@@ -258,7 +260,7 @@ class SpaceSupports:
                 continue
             total = np.sum(directions, axis=0) if directions else np.zeros(3)
             rise = float(total @ self.up) / (float(np.linalg.norm(total)) or 1.0)
-            tip = sum(s.joint == k for s in self.spins) > 2 or self._leg(k)
+            tip = self._tip(k) or sum(s.joint == k for s in self.spins) > 2 or self._leg(k)
             if rise < -0.3:
                 self._post(k, 14.0, 24.0, 1.0)
             elif tip:
@@ -289,12 +291,12 @@ class SpaceSupports:
 
     def _fork(self, k: int) -> None:
         """What holds the outermost gimbal: pins along its axis, the lower one on the ground."""
-        board, solids = self.board, self.solids
+        solids = self.solids
         outer = max((x for x in self.players if x.point == k), key=lambda x: x.level)
         spin = next((s for s in self.spins if s.frame == outer.frame), None)
         if spin is None or spin.axis is None:
             return
-        axis = axis_now(board.motions, spin, board.q, board.p)
+        axis = axis_now(spin, self.solids.views)
         radius = self.bodies.reach[outer.name]
         down = axis if float(axis @ self.up) < 0 else -axis
         vertical = abs(float(axis @ self.up)) > 0.7
@@ -330,6 +332,15 @@ class SpaceSupports:
         board.put(lines(*grid), "thin", place, kind="grid", width=0.5, layer=GROUND)
 
 
+def hooped(board: Board, k: int) -> int | None:
+    """The frame that time turns and in which a point runs on a circle."""
+    point = board.stage.points[k]
+    if point.frame is None or k >= len(board.motions.holds) or len(board.motions.holds[k].moving) != 1:
+        return None
+    frame = board.stage.frames.index(point.frame)
+    return frame if not board.motions.turns(frame) and time in point.frame.angle.free_symbols else None
+
+
 def round_axis(n: Array, start: float, end: float, steps: int = 31) -> list[Array]:
     """Unit vectors around an axis, by angles from the first of the vectors across it."""
     u, v = across(n)
@@ -341,9 +352,10 @@ def curved_arrow(
     layer: int = MEASURE,
 ) -> None:  # fmt: skip
     """A curve through places [px] with an arrow's head at its end, for the picture at rest."""
-    from lagrangian.look.shapes import head
-
-    lengths = np.cumsum([0.0, *(float(np.linalg.norm(b - a)) for a, b in zip(path, path[1:], strict=False))])
+    if len(path) == 2:
+        a, b = path
+        path = [a, b - 8.0 * (b - a) / max(9.0, float(np.linalg.norm(b - a))), b]
+    lengths = np.cumsum([0.0, *(float(np.linalg.norm(b - a)) for a, b in itertools.pairwise(path))])
     last = int(np.searchsorted(lengths, lengths[-1] - 8.0))
     foot = path[max(0, min(last, len(path) - 2))]
     spots = [(float(x), float(y)) for x, y in path]
@@ -360,13 +372,14 @@ def curved_arrow(
         board.fence(a, b)
 
 
-def triad(board: Board, solids: Solids, corner: Array) -> None:
+def draw_fixed_axes(board: Board, corner: Array) -> None:
     """The fixed axes in a corner of the picture."""
+    pixel = 1.0 / board.scale
     at = board.at(0)
     shift = (float(corner[0] - at[0]), float(corner[1] - at[1]))
     for i, name in enumerate(("x", "y", "z")):
-        end = board.stage.fixed(list(34.0 * solids.pixel * np.eye(3)[i]))
-        tip = corner + board.scale * board.seen(34.0 * solids.pixel * np.eye(3)[i])
+        end = board.stage.fixed(list(34.0 * pixel * np.eye(3)[i]))
+        tip = corner + board.scale * board.seen(34.0 * pixel * np.eye(3)[i])
         e = tip - corner
         size = float(np.linalg.norm(e))
         place = Placement(board.anchor(0), board.anchor(end), "along", shift, shift)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.look.holds import HoldKind, Motions
+from lagrangian.look.kinematics import Views
 from lagrangian.look.turning import Turn
 
 Array = NDArray[np.float64]
@@ -19,9 +20,9 @@ SAME = 1e-8
 class Spin:
     """A coordinate that is an angle.
 
-    It turns ``frame`` against ``base`` (None: the fixed axes) about ``axis``, a unit vector in the axes of ``base``; or,
-    with ``frame`` None, the direction from ``joint`` to ``tip``, where an axis that itself moves is None. ``sense`` is
-    +1 where the angle grows by the right hand. ``tip`` is a point that turns with it, if there is one.
+    It turns ``frame`` against ``base`` (None: the fixed axes) about ``axis``, a unit vector in the axes of ``base``,
+    by the right hand; or, with ``frame`` None, the direction from ``joint`` to ``tip``, where an axis that itself moves
+    is None. ``tip`` is a point that turns with it, if there is one.
     """
 
     coordinate: int
@@ -30,7 +31,6 @@ class Spin:
     frame: int | None
     base: int | None
     axis: Array | None
-    sense: float = 1.0
 
     def turn(self, count: int, name: str = "") -> Turn:
         """The same as what turns about a joint, for ties and torques."""
@@ -61,8 +61,8 @@ def relative(motions: Motions, frame: int, base: int | None) -> tuple[Array, Arr
     return np.einsum("sji,sjk->sik", B, R), np.einsum("sji,sjkn->sikn", B, RJ) + np.einsum("sjin,sjk->sikn", BJ, R)
 
 
-def own_axis(motions: Motions, i: int, frame: int, base: int | None) -> tuple[Array, float] | None:
-    """The constant axis about which coordinate i alone turns a frame against another by itself, and its sense."""
+def own_axis(motions: Motions, i: int, frame: int, base: int | None) -> Array | None:
+    """The constant axis about which coordinate i alone turns a frame against another by itself."""
     R, RJ = relative(motions, frame, base)
     moving = np.flatnonzero(np.abs(RJ).max(axis=(0, 1, 2)) > SAME)
     if list(moving) != [i]:
@@ -71,7 +71,7 @@ def own_axis(motions: Motions, i: int, frame: int, base: int | None) -> tuple[Ar
     n = np.stack([W[:, 2, 1], W[:, 0, 2], W[:, 1, 0]], axis=-1)
     if np.abs(n - n[0]).max() > SAME or abs(float(np.linalg.norm(n[0])) - 1.0) > 1e-6:
         return None
-    return n[0], 1.0
+    return np.asarray(n[0])
 
 
 def _of_frames(motions: Motions, i: int) -> Spin | None:
@@ -81,12 +81,12 @@ def _of_frames(motions: Motions, i: int) -> Spin | None:
     for f in range(len(stage.frames)):
         found = own_axis(motions, i, f, parents[f])
         if found is not None:
-            return _made(motions, i, f, parents[f], found[0])
+            return _made(motions, i, f, parents[f], found)
     for f in range(len(stage.frames)):
         for base in (None, *range(f)):
             found = own_axis(motions, i, f, base)
             if found is not None:
-                return _made(motions, i, f, base, found[0])
+                return _made(motions, i, f, base, found)
     return None
 
 
@@ -102,6 +102,8 @@ def _made(motions: Motions, i: int, frame: int, base: int | None, axis: Array) -
         for k, point in enumerate(stage.points):
             if point.parent is not None and point.frame is stage.frames[f]:
                 joint = stage.index(point.parent)
+                if i in motions.coordinates(joint):
+                    continue
                 direct = level == 0 and motions.carried(k, joint, frame)
                 return Spin(i, joint, k if direct else None, frame, base, axis)
         for body in stage.model.bodies:
@@ -119,9 +121,9 @@ def _of_rods(motions: Motions, i: int) -> Spin | None:
         column = D[:, :, i]
         rows = np.concatenate([_cross(-x) for x in d])
         n, *_ = np.linalg.lstsq(rows, column.ravel(), rcond=None)
-        if np.abs(rows @ n - column.ravel()).max() < 1e-8 * motions.size and abs(np.linalg.norm(n) - 1.0) < 1e-6:
-            if float(np.abs(np.einsum("sd,d->s", d, n)).max()) > 1e-6 * motions.size:
-                return Spin(i, hold.holder, k, None, None, n)
+        about = np.abs(rows @ n - column.ravel()).max() < 1e-8 * motions.size and abs(np.linalg.norm(n) - 1.0) < 1e-6
+        if about and float(np.abs(np.einsum("sd,d->s", d, n)).max()) > 1e-6 * motions.size:
+            return Spin(i, hold.holder, k, None, None, np.asarray(n, dtype=float))
         lengths, rates = np.linalg.norm(d, axis=1), np.linalg.norm(column, axis=1)
         if np.abs(lengths - rates).max() < 1e-8 * lengths.max():
             return Spin(i, hold.holder, k, None, None, None)
@@ -132,9 +134,8 @@ def _cross(a: Array) -> Array:
     return np.array([[0.0, -a[2], a[1]], [a[2], 0.0, -a[0]], [-a[1], a[0], 0.0]])
 
 
-def axis_now(motions: Motions, spin: Spin, q: Array, p: Array) -> Array:
+def axis_now(spin: Spin, views: Views) -> Array:
     """The axis of a spin in a pose, as a unit vector in the fixed axes."""
-    views = motions.stage.views([q], p)
     if spin.axis is not None:
         return spin.axis if spin.base is None else views.R[0, spin.base] @ spin.axis
     assert spin.tip is not None

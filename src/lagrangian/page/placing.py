@@ -38,6 +38,8 @@ def placed(part: ScenePart, at: Array) -> list[Drawn]:
     origin, x, y = axes(part.placement, at)
     if part.facing:  # the other side is seen: nothing is left of the shape
         seen = (x[..., 0] * y[..., 1] - x[..., 1] * y[..., 0] < 0)[..., None]
+        if not seen.any():
+            return []
         x, y = np.where(seen, x, 0.0), np.where(seen, y, 0.0)
     if isinstance(shape, Disc):
         centre = origin + shape.centre[0] * x + shape.centre[1] * y

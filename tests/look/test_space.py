@@ -1,0 +1,183 @@
+"""Pictures of systems in space: the axis of every angle, what is told, and what no description changes."""
+
+import itertools
+from pathlib import Path
+
+import numpy as np
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+from lagrangian.examples import names
+from lagrangian.look.hints import Hints
+from lagrangian.look.holds import Motions
+from lagrangian.look.kinematics import Kinematics
+from lagrangian.look.labels import crosses
+from lagrangian.look.scenes import scene_of
+from lagrangian.look.space_measures import floating_coordinates
+from lagrangian.look.space_solids import across, nearest
+from lagrangian.look.space_turns import axis_now, spins_of
+from lagrangian.page.placing import axes, places
+from lagrangian.page.scene import Scene
+
+SPACE = [name for name in names() if lg.example(name).model.dimension == 3]
+
+
+def axis_by_sympy(model, coordinate: int, q: np.ndarray, frame: int, stage: Kinematics) -> np.ndarray:  # type: ignore[no-untyped-def,type-arg]
+    """ω/q̇ of a frame from the symbolic derivative of its rotation: (∂R/∂q) Rᵀ."""
+    given = stage.frames[frame]
+    R = model.expand(given.rotation, constants=True) if hasattr(given.rotation, "free_symbols") else given.rotation
+    values = {c.symbol: x for c, x in zip(model.coordinates, q, strict=True)}
+    values |= {p.symbol: p.value for p in model.parameters}
+    symbol = model.coordinates[coordinate].symbol
+    W = np.array((sp.Matrix(R).diff(symbol) * sp.Matrix(R).T).subs(values).evalf(), dtype=float)
+    return np.array([W[2, 1], W[0, 2], W[1, 0]])
+
+
+@pytest.mark.parametrize("name", [x for x in SPACE if x not in ("spherical-pendulum", "bead-on-hoop")])
+def test_the_axis_of_an_angle_is_that_of_the_symbolic_rotation(name: str) -> None:
+    model = lg.example(name).model
+    stage = Kinematics(model)
+    motions = Motions(stage)
+    q = np.random.default_rng(2).uniform(0.2, 1.0, len(model.coordinates))
+    views = stage.views([q], stage.parameters())
+    spins = spins_of(motions, floating_coordinates(model))
+    assert spins
+    for spin in spins[:8]:
+        assert spin.frame is not None
+        expected = axis_by_sympy(model, spin.coordinate, q, spin.frame, stage)
+        assert axis_now(spin, views) == pytest.approx(expected, abs=1e-9)
+
+
+def test_the_axes_of_a_spherical_pendulum() -> None:
+    """phi turns about the vertical, theta about the horizontal line across the plane of the swing."""
+    stage = Kinematics(lg.example("spherical-pendulum").model)
+    found = {s.coordinate: s for s in spins_of(Motions(stage), frozenset())}
+    theta, phi = 0.7, 0.4
+    views = stage.views([np.array([theta, phi])], stage.parameters())
+    assert axis_now(found[1], views) == pytest.approx([0, 0, 1])
+    # r = (sin θ cos φ, sin θ sin φ, −cos θ): r × ∂r/∂θ = (sin φ, −cos φ, 0)
+    assert axis_now(found[0], views) == pytest.approx([np.sin(phi), -np.cos(phi), 0])
+
+
+@pytest.mark.parametrize("name", SPACE)
+def test_every_coordinate_is_drawn_or_told(name: str) -> None:
+    model = lg.example(name).model
+    scene, _ = scene_of(model)
+    allowed = {"angles of the legs are not drawn"} if name == "stewart-platform" else set[str]()
+    assert {x.split(":")[0] for x in scene.missing} == allowed
+    drawn = {e for part in scene.parts if part.kind == "coordinate" for e in part.elements}
+    wanted = {c.name for i, c in enumerate(model.coordinates) if i not in floating_coordinates(model)}
+    if name == "stewart-platform":
+        wanted = {x for x in wanted if x.startswith("l")}
+    assert wanted <= drawn
+
+
+@pytest.mark.parametrize("name", SPACE)
+def test_no_label_meets_another(name: str) -> None:
+    scene, _ = scene_of(lg.example(name).model)
+    for one, two in itertools.combinations(scene.labels, 2):
+        (a, b, w, h), (c, d, u, v) = one.box, two.box
+        covered = max(0.0, min(a + w, c + u) - max(a, c)) * max(0.0, min(b + h, d + v) - max(b, d))
+        assert covered < 0.25 * min(w * h, u * v), (one.names, two.names)
+
+
+LINKS = """
+name = "two links"
+coordinates = ["a", "b"]
+parameters = { l = 1, m = 1, J = 0.1, j = 0.01 }
+
+[[frame]]
+name = "first"
+axis = [0, -1, 0]
+angle = "a"
+
+[[frame]]
+name = "second"
+axis = [0, -1, 0]
+angle = "b"
+PARENT
+
+[points]
+elbow = { frame = "first", offset = ["l", "0", "0"] }
+c1 = { frame = "first", offset = ["l/2", "0", "0"] }
+c2 = { from = "elbow", frame = "second", offset = ["l/2", "0", "0"] }
+
+[[rigid_body]]
+name = "upper"
+mass = "m"
+inertia = ["j", "J", "J"]
+at = "c1"
+frame = "first"
+
+[[rigid_body]]
+name = "lower"
+mass = "m"
+inertia = ["j", "J", "J"]
+at = "c2"
+frame = "second"
+"""
+
+
+def test_absolute_and_relative_angles_give_the_same_bodies(tmp_path: Path) -> None:
+    """The second angle counts from the first link, or from the fixed axes."""
+    scenes: list[Scene] = []
+    for parent, b in (('parent = "first"', 0.4), ("", 0.9)):
+        file = tmp_path / "links.toml"
+        file.write_text(LINKS.replace("PARENT", parent))
+        view = {"azimuth": 0.6, "elevation": 0.4}
+        scenes.append(scene_of(lg.load(file).model, Hints(pose={"a": 0.5, "b": b}, **view))[0])  # type: ignore[arg-type]
+    kinds = [sorted((p.kind, p.elements, p.role) for p in s.parts if p.kind != "hinge" and p.moves) for s in scenes]
+    assert kinds[0] == kinds[1]
+    bodies = [[s.positions[k] for k in s.handles] for s in scenes]
+    assert np.array(bodies[0]) == pytest.approx(np.array(bodies[1]))
+
+
+def test_a_disc_in_space_is_the_ellipse_of_its_circle() -> None:
+    """The seen area of a disc is that of the disc times the cosine between its axis and the eye."""
+    scene, _ = scene_of(lg.example("rolling-disc").model, Hints(azimuth=0.6, elevation=0.4))
+    rims = [p for p in scene.parts if p.kind == "wheel" and p.facing and len(p.placement.__dict__) and p.outline == 1.2]
+    assert rims
+    at = places(scene)
+    model = lg.example("rolling-disc").model
+    radius = next(p.value for p in model.parameters if p.name == "r")
+    assert radius is not None
+    eye = np.cross(np.array(scene.view[0]), -np.array(scene.view[1]))
+    place = rims[0].placement
+    assert place.at is not None and place.towards is not None and place.across is not None
+    o, u, v = (np.array(scene.positions[k]) for k in (place.at, place.towards, place.across))
+    normal = np.cross(u - o, v - o) / radius**2
+    _, x, y = axes(place, at)
+    seen = x[0] * y[1] - x[1] * y[0]
+    assert abs(seen) == pytest.approx(scene.scale**2 * radius**2 * abs(normal @ eye))
+    assert np.linalg.norm(normal) == pytest.approx(1.0)
+
+
+def test_a_given_view_is_kept() -> None:
+    scene, _ = scene_of(lg.example("robot-arm").model, Hints(azimuth=0.0, elevation=0.0))
+    assert np.array(scene.view) == pytest.approx(np.array([[0, 1, 0], [0, 0, -1]]), abs=1e-12)
+
+
+def test_nearest_places_of_two_lines_against_a_grid() -> None:
+    rng = np.random.default_rng(4)
+    grid = np.linspace(0, 1, 201)
+    for _ in range(20):
+        a, b, c, d = rng.normal(size=(4, 2))
+        s, t, gap = nearest((a, b), (c, d))
+        one, two = a + np.outer(grid, b - a), c + np.outer(grid, d - c)
+        least = np.linalg.norm(one[:, None] - two[None], axis=-1).min()
+        assert gap == pytest.approx(np.linalg.norm(a + s * (b - a) - c - t * (d - c)))
+        assert gap <= least + 1e-12 and gap >= least - 0.03
+
+
+def test_vectors_across_an_axis_are_right_handed() -> None:
+    for n in np.random.default_rng(5).normal(size=(10, 3)):
+        n = n / np.linalg.norm(n)
+        u, v = across(n)
+        assert np.array([u, v, n]) @ np.array([u, v, n]).T == pytest.approx(np.eye(3))
+        assert np.cross(u, v) == pytest.approx(n)
+
+
+def test_lines_that_meet_a_box_are_known() -> None:
+    assert crosses((0.0, 0.0, 2.0, 2.0), (-1.0, 1.0), (3.0, 1.0))
+    assert not crosses((0.0, 0.0, 2.0, 2.0), (-1.0, 3.0), (3.0, 3.0))
