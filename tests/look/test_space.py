@@ -84,8 +84,8 @@ def test_no_label_meets_another(name: str) -> None:
 
 LINKS = """
 name = "two links"
-coordinates = ["a", "b"]
-parameters = { l = 1, m = 1, J = 0.1, j = 0.01 }
+coordinates = { a = "upper link", b = "lower link" }
+parameters = { l = "1 m", m = "1 kg", J = "0.1 kg*m^2", j = "0.01 kg*m^2" }
 
 [[frame]]
 name = "first"

@@ -50,8 +50,8 @@ def scene_of(model: Model, hints: Hints | None = None) -> tuple[Scene, Program]:
     motions = Motions(stage)
     p = stage.parameters()
     if stage.dimension == 3:
-        board, bodies = draw_in_space(motions, p, hints)
-        return _framed(board, model, hints, list(bodies), None)
+        board, said = draw_in_space(motions, p, hints)
+        return _framed(board, model, hints, said, None)
     parts = cast(motions, hints.kinds)
     pose = Pose(motions, p, hints.pose)
     board = Board(stage, motions, pose.closed(pose.q), p, PLANE, hidden=frozenset(hints.hide))

@@ -20,7 +20,9 @@ from lagrangian.look.space_solids import Solids
 from lagrangian.look.space_supports import SpaceSupports, hooped
 from lagrangian.look.space_turns import Spin, axis_now, spins_of
 from lagrangian.look.space_view import best_view
+from lagrangian.look.ties import Resolver
 from lagrangian.look.turning import Turn
+from lagrangian.look.words import description
 from lagrangian.model import Ball, Constraint, Element, Rolling
 
 Array = NDArray[np.float64]
@@ -33,8 +35,8 @@ SPIN, LEAN, HEADING = 0.75, 0.32, 0.95
 """The angles of wheels about their axles, of leaning, and of a heading on the floor, in the pose [rad]."""
 
 
-def draw_in_space(motions: Motions, p: Array, hints: Hints) -> tuple[Board, list[SpacePlayer]]:
-    """The board with everything of a system in space, and what its bodies are drawn as."""
+def draw_in_space(motions: Motions, p: Array, hints: Hints) -> tuple[Board, str]:
+    """The board with everything of a system in space, and what is seen, in words."""
     stage = motions.stage
     players = cast_in_space(motions, hints.kinds)
     floating = floating_coordinates(stage.model)
@@ -67,7 +69,9 @@ def draw_in_space(motions: Motions, p: Array, hints: Hints) -> tuple[Board, list
     SpaceTies(bodies, ties).draw()
     SpaceEfforts(bodies, turns, ties, resolver).draw()
     SpaceMeasures(bodies, floating, supports.floor).draw()
-    return board, players
+    plain = Resolver(motions, list(players), turns)
+    told = [plain.resolve(e) for e in tied if e.ledger != "λ"]
+    return board, description(board, list(players), told, turns)
 
 
 def _constraints(board: Board, players: list[SpacePlayer]) -> None:
