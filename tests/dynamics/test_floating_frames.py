@@ -107,7 +107,7 @@ def test_a_wrong_law_does_not_pass(monkeypatch):
 
 def test_all_that_is_made_of_a_floating_system_is_verified():
     checks = two_bodies().verify(states=2)
-    assert len(checks) == 16  # seven of the programs, nine of what is made of them
+    assert len(checks) == 17  # seven of the programs, ten of what is made of them
     assert not [str(c.what) for c in checks if c.holds is False]
 
 
