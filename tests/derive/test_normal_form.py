@@ -268,3 +268,12 @@ def test_a_multiple_that_is_too_long_a_fraction_is_refused_not_mistaken() -> Non
     long = Fraction(2**40 + 1, 3**30)
     with pytest.raises(OutOfReach, match="too long a fraction"):
         multiples(whole(long + turn(1)))
+
+
+@pytest.mark.parametrize("phase", [sp.pi / 7, 2 * sp.pi / 9, 3 * sp.pi / 11])
+def test_parts_of_a_turn_without_roots_are_numbers(phase: sp.Expr) -> None:
+    """cos π/7 is no expression of square roots; it stays as it is."""
+    found = algebra().form(sp.cos(theta + phase)).expr()
+    for at in (sp.Rational(3, 10), sp.Rational(17, 10)):
+        value = sp.N((found - sp.cos(theta + phase)).subs(theta, at), 30)
+        assert abs(value) < 1e-25

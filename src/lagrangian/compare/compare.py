@@ -19,6 +19,7 @@ from lagrangian.compare.comparison import Comparison
 from lagrangian.compare.differences import differing, parameter_differences, unmatched
 from lagrangian.compare.given import given_change
 from lagrangian.compare.match import agreement, places, solved
+from lagrangian.compare.motions import compared_motions, motion_words
 from lagrangian.compare.rows import ComparedSystem, EquationRow, Rewritten
 from lagrangian.compare.shared import Shared, inverse
 from lagrangian.compare.words import combination, equality
@@ -54,10 +55,11 @@ def compare(a: Derivable | Derived, b: Derivable | Derived, change: Mapping[Any,
     valid change.
     """
     a, b = _derived(a, "first"), _derived(b, "second")
-    for side in (a, b):
-        _check_free(side.model)
     tag_a, tag_b = _letters(a, b)
     sides = ComparedSystem("A", a, tag_a), ComparedSystem("B", b, tag_b)
+    if a.model.constraints or b.model.constraints:
+        _log.info("comparing: motions that the constraints allow")
+        return _by_motions(sides, change)
     if len(a.coordinates) != len(b.coordinates):
         return _of_other_size(sides)
     _log.info("comparing: how the coordinates follow from each other")
@@ -80,16 +82,56 @@ def _derived(thing: object, which: str) -> Derived:
     return thing.derive()  # type: ignore[attr-defined]
 
 
-def _check_free(model: Model) -> None:
-    """Refuse constraints: rows with multipliers are not sums of rows of other coordinates."""
-    if model.constraints:
-        names = ", ".join(f"'{element.name}'" for element in model.constraints[:4])
-        raise ModelError(
-            f"the constraints {names} leave the coordinates of '{model.name}' dependent: its equations, with their "
-            "multipliers, cannot be compared row by row",
-            fix="compare descriptions in as many coordinates as degrees of freedom, or compare runs of both",
-            code="E202",
-        )
+def _by_motions(sides: tuple[ComparedSystem, ComparedSystem], given: Mapping[Any, Any] | None) -> Comparison:
+    """The comparison of two systems at least one of which has constraints."""
+    a, b = (side.derivation.model for side in sides)
+    change, turned, assumed = _embedding(a, b, given)
+    source, into = reversed(sides) if turned else sides
+    found = compared_motions(source.derivation.model, into.derivation.model, change, (source.tag, into.tag))
+    values = parameter_differences(a, b)
+    return Comparison(
+        *sides,
+        source,
+        into,
+        same=found.same and not any(not p.missing for p in values),
+        equations_same=found.same,
+        change=change,
+        J=change.jacobian,
+        assumed=assumed,
+        motions=found.checks,
+        parameters=values,
+        why=motion_words(found.same, found.first),
+    )
+
+
+def _embedding(a: Model, b: Model, given: Mapping[Any, Any] | None) -> tuple[Change, bool, bool]:
+    """The coordinates of one system in those of the other, of which there may be fewer; the rest as below."""
+    if given is not None:
+        change, turned = given_change(a, b, given)
+        return change, turned, False
+    pairs = places(a, b)
+    proposals: list[tuple[float, int, Change, bool]] = []
+    for turned, one, other, seen in ((False, a, b, pairs), (True, b, a, pairs.swapped())):
+        names = {c.name for c in other.coordinates}
+        if all(c.name in names for c in one.coordinates):
+            same = Change(one.coordinates, other.coordinates, {c.symbol: c.symbol for c in one.coordinates})
+            proposals.append((agreement(one, same, seen), len(one.coordinates), same, turned))
+        for table in solved(one, other, seen):
+            made = Change(one.coordinates, other.coordinates, table)
+            proposals.append((agreement(one, made, seen), len(one.coordinates), made, turned))
+    if not proposals:
+        raise _not_found(a, b)
+    score, _, change, turned = max(proposals, key=lambda p: p[:2])
+    return change, turned, score < 1
+
+
+def _not_found(a: Model, b: Model) -> ModelError:
+    ours, theirs = (", ".join(c.name for c in m.coordinates) for m in (a, b))
+    return ModelError(
+        f"how {ours} of '{a.name}' follow from {theirs} of '{b.name}' cannot be found by comparing positions",
+        fix=Advice("say it: ", Argument("change", "'x1 + x2r'", "x2"), ", coordinates of one by those of the other"),
+        code="E210",
+    )
 
 
 def _letters(a: Derived, b: Derived) -> tuple[str, str]:
@@ -135,14 +177,7 @@ def _correspondence(a: Model, b: Model, given: Mapping[Any, Any] | None) -> tupl
             if proposals and proposals[-1][0] == 1:
                 break
     if not proposals:
-        ours, theirs = (", ".join(c.name for c in m.coordinates) for m in (a, b))
-        raise ModelError(
-            f"how {ours} of '{a.name}' follow from {theirs} of '{b.name}' cannot be found by comparing positions",
-            fix=Advice(
-                "say it: ", Argument("change", "'x1 + x2r'", "x2"), ", coordinates of one by those of the other"
-            ),
-            code="E210",
-        )
+        raise _not_found(a, b)
     score, _, change, turned = max(proposals, key=lambda p: p[:2])
     return change, turned, score < 1
 

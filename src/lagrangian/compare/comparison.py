@@ -9,14 +9,15 @@ from typing import Any, cast
 import sympy as sp
 
 from lagrangian import bounded
+from lagrangian.compare.motions import how
 from lagrangian.compare.pictures import PicturePair, pictures
 from lagrangian.compare.rows import ComparedSystem, Difference, EquationRow, ParameterDifference, Rewritten
-from lagrangian.compare.words import commas, recipe, symbols, within
+from lagrangian.compare.words import commas, recipe, row_data, summed, symbols, within
 from lagrangian.coordinates import Change
 from lagrangian.derive.context import fit, fit_terms
 from lagrangian.model import Model
 from lagrangian.model.names import moving_symbol
-from lagrangian.page.formula import Check, Formula, Heading, Item, Left, Matrix, Name, Table, Text, formula, show, text
+from lagrangian.page.formula import Check, Formula, Heading, Item, Left, Matrix, Name, Table, Text, formula, text
 from lagrangian.page.plain import plain
 from lagrangian.page.report import Part, Report
 from lagrangian.viewed import cut
@@ -35,7 +36,8 @@ class Comparison(Written):
     ``change`` expresses the coordinates ξ of ``source`` in the coordinates η of ``into``, and ``J`` = ∂ξ/∂η: each row
     of ``into`` is Σ J_ij · (row i of ``source``, rewritten). ``rows`` contains this for every equation of ``into``,
     ``back`` for the opposite direction. ``same`` is true if the equations describe the same motion and no parameter has
-    different values. If the coordinates cannot be matched, ``change`` is None and ``why`` gives the reason.
+    different values. If the coordinates cannot be matched, ``change`` is None and ``why`` gives the reason. ``motions``
+    are the checks of systems with constraints, which have no rows; ``source`` may then have more coordinates.
     """
 
     a: ComparedSystem
@@ -55,6 +57,7 @@ class Comparison(Written):
     differences: tuple[Difference, ...] = ()
     parameters: tuple[ParameterDifference, ...] = ()
     why: Text | None = None
+    motions: tuple[Check, ...] = ()
 
     def look(self) -> PicturePair:
         """Return the schematics of both systems side by side, in the same pose where the coordinates correspond."""
@@ -79,7 +82,11 @@ def comparison_report(found: Comparison) -> Report[Model]:
     shown = _Shown(found)
     parts = [Part(text("What was found"), (shown.verdict(), *shown.remarks()))]
     parts.append(Part(text("Side by side"), tuple(shown.side_by_side())))
-    if found.change is not None:
+    if found.motions:
+        parts.append(Part(text("One set of coordinates in the other"), tuple(shown.change())))
+        words = how(found.source.tag, found.into.tag)
+        parts.append(Part(text("Motions"), (words,), tuple(shown.check(c) for c in found.motions)))
+    elif found.change is not None:
         parts.append(Part(text("One set of coordinates in the other"), tuple(shown.change())))
         parts.append(Part(text("Let's compare"), tuple(shown.compared()), shown.checks(found.rows)))
         if found.back:
@@ -357,12 +364,14 @@ def comparison_data(found: Comparison) -> dict[str, Any]:
         },
         "J": None if found.J is None else [[plain(x) for x in found.J.row(i)] for i in range(found.J.rows)],
         "rewritten": [
-            {"label": r.label, "of": r.source, "equation": f"{_sum(r.left)} = {_sum(r.right)}"} for r in found.rewritten
+            {"label": r.label, "of": r.source, "equation": f"{summed(r.left)} = {summed(r.right)}"}
+            for r in found.rewritten
         ],
-        "rows": [_row_data(r) for r in found.rows],
-        "back": [_row_data(r) for r in found.back],
+        "rows": [row_data(r) for r in found.rows],
+        "back": [row_data(r) for r in found.back],
         "checks": [
-            {"what": str(c.what), "holds": c.holds, "figure": c.figure} for c in (*found.energies, *found.forces)
+            {"what": str(c.what), "holds": c.holds, "figure": c.figure}
+            for c in (*found.energies, *found.forces, *found.motions)
         ],
         "differences": [
             {
@@ -377,20 +386,3 @@ def comparison_data(found: Comparison) -> dict[str, Any]:
         ],
         "parameters": [{"name": p.name, "A": p.a, "B": p.b, "missing": p.missing or None} for p in found.parameters],
     }
-
-
-def _row_data(row: EquationRow) -> dict[str, Any]:
-    factors = {name: plain(f) for f, name in zip(row.factors, row.of, strict=True) if f != 0}
-    words = "".join(show(p) for p in row.words.parts)
-    return {
-        "row": row.label,
-        "factors": factors,
-        "words": words,
-        "holds": row.holds,
-        "figure": row.check.figure,
-        "rest": plain(row.rest),
-    }
-
-
-def _sum(terms: Sequence[sp.Expr]) -> str:
-    return " + ".join(plain(t) for t in terms).replace("+ -", "- ") or "0"

@@ -7,7 +7,9 @@ from typing import Any
 
 import sympy as sp
 
-from lagrangian.page.formula import Left, Text, text
+from lagrangian.compare.rows import EquationRow
+from lagrangian.page.formula import Left, Text, show, text
+from lagrangian.page.plain import plain
 
 Factors = Iterable[sp.Expr]
 Labels = Iterable[str]
@@ -84,3 +86,22 @@ def commas(exprs: Sequence[Left]) -> list[Left | str]:
 def symbols(names: Sequence[str]) -> list[Left | str]:
     """Names as symbols, separated by commas."""
     return commas([sp.Symbol(n) for n in names])
+
+
+def row_data(row: EquationRow) -> dict[str, Any]:
+    """A row as plain data."""
+    factors = {name: plain(f) for f, name in zip(row.factors, row.of, strict=True) if f != 0}
+    words = "".join(show(p) for p in row.words.parts)
+    return {
+        "row": row.label,
+        "factors": factors,
+        "words": words,
+        "holds": row.holds,
+        "figure": row.check.figure,
+        "rest": plain(row.rest),
+    }
+
+
+def summed(terms: Sequence[sp.Expr]) -> str:
+    """A sum in the grammar of model files."""
+    return " + ".join(plain(t) for t in terms).replace("+ -", "- ") or "0"

@@ -147,10 +147,15 @@ class FormReader:
                     h += k * turn(generators.angle(harmonic, m))
         h = whole(h)
         if phase:
-            c, s = self.form(sp.cos(sp.pi * sp.Rational(phase))), self.form(sp.sin(sp.pi * sp.Rational(phase)))
+            turned = cast("sp.Expr", sp.pi * sp.Rational(phase))
+            c, s = self._number(sp.cos(turned)), self._number(sp.sin(turned))
             bare_cos, bare_sin = self._plain(h, 0), self._plain(h, 1)
             return bare_sin * c + bare_cos * s if sine else bare_cos * c - bare_sin * s
         return self._plain(h, int(sine)) if h else Form(algebra, {} if sine else {(0, 0): {0: 1}})
+
+    def _number(self, value: sp.Expr) -> Form:
+        """cos or sin of a part of a turn: roots, or as it is where it has none, such as cos(π/7)."""
+        return self._opaque(value) if isinstance(value, (sp.sin, sp.cos)) else self.form(value)
 
     def _plain(self, h: Packed, s: int) -> Form:
         if h == 0:
