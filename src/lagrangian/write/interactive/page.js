@@ -17,7 +17,7 @@
   const set = { p: Float64Array.from(data.p.values), u: Float64Array.from(data.u.values), x: Float64Array.from(data.x.values), speed: 1, trail: true };
   let playing = false, shown = 0, last = 0, lit = null, stale = true, colours = readColours(), held = null, turning = null;
   /** How far things go: of the anchors on the picture, of each state, and of the energies. */
-  let reach = { box: [0, 0, 1, 1], states: [[0, 0]], energy: [0, 0] };
+  let reach = { box: [0, 0, 1, 1], states: [[0, 0]], energy: [0, 0], first: 1 };
   /** Without the functions that close loops nothing can be dragged. */
   const draggable = data.constrained && !physics.functions.approach ? [] : scene.handles;
   const hidden = new Set(data.x.names.map((_, i) => i).filter((i) => i >= 4));
@@ -86,7 +86,7 @@
       box[low] -= lacking + margin;
       box[high] += lacking + margin;
     }
-    reach = { box, states, energy };
+    reach = { box, states, energy, first: Math.max(box[2] - box[0], box[3] - box[1]) };
   }
 
   // -- drawing --------------------------------------------------------------------------------------------------------
@@ -123,11 +123,21 @@
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.fillStyle = colours.paper; // a recording has no background of its own
     context.fillRect(0, 0, width, height);
+    picture.place(now.subarray(1, 1 + size), shown);
+    grow();
     picture.fit(reach.box, width, height);
     if (set.trail) drawTrail();
     picture.place(now.subarray(1, 1 + size), shown);
     picture.draw(context, colours, lit, width);
     if (held) drawHeld();
+  }
+
+  /** What goes further than the run ahead widens the frame, up to four times. */
+  function grow() {
+    const box = [...reach.box];
+    picture.cover(box);
+    const extent = ([x0, y0, x1, y1]) => Math.max(x1 - x0, y1 - y0);
+    if (extent(box) < 4 * reach.first) reach.box = box;
   }
 
   /** The paths of the last seconds, fading. */
@@ -643,7 +653,7 @@
   recall();
   if (solver.kind !== "wasm") element("fallback").hidden = false;
   /** What scripts beside the page can ask: the time, the sample that is shown, the places of bodies on the canvas. */
-  Object.assign(globalThis, { livePage: { kind: solver.kind, time: () => shown, playing: () => playing, sample: () => Array.from(now), handles: () => scene.handles.map(onCanvas) } });
+  Object.assign(globalThis, { livePage: { kind: solver.kind, time: () => shown, playing: () => playing, sample: () => Array.from(history.state(shown, now)), handles: () => scene.handles.map(onCanvas) } });
   if (matchMedia("(prefers-reduced-motion: reduce)").matches) hold();
   else play();
   requestAnimationFrame(frame);
