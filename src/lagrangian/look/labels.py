@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from math import cos, pi, sin
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
 
 from lagrangian.look.board import Board, Wish
 from lagrangian.page.scene import Label, Pair
 from lagrangian.write.scene_letters import width_of
 
+Array = NDArray[np.float64]
 Box = tuple[float, float, float, float]
 
 SIZE = 15.0
@@ -29,43 +33,47 @@ def placed_labels(board: Board) -> list[Label]:
 def _best(wish: Wish, width: float, height: float, boxes: list[Box], segments: list[tuple[Pair, Pair]]) -> Pair:
     size = (wish.away[0] ** 2 + wish.away[1] ** 2) ** 0.5 or 1.0
     ax, ay = wish.away[0] / size, wish.away[1] / size
-    best, least = wish.near, float("inf")
-    for extra in DISTANCES:
-        for n in range(DIRECTIONS):
-            angle = 2 * pi * n / DIRECTIONS
-            dx, dy = cos(angle), sin(angle)
-            reach = wish.distance + extra + abs(dx) * width / 2 + abs(dy) * height / 2
-            centre = (wish.near[0] + reach * dx, wish.near[1] + reach * dy)
-            box = (centre[0] - width / 2 - 1, centre[1] - height / 2 - 1, width + 2, height + 2)
-            cost = 0.45 * (1 - dx * ax - dy * ay) + 0.055 * extra
-            cost += sum(6.0 * _overlap(box, other) for other in boxes)
-            cost += sum(2.5 for a, b in segments if crosses(box, a, b))
-            if cost < least:
-                best, least = centre, cost
-    return best
+    angles = 2 * pi * np.arange(DIRECTIONS) / DIRECTIONS
+    extra, angle = (x.ravel() for x in np.meshgrid(DISTANCES, angles, indexing="ij"))
+    dx, dy = np.cos(angle), np.sin(angle)
+    reach = wish.distance + extra + abs(dx) * width / 2 + abs(dy) * height / 2
+    x, y = wish.near[0] + reach * dx, wish.near[1] + reach * dy
+    size_of = np.full_like(x, width + 2), np.full_like(x, height + 2)
+    box = np.stack([x - width / 2 - 1, y - height / 2 - 1, *size_of], axis=-1)[:, None]
+    cost = 0.45 * (1 - dx * ax - dy * ay) + 0.055 * extra
+    if boxes:
+        cost = cost + 6.0 * _overlaps(box, np.array(boxes, float)).sum(axis=1)
+    if segments:
+        cost = cost + 2.5 * _crossings(box, np.array(segments, float)).sum(axis=1)
+    least = int(np.argmin(cost))
+    return float(x[least]), float(y[least])
 
 
-def _overlap(a: Box, b: Box) -> float:
-    """Whether two boxes meet, and how much of the smaller one is covered: 0, or 0.3 to 1."""
-    w = min(a[0] + a[2], b[0] + b[2]) - max(a[0], b[0])
-    h = min(a[1] + a[3], b[1] + b[3]) - max(a[1], b[1])
-    if w <= 0 or h <= 0:
-        return 0.0
-    return 0.3 + 0.7 * w * h / max(1e-9, min(a[2] * a[3], b[2] * b[3]))
+def _overlaps(a: Array, b: Array) -> Array:
+    """Whether boxes (…, 4) meet, and how much of the smaller one is covered: 0, or 0.3 to 1."""
+    w, h = (
+        np.minimum(a[..., k] + a[..., k + 2], b[..., k] + b[..., k + 2]) - np.maximum(a[..., k], b[..., k])
+        for k in (0, 1)
+    )
+    least = np.maximum(1e-9, np.minimum(a[..., 2] * a[..., 3], b[..., 2] * b[..., 3]))
+    return np.where((w > 0) & (h > 0), 0.3 + 0.7 * w * h / least, 0.0)
+
+
+def _crossings(box: Array, lines: Array) -> NDArray[np.bool_]:
+    """Whether lines (…, 2, 2) meet boxes (…, 4) (clipping by Liang and Barsky)."""
+    low, high = np.zeros(np.broadcast_shapes(box.shape[:-1], lines.shape[:-2])), np.ones(1)
+    for k in range(2):
+        step = lines[..., 1, k] - lines[..., 0, k]
+        near = box[..., k] - lines[..., 0, k]
+        far = near + box[..., k + 2]
+        flat = np.abs(step) < 1e-12
+        whole = np.where(flat, 1.0, step)
+        outside = np.where((near > 0) | (far < 0), np.inf, -np.inf)
+        low = np.maximum(low, np.where(flat, outside, np.minimum(near / whole, far / whole)))
+        high = np.minimum(high, np.where(flat, np.inf, np.maximum(near / whole, far / whole)))
+    return np.asarray(low <= high)
 
 
 def crosses(box: Box, a: Pair, b: Pair) -> bool:
-    """Whether a line meets a box (clipping by Liang and Barsky)."""
-    low, high = 0.0, 1.0
-    for k in range(2):
-        step = b[k] - a[k]
-        near, far = box[k] - a[k], box[k] + box[k + 2] - a[k]
-        if abs(step) < 1e-12:
-            if near > 0 or far < 0:
-                return False
-            continue
-        first, last = sorted((near / step, far / step))
-        low, high = max(low, first), min(high, last)
-        if low > high:
-            return False
-    return True
+    """Whether a line meets a box."""
+    return bool(_crossings(np.array(box), np.array((a, b))).all())
