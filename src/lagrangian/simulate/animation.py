@@ -26,7 +26,7 @@ Progress = Callable[[int, int], object]
 LARGEST_CELL = 150_000
 """The largest number of characters that a notebook is given."""
 
-ATTEMPTS = ((1, 0.15), (2, 0.15), (2, 0.4), (4, 0.4), (4, 0.8))
+ATTEMPTS = ((1, 0.15), (2, 0.15), (2, 0.4), (4, 0.4), (4, 0.8), (4, 1.6))
 """Every how many frames, and how far off [px] in between, is tried until an animation fits into a notebook."""
 
 _log = logging.getLogger(__name__)

@@ -50,10 +50,9 @@ def write_gif(path: Path, painter: FramePainter, count: int, duration: float, pr
 
     frames = reduced()
     first = next(frames)
-    first.save(
-        path, format="GIF", save_all=True, append_images=frames, duration=centiseconds(count, duration), loop=0,
-        optimize=False, disposal=1,
-    )  # fmt: skip
+    shown_for = centiseconds(count, duration)
+    with path.open("wb") as file:  # Pillow leaves a file open if it is interrupted
+        first.save(file, format="GIF", save_all=True, append_images=frames, duration=shown_for, loop=0, disposal=1)
 
 
 def centiseconds(count: int, duration: float) -> list[int]:

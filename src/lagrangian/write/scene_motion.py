@@ -53,8 +53,14 @@ def scene_motion(
     behind = next((i for i, part in enumerate(parts) if not _stands(part, motion.at)), len(parts))
     back, front = parts[:behind], parts[behind:]
     body = [f'<g transform="translate({number(-left)},{number(-top)})">', *_groups(motion, back, None)]
-    body += ['<g class="moving">', *_trails(motion, timing, zoom), *_groups(motion, front, timing), "</g>"]
-    body += ['<g class="still">', *_trails(motion, None, zoom), *_groups(motion, front, None), "</g>", "</g>"]
+    body += ['<g class="moving">', *_trails(motion, timing, zoom, tolerance), *_groups(motion, front, timing), "</g>"]
+    body += [
+        '<g class="still">',
+        *_trails(motion, None, zoom, tolerance),
+        *_groups(motion, front, None),
+        "</g>",
+        "</g>",
+    ]
     body += _footer(motion, zoom, timing)
     scene = replace(motion.scene, description=f"{motion.scene.description or motion.scene.name}; in motion, {span}")
     return document(scene, body, size=(w, h), embedded=embedded, style=_STYLE, width=shown)
@@ -202,11 +208,11 @@ def _rounded(drawn: list[Drawn]) -> str:
 # -- what is not a part of the system ---------------------------------------------------------------------------------
 
 
-def _trails(motion: SceneMotion, timing: Timing | None, zoom: float) -> Iterator[str]:
+def _trails(motion: SceneMotion, timing: Timing | None, zoom: float, tolerance: float) -> Iterator[str]:
     """Paths of anchors: all of it faint, and stronger as far as the motion has come."""
     for track in motion.paths:
-        chosen = keys(track, TRAIL * max(zoom, 1.0))
-        corners = track[chosen]
+        chosen = keys(track, max(TRAIL, tolerance) * max(zoom, 1.0))
+        corners = np.round(track[chosen], 1)  # as they are written, so that lengths along the path add up
         steps = np.hypot(*np.diff(corners, axis=0).T)
         length = float(steps.sum())
         if length < 1.0:
@@ -218,9 +224,8 @@ def _trails(motion: SceneMotion, timing: Timing | None, zoom: float) -> Iterator
         if timing is not None:
             share = np.concatenate([[0.0], np.cumsum(steps) / length])
             every = np.interp(np.linspace(0, len(track) - 1, motion.count), chosen, share)
-            values = timed(
-                1000 * (1 - every)[:, None], lambda row: number(float(row[0]) / 1000, 4), Timing(timing.duration, 1.0)
-            )
+            finish = Timing(timing.duration, 0.5 * zoom / length)
+            values = timed((1 - every)[:, None], lambda row: number(float(row[0]), 5), finish)
             yield (
                 f'<{path} opacity="0.65" pathLength="1" stroke-dasharray="1" stroke-dashoffset="1" '
                 f'stroke-linecap="butt"><animate attributeName="stroke-dashoffset" {values}/></path>'
