@@ -80,6 +80,19 @@ def test_a_box_lies_in_the_axes_of_its_body() -> None:
     assert np.allclose(corners, centre + box @ np.array([[c, -s], [s, c]]).T, atol=1e-12)
 
 
+def test_the_angle_of_a_body_with_a_shape_of_its_own_stays_at_its_joint() -> None:
+    def label(system_hints: dict) -> np.ndarray:
+        scene = CART_POLE.look(pose={"theta": 0.5}, **system_hints).scene
+        (found,) = [x for x in scene.labels if x.names == ("theta",)]
+        joint = scene.seen(
+            next(p.placement.at for p in scene.parts if "cart" in p.elements and p.placement.at is not None)
+        )
+        return np.array(found.centre) - np.array(joint)
+
+    own = {"kinds": {"pole": "none"}, "shapes": [{"frame": "pole", "box": [0.05, 0.6]}]}
+    assert np.linalg.norm(label(own) - label({})) < 60
+
+
 def test_a_line_runs_through_its_points() -> None:
     text = 'pose = { x = 0.0, theta = 0.3 }\n[[look.line]]\nthrough = ["origin", "cart", "pole"]'
     (line,) = traces(with_hints(text), "string")

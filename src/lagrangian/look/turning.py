@@ -43,7 +43,7 @@ def turns_of(motions: Motions, parts: list[Player], tips: dict[int, int]) -> lis
 
 def _ends(motions: Motions, part: Player, tips: dict[int, int]) -> tuple[int, int]:
     k = part.point
-    if part.glyph in (BodyGlyph.LINK, BodyGlyph.PLATE) and part.points:
+    if part.glyph in (BodyGlyph.LINK, BodyGlyph.PLATE, BodyGlyph.NONE) and part.points:
         holder = motions.holds[k].holder
         tip = tips.get(k, k)
         if holder not in part.points:  # it turns about its centre
