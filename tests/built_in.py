@@ -10,6 +10,8 @@ from lagrangian import examples
 
 TABLES = {"constraint", "velocity_constraint", "pin", "ball", "slider", "weld", "rolling", "rope"}
 CONSTRAINED = tuple(n for n in examples.names() if TABLES & set(tomllib.loads(examples.text(n))))
+LARGE = {"whipple-bicycle", "stewart-platform", "andrews-squeezer"}
+"""Examples that take seconds; what they show, smaller ones show too."""
 FREE = tuple(n for n in examples.names() if n not in CONSTRAINED)
 """Examples with as many coordinates as degrees of freedom."""
 

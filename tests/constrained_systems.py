@@ -1,4 +1,4 @@
-"""Systems with constraints for the tests of linearizations and equilibria."""
+"""Systems with constraints for the tests of several rooms."""
 
 import sympy as sp
 
@@ -16,6 +16,35 @@ def rod(length=1.5):
     s.particle(m, at=at, name="bob")
     s.gravity((0, -1), g)
     s.constraint(between=(at, s.origin), distance=l, name="rod")
+    return s
+
+
+def pendulum_in_plane(*, weight=False):
+    """A particle in x and y that a rod keeps at a distance l from the origin."""
+    s = lg.System("pendulum in x, y")
+    x, y = s.coordinates("x y")
+    m, length = s.parameters("m l", m=1.0, l=2.0)
+    bob = s.point("P", (x, y))
+    s.particle(m, at=bob)
+    if weight:
+        s.gravity()
+    s.constraint(between=(bob, s.origin), distance=length, name="rod")
+    return s
+
+
+def four_bar(*, weight=False):
+    """Three links by absolute angles; the last end is pinned to the ground."""
+    s = lg.System("four-bar")
+    a, b, c = s.coordinates("a b c")
+    l1, l2, l3, d, m = s.parameters("l1 l2 l3 d m", l1=0.5, l2=1.2, l3=0.9, d=1.0, m=2.0)
+    tip = s.origin
+    for angle, length in ((a, l1), (b, l2), (c, l3)):
+        frame = s.frame(angle, origin=tip)
+        s.rigid_body(m, m * length**2 / 12, at=frame.point(length / 2, 0), frame=frame)
+        tip = frame.point(length, 0)
+    if weight:
+        s.gravity()
+    s.pin((tip, s.origin + (d, 0)), name="loop")
     return s
 
 

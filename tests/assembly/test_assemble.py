@@ -7,23 +7,10 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from constrained_systems import four_bar
 from lagrangian.errors import RunError
 
 CRANK, COUPLER, ROCKER, BASE = 0.5, 1.2, 0.9, 1.0
-
-
-def four_bar() -> lg.System:
-    s = lg.System("four-bar")
-    angles = s.coordinates("a b c")
-    lengths = s.parameters("l1 l2 l3", l1=CRANK, l2=COUPLER, l3=ROCKER)
-    m, d = s.parameters("m d", m=2.0, d=BASE)
-    tip = s.origin
-    for angle, length in zip(angles, lengths, strict=True):
-        frame = s.frame(angle, origin=tip)
-        s.rigid_body(m, m * length**2 / 12, at=frame.point(length / 2, 0), frame=frame)
-        tip = frame.point(length, 0)
-    s.pin((tip, s.origin + (d, 0)), name="loop")
-    return s
 
 
 def by_triangles(a: float) -> list[tuple[float, float]]:

@@ -9,6 +9,7 @@ import pytest
 import sympy as sp
 from sympy.physics.mechanics import KanesMethod, LagrangesMethod, Particle, Point, ReferenceFrame, dynamicsymbols
 
+import constrained_systems
 import lagrangian as lg
 from lagrangian.derivation import Derivation
 
@@ -42,30 +43,11 @@ def disc() -> lg.System:
 
 
 def pendulum() -> lg.System:
-    """A particle in x and y that a rod keeps at a distance l from the origin."""
-    s = lg.System("pendulum in x, y")
-    x, y = s.coordinates("x y")
-    m, length = s.parameters("m l", m=1.0, l=2.0)
-    bob = s.point("P", (x, y))
-    s.particle(m, at=bob)
-    s.gravity()
-    s.constraint(between=(bob, s.origin), distance=length, name="rod")
-    return s
+    return constrained_systems.pendulum_in_plane(weight=True)
 
 
 def four_bar() -> lg.System:
-    """Three links by absolute angles; the last end is pinned to the ground."""
-    s = lg.System("four-bar")
-    a, b, c = s.coordinates("a b c")
-    l1, l2, l3, d, m = s.parameters("l1 l2 l3 d m", l1=0.5, l2=1.2, l3=0.9, d=1.0, m=2.0)
-    tip = s.origin
-    for angle, length in ((a, l1), (b, l2), (c, l3)):
-        frame = s.frame(angle, origin=tip)
-        s.rigid_body(m, m * length**2 / 12, at=frame.point(length / 2, 0), frame=frame)
-        tip = frame.point(length, 0)
-    s.gravity()
-    s.pin((tip, s.origin + (d, 0)), name="loop")
-    return s
+    return constrained_systems.four_bar(weight=True)
 
 
 def axle() -> lg.System:

@@ -7,18 +7,8 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from constrained_systems import pendulum_in_plane
 from lagrangian.model import time as t
-
-
-def rod() -> lg.System:
-    """A pendulum in x and y, held by a rod."""
-    s = lg.System("pendulum in x, y")
-    x, y = s.coordinates("x y")
-    m, length = s.parameters("m l", m=1.0, l=2.0)
-    bob = s.point("P", (x, y))
-    s.particle(m, at=bob)
-    s.constraint(between=(bob, s.origin), distance=length, name="rod")
-    return s
 
 
 def sled(*more: tuple[str, float]) -> lg.System:
@@ -54,7 +44,7 @@ def held(s: lg.System) -> Any:
 
 
 def test_a_rod_proposes_an_angle() -> None:
-    found = held(rod())
+    found = held(pendulum_in_plane())
     assert (found.holonomic, found.GC, found.DDOF) == (True, 1, 1)
     (way,) = found.proposals
     (f,) = [i.expression for i in found.integrals]
@@ -87,7 +77,7 @@ def test_a_row_given_twice_is_left_out_by_name() -> None:
 
 
 def test_rows_that_contradict_each_other_are_refused_by_name() -> None:
-    s = rod()
+    s = pendulum_in_plane()
     x, y = (c.symbol for c in s.model.coordinates)
     s.constraint(x**2 + y**2 - 9 * next(p.symbol for p in s.model.parameters if p.name == "l") ** 2, name="longer rod")
     with pytest.raises(lg.ModelError, match="'longer rod': it contradicts 'rod'") as caught:
@@ -95,7 +85,7 @@ def test_rows_that_contradict_each_other_are_refused_by_name() -> None:
     assert caught.value.code == "E302"
 
 
-@pytest.mark.parametrize("make", [rod, sled, disc])
+@pytest.mark.parametrize("make", [pendulum_in_plane, sled, disc])
 def test_every_format_says_the_verdict(make: Any) -> None:
     found = held(make())
     for page in (found.to_text(), found.to_markdown(), found.to_latex(), found.to_html(), found._repr_html_()):

@@ -7,14 +7,15 @@ import pytest
 from built_in_mechanisms import ORACLES
 
 import lagrangian as lg
-from built_in import CONSTRAINED
+from built_in import CONSTRAINED, LARGE
+from size import rest_slow
 
 
 def test_every_example_with_constraints_has_an_oracle() -> None:
     assert set(ORACLES) == set(CONSTRAINED)
 
 
-@pytest.mark.parametrize("name", CONSTRAINED)
+@pytest.mark.parametrize("name", rest_slow(CONSTRAINED, set(CONSTRAINED) - LARGE))
 def test_accelerations_and_multipliers_are_those_of_dense_matrices(name: str) -> None:
     system = lg.example(name)
     model, dyn = system.model, system.compile()

@@ -8,36 +8,13 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from constrained_systems import four_bar, pendulum_in_plane
 from lagrangian.dynamics import Inputs, describe
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, Output, Program, evaluate
 from lagrangian.model import Model
 from lagrangian.model.rows import rows_of
 from lagrangian.read import dumps
-
-
-def four_bar() -> lg.System:
-    """Three links by absolute angles; the last end is pinned to the ground."""
-    s = lg.System("four-bar")
-    a, b, c = s.coordinates("a b c")
-    l1, l2, l3, d, m = s.parameters("l1 l2 l3 d m", l1=0.5, l2=1.2, l3=0.9, d=1.0, m=2.0)
-    tip = s.origin
-    for angle, length in ((a, l1), (b, l2), (c, l3)):
-        frame = s.frame(angle, origin=tip)
-        s.rigid_body(m, m * length**2 / 12, at=frame.point(length / 2, 0), frame=frame)
-        tip = frame.point(length, 0)
-    s.pin((tip, s.origin + (d, 0)), name="loop")
-    return s
-
-
-def rod_pendulum() -> lg.System:
-    s = lg.System("pendulum in x, y")
-    x, y = s.coordinates("x y")
-    m, length = s.parameters("m l", m=1.0, l=2.0)
-    bob = s.point("P", (x, y))
-    s.particle(m, at=bob)
-    s.constraint(between=(bob, s.origin), distance=length, name="rod")
-    return s
 
 
 def spatial_loop() -> lg.System:
@@ -83,7 +60,7 @@ def plane_joints() -> lg.System:
     return s
 
 
-SYSTEMS: list[Callable[[], lg.System]] = [four_bar, rod_pendulum, spatial_loop, plane_joints]
+SYSTEMS: list[Callable[[], lg.System]] = [four_bar, pendulum_in_plane, spatial_loop, plane_joints]
 
 
 def nodes(model: Model, q: Any, v: Any, t: float) -> tuple[np.ndarray, list[float | None]]:
@@ -166,7 +143,7 @@ def test_a_file_reads_back_as_the_same_constraints(make: Callable[[], lg.System]
 
 
 def test_multipliers_are_said_in_words_with_their_unit() -> None:
-    (rod,) = rows_of(rod_pendulum().model)
+    (rod,) = rows_of(pendulum_in_plane().model)
     assert "".join(map(str, rod.multiplier)).endswith("the tension is its negative")
     assert rod.unit == (1, 1, -2)
     loop = rows_of(four_bar().model)

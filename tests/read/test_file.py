@@ -8,6 +8,7 @@ import sympy as sp
 from hypothesis import given
 from hypothesis import strategies as st
 
+from built_in import LARGE
 from lagrangian import examples
 from lagrangian.errors import ModelError
 from lagrangian.model import (
@@ -27,7 +28,7 @@ from lagrangian.model import (
     time,
 )
 from lagrangian.read import dumps, load, loads, schema
-from size import sized
+from size import rest_slow, sized
 
 CARTS = """
 name = "two carts and a spring"
@@ -126,7 +127,7 @@ def test_a_file_is_written_back_as_the_same_system() -> None:
     assert dumps(again) == text
 
 
-@pytest.mark.parametrize("name", examples.names())
+@pytest.mark.parametrize("name", rest_slow(examples.names(), set(examples.names()) - LARGE))
 def test_built_in_examples_round_trip(name: str) -> None:
     model = loads(examples.text(name), name).model()
     again = loads(dumps(model), name).model()

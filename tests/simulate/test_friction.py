@@ -12,6 +12,7 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 import lagrangian as lg
+from size import rest_slow
 
 TIGHT: dict[str, Any] = {"rtol": 1e-12, "atol": 1e-13}
 G = 9.81
@@ -106,7 +107,7 @@ def on_belt(**values: float) -> lg.System:
     return s
 
 
-@pytest.mark.parametrize("start", [(0.0, 0.5), (0.2, 0.0), (-0.1, 1.0)])
+@pytest.mark.parametrize("start", rest_slow([(0.0, 0.5), (0.2, 0.0), (-0.1, 1.0)], {(0.0, 0.5)}))
 def test_a_block_on_a_swinging_belt(start: tuple[float, float]) -> None:
     run = on_belt().simulate(duration=6, initial={"x": start[0], "x'": start[1]}, **TIGHT)
     exact = SwingingBelt(*start, 6.0)
@@ -301,7 +302,7 @@ def test_a_bounce_and_a_step_of_an_input() -> None:
     assert float(run.audit) < 1e-10
 
 
-@pytest.mark.parametrize("speed", [0.1, 0.4])
+@pytest.mark.parametrize("speed", rest_slow([0.1, 0.4], {0.4}))
 def test_stick_slip_on_a_steady_belt_needs_a_higher_limit_at_rest(speed: float) -> None:
     """From F_s/k the block slips back about F/k: a circle in (x, ẋ/ω₀) until ẋ is the belt's again, at the mirror
     image; then it rides for the distance 2 (F_s − F)/k."""

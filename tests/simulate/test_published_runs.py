@@ -10,6 +10,7 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from size import rest_slow
 
 STEPS = {"rk4": 0.0005}
 
@@ -24,6 +25,7 @@ SQUEEZER = {
 }
 
 
+@pytest.mark.slow
 def test_andrews_squeezer_arrives_where_it_is_printed() -> None:
     """Mazzia and Magherini, Test Set for IVP Solvers 2.4, part II, section 6, at t = 0.03 s."""
     run = lg.example("andrews-squeezer").simulate(0.03, rtol=1e-13, atol=1e-15)
@@ -106,7 +108,7 @@ REDUNDANT: dict[str, tuple[Callable[[], lg.System], dict[str, float]]] = {
 }
 
 
-@pytest.mark.parametrize("name", REDUNDANT)
+@pytest.mark.parametrize("name", rest_slow(REDUNDANT, {"double parallelogram", "door"}))
 def test_loops_with_a_row_too_many_stay_closed_for_20_seconds(name: str) -> None:
     build, start = REDUNDANT[name]
     s = build()
