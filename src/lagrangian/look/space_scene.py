@@ -105,7 +105,8 @@ def _turns(motions: Motions, players: list[SpacePlayer], spins: list[Spin]) -> l
 def _posed(motions: Motions, players: list[SpacePlayer], spins: list[Spin], pose: Pose, p: Array) -> Array:
     """The pose: wheels turned a little, what rolls leaning a little, else as in the plane."""
     q = pose.q.copy()
-    rolls = any(x.glyph is BodyGlyph.WHEEL for x in players)
+    rolls = sum(x.glyph is BodyGlyph.WHEEL for x in players)
+    heading = HEADING if rolls == 1 else 0.6 * HEADING
     up = np.array([0.0, 0.0, 1.0])
     for spin in spins:
         name = pose.names[spin.coordinate]
@@ -116,7 +117,7 @@ def _posed(motions: Motions, players: list[SpacePlayer], spins: list[Spin], pose
             q[spin.coordinate] = SPIN
         elif rolls:
             vertical = spin.axis is not None and spin.base is None and abs(float(spin.axis @ up)) > 0.9
-            q[spin.coordinate] = HEADING if vertical else LEAN
+            q[spin.coordinate] = heading if vertical else LEAN
     longest = max((motions.views.r[0, h.point] - motions.views.r[0, h.holder] for h in motions.holds), key=_norm)
     for hold in motions.holds:
         i = hold.along
