@@ -142,7 +142,7 @@ class Expressions:
         if under:
             top, bottom = Fraction(number).limit_denominator(10**18).as_integer_ratio()
             if Fraction(top, bottom) != number:  # a decimal number stays in front of the fraction
-                over, top, bottom = [sp.Float(number), *over], 1, 1
+                over, top, bottom = [sp.Float(sp.Rational(*Fraction(number).as_integer_ratio())), *over], 1, 1
             shown: Math = Quotient(self._times(top, over), self._times(bottom, under))
         else:
             shown = self._times(number, over)
