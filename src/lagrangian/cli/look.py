@@ -51,7 +51,7 @@ def look(
     json: Json = False,
     force: Force = False,
 ) -> None:
-    """Draw the system and open a page on which it moves, with sliders, plots and its equations.
+    """Draw the system and open a page on which it moves, with sliders, plots and equations.
 
     \b
     Examples:
