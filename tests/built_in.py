@@ -19,3 +19,8 @@ FREE = tuple(n for n in examples.names() if n not in CONSTRAINED)
 @cache
 def derivation(name: str) -> lg.Derivation:
     return lg.loads(examples.text(name), name=name).derive()
+
+
+@cache
+def picture(name: str) -> lg.Picture:
+    return lg.example(name).look()

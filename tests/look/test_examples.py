@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import lagrangian as lg
+from built_in import picture
 from lagrangian.examples import names
 from lagrangian.graph import evaluate
 from lagrangian.page.placing import places
@@ -11,8 +12,8 @@ from lagrangian.page.placing import places
 
 @pytest.mark.parametrize("name", names())
 def test_every_example_is_drawn_within_its_frame(name: str) -> None:
-    picture = lg.example(name).look()
-    scene = picture.scene
+    found = picture(name)
+    scene = found.scene
     assert {x for part in scene.parts for x in part.elements}
     spots = np.array(list(places(scene)))
     assert np.isfinite(spots).all()
@@ -23,12 +24,12 @@ def test_every_example_is_drawn_within_its_frame(name: str) -> None:
 
 def test_the_anchors_are_the_points_of_the_system() -> None:
     system = lg.example("double-pendulum")
-    picture = system.look(pose={"theta1": 0.3, "theta2": 1.1})
-    program = picture.program
+    found = system.look(pose={"theta1": 0.3, "theta2": 1.1})
+    program = found.program
     x = [0.3, 1.1, 0.0, 0.0]
     p = [program.defaults[name] for name in program.inputs["p"]]
     r = np.array(evaluate(program, {"x": x, "u": [], "p": p, "t": [0.0]})["r"])
-    assert np.allclose(r, picture.scene.positions)
+    assert np.allclose(r, found.scene.positions)
     L1, L2 = (system.model.values[system[name]] for name in ("L1", "L2"))
     first = np.array([L1 * np.sin(0.3), -L1 * np.cos(0.3)])
     second = first + np.array([L2 * np.sin(1.1), -L2 * np.cos(1.1)])

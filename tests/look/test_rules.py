@@ -8,6 +8,7 @@ import pytest
 from sympy import cos, sin
 
 import lagrangian as lg
+from built_in import picture
 from lagrangian.examples import names
 from lagrangian.page.scene import Scene
 
@@ -23,19 +24,19 @@ def _kinds(scene: Scene, *wanted: str) -> Counter[str]:
 
 @pytest.mark.parametrize("name", IN_THE_PLANE)
 def test_nothing_of_an_example_in_the_plane_is_left_out(name: str) -> None:
-    assert lg.example(name).look().missing == UNDRAWN.get(name, ())
+    assert picture(name).missing == UNDRAWN.get(name, ())
 
 
 @pytest.mark.parametrize("name", IN_THE_PLANE)
 def test_every_coordinate_has_a_label(name: str) -> None:
     system = lg.example(name)
-    labels = {x for label in system.look().scene.labels if label.role == "coordinate" for x in label.names}
+    labels = {x for label in picture(name).scene.labels if label.role == "coordinate" for x in label.names}
     assert labels == {c.name for c in system.model.coordinates}
 
 
 @pytest.mark.parametrize("name", names())
 def test_no_label_meets_another(name: str) -> None:
-    boxes = [(label.names, label.box) for label in lg.example(name).look().scene.labels]
+    boxes = [(label.names, label.box) for label in picture(name).scene.labels]
     for (first, (x, y, w, h)), (second, (a, b, c, d)) in combinations(boxes, 2):
         apart = x + w <= a or a + c <= x or y + h <= b or b + d <= y
         assert apart, f"{first} meets {second}"
@@ -52,7 +53,7 @@ def test_no_label_meets_another(name: str) -> None:
 )
 def test_two_sets_of_coordinates_show_the_same_bodies(absolute: str, relative: str) -> None:
     kinds = ("ball", "rod", "cart", "spring", "link", "pin", "joint", "force", "torque", "floor")
-    first, second = (lg.example(name).look().scene for name in (absolute, relative))
+    first, second = (picture(name).scene for name in (absolute, relative))
     assert _kinds(first, *kinds) == _kinds(second, *kinds)
 
 
@@ -83,7 +84,7 @@ def test_an_absolute_angle_counts_from_the_fixed_direction_and_a_relative_one_fr
 
 
 def test_a_relative_length_is_measured_from_the_other_body() -> None:
-    scene = lg.example("lecture-3b").look().scene
+    scene = picture("lecture-3b").scene
     carts = sorted(
         scene.seen(p.placement.at, p.placement.shift)[0] for p in scene.parts if p.kind == "cart" and p.layer == 20
     )
@@ -117,10 +118,10 @@ def test_a_system_in_python_without_values_is_drawn() -> None:
     s.particle(m, at=cart + (L * sin(th), -L * cos(th)))
     s.spring(k, deflection=x)
     s.gravity(direction=(0, -1), g=9.81)
-    picture = s.look(pose={th: 0.5}, kinds={"M": "box"})
-    assert picture.missing == ()
-    assert _kinds(picture.scene, "cart", "block", "rod", "spring", "wall")["cart"] == 0
-    assert "block" in {p.kind for p in picture.scene.parts}
+    found = s.look(pose={th: 0.5}, kinds={"M": "box"})
+    assert found.missing == ()
+    assert _kinds(found.scene, "cart", "block", "rod", "spring", "wall")["cart"] == 0
+    assert "block" in {p.kind for p in found.scene.parts}
 
 
 @pytest.mark.parametrize(

@@ -8,6 +8,7 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from built_in import picture
 from lagrangian.examples import names
 from lagrangian.look.hints import Hints
 from lagrangian.look.holds import Motions
@@ -75,7 +76,7 @@ def test_every_coordinate_is_drawn_or_told(name: str) -> None:
 
 @pytest.mark.parametrize("name", SPACE)
 def test_no_label_meets_another(name: str) -> None:
-    scene, _ = scene_of(lg.example(name).model)
+    scene = picture(name).scene
     for one, two in itertools.combinations(scene.labels, 2):
         (a, b, w, h), (c, d, u, v) = one.box, two.box
         covered = max(0.0, min(a + w, c + u) - max(a, c)) * max(0.0, min(b + h, d + v) - max(b, d))

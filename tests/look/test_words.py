@@ -6,6 +6,7 @@ import pytest
 from sympy import cos, sin
 
 import lagrangian as lg
+from built_in import picture
 from lagrangian.examples import names
 
 KNOWN = {
@@ -29,13 +30,13 @@ KNOWN = {
 
 @pytest.mark.parametrize("name", KNOWN)
 def test_what_everybody_knows_is_said(name: str) -> None:
-    assert lg.example(name).look().description == KNOWN[name]
+    assert picture(name).description == KNOWN[name]
 
 
 @pytest.mark.parametrize("name", names())
 def test_every_body_and_coordinate_is_mentioned_in_whole_sentences(name: str) -> None:
     system = lg.example(name)
-    text = system.look().description
+    text = picture(name).description
     assert text.endswith(".") and "  " not in text and "None" not in text and len(text) < 3000
     for sentence in re.split(r"(?<=\.) (?=[A-Z])", text):
         assert re.match(r"[A-Z]|[\w']+ ", sentence)
@@ -46,7 +47,7 @@ def test_every_body_and_coordinate_is_mentioned_in_whole_sentences(name: str) ->
 
 @pytest.mark.parametrize(("one", "other"), [("lecture-3a", "lecture-3b"), ("lecture-2", "lecture-2-absolute")])
 def test_a_mechanism_is_described_alike_in_all_coordinates(one: str, other: str) -> None:
-    first, second = (lg.example(n).look().description.partition("Coordinates")[0] for n in (one, other))
+    first, second = (picture(n).description.partition("Coordinates")[0] for n in (one, other))
     assert first == second
 
 
