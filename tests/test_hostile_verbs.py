@@ -17,8 +17,8 @@ from size import rest_slow
 STEPS = 500_000
 """Calls after which a question about hard expressions is given up here; it is 6 000 000 for users."""
 
-CALLS = 8_000_000
-"""Calls of Python functions that a verb may take in all; for users, twenty seconds are some forty million."""
+CALLS = 40_000_000
+"""Calls of Python functions that a verb may take in all: some twenty seconds for users."""
 
 VERBS = {
     "derive": ["derive", "FILE"],
@@ -41,7 +41,7 @@ METHODS: dict[str, Callable[[lg.System], object]] = {
     "linearize_along": lambda system: system.linearize_along(system.simulate(0.2)),
     "to_toml": lambda system: system.to_toml(),
 }
-SEEDS = (0, 1, 3, 4, 5, 7, 8, 9, 13, 17, 100, 105)
+SEEDS = (0, 4, 5, 8, 13, 100, 105)
 ANSWERS = range(40)
 
 

@@ -1,4 +1,4 @@
-"""Every built-in example's schematic on one page, light and dark side by side: ``python tools/every_picture.py PAGE.html``.
+"""Every example's schematic on one page, light and dark side by side: ``python tools/every_picture.py PAGE.html``.
 
 With ``--motion``, the animations of their runs. Look at the page after a change to the rules of pictures.
 """

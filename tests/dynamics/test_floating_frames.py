@@ -345,7 +345,7 @@ def test_the_command_verifies_what_it_cannot_derive(tmp_path):
 
     verified = run("verify", str(file), "--states", "5")
     assert verified.returncode == 0, verified.stderr
-    assert verified.stdout.count("✓") + verified.stdout.count("– ") == 16
+    assert verified.stdout.count("✓") + verified.stdout.count("– ") == 17
     derived = run("derive", str(file))
     assert derived.returncode == 2
     assert "floats with a quaternion" in derived.stderr

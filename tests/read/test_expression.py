@@ -151,4 +151,5 @@ def _grow(children: st.SearchStrategy[sp.Expr]) -> st.SearchStrategy[sp.Expr]:
 def test_what_is_printed_is_read_back(expr: sp.Expr) -> None:
     if expr.has(sp.zoo, sp.nan, sp.oo, sp.I, sp.re, sp.im, sp.E):
         return
-    assert parse_expression(plain(expr), SCOPE) == expr
+    once = expr.replace(lambda e: isinstance(e, sp.Abs) and isinstance(e.args[0], sp.Abs), lambda e: e.args[0])
+    assert parse_expression(plain(expr), SCOPE) == once  # SymPy keeps ||x|| only in products

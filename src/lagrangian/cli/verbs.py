@@ -22,7 +22,11 @@ VERBS = {
         "check",
         "Check your own answer: equations, energies or a whole derivation; exit 1 if it is wrong or incomplete.",
     ),
-    "export": ("export", "export", "Write the dynamics as source code, or the integrator as WebAssembly; both run without this package."),
+    "export": (
+        "export",
+        "export",
+        "Write the dynamics as source code, or the integrator as WebAssembly; both run without this package.",
+    ),
     "compare": (
         "compare",
         "compare",

@@ -28,6 +28,10 @@ STATES = 3
 """The number of random states at which a rule is asked."""
 
 
+LARGEST = 1e30
+"""Positions [m] beyond this are not drawn."""
+
+
 @dataclass(frozen=True)
 class Views:
     """What a stage looks like at some states: the first axis of every array is the state.
@@ -148,10 +152,11 @@ class Kinematics:
         states = [self._whole(rng.uniform(0.4, 1.3, len(self.inputs.q))) for _ in range(STATES)]
         for parameters in (given * rng.uniform(0.8, 1.25, len(given)), given):
             views = self.views(states, parameters, t=0.37)
-            if np.isfinite(views.r).all() and np.isfinite(views.J).all():
+            sizes = np.abs([np.abs(views.r).max(initial=0.0), np.abs(views.J).max(initial=0.0)])
+            if np.isfinite(sizes).all() and sizes.max() < LARGEST:
                 return views
         raise ModelError(
-            f"the positions of system '{self.model.name}' have no value at ordinary coordinates",
+            f"the positions of system '{self.model.name}' are infinite, or have no value, at ordinary coordinates",
             fix="check the expressions of its points",
             code="E402",
         )

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
+from lagrangian.errors import ModelError
 from lagrangian.graph import Program
 from lagrangian.look.board import Board
 from lagrangian.look.bodies import draw_bodies
@@ -44,8 +45,22 @@ PLANE = np.array([[1.0, 0.0], [0.0, -1.0]])
 
 
 def scene_of(model: Model, hints: Hints | None = None) -> tuple[Scene, Program]:
-    """The picture of a model, and the program x, u, p, t → r of its anchors [m], shape (anchors, d)."""
-    hints = Hints() if hints is None else hints
+    """The picture of a model, and the program x, u, p, t → r of its anchors [m], shape (anchors, d).
+
+    Raises `ModelError` if positions are infinite or have no value.
+    """
+    with np.errstate(all="ignore"):  # what is not finite is found at the end
+        scene, program = _drawn(model, Hints() if hints is None else hints)
+    if not np.isfinite([*scene.size, *scene.origin, *(x for r in scene.positions for x in r)]).all():
+        raise ModelError(
+            f"system '{model.name}' cannot be drawn, because positions in its pose are infinite or have no value",
+            fix="choose another pose",
+            code="E402",
+        )
+    return scene, program
+
+
+def _drawn(model: Model, hints: Hints) -> tuple[Scene, Program]:
     stage = Kinematics(model)
     motions = Motions(stage)
     p = stage.parameters()
