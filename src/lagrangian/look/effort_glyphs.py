@@ -75,7 +75,7 @@ class EffortArtist:
         """An arrow at a point: it pushes from behind where that side is free, otherwise it pulls."""
         board, part = self.board, self.by_point.get(k)
         reach = self._reach(part, e)
-        at = board.at(k) + self._lift(part)
+        at = board.at(k)
         push = (
             part is not None and part.glyph in (BodyGlyph.CART, BodyGlyph.BLOCK, BodyGlyph.WEDGE)
             if pull is None
@@ -103,9 +103,6 @@ class EffortArtist:
         board.wish(
             symbol_names(element), (start if push else end) * 0.75 + (end if push else start) * 0.25, n, "input", of
         )
-
-    def _lift(self, part: Player | None) -> Array:
-        return np.zeros(2)
 
     def _reach(self, part: Player | None, e: Array) -> float:
         """From the middle of a body to its edge."""
@@ -185,7 +182,7 @@ class EffortArtist:
         n = np.array([-e[1], e[0]])
         n = n if n[0] < 0 else -n
         at = board.at(k) + 13.0 * n
-        start, end = at + (12.0 if True else 0.0) * e, at + (12.0 + LENGTH) * e
+        start, end = at + 12.0 * e, at + (12.0 + LENGTH) * e
         board.arrow(start - board.at(k), end - board.at(k), "input", board.placed(k), of=(element.name,), kind="force")
         board.fence(start, end)
         board.wish(symbol_names(element), (start + end) / 2, n, "input", (element.name,))
@@ -229,7 +226,7 @@ class EffortArtist:
                 spot,
                 15.0,
                 pi * 1.25,
-                pi * 0.75 + 2 * pi - 2 * pi,
+                pi * 0.75,
                 "input",
                 of=of,
                 kind="torque",
