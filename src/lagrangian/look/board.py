@@ -7,9 +7,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
+import sympy as sp
 from numpy.typing import NDArray
 
-from lagrangian.look.holds import HoldKind, Motions
+from lagrangian.look.holds import Motions
 from lagrangian.look.kinematics import Kinematics, Views
 from lagrangian.look.shapes import INK, arc, arc_end, head, line
 from lagrangian.page.scene import FIXED, Disc, Pair, Path, Placement, Role, ScenePart, Trace
@@ -54,8 +55,6 @@ class Board:
     segments: list[tuple[Pair, Pair]] = field(default_factory=list[tuple[Pair, Pair]])
     missing: list[str] = field(default_factory=list[str])
     anchors: dict[int, int] = field(default_factory=dict[int, int])
-    drawn: dict[str, str] = field(default_factory=dict[str, str])
-    """What each body was drawn as, by its name."""
     handles: list[int] = field(default_factory=list[int])
     sole: dict[int, float] = field(default_factory=dict[int, float])
     """How far below a body's point its floor is [px]."""
@@ -63,8 +62,6 @@ class Board:
     """The far end of a link or beam, by the point of its body."""
     shaft_spots: dict[str, Array] = field(default_factory=dict[str, Array])
     """Where a disc on a shaft is seen, by the name of its body."""
-    floor_margin: Pair = (0.0, 0.0)
-    """How much farther floors reach to the left and to the right, to walls [px]."""
     pinned: frozenset[int] = frozenset()
     """The points at which joints close loops."""
     hidden: frozenset[str] = frozenset()
@@ -113,6 +110,10 @@ class Board:
             dx, dy = self.shift(above)
             return x + dx, y + dy
         return x, y
+
+    def pixels(self, length: sp.Expr) -> float:
+        """A length [m] of parameters as seen from straight ahead [px]."""
+        return self.scale * self.stage.value(length, self.q, self.p)
 
     def at(self, k: int) -> Array:
         """Where a point is seen [px], before the picture is moved into its frame."""
@@ -277,11 +278,6 @@ class Board:
     def lacks(self, what: str, help_by: str) -> None:
         """Say what is not drawn, and the line that helps."""
         self.missing.append(f"{what}: {help_by}" if help_by else what)
-
-    def held_by_ground(self, k: int) -> bool:
-        """Whether the holder of a point does not move."""
-        hold = self.motions.holds[k]
-        return hold.how is not HoldKind.FIRMLY and self.motions.still(hold.holder)
 
 
 def _pair(v: Array) -> Pair:

@@ -35,9 +35,8 @@ TURNING = (HoldKind.ROD, HoldKind.TELESCOPE)
 def draw_bodies(board: Board, parts: list[Player]) -> None:
     """Draw every body as what it was cast."""
     for part in parts:
-        DRAWERS[part.glyph](board, part)
-        board.drawn[part.name] = part.glyph.value
         if part.glyph is not BodyGlyph.NONE:
+            DRAWERS[part.glyph](board, part)
             board.handles.append(board.anchor(part.point))
 
 
@@ -71,10 +70,7 @@ def _cart(board: Board, part: Player) -> None:
         board.put(Disc((x, h / 2 + WHEEL - 2), WHEEL), "body", place, of=of, kind="cart", filled=True, layer=BODY + 1)
     at = board.at(part.point)
     board.block(at + (0, 5), w, h + 10)
-    hinged = any(
-        h.holder == part.point and h.how is not HoldKind.FIRMLY for h in board.motions.holds if h.point != h.holder
-    )
-    hinged = hinged and any(h.holder == part.point and h.how in TURNING for h in board.motions.holds)
+    hinged = any(h.holder == part.point and h.how in TURNING for h in board.motions.holds)
     spot = at - (w / 4, 0.0) if hinged or part.point in board.pinned else at
     board.wish(mass_names(part), spot, (0.0, 0.0), "body", of, inside=True)
 
@@ -138,39 +134,6 @@ def slope_angle(board: Board, corner: Array, start: float, end: float, name: str
     board.wish((name,), corner + 34.0 * out, out, "thin", distance=3.0)
 
 
-def _disc(board: Board, part: Player) -> None:
-    if board.stage.dimension == 3:
-        _disc_in_space(board, part)
-    else:
-        draw_wheel(board, part)
-
-
-def _disc_in_space(board: Board, part: Player) -> None:
-    """A circle through points of its rim, and one spoke."""
-    assert part.radius is not None and part.frame is not None
-    axis = int(np.argmax(np.abs(part.direction))) if part.direction is not None else 2
-    frame, of, rim = board.stage.frames[part.frame], (part.name,), list[int]()
-    u, w = [(1, 2), (2, 0), (0, 1)][axis]
-    for n in range(24):
-        offset: list[sp.Expr] = [sp.S.Zero] * 3
-        offset[u], offset[w] = (
-            part.radius * sp.Float(np.cos(2 * pi * n / 24)),
-            part.radius * sp.Float(np.sin(2 * pi * n / 24)),
-        )
-        rim.append(board.stage.add(part.point, offset, frame))
-    anchors = tuple(board.anchor(k) for k in rim)
-    shift = board.shift(part.point)
-    board.put(Trace(anchors, True, (shift,) * 24), "body", of=of, kind="disc", filled=True, layer=BODY - 3)
-    spoke = Trace((board.anchor(part.point), anchors[0]), False, (shift,) * 2)
-    board.put(spoke, "thin", of=of, kind="disc", width=1.0, layer=BODY - 2)
-    cog(board, part, 4.5)
-    spots = np.array([board.at(k) for k in rim])
-    for a, b in zip(spots, np.roll(spots, -1, axis=0), strict=True):
-        board.fence(a, b)
-    low = spots[int(np.argmax(spots[:, 0] + 0.5 * spots[:, 1]))]
-    board.wish(mass_names(part), low, low - board.at(part.point), "body", of, distance=4.0)
-
-
 def _link(board: Board, part: Player) -> None:
     """A capsule between its farthest points; one that ends at its centre of mass goes on as far again."""
     assert part.spine is not None
@@ -200,10 +163,10 @@ def _link(board: Board, part: Player) -> None:
 def _lengths(board: Board, part: Player, e: Array) -> None:
     """The names of a link's lengths: to its centre of mass along a thin line, to its other joints beside it."""
     holder, k = board.motions.holds[part.point].holder, part.point
-    if board.stage.dimension == 3 or holder not in part.points:
+    if holder not in part.points:
         return
-    named = {board.motions.length(holder, k): k}
-    name = next((x.name for x in named if isinstance(x, sp.Symbol)), "")
+    reach = board.motions.length(holder, k)
+    name = reach.name if isinstance(reach, sp.Symbol) else ""
     side = -1.0 if e[0] > 0 else 1.0
     if name:
         board.measure(holder, k, name, side * (BAR / 2 + 8.0))
@@ -266,13 +229,11 @@ def _turn(a: Array, b: Array, c: Array) -> float:
 def _bar(board: Board, part: Player) -> None:
     """A free rigid body: a bar as long as a rod with its inertia, √(12 J/m), along its x axis."""
     assert part.frame is not None
-    stage, tensor = board.stage, part.body.tensor
-    J = tensor[0][0] if len(tensor) == 1 else tensor[2][2]
-    half = sp.sqrt(3 * J / part.body.mass)
-    along = [half, 0, 0][: stage.dimension]
+    stage = board.stage
+    half = sp.sqrt(3 * part.body.tensor[0][0] / part.body.mass)
     frame = stage.frames[part.frame]
-    a = stage.add(part.point, along, frame)
-    b = stage.add(part.point, [-x for x in along], frame)
+    a = stage.add(part.point, (half, 0), frame)
+    b = stage.add(part.point, (-half, 0), frame)
     draw_bar(board, b, a, part)
     cog(board, part, COG)
     e = board.at(a) - board.at(b)
@@ -321,10 +282,6 @@ def _shaft(board: Board, part: Player) -> None:
     board.shaft_spots[part.body.name] = at
 
 
-def _nothing(board: Board, part: Player) -> None:
-    board.drawn[part.name] = ""
-
-
 DRAWERS = {
     BodyGlyph.BALL: _ball,
     BodyGlyph.CART: _cart,
@@ -334,10 +291,9 @@ DRAWERS = {
     BodyGlyph.PULLEY: draw_wheel,
     BodyGlyph.LINK: _link,
     BodyGlyph.PLATE: _plate,
-    BodyGlyph.DISC: _disc,
+    BodyGlyph.DISC: draw_wheel,
     BodyGlyph.SHAFT: _shaft,
     BodyGlyph.BEAM: _beam,
     BodyGlyph.BAR: _bar,
-    BodyGlyph.NONE: _nothing,
 }
-"""A function for every glyph."""
+"""A function for every glyph of the plane."""

@@ -8,7 +8,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any
 
 import numpy as np
 import sympy as sp
@@ -79,7 +78,7 @@ class Player:
 def cast(motions: Motions, kinds: Mapping[str, str]) -> list[Player]:
     """What each body is drawn as."""
     parts = [_part(motions, body) for body in motions.stage.model.bodies]
-    on_shaft = [x for x in parts if x.glyph is BodyGlyph.DISC and motions.stage.dimension == 2]
+    on_shaft = [x for x in parts if x.glyph is BodyGlyph.DISC]
     centres = {x.point for x in on_shaft}
     for x in on_shaft:
         if sum(y.point == x.point for y in on_shaft) > 1 and len(centres) == 1:
@@ -97,7 +96,6 @@ def cast(motions: Motions, kinds: Mapping[str, str]) -> list[Player]:
 
 def _choose(motions: Motions, part: Player, glyph: BodyGlyph) -> None:
     """Draw a body as a hint asks for, if it has what that needs: a frame, or a joint besides its centre."""
-    space = motions.stage.dimension == 3
     if glyph in (BodyGlyph.LINK, BodyGlyph.PLATE, BodyGlyph.BAR) and part.frame is None:
         return
     if glyph in (BodyGlyph.LINK, BodyGlyph.PLATE) and part.spine is None:
@@ -107,13 +105,8 @@ def _choose(motions: Motions, part: Player, glyph: BodyGlyph) -> None:
     if glyph in (BodyGlyph.WHEEL, BodyGlyph.DISC):
         if part.frame is None:
             return
-        glyph = BodyGlyph.DISC if space else glyph
-        values = _numbers(motions, [part.body.tensor[i][i] for i in range(3 if space else 1)])
-        axis = 0 if values is None else int(np.argmax(values))
         if part.radius is None:
-            part.radius = sp.sqrt(2 * part.body.tensor[axis][axis] / part.body.mass)
-        if space:
-            part.direction = np.eye(3)[axis]
+            part.radius = sp.sqrt(2 * part.body.tensor[0][0] / part.body.mass)
     part.glyph = glyph
 
 
@@ -122,7 +115,7 @@ def _mesh(motions: Motions, parts: list[Player]) -> None:
     discs = [x for x in parts if x.glyph is BodyGlyph.DISC and x.frame is not None]
     for i, one in enumerate(discs):
         for two in discs[i + 1 :]:
-            if motions.stage.dimension == 3 or one.point == two.point:
+            if one.point == two.point:
                 continue
             a, b = (motions.angle_slopes(x.frame or 0) for x in (one, two))
             size = float(np.linalg.norm(a)) * float(np.linalg.norm(b))
@@ -142,9 +135,7 @@ def _part(motions: Motions, body: Body) -> Player:
         return _particle(motions, body, point)
     frame = stage.frames.index(body.frame)
     part = Player(body, point, frame, BodyGlyph.BAR, points=carried_points(motions, point, frame))
-    if stage.dimension == 2 and _round(motions, part):
-        return part
-    if stage.dimension == 3 and _disc_in_space(motions, part):
+    if _round(motions, part):
         return part
     hold = motions.holds[point]
     if part.points:
@@ -190,7 +181,7 @@ def _apart(motions: Motions, k: int, centre: int) -> bool:
 def _particle(motions: Motions, body: Body, point: int) -> Player:
     hold = motions.holds[point]
     part = Player(body, point, None, BodyGlyph.BALL)
-    if hold.how is not HoldKind.SLIDE or motions.stage.dimension == 3:
+    if hold.how is not HoldKind.SLIDE:
         return part
     part.direction = direction(motions.views.J[0, point] - motions.views.J[0, hold.holder])
     part.glyph = BodyGlyph.CART if abs(part.direction[1]) < FLAT else BodyGlyph.BLOCK
@@ -216,15 +207,12 @@ def _round(motions: Motions, part: Player) -> bool:
         J = motions.views.J[0, part.point]
         part.direction = direction(J) if J.any() else None
         return True
-    frame = stage.frames[part.frame or 0] if part.frame is not None else None
-    assert frame is not None
+    assert part.frame is not None
+    frame = stage.frames[part.frame]
     for i in motions.turns(part.frame):
         c = stage.model.coordinates[i]
         slope = sp.diff(stage.model.expand(frame.total_angle), c.symbol)
-        if (
-            slope.free_symbols - set(motions.stage.model.values) - {p.symbol for p in stage.model.parameters}
-            or slope.is_number
-        ):
+        if slope.is_number or slope.free_symbols - {p.symbol for p in stage.model.parameters}:
             continue
         radius = 1 / slope
         if radius.could_extract_minus_sign():
@@ -263,33 +251,6 @@ def rolling_radius(motions: Motions, part: Player) -> sp.Expr | None:
         if isinstance(element, Rolling) and element.body is part.body:
             return motions.length(motions.stage.index(element.at), part.point)
     return None
-
-
-def _disc_in_space(motions: Motions, part: Player) -> bool:
-    """Whether a body in space is a disc: it rolls, or has one large moment of inertia and no joints but its centre."""
-    tensor = part.body.tensor
-    if len(tensor) != 3:
-        return False
-    rolling = rolling_radius(motions, part)
-    values = _numbers(motions, [tensor[i][i] for i in range(3)] + [part.body.mass])
-    if values is None:
-        return False
-    moments, mass = values[:3], values[3]
-    axis = int(np.argmax(moments))
-    others = np.delete(moments, axis)
-    round_body = abs(others[0] - others[1]) < 1e-9 * moments[axis] and moments[axis] > 1.2 * others[0]
-    if rolling is None and not (round_body and not part.points and mass > 0):
-        return False
-    part.glyph = BodyGlyph.DISC
-    part.radius = rolling if rolling is not None else sp.sqrt(2 * tensor[axis][axis] / part.body.mass)
-    part.direction = np.eye(3)[axis]
-    return True
-
-
-def _numbers(motions: Motions, expressions: list[Any]) -> Array | None:
-    values: Any = {p.symbol: (1.0 if p.value is None else p.value) for p in motions.stage.model.parameters}
-    found = [sp.sympify(motions.stage.model.expand(x, constants=True)).subs(values) for x in expressions]
-    return np.array([float(x) for x in found]) if all(x.is_number for x in found) else None
 
 
 # -- what is long ---------------------------------------------------------------------------------------------------

@@ -63,7 +63,7 @@ def draw_one(board: Board, parts: list[Player], element: Element) -> None:
 
                     support(board, k, board.at(b if k == a else a) - board.at(k))
     elif isinstance(element, Rolling):
-        _contact(board, parts, element)
+        _contact(board, element)
     elif not _of_expression(board, element):
         board.lacks(f"{element.title} is not drawn, because it is an expression", "")
 
@@ -184,21 +184,9 @@ def _slider(board: Board, element: Slider) -> None:
     )
 
 
-def _contact(board: Board, parts: list[Player], element: Rolling) -> None:
-    """The ground under the point of contact."""
+def _contact(board: Board, element: Rolling) -> None:
+    """The point of contact."""
     k = board.stage.index(element.at)
-    part = next((x for x in parts if x.body is element.body), None)
-    if board.stage.dimension == 3 or part is None:
-        board.put(
-            Disc((0.0, 0.0), 3.0),
-            "constraint",
-            board.placed(k),
-            of=(element.name,),
-            kind="contact",
-            filled=True,
-            layer=JOINT,
-        )
-        return
     board.put(
         Disc((0.0, 0.0), 3.0),
         "constraint",

@@ -245,7 +245,7 @@ class EffortArtist:
             and part.point == turn.joint
             and part.glyph is not BodyGlyph.BEAM
         ):
-            radius = board.scale * float(board.stage.evaluated([part.radius], board.q, board.p)[0]) + 9.0
+            radius = board.pixels(part.radius) + 9.0
         tip = board.at(turn.tip) - at
         back = float(np.arctan2(-tip[1], -tip[0])) if np.linalg.norm(tip) > 1 else pi
         if board.motions.still(turn.joint) and np.linalg.norm(tip) > 1:  # beside its support

@@ -9,7 +9,7 @@ import numpy as np
 import sympy as sp
 from numpy.typing import NDArray
 
-from lagrangian.look.kinematics import Kinematics, Views
+from lagrangian.look.kinematics import Kinematics
 
 Array = NDArray[np.float64]
 
@@ -48,8 +48,9 @@ class Hold:
 class Motions:
     """What moves with what, from numbers at random states."""
 
-    def __init__(self, stage: Kinematics, views: Views | None = None) -> None:
-        self.stage, self.views = stage, stage.random_views() if views is None else views
+    def __init__(self, stage: Kinematics) -> None:
+        self.stage, self.views = stage, stage.random_views()
+        self._slopes: dict[sp.Expr, tuple[Array, Array]] = {}
         v = self.views
         self.size = float(max(1e-12, np.abs(v.r).max()))
         self.moves = np.abs(v.J).max(axis=(0, 1, 2)) if v.J.size else np.zeros(0)
@@ -115,11 +116,17 @@ class Motions:
 
     def slope_name(self, e: Array) -> str:
         """The parameter that is the angle of a direction at the random parameters against the horizontal, if any."""
-        value = float(np.arctan2(abs(e[1]), abs(e[0])))
-        for parameter, known in zip(self.stage.model.parameters, self.views.p, strict=True):
-            if abs(known - value) < 1e-9:
-                return parameter.name
-        return ""
+        found = self.named(float(np.arctan2(abs(e[1]), abs(e[0]))))
+        return "" if found is None else found.name
+
+    def slopes(self, deflection: sp.Expr) -> tuple[Array, Array]:
+        """∂δ/∂q (n,) of a deflection at two random states."""
+        if deflection not in self._slopes:
+            rng = np.random.default_rng(5)
+            states = [rng.uniform(0.4, 1.3, len(self.stage.inputs.q)) for _ in range(2)]
+            first, second = (self.stage.slopes(deflection, q, self.views.p) for q in states)
+            self._slopes[deflection] = first, second
+        return self._slopes[deflection]
 
     def angle_slopes(self, frame: int) -> Array:
         """In the plane: ∂φ/∂q of a frame's angle (n,), at the first state."""

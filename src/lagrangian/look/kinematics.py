@@ -81,15 +81,12 @@ class Kinematics:
         point = Point(None, self.points[parent], components, frame)
         d = self.described
         axes = d.motion.root if frame is None else d.axes[frame]
-        place = d.motion.place(d.places[self.points[parent]], axes, [self._constant(x) for x in components])
+        place = d.motion.place(d.places[self.points[parent]], axes, d.nodes(components))
         d.places[point] = place
         self.points.append(point)
         self._index[id(point)] = len(self.points) - 1
         self._nodes.append(self._position(point))
         return len(self.points) - 1
-
-    def _constant(self, value: Any) -> int:
-        return self.described.node(value)
 
     def fixed(self, r: Sequence[float]) -> int:
         """Add a point at rest at ``r`` [m] in the fixed axes, and return its number."""
@@ -182,28 +179,27 @@ class Kinematics:
             q[k : k + 4] /= np.linalg.norm(q[k : k + 4])
         return q
 
-    def evaluated(self, expressions: Sequence[sp.Expr], q: Array, p: Array) -> Array:
-        """The values of expressions in coordinates, parameters and t, at v = u = t = 0."""
-        ids = self.described.nodes([self.model.expand(x) for x in expressions])
-        program = self._program({"x": Output(tuple(ids), (len(ids),))})
-        return np.array(evaluate(program, self._groups(q, p))["x"], float)
+    def evaluated(self, expressions: Sequence[sp.Expr], q: Array, p: Array, *, u: float = 0.0) -> Array:
+        """The values of expressions in coordinates, parameters and inputs at rest at t = 0, with every input ``u``."""
+        nodes = [self.described.node(self.model.expand(x)) for x in expressions]
+        return self._numbers(nodes, q, p, u=u)
 
     def value(self, expression: Any, q: Array, p: Array, *, u: float = 0.0) -> float:
-        """The value of an expression in a state at rest at t = 0, with every input ``u``."""
-        node = self.described.node(self.model.expand(sp.sympify(expression)))
-        program = self._program({"x": Output((node,), ())})
-        return float(evaluate(program, self._groups(q, p, u=u))["x"])
-
-    def rate_slopes(self, expression: sp.Expr, q: Array, p: Array) -> Array:
-        """∂(expression)/∂v (m,) of an expression that is linear in the rates, at a state."""
-        node = self.described.node(self.model.expand(expression))
-        ids = [jvp(self.graph, [node], {s: self.graph.one})[0] for s in self.inputs.v]
-        program = self._program({"x": Output(tuple(ids), (len(ids),))})
-        return np.array(evaluate(program, self._groups(q, p))["x"], float)
+        """The value of one expression; see `evaluated`."""
+        return float(self.evaluated([sp.sympify(expression)], q, p, u=u)[0])
 
     def slopes(self, expression: sp.Expr, q: Array, p: Array) -> Array:
         """∂(expression)/∂q (n,) at a state."""
+        return self._slopes(expression, self.inputs.q, q, p)
+
+    def rate_slopes(self, expression: sp.Expr, q: Array, p: Array) -> Array:
+        """∂(expression)/∂v (m,) of an expression that is linear in the rates, at a state."""
+        return self._slopes(expression, self.inputs.v, q, p)
+
+    def _slopes(self, expression: sp.Expr, seeds: Sequence[int], q: Array, p: Array) -> Array:
         node = self.described.node(self.model.expand(expression))
-        ids = [jvp(self.graph, [node], {s: self.graph.one})[0] for s in self.inputs.q]
-        program = self._program({"x": Output(tuple(ids), (len(ids),))})
-        return np.array(evaluate(program, self._groups(q, p))["x"], float)
+        return self._numbers([jvp(self.graph, [node], {s: self.graph.one})[0] for s in seeds], q, p)
+
+    def _numbers(self, nodes: Sequence[int], q: Array, p: Array, *, u: float = 0.0) -> Array:
+        program = self._program({"x": Output(tuple(nodes), (len(nodes),))})
+        return np.array(evaluate(program, self._groups(q, p, u=u))["x"], float)

@@ -95,15 +95,8 @@ class MeasureArtist:
         mark_a, mark_b = start + off * n, end + off * n
         self._arrow(mark_a, mark_b, name)
         if h:
-            board.put(
-                line(tuple(board.at(h)), tuple(mark_a + 5 * n)),
-                "thin",
-                kind="measure",
-                width=0.9,
-                layer=BEHIND,
-                moves=False,
-            )
-        board.put(line(tuple(end), tuple(mark_b + 5 * n)), "thin", kind="measure", width=0.9, layer=BEHIND, moves=False)
+            self._thin(board.at(h), mark_a + 5 * n)
+        self._thin(end, mark_b + 5 * n)
 
     def _side(self, k: int, start: Array, end: Array, e: Array, part: Player | None) -> tuple[Array, float]:
         """On which side of a body the arrow of its length lies, and how far away: where it meets the least."""
@@ -128,7 +121,7 @@ class MeasureArtist:
         if part is None:
             return (54.0, 54.0) if vertical else (ABOVE, ABOVE)
         if part.glyph is BodyGlyph.WHEEL and part.radius is not None:
-            radius = self.board.scale * float(self.board.stage.evaluated([part.radius], self.board.q, self.board.p)[0])
+            radius = self.board.pixels(part.radius)
             return radius + 22.0, radius + 26.0
         if part.glyph is BodyGlyph.WEDGE:
             return 30.0, self.board.sole.get(k, 100.0) + 28.0
@@ -145,13 +138,14 @@ class MeasureArtist:
         found += sum(3.0 for box in self.board.boxes if crosses(box, p, q))
         for s, t in self.arrows:
             box = (min(s[0], t[0]) - 6, min(s[1], t[1]) - 10, abs(t[0] - s[0]) + 12, abs(t[1] - s[1]) + 20)
-            shrunk = (a + 0.1 * (b - a), b - 0.1 * (b - a))
-            found += (
-                4.0
-                if crosses(box, (float(shrunk[0][0]), float(shrunk[0][1])), (float(shrunk[1][0]), float(shrunk[1][1])))
-                else 0.0
-            )
+            inner = [(float(x), float(y)) for x, y in (a + 0.1 * (b - a), b - 0.1 * (b - a))]
+            found += 4.0 if crosses(box, *inner) else 0.0
         return found
+
+    def _thin(self, start: Array, end: Array) -> None:
+        """A thin line from what is measured to its arrow."""
+        ends = line((float(start[0]), float(start[1])), (float(end[0]), float(end[1])))
+        self.board.put(ends, "thin", kind="measure", width=0.9, layer=BEHIND, moves=False)
 
     def _arrow(self, start: Array, end: Array, name: str, *, label: Array | None = None) -> None:
         board = self.board
@@ -182,21 +176,14 @@ class MeasureArtist:
                 size = float(np.linalg.norm(e))
                 if size < 1e-9:
                     continue
-                start = end - e / size * board.q[i] * board.scale * (size if board.stage.dimension == 3 else 1.0)
+                start = end - e / size * board.q[i] * board.scale
             e = (end - start) / (np.linalg.norm(end - start) or 1.0)
             n = np.array([-e[1], e[0]])
             n = n if n[0] > 0 or (n[0] == 0 and n[1] < 0) else -n
             off = 22.0 if hold.how is HoldKind.TELESCOPE else 34.0
             if hold.how is HoldKind.TRACK:
                 n = n if n[1] < 0 else -n
-            board.put(
-                line(tuple(end), tuple(end + (off + 5) * n)),
-                "thin",
-                kind="measure",
-                width=0.9,
-                layer=BEHIND,
-                moves=False,
-            )
+            self._thin(end, end + (off + 5) * n)
             self._arrow(start + off * n, end + off * n, name, label=n)
             return True
         return False
@@ -249,7 +236,7 @@ class MeasureArtist:
             and part.radius is not None
             and part.glyph in (BodyGlyph.WHEEL, BodyGlyph.DISC, BodyGlyph.PULLEY)
         ):
-            radius = max(20.0, 0.6 * board.scale * float(board.stage.evaluated([part.radius], board.q, board.p)[0]))
+            radius = max(20.0, 0.6 * board.pixels(part.radius))
         reference = radius + 26.0
         foot = at + reference * np.array([np.cos(start), np.sin(start)])
         board.put(
@@ -291,14 +278,7 @@ class MeasureArtist:
                 origin = board.at(0)
                 low = max(float(at[1]), float(origin[1])) + 30.0
                 self._arrow(np.array([origin[0], low]), np.array([at[0], low]), name)
-                board.put(
-                    line(tuple(at), (float(at[0]), low + 5)),
-                    "thin",
-                    kind="measure",
-                    width=0.9,
-                    layer=BEHIND,
-                    moves=False,
-                )
+                self._thin(at, np.array([at[0], low + 5]))
                 return True
             board.arrow(start, start + 34.0 * e, "coordinate", kind="coordinate", of=(name,), width=1.8)
             n = np.array([-e[1], e[0]])

@@ -125,7 +125,7 @@ class Pose:
         symbol = self.stage.model.coordinates[i].symbol
         for element in self.stage.model.elements:
             if isinstance(element, Spring) and element.deflection == symbol and element.rest != 0:
-                value = float(self.stage.evaluated([element.rest], np.zeros(len(self.names)), self.p)[0])
+                value = self.stage.value(element.rest, np.zeros(len(self.names)), self.p)
                 if value > 0:
                     return STRETCHED * value
         if self.start.get(name):
@@ -158,12 +158,10 @@ def up_axis(motions: Motions) -> Array:
 
 
 def view_of(motions: Motions, azimuth: float, elevation: float) -> Array:
-    """The projection onto the screen, (2, d): x to the right, y downward.
+    """The projection of space onto the screen, (2, 3): x to the right, y downward.
 
-    In space the eye looks from the direction that is ``azimuth`` about the vertical and ``elevation`` above the floor.
+    The eye looks from the direction that is ``azimuth`` about the vertical and ``elevation`` above the floor.
     """
-    if motions.stage.dimension == 2:
-        return np.array([[1.0, 0.0], [0.0, -1.0]])
     up = up_axis(motions)
     x = np.array([1.0, 0.0, 0.0]) if abs(up[0]) < 0.9 else np.array([0.0, 1.0, 0.0])
     x = x - (x @ up) * up

@@ -35,7 +35,7 @@ def mass_names(part: Player) -> tuple[str, ...]:
 def _track(board: Board, part: Player) -> None:
     """The circle on which a wheel rolls, inside or outside, if its radius is a parameter."""
     hold = board.motions.holds[part.point]
-    if hold.how is not HoldKind.ROD or part.radius is None or board.stage.dimension == 3:
+    if hold.how is not HoldKind.ROD or part.radius is None:
         return
     r = board.motions.views.r[0]
     orbit = float(np.linalg.norm(r[part.point] - r[hold.holder]))
@@ -47,7 +47,7 @@ def _track(board: Board, part: Player) -> None:
         radius = board.motions.named(value)
         if radius is None:
             continue
-        size = float(board.stage.evaluated([radius], board.q, board.p)[0])
+        size = board.stage.value(radius, board.q, board.p)
         way = board.r[part.point] - board.r[hold.holder]
         down = float(np.arctan2(way[1], way[0]))
         spots = [

@@ -111,7 +111,7 @@ def _scale(board: Board, parts: list[Player]) -> float:
     for part in parts:
         at = board.view @ board.r[part.point]
         if part.radius is not None and part.glyph is not BodyGlyph.SHAFT and part.glyph is not BodyGlyph.BEAM:
-            radius = float(board.stage.evaluated([part.radius], board.q, board.p)[0])
+            radius = board.stage.value(part.radius, board.q, board.p)
             if radius > 0:
                 structure += [at + (radius, radius), at - (radius, radius)]
                 longest = max(longest, 3.8 * radius)

@@ -32,7 +32,6 @@ class ArcArtist:
     def __init__(self, bodies: SpaceBodies) -> None:
         self.bodies, self.board, self.solids = bodies, bodies.board, bodies.solids
         self.levels: dict[int, int] = {}
-        self.drawn: dict[int, Array] = {}
         """The axis of every arc [fixed axes], by the number of its coordinate."""
 
     def arc(self, spin: Spin, name: str) -> None:
@@ -42,7 +41,6 @@ class ArcArtist:
         now, shown = self._direction(spin, n)
         centre, radius = self._place(spin, n)
         angle = float(board.q[spin.coordinate])
-        self.drawn[spin.coordinate] = n
         origin = board.scale * (board.view @ centre)
 
         def spot(a: float, size: float) -> Array:

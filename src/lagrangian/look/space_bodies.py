@@ -83,7 +83,6 @@ class SpaceBodies:
         for x in sorted(self.players, key=lambda x: x.level):
             glyph = x.glyph
             if glyph is BodyGlyph.NONE:
-                self.board.drawn[x.name] = ""
                 continue
             if glyph is BodyGlyph.BALL:
                 self._ball(x)
@@ -101,7 +100,6 @@ class SpaceBodies:
                 pass
             else:
                 self._box(x)
-            self.board.drawn[x.name] = x.glyph.value
             self.board.handles.append(self.board.anchor(x.point))
 
     def _say(self, x: SpacePlayer, near: Array, away: Array, distance: float) -> None:
@@ -166,7 +164,6 @@ class SpaceBodies:
         for a, b in ((foot, x.point), (x.point, top)):
             with solids.item(a, b, radius=3.0):
                 self.bar(a, b, 6.0, (x.name,), "axle")
-        board.tips[x.point] = top
 
     def bar(self, a: int, b: int, width: float, of: tuple[str, ...], kind: str = "link") -> None:
         """A round bar between two points."""
@@ -197,7 +194,6 @@ class SpaceBodies:
         e = board.at(b) - board.at(a)
         n = np.array([e[1], -e[0]]) if e[0] > 0 else np.array([-e[1], e[0]])
         self._say(x, board.at(x.point), -n, WIDE / 2 + 4)
-        board.tips[x.point] = b
         return True
 
     def _ends(self, x: SpacePlayer) -> tuple[int, int] | None:
@@ -239,7 +235,6 @@ class SpaceBodies:
         order = np.argsort(np.arctan2(flat[:, 1], flat[:, 0]))
         anchors = tuple(board.anchor(points[i]) for i in order)
         shape = Trace(anchors, True)
-        far = points[int(np.argmax(np.linalg.norm(spots - middle, axis=1)))]
         with solids.item(x.point, radius=20.0, lift=0.0 if len(x.points) < 3 else 2.0):
             board.put(shape, "body", of=(x.name,), kind="plate", width=12.0, layer=BODY)
             board.put(
@@ -248,7 +243,6 @@ class SpaceBodies:
         for i, j in zip(order, [*order[1:], order[0]], strict=True):
             board.fence(board.at(points[i]), board.at(points[j]))
         cog(board, x, 4.5)
-        board.tips[x.point] = far
         self._say(x, board.at(x.point), np.array([1.0, 0.5]), 9.0)
 
     # -- solid ----------------------------------------------------------------------------------------------------

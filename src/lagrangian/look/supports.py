@@ -186,7 +186,7 @@ def _floors(board: Board, parts: list[Player]) -> None:
     lines: list[tuple[float, Array, Array, list[Array], int]] = []
     for part in parts:
         sole = sole_of(board, part)
-        if sole is None or part.direction is None or board.stage.dimension == 3:
+        if sole is None or part.direction is None:
             continue
         angle, normal = slide_heading(board, part)
         foot = board.at(part.point) - sole * normal
@@ -203,8 +203,8 @@ def _floors(board: Board, parts: list[Player]) -> None:
 
 def _floor(board: Board, angle: float, start: Array, along: Array, feet: list[Array], k: int) -> None:
     ways = [float((foot - start) @ along) for foot in feet]
-    left = min(ways) - MARGIN - board.floor_margin[0]
-    right = max(ways) + MARGIN + board.floor_margin[1]
+    left = min(ways) - MARGIN
+    right = max(ways) + MARGIN
     if k in board.sole:
         right += 150.0
     base = board.stage.fixed(board.r[k])
@@ -237,7 +237,7 @@ def sole_of(board: Board, part: Player) -> float | None:
     if part.glyph is BodyGlyph.WEDGE:
         return board.sole.get(part.point)
     if part.glyph is BodyGlyph.WHEEL and part.radius is not None:
-        return board.scale * float(board.stage.evaluated([part.radius], board.q, board.p)[0])
+        return board.pixels(part.radius)
     if part.glyph is BodyGlyph.BLOCK:
         angle, _ = slide_heading(board, part)
         return 0.0 if abs(np.sin(angle)) < 0.96 else None
@@ -257,8 +257,9 @@ def _grounded(board: Board, part: Player) -> bool:
 
 def _pulleys(board: Board, parts: list[Player]) -> None:
     """What a pulley hangs from, and the strings to the blocks beside it."""
-    for pulley in (x for x in parts if x.glyph is BodyGlyph.PULLEY and x.radius is not None):
-        radius = board.scale * float(board.stage.evaluated([pulley.radius], board.q, board.p)[0])  # type: ignore[list-item]
+    for pulley in (x for x in parts if x.glyph is BodyGlyph.PULLEY):
+        assert pulley.radius is not None
+        radius = board.pixels(pulley.radius)
         place, at = board.placed(pulley.point), board.at(pulley.point)
         top = -radius - 26.0
         board.put(line((0.0, 0.0), (0.0, top)), "rod", place, kind="pin", width=2.0, layer=BODY - 3)

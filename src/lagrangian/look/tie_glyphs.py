@@ -43,7 +43,7 @@ class TieArtist:
         self.by_point = {part.point: part for part in parts}
         self.ties = [t for t in ties if t.element.kind in ROLES and t.element.name not in board.hidden]
         self.springs = {t.b for t in self.ties if t.element.kind == "spring" and t.way == "slides" and t.a is None}
-        self.walls: dict[tuple[float, float], list[float]] = {}
+        self.walls: set[tuple[float, float]] = set()
         self.right: dict[int, int] = {}
         self.arms = 0
         self.rings: dict[int, int] = {}
@@ -74,14 +74,11 @@ class TieArtist:
     def _one(self, tie: Tie, offset: float) -> None:
         board = self.board
         names = symbol_names(tie.element)
-        if tie.way == "stop" and isinstance(tie.b, int):
-            self._stop(tie, tie.b, offset, names, ROLES[tie.element.kind])
-            return
         role = ROLES[tie.element.kind]
-        if (tie.way == "points" and isinstance(tie.a, int) and isinstance(tie.b, int)) or (
-            tie.way == "telescope" and isinstance(tie.a, int) and isinstance(tie.b, int)
-        ):
+        if tie.way in ("points", "telescope") and isinstance(tie.a, int) and isinstance(tie.b, int):
             self._between(tie, tie.a, tie.b, offset, names, role)
+        elif tie.way == "stop" and isinstance(tie.b, int):
+            self._stop(tie, tie.b, offset, names, role)
         elif tie.way == "slides" and isinstance(tie.b, int):
             if isinstance(tie.a, int):
                 self._between_slides(tie, tie.a, tie.b, offset, names, role)
@@ -142,7 +139,7 @@ class TieArtist:
         key = (float(round(board.at(k)[0])), float(round(board.at(k)[1])))
         if key in self.walls:
             return
-        self.walls[key] = []
+        self.walls.add(key)
         steep = abs(towards[1]) > abs(towards[0])
         angle = (pi if towards[1] > 0 else 0.0) if steep else (pi / 2 if towards[0] > 0 else -pi / 2)
         board.put(turned(floor(-20.0, 20.0), angle), "ground", board.placed(k), kind="wall", layer=GROUND)
@@ -167,7 +164,7 @@ class TieArtist:
         part = self.by_point.get(k)
         if part is None or part.glyph is not BodyGlyph.WHEEL or part.radius is None:
             return 0.0
-        return self.board.scale * float(self.board.stage.evaluated([part.radius], self.board.q, self.board.p)[0])
+        return self.board.pixels(part.radius)
 
     def _shifted(self, k: int, by: Array) -> tuple[float, float]:
         x, y = self.board.shift(k)
@@ -216,40 +213,40 @@ class TieArtist:
         edge = side * self._half(k, e) * e + offset * n + self._lift(k, e)
         wall_at = self._half(k, e) + WALL + self._rim(k)
         away = side * wall_at * e + offset * n + self._lift(k, e)
-        base = board.stage.fixed(board.r[k])
-        x, y = board.shift(k)
-        far = (x + float(away[0]), y + float(away[1]))
-        place = Placement(board.anchor(k), board.anchor(base), "along", self._shifted(k, edge), far)
-        self._strung(tie, place, board.at(k) + edge, board.at(k) + away, names, role)
+        base = self._tied_to_rest(tie, k, edge, away, names, role)
         key = (float(round(board.at(k)[0])), side)
         if key not in self.walls:
-            self.walls[key] = []
-            foot = side * wall_at * e + self._lift(k, e)
-            angle = heading((float(e[0]), float(e[1]))) + (pi / 2 if side < 0 else -pi / 2)
-            wall = Placement(board.anchor(base), shift=(x + float(foot[0]), y + float(foot[1])))
-            board.put(turned(floor(-29.0, 29.0), angle), "ground", wall, kind="wall", layer=GROUND)
-            board.block(board.at(k) + foot + 4 * side * e, 16 + 44 * abs(e[1]), 16 + 44 * abs(e[0]))
+            self.walls.add(key)
+            self._wall(k, base, side * wall_at * e + self._lift(k, e), side * e, 29.0)
 
     def _stop(self, tie: Tie, k: int, offset: float, names: tuple[str, ...], role: Role) -> None:
         """A tie from a point of a body to the ground, along x or y."""
         board = self.board
         e = np.array([-tie.sign, 0.0]) if tie.axis == 0 else np.array([0.0, tie.sign])
         n = np.array([-e[1], e[0]])
-        base = board.stage.fixed(board.r[k])
-        x, y = board.shift(k)
-        near, far = offset * n, offset * n + WALL * e
-        place = Placement(
-            board.anchor(k), board.anchor(base), "along", self._shifted(k, near), (x + float(far[0]), y + float(far[1]))
-        )
-        self._strung(tie, place, board.at(k) + near, board.at(k) + far, names, role)
+        base = self._tied_to_rest(tie, k, offset * n, offset * n + WALL * e, names, role)
         key = (float(round(board.at(k)[0])), float(round(board.at(k)[1])) + 0.5)
         if key not in self.walls:
-            self.walls[key] = []
-            angle = heading((float(e[0]), float(e[1]))) - pi / 2
-            spot = WALL * e
-            wall = Placement(board.anchor(base), shift=(x + float(spot[0]), y + float(spot[1])))
-            board.put(turned(floor(-26.0, 26.0), angle), "ground", wall, kind="wall", layer=GROUND)
-            board.block(board.at(k) + spot + 4 * e, 16 + 40 * abs(e[1]), 16 + 40 * abs(e[0]))
+            self.walls.add(key)
+            self._wall(k, base, WALL * e, e, 26.0)
+
+    def _tied_to_rest(self, tie: Tie, k: int, near: Array, far: Array, names: tuple[str, ...], role: Role) -> int:
+        """A tie between two places, both by their steps from a point [px]; the far one is at rest, at this point."""
+        board = self.board
+        base = board.stage.fixed(board.r[k])
+        ends = self._shifted(k, near), self._shifted(k, far)
+        place = Placement(board.anchor(k), board.anchor(base), "along", *ends)
+        self._strung(tie, place, board.at(k) + near, board.at(k) + far, names, role)
+        return base
+
+    def _wall(self, k: int, base: int, foot: Array, e: Array, half: float) -> None:
+        """Hatched ground at a step from a point, across the direction in which it lies."""
+        board = self.board
+        angle = heading((float(e[0]), float(e[1]))) - pi / 2
+        place = Placement(board.anchor(base), shift=self._shifted(k, foot))
+        board.put(turned(floor(-half, half), angle), "ground", place, kind="wall", layer=GROUND)
+        long = 2 * half - 14
+        board.block(board.at(k) + foot + 4 * e, 16 + long * abs(e[1]), 16 + long * abs(e[0]))
 
     def _friction(self, tie: Tie, k: int, names: tuple[str, ...], role: Role) -> None:
         """A thick dashed line where the body meets its floor."""
@@ -280,18 +277,11 @@ class TieArtist:
             )
         ]
         k = stage.add(turn.joint, gap)
-        at = board.at(k)
         side = -1.0 if self.arms % 2 == 0 else 1.0
         self.arms += 1
-        base = stage.fixed(board.r[k])
-        x, y = board.shift(k)
-        place = Placement(board.anchor(k), board.anchor(base), "along", (x, y), (x + side * ARM, y))
-        self._strung(tie, place, at, at + (side * ARM, 0.0), names, role)
-        wall = Placement(board.anchor(base), shift=(x + side * ARM, y))
-        board.put(
-            turned(floor(-22.0, 22.0), pi / 2 if side < 0 else -pi / 2), "ground", wall, kind="wall", layer=GROUND
-        )
-        board.block(at + (side * (ARM + 4), 0.0), 16, 44)
+        out = np.array([side, 0.0])
+        base = self._tied_to_rest(tie, k, 0 * out, ARM * out, names, role)
+        self._wall(k, base, ARM * out, out, 22.0)
         board.put(Disc((0.0, 0.0), 3.0), "body", board.placed(k), kind="joint", filled=True, layer=JOINT)
         if isinstance(tie.arm, sp.Symbol):
             board.measure(turn.joint, k, tie.arm.name, 14.0 * self.arms)

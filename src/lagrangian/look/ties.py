@@ -45,9 +45,6 @@ class Resolver:
 
     def __init__(self, motions: Motions, parts: list[Player], turns: list[Turn]) -> None:
         self.motions, self.parts, self.turns = motions, parts, turns
-        rng = np.random.default_rng(5)
-        n = len(motions.stage.inputs.q)
-        self.states = [rng.uniform(0.4, 1.3, n) for _ in range(2)]
         self.p = motions.views.p
 
     def resolve(self, element: Element) -> Tie:
@@ -60,7 +57,7 @@ class Resolver:
 
     def along(self, element: Element, deflection: Any) -> Tie:
         """What a deflection ties together."""
-        first, second = (self.motions.stage.slopes(deflection, q, self.p) for q in self.states)
+        first, second = self.motions.slopes(deflection)
         if np.abs(first - second).max(initial=0.0) > 1e-7 * max(1.0, np.abs(first).max(initial=0.0)):
             return Tie(element, "unknown")
         g = first
@@ -123,20 +120,14 @@ class Resolver:
             if ratio is not None:
                 if abs(abs(ratio) - 1.0) < 1e-9:
                     return Tie(element, "joint", None, turn, float(np.sign(ratio)))
-                return Tie(element, "arm", None, turn, float(np.sign(ratio)), self._named(abs(ratio)))
+                arm = self.motions.named(abs(ratio)) or sp.Float(abs(ratio), 17)
+                return Tie(element, "arm", None, turn, float(np.sign(ratio)), arm)
         for i, one in enumerate(self.turns):
             for two in self.turns[i + 1 :]:
                 ratio = _ratio(g, two.slopes - one.slopes)
                 if ratio is not None and abs(abs(ratio) - 1.0) < 1e-9:
                     return Tie(element, "joint", one, two, float(np.sign(ratio)))
         return None
-
-    def _named(self, value: float) -> sp.Expr:
-        """The parameter that has a value at the random parameters, otherwise the value at the given ones."""
-        for parameter, known in zip(self.motions.stage.model.parameters, self.p, strict=True):
-            if abs(known - value) < 1e-12 * abs(value):
-                return parameter.symbol
-        return sp.Float(value, 17)
 
 
 def _ratio(g: Array, slopes: Array) -> float | None:

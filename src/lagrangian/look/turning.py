@@ -35,7 +35,7 @@ def turns_of(motions: Motions, parts: list[Player], tips: dict[int, int]) -> lis
     for part in parts:
         if part.frame is not None and motions.turns(part.frame):
             joint, tip = _ends(motions, part, tips)
-            slopes = _frame_slopes(motions, part.frame)
+            slopes = motions.angle_slopes(part.frame)
             found.append(Turn(joint, tip, slopes, part.frame, part.name))
         _rods(motions, part, found)
     return found
@@ -63,28 +63,15 @@ def _rods(motions: Motions, part: Player, found: list[Turn]) -> None:
         known = any(t.tip == k and t.joint == hold.holder for t in found)
         carried = part.frame is not None and (hold.holder in part.points or k in part.points)
         if hold.how in (HoldKind.ROD, HoldKind.TELESCOPE) and not known and not carried:
-            slopes = rod_slopes(motions, k, hold.holder)
+            slopes = _rod_slopes(motions, k, hold.holder)
             if slopes is not None:
                 found.append(Turn(hold.holder, k, slopes, None, part.name))
         k = hold.holder
 
 
-def _frame_slopes(motions: Motions, frame: int) -> Array:
-    if motions.stage.dimension == 2:
-        return motions.angle_slopes(frame)
-    slopes = np.zeros(len(motions.stage.inputs.q))
-    slopes[list(motions.turns(frame))] = 1.0
-    return slopes
-
-
-def rod_slopes(motions: Motions, k: int, holder: int) -> Array | None:
+def _rod_slopes(motions: Motions, k: int, holder: int) -> Array | None:
     """∂φ/∂q of the direction from a holder to a point: (d × ∂d)/|d|²; None where it is not constant."""
     d, D = motions.local(k, holder, None)
-    if motions.stage.dimension == 3:
-        slopes = np.zeros(D.shape[2])
-        hold = motions.holds[k]
-        slopes[[i for i in hold.moving if i != hold.along or hold.how is HoldKind.ROD]] = 1.0
-        return slopes
     square = (d**2).sum(axis=1)
     slopes = (d[:, 0, None] * D[:, 1] - d[:, 1, None] * D[:, 0]) / square[:, None]
     if np.ptp(slopes, axis=0).max(initial=0.0) > 1e-7:
