@@ -35,7 +35,6 @@ class EffortArtist:
     ) -> None:
         self.board, self.parts, self.turns, self.ties, self.resolver = board, parts, turns, ties, resolver
         self.by_point = {part.point: part for part in parts}
-        self.tied = [(t.a, t.b) for t in ties if t.way == "slides" and t.element.kind in ("spring", "damper")]
         self.around: dict[int, int] = {}
 
     def draw(self) -> None:

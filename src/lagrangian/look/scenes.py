@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +30,8 @@ from lagrangian.look.ties import Resolver
 from lagrangian.look.turning import turns_of
 from lagrangian.look.words import description
 from lagrangian.model import Model
-from lagrangian.page.scene import Disc, Label, Path, Placement, Scene, Trace
+from lagrangian.page.placing import placed
+from lagrangian.page.scene import Disc, Label, Path, Scene, Trace
 from lagrangian.page.scene import ScenePart as Shape
 
 Array = NDArray[np.float64]
@@ -167,9 +168,8 @@ def _framed(board: Board, model: Model, hints: Hints, said: str, room: float | N
         low, high = np.minimum(low, (x, y)), np.maximum(high, (x + w, y + h))
     origin = BORDER - low
     size = high - low + 2 * BORDER
-    anchors = sorted(board.anchors, key=lambda k: board.anchors[k])
     trail = tuple(board.anchor(board.stage.index(point)) for point in hints.trail)
-    anchors = sorted(board.anchors, key=lambda k: board.anchors[k])
+    anchors = list(board.anchors)
     scene = Scene(
         model.name,
         (round(float(size[0]), 1), round(float(size[1]), 1)),
@@ -191,58 +191,20 @@ def _framed(board: Board, model: Model, hints: Hints, said: str, room: float | N
 
 def _extent(board: Board) -> tuple[Array, Array]:
     """The corners of what is drawn [px]."""
+    at = board.scale * (board.r[list(board.anchors)] @ board.view.T)
     spots: list[Array] = []
-    where = {n: k for k, n in board.anchors.items()}
     for part in board.parts:
-        spots += _corners(board, part, where)
+        half = part.outline / 2
+        for letter, numbers in placed(part, at):
+            reach = half + (float(numbers[2]) if letter == "O" else 0.0)
+            found = numbers[:2] if letter == "O" else numbers
+            spots += [x + d for x in found.reshape(-1, 2) for d in (reach, -reach)]
     found = np.array(spots) if spots else np.zeros((1, 2))
     return found.min(axis=0), found.max(axis=0)
 
 
-def _corners(board: Board, part: Shape, where: Mapping[int, int]) -> list[Array]:
-    def seen(anchor: int, shift: tuple[float, float]) -> Array:
-        return board.scale * (board.view @ board.r[where[anchor]]) + np.array(shift)
-
-    half = part.outline / 2
-    if isinstance(part.shape, Trace):
-        shifts = part.shape.shifts or ((0.0, 0.0),) * len(part.shape.anchors)
-        found = [seen(a, s) for a, s in zip(part.shape.anchors, shifts, strict=True)]
-    else:
-        found = _of_path(part.shape, part.placement, seen)
-    return [x + d for x in found for d in (np.array([half, half]), np.array([-half, -half]))]
-
-
-def _of_path(shape: Path | Disc, placement: Placement, seen) -> list[Array]:  # type: ignore[no-untyped-def]
-    if isinstance(shape, Disc):
-        (x, y), r = shape.centre, shape.radius
-        points = [np.array([x + a, y + b]) for a in (-r, r) for b in (-r, r)]
-    else:
-        points = [np.array(n[i : i + 2]) for _, n in shape.commands for i in range(0, len(n), 2)]
-    if placement.at is None:
-        return points
-    origin = seen(placement.at, placement.shift)
-    if placement.towards is None:
-        return [origin + p for p in points]
-    d = seen(placement.towards, placement.shift_towards) - origin
-    length = float(np.linalg.norm(d)) or 1.0
-    e = d / length
-    n = np.array([-e[1], e[0]])
-    if placement.across is not None and isinstance(shape, Path):
-        u = seen(placement.across, placement.shift) - origin
-        return [origin + p[0] * d + p[1] * u for p in points]
-    a = length if placement.scaling in ("along", "both") else 1.0
-    b = length if placement.scaling == "both" else 1.0
-    if isinstance(shape, Disc):
-        centre = origin + a * shape.centre[0] * e + b * shape.centre[1] * n
-        r = shape.radius * a
-        return [centre + np.array([x, y]) for x in (-r, r) for y in (-r, r)]
-    return [origin + a * p[0] * e + b * p[1] * n for p in points]
-
-
 def _moved(part: Shape, by: Array) -> Shape:
     """A part in the frame of the picture: only what has no anchor has to be moved."""
-    from dataclasses import replace
-
     if part.placement.at is not None or isinstance(part.shape, Trace):
         return part
     dx, dy = float(by[0]), float(by[1])
@@ -257,8 +219,6 @@ def _moved(part: Shape, by: Array) -> Shape:
 
 
 def _moved_label(label: Label, by: Array) -> Label:
-    from dataclasses import replace
-
     x, y, w, h = label.box
     dx, dy = float(by[0]), float(by[1])
     return replace(label, centre=(label.centre[0] + dx, label.centre[1] + dy), box=(x + dx, y + dy, w, h))

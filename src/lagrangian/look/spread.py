@@ -114,8 +114,9 @@ def _ordered(group: list[Player], ties: list[Tie]) -> list[Player]:
 
 def _hang(board: Board, parts: list[Player]) -> None:
     """Blocks beside a pulley hang below it."""
-    for _pulley in (x for x in parts if x.glyph is BodyGlyph.PULLEY):
-        for part in parts:
-            if part.direction is not None and part.glyph is BodyGlyph.BLOCK and abs(slide_along(board, part)[1]) > 0.99:
-                x, y = board.shifts.get(part.point, (0.0, 0.0))
-                board.shifts[part.point] = (x, y + DROP)
+    if not any(x.glyph is BodyGlyph.PULLEY for x in parts):
+        return
+    for part in parts:
+        if part.direction is not None and part.glyph is BodyGlyph.BLOCK and abs(slide_along(board, part)[1]) > 0.99:
+            x, y = board.shifts.get(part.point, (0.0, 0.0))
+            board.shifts[part.point] = (x, y + DROP)
