@@ -88,10 +88,7 @@ def _module(model: Model, anchors: Program) -> BrowserModule:
     drive = driving(model, None, model.settings.get("inputs", {}), dims)
     free = {u.name: k for k, u in enumerate(drive.free)}
     functions = {"power": dynamics.power_closed(model, drive.feedback), "anchors": _of_free_inputs(anchors, free)}
-    module = browser_module(model, functions=functions)
-    return (
-        module if len(module.functions) <= MAX_FUNCTIONS else browser_module(model, functions=functions, fallback=False)
-    )
+    return browser_module(model, functions=functions, fallback=MAX_FUNCTIONS)
 
 
 def _of_free_inputs(program: Program, free: Mapping[str, int]) -> Program:

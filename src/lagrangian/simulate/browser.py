@@ -9,6 +9,7 @@ BrowserModule.driver     a script that runs the module: ``lagrangianSolver.makeS
 from __future__ import annotations
 
 import json
+import math
 from base64 import b64encode
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -147,7 +148,7 @@ def browser_module(
     atol: float = 1e-12,
     step: float | str | None = None,
     functions: Mapping[str, Quantities] | None = None,
-    fallback: bool = True,
+    fallback: float = math.inf,
     lanes: int = 1,
 ) -> BrowserModule:
     """Compile a system, or its model, for a browser.
@@ -159,7 +160,8 @@ def browser_module(
 
     ``functions``: further functions of JavaScript, by name: expressions and points of the model, or a program over x,
     u, p, t. ``energy``, which returns T and V, is always among them. ``fallback``: with what runs in JavaScript need,
-    where WebAssembly is forbidden. ``lanes``: 2 computes two runs side by side.
+    where WebAssembly is forbidden, if all functions then have at most so many characters (False: never). ``lanes``: 2
+    computes two runs side by side.
 
     Raises `RunError` for a method that WebAssembly cannot run, for dry friction, for inputs that are Python functions,
     and otherwise as a simulation does.

@@ -154,15 +154,15 @@ class BrowserParts:
             "needs": list(self._around),
         }
 
-    def functions(self, more: Mapping[str, Quantities], *, fallback: bool) -> str:
+    def functions(self, more: Mapping[str, Quantities], *, fallback: float) -> str:
         """An expression of JavaScript: the object of all functions, by name.
 
-        ``more``: those that the page asked for. ``fallback``: also those that runs in JavaScript need. Raises
-        `RunError` for a name that a function cannot have.
+        ``more``: those that the page asked for. ``fallback``: also those that runs in JavaScript need, unless the
+        text has more characters than that. Raises `RunError` for a name that a function cannot have.
         """
         model, feedback = self.model, self.drive.feedback
         power = dynamics.power_closed(model, feedback)
-        unchecked = {**self._around, **({"rhs": self.field, **self._projections} if fallback else {})}
+        unchecked = {**self._around, "rhs": self.field, **self._projections}
         checked = {"energy": replace(power, name="energy", outputs={n: power.outputs[n] for n in ("T", "V")})}
         for name, asked in more.items():
             if name in unchecked or name in checked or not names_function(name):
@@ -170,11 +170,19 @@ class BrowserParts:
                     f"'{name}' cannot name a function", fix="use letters, digits and underscores", code="E702"
                 )
             checked[name] = asked if isinstance(asked, Program) else dynamics.observe_closed(model, asked, feedback)
-        texts = [
-            machine.to_javascript(_ordered(program), name=name, checked=name in checked)
+        texts = {
+            name: machine.to_javascript(_ordered(program), name=name, checked=name in checked)
             for name, program in (*unchecked.items(), *checked.items())
-        ]
-        return "\n".join(["(() => {", *texts, f"return {{{', '.join((*unchecked, *checked))}}};", "})()"])
+        }
+        whole = _object(texts)
+        if len(whole) <= fallback:
+            return whole
+        return _object({name: text for name, text in texts.items() if name in self._around or name in checked})
+
+
+def _object(texts: Mapping[str, str]) -> str:
+    """An expression of JavaScript: the object of functions with these definitions."""
+    return "\n".join(["(() => {", *texts.values(), f"return {{{', '.join(texts)}}};", "})()"])
 
 
 def _ordered(program: Program) -> Program:
