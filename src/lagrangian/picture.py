@@ -22,9 +22,6 @@ from lagrangian.write import check_free, write_file
 from lagrangian.write.scene_svg import scene_svg
 from lagrangian.write.scene_tikz import scene_tikz
 
-ENDINGS = (".svg", ".tex", ".png", ".html")
-"""The formats of `Picture.save`, by the ending of the file."""
-
 
 class Picture(Brief):
     """The schematic of a system, in the style of a textbook.

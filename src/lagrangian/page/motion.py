@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from lagrangian.page.ground import extended
 from lagrangian.page.placing import Drawn, placed, places
-from lagrangian.page.scene import Scene, ScenePart
+from lagrangian.page.scene import Scene, ScenePart, drawing_order
 
 Array = NDArray[np.float64]
 
@@ -23,6 +23,9 @@ WORDS = 0.04
 
 WIDEST, HIGHEST = 640.0, 480.0
 """The largest usual size of the picture [px]."""
+
+THIN = 0.7
+"""Lines are widened so that they are shown with at least this share of their width."""
 
 NARROWEST = 0.22
 """The smallest ratio of the shorter side of the frame to the longer one."""
@@ -66,7 +69,7 @@ class SceneMotion:
     @property
     def parts(self) -> list[ScenePart]:
         """The parts that are drawn in motion, from back to front."""
-        return sorted((part for part in self.scene.parts if part.moves), key=lambda part: part.layer)
+        return drawing_order(part for part in self.scene.parts if part.moves)
 
     def fewer(self, every: int) -> SceneMotion:
         """Return the same motion with every second, third, … frame, and its last frame."""

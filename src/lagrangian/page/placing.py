@@ -5,12 +5,13 @@ An array of places has the shape (…, anchors, 2); the axes before that count p
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.page.scene import Disc, Placement, Scene, ScenePart, Trace
+from lagrangian.page.scene import Disc, Label, Placement, Scene, ScenePart, Trace
 
 Array = NDArray[np.float64]
 
@@ -90,6 +91,12 @@ def axes(placement: Placement, at: Array) -> tuple[Array, Array, Array]:
 def _anchor(number: int | None, shift: tuple[float, float], at: Array) -> Array:
     base = np.zeros((*at.shape[:-2], 2)) if number is None else at[..., number, :]
     return base + np.asarray(shift)
+
+
+def on_bodies(scene: Scene, at: Array) -> Iterator[tuple[Label, bool]]:
+    """Return every label of a scene, and whether it stands on the inside of a body."""
+    bodies = [placed(part, at) for part in scene.parts if part.filled and part.role == "body"]
+    return ((label, any(inside(label.centre, body) for body in bodies)) for label in scene.labels)
 
 
 def inside(point: tuple[float, float], drawn: list[Drawn]) -> bool:

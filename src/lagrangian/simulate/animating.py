@@ -89,11 +89,12 @@ def animate(
         raise RunError("trail and look were both given", fix="give the trail to look(trail=…)", code="E404")
     scene, kernel = _drawn(run, (trail,) if isinstance(trail, (str, Point)) else trail, look)
     times, duration = _times(run, speed, float(fps))
-    _check_samples(run, scene, kernel)
+    rates, inputs = _rates(run), _inputs(run)
+    _check_samples(run, scene, kernel, rates, inputs)
     n, fine = len(run.model.coordinates), FINER * (len(times) - 1) + 1 if scene.trail else len(times)
     at = np.linspace(times[0], times[-1], fine)
-    q = hermite(run.t, run.y[:n].T, _rates(run), at)
-    r = _anchors(run, kernel, q, _between(run.t, run.y[n:].T, at), _between(run.t, _inputs(run), at), at)
+    q = hermite(run.t, run.y[:n].T, rates, at)
+    r = _anchors(run, kernel, q, _between(run.t, run.y[n:].T, at), _between(run.t, inputs, at), at)
     finer = (fine - 1) // (len(times) - 1)
     made = motion(scene, r, times, duration=duration, finer=finer, ending=_ending(run))
     return Animation(made, float(fps), made.usual_width if width is None else float(width))
@@ -108,7 +109,7 @@ def _drawn(run: Recorded, trail: Sequence[Any] | None, look: Pictured | None) ->
             scene, program = scene_of(run.model, hints)
             return scene, machine.compile(program)
 
-        return remembered(run.model, ("picture", tuple(map(id, hints.trail))), make)
+        return remembered(run.model, ("picture", hints.trail), make)
     if look.model is not run.model and _names(look.model) != _names(run.model):
         what = f"the picture is of another system, '{look.model.name}'"
         raise RunError(what, fix="give the picture of the system that was simulated", code="E406")
@@ -212,17 +213,17 @@ def hermite(t: Array, q: Array, rates: Array, wanted: Array) -> Array:
     )
 
 
-def _check_samples(run: Recorded, scene: Scene, kernel: machine.Kernel) -> None:
+def _check_samples(run: Recorded, scene: Scene, kernel: machine.Kernel, rates: Array, inputs: Array) -> None:
     """Raise an error if the samples of a run are too far apart to say where things are between them.
 
     Every second sample is predicted from its neighbours; prediction over half the distance is about 16 times better.
     """
-    n, rates = len(run.model.coordinates), _rates(run)
+    n = len(run.model.coordinates)
     middle = np.arange(1, len(run.t) - 1, 2)
     if not len(middle):
         raise _too_few(run)
     q = hermite(run.t[::2], run.y[:n, ::2].T, rates[::2], run.t[middle])
-    v, u, times = run.y[n:, middle].T, _inputs(run)[middle], run.t[middle]
+    v, u, times = run.y[n:, middle].T, inputs[middle], run.t[middle]
     guessed, true = (_anchors(run, kernel, x, v, u, times) for x in (q, run.y[:n, middle].T))
     off = np.linalg.norm(places(scene, guessed) - places(scene, true), axis=-1).max(axis=-1, initial=0.0)
     if float(np.quantile(off / 16, SHARE)) > COARSE:

@@ -14,14 +14,12 @@ from lagrangian.errors import RunError
 from lagrangian.page.motion import SceneMotion
 from lagrangian.page.palette import DARK, LIGHT
 from lagrangian.view.frames import FramePainter
-from lagrangian.view.movies import FASTEST, ffmpeg, write_gif, write_video
+from lagrangian.view.movies import FASTEST, Progress, ffmpeg, write_gif, write_video
 from lagrangian.viewed import Brief, cut
 from lagrangian.write.files import write_file, write_with
 from lagrangian.write.scene_motion import scene_motion
 from lagrangian.write.scene_player import player_frame, player_page
 from lagrangian.write.tables import check_target
-
-Progress = Callable[[int, int], object]
 
 LARGEST_CELL = 150_000
 """The largest number of characters that a notebook is given."""

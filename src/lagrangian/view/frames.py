@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.errors import MissingExtra
-from lagrangian.page.motion import SceneMotion
+from lagrangian.page.motion import THIN, SceneMotion
 from lagrangian.page.palette import LIGHT, Palette
 from lagrangian.page.placing import Drawn, placed
 from lagrangian.page.scene import Role, ScenePart
@@ -25,9 +25,6 @@ FINER = 2
 
 CURVE = 10
 """The number of straight lines in place of a Bézier curve."""
-
-THIN = 0.7
-"""Lines are widened so that they are shown with at least this share of their width."""
 
 LETTERS = 13
 """The size of the words about an early end [px]."""
@@ -112,7 +109,7 @@ class FramePainter:
                     draw.polygon([tuple(p) for p in piece.tolist()], fill=fill)
         if width:
             for piece in pieces:
-                for run in _dashed(piece, width, self._thick) if part.dashed else (piece,):
+                for run in _dashed(piece, *(self._thick * x for x in part.dashes)) if part.dashed else (piece,):
                     self._line(draw, run, line, width, round_ends=not part.dashed)
 
     def _line(self, draw: Any, points: Array, colour: str, width: float, *, round_ends: bool = True) -> None:
@@ -165,9 +162,8 @@ def _curve(start: Array, n: Array) -> list[Array]:
     return list(found)
 
 
-def _dashed(points: Array, width: float, thick: float) -> Iterator[Array]:
-    """The dashes of a line; their lengths are those of the SVG."""
-    on, off = 2.5 * thick + 1.7 * width, 1.6 * thick + 1.3 * width
+def _dashed(points: Array, on: float, off: float) -> Iterator[Array]:
+    """The dashes of a line, ``on`` long and ``off`` apart."""
     steps = np.hypot(*np.diff(points, axis=0).T)
     at = np.concatenate([[0.0], np.cumsum(steps)])
     for begin in np.arange(0.0, at[-1], on + off):

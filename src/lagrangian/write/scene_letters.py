@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from lagrangian.page.scene import Label, Scene
@@ -12,6 +12,9 @@ from lagrangian.write.text import clean
 
 CAPITALS = "ΓΔΘΛΞΠΣΥΦΨΩ"
 """Greek capitals are upright, as in LaTeX."""
+
+SMALLER = (1.0, 0.72, 0.55)
+"""The size of letters, of subscripts, and of subscripts of these."""
 
 LONGEST = 40
 """The base of a letter and each part of its subscript have at most this many characters."""
@@ -28,7 +31,11 @@ class LetterPiece:
 
 def scene_letters(scene: Scene) -> Mapping[str, Letter]:
     """Return the letter for every name in the labels of a scene; two names never look the same."""
-    found = letters(dict.fromkeys(name for label in scene.labels for name in label.names))
+    return _letters(dict.fromkeys(name for label in scene.labels for name in label.names))
+
+
+def _letters(names: Iterable[str]) -> Mapping[str, Letter]:
+    found = letters(names)
     return {name: replace(x, base=_short(x.base), sub=tuple(map(_short, x.sub))) for name, x in found.items()}
 
 
@@ -72,10 +79,8 @@ def _short(text: str) -> str:
 
 def width_of(names: tuple[str, ...], size: float) -> float:
     """About how wide a label is [px]; a label is drawn in whatever serif font there is."""
-    label = Label(names, (0.0, 0.0), "thin")
-    table = {name: replace(x, base=_short(x.base), sub=tuple(map(_short, x.sub))) for name, x in letters(names).items()}
-    scales = (1.0, 0.72, 0.55)
-    return sum(size * scales[piece.lowered] * _advance(c) for piece in pieces(label, table) for c in piece.text)
+    found = pieces(Label(names, (0.0, 0.0), "thin"), _letters(names))
+    return sum(size * SMALLER[piece.lowered] * _advance(c) for piece in found for c in piece.text)
 
 
 def _advance(c: str) -> float:

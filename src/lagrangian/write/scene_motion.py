@@ -13,21 +13,18 @@ from itertools import groupby
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.page.motion import SceneMotion, extent
+from lagrangian.page.motion import THIN, SceneMotion, extent
 from lagrangian.page.palette import LIGHT
 from lagrangian.page.placing import Drawn, axes, placed
 from lagrangian.page.scene import Disc, Path, Placement, ScenePart, Trace
 from lagrangian.write.html_page import escape
 from lagrangian.write.scene_svg import document, group_opening, number, outline, pair_text, shape
-from lagrangian.write.tracks import Timing, animate, keys, moved, stretched, timed, turned
+from lagrangian.write.tracks import TOLERANCE, Timing, animate, keys, moved, stretched, timed, turned
 
 Array = NDArray[np.float64]
 
 STILL = 0.04
 """What moves less [px] stands still."""
-
-THIN = 0.7
-"""Lines are widened so that they are shown with at least this share of their width."""
 
 _STYLE = (
     ".lagrangian-scene .still{display:none}"
@@ -37,7 +34,7 @@ _STYLE = (
 
 
 def scene_motion(
-    motion: SceneMotion, *, embedded: bool = False, width: float | None = None, tolerance: float = 0.15
+    motion: SceneMotion, *, embedded: bool = False, width: float | None = None, tolerance: float = TOLERANCE
 ) -> str:
     """Return a motion as animated SVG that repeats for ever; ``embedded`` for use within HTML.
 

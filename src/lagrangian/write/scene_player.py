@@ -10,6 +10,7 @@ from lagrangian.page.palette import DARK, LIGHT
 from lagrangian.write.html_page import escape
 from lagrangian.write.scene_motion import scene_motion
 from lagrangian.write.scene_svg import number
+from lagrangian.write.tracks import TOLERANCE
 
 POLICY = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'"
 
@@ -71,7 +72,7 @@ _SCRIPT = """
 
 
 def player_page(
-    motion: SceneMotion, *, width: float | None = None, tolerance: float = 0.15, framed: bool = False
+    motion: SceneMotion, *, width: float | None = None, tolerance: float = TOLERANCE, framed: bool = False
 ) -> str:
     """Return an HTML page with the motion, a button that holds it, and a slider of time; ``framed`` without a title."""
     svg = scene_motion(motion, embedded=True, width=width, tolerance=tolerance)
@@ -92,7 +93,7 @@ def player_page(
     )
 
 
-def player_frame(motion: SceneMotion, *, width: float | None = None, tolerance: float = 0.15) -> str:
+def player_frame(motion: SceneMotion, *, width: float | None = None, tolerance: float = TOLERANCE) -> str:
     """Return the page in a frame for a notebook, which can reach nothing outside of it."""
     page = player_page(motion, width=width, tolerance=tolerance, framed=True)
     _, _, w, h = motion.frame

@@ -11,18 +11,16 @@ from collections.abc import Iterable, Iterator, Mapping
 from itertools import groupby
 
 from lagrangian.page.palette import DARK, LIGHT, Palette
-from lagrangian.page.placing import Array, Drawn, inside, placed, places
-from lagrangian.page.scene import Label, Scene, ScenePart
+from lagrangian.page.placing import Array, Drawn, on_bodies, placed, places
+from lagrangian.page.scene import Label, Scene, ScenePart, drawing_order
 from lagrangian.write.expression_tree import Letter
 from lagrangian.write.html_page import data_element, escape
-from lagrangian.write.scene_letters import LetterPiece, pieces, scene_letters
+from lagrangian.write.scene_letters import SMALLER, LetterPiece, pieces, scene_letters
 
 FONTS = "'Latin Modern Roman','CMU Serif','STIX Two Text',Cambria,'Times New Roman','Liberation Serif',serif"
 
-SMALLER = (1.0, 0.72, 0.55)
-"""The size of letters, of subscripts, and of subscripts of these."""
 LOWER = (0.0, 0.24, 0.36)
-"""How far these lie below the line, in sizes of the letters."""
+"""How far letters, subscripts and subscripts of these lie below the line, in sizes of the letters."""
 MIDDLE = 0.32
 """The line of a label lies this far below its centre, in sizes of the letters."""
 HALO = 4.0
@@ -105,15 +103,8 @@ def _variables(palette: Palette) -> str:
 def labels(scene: Scene, at: Array) -> Iterator[str]:
     """Return the groups of the labels; the halo of a label on a body has the colour of the body."""
     table = scene_letters(scene)
-    bodies = [placed(part, at) for part in scene.parts if part.filled and part.role == "body"]
-    for label in scene.labels:
-        on_body = any(inside(label.centre, body) for body in bodies)
+    for label, on_body in on_bodies(scene, at):
         yield _label(label, table, " on-body" if on_body else "")
-
-
-def drawing_order(parts: Iterable[ScenePart]) -> list[ScenePart]:
-    """Return parts by rising layer."""
-    return sorted(parts, key=lambda part: part.layer)
 
 
 def _groups(parts: Iterable[ScenePart], at: Array) -> Iterator[str]:
@@ -154,13 +145,8 @@ def _painted(part: ScenePart) -> str:
         if part.outline != 1.5:
             attributes += f' stroke-width="{number(part.outline)}"'
         if part.dashed:
-            attributes += f' stroke-dasharray="{" ".join(map(number, dashes(part.outline)))}" stroke-linecap="butt"'
+            attributes += f' stroke-dasharray="{" ".join(map(number, part.dashes))}" stroke-linecap="butt"'
     return (f' class="{" ".join(classes)}"' if classes else "") + attributes
-
-
-def dashes(outline: float) -> tuple[float, float]:
-    """The lengths of dashes and gaps for a width of line [px]."""
-    return 2.5 + 1.7 * outline, 1.6 + 1.3 * outline
 
 
 def outline(drawn: list[Drawn]) -> str:

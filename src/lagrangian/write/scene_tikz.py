@@ -8,10 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from lagrangian.page.palette import LIGHT
-from lagrangian.page.placing import Drawn, inside, placed, places
-from lagrangian.page.scene import Scene, ScenePart
+from lagrangian.page.placing import Drawn, on_bodies, placed, places
+from lagrangian.page.scene import Scene, ScenePart, drawing_order
 from lagrangian.write.scene_letters import scene_letters
-from lagrangian.write.scene_svg import dashes, drawing_order, number
+from lagrangian.write.scene_svg import number
 from lagrangian.write.tex import PAGE
 from lagrangian.write.text import clean
 
@@ -51,9 +51,7 @@ def scene_tikz(scene: Scene, *, document: bool = False) -> str:
             lines.append(f"% {said}")
             comment = said
         lines.append(rf"\path[{','.join(_style(part))}] {_outline(placed(part, at))};")
-    bodies = [placed(part, at) for part in scene.parts if part.filled and part.role == "body"]
-    for label in scene.labels:
-        on_body = any(inside(label.centre, body) for body in bodies)
+    for label, on_body in on_bodies(scene, at):
         ground = f"fill={_inside('body')}" if on_body else "fill=white"
         letters = ", ".join(PAGE.latex(table[name]) for name in label.names)
         options = f"text=scene-{label.role},{ground},fill opacity=0.85,text opacity=1,inner sep=0.6bp"
@@ -84,7 +82,7 @@ def _style(part: ScenePart) -> Iterator[str]:
         yield f"draw={_inside(part.role) if part.paint == 'inside' else line}"
         yield f"line width={number(PIXEL * part.outline)}bp"
         if part.dashed:
-            on, off = (number(PIXEL * x) for x in dashes(part.outline))
+            on, off = (number(PIXEL * x) for x in part.dashes)
             yield f"dash pattern=on {on}bp off {off}bp,line cap=butt"
 
 

@@ -26,7 +26,7 @@ class Timing:
     on the screen."""
 
     duration: float
-    tolerance: float = TOLERANCE
+    tolerance: float
     zoom: float = 1.0
 
 
