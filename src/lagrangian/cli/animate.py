@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from lagrangian.cli.assignments import assignments
+from lagrangian.cli.assignments import assignments, names
 from lagrangian.cli.door import fail, put, say
 from lagrangian.cli.formats import as_json
 from lagrangian.cli.progress import status
@@ -110,7 +110,7 @@ def animate(
         inputs={name: input_signal(name, value) for name, value in assignments(input_, "--input").items()},
         samples=samples,
     )
-    points = None if trail is None else [name.strip() for item in trail for name in item.split(",") if name.strip()]
+    points = None if trail is None else names(trail)
     animation = run.animate(speed=speed, trail=points, fps=fps, width=width)
     if shown:
         put(animation.to_svg())

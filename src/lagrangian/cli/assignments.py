@@ -22,3 +22,8 @@ def assignments(given: Sequence[str] | None, option: str) -> dict[str, str]:
             raise Error(f"'{name[:64]}' is given twice with {option}", fix="give only one of the two", code="E404")
         found[name] = value
     return found
+
+
+def names(given: Sequence[str] | None) -> list[str]:
+    """Return names that are separated by commas, or given by several options."""
+    return [name.strip() for item in given or () for name in item.split(",") if name.strip()]

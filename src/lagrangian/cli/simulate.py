@@ -9,7 +9,7 @@ from typing import Annotated, Any
 import typer
 
 from lagrangian import dynamics
-from lagrangian.cli.assignments import assignments
+from lagrangian.cli.assignments import assignments, names
 from lagrangian.cli.door import fail, put, say
 from lagrangian.cli.formats import as_json
 from lagrangian.cli.run_summary import figures, summary
@@ -116,7 +116,7 @@ def simulate(
         if path is not None and str(path) != "-":
             check_target(path, list(endings), overwrite=force)
     system = open_system(file, example)
-    asked = [name.strip() for item in reactions or () for name in item.split(",") if name.strip()]
+    asked = names(reactions)
     for name in asked:
         dynamics.check_joint(system.model, name)
     run = system.simulate(
