@@ -89,7 +89,8 @@ def animate(
         raise RunError("trail and look were both given", fix="give the trail to look(trail=…)", code="E404")
     scene, kernel = _drawn(run, (trail,) if isinstance(trail, (str, Point)) else trail, look)
     times, duration = _times(run, speed, float(fps))
-    rates, inputs = _rates(run), _inputs(run)
+    inputs = _inputs(run)
+    rates = _rates(run, inputs)
     _check_samples(run, scene, kernel, rates, inputs)
     n, fine = len(run.model.coordinates), FINER * (len(times) - 1) + 1 if scene.trail else len(times)
     at = np.linspace(times[0], times[-1], fine)
@@ -166,14 +167,7 @@ def _between(t: Array, values: Array, wanted: Array) -> Array:
 
 def _anchors(run: Recorded, kernel: machine.Kernel, q: Array, v: Array, u: Array, times: Array) -> Array:
     """The positions [m] of the picture's anchors, (times, anchors, d)."""
-    states = [np.concatenate([q, v], axis=-1)] if "x" in kernel.program.inputs else [q, v]
-    found: Any = kernel(*(np.ascontiguousarray(x) for x in (*states, u)), run.p, times)
-    r = np.asarray(found["r"] if isinstance(found, dict) else found, dtype=float)
-    if not np.isfinite(r).all():
-        bad = float(times[int(np.argmax(~np.isfinite(r).reshape(len(times), -1).all(axis=-1)))])
-        what, fix = f"a position is not finite at t = {bad:.4g} s", "animate a run that ends before"
-        raise RunError(what, fix=fix, code="E101")
-    return r
+    return kernel(np.concatenate([q, v], axis=-1), u, run.p, times)
 
 
 def _inputs(run: Recorded) -> Array:
@@ -183,13 +177,11 @@ def _inputs(run: Recorded) -> Array:
     return np.stack([run[u.symbol] for u in run.model.inputs], axis=-1)
 
 
-def _rates(run: Recorded) -> Array:
+def _rates(run: Recorded, inputs: Array) -> Array:
     """q̇ (S, n) at the samples; it is v but for frames that float."""
     n = len(run.model.coordinates)
     kernel: machine.Kernel = remembered(run.model, "rates", lambda: machine.compile(dynamics.rates(run.model)))
-    states = (run.y[:n].T, run.y[n:].T, _inputs(run))
-    found: Any = kernel(*(np.ascontiguousarray(x) for x in states), run.p, run.t)
-    return np.asarray(found["qdot"] if isinstance(found, dict) else found, dtype=float)
+    return kernel(run.y[:n].T, run.y[n:].T, inputs, run.p, run.t)
 
 
 def hermite(t: Array, q: Array, rates: Array, wanted: Array) -> Array:

@@ -159,9 +159,8 @@ def browser_module(
     `lagrangian.System.simulate`.
 
     ``functions``: further functions of JavaScript, by name: expressions and points of the model, or a program over x,
-    u, p, t. ``energy``, which returns T and V, is always among them. ``fallback``: with what runs in JavaScript need,
-    where WebAssembly is forbidden, if all functions then have at most so many characters (False: never). ``lanes``: 2
-    computes two runs side by side.
+    u, p, t. ``energy``, which returns T and V, is always among them. ``fallback``: with what runs in JavaScript need
+    where WebAssembly is forbidden, if that makes at most so many characters. ``lanes``: 2 computes two runs at once.
 
     Raises `RunError` for a method that WebAssembly cannot run, for dry friction, for inputs that are Python functions,
     and otherwise as a simulation does.
