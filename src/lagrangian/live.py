@@ -155,12 +155,11 @@ def _scale(model: Model) -> float:
 def _data(model: Model, layout: Mapping[str, Any], scene: Scene, adjustables: Sequence[Adjustable]) -> dict[str, Any]:
     def group(kind: str) -> dict[str, Any]:
         own = [a for a in adjustables if a.group == kind]
-        return {"names": [a.name for a in own], "values": [a.value for a in own], "units": [a.unit for a in own]}
+        return {"names": [a.name for a in own], "values": [a.value for a in own]}
 
     duration = float(layout["duration"])
     angles = [entry["unit"] == "rad" for entry in layout["states"][: len(model.coordinates)]]
     return {
-        "name": model.name,
         "file": re.sub(r"[^A-Za-z0-9]+", "-", model.name).strip("-")[:60] or "motion",
         "scene": _moving(scene),
         "coordinates": len(model.coordinates),
@@ -179,9 +178,9 @@ def _data(model: Model, layout: Mapping[str, Any], scene: Scene, adjustables: Se
 
 
 def _moving(scene: Scene) -> dict[str, Any]:
-    """The scene as data, without what belongs to the picture at rest alone, in hundredths of a pixel."""
-    found = as_data(replace(scene, parts=tuple(part for part in scene.parts if part.moves), labels=()))
-    return {key: _rounded(value) if key == "parts" else value for key, value in found.items()}
+    """What moves in the scene as data, in hundredths of a pixel."""
+    found = as_data(scene)
+    return {**found, "parts": _rounded(found["parts"])}
 
 
 def _rounded(value: Any) -> Any:

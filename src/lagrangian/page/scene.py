@@ -166,32 +166,23 @@ class Scene:
 
 
 def as_data(scene: Scene) -> dict[str, Any]:
-    """The scene as plain data for JSON, from which a page draws the motion."""
+    """What moves in a scene as plain data for JSON, from which a page draws the motion."""
     return {
-        "name": scene.name,
         "size": scene.size,
         "origin": scene.origin,
         "scale": scene.scale,
         "view": scene.view,
         "positions": scene.positions,
-        "parts": [_part(part) for part in scene.parts],
-        "labels": [
-            {"names": x.names, "centre": x.centre, "role": x.role, "elements": x.elements, "size": x.size}
-            for x in scene.labels
-        ],
-        "description": scene.description,
-        "missing": scene.missing,
-        "trail": scene.trail,
+        "parts": [_part(part) for part in scene.parts if part.moves],
         "handles": scene.handles,
         "room": scene.room,
-        "pose": dict(scene.pose),
     }
 
 
 def _part(part: ScenePart) -> dict[str, Any]:
     placement, shape = part.placement, part.shape
     data: dict[str, Any] = {"role": part.role, "kind": part.kind, "elements": part.elements, "outline": part.outline}
-    data |= {"filled": part.filled, "solid": part.solid, "dashed": part.dashed, "moves": part.moves}
+    data |= {"filled": part.filled, "solid": part.solid, "dashed": part.dashed}
     data["layer"], data["paint"] = part.layer, part.paint
     data["placement"] = {
         "at": placement.at,

@@ -15,8 +15,7 @@ function dragged(picture, anchor, goal, start, n, closed, rounds = 12) {
   let q = Float64Array.from(start), distance = Infinity, damping = 1e-3;
   const place = (trial) => {
     picture.place(trial, 0);
-    const [x, y] = picture.seen(anchor);
-    return [picture.left + picture.zoom * x, picture.top + picture.zoom * y];
+    return picture.onCanvas(anchor);
   };
   const from = place(q);
   distance = Math.hypot(goal[0] - from[0], goal[1] - from[1]);

@@ -8,7 +8,7 @@
 function makeHistory(states, inputs, most = 40000) {
   const width = 1 + states + 3 + inputs; // t, x, T, V, balance, u
   let rows = new Float64Array(2048 * width);
-  const self = { count: 0, width, T: 1 + states, V: 2 + states, balance: 3 + states, u: 4 + states, add, at, clear, index, state, lowest: 0 };
+  const self = { count: 0, width, T: 1 + states, V: 2 + states, balance: 3 + states, u: 4 + states, add, at, clear, index, state };
 
   function clear() {
     self.count = 0;

@@ -79,9 +79,7 @@ function makeMap({ canvas, job, angle, told }) {
 
   /** Copy the map, with a cross at the start of the run. */
   function show() {
-    const ratio = window.devicePixelRatio || 1, w = canvas.clientWidth * ratio, h = canvas.clientHeight * ratio;
-    if (canvas.width !== Math.round(w)) canvas.width = Math.round(w);
-    if (canvas.height !== Math.round(h)) canvas.height = Math.round(h);
+    const [w, h] = fitted(canvas, context);
     context.imageSmoothingEnabled = false;
     context.clearRect(0, 0, w, h);
     context.drawImage(picture, 0, 0, w, h);
@@ -90,9 +88,9 @@ function makeMap({ canvas, job, angle, told }) {
     const X = ((x[across.state] - across.low) / (across.high - across.low)) * w, Y = ((up.high - x[up.state]) / (up.high - up.low)) * h;
     for (const [colour_, thick] of [["#000", 4], ["#fff", 1.6]]) {
       context.strokeStyle = String(colour_);
-      context.lineWidth = Number(thick) * ratio;
+      context.lineWidth = Number(thick);
       context.beginPath();
-      context.arc(X, Y, 6 * ratio, 0, 2 * Math.PI);
+      context.arc(X, Y, 6, 0, 2 * Math.PI);
       context.stroke();
     }
   }

@@ -1,14 +1,12 @@
 "use strict";
 // The page: what is on it, what the reader does, and the clock that drives the motion.
 
-/** @typedef {{names: string[], labels: string[], values: number[], units: string[]}} Group */
-
 (async function page() {
   const data = JSON.parse(element("data").textContent ?? "{}");
   const { scene } = data, nq = data.coordinates, size = data.x.names.length;
   const canvas = /** @type {HTMLCanvasElement} */ (element("canvas")), context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
   const plots = { coordinates: makePlot(element("plot-coordinates")), energy: makePlot(element("plot-energy")), phase: makePlot(element("plot-phase")) };
-  const solver = await physics.solver().catch((error) => tell_(`Nothing moves here: ${error.message}`));
+  const solver = await physics.solver().catch((error) => say(`Nothing moves here: ${error.message}`));
   if (!solver) return;
   const run = makeRun(solver, physics.functions, data), { history } = run;
   const picture = makePicture(scene, (x, t, r) => physics.functions.anchors(x, run.p, run.u, t, r));
@@ -16,14 +14,16 @@
   /** What the reader sets. */
   const set = { p: Float64Array.from(data.p.values), u: Float64Array.from(data.u.values), x: Float64Array.from(data.x.values), speed: 1, trail: true };
   let playing = false, shown = 0, last = 0, lit = null, stale = true, colours = readColours(), held = null, turning = null;
+  /** The time that is run ahead, and that plots show. */
+  const span = Math.min(data.duration, 12 * data.pace);
   /** How far things go: of the anchors on the picture, of each state, and of the energies. */
   let reach = { box: [0, 0, 1, 1], states: [[0, 0]], energy: [0, 0], first: 1 };
   /** Without the functions that close loops nothing can be dragged. */
   const draggable = data.constrained && !physics.functions.approach ? [] : scene.handles;
   const hidden = new Set(data.x.names.map((_, i) => i).filter((i) => i >= 4));
 
-  function tell_(words) {
-    element("status").textContent = words;
+  function say(words) {
+    if (element("status").textContent !== words) element("status").textContent = words;
   }
 
   function element(id) {
@@ -62,8 +62,7 @@
 
   function tellTrouble() {
     const events = run.occurred.filter((event) => event.t <= shown).slice(-3).map((event) => `${event.name} at ${event.t.toFixed(3)} s`);
-    const words = [shown >= run.end ? run.trouble : "", ...events].filter(Boolean).join(" · ");
-    if (element("status").textContent !== words) element("status").textContent = words;
+    say([shown >= run.end ? run.trouble : "", ...events].filter(Boolean).join(" · "));
   }
 
   /** Run ahead to know how far things go; the frame then holds the motion. */
@@ -71,7 +70,7 @@
     const box = [Infinity, Infinity, -Infinity, -Infinity], states = Array.from({ length: size }, () => [Infinity, -Infinity]), energy = [Infinity, -Infinity];
     const widen = (pair, x) => ([pair[0], pair[1]] = [Math.min(pair[0], x), Math.max(pair[1], x)]);
     const start = Float64Array.from({ length: size }, (_, i) => history.at(0, 1 + i));
-    const passed = run.measure(start, Math.min(data.duration, 12 * data.pace));
+    const passed = run.measure(start, span);
     picture.spread(passed);
     for (const { x, t } of passed) {
       picture.place(x, t);
@@ -115,12 +114,7 @@
   }
 
   function drawMotion() {
-    const ratio = window.devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
-    if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
-      canvas.width = Math.round(width * ratio);
-      canvas.height = Math.round(height * ratio);
-    }
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    const [width, height] = fitted(canvas, context);
     context.fillStyle = colours.paper; // a recording has no background of its own
     context.fillRect(0, 0, width, height);
     picture.place(now.subarray(1, 1 + size), shown);
@@ -149,8 +143,7 @@
       const points = [];
       for (let i = end - length; i <= end; i += stride) {
         picture.place(Float64Array.from({ length: size }, (_, n) => history.at(i, 1 + n)), history.at(i, 0));
-        const [x, y] = picture.seen(anchor);
-        points.push([picture.left + picture.zoom * x, picture.top + picture.zoom * y]);
+        points.push(picture.onCanvas(anchor));
       }
       for (let piece = 0; piece < pieces; piece++) {
         context.globalAlpha = 0.04 + (0.45 * (piece + 1)) / pieces;
@@ -164,7 +157,7 @@
   }
 
   function drawHeld() {
-    const [x, y] = onCanvas(held.anchor);
+    const [x, y] = picture.onCanvas(held.anchor);
     context.strokeStyle = colours.accent;
     context.lineWidth = 1.5;
     context.beginPath();
@@ -172,14 +165,8 @@
     context.stroke();
   }
 
-  function onCanvas(anchor) {
-    const [x, y] = picture.seen(anchor);
-    return [picture.left + picture.zoom * x, picture.top + picture.zoom * y];
-  }
-
   function drawPlots() {
-    const window_ = Math.min(data.duration, 12 * data.pace), end = history.index(shown);
-    const from = Math.max(0, shown - window_), first = history.index(from), xs = [from, Math.max(from + window_, shown)];
+    const end = history.index(shown), from = Math.max(0, shown - span), first = history.index(from), xs = [from, Math.max(from + span, shown)];
     const t = (i) => history.at(i, 0);
     let [low, high] = [Infinity, -Infinity], [least, most] = reach.energy;
     for (let i = first; i <= end; i += 4) {
@@ -201,7 +188,11 @@
     const turn = (c) => c < nq && data.angles[c];
     const wrapped = (x) => x - 2 * Math.PI * Math.round(x / (2 * Math.PI));
     const value = (c) => (turn(c) ? (i) => wrapped(history.at(i, 1 + c)) : (i) => history.at(i, 1 + c));
-    const range = (c) => (turn(c) ? Math.max(...reach.states[c].map(Math.abs)) > 2.8 || history.count > 1 && bends(c, end) ? [-Math.PI, Math.PI] : extent(c, end) : extent(c, end));
+    const range = (c) => {
+      const [low, high] = extent(c, end);
+      const round = turn(c) && (Math.max(...reach.states[c].map(Math.abs)) > 2.8 || low < -Math.PI || high > Math.PI);
+      return round ? [-Math.PI, Math.PI] : [low, high];
+    };
     const x = value(across), y = value(up), from = Math.max(0, end - 6000);
     const jumps = (i) => (turn(across) && Math.abs(x(i) - x(i - 1)) > Math.PI) || (turn(up) && Math.abs(y(i) - y(i - 1)) > Math.PI);
     plots.phase.begin(limits(...range(across)), limits(...range(up)), colours);
@@ -214,11 +205,6 @@
     let [low, high] = reach.states[c];
     for (let i = Math.max(0, end - 6000); i <= end; i += 4) [low, high] = [Math.min(low, history.at(i, 1 + c)), Math.max(high, history.at(i, 1 + c))];
     return [low, high];
-  }
-
-  function bends(c, end) {
-    const [low, high] = extent(c, end);
-    return low < -Math.PI || high > Math.PI;
   }
 
   // -- numbers --------------------------------------------------------------------------------------------------------
@@ -377,7 +363,7 @@
     picture.place(now.subarray(1, 1 + size), shown);
     let nearest = null, best = 32;
     for (const anchor of draggable) {
-      const [X, Y] = onCanvas(anchor), distance = Math.hypot(X - x, Y - y);
+      const [X, Y] = picture.onCanvas(anchor), distance = Math.hypot(X - x, Y - y);
       if (distance < best) [nearest, best] = [{ anchor, dx: X - x, dy: Y - y }, distance];
     }
     canvas.setPointerCapture(event.pointerId);
@@ -432,20 +418,14 @@
 
   // the derivation is the largest part of the page, and comes packed
   element("whole").innerHTML = await unpacked(element("packed-steps").textContent).text();
-  const terms = [...document.querySelectorAll(".term[data-from]")].map((node) => {
-    node.setAttribute("role", "group"); // it has a label
-    const from = `, ${node.getAttribute("data-from")}, `;
-    return { node, names: Object.keys(data.elements).filter((name) => from.includes(`, ${data.elements[name]}, `)) };
-  });
-  /** In the picture, names are separated by spaces; a space within a name is a no-break space there. */
+  /** In terms and glyphs, names are separated by spaces; a space within a name is a no-break space there. */
   const spelled = new Map(Object.keys(data.elements).map((name) => [name.split(/\s+/).join("\u00a0"), name]));
-  const drawing = element("drawing"), glyphs = [...drawing.querySelectorAll("[data-element]")].map((node) => ({ node, names: (node.getAttribute("data-element") ?? "").split(" ").map((name) => spelled.get(name) ?? name).filter(Boolean) }));
+  const marked = (nodes) => [...nodes].map((node) => ({ node, names: node.getAttribute("data-element").split(" ").filter(Boolean).map((name) => spelled.get(name) ?? name) }));
+  const drawing = element("drawing"), glyphs = marked(drawing.querySelectorAll("[data-element]")), terms = marked(document.querySelectorAll(".term[data-element]"));
 
   function light(names) {
     lit = names && names.length ? new Set(names) : null;
-    drawing.classList.toggle("choosing", lit !== null);
-    for (const { node, names: own } of glyphs) node.classList.toggle("lit", lit !== null && own.some((name) => lit.has(name)));
-    for (const { node, names: own } of terms) node.classList.toggle("lit", lit !== null && own.some((name) => lit.has(name)));
+    for (const { node, names: own } of [...terms, ...glyphs]) node.classList.toggle("lit", lit !== null && own.some((name) => lit.has(name)));
     document.body.classList.toggle("choosing", lit !== null);
     stale = true;
   }
@@ -455,6 +435,7 @@
     for (const name of ["pointerenter", "focus"]) node.addEventListener(name, () => light(names));
     for (const name of ["pointerleave", "blur"]) node.addEventListener(name, () => light(null));
   }
+  for (const { node } of terms) node.setAttribute("role", "group"); // it has a label
   drawing.querySelector("svg")?.setAttribute("role", "group");
   const described = new Set();
   for (const { node, names } of glyphs) {
@@ -653,7 +634,7 @@
   recall();
   if (solver.kind !== "wasm") element("fallback").hidden = false;
   /** What scripts beside the page can ask: the time, the sample that is shown, the places of bodies on the canvas. */
-  Object.assign(globalThis, { livePage: { kind: solver.kind, time: () => shown, playing: () => playing, sample: () => Array.from(history.state(shown, now)), handles: () => scene.handles.map(onCanvas) } });
+  Object.assign(globalThis, { livePage: { kind: solver.kind, time: () => shown, playing: () => playing, sample: () => Array.from(history.state(shown, now)), handles: () => scene.handles.map((anchor) => picture.onCanvas(anchor)) } });
   if (matchMedia("(prefers-reduced-motion: reduce)").matches) hold();
   else play();
   requestAnimationFrame(frame);

@@ -8,13 +8,12 @@
  * @param {(x: Float64Array, t: number, r: Float64Array) => Float64Array} anchors  state → positions, one after another
  */
 function makePicture(scene, anchors) {
-  const depth = scene.view[0].length, count = scene.positions.length;
-  const r = new Float64Array(count * depth);
-  const parts = scene.parts.filter((part) => part.moves).sort((a, b) => a.layer - b.layer);
+  const depth = scene.view[0].length, r = new Float64Array(scene.positions.length * depth);
+  const parts = [...scene.parts].sort((a, b) => a.layer - b.layer);
   const bounds = parts.filter((part) => part.kind !== "floor").map((part) => ({ part, corners: part.trace ? [] : cornersOf(part) }));
   /** Displacements: r is replaced by rest + factor · (r − middle). */
   const displaced = { factor: 1, middle: /** @type {Float64Array | null} */ (null), rest: Float64Array.from(scene.positions.flat()) };
-  const self = { displaced, view: scene.view.map((row) => [...row]), zoom: 1, left: 0, top: 0, place, seen, draw, fit, cover, spread, orbit, r, depth, count };
+  const self = { view: scene.view.map((row) => [...row]), zoom: 1, left: 0, top: 0, place, onCanvas, draw, fit, cover, spread, orbit, depth };
 
   /** The corners of the box around a shape, in its own axes. */
   function cornersOf({ disc, path }) {
@@ -40,6 +39,12 @@ function makePicture(scene, anchors) {
       y += scene.scale * down[i] * r[anchor * depth + i];
     }
     return [x, y];
+  }
+
+  /** The place of an anchor on the canvas. */
+  function onCanvas(anchor, shift) {
+    const [x, y] = seen(anchor, shift);
+    return [self.left + self.zoom * x, self.top + self.zoom * y];
   }
 
   /** The transformation of a part's own axes: (x, y) → (a x + c y + e, b x + d y + f), and the factor of radii. */
@@ -77,8 +82,8 @@ function makePicture(scene, anchors) {
   /** Lines from anchor to anchor. */
   function join(context, { anchors: through, closed, shifts }) {
     through.forEach((anchor, i) => {
-      const [x, y] = seen(anchor, shifts[i]);
-      context.lineTo(self.left + self.zoom * x, self.top + self.zoom * y);
+      const [x, y] = onCanvas(anchor, shifts[i]);
+      context.lineTo(x, y);
     });
     if (closed) context.closePath();
   }

@@ -24,6 +24,21 @@ function limits(low, high) {
   return [low - margin, high + margin];
 }
 
+/**
+ * Give a canvas as many pixels as the screen has for it; lengths are those of the page. Returns its width and height.
+ * @param {HTMLCanvasElement} canvas
+ * @param {CanvasRenderingContext2D} context
+ */
+function fitted(canvas, context) {
+  const ratio = window.devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
+  if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
+    canvas.width = Math.round(width * ratio);
+    canvas.height = Math.round(height * ratio);
+  }
+  context.setTransform(ratio, 0, 0, ratio, 0, 0);
+  return [width, height];
+}
+
 const DASHES = [[], [7, 3], [2, 3], [9, 3, 2, 3], [4, 2], [12, 4]];
 
 /**
@@ -38,12 +53,7 @@ function makePlot(canvas) {
 
   /** Clear the plot and draw its grid. */
   function begin(xLimits, yLimits, colours) {
-    const ratio = window.devicePixelRatio || 1, width = canvas.clientWidth, height = canvas.clientHeight;
-    if (canvas.width !== Math.round(width * ratio) || canvas.height !== Math.round(height * ratio)) {
-      canvas.width = Math.round(width * ratio);
-      canvas.height = Math.round(height * ratio);
-    }
-    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    const [width, height] = fitted(canvas, context);
     context.clearRect(0, 0, width, height);
     [xs, ys] = [xLimits, yLimits];
     context.font = "11px system-ui, sans-serif";

@@ -9,7 +9,7 @@
 function makeRun(solver, functions, data) {
   const size = data.x.names.length, inputs = data.u.names.length, interval = data.duration / 2400, piece = 24;
   const history = makeHistory(size, inputs), powers = new Float64Array(4);
-  const self = { history, interval, size, p: new Float64Array(0), u: new Float64Array(inputs), end: 0, trouble: "", occurred: /** @type {any[]} */ ([]), begin, goOn, computeTo, cut, closed, energies, measure };
+  const self = { history, interval, p: new Float64Array(0), u: new Float64Array(inputs), end: 0, trouble: "", occurred: /** @type {any[]} */ ([]), begin, goOn, computeTo, closed, energies, measure };
   /** The energy that hands and signals have supplied since the start. */
   let supplied = 0;
 
@@ -66,8 +66,8 @@ function makeRun(solver, functions, data) {
   /** Compute until a time at least; false if the motion ends before it. */
   function computeTo(t) {
     while (self.end < t - 1e-9 * interval && !self.trouble) {
-      const t0 = self.end, n = piece, x = last();
-      const found = solver.solve({ state: x, params: self.p, inputs: self.u, t0, t1: t0 + n * interval, samples: n + 1, maxSteps: 200000, seconds: 2, step: interval / 4 });
+      const t0 = self.end;
+      const found = solver.solve({ state: last(), params: self.p, inputs: self.u, t0, t1: t0 + piece * interval, samples: piece + 1, maxSteps: 200000, seconds: 2, step: interval / 4 });
       const before = supplied, own = found.supplied;
       try {
         for (let i = 1; i < found.states.length; i++) {
