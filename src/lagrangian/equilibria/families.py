@@ -148,7 +148,7 @@ def _refined(search: Search, path: Array, k: int) -> Array:
         return best
     low, high = path[max(k - 1, 0)], path[min(k + 1, len(path) - 1)]
     for _ in range(NARROWED):
-        ends = [search.polish((low + (high - low) * share)[None])[0] for share in (0.4, 0.6)]
+        ends = search.polish(np.array([low + (high - low) * share for share in (0.4, 0.6)]))
         if _size(ends[0]) < _size(ends[1]):
             high = ends[1]
         else:

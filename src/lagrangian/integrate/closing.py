@@ -117,13 +117,12 @@ class LoopSearch:
     def _changes(self, q: Array, p: Array, t: float, by: list[float]) -> Flags:
         """Which coordinates change the gaps by more than rounding when they are changed, at one of three places."""
         n = len(q)
-        found = np.zeros(n, bool)
-        for place in (q, q + np.linspace(0.3, 1.1, n), q - np.linspace(0.7, 0.2, n)):
-            here = self.gaps(place[None, :], p, t)
-            for step in by:
-                there = self.gaps(place + step * np.eye(n), p, t)
-                found |= np.abs(there - here).max(axis=-1) > SEEN * (1.0 + np.abs(here).max())
-        return found
+        places = np.array([q, q + np.linspace(0.3, 1.1, n), q - np.linspace(0.7, 0.2, n)])
+        moves = np.concatenate([np.zeros((1, n)), *(step * np.eye(n) for step in by)])
+        gaps = self.gaps((places[:, None] + moves).reshape(-1, n), p, t).reshape(len(places), len(moves), -1)
+        here, there = gaps[:, :1], gaps[:, 1:]
+        found = np.abs(there - here).max(axis=-1) > SEEN * (1.0 + np.abs(here).max(axis=-1))
+        return found.reshape(-1, n).any(axis=0)
 
     def gaps(self, q: Array, p: Array, t: float) -> Array:
         """f of every row on positions, shape (guesses, rows)."""

@@ -279,17 +279,16 @@ class Linearizer:
         """
         source = np.random.default_rng(5)
         dA = dK = dMK = 0.0
-        changes = {name: np.zeros_like(found[name]) for name in ("A", "B")}
+        mine = found if tangent is None else tangent.reduced(found)
+        changes = {name: np.zeros_like(mine[name]) for name in ("A", "B")}
         for _ in range(3):
             x, p = (v * (1 + PERTURBED * source.uniform(-1, 1, len(v))) for v in (here.x, here.p))
             moved = replace(here, x=x, p=p)
             near, there = self.values(self.rates, x=x, u=here.u, p=p, t=t), tangent
-            mine = found
             if self.manifold is not None and tangent is not None:
                 there = self.manifold.tangent(x, p, t, tangent.kept)
-                near, mine = there.reduced(near), tangent.reduced(found)
-                changes = {k: np.maximum(np.abs(near[k] - mine[k]), d[: len(mine[k]), : mine[k].shape[1]])
-                           for k, d in changes.items()}  # fmt: skip
+                near = there.reduced(near)
+                changes = {k: np.maximum(np.abs(near[k] - mine[k]), d) for k, d in changes.items()}
             dA = max(dA, _largest(near["A"] - mine["A"]))
             if second is not None and (other := self._second_order(moved, t, there)) is not None:
                 dK = max(dK, _largest(other["K"] - second["K"]))
@@ -298,7 +297,6 @@ class Linearizer:
         digits = SLACK * EPSILON / PERTURBED
         settled: dict[str, NDArray[np.bool_]] = {}
         if tangent is not None:
-            mine = tangent.reduced(found)
             settled = {k: np.asarray(d <= UNSETTLED * np.abs(mine[k]), bool) for k, d in changes.items()}
         return (dA * digits, dMK * digits), dK * digits, settled
 
