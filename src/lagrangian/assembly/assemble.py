@@ -144,12 +144,8 @@ REMEMBERED = 8
 
 def assembler_of(model: Model, fixed: Iterable[str] = ()) -> Assembler:
     """Return the assembler of a model that holds these coordinates; it is made, and its code compiled, only once."""
-    kept: dict[tuple[str, ...], Assembler] = model.remembered("assemblers", dict)
     key = tuple(fixed)
-    found = kept[key] = kept.pop(key, None) or Assembler(model, key)  # the most recently used is last
-    for oldest in list(kept)[:-REMEMBERED]:
-        kept.pop(oldest, None)
-    return found
+    return model.recent("assemblers", key, lambda: Assembler(model, key), REMEMBERED)
 
 
 def fixed_names(model: Model, fixed: Iterable[Any] | str) -> tuple[str, ...]:

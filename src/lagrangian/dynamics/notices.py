@@ -39,18 +39,20 @@ SHOWN = 6
 
 def notices(model: Model) -> tuple[Notice, ...]:
     """Return the notices of a system; raise `ModelError` (E106) if an inertia makes M indefinite."""
-    if "notices" not in model._memo:
-        numbers = Numbers.of_model(model)
-        found = [d for d in (doubt(numbers, body) for body in model.bodies) if d is not None]
-        negative = [d for d in found if d.negative]
-        if negative:
-            _decide(model, negative)
-        model._memo["notices"] = (
-            *(Notice(d.code, _where(d.body), _said(d)) for d in found),
-            *_weightless(model),
-            *_dependent(model),
-        )
-    return model._memo["notices"]
+    return model.remembered("notices", lambda: _found(model))
+
+
+def _found(model: Model) -> tuple[Notice, ...]:
+    numbers = Numbers.of_model(model)
+    found = [d for d in (doubt(numbers, body) for body in model.bodies) if d is not None]
+    negative = [d for d in found if d.negative]
+    if negative:
+        _decide(model, negative)
+    return (
+        *(Notice(d.code, _where(d.body), _said(d)) for d in found),
+        *_weightless(model),
+        *_dependent(model),
+    )
 
 
 def dependent_rows(model: Model) -> tuple[str, ...]:

@@ -73,6 +73,17 @@ class Model(Brief):
             self._memo[key] = make()
         return self._memo[key]
 
+    def recent(self, kind: str, key: Any, make: Callable[[], T], most: int) -> T:
+        """The same, but of each kind only the ``most`` things that were used last are kept."""
+        kept: dict[Any, T] = self._memo.setdefault(kind, {})
+        found = kept.pop(key, None)  # one operation: other threads use it too
+        if found is None:
+            found = make()
+        kept[key] = found  # the most recently used is last
+        for oldest in list(kept)[:-most]:
+            kept.pop(oldest, None)
+        return found
+
     @property
     def bodies(self) -> tuple[Body, ...]:
         """Particles and rigid bodies, in order."""
@@ -119,11 +130,12 @@ class Model(Brief):
     def expand(self, expr: sp.Expr, *, constants: bool = False) -> sp.Expr:
         """Return ``expr`` with moving definitions written out (constant ones too, if requested), and derivatives
         carried out."""
-        key = ("expand", expr, constants)
-        if key not in self._memo:
+
+        def made() -> sp.Expr:
             table = {d.symbol: d.expression for d in self.definitions if d.moving or constants}
-            self._memo[key] = written_out(expr, table)
-        return self._memo[key]
+            return written_out(expr, table)
+
+        return self.remembered(("expand", expr, constants), made)
 
     def position(self, point: Point) -> tuple[sp.Expr, ...]:
         """The components of a point's position in the fixed axes, ``dimension`` of them; definitions keep their
@@ -132,10 +144,10 @@ class Model(Brief):
 
     def velocity(self, point: Point) -> tuple[sp.Expr, ...]:
         """The components of a point's velocity in the fixed axes, written out in coordinates and rates."""
-        key = ("velocity", id(point))
-        if key not in self._memo:
-            self._memo[key] = tuple(bounded.diff(self.expand(x), time) for x in self.position(point))
-        return self._memo[key]
+        return self.remembered(
+            ("velocity", id(point)),
+            lambda: tuple(bounded.diff(self.expand(x), time) for x in self.position(point)),
+        )
 
     def point_words(self, point: Point) -> Words:
         """The point in words: the body at it, else its name, else the ground or its components."""

@@ -70,14 +70,7 @@ class Task:
 
 def remembered(model: Model, key: Any, make: Callable[[], Any]) -> Any:
     """Return what was compiled for a model under a key; compile it at the first request."""
-    kept: dict[Any, Any] = model._memo.setdefault("compiled", {})
-    found = kept.pop(key, None)  # one operation: other threads use the cache too
-    if found is None:
-        found = make()
-    kept[key] = found  # the most recently used is last
-    for oldest in list(kept)[:-REMEMBERED]:
-        kept.pop(oldest, None)
-    return found
+    return model.recent("compiled", key, make, REMEMBERED)
 
 
 def run(task: Task) -> Outcome:

@@ -197,9 +197,7 @@ def _number_explains(expr: sp.Expr) -> bool:
 
 def check_dimensions(model: Model) -> Dimensions | None:
     """Raise `ModelError` if units do not agree; return the dimensions found, or None if no unit was given."""
-    if "dimensions" not in model._memo:
-        model._memo["dimensions"] = _checked(model)
-    found: Dimensions | None = model._memo["dimensions"]
+    found = model.remembered("dimensions", lambda: _checked(model))
     return None if found is None else replace(found, solved=dict(found.solved), seen=dict(found.seen))
 
 
