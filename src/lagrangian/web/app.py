@@ -79,9 +79,10 @@ class Desk:
         routes.append(Route("/api/page", self._page, methods=["POST"]))
         routes.append(Route("/page/{name}", self._shown, methods=["GET"]))
         routes.append(Route("/api/sweep", self._sweep, methods=["POST"]))
-        routes.append(Route("/api/models", self._counted(self._models), methods=["POST"]))
+        routes.append(Route("/api/models", self._models, methods=["POST"]))
         routes += [Route(path, _file(*found), methods=["GET"]) for path, found in _files().items()]
-        return Gate(Starlette(routes=routes, lifespan=self._lifespan), token, port)
+        app = Starlette(routes=routes, lifespan=self._lifespan, exception_handlers={Refused: _refused})
+        return Gate(app, token, port)
 
     @contextlib.asynccontextmanager
     async def _lifespan(self, app: Starlette) -> AsyncIterator[None]:
@@ -91,33 +92,17 @@ class Desk:
         finally:
             await self.pool.close()
 
-    def _counted(self, answer: Callable[[dict[str, Any]], Awaitable[Any]]) -> Callable[[Request], Awaitable[Response]]:
-        """A route that answers by a function of the arguments."""
-
-        async def respond(request: Request) -> Response:
-            self.asked = time.monotonic()
-            try:
-                return JSONResponse(await answer(await self._arguments(request)))
-            except Refused as refused:
-                return refusal(refused)
-
-        return respond
-
     def _job(self, verb: str) -> Callable[[Request], Awaitable[Response]]:
         """A route that passes the arguments on to a process, and kills it if the request is given up."""
 
         async def respond(request: Request) -> Response:
-            try:
-                message = await self._worked(request, verb)
-            except Refused as refused:
-                return refusal(refused)
+            message = await self._worked(request, verb)
             return JSONResponse(message["answer"] if "answer" in message else {"error": message["error"]})
 
         return respond
 
     async def _worked(self, request: Request, verb: str) -> dict[str, Any]:
         """The message of a process about a request."""
-        self.asked = time.monotonic()
         arguments = await self._arguments(request)
         try:
             message = await _unless_gone(request, self.pool.run(verb, arguments, seconds=self.seconds))
@@ -129,10 +114,7 @@ class Desk:
 
     async def _page(self, request: Request) -> Response:
         """Make the page of a model that moves, and say where it is."""
-        try:
-            message = await self._worked(request, "page")
-        except Refused as refused:
-            return refusal(refused)
+        message = await self._worked(request, "page")
         if "answer" not in message:
             return JSONResponse({"error": message["error"]})
         name = secrets.token_urlsafe(24)
@@ -151,12 +133,7 @@ class Desk:
 
     async def _sweep(self, request: Request) -> Response:
         """The route of a sweep: parts of the answer as they are found, a line of JSON each, and the answer last."""
-        self.asked = time.monotonic()
-        try:
-            arguments = await self._arguments(request)
-        except Refused as refused:
-            return refusal(refused)
-        return StreamingResponse(self._lines(arguments), media_type="application/x-ndjson")
+        return StreamingResponse(self._lines(await self._arguments(request)), media_type="application/x-ndjson")
 
     async def _lines(self, arguments: dict[str, Any]) -> AsyncIterator[bytes]:
         lines: asyncio.Queue[dict[str, Any]] = asyncio.Queue()
@@ -185,6 +162,7 @@ class Desk:
 
     async def _arguments(self, request: Request) -> dict[str, Any]:
         """Return the body of a request as an object of JSON, within the limits on time and size."""
+        self.asked = time.monotonic()
         body = bytearray()
         try:
             async with asyncio.timeout(self.body_seconds):
@@ -204,15 +182,17 @@ class Desk:
             raise Refused(400, "the request is not an object of JSON")
         return found
 
-    async def _models(self, arguments: dict[str, Any]) -> dict[str, Any]:
+    async def _models(self, request: Request) -> Response:
         """The built-in examples with their texts, and the model that the app was started with."""
+        await self._arguments(request)
         listed = [{"name": n, "description": examples.describe(n), "text": examples.text(n)} for n in examples.names()]
         opened = None if self.model is None else {"name": self.model[0], "text": self.model[1]}
-        return {"version": __version__, "examples": listed, "opened": opened}
+        return JSONResponse({"version": __version__, "examples": listed, "opened": opened})
 
 
-def refusal(refused: Refused) -> Response:
-    """Return the answer to a request that was not done."""
+async def _refused(request: Request, refused: Exception) -> Response:
+    """The answer to a request that was not done."""
+    assert isinstance(refused, Refused)
     headers = (
         {"retry-after": "1"} if refused.status == 429 else {"connection": "close"} if refused.status == 413 else {}
     )

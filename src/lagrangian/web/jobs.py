@@ -64,13 +64,13 @@ def _loaded(text: str, name: str) -> System:
 
 
 @lru_cache(maxsize=4)
-def _derived(text: str, name: str) -> Derived:
-    return derive(_loaded(text, name).model)
+def _derived(system: System) -> Derived:
+    return derive(system.model)
 
 
 @lru_cache(maxsize=2)
-def _verified(text: str, name: str) -> Derivation:
-    return _loaded(text, name).derive()
+def _verified(system: System) -> Derivation:
+    return system.derive()
 
 
 def _notation(arguments: Arguments) -> Notation:
@@ -85,8 +85,7 @@ def derive_job(given: dict[str, Any], part: Part) -> dict[str, Any]:
     """Derive a model: the data of ``lagrangian derive --json``, and its page in sections."""
     arguments = Arguments(given, (*MODEL, "notation"))
     notation = _notation(arguments)
-    opened(arguments)
-    derivation = _verified(arguments.text("model"), arguments.title("name", UNNAMED))
+    derivation = _verified(opened(arguments))
     document = pages.lay_out(derivation, notation=notation, details=True)
     data = json.loads(pages.to_json(derivation, notation=notation))
     return {"data": data, "title": document.title, "sections": pieces(document)}
@@ -119,8 +118,7 @@ def check_job(given: dict[str, Any], part: Part) -> dict[str, Any]:
     arguments = Arguments(given, (*MODEL, "answer", "hint"))
     hint = arguments.whole("hint", 3, 0, 3)
     words = arguments.text("answer")
-    opened(arguments)
-    derivation = _derived(arguments.text("model"), arguments.title("name", UNNAMED))
+    derivation = _derived(opened(arguments))
     answer = parse_answer(words, derivation.model, name="answer")
     verdict = check_answer(derivation, answer, hint=hint)
     return {

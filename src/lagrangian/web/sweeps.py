@@ -31,8 +31,9 @@ def sweep_job(given: dict[str, Any], part: Part) -> dict[str, Any]:
     such as "max theta1".
     """
     arguments = Arguments(given, (*MODEL, "axes", "output", "duration", "initial", "params", "inputs"))
-    axes = dict(_axis(table) for table in arguments.tables("axes", 1, 2))
-    if len(axes) < len(arguments.tables("axes", 1, 2)):
+    tables = arguments.tables("axes", 1, 2)
+    axes = dict(map(_axis, tables))
+    if len(axes) < len(tables):
         raise Error("both axes have the same name", fix="vary two different quantities", code="E404")
     runs = int(np.prod([len(values) for values in axes.values()]))
     if runs > MAX_RUNS:
