@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import TYPE_CHECKING
 
 from .emit import plan
@@ -108,12 +107,4 @@ def _functions(writer: Statements, signature: str, declared: list[str], passed: 
     return [*lines, signature, "{", *calls, *writer.leaves(), "}"]
 
 
-def literal(x: float) -> str:
-    """A literal that is read back exactly as the same double; negative ones are in parentheses."""
-    if math.isnan(x):
-        return "NAN"
-    text = "INFINITY" if math.isinf(x) else repr(float(abs(x)))
-    return f"(-{text})" if math.copysign(1.0, x) < 0 else text
-
-
-_C = Dialect("const double", "const int", INFIX, LIBRARY, literal)
+_C = Dialect("const double", "const int", INFIX, LIBRARY, "NAN", "INFINITY")

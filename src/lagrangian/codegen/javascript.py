@@ -6,7 +6,6 @@ nor a script element of a page.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
@@ -108,12 +107,4 @@ def _comment(program: Program, inputs: list[tuple[str, str, tuple[str, ...]]], u
     return [*lines[:-1], lines[-1] + " */"]
 
 
-def literal(x: float) -> str:
-    """A literal that is read back exactly as the same double; negative ones are in parentheses."""
-    if math.isnan(x):
-        return "NaN"
-    text = "Infinity" if math.isinf(x) else repr(float(abs(x)))
-    return f"(-{text})" if math.copysign(1.0, x) < 0 else text
-
-
-_JAVASCRIPT = Dialect("const", "const", {k: v for k, v in INFIX.items() if k != "abs"}, LIBRARY, literal)
+_JAVASCRIPT = Dialect("const", "const", {k: v for k, v in INFIX.items() if k != "abs"}, LIBRARY, "NaN", "Infinity")

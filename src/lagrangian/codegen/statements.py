@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+import math
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 
 from .emit import Chunk, Plan
@@ -11,13 +12,21 @@ from .tape import FLAGS, LEAVES, Op, Tape, operands
 
 @dataclass(frozen=True)
 class Dialect:
-    """A language: how numbers and truth values are declared, its operators and functions, and its literals."""
+    """A language: how numbers and truth values are declared, operators and functions, and what has no digits."""
 
     number: str
     flag: str
     infix: Mapping[str, str]
     library: Mapping[str, str]
-    literal: Callable[[float], str]
+    nan: str
+    infinity: str
+
+    def literal(self, x: float) -> str:
+        """A literal that is read back exactly as the same double; negative ones are in parentheses."""
+        if math.isnan(x):
+            return self.nan
+        text = self.infinity if math.isinf(x) else repr(float(abs(x)))
+        return f"(-{text})" if math.copysign(1.0, x) < 0 else text
 
 
 class Statements:
