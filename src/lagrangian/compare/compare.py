@@ -8,8 +8,8 @@ examples 3A and 3B.
 from __future__ import annotations
 
 import logging
-from collections.abc import Mapping
-from typing import Any, Protocol, cast
+from collections.abc import Mapping, Sequence
+from typing import Any, Protocol, TypeAlias, cast
 
 import sympy as sp
 
@@ -93,7 +93,7 @@ def _by_motions(sides: tuple[ComparedSystem, ComparedSystem], given: Mapping[Any
         *sides,
         source,
         into,
-        same=found.same and not any(not p.missing for p in values),
+        same=found.same and all(p.missing for p in values),
         equations_same=found.same,
         change=change,
         J=change.jacobian,
@@ -110,7 +110,7 @@ def _embedding(a: Model, b: Model, given: Mapping[Any, Any] | None) -> tuple[Cha
         change, turned = given_change(a, b, given)
         return change, turned, False
     pairs = places(a, b)
-    proposals: list[tuple[float, int, Change, bool]] = []
+    proposals: list[Proposal] = []
     for turned, one, other, seen in ((False, a, b, pairs), (True, b, a, pairs.swapped())):
         names = {c.name for c in other.coordinates}
         if all(c.name in names for c in one.coordinates):
@@ -119,15 +119,20 @@ def _embedding(a: Model, b: Model, given: Mapping[Any, Any] | None) -> tuple[Cha
         for table in solved(one, other, seen):
             made = Change(one.coordinates, other.coordinates, table)
             proposals.append((agreement(one, made, seen), len(one.coordinates), made, turned))
-    if not proposals:
-        raise _not_found(a, b)
-    score, _, change, turned = max(proposals, key=lambda p: p[:2])
-    return change, turned, score < 1
+    return _likeliest(a, b, proposals)
 
 
-def _not_found(a: Model, b: Model) -> ModelError:
+Proposal: TypeAlias = "tuple[float, int, Change, bool]"
+"""How well a change fits, which one is preferred of those that fit equally well, the change, and its direction."""
+
+
+def _likeliest(a: Model, b: Model, proposals: Sequence[Proposal]) -> tuple[Change, bool, bool]:
+    """The change that fits best, its direction, and whether it is based on equal names alone."""
+    if proposals:
+        score, _, change, turned = max(proposals, key=lambda p: p[:2])
+        return change, turned, score < 1
     ours, theirs = (", ".join(c.name for c in m.coordinates) for m in (a, b))
-    return ModelError(
+    raise ModelError(
         f"how {ours} of '{a.name}' follow from {theirs} of '{b.name}' cannot be found by comparing positions",
         fix=Advice("say it: ", Argument("change", "'x1 + x2r'", "x2"), ", coordinates of one by those of the other"),
         code="E210",
@@ -161,7 +166,7 @@ def _correspondence(a: Model, b: Model, given: Mapping[Any, Any] | None) -> tupl
         check_regular(b if turned else a, change)
         return change, turned, False
     pairs = places(a, b)
-    proposals: list[tuple[float, int, Change, bool]] = []
+    proposals: list[Proposal] = []
     names = {c.name: c for c in b.coordinates}
     if all(c.name in names for c in a.coordinates):
         same = Change(a.coordinates, b.coordinates, {c.symbol: c.symbol for c in a.coordinates})
@@ -176,10 +181,7 @@ def _correspondence(a: Model, b: Model, given: Mapping[Any, Any] | None) -> tupl
                     break
             if proposals and proposals[-1][0] == 1:
                 break
-    if not proposals:
-        raise _not_found(a, b)
-    score, _, change, turned = max(proposals, key=lambda p: p[:2])
-    return change, turned, score < 1
+    return _likeliest(a, b, proposals)
 
 
 def _compared(
@@ -210,7 +212,7 @@ def _compared(
         b,
         source,
         into,
-        same=equations_same and not any(not p.missing for p in values),
+        same=equations_same and all(p.missing for p in values),
         equations_same=equations_same,
         change=shared.change,
         J=J,

@@ -10,7 +10,7 @@ Then both have the same motions near these states.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, cast
 
@@ -25,7 +25,7 @@ from lagrangian.errors import ModelError, RunError
 from lagrangian.graph import Program, evaluate
 from lagrangian.model import Model, time
 from lagrangian.model.without_friction import check_no_friction
-from lagrangian.page.formula import Check, Name, text
+from lagrangian.page.formula import Check, Name, Text, text
 
 Array = NDArray[np.float64]
 State = tuple[Array, Array, Array, float]
@@ -76,7 +76,8 @@ def compared_motions(source: Model, into: Model, change: Change, tags: tuple[str
         given = {"x": [*q, *v], "u": u.tolist(), "p": theirs.p, "t": [t]}
         found = {name: float(cast("float", x)) for name, x in evaluate(path, given).items()}
         place, rate, bend = (np.array([found[f"{kind} {c.name}"] for c in source.coordinates]) for kind in "qva")
-        inputs = np.array([u[_index(into, name)] if name in _names(into) else 0.7 for name in _names(source)])
+        driven = dict(zip((i.name for i in into.inputs), u, strict=True))
+        inputs = np.array([driven.get(i.name, 0.7) for i in source.inputs])
         here = (place, rate, inputs, t)
         gaps.add(*ours.off(here))
         ways.add((theirs.freedoms((q, v, u, t)), ours.freedoms(here)))
@@ -97,8 +98,8 @@ def _ways_seen(side: _Side, path: Program, source: Model, state: State) -> bool:
         found = evaluate(path, {"x": [*q, *v], "u": u.tolist(), "p": side.p, "t": [t]})
         return np.array([cast("float", found[f"v {c.name}"]) for c in source.coordinates])
 
-    free = side.directions(state)
-    images = np.array([rates(e) - rates(0 * v) for e in free]).reshape(len(free), -1)
+    free, still = side.directions(state), rates(0 * v)
+    images = np.array([rates(e) - still for e in free]).reshape(len(free), -1)
     return len(free) == int(np.linalg.matrix_rank(images, tol=SOMETHING)) if len(free) else True
 
 
@@ -158,8 +159,9 @@ class _Side:
     @classmethod
     def of(cls, model: Model, values: Mapping[str, float]) -> _Side:
         """The programs of a model."""
-        made: list[Callable[[Model], Program]] = [dynamics.residual, dynamics.constraint_matrix]
-        rows, matrix = (make(model) for make in made) if model.constraints else (None, None)
+        bound = bool(model.constraints)
+        rows = dynamics.residual(model) if bound else None
+        matrix = dynamics.constraint_matrix(model) if bound else None
         return cls(model, [values[p.name] for p in model.parameters], dynamics.forward(model), rows, matrix)
 
     def at(self, program: Program, state: State) -> dict[str, Any]:
@@ -248,15 +250,7 @@ def _value(name: str, value: float | None) -> float:
     return value if value is not None else 0.6 + (sum(map(ord, name)) % 17) / 20
 
 
-def _names(model: Model) -> tuple[str, ...]:
-    return tuple(u.name for u in model.inputs)
-
-
-def _index(model: Model, name: str) -> int:
-    return _names(model).index(name)
-
-
-def motion_words(same: bool, first: str) -> Any:
+def motion_words(same: bool, first: str) -> Text:
     """The verdict in words."""
     if same:
         return text(
@@ -266,7 +260,7 @@ def motion_words(same: bool, first: str) -> Any:
     return text(f"(A) and (B) do not describe the same motion: {first}.")
 
 
-def how(source: str, into: str) -> Any:
+def how(source: str, into: str) -> Text:
     """What was compared, in words."""
     return text(
         f"Equations with multipliers are not compared row by row. States of ({into}) that its constraints allow are "

@@ -10,7 +10,7 @@ from lagrangian.codes import CodeText
 from lagrangian.errors import ParseError, did_you_mean
 from lagrangian.model import Body
 from lagrangian.model.hints import BODY_KINDS, LINE_KINDS
-from lagrangian.quantities.quantity import Quantity, parse_unit, read_quantity
+from lagrangian.quantities.quantity import Quantity, read_quantity, unit_dimension
 from lagrangian.quantities.source import shown
 from lagrangian.read import file_schema as schema
 from lagrangian.read.file_reading import Reading
@@ -75,8 +75,8 @@ class LookReader:
                 self._known("coordinate", name, list(units), path)
             quantity = self._quantity(value, path, f"the pose of '{name}'")
             unit = units[normal(name)]
-            wanted = (LENGTH, NUMBER) if unit is None else (_powers(parse_unit(unit).dimension.mechanical),)
-            if not quantity.is_bare and _powers(quantity.dimension.mechanical) not in wanted:
+            wanted = (LENGTH, NUMBER) if unit is None else (unit_dimension(unit),)
+            if not quantity.is_bare and quantity.dimension.mechanical not in wanted:
                 asked = "a length or an angle" if unit is None else f"a value in {unit}"
                 self._refuse(
                     path,
@@ -87,14 +87,14 @@ class LookReader:
 
     def _angle(self, value: Any, path: Path, what: str) -> None:
         quantity = self._quantity(value, path, what)
-        if _powers(quantity.dimension.mechanical) != NUMBER:
+        if quantity.dimension.mechanical != NUMBER:
             self._refuse(path, f"expected an angle, got {shown(quantity.unit)}", "write '40 deg'", "E408")
         if abs(quantity.value) > LARGEST_ANGLE:
             self._refuse(path, f"{what} is {quantity.value:.3g} rad", "give an angle within two turns", "E406")
 
     def _length(self, value: Any, path: Path, what: str, *, positive: bool = False) -> None:
         quantity = self._quantity(value, path, what)
-        if not quantity.is_bare and _powers(quantity.dimension.mechanical) != LENGTH:
+        if not quantity.is_bare and quantity.dimension.mechanical != LENGTH:
             self._refuse(path, f"expected a length, got {shown(quantity.unit)}", "write '0.2 m'", "E408")
         if positive and quantity.value <= 0:
             self._refuse(path, f"{what} must be greater than 0 (got {quantity.value:g} m)", "write '0.2 m'", "E406")
@@ -147,7 +147,3 @@ class LookReader:
         index = self.reading.index
         place = index.of_key(path) if code == "E402" and isinstance(path[-1], str) else index.of_value(path)
         raise ParseError(message, element="[look]", place=place, fix=fix, code=code)
-
-
-def _powers(dimension: Iterable[Any]) -> tuple[Any, ...]:
-    return tuple(dimension)

@@ -108,7 +108,7 @@ class BrowserParts:
         if self.switches:
             found["switches"] = self.switches.compared()
         if self.rows is not None and self.rows.spare:
-            found["landing"] = self.rows.landing(self.field)
+            found |= self._landing
         if self.sticking:
             found |= {"rhs": self.field, "surfaces": self.sticking.surfaces()}
         return found
@@ -128,7 +128,12 @@ class BrowserParts:
         if self.rows is None:
             return {}
         approach = {} if self.rows.approach is None else {"approach": self.rows.approach}
-        return {**approach, "landing": self.rows.landing(self.field)}
+        return {**approach, **self._landing}
+
+    @cached_property
+    def _landing(self) -> dict[str, Program]:
+        """The last step of a projection, and what it leaves."""
+        return {} if self.rows is None else {"landing": self.rows.landing(self.field)}
 
     def layout(self) -> dict[str, Any]:
         """What the driver has to know of them, as plain data."""
