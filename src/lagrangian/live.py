@@ -21,7 +21,7 @@ from lagrangian.simulate.browser import BrowserModule, browser_module
 from lagrangian.simulate.inputs import driving
 from lagrangian.simulate.simulation import named
 from lagrangian.values.values import Given
-from lagrangian.write.blocks import Items
+from lagrangian.write.blocks import element_titles
 from lagrangian.write.described import system_section
 from lagrangian.write.document import Document, Paragraph, Section
 from lagrangian.write.expression import Expressions
@@ -172,7 +172,7 @@ def _data(model: Model, layout: Mapping[str, Any], scene: Scene, adjustables: Se
         "duration": duration,
         "pace": 1.0 if FASTEST <= duration <= SLOWEST else duration / 10,
         "trail": scene.trail or (scene.handles[-1:] if any(angles) else ()),
-        "elements": _titles(model),
+        "elements": {name: clean(title) for name, title in element_titles(model).items()},
         "model": _file(model, adjustables),
     }
 
@@ -192,12 +192,6 @@ def _rounded(value: Any) -> Any:
         case list() | tuple():
             return [_rounded(x) for x in value]
     return value
-
-
-def _titles(model: Model) -> dict[str, str]:
-    """The names of elements with their titles, as terms of the equations name them."""
-    titles = Items(model, "lecture", brief=False, full=False, details=True).spoken(e.title for e in model.elements)
-    return {e.name: clean(title) for e, title in zip(model.elements, titles, strict=True)}
 
 
 _SLOT = re.compile(r"7\.25(\d{5})1e-301")

@@ -20,7 +20,7 @@ from lagrangian.simulate.trajectory import Trajectory
 from lagrangian.system import System, loads
 from lagrangian.web.answers import lines_of_answer, report_pieces
 from lagrangian.web.requests import Arguments, LargeModel, Part, Task
-from lagrangian.write.blocks import Items
+from lagrangian.write.blocks import element_titles
 from lagrangian.write.html_page import pieces
 from lagrangian.write.quantities import NOTATIONS, Notation
 from lagrangian.write.scene_svg import scene_svg
@@ -97,14 +97,12 @@ def look_job(given: dict[str, Any], part: Part) -> dict[str, Any]:
     picture = system.look()
     svg = scene_svg(picture.scene, embedded=True)
     style = "".join(_STYLE.findall(svg))
-    items = Items(system.model, NOTATIONS[0], brief=False, full=False, details=True)
-    titles = items.spoken(element.title for element in system.model.elements)
     return {
         "svg": _STYLE.sub("", svg),
         "style": style,
         "description": picture.description,
         "missing": list(picture.missing),
-        "elements": dict(zip((element.name for element in system.model.elements), titles, strict=True)),
+        "elements": element_titles(system.model),
     }
 
 

@@ -149,6 +149,13 @@ class Items:
         return tuple("".join(x if isinstance(x, str) else unicode(x) for x in self.write.words(t)) for t in titles)
 
 
+def element_titles(model: Model) -> dict[str, str]:
+    """Return the title of every element by its name, as terms of the equations say where they come from."""
+    items = Items(model, "lecture", brief=False, full=False, details=True)
+    titles = items.spoken(e.title for e in model.elements)
+    return dict(zip((e.name for e in model.elements), titles, strict=True))
+
+
 def _terms(side: data.Left) -> tuple[sp.Expr, ...]:
     match side:
         case data.Terms(terms):
