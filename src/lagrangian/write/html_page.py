@@ -69,9 +69,8 @@ def page(document: Document, subject: str) -> str:
 def fragment(document: Document) -> str:
     """Return a document as a piece of HTML that contains its own style."""
     body = "\n".join(section_html(section, brief=document.brief, anchors=False) for section in document.sections)
-    nested = (
-        (style_sheet() + _pointing(document)).replace(":root", "&").replace("body {", "& {")
-    )  # restricted to this piece
+    rules = style_sheet() + _pointing(document)
+    nested = rules.replace(":root", "&").replace("body {", "& {")  # restricted to this piece
     style = f"<style>\n.lagrangian {{\n{nested}}}\n</style>"
     head = f'<div class="lagrangian" lang="en">{style}\n<div class="{"brief" if document.brief else "whole"}">'
     return f"{head}\n<h3>{escape(document.title)}</h3>\n{_picture(document)}{body}\n</div></div>"

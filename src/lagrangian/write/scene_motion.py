@@ -177,9 +177,9 @@ def _alone(part: ScenePart, at: Array, timing: Timing | None) -> str:
     """A part whose shape changes: its path, or its circle, has a new form in every frame."""
     drawn = placed(part, at)
     first = [(letter, numbers[0]) for letter, numbers in drawn]
-    geometry = _rounded(first)
     if timing is None or len(at) < 2 or _stands(part, at):
         return shape(part, outline(first))
+    geometry = outline([(letter, np.round(numbers, 1)) for letter, numbers in first])  # rounded like the other frames
     if len(drawn) == 1 and drawn[0][0] == "O":
         within = "".join(
             animate(name, drawn[0][1][:, [i]], lambda row: number(float(row[0]), 1), timing)
@@ -195,11 +195,6 @@ def _alone(part: ScenePart, at: Array, timing: Timing | None) -> str:
 
     track = np.concatenate([n for _, n in drawn], axis=-1)
     return shape(part, geometry, animate("d", track, write, timing))
-
-
-def _rounded(drawn: list[Drawn]) -> str:
-    """The geometry of the first frame, rounded like the others."""
-    return outline([(letter, np.round(numbers, 1)) for letter, numbers in drawn])
 
 
 # -- what is not a part of the system ---------------------------------------------------------------------------------
