@@ -20,13 +20,14 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import sympy as sp
 
 import lagrangian as lg
 from engine import HERE, best, found, one_call, table, this_machine
-from engine_peers import Loop, Timed
-from engine_systems import GRAVITY, Array
+from engine_peers import Loop, MuJoCo, Pinocchio, Timed
+from engine_systems import GRAVITY, Array, Pins, described, quadruped_tree
 from lagrangian import codegen as machine
-from lagrangian.graph import count_operations
+from lagrangian.graph import Graph, Output, Program, count_operations, from_sympy
 
 STATES = 512
 
@@ -166,10 +167,109 @@ def ladder(count: int) -> Linkage:
     return Linkage(tuple(lengths), tuple(begins), tuple(loops), tuple(guess))
 
 
-LINKAGES = {
+@dataclass(frozen=True)
+class Standing:
+    """The quadruped of `engine.py` with its four feet held to the ground by ball joints: 18 velocities, 12 rows.
+
+    It sinks to its knees from a stand; later its knees fold, and MuJoCo's soft constraints do not follow.
+    """
+
+    bend: float = 0.6
+
+    @property
+    def pins(self) -> Pins:
+        foot, reach = (0.0, 0.0, -0.2), 0.2 * np.sin(self.bend) - 0.21 * np.sin(self.bend)
+        sides = {2: (1, 1), 5: (1, -1), 8: (-1, 1), 11: (-1, -1)}
+        return {i: (foot, (0.19 * fore + reach, 0.13 * side, 0.0)) for i, (fore, side) in sides.items()}
+
+    @property
+    def guess(self) -> tuple[float, ...]:
+        leg = (0.05, self.bend, -2 * self.bend)
+        return (0.0, 0.0, 0.41 * np.cos(self.bend), 0.0, 0.0, 0.0, 1.0, *leg * 4)
+
+    def system(self) -> lg.System:
+        return described(quadruped_tree(), self.pins)
+
+    def pinocchio(self) -> Callable[[Array, Array], Array]:
+        peer = Pinocchio(quadruped_tree())
+        pin, model, data = peer.pin, peer.model, peer.data
+        models, closures = pin.StdVec_RigidConstraintModel(), pin.StdVec_RigidConstraintData()
+        for i, (foot, place) in self.pins.items():
+            joint, world = model.getJointId(f"joint {i}"), pin.SE3(np.eye(3), np.array(place))
+            end, kind = pin.SE3(np.eye(3), np.array(foot)), pin.ContactType.CONTACT_3D
+            models.append(pin.RigidConstraintModel(kind, model, joint, end, 0, world, pin.ReferenceFrame.LOCAL))
+            closures.append(models[len(models) - 1].createData())
+        pin.initConstraintDynamics(model, data, models, closures)
+        proximal, none = pin.ProximalSettings(1e-14, 1e-12, 20), np.zeros(model.nv)
+        return lambda q, v: pin.constraintDynamics(model, data, q, v, none, models, closures, proximal)
+
+    def mujoco(self, q: Array, v: Array) -> tuple[Array, Timed]:
+        """The accelerations at all states, and a timed call at the first one."""
+        peer = MuJoCo(quadruped_tree(), self.pins)
+        nothing = np.zeros_like(v)
+        return peer.accelerations(q, v, nothing), peer.timed(q, v, nothing)
+
+
+def by_hand() -> Program:
+    """The slider-crank in the crank's angle alone, as on paper: M φ̈ + ½ M′ φ̇² = τ − (F + b ẋ) dx/dφ, K = dψ/dφ."""
+    system = lg.example("slider-crank")
+    model = system.model
+    r, l, a, J1, m2, J2, m3, b = (system[n] for n in ("r", "l", "a", "J_1", "m_2", "J_2", "m_3", "b"))
+    tau, F, phi = system["tau"], system["F"], system["phi"]
+    rate, graph = sp.Derivative(phi, system.t), Graph()
+    kinds = {"q": [c.symbol for c in model.coordinates], "v": [c.rate for c in model.coordinates]}
+    kinds |= {"u": [u.symbol for u in model.inputs], "p": [p.symbol for p in model.parameters]}
+    known = {x: graph.input(group, i) for group, listed in kinds.items() for i, x in enumerate(listed)}
+
+    def let(name: str, expr: Any) -> sp.Symbol:
+        symbol = sp.Symbol(name)
+        known[symbol] = from_sympy(graph, expr, known)
+        return symbol
+
+    s, c = let("s", sp.sin(phi)), let("c", sp.cos(phi))
+    sr = let("sr", -r / l * s)
+    cr = let("cr", sp.sqrt(1 - sr**2))
+    K = let("K", -r / l * c / cr)
+    dK = let("dK", sr / cr * (K**2 - 1))
+    ends = [(-r * s - d * sr * K, -r * c - d * (cr * K**2 + sr * dK)) for d in (a, l)]
+    side = r * c + a * cr * K, -r * s + a * (cr * dK - sr * K**2)
+    (Gx, dGx), (X, dX) = ((let(f"G{i}", p), let(f"D{i}", q)) for i, (p, q) in enumerate(ends))
+    Gy, dGy = let("Gy", side[0]), let("dGy", side[1])
+    M = let("M", J1 + J2 * K**2 + m2 * (Gx**2 + Gy**2) + m3 * X**2)
+    half = let("half", J2 * K * dK + m2 * (Gx * dGx + Gy * dGy) + m3 * X * dX)
+    let("phi''", (tau - (F + b * X * rate) * X - half * rate**2) / M)
+    node = known[sp.Symbol("phi''")]
+    names = {"q": [c.name for c in model.coordinates], "v": [v.name for v in model.velocities]}
+    names |= {"u": [u.name for u in model.inputs], "p": [p.name for p in model.parameters], "t": ["t"]}
+    values = {p.name: p.value for p in model.parameters}
+    return Program("by hand", graph, {k: tuple(v) for k, v in names.items()}, {"a": Output((node,), (1,))}, values)
+
+
+def beside_hand(rounds: int, seconds: float) -> str:
+    """What the multipliers cost beside the equation of one degree of freedom that is written by hand."""
+    system = lg.example("slider-crank")
+    q, v = states(system, None)
+    u = np.zeros((len(q), 2))
+    programs = {"rows": system.compile().program("forward"), "hand": by_hand()}
+    kernels = {key: machine.compile(p, optional={"t": 0.0}, threads=1) for key, p in programs.items()}
+    a, hand = kernels["rows"](q, v, u)[:, 0], np.ravel(kernels["hand"](q, v, u))
+    timed = {key: one_call(kernel, q, v, u) for key, kernel in kernels.items()}
+    timed |= {f"{key} batch": kernel.prepared(q, v, u) for key, kernel in kernels.items()}
+    each = {key: t / len(q) * 1e9 for key, t in best(timed, rounds, seconds).items()}
+    ops = {k: count_operations(p.graph, p.ids, hoist=["p"]).operations for k, p in programs.items()}
+    return (
+        f"The slider-crank in its crank's angle alone, derived by hand and compiled alike: {ops['hand']} operations, "
+        f"{each['hand']:.1f} ns a call and {each['hand batch']:.1f} in a batch; with three coordinates and two rows "
+        f"{ops['rows']}, {each['rows']:.1f} and {each['rows batch']:.1f} (largest relative difference "
+        f"{np.abs(a - hand).max() / np.abs(hand).max():.0e})."
+    )
+
+
+LINKAGES: dict[str, Linkage | Standing] = {
     "four-bar": Linkage((0.5, 1.2, 0.9), ((0.0, 0.0), 0, (1.0, 0.0)), ((1, 2),), (1.0, -0.7, 1.1)),
     "five-bar": Linkage((0.7, 1.1, 0.8, 1.2), ((0.0, 0.0), 0, (1.3, 0.0), 2), ((1, 3),), (2.0, -1.2, 1.2, 1.2)),
     "ladder of 10": ladder(10),
+    "quadruped on four feet": Standing(),
 }
 EXAMPLES = [
     "slider-crank",
@@ -181,14 +281,18 @@ EXAMPLES = [
 ]
 
 
-def states(system: lg.System, linkage: Linkage | None) -> tuple[Array, Array]:
+def states(system: lg.System, linkage: Linkage | Standing | None) -> tuple[Array, Array]:
     """States along a motion, which satisfy the constraints."""
     settings = system.model.settings
     names = [c.name for c in system.model.coordinates]
     start = settings.get("initial", {}) if linkage is None else dict(zip(names, linkage.guess, strict=True))
-    run = system.simulate(settings.get("duration", 0.3), initial=start, samples=STATES)
+    duration = 0.15 if isinstance(linkage, Standing) else settings.get("duration", 0.3)
+    run = system.simulate(duration, initial=start, samples=STATES)
     n = len(names)
-    return np.ascontiguousarray(run.y[:n].T), np.ascontiguousarray(run.y[n : n + len(system.model.velocities)].T)
+    q = np.ascontiguousarray(run.y[:n].T)
+    if isinstance(linkage, Standing):  # ours takes quaternions of any length, Pinocchio those of length 1
+        q[:, 3:7] /= np.linalg.norm(q[:, 3:7], axis=1, keepdims=True)
+    return q, np.ascontiguousarray(run.y[n : n + len(system.model.velocities)].T)
 
 
 def measured(name: str, rounds: int, seconds: float) -> list[str]:
@@ -228,7 +332,8 @@ def report(quick: bool) -> list[str]:
     lines += ["Times in ns a state; in brackets how many times ours, one call and batch, and the greatest relative"]
     lines += ["difference. Pinocchio: `constraintDynamics`, a call from Python; MuJoCo: `mj_forward`, soft.", ""]
     rows = [measured(name, rounds, seconds) for name in (*LINKAGES, *EXAMPLES)]
-    return lines + table(["accelerations", "operations", "one call", "batch", "Pinocchio", "MuJoCo"], rows)
+    lines += table(["accelerations", "operations", "one call", "batch", "Pinocchio", "MuJoCo"], rows)
+    return [*lines, "", beside_hand(rounds, seconds)]
 
 
 def main() -> None:

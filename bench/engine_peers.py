@@ -18,7 +18,7 @@ from typing import Any
 import llvmlite.binding as llvm
 import numpy as np
 
-from engine_systems import GRAVITY, Array, Body, Tree, Z
+from engine_systems import GRAVITY, Array, Body, Pins, Tree, Z
 
 Timed = Callable[[], object]
 TINY = 1e-12
@@ -104,11 +104,11 @@ class MuJoCo:
 
     how = "mj_forward through its function pointer, one state over and over"
 
-    def __init__(self, tree: Tree) -> None:
+    def __init__(self, tree: Tree, pins: Pins | None = None) -> None:
         self.mujoco = mujoco = importlib.import_module("mujoco")
         mujoco.set_mjcb_time(None)  # the Python module's clock costs half a microsecond a call
         self.tree = tree
-        self.model = mujoco.MjModel.from_xml_string(mjcf(tree))
+        self.model = mujoco.MjModel.from_xml_string(mjcf(tree, pins or {}))
         self.data = mujoco.MjData(self.model)
         self.loop = Loop()
 
@@ -252,8 +252,13 @@ def rotation(e: Array) -> Array:
     return np.eye(3) + 2 * w * K + 2 * K @ K
 
 
-def mjcf(tree: Tree) -> str:
-    """MuJoCo's description of a tree."""
+STIFF = 'solref="0.002 1" solimp="0.9999 0.9999 0.001"'
+"""MuJoCo's constraints as hard as they go."""
+
+
+def mjcf(tree: Tree, pins: Pins | None = None) -> str:
+    """MuJoCo's description of a tree, and of the points that are pinned to the ground."""
+    pins = pins or {}
 
     def numbers(values: Any) -> str:
         return " ".join(repr(float(x)) for x in np.ravel(values))
@@ -272,14 +277,22 @@ def mjcf(tree: Tree) -> str:
                 turn = [np.sqrt(0.5), link.quarter * np.sqrt(0.5), 0, 0] if link.quarter else [1, 0, 0, 0]
                 joint = f'<joint type="hinge" axis="{numbers(np.eye(3)[link.axis])}"/>'
                 place = f'pos="{numbers(link.offset)}" quat="{numbers(turn)}"'
-                text += f"<body {place}>{inertial(link.body)}{joint}{children(i)}</body>"
+                text += f"<body {place}>{inertial(link.body)}{joint}{site(i)}{children(i)}</body>"
         return text
+
+    def site(i: int) -> str:
+        return f'<site name="s{i}" pos="{numbers(pins[i][0])}"/>' if i in pins else ""
 
     world = children(-1)
     if tree.floats:
         world = f"<body>{inertial(tree.floats)}<freejoint/>{world}</body>"
-    flags = '<flag contact="disable" constraint="disable" sensor="disable"/>'
-    return f'<mujoco><option gravity="0 0 -{GRAVITY}">{flags}</option><worldbody>{world}</worldbody></mujoco>'
+    world += "".join(f'<site name="g{i}" pos="{numbers(place)}"/>' for i, (_, place) in pins.items())
+    joined = "".join(f'<connect {STIFF} site1="s{i}" site2="g{i}"/>' for i in pins)
+    rows = f"<equality>{joined}</equality>" if pins else ""
+    unused = "" if pins else 'constraint="disable" '
+    flags = f'<flag contact="disable" {unused}sensor="disable"/>'
+    option = f'<option gravity="0 0 -{GRAVITY}" timestep="1e-4">{flags}</option>'
+    return f"<mujoco>{option}<worldbody>{world}</worldbody>{rows}</mujoco>"
 
 
 PEERS: dict[str, tuple[str, type[Pinocchio] | type[MuJoCo] | type[CasADi]]] = {

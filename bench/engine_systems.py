@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -184,7 +184,11 @@ def humanoid_tree() -> Tree:
     return Tree("humanoid", tuple(links), pelvis)
 
 
-def described(tree: Tree) -> lg.System:
+Pins = Mapping[int, tuple[Sequence[float], Sequence[float]]]
+"""Link → a point of it, in its axes, and the point of the ground at which a ball joint holds it."""
+
+
+def described(tree: Tree, pins: Pins | None = None) -> lg.System:
     """A tree as a system: a frame a joint, a rigid body a link, an input a velocity, the base's wrench in its axes."""
     s = lg.System(tree.name)
     frames: list[Frame] = []
@@ -206,6 +210,8 @@ def described(tree: Tree) -> lg.System:
         s.torque(u, on=q)
         frames.append(frame)
         joints.append(joint)
+    for i, (foot, place) in (pins or {}).items():
+        s.ball((frames[i].point(*foot, at=joints[i]), s.origin + tuple(place)), name=f"foot {i}")
     s.gravity(direction=(0, 0, -1), g=GRAVITY)
     return s
 

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import compileall
 import gc
 import os
+import sys
+from collections import Counter
 
 import pytest
 
@@ -11,9 +14,30 @@ import size
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    gc.set_threshold(100_000, 20, 20)  # most of what is made lives long: it is seldom looked at
+    gc.set_threshold(200_000, 50, 100)  # most of what is made lives long: it is seldom looked at
+    _keep_bytecode(config)
     os.environ.setdefault("MPLBACKEND", "Agg")  # plots are pyplot's, and no window is to open
     size.FULL = "not slow" not in config.getoption("markexpr")
+
+
+def _keep_bytecode(config: pytest.Config) -> None:
+    """Compile the package once: a hundred processes of the tests import it, and each would compile it again."""
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    sys.dont_write_bytecode = False
+    if "PYTEST_XDIST_WORKER" not in os.environ:
+        compileall.compile_dir(config.rootpath / "src", quiet=2)
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Of a test marked ``sampled`` only some cases are quick: the rest is run among the tests that take long."""
+    seen: Counter[str] = Counter()
+    for item in items:
+        if isinstance(item, pytest.Function) and (mark := item.get_closest_marker("sampled")):
+            name = item.nodeid.partition("[")[0]
+            if not size.in_sample(mark.args[0], seen[name], item.callspec.params.values()):
+                item.add_marker("slow")
+            seen[name] += 1
 
 
 def pytest_collection_finish() -> None:

@@ -186,13 +186,39 @@ def _constrained(s: Source, room: int) -> str:
     return text
 
 
+def _jointed(s: Source, room: int) -> str:
+    """Links that turn by hostile angles, held together by joints and rods, with friction in them."""
+    r, q = s.random, _names(s.random.randint(3, 5))
+    leaves, s.bent = (*q, *PARAMETERS), False
+    each = room // (2 * len(q))
+    points = "".join(f'P{k} = ["{x}+{s.sized(leaves, each)}", "{s.sized(leaves, each)}"]\n' for k, x in enumerate(q))
+    text = _head("jointed", q) + "[points]\n" + points + '[[gravity]]\ndirection = ["0", "-1"]\n'
+    for k, x in enumerate(q):
+        text += f'[[frame]]\nname = "R{k}"\nangle = "{x}+{s.sized(leaves, each // 2)}"\norigin = "P{k}"\n'
+        text += f'[[rigid_body]]\nname = "B{k}"\nmass = "m"\ninertia = "a*m"\nat = "P{k}"\nframe = "R{k}"\n'
+    for k in range(r.randint(1, 2)):
+        through = f'through = ["P{k}", "P{k + 1}"]\n'
+        ends = f'between = ["P{k}", "P{k + 1}"]\n'
+        text += r.choice((
+            f'[[pin]]\nname = "j{k}"\n{ends}',
+            f'[[constraint]]\nname = "j{k}"\n{ends}distance = "{s.sized(PARAMETERS, each)}"\n',
+            f'[[slider]]\nname = "j{k}"\n{ends}along = ["{s.expr(PARAMETERS, 2)}", "b"]\n',
+            f'[[rope]]\nname = "j{k}"\n{through}length = "{s.sized((*PARAMETERS, "t"), each)}"\n',
+            f'[[rolling]]\nname = "j{k}"\nbody = "B{k}"\nat = "P{k}"\nalong = [1, 0]\n',
+        ))  # fmt: skip
+    s.bent = True
+    how = r.choice((f'limit = "{s.sized(PARAMETERS, each)}"', f'mu = "c"\nnormal = "{s.sized((*leaves, "t"), each)}"',
+                    f'mu = "c"\npressed_by = "j0{".x" * ("[[pin]]" in text)}"'))  # fmt: skip
+    return text + f'[[friction]]\nname = "dry"\n{how}\ndeflection = "{q[0]}"\n'
+
+
 KINDS: tuple[Callable[[Source, int], str], ...] = (_points, _energy, _energies, _springs, _gravity, _crowd)
 
 
 def model(seed: int) -> str:
-    """The model file of a seed; those from 100 on have constraints."""
+    """The model file of a seed; those from 100 on have constraints, those from 200 on joints and friction."""
     source = Source(seed)
-    kind = _constrained if seed >= 100 else KINDS[seed % len(KINDS)]
+    kind = _jointed if seed >= 200 else _constrained if seed >= 100 else KINDS[seed % len(KINDS)]
     room = source.random.choice((150, 400, 400, 1200, 3000, 8000))
     while True:
         text = kind(source, room) + '[simulate]\nduration = "1 s"\n[simulate.initial]\nq0 = 0.1\n'

@@ -36,3 +36,11 @@ def cases(every: Sequence[Any], small: Sequence[Any]) -> list[Any]:
 def rest_slow(every: Iterable[Any], quick: Collection[Any]) -> list[Any]:
     """The values of a parameter, those that are not ``quick`` marked as taking long."""
     return [value if value in quick else pytest.param(value, marks=pytest.mark.slow) for value in every]
+
+
+def in_sample(sample: int | Collection[Any], place: int, values: Iterable[Any]) -> bool:
+    """Whether a case of a test marked ``sampled`` is run by default.
+
+    ``sampled(n)`` runs every n-th, beginning with the first; ``sampled(SOME)`` those with one of these values.
+    """
+    return place % sample == 0 if isinstance(sample, int) else any(value in sample for value in values)

@@ -199,6 +199,7 @@ def test_operations_of_what_is_shared_are_counted_once() -> None:
         assert bounded.operations(expr) == 6 * 2**60 - 3  # n → 2 n + 3, from 3: q(t) is one
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "expr",
     [

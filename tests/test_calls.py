@@ -11,6 +11,7 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
+from built_in import SOME
 from lagrangian import Error, examples
 
 
@@ -121,6 +122,7 @@ def test_gravity_that_was_left_out_is_noted() -> None:
     assert "no gravity uses it" in t.notices[0].text
 
 
+@pytest.mark.sampled(SOME)
 @pytest.mark.parametrize("name", examples.names())
 def test_the_examples_give_no_cause_for_notices(name: str) -> None:
     assert lg.loads(examples.text(name)).notices == ()

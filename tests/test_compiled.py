@@ -14,10 +14,10 @@ import pytest
 import sympy as sp
 from sympy import cos, sin
 
+import built_in
 import lagrangian as lg
-from built_in import FREE
+from built_in import FREE, SOME
 from effort import at_most
-from lagrangian import examples
 from size import rest_slow
 
 t = sp.Symbol("t")
@@ -25,7 +25,7 @@ random = np.random.default_rng(5)
 
 
 def system(name: str) -> lg.System:
-    return lg.loads(examples.text(name))
+    return built_in.system(name)
 
 
 def state(s: lg.System, *lead: int) -> dict[str, np.ndarray]:
@@ -57,6 +57,7 @@ def by_the_equations(s: lg.System, x: dict[str, np.ndarray], time: float) -> np.
 LONG = {"robot-arm", "scara", "triple-pendulum-relative", "spring-net", "ball-and-beam", "acrobot", "spinning-top"}
 
 
+@pytest.mark.sampled(SOME)
 @pytest.mark.parametrize("name", rest_slow(FREE, set(FREE) - LONG))
 def test_forward_dynamics_solves_the_equations_that_people_read(name: str) -> None:
     s = system(name)
@@ -282,7 +283,7 @@ def test_an_export_that_cannot_be_named_is_refused(name: str, tmp_path: pathlib.
 
 @pytest.mark.parametrize("ending", ["c", "py", "js"])
 def test_a_long_name_of_an_export_is_a_name_all_the_same(tmp_path, ending) -> None:
-    system = lg.loads(examples.text("pendulum"))
+    system = built_in.system("pendulum")
     files = system.export(tmp_path / f"{'a' * 60}.{ending}")
     assert f"{'a' * 60}_forward" in files[0].read_text()
     with pytest.raises(lg.ModelError, match="has 300 characters"):

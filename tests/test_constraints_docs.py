@@ -17,6 +17,7 @@ def names(tmp_path_factory: pytest.TempPathFactory) -> dict[str, object]:
     return found
 
 
+@pytest.mark.slow
 def test_the_guide_to_constraints_runs(names: dict[str, object]) -> None:
     run, lam, d = names["run"], names["lam"], names["d"]
     assert run.success and run.notices[0].code == "E303"  # type: ignore[attr-defined]
@@ -24,6 +25,7 @@ def test_the_guide_to_constraints_runs(names: dict[str, object]) -> None:
     assert len(d.minimal.equations) == 2  # type: ignore[attr-defined]
 
 
+@pytest.mark.slow
 def test_what_the_comments_of_the_guide_say_is_so(names: dict[str, object]) -> None:
     pendulum, sleigh, dyn = names["pendulum"], names["sleigh"], names["dyn"]
     assert str(pendulum.derive().constraints.verdict) == "holonomic: #GC = #DDOF = 1"  # type: ignore[attr-defined]

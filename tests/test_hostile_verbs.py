@@ -5,11 +5,11 @@ from pathlib import Path
 
 import pytest
 
+import built_in
 import lagrangian as lg
 from effort import at_most
 from hostile_answers import answer
 from hostile_models import KINDS, LONGEST, model
-from lagrangian import examples
 from lagrangian.bounded import questions
 from lagrangian.cli import main
 from size import rest_slow
@@ -42,6 +42,8 @@ METHODS: dict[str, Callable[[lg.System], object]] = {
     "to_toml": lambda system: system.to_toml(),
 }
 SEEDS = (0, 4, 5, 8, 13, 100, 105)
+JOINTED = (203, 208, 209)
+"""Links with joints and friction, of which only the shortest questions are asked here."""
 ANSWERS = range(40)
 
 
@@ -68,8 +70,14 @@ def check_ends(seed: int, verb: str, folder: Path) -> None:
 
 
 def test_hostile_files_are_small_and_the_same_everywhere() -> None:
-    assert all(len(model(seed).encode()) <= LONGEST for seed in (*range(3 * len(KINDS)), *SEEDS))
+    assert all(len(model(seed).encode()) <= LONGEST for seed in (*range(3 * len(KINDS)), *SEEDS, *JOINTED))
     assert model(7) == model(7)
+
+
+@pytest.mark.parametrize("verb", ["equilibria", "to_toml"])
+@pytest.mark.parametrize("seed", rest_slow(JOINTED, {209}))
+def test_joints_and_friction_end_a_question_too(seed: int, verb: str, tmp_path: Path) -> None:
+    check_ends(seed, verb, tmp_path)
 
 
 @pytest.mark.slow
@@ -79,7 +87,7 @@ def test_every_verb_ends_on_a_hostile_file(seed: int, verb: str, tmp_path: Path)
     check_ends(seed, verb, tmp_path)
 
 
-FURUTA = lg.loads(examples.text("furuta-pendulum"))
+FURUTA = built_in.system("furuta-pendulum")
 
 
 def check_answered(seed: int) -> None:
@@ -93,6 +101,7 @@ def check_answered(seed: int) -> None:
             assert error.code
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("seed", rest_slow(ANSWERS, {1, 7, 10}))
 def test_a_hostile_answer_is_judged_or_refused(seed: int) -> None:
     """7: products of values above 1e300."""

@@ -7,6 +7,7 @@ import xml.etree.ElementTree as ET
 
 import pytest
 
+import built_in
 import lagrangian as lg
 
 ROOT = pathlib.Path(__file__).parent.parent
@@ -53,11 +54,11 @@ def test_what_the_page_says_of_hints_runs(tmp_path: pathlib.Path, monkeypatch: p
     exec(compile("\n".join(page("python")[2:]), "schematic.md", "exec"), {})
     assert "(B)" in (tmp_path / "both.svg").read_text(encoding="utf-8")
     (hints,) = page("toml")
-    system = lg.loads(lg.example("cart-pole").to_toml() + "\n" + hints)
+    system = lg.loads(built_in.system("cart-pole").to_toml() + "\n" + hints)
     kinds = {part.kind for part in system.look().scene.parts}
     assert {"string", "shape"} <= kinds
 
 
 def test_the_words_of_the_page_are_those_that_are_said() -> None:
     (said,) = page("text")
-    assert " ".join(said.split()) == lg.example("cart-pole").look().description
+    assert " ".join(said.split()) == built_in.picture("cart-pole").description

@@ -11,7 +11,8 @@ import pytest
 import sympy as sp
 from sympy.physics.mechanics import dynamicsymbols
 
-import lagrangian as lg
+import built_in
+from built_in import SOME
 from effort import at_most
 from lagrangian import ModelError, bounded, examples
 from lagrangian.bounded import questions
@@ -45,9 +46,10 @@ def test_many_plain_expressions_are_hard() -> None:
     assert bounded.hard([sp.sin(q - w) * a] * 1_000)
 
 
+@pytest.mark.sampled(SOME)
 @pytest.mark.parametrize("name", examples.names())
 def test_no_example_is_hard(name: str) -> None:
-    assert not is_hard(lg.example(name).model)
+    assert not is_hard(built_in.system(name).model)
 
 
 def _question(is_hard: bool) -> Callable[[Callable[[], object]], object]:
@@ -98,9 +100,10 @@ def test_our_own_steps_are_not_interrupted(monkeypatch: pytest.MonkeyPatch) -> N
     assert len(done) == 1_000
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("calls", [20_000, 60_000, 150_000])
 def test_after_an_answer_that_was_given_up_others_are_judged(calls: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    system = lg.loads(examples.text("double-pendulum"))
+    system = built_in.system("double-pendulum")
     derivation = system.derive()
     right: list[Any] = list(derivation.equations)
     first, second = (cast("Any", c.symbol) for c in system.model.coordinates)

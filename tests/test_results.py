@@ -14,14 +14,15 @@ import numpy as np
 import pytest
 import sympy as sp
 
+import built_in
 import lagrangian as lg
-from lagrangian import Error, examples
+from lagrangian import Error
 from lagrangian.errors import NoSuchEntry
 from lagrangian.viewed import LONGEST
 
 
 def system(name: str) -> lg.System:
-    return lg.loads(examples.text(name))
+    return built_in.system(name)
 
 
 @pytest.fixture(scope="module")
@@ -70,6 +71,7 @@ def parts(thing: Any, path: str, seen: set[int]) -> Iterator[tuple[str, Any]]:
         yield from parts(part, where, seen)
 
 
+@pytest.mark.slow
 def test_every_result_shows_itself_shortly(results: dict[str, Any]) -> None:
     shown = {where: repr(x) for name, result in results.items() for where, x in parts(result, name, set())}
     assert len(shown) > 500

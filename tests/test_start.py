@@ -55,6 +55,7 @@ def test_a_derivation_needs_no_machine_code_units_or_files() -> None:
     assert "numpy" in imported(PENDULUM.format(blocked=blocked) + last)
 
 
+@pytest.mark.slow
 def test_source_code_is_written_without_llvm_and_its_absence_is_reported() -> None:
     ending = """
 import pathlib, tempfile
@@ -84,6 +85,7 @@ def test_a_lazy_room_has_all_its_names_and_no_file_of_that_name(room: str) -> No
     assert not files & set(package.__all__)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("arguments", [["version"], ["examples"], ["new", "pendulum"], ["--help"], ["nonsense"], []])
 def test_what_describes_the_command_imports_no_mathematics(arguments: list[str]) -> None:
     assert imported(command(*arguments)) <= {"typer", "rich", "pydantic"}  # Typer itself reads options by pydantic

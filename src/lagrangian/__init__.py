@@ -6,11 +6,12 @@ from lagrangian.lazily import closed as _closed
 from lagrangian.lazily import lazily as _lazily
 
 if _typing.TYPE_CHECKING:
+    from lagrangian.check.classes import CheckedClass, ClassCount, ClassRow
     from lagrangian.check.verb import CheckedAnswer
     from lagrangian.compare import Comparison, PicturePair, compare
     from lagrangian.compiled import Compiled
     from lagrangian.derivation import Derivation
-    from lagrangian.derive import LedgerRow, Origin, Step
+    from lagrangian.derive import LedgerRow, Origin, Step, Why
     from lagrangian.derive.constraints.page import Constraints
     from lagrangian.equilibria.points import Equilibria, Equilibrium
     from lagrangian.errors import Error, MissingExtra, ModelError, Notice, ParseError, Place, RunError
@@ -33,15 +34,17 @@ if _typing.TYPE_CHECKING:
     from lagrangian.simulate.settings import Execution, RunSettings
     from lagrangian.simulate.trajectory import Trajectory
     from lagrangian.system import System, example, load, loads
+    from lagrangian.worksheet import Worksheet
 else:
     __getattr__ = _lazily(
         __name__,
         {
+            "check.classes": "CheckedClass ClassCount ClassRow",
             "check.verb": "CheckedAnswer",
             "compare": "Comparison PicturePair compare",
             "compiled": "Compiled",
             "derivation": "Derivation",
-            "derive": "LedgerRow Origin Step",
+            "derive": "LedgerRow Origin Step Why",
             "derive.constraints.page": "Constraints",
             "equilibria.points": "Equilibria Equilibrium",
             "errors": "Error MissingExtra ModelError Notice ParseError Place RunError",
@@ -64,6 +67,7 @@ else:
             "simulate.settings": "Execution RunSettings",
             "simulate.trajectory": "Trajectory",
             "system": "System example load loads",
+            "worksheet": "Worksheet",
         },
     )
 
@@ -72,6 +76,9 @@ __all__ = [
     "Audit",
     "Check",
     "CheckedAnswer",
+    "CheckedClass",
+    "ClassCount",
+    "ClassRow",
     "Comparison",
     "Compiled",
     "Conserved",
@@ -109,6 +116,8 @@ __all__ = [
     "SymbolicLinearization",
     "System",
     "Trajectory",
+    "Why",
+    "Worksheet",
     "compare",
     "event",
     "example",

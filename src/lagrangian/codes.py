@@ -116,8 +116,7 @@ class Code(StrEnum):
     E311 = (
         "E311",
         "friction that sticks where a smooth function is needed",
-        "Runs and derivations take friction; compiled functions, exports, equilibria and linearizations along runs do "
-        "not.",
+        "Runs and derivations take friction; for compiled functions, exports and equilibria `regime` says what slips.",
     )
     E401 = (
         "E401",

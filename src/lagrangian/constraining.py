@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from copy import copy
+from typing import Any, Self
 
 from lagrangian.calls import Guided
 from lagrangian.model import (
@@ -20,6 +22,7 @@ from lagrangian.model import (
     VelocityConstraint,
     Weld,
 )
+from lagrangian.model.known_regime import in_regime
 
 Bodies = Frame | RigidBody | Sequence[Frame | RigidBody]
 """One body or two, as rigid bodies or as frames."""
@@ -114,11 +117,24 @@ class Constrained(Guided):
         """Add a taut rope of fixed ``length`` [m] through points: Σ |r_{k+1} − r_k| = length; its tension is −λ [N]."""
         return self._builder.add(Rope(through=through, length=length, name=name))
 
+    def regime(self, modes: Mapping[Any, int] | None = None, **by_name: int) -> Self:
+        """Return the system in which it is known whether frictions slip or stick, so that nothing in it jumps.
+
+        Name → mode: 1 or −1 for friction that slips in that sense, 0 for friction that sticks, which becomes a
+        constraint. For a row that presses on friction (``pressed_by``) it is the sign of its multiplier. Everything
+        that needs a smooth system takes the result: `compile`, `export`, `linearize`, `equilibria`. Whether the regime
+        holds at a state is not checked: it slips while ±δ̇ > 0, and sticks while |λ| ≤ F_s.
+        """
+        made = copy(self)
+        in_regime(made._builder, {**(modes or {}), **by_name})
+        return made
+
     def friction(
         self,
         mu: object = None,
         *,
         normal: object = None,
+        pressed_by: object = None,
         limit: object = None,
         static: object = None,
         viscous: object = None,
@@ -129,13 +145,16 @@ class Constrained(Guided):
         """Add dry friction along a deflection δ: it slips with −F sign(δ̇) − b δ̇, or it sticks while |λ| ≤ F_s.
 
         F [N or N m] is ``mu`` times the ``normal`` force, or ``limit``; ``static`` is the coefficient or the limit at
-        rest if it is higher; ``viscous`` is b. Nothing is smoothed: while it sticks, δ̇ = 0 is a constraint with the
-        multiplier λ, and a run finds the times at which it begins to stick and to slip.
+        rest if it is higher; ``viscous`` is b. ``pressed_by`` is a constraint (or its row) whose multiplier λ_N is the
+        normal force, instead of ``normal``: F = μ |λ_N|, for which λ_N and the friction are solved together. Nothing is
+        smoothed: while it sticks, δ̇ = 0 is a constraint with the multiplier λ, and a run finds the times at which it
+        begins to stick and to slip.
         """
         return self._builder.add(
             Friction(
                 mu=mu,
                 normal=normal,
+                pressed_by=pressed_by,
                 limit=limit,
                 static=static,
                 viscous=viscous,

@@ -3,20 +3,30 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 from lagrangian import bounded, derive, dynamics
 from lagrangian.calls import DERIVATION, Guided
 from lagrangian.derive import pages
+from lagrangian.errors import Error
 from lagrangian.model import Model, is_hard
+from lagrangian.model.rows import pressed_rows
+from lagrangian.page.formula import Check, text
 from lagrangian.values.dimensions import check_dimensions
 from lagrangian.verify.equations import verify
 from lagrangian.viewed import Viewed
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping, Sequence
+    from pathlib import Path
+
+    from lagrangian.check.classes import CheckedClass
+    from lagrangian.check.classes.judge import FeedbackFormat
+    from lagrangian.check.classes.scheme import AllowedCoordinates
     from lagrangian.check.verb import CheckedAnswer
-    from lagrangian.page.formula import Check
+    from lagrangian.derive import Why
+    from lagrangian.page.report import Report
     from lagrangian.write import Notation
     from lagrangian.write.document import HeadPicture
 
@@ -71,6 +81,59 @@ class Derivation(Guided, derive.Derived):
 
         return check_answer(self, answer, hint=hint)
 
+    def check_class(
+        self,
+        answers: str | Path | Mapping[str, str],
+        *,
+        points: Mapping[str, float] | None = None,
+        require: Sequence[str] = (),
+        coordinates: AllowedCoordinates = "any",
+        other: float = 0.5,
+        hint: int = 3,
+        told: int | None = None,
+        feedback: FeedbackFormat | None = None,
+        roster: str | Path | None = None,
+        store: str | Path | None = None,
+        processes: int | None = None,
+        progress: Callable[[int, int], None] | None = None,
+    ) -> CheckedClass:
+        """Check the answers of a class: a folder with a file for each, or texts by name.
+
+        ``points`` says what each part is worth ({"T": 2, "V": 2, "Xi": 2, "equations": 4}), ``require`` lists the parts
+        without which a right answer is incomplete, and with ``coordinates="given"`` an answer in other coordinates gets
+        only the share ``other`` of its points. What follows from a wrong line above costs nothing again. ``hint``
+        limits the results as in `check`, and ``told`` (by default the same) what students are told; ``feedback``
+        ("text", "markdown" or "html") makes a page for each, which `CheckedClass.write_feedback` writes. ``roster`` is
+        a list of the class as CSV. ``store`` is a file in which verdicts are kept, so that the same answer is not
+        judged twice. ``processes`` judge side by side, by default as many as there are cores and work for; the results
+        are the same. ``progress`` is called with the number of answers that are done and of all.
+
+        Raises `ModelError` for arguments that do not fit, and `Error` for files that cannot be read. An answer that
+        cannot be read does not stop the others.
+        """
+        from lagrangian.check.classes import check_class
+
+        found: dict[str, Any] = {"hint": hint, "told": told, "feedback": feedback, "roster": roster, "store": store}
+        found |= {"points": points, "require": require, "coordinates": coordinates, "other": other}
+        return check_class(self.model, answers, derivation=self, processes=processes, progress=progress, **found)
+
+    @cached_property
+    def why(self) -> Why:
+        """Why Lagrange's equations hold for this system: F = ma for every mass, and how constraint forces drop out.
+
+        The lecture's equations (1) to (12) with the symbols of this system, every equality checked, and the constraint
+        force on every body. Raises `ModelError` for a system that is given by its energies, which has no masses.
+        """
+        return derive.why(self)
+
+    @property
+    def reasoning(self) -> Report[Model] | None:
+        """The page of `why`; None for a system that has none."""
+        try:
+            return self.why.report()
+        except Error:
+            return None
+
     @property
     def picture(self) -> HeadPicture | None:
         """The picture at the head of the HTML and LaTeX pages, made when it is first asked for."""
@@ -91,6 +154,9 @@ def verify_compiled(model: Model, *, states: int, seed: int) -> tuple[Check, ...
     from lagrangian.compiled import Compiled, sources
     from lagrangian.verify.products import verify_products  # imported here because deriving needs none of these
 
+    if pressed_rows(model):
+        why = "not made: they are functions of the system whose regime says what slips and what sticks"
+        return (Check(text("compiled functions"), None, why),)
     return verify_products(model, Compiled(model), partial(sources, model), states=states, seed=seed)
 
 

@@ -126,7 +126,21 @@ class ModelError(Error, ValueError):
 
 
 class ParseError(ModelError):
-    """A text (an expression, a model file, an answer) cannot be read."""
+    """A text (an expression, a model file, an answer) cannot be read.
+
+    ``others`` are the errors in other places of the same text; the message contains them, too.
+    """
+
+    others: tuple[ParseError, ...] = ()
+
+    def with_others(self, others: Iterable[ParseError]) -> ParseError:
+        """Return this error with those in other places of the same text."""
+        self.others = tuple(others)
+        return self
+
+    def __str__(self) -> str:
+        """Return the whole message, and those of the others."""
+        return "\n".join([super().__str__(), *(str(error) for error in self.others)])
 
 
 class RunError(Error, ValueError):

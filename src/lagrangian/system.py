@@ -27,6 +27,8 @@ if TYPE_CHECKING:  # every verb imports what it needs, so that describing a syst
     from lagrangian.linear.linearization import Linearization
     from lagrangian.page.formula import Check
     from lagrangian.picture import Picture
+    from lagrangian.worksheet import Worksheet
+    from lagrangian.write import Notation
 
 
 @worded
@@ -233,6 +235,21 @@ class System(Simulated):
         from lagrangian.compare import compare
 
         return compare(self, other, change)
+
+    def worksheet(self, *, seed: int | None = None, notation: Notation = "lecture") -> Worksheet:
+        """Return an exercise: a question sheet, its solution, and the model file against which answers are checked.
+
+        With a ``seed`` it is about a random variant of the system: other letters and values, coordinates measured in
+        another way, forces and attachments elsewhere, and the same kinds and number of elements and coordinates. The
+        same seed gives the same variant. Raises `ModelError` for a seed below 0, and if the system cannot be derived.
+
+        >>> from lagrangian import example
+        >>> example("lecture-3b").worksheet(seed=3).changes[-1]
+        'other letters and values'
+        """
+        from lagrangian.worksheet import worksheet
+
+        return worksheet(self.model, seed=seed, notation=notation)
 
     def export(self, path: str | Path, *, overwrite: bool = False) -> tuple[Path, ...]:
         """Write the dynamics as source code to ``name.c`` (with ``name.h``), ``name.py`` or ``name.js``.

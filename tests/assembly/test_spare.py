@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
+import built_in
 import lagrangian as lg
 from lagrangian.assembly.assemble import consistent
 from lagrangian.assembly.spare import parts, spare_rows
@@ -41,6 +42,7 @@ def test_cranks_of_different_lengths_have_no_spare_row():
     assert spare(plate_on_cranks(lengths), start) == []
 
 
+@pytest.mark.slow
 def test_two_loops_that_have_nothing_in_common_are_two_sets():
     s = lg.System("two plates")
     for side in ("left", "right"):
@@ -50,9 +52,10 @@ def test_two_loops_that_have_nothing_in_common_are_two_sets():
     assert spare(s, start) == [(names[0], 1), (names[1], 1)]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", ["four-bar", "slider-crank", "stewart-platform", "rolling-disc", "andrews-squeezer"])
 def test_built_in_mechanisms_without_repeated_rows_have_none(name):
-    system = lg.example(name)
+    system = built_in.system(name)
     assert spare(system, {c.name: c.start for c in system.model.coordinates}) == []
 
 

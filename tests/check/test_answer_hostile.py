@@ -6,15 +6,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-import lagrangian as lg
+import built_in
 from effort import at_most
-from lagrangian import examples
 from lagrangian.check.reading import Answer, parse_answer
 from lagrangian.errors import ParseError
 from size import rest_slow, sized
 
-PENDULUM = lg.loads(examples.text("pendulum")).model
-CARTS = lg.loads(examples.text("lecture-3b")).model
+PENDULUM = built_in.system("pendulum").model
+CARTS = built_in.system("lecture-3b").model
 
 DOUBLING = "a0 = x1\n" + "\n".join(f"a{i + 1} = sin(a{i})*cos(a{i}) + a{i}" for i in range(60)) + "\na60 + x1'' = 0"
 HOSTILE = {
@@ -85,6 +84,7 @@ CALLS = 10_000_000
 LONGEST = {"many names", "derivative of nested functions", "long", "combining dots"}
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", rest_slow(HOSTILE, set(HOSTILE) - LONGEST))
 def test_hostile_answers_take_bounded_effort(name):
     try:
@@ -98,15 +98,15 @@ def test_hostile_answers_take_bounded_effort(name):
 
 
 REFUSED = [
-    ("m*L^2*θ'' + b*theta' + m*g L*sin(θ) = 0", "E701", 1, 28, "*"),
-    ("2x = 3", "E701", 1, 2, "2*x"),
+    ("m*L^2*θ'' + b*theta' + foo bar*sin(θ) = 0", "E701", 1, 28, "*"),
+    ("2 3 = x", "E701", 1, 3, "2*3"),
     ("x1 = 0\nm*(g + L = 0", "E701", 2, 3, "closed"),
     ("m*theta'' + = 0", "E701", 1, 13, "one side"),
     ("= 3", "E701", 1, 1, "one side"),
     ("m*θ''' = 0", "E701", 1, 3, "3 dots"),
-    ("sin θ = 3", "E701", 1, 5, "parentheses"),
+    ("sin = 3", "E701", 1, 1, "argument"),
     ("sin^-1(θ) = 3", "E701", 1, 1, "asin"),
-    ("m*theta'' = 1,5*b", "E406", 1, 14, "1.5"),
+    ("m*theta'' = 1, 5*b", "E701", 1, 14, "comma"),
     ("L' = 0", "E701", 1, 1, "does not change"),
     ("m*theta'' = sinn(theta)", "E402", 1, 13, "sin"),
     ("m/0 = theta''", "E705", 1, 3, "zero"),

@@ -8,9 +8,9 @@ import pytest
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+import built_in
 import lagrangian as lg
 from built_in import derivation
-from lagrangian import examples
 from lagrangian.check.reading import ENERGIES, generalized_force, parse_answer
 
 t = sp.Symbol("t")
@@ -19,7 +19,7 @@ m, L, b, g = sp.symbols("m L b g")
 
 
 def read(text: str, example: str = "pendulum"):
-    return parse_answer(text, lg.loads(examples.text(example), name=example).model)
+    return parse_answer(text, built_in.system(example).model)
 
 
 PENDULUM = m * L**2 * theta.diff(t, 2) + b * theta.diff(t) + m * g * L * sp.sin(theta)
@@ -145,6 +145,7 @@ NAMES = [
 DOCUMENTS = [(name, "lecture") for name in NAMES] + [("lecture-3b", "physics"), ("cart-pole", "robotics")]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(("name", "notation"), DOCUMENTS)
 def test_our_own_document_is_read_back(name, notation):
     d = derivation(name)

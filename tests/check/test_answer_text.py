@@ -8,15 +8,14 @@ from pathlib import Path
 import pytest
 import sympy as sp
 
-import lagrangian as lg
-from lagrangian import examples
+import built_in
 from lagrangian.check.reading import generalized_force, parse_answer
 
 t = sp.Symbol("t")
 
 
 def model(name: str):
-    return lg.loads(examples.text(name), name=name).model
+    return built_in.system(name).model
 
 
 m1, m2, k = sp.symbols("m1 m2 k")
@@ -175,8 +174,8 @@ def test_lines_of_lagrange_s_equations_themselves():
 def test_unknown_names_are_noted_with_what_was_probably_meant():
     answer = parse_answer("m*L^2*thta'' + mg*L*sin(theta) + M*x_9 = 0", model("pendulum"))
     noted = {u.name: u for u in answer.unknown}
-    assert set(noted) == {"thta", "mg", "M", "x_9"}
-    assert noted["mg"].suggestion == "Write m*g for a product."
+    assert set(noted) == {"thta", "M", "x_9"}
+    assert answer.notes == ("Products without signs were read: mg as m g.",)
     assert "theta" in noted["thta"].suggestion and "'m'" in noted["M"].suggestion
     assert noted["thta"].symbol == sp.Function("thta")(t) and noted["M"].symbol == sp.Symbol("M")
     assert (noted["x_9"].place.line, noted["x_9"].place.column) == (1, 36)
@@ -205,3 +204,27 @@ def test_the_manual_s_answers_are_read_and_right(language):
     assert [sp.expand(x.residual) for x in answer.equations] == [sp.expand(first), sp.expand(second)]
     T = m1 * x1.diff(t) ** 2 / 2 + m2 * (x1 + x2r).diff(t) ** 2 / 2
     assert sp.expand(answer.lines[0].rhs - T) == 0 and not answer.unknown
+
+
+def test_a_bracket_with_numbered_names_is_no_remark() -> None:
+    system = built_in.derivation("double-pendulum")
+    right = "(m1+m2) L1^2 theta1'' + m2 L1 L2 (theta2'' cos(theta1 - theta2) + theta2'^2 sin(theta1 - theta2)) "
+    right += "+ (m1+m2) g L1 sin(theta1) + m2 (theta2 - theta1) - m2 (theta2 - theta1) = 0"
+    assert system.check(right).findings[0].status.right
+
+
+def test_a_list_of_equations_below_other_lines_is_read() -> None:
+    text = "T = m*L**2*Derivative(theta(t), t)**2/2\n[Eq(m*L**2*Derivative(theta(t), (t, 2)), 0)]"
+    verdict = built_in.derivation("pendulum").check(text)
+    assert [f.line.kind for f in verdict.findings] == ["T", "equation"] and not verdict.right
+
+
+def test_one_bullet_below_a_heading_is_no_sign() -> None:
+    text = "**Answer**\n\n- m L^2 theta'' + b theta' + m g L sin(theta) = 0"
+    assert built_in.derivation("pendulum").check(text).right
+
+
+def test_a_partial_derivative_that_is_no_line_of_its_own_is_no_fault() -> None:
+    """The printed checklist names ∂T*/∂ξ without values: it is judged, whatever the coordinates are taken for."""
+    derived = built_in.derivation("lecture-3b")
+    assert derived.check(derived.to_markdown(brief=True)).status

@@ -39,6 +39,7 @@ def test_a_text_that_cannot_be_read_is_told_with_its_place(tmp_path: Path, capsy
     assert "answer.txt:2:" in err and "^" in err
 
 
+@pytest.mark.slow
 def test_hints_give_away_more_and_more(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     answer = tmp_path / "answer.txt"
     answer.write_text(SPRING)
@@ -74,8 +75,12 @@ def test_a_folder(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert code == 1
     assert "2 of 6 right" in out and "eve.txt  cannot be read" in out
     rows = list(csv.DictReader(table.read_text().splitlines()))
-    assert [(r["mistake"], r["answers"]) for r in rows] == [("plus_potential", "2"), ("unreadable", "2")]
+    assert [(r["name"], r["answers"]) for r in rows if r["kind"] == "mistake"] == [
+        ("plus_potential", "2"),
+        ("unreadable", "2"),
+    ]
     assert rows[0]["files"] == "cid.txt dan.txt"
+    assert rows[2]["sentence"] == "2 of 6 went wrong in step 4, Lagrangian."
     data = json.loads(run(capsys, "-e", "lecture-3b", str(answers), "--json")[1])
     assert data["counts"] == {"plus_potential": 2, "unreadable": 2}
     (answers / "cid.txt").unlink()
@@ -92,8 +97,18 @@ def test_a_line_for_each_answer(tmp_path: Path, capsys: pytest.CaptureFixture[st
         arguments = ("-e", "lecture-3b", str(answers), "--answers", str(table), "--hint", hint)
         assert run(capsys, *arguments, "--force")[0] == 1
         rows = list(csv.reader(table.read_text().splitlines()))
-        assert rows[0] == ["file", "verdict", "right lines", "lines", "first wrong line", "mistakes", "trouble"]
-        assert rows[4][:2] == ["eve.txt", "cannot be read"] and rows[4][6]
+        assert rows[0] == [
+            "file",
+            "verdict",
+            "right lines",
+            "lines",
+            "first wrong line",
+            "mistakes",
+            "lacks",
+            "points",
+            "trouble",
+        ]
+        assert rows[4][:2] == ["eve.txt", "cannot be read"] and rows[4][8]
         return [row[1:6] for row in rows[1:4]]
 
     full = [["right", "2", "2", "", ""], ["wrong", "1", "2", "2", "plus_potential"]]
@@ -104,6 +119,7 @@ def test_a_line_for_each_answer(tmp_path: Path, capsys: pytest.CaptureFixture[st
     assert run(capsys, "-e", "lecture-3b", str(single), "--answers", str(table))[0] == 2
 
 
+@pytest.mark.slow
 def test_a_folder_gives_no_more_away_than_the_hint(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "cid.txt").write_text(SPRING)
     for hint, given in (("0", False), ("1", False), ("2", True)):
@@ -119,10 +135,10 @@ def test_what_can_be_read_is_never_called_unreadable(
         raise ModelError("too much for this check")
 
     (tmp_path / "ann.txt").write_text(RIGHT)
-    monkeypatch.setattr(import_module("lagrangian.check.verb"), "check_answer", refused)
+    monkeypatch.setattr(import_module("lagrangian.check.classes.judge"), "check_answer", refused)
     code, out, _ = run(capsys, "-e", "lecture-3b", str(tmp_path))
     assert code == 1 and "ann.txt  cannot be judged" in out and "too much for this check" in out
-    assert "unreadable" not in out and "1  unjudged" in out
+    assert "cannot be read" not in out and "1 of 1 could not be judged" in out
 
 
 def test_usage(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

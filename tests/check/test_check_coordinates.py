@@ -82,3 +82,9 @@ def test_letters_and_numbers_that_mean_a_parameter_are_read_and_told() -> None:
     assert not verdict.right
     verdict = derived("lecture-3a").check("m1*x1'' + c*(x1 - x2) = -F + w\nm2*x2'' + c*(x2 - x1) = F")
     assert not verdict.right and "The system has no 'w'." in map(str, verdict.notes)
+
+
+def test_a_mistake_is_named_where_a_coordinate_is_abbreviated() -> None:
+    verdict = derived("pendulum").check("m*L^2*th'' - b*th' + m*g*L*sin(th) = 0")
+    assert not verdict.right and any("th" in str(note) for note in verdict.notes)
+    assert verdict.mistake is not None and verdict.mistake.name == "damper_sign"

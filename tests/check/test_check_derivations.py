@@ -81,6 +81,7 @@ def test_what_says_nothing() -> None:
     assert not empty.right and "Nothing is stated" in empty.to_text()
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "answer",
     [

@@ -46,6 +46,7 @@ def derived(name: str) -> Derivation:
     return loads(MOTOR).derive() if name == "motor" else derivation(name)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("l", "w", "c", "g", "right"),
     [
@@ -102,6 +103,7 @@ LONG_NAMES = loads(
 ).derive()
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("answer", "said"),
     [

@@ -45,6 +45,7 @@ def derived(spring: str) -> Derivation:
     return loads(BODY + SPRINGS[spring]).derive()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("spring", SPRINGS)
 @pytest.mark.parametrize(
     "answer",
@@ -64,6 +65,7 @@ def test_a_distance_is_positive(spring: str, answer: str) -> None:
     assert verdict.right, verdict.to_text()
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("spring", rest_slow(SPRINGS, {"between"}))
 @pytest.mark.parametrize(
     "answer",

@@ -80,6 +80,7 @@ def test_the_corpus_is_large_and_its_names_are_the_checker_s():
     assert len({a["id"] for a in CORPUS}) == len(CORPUS)
 
 
+@pytest.mark.sampled(4)
 @size.also_in_full
 @pytest.mark.parametrize("system", SYSTEMS if size.FULL else sorted(set(SYSTEMS) - LARGE))
 def test_no_right_answer_is_rejected_and_no_wrong_one_accepted(system):
@@ -92,6 +93,7 @@ def test_no_right_answer_is_rejected_and_no_wrong_one_accepted(system):
             assert verdict.status is WRONG[answer["is"]], told
 
 
+@pytest.mark.sampled(4)
 @size.also_in_full
 @pytest.mark.parametrize("system", SYSTEMS if size.FULL else sorted(set(SYSTEMS) - LARGE))
 def test_the_first_wrong_line_is_named(system):

@@ -70,6 +70,7 @@ def interrupted() -> dict[str, tuple[int, str]]:
     return {name: (code, said) for name, code, said in map(ast.literal_eval, done.stdout.splitlines())}
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", IMPORTED)
 def test_an_interrupt_while_something_is_imported_is_one_line(interrupted: Any, name: str) -> None:
     assert interrupted[name] == (130, "interrupted\n")
@@ -126,6 +127,7 @@ def test_an_interrupt_that_is_ignored_stays_ignored() -> None:
     assert done.returncode == 0 and "pendulum" in done.stdout
 
 
+@pytest.mark.slow
 def test_machine_code_shows_that_it_works_and_is_interrupted(tmp_path: Path) -> None:
     pty = pytest.importorskip("pty")
     ours, theirs = pty.openpty()
@@ -182,6 +184,7 @@ def test_a_derivation_says_each_step_and_a_pipe_sees_nothing(
     assert capsys.readouterr().err == ""
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("line", "words"),
     [

@@ -323,6 +323,7 @@ def test_matrices_and_lone_numbers():
     assert python(made)(np.full((2, 5, 2), 2.0))["M"].shape == (2, 5, 2, 2)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("n", [1, 2, 3, 5, 6, 7, 8, 9, 12, 15, 17, 31])
 @pytest.mark.parametrize("lanes", [1, 2, 4, 8])
 def test_rows_of_any_length_are_transposed(n, lanes):

@@ -124,6 +124,7 @@ def test_a_directory_others_can_write_is_not_used(folder, compilations):
     assert len(compilations) == 3
 
 
+@pytest.mark.slow
 def test_two_processes_at_once(folder):
     """Several interpreters start together on an empty directory; all answer, and what they leave is whole."""
     code = (

@@ -39,6 +39,7 @@ SHAPES = [
 ]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("lanes", [2, 4, 8])
 @pytest.mark.parametrize(("sizes", "outputs"), SHAPES)
 def test_packed_rows_are_the_same_numbers(sizes, outputs, lanes):
@@ -67,6 +68,7 @@ def test_one_row_for_all_states_is_repeated():
     np.testing.assert_array_equal(kernel(a, b), kernel(a, np.tile(b, (40, 1))))
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("where", [0, 7, 8, 15, 16, 23, 31, 32, 38, 39])
 def test_the_first_state_that_is_not_finite_is_named(where):
     kernel = compile(mixed((2, 3), (2,)), optional={"t": 0.0}, threads=1, keep=False)

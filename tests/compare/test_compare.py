@@ -10,6 +10,7 @@ import pytest
 import sympy as sp
 from typer.testing import CliRunner
 
+import built_in
 import lagrangian as lg
 from lagrangian import examples
 from lagrangian.cli import main
@@ -18,7 +19,7 @@ from size import rest_slow
 
 
 def _example(name: str) -> lg.System:
-    return lg.loads(examples.text(name))
+    return built_in.system(name)
 
 
 def _words(found: lg.Comparison) -> list[str]:
@@ -74,6 +75,7 @@ def test_generalized_forces_are_j_transposed_times_the_old_ones() -> None:
 # -- other coordinates ------------------------------------------------------------------------------------------------
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("name", "change"),
     [
@@ -371,6 +373,7 @@ def test_kinks_and_roots_are_compared_too() -> None:
     assert found.back[0].holds
 
 
+@pytest.mark.slow
 def test_a_long_row_of_carts_is_solved_by_elimination() -> None:
     def row(relative: bool) -> lg.System:
         s = lg.System("row")

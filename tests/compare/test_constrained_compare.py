@@ -67,6 +67,7 @@ def test_redundant_coordinates_change_no_motion_with_inputs_either():
     assert lg.compare(cart_pole(redundant=True), cart_pole(redundant=False))
 
 
+@pytest.mark.slow
 def test_a_plate_with_a_row_too_many_is_the_system_with_one_coordinate():
     s = lg.System("one angle")
     a = s.coordinates("a")

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import built_in
 import lagrangian as lg
 
 PAIRS = [
@@ -15,14 +16,15 @@ PAIRS = [
 ]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("a", "b", "names", "of"), PAIRS)
 def test_both_are_drawn_in_the_same_pose(a: str, b: str, names: tuple, of) -> None:
-    found = lg.compare(lg.example(a), lg.example(b)).look()
+    found = lg.compare(built_in.system(a), built_in.system(b)).look()
     assert np.allclose([found.left.pose[n] for n in names], of(found.right.pose), atol=1e-12)
 
 
 def test_the_picture_holds_both_and_is_saved(tmp_path: Path) -> None:
-    pair = lg.compare(lg.example("lecture-3a"), lg.example("lecture-3b")).look()
+    pair = lg.compare(built_in.system("lecture-3a"), built_in.system("lecture-3b")).look()
     root = ET.fromstring(pair.save(tmp_path / "pair.svg").read_text(encoding="utf-8").partition("\n")[2])
     named = [n for g in root.iter() for n in g.get("data-element", "").split()]
     assert named.count("m1") >= 4
@@ -36,5 +38,5 @@ def test_the_picture_holds_both_and_is_saved(tmp_path: Path) -> None:
 
 
 def test_systems_of_different_size_have_each_its_own_pose() -> None:
-    found = lg.compare(lg.example("pendulum"), lg.example("double-pendulum")).look()
+    found = lg.compare(built_in.system("pendulum"), built_in.system("double-pendulum")).look()
     assert set(found.left.pose) == {"theta"} and set(found.right.pose) == {"theta1", "theta2"}

@@ -271,6 +271,7 @@ def test_every_term_is_known_by_its_constraint() -> None:
     assert [row.column for row in d.ledger if row.element == "pin 'loop'"] == ["λ"]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("make", SYSTEMS)
 def test_everything_is_verified(make: Callable[[], lg.System]) -> None:
     """The equations, the rows, the multipliers and the equations without them, against what is compiled."""
@@ -283,6 +284,7 @@ def test_everything_is_verified(make: Callable[[], lg.System]) -> None:
     assert (d.minimal is None) == (not any("without multipliers" in w for w in words))
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("notation", ["lecture", "physics", "robotics"])
 def test_every_format_shows_it(notation: Any) -> None:
     """The rows, the multiplier's meaning and the equations without it, in all formats and notations."""

@@ -108,6 +108,7 @@ GROWTHS: dict[str, tuple[list[Given], list[Any], tuple[int, ...]]] = {
 }  # fmt: skip
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", rest_slow(GROWTHS, set(GROWTHS) - {"tractor with three trailers"}))
 def test_growth(name: str) -> None:
     rows, coordinates, growth = GROWTHS[name]
@@ -156,6 +157,7 @@ INTEGRALS: dict[str, tuple[list[Given], list[Any], list[Any]]] = {
 }
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", INTEGRALS)
 def test_integrals(name: str) -> None:
     rows, coordinates, expected = INTEGRALS[name]
@@ -174,6 +176,7 @@ def test_the_integral_of_an_axle_comes_from_its_two_wheels() -> None:
     assert sp.expand(integral.expression - (left - right + 2 * w * theta / r)) == 0
 
 
+@pytest.mark.slow
 def test_an_integral_that_is_not_elementary_is_said_to_be_missing() -> None:
     """Y z dx − x z dy + y² e^z dz is y² z times d(x/y) + (e^z/z) dz: an exponential integral."""
     verdict = judge(rates(y * z * dx - x * z * dy + y**2 * exp(z) * dz), SPACE, t)
@@ -181,6 +184,7 @@ def test_an_integral_that_is_not_elementary_is_said_to_be_missing() -> None:
     assert "no elementary integral was found for 1 of 1 (tried: exact forms" in verdict.notes[0]
 
 
+@pytest.mark.slow
 def test_natani_finds_what_no_factor_finds() -> None:
     u = x**3 * y + y**3
     form = sp.diff(u, t) * (u * z + 1) + dz * u * u / 2  # d(u²z/2 + u)
@@ -321,6 +325,7 @@ def test_many_rows_of_positions_need_no_brackets() -> None:
     assert (verdict.holonomic, verdict.GC, len(verdict.integrals)) == (True, 1, 39)
 
 
+@pytest.mark.slow
 def test_many_rows_of_rates_end() -> None:
     names = functions(" ".join(f"q{k}" for k in range(24)))
     rows = rates(*(dot(names[k]) - names[k + 2] * dot(names[k + 1]) for k in range(22)))

@@ -89,6 +89,7 @@ def test_form_keeps_the_value(expr: sp.Expr) -> None:
     assert same(sp.Add(*[term.expr for term in form.terms()]), expr)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("expr", [e for e in READ if not e.has(sp.sign, sp.Abs, sp.Max)], ids=lambda e: str(e)[:40])
 def test_derivatives_are_those_of_sympy(expr: sp.Expr) -> None:
     form = algebra().form(expr)

@@ -6,6 +6,7 @@ from typing import Any
 import pytest
 import sympy as sp
 
+import built_in
 import lagrangian as lg
 from constrained_systems import pendulum_in_plane
 from lagrangian.model import time as t
@@ -97,22 +98,24 @@ def test_every_format_says_the_verdict(make: Any) -> None:
 
 
 def test_without_constraints_nothing_is_said_of_them() -> None:
-    derivation = lg.example("cart-pole").derive()
+    derivation = built_in.derivation("cart-pole")
     assert derivation.constraints is None
     assert derivation.steps[0].expressions == {"holonomic": True, "GC": 2, "DDOF": 2}
 
 
+@pytest.mark.slow
 def test_rows_that_depend_on_each_other_along_the_motion_leave_it_free() -> None:
     """A platform on three equal cranks: four rows, four angles, and it moves; at random angles the rank is 4."""
-    found = lg.example("double-parallelogram").derive().constraints
+    found = built_in.derivation("double-parallelogram").constraints
     assert found is not None and found.verdict == "holonomic: #GC = #DDOF = 1"
     assert "only 3 of the 4 are independent" in found.holonomy.notes[0]
-    other = lg.example("four-bar").derive().constraints
+    other = built_in.derivation("four-bar").constraints
     assert other is not None and other.verdict == "holonomic: #GC = #DDOF = 1" and not other.holonomy.notes
 
 
+@pytest.mark.slow
 def test_a_platform_on_three_cranks_is_verified() -> None:
-    assert all(check.holds is not False for check in lg.example("double-parallelogram").derive().verified)
+    assert all(check.holds is not False for check in built_in.derivation("double-parallelogram").verified)
 
 
 def test_a_distance_between_two_points_that_always_coincide_is_refused() -> None:

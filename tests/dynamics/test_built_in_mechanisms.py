@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from built_in_mechanisms import ORACLES
 
-import lagrangian as lg
+import built_in
 from built_in import CONSTRAINED, LARGE
 from size import rest_slow
 
@@ -15,9 +15,10 @@ def test_every_example_with_constraints_has_an_oracle() -> None:
     assert set(ORACLES) == set(CONSTRAINED)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", rest_slow(CONSTRAINED, set(CONSTRAINED) - LARGE))
 def test_accelerations_and_multipliers_are_those_of_dense_matrices(name: str) -> None:
-    system = lg.example(name)
+    system = built_in.system(name)
     model, dyn = system.model, system.compile()
     p = {x.name: float(x.value or 0.0) for x in model.parameters}
     oracle = ORACLES[name](p)

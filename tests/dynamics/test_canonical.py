@@ -7,14 +7,15 @@ import numpy as np
 import pytest
 import sympy as sp
 
+import built_in
 import lagrangian as lg
-from built_in import FREE
-from lagrangian import dynamics, examples
+from built_in import FREE, SOME
+from lagrangian import dynamics
 from lagrangian.graph import count_program, evaluate
 
 
 def state(name: str) -> tuple[lg.System, dict[str, list[float]]]:
-    system = lg.loads(examples.text(name))
+    system = built_in.system(name)
     model, rng = system.model, np.random.default_rng(5)
     p = [0.5 + 0.1 * k if v.value is None else v.value for k, v in enumerate(model.parameters)]
     x = list(rng.uniform(0.2, 0.7, 2 * len(model.coordinates)))
@@ -30,6 +31,7 @@ def test_velocities_come_back_from_momenta(name: str) -> None:
     assert v == pytest.approx(at["x"][n:], rel=1e-11)
 
 
+@pytest.mark.sampled(SOME)
 @pytest.mark.parametrize("name", FREE)
 def test_momenta_change_as_they_do_along_the_accelerations(name: str) -> None:
     """ṗ of Hamilton's equations is the derivative of p(q, v, t) along ẋ = f(x), taken in 40 digits."""
@@ -52,7 +54,7 @@ def test_momenta_change_as_they_do_along_the_accelerations(name: str) -> None:
 
 def test_a_double_pendulum_has_the_textbooks_hamiltonian_flow() -> None:
     """q̇ = ∂H/∂p and ṗ = −∂H/∂q of H = ½ pᵀ M⁻¹ p + V, differentiated by SymPy."""
-    s = lg.loads(examples.text("double-pendulum"))
+    s = built_in.system("double-pendulum")
     d = s.derive()
     q = [c.symbol for c in s.model.coordinates]
     p = sp.symbols("p1 p2")
@@ -66,7 +68,7 @@ def test_a_double_pendulum_has_the_textbooks_hamiltonian_flow() -> None:
 
 
 def test_feedback_reads_rates_out_of_momenta() -> None:
-    s = lg.loads(examples.text("cart-pole"))
+    s = built_in.system("cart-pole")
     x, F = s["x"], s["F"]
     law = {F: -3 * x - 2 * x.diff()}
     at = {"x": [0.1, 0.2, 0.3, 0.4], "u": [], "t": [0.0]}

@@ -32,6 +32,7 @@ SYSTEMS = {
 }
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", SYSTEMS)
 @pytest.mark.parametrize("keep", [(), (0,)])
 def test_corrections_are_the_least_steps(name, keep):

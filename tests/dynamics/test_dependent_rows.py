@@ -68,6 +68,7 @@ def test_positions_that_contradict_each_other_close_nowhere() -> None:
         s.compile().assemble(None)
 
 
+@pytest.mark.slow
 def test_power_of_a_constraint_that_moves() -> None:
     """x = A sin ωt: the drive does the work of ½ m ẋ², and the audit knows it."""
     s = bob()

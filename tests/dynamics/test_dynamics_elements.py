@@ -121,6 +121,7 @@ def space():
 MODELS = [cart_and_pole, springs_and_dampers, driven_pivot, raw_energies, space]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("build", rest_slow(MODELS, set(MODELS) - {space}), ids=lambda f: f.__name__)
 def test_both_routes_against_euler_lagrange_by_sympy(build):
     model = build()
@@ -138,6 +139,7 @@ def test_both_routes_against_euler_lagrange_by_sympy(build):
         assert np.abs(run(made["inverse"], {**at, "a": run(made["forward"], at)["a"]})["r"]).max() < 1e-11 * size
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("build", MODELS, ids=lambda f: f.__name__)
 def test_mass_matrix_and_energies_against_the_elements(build):
     model = build()

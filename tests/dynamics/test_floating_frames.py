@@ -105,6 +105,7 @@ def test_a_wrong_law_does_not_pass(monkeypatch):
     assert not all(c.holds for c in verify_motion(model, states=2)[4:6])
 
 
+@pytest.mark.slow
 def test_all_that_is_made_of_a_floating_system_is_verified():
     checks = two_bodies().verify(states=2)
     assert len(checks) == 17  # seven of the programs, ten of what is made of them
@@ -164,6 +165,7 @@ def on_a_base(floats):
     return s, base
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("seed", range(3))
 def test_the_motion_is_that_of_a_base_described_by_angles(seed):
     """v = Rᵀ ṙ and ω = W(q) q̇, so v̇ = Rᵀ r̈ − ω × v and ω̇ = W q̈ + Ẇ q̇; energies and points are the same."""
@@ -214,6 +216,7 @@ def test_a_symmetric_top_free_of_torque_precesses_as_the_closed_form_says():
     assert q[:3] == pytest.approx(end * np.array([0.3, -0.2, 0.1]), abs=1e-9)
 
 
+@pytest.mark.slow
 def test_energy_is_kept_and_a_quaternions_length_means_nothing():
     s = system(QUADRUPED, 4)
     compiled = s.compile()
@@ -276,6 +279,7 @@ def test_exported_python_and_c_agree_with_the_engine(tmp_path):
     assert "two_rates" in (tmp_path / "two.h").read_text(encoding="utf-8")
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("length", [0.0, 1e-170])
 def test_a_quaternion_without_length_is_told(length):
     s = two_bodies()

@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 from closed_loops import values
 
+import lagrangian as lg
 from effort import at_most
-from lagrangian.graph import count_operations
+from lagrangian.dynamics import Inputs, describe
+from lagrangian.graph import Graph, count_operations
 from size import rest_slow
 
 SYSTEMS = {
@@ -26,6 +28,7 @@ def random_state(numbers, seed):
     return rng.uniform(0.2, 1.2, numbers.n), rng.uniform(-1, 1, numbers.n)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", SYSTEMS)
 @pytest.mark.parametrize("seed", range(3))
 def test_accelerations_and_multipliers_are_those_of_dense_matrices(name, seed):
@@ -130,6 +133,14 @@ def operations(m):
 def test_constrained_accelerations_take_few_operations(name):
     build, bound = OPERATIONS[name]
     assert operations(build()[0]) <= bound
+
+
+def test_a_body_that_rolls_costs_no_more_than_rows_written_by_hand():
+    """Of the motion of what carries both the body and its contact, nothing is left in the rows."""
+    for name, bound in (("rolling-disc", OPERATIONS["disc"][1]), ("whipple-bicycle", OPERATIONS["bicycle"][1])):
+        graph = Graph()
+        model = lg.example(name).model
+        assert operations(describe(model, graph, Inputs.of(graph, model))) <= bound
 
 
 def test_a_ladder_of_loops_takes_operations_in_proportion_to_its_length():

@@ -8,16 +8,17 @@ import pytest
 import sympy as sp
 from scipy.integrate import solve_ivp
 
+import built_in
 import lagrangian as lg
-from built_in import FREE
+from built_in import FREE, SOME
 from lagrangian import codegen as machine
-from lagrangian import dynamics, examples
+from lagrangian import dynamics
 from lagrangian.graph import evaluate
 from lagrangian.model import time
 
 
 def example(name: str) -> lg.System:
-    return lg.loads(examples.text(name))
+    return built_in.system(name)
 
 
 def test_expressions_are_what_sympy_says() -> None:
@@ -114,6 +115,7 @@ def test_what_cannot_be_fed_back_or_observed_is_refused_with_its_name() -> None:
         dynamics.observe(s.model, {"y": x.diff(time, 3)})
 
 
+@pytest.mark.sampled(SOME)
 @pytest.mark.parametrize("name", FREE)
 def test_the_energy_balance_holds_along_the_motion(name: str) -> None:
     model = example(name).model

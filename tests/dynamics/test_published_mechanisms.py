@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+import built_in
 import lagrangian as lg
 
 STENCIL = {1: 4 / 5, 2: -1 / 5, 3: 4 / 105, 4: -1 / 280}
@@ -24,7 +25,7 @@ def values(system: lg.System) -> dict[str, float]:
 
 def test_andrews_squeezer_starts_as_printed() -> None:
     """Mazzia and Magherini, Test Set for IVP Solvers 2.4, part II, section 6: β″, Θ″, λ (with the other sign)."""
-    system = lg.example("andrews-squeezer")
+    system = built_in.system("andrews-squeezer")
     dyn = system.compile()
     q = np.array([system.model.settings["initial"].get(name, 0.0) for name in dyn.coordinates])
     v = np.zeros(7)
@@ -37,7 +38,7 @@ def test_andrews_squeezer_starts_as_printed() -> None:
 
 def whipple(speed: float) -> np.ndarray:
     """The matrix of (lean, steer, lean', steer') about straight running at a speed, by differences of order 8."""
-    system = lg.example("whipple-bicycle")
+    system = built_in.system("whipple-bicycle")
     dyn, p = system.compile(), values(system)
     free = ("phi", "delta")
 
@@ -78,7 +79,7 @@ def test_a_disc_stays_upright_when_it_is_fast() -> None:
 
     So it is stable where Ω² > m g r I/(K (K + m r²)), which is g/3r for a thin disc.
     """
-    system = lg.example("rolling-disc")
+    system = built_in.system("rolling-disc")
     dyn, p = system.compile(), values(system)
     m, r, I, K, g = (p[name] for name in "mrIKg")
 
@@ -104,7 +105,7 @@ def test_a_disc_stays_upright_when_it_is_fast() -> None:
 
 def test_the_force_on_a_knife_edge_is_that_of_a_free_body() -> None:
     """The knife carries m (v θ' + a θ''): mass times the acceleration of the centre of mass across the sleigh."""
-    system = lg.example("chaplygin-sleigh")
+    system = built_in.system("chaplygin-sleigh")
     dyn, p = system.compile(), values(system)
     for theta, v, rate in ((0.3, 1.2, 0.7), (-2.0, -0.4, 3.0), (1.0, 0.0, -1.0)):
         given = [v * np.cos(theta), v * np.sin(theta), rate]
@@ -116,7 +117,7 @@ def test_the_force_on_a_knife_edge_is_that_of_a_free_body() -> None:
 
 def test_a_ladder_leaves_the_wall_at_two_thirds_of_its_height() -> None:
     """The wall's force is m g (3/4) cos θ (3 sin θ − 2 sin θ₀): Goldstein's and every book's problem of the ladder."""
-    system = lg.example("ladder")
+    system = built_in.system("ladder")
     dyn, p = system.compile(), values(system)
     m, g, l, start = p["m"], p["g"], p["l"], 1.1
     for theta in (1.1, 0.9, np.arcsin(2 / 3 * np.sin(start)), 0.5):
@@ -153,7 +154,7 @@ def four_bar_of_pinocchio(pin: Any, p: Mapping[str, float]) -> tuple[Any, Any]:
 def test_a_four_bar_moves_as_in_pinocchio() -> None:
     """`constraintDynamics` of Carpentier, Budhiraja and Mansard, RSS 2021; its third row is idle in the plane."""
     pin = pytest.importorskip("pinocchio")
-    system = lg.example("four-bar")
+    system = built_in.system("four-bar")
     dyn = system.compile()
     model, closure = four_bar_of_pinocchio(pin, values(system))
     models, closures = pin.StdVec_RigidConstraintModel(), pin.StdVec_RigidConstraintData()

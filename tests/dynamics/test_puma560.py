@@ -33,6 +33,7 @@ def test_its_accelerations_are_those_of_newton_and_euler(arm: lg.System) -> None
     np.testing.assert_allclose(forces, by_recursion, atol=1e-9 * np.abs(by_recursion).max())
 
 
+@pytest.mark.slow
 def test_its_fall_is_that_of_newton_and_euler(arm: lg.System) -> None:
     start = np.array([0.1, -0.5, 0.3, 0.2, 0.4, -0.1])
     run = arm.simulate(0.5, initial=[*start, *np.zeros(6)], samples=6)

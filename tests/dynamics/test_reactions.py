@@ -41,6 +41,7 @@ def link_accelerations(sizes: Any, q: Any, v: Any, a: Any) -> list[np.ndarray]:
     return found
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("n", [3, 10])
 def test_the_pins_of_a_chain_carry_what_accelerates_everything_beyond_them(n: int) -> None:
     s, sizes = chain(n)

@@ -46,6 +46,7 @@ def test_on_the_constraints_the_angle_moves_as_with_one_coordinate(a):
     assert found[:3] == pytest.approx(-WEIGHT / INERTIA * np.cos(a), abs=1e-11)
 
 
+@pytest.mark.sampled(7)
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize("a", [1.0, 0.3, -0.7, -np.pi / 2, 2.5])
 def test_beside_the_constraints_the_error_is_of_the_size_of_the_gap(a, seed):

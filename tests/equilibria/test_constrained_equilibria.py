@@ -42,6 +42,7 @@ def test_redundant_coordinates_have_the_same_equilibria() -> None:
     assert [dict(direction) for direction in found.free] == [{"x": 1.0, "X": pytest.approx(1.0)}]
 
 
+@pytest.mark.slow
 def test_rows_on_velocities_hold_forces_in_families() -> None:
     found = sleigh().equilibria()
     assert [e["theta"] for e in found] == pytest.approx([-np.pi / 2, np.pi / 2])

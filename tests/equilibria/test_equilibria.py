@@ -9,13 +9,9 @@ import numpy as np
 import pytest
 
 import lagrangian as lg
-from lagrangian import examples
+from built_in import system as built_in
 from lagrangian.cli import main
 from lagrangian.errors import RunError
-
-
-def built_in(name: str) -> lg.System:
-    return lg.loads(examples.text(name))
 
 
 def values_of(system: lg.System) -> dict[str, float]:
@@ -37,6 +33,7 @@ def chain(n: int) -> lg.System:
     return system
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("n", [1, 2, 3, 5])
 def test_a_chain_of_n_links_rests_in_two_to_the_n_ways_and_hangs_stably(n: int) -> None:
     found = chain(n).equilibria()
@@ -114,6 +111,7 @@ def test_a_circle_of_rests_is_one_family_and_the_hilltop_another_rest() -> None:
     assert top["x"] == pytest.approx(0, abs=1e-9) and top.stability.stable is False
 
 
+@pytest.mark.slow
 def test_the_place_that_stands_for_a_curve_is_the_nearest_to_0() -> None:
     """On the line 3 x + 4 y = 12 that is (0, 3); on the parabola y = (x − 1)² + 1, where 2 (1 − x) = 1, (1/2, 5/4)."""
     for law, x, y in ((lambda x, y: 3 * x + 4 * y - 12, 0.0, 3.0), (lambda x, y: y - (x - 1) ** 2 - 1, 0.5, 1.25)):
@@ -125,6 +123,7 @@ def test_the_place_that_stands_for_a_curve_is_the_nearest_to_0() -> None:
         assert (rest["x"], rest["y"]) == (pytest.approx(x, abs=1e-7), pytest.approx(y, abs=1e-7))
 
 
+@pytest.mark.slow
 def test_a_surface_of_rests_has_coordinates_that_are_0() -> None:
     system = lg.System("shell")
     x, y, z = system.coordinates("x y z")

@@ -9,6 +9,7 @@ import jsonschema
 import pytest
 
 import lagrangian as lg
+from built_in import SOME
 from lagrangian import ModelError, examples, read
 
 ASKED_FOR = {
@@ -90,6 +91,7 @@ def test_a_file_fits_the_published_schema(name: str, published: jsonschema.Draft
     published.validate(tomllib.loads(examples.text(name)))
 
 
+@pytest.mark.sampled(SOME)
 @pytest.mark.parametrize("name", examples.names())
 def test_a_saved_system_is_the_same_system(name: str) -> None:
     first = lg.loads(examples.text(name), name=name)
@@ -105,6 +107,7 @@ def test_a_saved_system_is_the_same_system(name: str) -> None:
         ]
 
 
+@pytest.mark.sampled(SOME)
 @pytest.mark.parametrize("name", [name for name in examples.names() if name != "two-carts"])
 def test_every_symbol_but_g_is_described(name: str) -> None:
     model = lg.loads(examples.text(name), name=name).model

@@ -10,7 +10,7 @@ from kane_systems import SYSTEMS, oracle
 from random_states import states, worst
 from textbook import BOOK, sides
 
-from built_in import FREE
+from built_in import FREE, SOME
 from lagrangian import examples
 
 
@@ -19,6 +19,7 @@ def described(name: str) -> tuple[list[str], list[str], list[str]]:
     return list(file["coordinates"]), list(file["parameters"]), list(file.get("inputs", {}))
 
 
+@pytest.mark.sampled(SOME)
 @pytest.mark.parametrize("name", sorted(BOOK))
 def test_kane_gives_what_the_book_prints(name: str) -> None:
     coordinates, parameters, inputs = described(name)

@@ -70,6 +70,7 @@ def test_quotients_and_differences_are_not_detours():
     assert g.nodes[from_sympy(g, a - b, table)] == ("sub", x, y)
 
 
+@pytest.mark.slow
 def test_very_deep_and_very_long_expressions():
     g = Graph()
     table = {a: g.input("x", 0)}

@@ -63,6 +63,7 @@ def in_numpy(function: str, x: np.ndarray) -> np.ndarray:
     return getattr(np, {"atan": "arctan"}.get(function, function))(x)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("seed", [0, *[pytest.param(k, marks=pytest.mark.slow) for k in range(1, 9)]])
 @pytest.mark.parametrize("name", METHODS)
 def test_every_crossing_of_random_conditions_is_found(name: str, seed: int) -> None:
@@ -116,6 +117,7 @@ def test_states_too_long_for_registers_lose_none_either(name: str) -> None:
             assert (found.event_index[run] == k).sum() == (np.diff(np.sign(y)) != 0).sum()
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", METHODS)
 def test_a_condition_on_a_table_is_followed_along_its_slopes(name: str) -> None:
     """sin 40u: u rises to 2 in 1 s (25 zeros after the start), falls to −1 in 2 s (38) and stays there."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import lagrangian as lg
+import built_in
 from lagrangian import dynamics
 from lagrangian.dynamics.guard import UNBOUNDED as GIVEN
 from lagrangian.graph import reached
@@ -15,7 +15,7 @@ def test_what_stands_for_no_divisor_is_known_as_such() -> None:
 
 
 def test_every_guard_of_a_linkage_is_found() -> None:
-    program = dynamics.rhs(lg.example("double-parallelogram").model)
+    program = dynamics.rhs(built_in.system("double-parallelogram").model)
     found, conditions = guards(program)
     selects = {i for i in reached(program.graph, program.ids) if program.graph.nodes[i][0] == "select"}
     assert found and selects == found and len(conditions) <= len(found)

@@ -17,6 +17,7 @@ def solved(program, name, watched, x0, times, *, lanes=None, **more):
     return solver.solve(x0, times, **accuracy(solver, tolerance=1e-12), **more)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", METHODS)
 def test_a_bouncing_ball_bounces_when_it_should(name):
     motion, bounce, exact = ball()
@@ -48,6 +49,7 @@ def test_bounces_that_accumulate_end_the_run(name):
     assert abs(few.reached[0] - exact[2]) < 1e-11
 
 
+@pytest.mark.sampled(7)
 @pytest.mark.parametrize("name", METHODS)
 @pytest.mark.parametrize("ground", [0.0, 5.0])
 @pytest.mark.parametrize("restitution", [0.1, 0.5, 0.9])
@@ -65,6 +67,7 @@ def test_no_ball_falls_through_the_ground(name, ground, restitution):
     assert np.abs(found.final[:, 0] - ground).max() < 1e-10
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", METHODS)
 @pytest.mark.parametrize(("direction", "exact"), [(1, [1.5, 3.5, 5.5]), (-1, [0.5, 2.5, 4.5]), (0, np.arange(6) + 0.5)])
 def test_only_crossings_in_the_direction_count(name, direction, exact):
@@ -166,6 +169,7 @@ def test_events_that_do_not_fit_are_refused():
     assert Solver(motion, events=root).solve([1.0, 0.0], [0.0, 4.0]).status[0] == -10
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", METHODS)
 @pytest.mark.parametrize("direction", [-1, 0, 1])
 def test_a_reset_that_lets_the_motion_through_is_done_once_a_crossing(name, direction):

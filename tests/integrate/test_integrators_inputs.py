@@ -38,6 +38,7 @@ SIGNALS = Signals(
 )
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", METHODS)
 def test_inputs_that_jump_and_bend_keep_the_accuracy(name):
     solver = Solver(pushed(), name)

@@ -46,6 +46,7 @@ def angle(t, start=2.0):
     return 2 * np.arcsin(k * cn / dn)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize("name", MADE)
 def test_rows_hold_for_100_seconds(name, method):
@@ -108,6 +109,7 @@ def test_adaptive_steps_keep_their_order(method, order):
     assert (e0 - e1) / (n1 - n0) > order - 1
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("method", METHODS)
 def test_measuring_changes_no_bit(method):
     times, start = np.linspace(0, 3, 31), problem_of("four-bar").start
@@ -226,6 +228,7 @@ def bounces(whole=True, terminal=False):
     )
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("method", METHODS)
 def test_events_find_and_leave_states_that_satisfy_the_rows(method):
     made = problem_of("rod")
@@ -308,6 +311,7 @@ def by_scipy(name, method, times, projection, **options):
     )
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("method", SCIPY)
 @pytest.mark.parametrize("name", MADE)
 def test_solvers_of_scipy_keep_the_rows(name, method):

@@ -104,6 +104,7 @@ def another_chunks(file: pathlib.Path, _: pathlib.Path) -> Iterator[None]:
 Damaging = Callable[[pathlib.Path, pathlib.Path], Iterator[None]]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("damage", [deleted, cut_off, flipped, another_stores, another_chunks])
 def test_every_file_damaged(stores: dict[str, pathlib.Path], tmp_path: pathlib.Path, damage: Damaging) -> None:
     right, told = contents(stores["whole"]), 0

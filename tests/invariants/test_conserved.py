@@ -8,15 +8,12 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
-from lagrangian import dynamics, examples
+from built_in import system as built_in
+from lagrangian import dynamics
 from lagrangian.cli import main
 from lagrangian.errors import RunError
 from lagrangian.graph import evaluate
 from lagrangian.model import time
-
-
-def built_in(name: str) -> lg.System:
-    return lg.loads(examples.text(name))
 
 
 def named(system: lg.System) -> dict[str, sp.Expr]:
@@ -82,6 +79,7 @@ def test_keplers_area_law_hides_in_cartesian_coordinates_and_is_found() -> None:
     assert {c.kind for c in found} == {"turn", "energy"}
 
 
+@pytest.mark.slow
 def test_two_free_bodies_keep_three_total_momenta() -> None:
     """Springs between points in the plane: P_x, P_y and the angular momentum about the origin."""
     system = lg.System("two bodies")
@@ -141,6 +139,7 @@ def test_what_friction_and_forces_take_is_said() -> None:
 CONSERVATIVE = ["lecture-3a", "double-pendulum", "elastic-pendulum", "spherical-pendulum", "spinning-top", "wedge"]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", [*CONSERVATIVE, "two-carts", "bead-on-hoop"])
 def test_rates_vanish_by_the_forward_dynamics_and_runs_keep_them(name: str) -> None:
     system = built_in(name)

@@ -47,6 +47,7 @@ def test_a_constraint_that_moves_with_time_drives() -> None:
     assert any("the energy changes as the constraint 'drive' pushes" in str(why) for why in found.missed)
 
 
+@pytest.mark.slow
 def test_rows_on_velocities_take_momenta_as_well() -> None:
     assert "energy" in {c.kind for c in disc()[0].conserved_quantities()}
     found = sleigh().conserved_quantities()
@@ -55,6 +56,7 @@ def test_rows_on_velocities_take_momenta_as_well() -> None:
     assert any("y, but its momentum changes as the constraint 'edge' pushes" in why for why in said)
 
 
+@pytest.mark.slow
 def test_redundant_coordinates_lose_no_quantity() -> None:
     plain = names(cart_pole(redundant=False), params={"b": 0})
     found = names(cart_pole(redundant=True), params={"b": 0})

@@ -7,17 +7,14 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
-from built_in import FREE
-from lagrangian import bounded, dynamics, examples
+from built_in import FREE, SOME
+from built_in import system as built_in
+from lagrangian import bounded, dynamics
 from lagrangian.errors import ModelError, RunError
 from lagrangian.graph import evaluate
 from lagrangian.model import time
 from lagrangian.page.formula import Elided, Formula
 from lagrangian.write.unicode_math import columns
-
-
-def built_in(name: str) -> lg.System:
-    return lg.loads(examples.text(name))
 
 
 def same(a: Any, b: Any) -> bool:
@@ -54,6 +51,7 @@ def test_a_driven_pendulums_hamiltonian_holds_time() -> None:
     assert bare.has(time)
 
 
+@pytest.mark.sampled(SOME)
 @pytest.mark.parametrize("name", [n for n in FREE if n not in ("spring-net",)])
 def test_canonical_equations_are_those_of_the_elimination(name: str) -> None:
     """`dynamics.canonical` takes the velocities from the elimination along the tape and gradients from the graph."""
@@ -193,6 +191,7 @@ def test_a_long_hamiltonian_is_given_by_its_mass_matrix() -> None:
     assert np.isclose(p @ np.linalg.solve(M, p) / 2 + V_there, float(_put(found.H, table)), rtol=1e-12)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ["triple-pendulum", "acrobot", "furuta-pendulum", "lecture-2"])
 def test_pages_of_long_hamiltonians_keep_to_their_width(name: str) -> None:
     found = built_in(name).hamiltonian()

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
+import built_in
 import lagrangian as lg
 from constrained_systems import G, cart_pole, disc, rod, sleigh, slider_crank
 from lagrangian.errors import RunError
@@ -40,6 +41,7 @@ def test_redundant_coordinates_change_no_linearization() -> None:
     assert {str(x) for x in next(iter(regulator.law.values())).atoms(sp.Function)} == {"x(t)", "theta(t)"}
 
 
+@pytest.mark.slow
 def test_a_rolling_disc_is_stable_above_the_critical_speed() -> None:
     """φ̇² > m g r I/(K (K + m r²)): Neimark and Fufaev (1972), ch. V; poles by their linear equations."""
     system, n = disc()
@@ -54,9 +56,10 @@ def test_a_rolling_disc_is_stable_above_the_critical_speed() -> None:
         assert found.stability.verdict == ("unstable" if speed < critical else "marginal")
 
 
+@pytest.mark.slow
 def test_the_benchmark_bicycle_has_its_published_eigenvalues() -> None:
     """Meijaard, Papadopoulos, Ruina and Schwab, Proc. R. Soc. A 463 (2007) 1955–1982, table 2."""
-    bicycle = lg.example("whipple-bicycle")
+    bicycle = built_in.system("whipple-bicycle")
     still = bicycle.linearize()
     assert still.kind == "rest"
     for pole in (3.13164324790656, 5.53094371765393):
@@ -104,7 +107,7 @@ def test_a_point_must_satisfy_the_constraints() -> None:
     with pytest.raises(RunError, match="no coordinate 'z' to hold fixed"):
         system.linearize({"y": -1.5}, fixed="z")
     with pytest.raises(RunError, match="has no constraints"):
-        lg.example("pendulum").linearize(fixed="theta")
+        built_in.system("pendulum").linearize(fixed="theta")
     with pytest.raises(RunError, match="symbolic matrices are not available for systems with constraints"):
         _ = system.linearize({"y": -1.5}).symbolic
 
@@ -166,7 +169,7 @@ def test_rows_are_solved_for_clear_entries_in_order() -> None:
 
 def test_what_rolling_ties_together_is_what_inputs_do_not_reach() -> None:
     """Upright, x − r (φ_l + φ_r)/2 and ψ + r (φ_l − φ_r)/2w are constant, and y as nothing moves sideways."""
-    found = lg.example("balancing-robot").linearize().controllability
+    found = built_in.system("balancing-robot").linearize().controllability
     r, w = 0.08, 0.15
     assert (found.rank, found.order) == (6, 9)
     expected = [
@@ -180,9 +183,10 @@ def test_what_rolling_ties_together_is_what_inputs_do_not_reach() -> None:
         assert [m.combination[k] for k in e] == pytest.approx(list(e.values()), rel=1e-12)
 
 
+@pytest.mark.slow
 def test_what_rounding_leaves_of_0_is_0() -> None:
     """Of Whipple's bicycle no acceleration depends on where it stands, where it heads, or on how far wheels turned."""
-    linear = lg.example("whipple-bicycle").linearize()
+    linear = built_in.system("whipple-bicycle").linearize()
     idle = [k for k, name in enumerate(linear.states) if name in ("x", "y", "psi", "theta_r", "theta_f")]
     assert len(idle) >= 4 and (linear.A[:, idle] == 0).all()
     missing = linear.controllability.missing
@@ -194,12 +198,13 @@ def test_what_rounding_leaves_of_0_is_0() -> None:
     assert frozenset({"y"}) in plain and frozenset({"x'"}) in plain
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("seed", range(4))
 def test_other_last_digits_of_a_matrix_leave_its_report_as_it_is(seed: int) -> None:
     """The entries of A and B of a system with a pole 0 that counts six times, each moved by its rounding error."""
     from lagrangian.linear.reach import controllable
 
-    linear = lg.example("whipple-bicycle").linearize()
+    linear = built_in.system("whipple-bicycle").linearize()
     source = np.random.default_rng(seed)
     A, B = (a * (1 + 1e-15 * source.uniform(-1, 1, a.shape)) for a in (linear.A, linear.B))
     found, expected = controllable(A, B, linear.states), linear.controllability

@@ -9,8 +9,9 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
-from built_in import FREE
-from lagrangian import dynamics, examples
+from built_in import FREE, SOME
+from built_in import system as built_in
+from lagrangian import dynamics
 from lagrangian.cli import main
 from lagrangian.errors import ModelError, RunError
 from lagrangian.graph import evaluate
@@ -18,10 +19,6 @@ from lagrangian.page.figures import figure
 
 DIGITS = 50
 STEP = mpmath.mpf(10) ** -15
-
-
-def built_in(name: str) -> lg.System:
-    return lg.loads(examples.text(name))
 
 
 def quotient(program, groups: dict[str, list[float]], by: str) -> np.ndarray:
@@ -38,6 +35,7 @@ def quotient(program, groups: dict[str, list[float]], by: str) -> np.ndarray:
     return np.array(columns).T.reshape(len(program.inputs["x"]), len(groups[by]))
 
 
+@pytest.mark.sampled(SOME)
 @pytest.mark.parametrize("name", FREE)
 def test_a_and_b_are_the_difference_quotient_of_the_motion(name: str) -> None:
     system = built_in(name)

@@ -15,13 +15,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import lagrangian as lg
-from lagrangian import examples
+from built_in import system as built_in
 from lagrangian.errors import MissingExtra, RunError
 from size import sized
-
-
-def built_in(name: str) -> lg.System:
-    return lg.loads(examples.text(name))
 
 
 def row_of_masses(n: int, *, b: float = 0.0) -> lg.System:
@@ -77,6 +73,7 @@ def test_poles_of_an_overdamped_oscillator_are_real() -> None:
     assert np.allclose(found.damping_ratios, 1)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "name", ["lecture-1", "acrobot", "cart-pole", "quarter-car", "three-masses", "furuta-pendulum"]
 )
@@ -244,7 +241,7 @@ _TEXTS = """
 import lagrangian as lg
 from lagrangian import examples
 for name in examples.names():
-    system = lg.loads(examples.text(name))
+    system = lg.example(name)
     try:
         rests = system.equilibria()
         print(name, rests.to_text(), *(system.linearize(e).to_text() for e in rests[:3]))
@@ -309,6 +306,7 @@ def test_the_report_names_momentum_once() -> None:
     assert "not controllable: the pole 0 (2 times) of 0.5·x1' + x2'; not stabilizable." in text
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", ["acrobot", "ball-and-beam", "cart-pole", "segway", "furuta-pendulum", "lecture-2"])
 def test_ranks_are_those_of_python_controls_matrices(name: str) -> None:
     import control  # two seconds for the processes that need none of it

@@ -7,16 +7,14 @@ import pytest
 import sympy as sp
 
 import lagrangian as lg
-from lagrangian import dynamics, examples
+from built_in import system as built_in
+from lagrangian import dynamics
 from lagrangian.errors import RunError
 from lagrangian.graph import evaluate
 from lagrangian.model import time
 
 
-def built_in(name: str) -> lg.System:
-    return lg.loads(examples.text(name))
-
-
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize(
     "name",
     ["lecture-1", "lecture-2", "cart-pole", "double-pendulum", "bead-on-hoop", "elastic-pendulum", "furuta-pendulum"],

@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 
-import lagrangian as lg
-from built_in import picture
+import built_in
+from built_in import SOME, picture
 from lagrangian.examples import names
 from lagrangian.graph import evaluate
 from lagrangian.page.placing import places
 
 
+@pytest.mark.sampled(SOME)
 @pytest.mark.parametrize("name", names())
 def test_every_example_is_drawn_within_its_frame(name: str) -> None:
     found = picture(name)
@@ -23,7 +24,7 @@ def test_every_example_is_drawn_within_its_frame(name: str) -> None:
 
 
 def test_the_anchors_are_the_points_of_the_system() -> None:
-    system = lg.example("double-pendulum")
+    system = built_in.system("double-pendulum")
     found = system.look(pose={"theta1": 0.3, "theta2": 1.1})
     program = found.program
     x = [0.3, 1.1, 0.0, 0.0]

@@ -11,6 +11,7 @@ import pytest
 import sympy as sp
 from sympy.physics.mechanics import dynamicsymbols
 
+import built_in
 import lagrangian as lg
 from lagrangian.derive import pages
 from lagrangian.look import heading
@@ -21,7 +22,7 @@ PDFLATEX = shutil.which("pdflatex")
 
 @pytest.fixture(scope="module")
 def cart_pole() -> lg.Derivation:
-    return lg.example("cart-pole").derive()
+    return built_in.derivation("cart-pole")
 
 
 def energies() -> lg.System:
@@ -36,7 +37,7 @@ def svg_of(html: str) -> ET.Element:
 
 
 def test_html_and_notebooks_begin_with_the_picture(cart_pole: lg.Derivation) -> None:
-    system = lg.example("cart-pole")
+    system = built_in.system("cart-pole")
     for html in (cart_pole.to_html(), cart_pole.to_html(brief=True), cart_pole._repr_html_(), system._repr_html_()):
         named = {n for g in svg_of(html).iter() for n in g.get("data-element", "").split()}
         assert {"cart", "pole", "F", "b"} <= named
@@ -72,7 +73,7 @@ def test_a_fault_in_the_rules_costs_no_derivation(monkeypatch: pytest.MonkeyPatc
         raise error
 
     monkeypatch.setattr(heading, "scene_of", broken)
-    derivation = lg.example("pendulum").derive()
+    derivation = lg.example("pendulum").derive()  # not the shared one, whose picture may be drawn already
     html = derivation.to_html()
     assert "picture: none could be drawn" in html and "<figure" not in html
     assert 'class="equation"' in html
@@ -81,14 +82,14 @@ def test_a_fault_in_the_rules_costs_no_derivation(monkeypatch: pytest.MonkeyPatc
 
 
 def test_a_pose_that_makes_no_sense_costs_no_derivation() -> None:
-    system = lg.loads(lg.example("pendulum").to_toml() + '\n[look]\npose = { theta = "1 m" }\n')
+    system = lg.loads(built_in.system("pendulum").to_toml() + '\n[look]\npose = { theta = "1 m" }\n')
     assert "picture: none could be drawn" in system.derive().to_html()
 
 
 @pytest.mark.skipif(PDFLATEX is None, reason="no pdflatex")
 @pytest.mark.parametrize("name", ["cart-pole", "lecture-3b"])
 def test_latex_with_its_picture_runs(name: str, tmp_path: Path) -> None:
-    text = lg.example(name).derive().to_latex()
+    text = built_in.derivation(name).to_latex()
     assert text.count(r"\begin{tikzpicture}") == 1
     (tmp_path / "a.tex").write_text(text, encoding="utf-8")
     command = [str(PDFLATEX), "-interaction=nonstopmode", "-halt-on-error", "a.tex"]
@@ -96,11 +97,12 @@ def test_latex_with_its_picture_runs(name: str, tmp_path: Path) -> None:
     assert done.returncode == 0, done.stdout[-2000:]
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(CHROMIUM is None, reason="no browser")
 def test_pointing_at_a_term_fades_what_it_did_not_come_from(tmp_path: Path) -> None:
     """Names with spaces, quotes and letters that mean something in style sheets."""
     playwright = pytest.importorskip("playwright.sync_api")
-    text = lg.example("lecture-3b").to_toml()
+    text = built_in.system("lecture-3b").to_toml()
     hostile = "a ] \\\\ } 'k' > *"
     text = text.replace('name = "k"', f'name = "{hostile}"').replace('name = "m1"', 'name = "cart 1"')
     file = tmp_path / "page.html"

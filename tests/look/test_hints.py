@@ -5,6 +5,7 @@ from math import pi
 import numpy as np
 import pytest
 
+import built_in
 import lagrangian as lg
 from lagrangian.look.cast import CHOICES
 from lagrangian.look.hints import hints_of
@@ -13,11 +14,11 @@ from lagrangian.model.hints import BODY_KINDS, LINE_KINDS
 from lagrangian.page.placing import places
 from lagrangian.page.scene import Trace
 
-CART_POLE = lg.example("cart-pole")
+CART_POLE = built_in.system("cart-pole")
 
 
 def with_hints(text: str, name: str = "cart-pole") -> lg.System:
-    return lg.loads(lg.example(name).to_toml() + "\n[look]\n" + text)
+    return lg.loads(built_in.system(name).to_toml() + "\n[look]\n" + text)
 
 
 def traces(system: lg.System, kind: str) -> list[np.ndarray]:
@@ -44,7 +45,7 @@ def test_the_view_of_the_file_and_of_the_arguments() -> None:
     system = with_hints('view = { azimuth = "90 deg" }', "spinning-top")
     assert hints_of(system.model).azimuth == pytest.approx(pi / 2)
     assert hints_of(system.model, azimuth="10 deg").azimuth == pytest.approx(pi / 18)
-    assert hints_of(lg.example("spinning-top").model).azimuth is None
+    assert hints_of(built_in.system("spinning-top").model).azimuth is None
 
 
 def test_kinds_are_drawn_and_what_does_not_suit_is_told() -> None:
@@ -55,10 +56,11 @@ def test_kinds_are_drawn_and_what_does_not_suit_is_told() -> None:
     assert any("'cart' cannot be drawn as 'link'" in x for x in picture.missing)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", ["cart-pole", "lecture-1", "rolling-disc", "four-bar"])
 @pytest.mark.parametrize("kind", BODY_KINDS)
 def test_every_body_takes_every_kind_or_says_why_not(name: str, kind: str) -> None:
-    system = lg.example(name)
+    system = built_in.system(name)
     for body in system.model.bodies:
         picture = system.look(kinds={body.name: kind})
         assert np.isfinite(np.array(list(places(picture.scene)))).all()
@@ -100,7 +102,7 @@ def test_a_line_runs_through_its_points() -> None:
 
 
 def test_a_wall_at_rest_is_hatched() -> None:
-    arm = lg.loads(lg.example("lecture-1").to_toml())
+    arm = lg.loads(built_in.system("lecture-1").to_toml())
     arm.point("A", (-1, 0))
     arm.point("B", (1, 0))
     picture = arm.look(lines=[{"through": ["A", "B"], "kind": "wall"}])

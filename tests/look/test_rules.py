@@ -7,12 +7,13 @@ import numpy as np
 import pytest
 from sympy import cos, sin
 
+import built_in
 import lagrangian as lg
-from built_in import picture
+from built_in import SOME, SPACE, picture
 from lagrangian.examples import names
 from lagrangian.page.scene import Scene
 
-IN_THE_PLANE = [name for name in names() if lg.example(name).model.dimension == 2]
+IN_THE_PLANE = [name for name in names() if name not in SPACE]
 
 UNDRAWN = {"planar-quadrotor": ("force 'drag' is not drawn, because it is nothing at rest",)}
 """What is not drawn of an example, as its picture says."""
@@ -22,18 +23,21 @@ def _kinds(scene: Scene, *wanted: str) -> Counter[str]:
     return Counter(part.kind for part in scene.parts if part.kind in wanted)
 
 
+@pytest.mark.sampled(SOME)
 @pytest.mark.parametrize("name", IN_THE_PLANE)
 def test_nothing_of_an_example_in_the_plane_is_left_out(name: str) -> None:
     assert picture(name).missing == UNDRAWN.get(name, ())
 
 
+@pytest.mark.sampled(SOME)
 @pytest.mark.parametrize("name", IN_THE_PLANE)
 def test_every_coordinate_has_a_label(name: str) -> None:
-    system = lg.example(name)
+    system = built_in.system(name)
     labels = {x for label in picture(name).scene.labels if label.role == "coordinate" for x in label.names}
     assert labels == {c.name for c in system.model.coordinates}
 
 
+@pytest.mark.sampled(SOME)
 @pytest.mark.parametrize("name", names())
 def test_no_label_meets_another(name: str) -> None:
     boxes = [(label.names, label.box) for label in picture(name).scene.labels]
@@ -74,7 +78,7 @@ def _towards(scene: Scene, joint: np.ndarray, spot: np.ndarray) -> float:
 def test_an_absolute_angle_counts_from_the_fixed_direction_and_a_relative_one_from_the_rod_before_it() -> None:
     pose = {"theta1": 0.4, "theta2": 0.7}
     for name, first in (("double-pendulum", 0.0), ("double-pendulum-relative", 0.4)):
-        system = lg.example(name)
+        system = built_in.system(name)
         scene = system.look(pose=pose).scene
         L1 = system.model.values[system["L1"]]
         joint = np.array([L1 * np.sin(0.4), -L1 * np.cos(0.4)])
@@ -95,7 +99,7 @@ def test_a_relative_length_is_measured_from_the_other_body() -> None:
 
 
 def test_a_wheel_has_its_radius_and_touches_its_floor() -> None:
-    system = lg.example("rolling-cylinder")
+    system = built_in.system("rolling-cylinder")
     scene = system.look().scene
     wheel = next(p for p in scene.parts if p.kind == "wheel" and p.placement.scaling == "both")
     centre, rim = (np.array(scene.positions[k]) for k in (wheel.placement.at, wheel.placement.towards))
@@ -139,5 +143,5 @@ def test_a_system_in_python_without_values_is_drawn() -> None:
 )
 def test_a_wrong_request_is_told(named: dict, code: str) -> None:
     with pytest.raises(lg.Error) as caught:
-        lg.example("double-pendulum").look(**named)
+        built_in.system("double-pendulum").look(**named)
     assert caught.value.code == code

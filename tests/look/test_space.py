@@ -7,8 +7,9 @@ import numpy as np
 import pytest
 import sympy as sp
 
+import built_in
 import lagrangian as lg
-from built_in import picture
+from built_in import SOME, SPACE, picture
 from lagrangian.examples import names
 from lagrangian.look.hints import Hints
 from lagrangian.look.holds import Motions
@@ -21,7 +22,9 @@ from lagrangian.look.space_turns import axis_now, spins_of
 from lagrangian.page.placing import axes, places
 from lagrangian.page.scene import Scene
 
-SPACE = [name for name in names() if lg.example(name).model.dimension == 3]
+
+def test_examples_in_space_are_listed() -> None:
+    assert [name for name in names() if built_in.system(name).model.dimension == 3] == list(SPACE)
 
 
 def axis_by_sympy(model, coordinate: int, q: np.ndarray, frame: int, stage: Kinematics) -> np.ndarray:  # type: ignore[no-untyped-def,type-arg]
@@ -35,9 +38,10 @@ def axis_by_sympy(model, coordinate: int, q: np.ndarray, frame: int, stage: Kine
     return np.array([W[2, 1], W[0, 2], W[1, 0]])
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("name", [x for x in SPACE if x not in ("spherical-pendulum", "bead-on-hoop")])
 def test_the_axis_of_an_angle_is_that_of_the_symbolic_rotation(name: str) -> None:
-    model = lg.example(name).model
+    model = built_in.system(name).model
     stage = Kinematics(model)
     motions = Motions(stage)
     q = np.random.default_rng(2).uniform(0.2, 1.0, len(model.coordinates))
@@ -52,7 +56,7 @@ def test_the_axis_of_an_angle_is_that_of_the_symbolic_rotation(name: str) -> Non
 
 def test_the_axes_of_a_spherical_pendulum() -> None:
     """phi turns about the vertical, theta about the horizontal line across the plane of the swing."""
-    stage = Kinematics(lg.example("spherical-pendulum").model)
+    stage = Kinematics(built_in.system("spherical-pendulum").model)
     found = {s.coordinate: s for s in spins_of(Motions(stage), frozenset())}
     theta, phi = 0.7, 0.4
     views = stage.views([np.array([theta, phi])], stage.parameters())
@@ -61,9 +65,10 @@ def test_the_axes_of_a_spherical_pendulum() -> None:
     assert axis_now(found[0], views) == pytest.approx([np.sin(phi), -np.cos(phi), 0])
 
 
+@pytest.mark.sampled(SOME)
 @pytest.mark.parametrize("name", SPACE)
 def test_every_coordinate_is_drawn_or_told(name: str) -> None:
-    model = lg.example(name).model
+    model = built_in.system(name).model
     scene, _ = scene_of(model)
     allowed = {"angles of the legs are not drawn"} if name == "stewart-platform" else set[str]()
     assert {x.split(":")[0] for x in scene.missing} == allowed
@@ -74,6 +79,7 @@ def test_every_coordinate_is_drawn_or_told(name: str) -> None:
     assert wanted <= drawn
 
 
+@pytest.mark.sampled(SOME)
 @pytest.mark.parametrize("name", SPACE)
 def test_no_label_meets_another(name: str) -> None:
     scene = picture(name).scene
@@ -136,11 +142,11 @@ def test_absolute_and_relative_angles_give_the_same_bodies(tmp_path: Path) -> No
 
 def test_a_disc_in_space_is_the_ellipse_of_its_circle() -> None:
     """The seen area of a disc is that of the disc times the cosine between its axis and the eye."""
-    scene, _ = scene_of(lg.example("rolling-disc").model, Hints(azimuth=0.6, elevation=0.4))
+    scene, _ = scene_of(built_in.system("rolling-disc").model, Hints(azimuth=0.6, elevation=0.4))
     rims = [p for p in scene.parts if p.kind == "wheel" and p.facing and len(p.placement.__dict__) and p.outline == 1.2]
     assert rims
     at = places(scene)
-    model = lg.example("rolling-disc").model
+    model = built_in.system("rolling-disc").model
     radius = next(p.value for p in model.parameters if p.name == "r")
     assert radius is not None
     eye = np.cross(np.array(scene.view[0]), -np.array(scene.view[1]))
@@ -155,7 +161,7 @@ def test_a_disc_in_space_is_the_ellipse_of_its_circle() -> None:
 
 
 def test_a_given_view_is_kept() -> None:
-    scene, _ = scene_of(lg.example("robot-arm").model, Hints(azimuth=0.0, elevation=0.0))
+    scene, _ = scene_of(built_in.system("robot-arm").model, Hints(azimuth=0.0, elevation=0.0))
     assert np.array(scene.view) == pytest.approx(np.array([[0, 1, 0], [0, 0, -1]]), abs=1e-12)
 
 

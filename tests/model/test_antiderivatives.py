@@ -35,6 +35,7 @@ KINKED = [
 ]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("law", KINKED)
 @pytest.mark.parametrize("signs", [(1.3, 0.7), (-0.6, 1.1)])
 def test_a_law_with_kinks_has_the_energy_that_its_area_is(law: str, signs: tuple[float, float]) -> None:

@@ -106,6 +106,7 @@ def derived_residual(case: Case, q: Any, v: Any, a: Any, u: Any, t: float) -> li
     ]
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("seed", range(2))
 @pytest.mark.parametrize("family", FAMILIES)
 def test_random_systems_agree_with_the_oracle(family: str, seed: int) -> None:

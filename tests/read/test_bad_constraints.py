@@ -94,6 +94,7 @@ def verbs(text: str) -> None:
     s.simulate(0.5, x=0.3, y=0.2)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("case", BAD)
 def test_what_is_wrong_is_said_with_its_place_and_a_cure(case: str) -> None:
     text, code, said = BAD[case]

@@ -116,6 +116,7 @@ def test_rate_of_a_definition_is_a_derivative_of_its_name() -> None:
     assert parse_expression("X2'", {"X2": X2}) == sp.Derivative(X2, time)
 
 
+@pytest.mark.slow
 def test_a_long_sum_is_read_in_time_proportional_to_its_length() -> None:
     text = " + ".join(f"{i}*x^{i % 7}*sin({i}*theta1)" for i in range(1, 1200))
     assert len(parse_expression(text, SCOPE).args) == 1199

@@ -8,7 +8,7 @@ import sympy as sp
 from hypothesis import given
 from hypothesis import strategies as st
 
-from built_in import LARGE
+from built_in import LARGE, SOME
 from lagrangian import examples
 from lagrangian.errors import ModelError
 from lagrangian.model import (
@@ -127,6 +127,7 @@ def test_a_file_is_written_back_as_the_same_system() -> None:
     assert dumps(again) == text
 
 
+@pytest.mark.sampled(SOME)
 @pytest.mark.parametrize("name", rest_slow(examples.names(), set(examples.names()) - LARGE))
 def test_built_in_examples_round_trip(name: str) -> None:
     model = loads(examples.text(name), name).model()

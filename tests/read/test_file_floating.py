@@ -136,6 +136,7 @@ def described() -> lg.System:
     return s
 
 
+@pytest.mark.slow
 def test_a_file_says_what_python_says_and_back() -> None:
     one, two = lg.loads(TEXT), described()
     assert one.compile().coordinates == two.compile().coordinates

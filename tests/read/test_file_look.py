@@ -4,6 +4,7 @@ import re
 
 import pytest
 
+import built_in
 import lagrangian as lg
 from lagrangian.coordinates.carry import changed
 from lagrangian.read import schema
@@ -29,7 +30,7 @@ frame = "rod"
 at = "cart"
 points = [[0, 0], ["0.1 m", 0], [0, "0.1 m"]]
 """
-FILE = lg.example("cart-pole").to_toml() + HINTS
+FILE = built_in.system("cart-pole").to_toml() + HINTS
 
 
 def test_hints_are_written_as_they_were_read() -> None:
@@ -43,7 +44,7 @@ def test_hints_are_written_as_they_were_read() -> None:
 
 
 def test_hints_do_not_change_the_mechanics() -> None:
-    assert lg.loads(FILE).derive().equations == lg.example("cart-pole").derive().equations
+    assert lg.loads(FILE).derive().equations == built_in.derivation("cart-pole").equations
 
 
 WRONG = [
@@ -101,7 +102,7 @@ def test_hostile_names_are_refused_in_few_words(text: str) -> None:
     assert len(re.sub(r"\s+", " ", caught.value.what)) < 300
 
 
-TWO = lg.example("lecture-3a").to_toml()
+TWO = built_in.system("lecture-3a").to_toml()
 
 
 def test_a_complete_pose_follows_a_change_of_coordinates() -> None:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import built_in
 import lagrangian as lg
-from lagrangian import examples
 
 
 def example(name: str) -> lg.System:
-    return lg.loads(examples.text(name))
+    return built_in.system(name)
 
 
 def oscillator(m: float = 2.0, k: float = 8.0, b: float = 0.4) -> lg.System:

@@ -65,6 +65,7 @@ def test_a_mass_and_a_missed_balance_are_said(tmp_path: Any, capsys: pytest.Capt
     assert "energy balance missed by" in said.out
 
 
+@pytest.mark.slow
 def test_what_advice_names_is_there() -> None:
     """Every argument named in advice anywhere is an option of some verb, and every verb is one of the command."""
     group: Any = typer.main.get_command(app)

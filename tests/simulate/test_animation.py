@@ -11,6 +11,7 @@ from html import unescape
 import numpy as np
 import pytest
 
+import built_in
 import lagrangian as lg
 from lagrangian.page.motion import SceneMotion
 from lagrangian.simulate.animating import hermite, usual_speed
@@ -21,7 +22,7 @@ SECONDS, FPS = 4.0, 25
 
 
 def animated(name: str, samples: int = 1001, **options) -> tuple[lg.System, lg.Animation]:
-    system = lg.example(name)
+    system = built_in.system(name)
     return system, system.simulate(SECONDS, samples=samples).animate(**options)
 
 
@@ -115,6 +116,7 @@ def test_the_path_of_a_point_is_drawn_with_time() -> None:
         assert np.linalg.norm(reached - seen(animation.motion, dyn.point("P2", q)["r"])) < 1.5
 
 
+@pytest.mark.slow
 def test_a_browser_shows_the_same_places(tmp_path: pathlib.Path) -> None:
     sync_api = pytest.importorskip("playwright.sync_api")
     if (chromium := shutil.which("chromium")) is None:
@@ -202,8 +204,9 @@ def test_an_interrupted_file_is_removed(tmp_path: pathlib.Path) -> None:
 # -- notebooks and pages ----------------------------------------------------------------------------------------------
 
 
+@pytest.mark.slow
 def test_a_notebook_gets_a_sandbox_of_bounded_size() -> None:
-    system = lg.example("triple-pendulum")
+    system = built_in.system("triple-pendulum")
     animation = system.simulate(30.0, samples=6001).animate(fps=60, trail=["P3"])
     html = animation._repr_html_()
     assert len(html) < 150_000
@@ -212,7 +215,7 @@ def test_a_notebook_gets_a_sandbox_of_bounded_size() -> None:
 
 
 def test_a_page_asks_for_nothing_and_keeps_names_as_text() -> None:
-    text = lg.example("pendulum").to_toml().replace('name = "pendulum"', "name = '<script>alert(1)</script>'", 1)
+    text = built_in.system("pendulum").to_toml().replace('name = "pendulum"', "name = '<script>alert(1)</script>'", 1)
     animation = lg.loads(text).simulate(1.0).animate()
     page = animation.to_html()
     assert page.count("<script") == 1 and "&lt;script&gt;alert(1)" in page
@@ -243,33 +246,33 @@ def test_runs_are_shown_in_real_time_unless_they_are_short_or_long(seconds: floa
 
 
 def test_samples_that_are_too_far_apart_are_refused() -> None:
-    run = lg.example("duffing").simulate(100.0, samples=9)
+    run = built_in.system("duffing").simulate(100.0, samples=9)
     with pytest.raises(lg.RunError, match="too far apart") as refused:
         run.animate()
     assert refused.value.fix == "simulate with samples=36"
 
 
 def test_a_run_without_length_is_refused() -> None:
-    run = lg.example("pendulum").simulate(1.0, samples=1001)
+    run = built_in.system("pendulum").simulate(1.0, samples=1001)
     run.t, run.y = run.t[:1], run.y[:, :1]
     with pytest.raises(lg.RunError, match="nothing moves"):
         run.animate()
 
 
 def test_another_systems_picture_is_refused() -> None:
-    run = lg.example("pendulum").simulate(1.0)
+    run = built_in.system("pendulum").simulate(1.0)
     with pytest.raises(lg.RunError, match="another system"):
-        run.animate(look=lg.example("crane").look())
+        run.animate(look=built_in.picture("crane"))
 
 
 def test_a_picture_with_its_own_choices_moves() -> None:
-    system = lg.example("cart-pole")
+    system = built_in.system("cart-pole")
     animation = system.simulate(2.0).animate(look=system.look(hide=["b"]))
     assert 'data-element="b"' not in animation.to_svg() and 'data-element="pole"' in animation.to_svg()
 
 
 def test_many_runs_say_how_to_see_one() -> None:
-    runs = lg.example("pendulum").sweep(1.0, {"b": [0.0, 0.1]})
+    runs = built_in.system("pendulum").sweep(1.0, {"b": [0.0, 0.1]})
     with pytest.raises(AttributeError, match="has no 'animate'") as refused:
         runs.animate  # noqa: B018
     assert "animate() shows one of the runs" in str(refused.value)

@@ -15,6 +15,7 @@ from test_drift import RELEASED, START, growing, plate_on_cranks
 from test_sticking import FILE, last_stop
 from test_switching import pushed, travelled
 
+import built_in
 import lagrangian as lg
 from lagrangian.errors import Error, RunError
 from lagrangian.integrate import METHODS
@@ -44,10 +45,11 @@ def refused(system: lg.System, method: str) -> str:
     return ""
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("case", rest_slow(CASES, QUICK))
 def test_a_run_is_that_of_machine_code(case: str, tmp_path: Path) -> None:
     name, method = case.split()
-    system = lg.example(name)
+    system = built_in.system(name)
     step: Any = {"step": STEP[method]} if method in STEP else {}
     if why := refused(system, method):
         with pytest.raises(Error) as caught:
@@ -69,7 +71,7 @@ def test_a_run_is_that_of_machine_code(case: str, tmp_path: Path) -> None:
 
 
 def test_parameters_inputs_and_starts_are_changed_by_name_or_order(tmp_path: Path) -> None:
-    system = lg.example("cart-pole")
+    system = built_in.system("cart-pole")
     module = browser_module(system)
     shown = in_node(
         module,
@@ -91,7 +93,7 @@ def test_parameters_inputs_and_starts_are_changed_by_name_or_order(tmp_path: Pat
 
 
 def test_a_live_run_is_the_whole_run_and_can_be_changed(tmp_path: Path) -> None:
-    system = lg.example("pendulum")
+    system = built_in.system("pendulum")
     (live, changed, many) = in_node(
         browser_module(system),
         """const s = compiled().start({state: {theta: 1}});
@@ -111,9 +113,10 @@ def test_a_live_run_is_the_whole_run_and_can_be_changed(tmp_path: Path) -> None:
     np.testing.assert_allclose(np.reshape(many["final"], (3, 2)), ends, atol=1e-9)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("method", ["dop853", "rk4"])
 def test_two_lanes_give_the_numbers_of_one(method: str, tmp_path: Path) -> None:
-    system = lg.example("double-pendulum")
+    system = built_in.system("double-pendulum")
     script = """const n = 7, states = Float64Array.from({length: 4 * n}, (_, k) => (k % 4 < 2 ? 0.1 * k : 0));
     show(compiled().many({states, t1: 1}));"""
     one, two = (in_node(browser_module(system, method, lanes=lanes), script, tmp_path)[0] for lanes in (1, 2))
@@ -167,6 +170,7 @@ PULSES = {
 }
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("method", ["dop853", "rk4"])
 @pytest.mark.parametrize("kind", PULSES)
 def test_a_short_pulse_is_not_jumped_over(kind: str, method: str, tmp_path: Path) -> None:
@@ -218,8 +222,9 @@ def test_a_run_that_sticks_says_so(method: str, tmp_path: Path) -> None:
     assert found["final"][0] == pytest.approx(angle, abs=1e-3)
 
 
+@pytest.mark.slow
 def test_a_reset_that_breaks_a_constraint_ends_the_run(tmp_path: Path) -> None:
-    s = lg.example("four-bar")
+    s = built_in.system("four-bar")
     angle = s.model.coordinates[0]
     event = lg.event(angle.symbol - angle.start - 0.1, reset={angle.symbol: angle.symbol + 1.0}, name="jump")
     module = browser_module(s, events=event)
@@ -228,6 +233,7 @@ def test_a_reset_that_breaks_a_constraint_ends_the_run(tmp_path: Path) -> None:
     assert found["status"] == run.status == -11
 
 
+@pytest.mark.slow
 def test_rows_that_follow_from_others_are_left_out_as_long_as_they_do(tmp_path: Path) -> None:
     """The plate has a spare row all the time; the growing rod contradicts the other one after a while."""
     plate, rods = plate_on_cranks(), growing()
@@ -249,7 +255,7 @@ def test_a_mass_that_cannot_be_ends_a_run_where_it_begins(kind: str, tmp_path: P
     show(s.change({{params: {{m2: 1}}}}).advance(1).status);
     const many = () => s.many({{states: physics.layout.start, t1: 1, params: [1, -1, 1, 1, 9.81]}});
     show(s.many ? refused(many) : "run 0: a mass");"""
-    module = browser_module(lg.example("double-pendulum"))
+    module = browser_module(built_in.system("double-pendulum"))
     run, live, healed, many = in_node(module, script, tmp_path)
     assert run["status"] == live["status"] == -7 and "a mass is not above 0" in run["message"]
     assert run["states"] == [module.layout["start"]] and live["state"] == module.layout["start"]
@@ -258,7 +264,7 @@ def test_a_mass_that_cannot_be_ends_a_run_where_it_begins(kind: str, tmp_path: P
 
 def test_limits_end_runs(tmp_path: Path) -> None:
     shown = in_node(
-        browser_module(lg.example("double-pendulum")),
+        browser_module(built_in.system("double-pendulum")),
         """const s = compiled(), f = fallback();
         for (const x of [s, f]) show(x.solve({t1: 10, maxSteps: 5}));
         for (const x of [s, f]) show(x.solve({t1: 1e6, samples: 2, maxSteps: 1e9, seconds: 1e-3}));
@@ -272,9 +278,10 @@ def test_limits_end_runs(tmp_path: Path) -> None:
 # The fallback, and what is refused ---------------------------------------------------------------------------------
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["double-pendulum", "four-bar", "crane", "rolling-disc"])
 def test_without_webassembly_steps_are_fixed_and_less_exact(name: str, tmp_path: Path) -> None:
-    system = lg.example(name)
+    system = built_in.system(name)
     (found,) = in_node(browser_module(system), "show(fallback().solve({t1: 1, samples: 11}));", tmp_path)
     run = system.simulate(1.0, samples=11)
     np.testing.assert_allclose(np.array(found["states"]).T, run.y, atol=1e-6)
@@ -282,11 +289,11 @@ def test_without_webassembly_steps_are_fixed_and_less_exact(name: str, tmp_path:
 
 def test_the_fallback_is_taken_where_webassembly_is_forbidden(tmp_path: Path) -> None:
     forbidden = "WebAssembly.compile = () => Promise.reject(new WebAssembly.CompileError('CSP'));"
-    module = browser_module(lg.example("pendulum"))
+    module = browser_module(built_in.system("pendulum"))
     script = "physics.solver().then((s) => { show(s.kind); show(s.solve({t1: 1}).status); });"
     assert in_node(module, script, tmp_path) == ["wasm", 0]
     assert in_node(module, forbidden + script, tmp_path) == ["javascript", 0]
-    bare = browser_module(lg.example("pendulum"), fallback=False)
+    bare = browser_module(built_in.system("pendulum"), fallback=False)
     assert in_node(bare, script, tmp_path) == ["wasm", 0]
     said = in_node(bare, forbidden + "physics.solver().catch((e) => show(e.message));", tmp_path)
     assert said == ["without WebAssembly, runs need the function 'rhs', which is left out"]
@@ -299,14 +306,14 @@ def test_what_a_browser_cannot_run_is_refused_with_the_reason() -> None:
     with pytest.raises(RunError, match="cannot name a function"):
         browser_module(system, functions={"class": {"q": system["q"]}})
     with pytest.raises(RunError, match="is a Python function"):
-        browser_module(lg.example("cart-pole"), inputs={"F": lambda t, x: 0.0})
+        browser_module(built_in.system("cart-pole"), inputs={"F": lambda t, x: 0.0})
 
 
 # What a page gets ---------------------------------------------------------------------------------------------------
 
 
 def test_functions_give_energies_and_what_the_page_asked_for(tmp_path: Path) -> None:
-    system = lg.example("double-pendulum")
+    system = built_in.system("double-pendulum")
     bob = next(p for p in system.model.points if p.name)
     module = browser_module(system, functions={"anchors": {"bob": bob, "sum": system["theta1"] + system["theta2"]}})
     script = """const at = [Float64Array.of(0.3, -0.4, 1, 2), physics.layout.parameters.map((p) => p.value), [], 0];
@@ -326,7 +333,7 @@ def test_no_text_of_a_model_ends_a_script_element() -> None:
 
 
 def test_the_layout_is_plain_data_with_names_units_and_values() -> None:
-    layout = json.loads(browser_module(lg.example("cart-pole")).layout_text)
+    layout = json.loads(browser_module(built_in.system("cart-pole")).layout_text)
     assert [(s["name"], s["unit"]) for s in layout["states"]] == [
         ("x", "m"), ("theta", "rad"), ("x'", "m/s"), ("theta'", "rad/s"),
     ]  # fmt: skip

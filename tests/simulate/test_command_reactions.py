@@ -92,6 +92,7 @@ def said(capsys: pytest.CaptureFixture[str], *argv: str) -> tuple[int, str, str]
     return code, out.out, out.err
 
 
+@pytest.mark.slow
 def test_a_file_asks_for_reactions_and_holds_coordinates() -> None:
     system = lg.loads(FILE)
     run = system.simulate(samples=11)

@@ -48,6 +48,7 @@ def test_inputs_parameters_and_methods_are_read(capsys: pytest.CaptureFixture[st
     assert data["F"] == pytest.approx(force, abs=1e-12)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("ending", ["png", "pdf", "svg"])
 def test_pictures_are_drawn(capsys: pytest.CaptureFixture[str], tmp_path: Path, ending: str) -> None:
     path = tmp_path / f"run.{ending}"
@@ -101,6 +102,7 @@ def test_a_run_that_fails_exits_with_1_and_keeps_what_it_reached(
     assert len(path.read_text().splitlines()) > 2
 
 
+@pytest.mark.slow
 def test_a_closed_pipe_is_no_traceback() -> None:
     argv = [sys.executable, "-m", "lagrangian", "simulate", "-e", "pendulum", "-o", "-"]
     with subprocess.Popen(argv, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:

@@ -43,6 +43,7 @@ def test_a_summary_on_the_terminal(folder: pathlib.Path, capsys: pytest.CaptureF
     assert f"theta1 = {place['theta1']:.6g}, m2 = {place['m2']:.6g}" in said.out
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("name", ["a.csv", "a.nc", "a.parquet", "a.zarr"])
 def test_files(folder: pathlib.Path, capsys: pytest.CaptureFixture[str], name: str) -> None:
     given = ("arm.toml", "m2~normal(1,0.1)", "--draws", "20", "--seed", "4", "--output-of", "max theta1", *FAST)
@@ -123,6 +124,7 @@ def test_failures_are_told_and_counted(folder: pathlib.Path, capsys: pytest.Capt
     assert run("arm.toml", "theta1'=1e200,2e200", *FAST) == 1
 
 
+@pytest.mark.slow
 def test_an_interrupt_on_a_terminal_loses_nothing(folder: pathlib.Path) -> None:
     pty = pytest.importorskip("pty")
     ours, theirs = pty.openpty()

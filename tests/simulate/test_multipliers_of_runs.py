@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
+import built_in
 import lagrangian as lg
 from lagrangian.model import time
 
@@ -117,14 +118,14 @@ def test_a_constraint_that_stands_still_supplies_no_power(run: lg.Trajectory) ->
 
 @pytest.mark.parametrize("asked", ["Rod", "ROD", "rodd"])
 def test_a_row_that_is_spelled_wrong_is_suggested(asked):
-    run = lg.example("rod-pendulum").simulate(0.01)
+    run = built_in.system("rod-pendulum").simulate(0.01)
     with pytest.raises(lg.ModelError) as caught:
         run[asked]
     assert "Did you mean 'rod'?" in str(caught.value)
 
 
 def test_a_symbol_that_is_spelled_wrong_is_not_taken_for_a_row():
-    run = lg.example("four-bar").simulate(0.01)
+    run = built_in.system("four-bar").simulate(0.01)
     name = run.states[0]
     with pytest.raises(lg.ModelError) as caught:
         run[name[:-1] + "_"]

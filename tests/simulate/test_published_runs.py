@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
+import built_in
 import lagrangian as lg
 from size import rest_slow
 
@@ -28,7 +29,7 @@ SQUEEZER = {
 @pytest.mark.slow
 def test_andrews_squeezer_arrives_where_it_is_printed() -> None:
     """Mazzia and Magherini, Test Set for IVP Solvers 2.4, part II, section 6, at t = 0.03 s."""
-    run = lg.example("andrews-squeezer").simulate(0.03, rtol=1e-13, atol=1e-15)
+    run = built_in.system("andrews-squeezer").simulate(0.03, rtol=1e-13, atol=1e-15)
     assert run.success
     for name, printed in SQUEEZER.items():
         assert run[name][-1] == pytest.approx(printed, rel=1e-9), name
@@ -40,7 +41,7 @@ def test_a_sleigh_comes_to_run_along_its_course() -> None:
 
     Chaplygin 1911; Neimark and Fufaev, Dynamics of Nonholonomic Systems, 1972, III.2.
     """
-    s = lg.example("chaplygin-sleigh")
+    s = built_in.system("chaplygin-sleigh")
     m, J, a = (float(s.model.values[p.symbol]) for p in s.model.parameters)
     run = s.simulate(5.0, initial={"theta'": 3.0}, rtol=1e-12, atol=1e-14)
     inertia = J + m * a * a
@@ -57,7 +58,7 @@ def test_a_sleigh_comes_to_run_along_its_course() -> None:
 
 def test_a_wheel_rolls_down_and_its_friction_is_a_third_of_its_weight_along_the_slope() -> None:
     """A solid cylinder: x'' = (2/3) g sin β, friction m g sin β/3 up the slope."""
-    s = lg.example("wheel-on-incline")
+    s = built_in.system("wheel-on-incline")
     p = {x.name: float(x.value or 0.0) for x in s.model.parameters}
     run = s.simulate(2.0)
     weight = p["m"] * p["g"] * np.sin(p["beta"])
@@ -102,7 +103,7 @@ def trihedral(theta: float) -> dict[str, float]:
 
 
 REDUNDANT: dict[str, tuple[Callable[[], lg.System], dict[str, float]]] = {
-    "double parallelogram": (lambda: lg.example("double-parallelogram"), {f"theta{k}": -1.0 for k in (1, 2, 3)}),
+    "double parallelogram": (lambda: built_in.system("double-parallelogram"), {f"theta{k}": -1.0 for k in (1, 2, 3)}),
     "Bricard": (bricard, trihedral(1.9)),
     "door": (door, {"leaf_qz": float(np.sin(0.4)), "leaf_qw": float(np.cos(0.4))}),
 }
@@ -125,6 +126,7 @@ def test_loops_with_a_row_too_many_stay_closed_for_20_seconds(name: str) -> None
         assert np.abs(a + b + a * b).max() < 1e-12
 
 
+@pytest.mark.slow
 def test_a_turn_by_a_rounded_quarter_is_a_turn_by_a_quarter() -> None:
     """cos of a rounded π/2 is 6e-17 and stands in the rows as a number: nothing may be divided by it."""
     q = list(trihedral(1.9).values())
@@ -136,7 +138,7 @@ def test_a_turn_by_a_rounded_quarter_is_a_turn_by_a_quarter() -> None:
 @pytest.mark.slow
 @pytest.mark.parametrize("method", ["dop853", "tsit5", "taylor", "rk4", "RK45", "DOP853", "Radau"])
 def test_a_four_bar_stays_closed_for_100_seconds_by_every_method(method: str) -> None:
-    s = lg.example("four-bar")
+    s = built_in.system("four-bar")
     tight: dict[str, Any] = {} if method in STEPS else {"rtol": 1e-11, "atol": 1e-13}
     run = s.simulate(100.0, method=method, step=STEPS.get(method), **tight)
     assert run.success, run.message
@@ -148,7 +150,7 @@ def test_a_four_bar_stays_closed_for_100_seconds_by_every_method(method: str) ->
 @pytest.mark.slow
 @pytest.mark.parametrize("method", ["BDF", "LSODA"])
 def test_a_four_bar_stays_closed_by_methods_of_many_steps(method: str) -> None:
-    s = lg.example("four-bar")
+    s = built_in.system("four-bar")
     run = s.simulate(10.0, method=method)
     left = s.compile().residual(run.y[:3].T, run.y[3:].T)
     assert run.success and max(np.abs(x).max() for rows in left.values() for x in rows.values()) < 1e-12
@@ -156,7 +158,7 @@ def test_a_four_bar_stays_closed_by_methods_of_many_steps(method: str) -> None:
 
 @pytest.mark.parametrize(("method", "order"), [("rk4", 4)])
 def test_projection_keeps_the_order_of_a_method(method: str, order: int) -> None:
-    s = lg.example("four-bar")
+    s = built_in.system("four-bar")
     exact = s.simulate(2.0, rtol=1e-13, atol=1e-15, samples=2)["theta1"][-1]
     found = [s.simulate(2.0, method=method, step=h, samples=2)["theta1"][-1] for h in (0.02, 0.01, 0.005)]
     errors = [abs(x - exact) for x in found]

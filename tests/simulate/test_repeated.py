@@ -5,8 +5,8 @@ import threading
 import numpy as np
 import pytest
 
+import built_in
 import lagrangian as lg
-from lagrangian import examples
 from lagrangian.codegen import native
 from lagrangian.dynamics.observe import Observed
 from lagrangian.simulate import plot
@@ -14,7 +14,7 @@ from lagrangian.values import dimensions
 
 
 def pendulum() -> lg.System:
-    return lg.loads(examples.text("pendulum"))
+    return built_in.system("pendulum")
 
 
 WAYS = {

@@ -20,6 +20,7 @@ def bounce(s: lg.System) -> lg.Event:
     return lg.event(y, direction=-1, reset={y.diff(): -s["e"] * y.diff()}, name="bounce")
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("method", METHODS)
 def test_a_ball_bounces_when_it_should(method: str) -> None:
     s = ball(e=0.5)
@@ -32,6 +33,7 @@ def test_a_ball_bounces_when_it_should(method: str) -> None:
     assert run.energy[-1] < 0.02 * run.energy[0]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("method", METHODS)
 def test_a_ball_that_never_stops_bouncing_ends_the_run(method: str) -> None:
     s = ball(e=0.5)
@@ -42,6 +44,7 @@ def test_a_ball_that_never_stops_bouncing_ends_the_run(method: str) -> None:
     assert np.all(np.isfinite(run.y))
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("method", METHODS)
 def test_a_terminal_event_ends_the_run_there(method: str) -> None:
     s = ball()
@@ -53,6 +56,7 @@ def test_a_terminal_event_ends_the_run_there(method: str) -> None:
     assert run["y"][-1] == pytest.approx(0.5, abs=1e-10)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize(("direction", "wanted"), [(0, [1, 3, 5]), (1, [3]), (-1, [1, 5])])
 def test_crossings_are_found_in_the_direction_asked_for(method: str, direction: int, wanted: list[int]) -> None:
@@ -125,6 +129,7 @@ def test_what_the_last_impact_takes_is_accounted_for(method: str) -> None:
     assert float(run.audit) < 1e-9
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("method", [*METHODS, "LSODA", "BDF", "RK23", "gauss4", "rk4"])
 def test_no_crossing_between_the_places_a_step_is_judged_at_is_lost(method: str) -> None:
     """sin(30 t) has 28 zeros in (0, 3]; the amplitude less 1e-5 is passed twice within 9 ms of a step of some 0.5 s."""
@@ -142,6 +147,7 @@ def test_no_crossing_between_the_places_a_step_is_judged_at_is_lost(method: str)
     assert ended.status == 1 and ended.t[-1] == pytest.approx(np.pi / 2 - half, abs=1e-3)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("method", METHODS)
 def test_what_dips_through_zero_is_found_and_what_stays_short_of_it_is_not(method: str) -> None:
     """(q − 1/2)² ∓ 1e-8 along q = sin t: two crossings at each of two places, 2e-4 apart, or none."""
@@ -155,6 +161,7 @@ def test_what_dips_through_zero_is_found_and_what_stays_short_of_it_is_not(metho
     assert not len(run.events["short"].t)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("method", METHODS)
 def test_a_rise_right_after_a_fall_is_found(method: str) -> None:
     """A condition that counts rising only has fallen before within the same step: cos 40 t in 3 s."""
@@ -189,6 +196,7 @@ def test_a_thousand_crossings_in_a_step_of_scipys_are_found(method: str) -> None
     assert run.events["crossing"].t == pytest.approx((np.arange(1576) + 0.5) * np.pi / 3300, abs=1e-12)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("method", METHODS)
 def test_many_events_are_not_called_accumulating(method: str) -> None:
     s = oscillator(m=1.0, k=1.0, b=0.0)
@@ -202,6 +210,7 @@ def test_many_events_are_not_called_accumulating(method: str) -> None:
 ALL = [*METHODS, "LSODA", "BDF", "RK23", "RK45", "gauss4", "rk4"]
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("method", ALL)
 def test_a_condition_that_becomes_no_number_ends_the_run_by_name(method: str) -> None:
     """sqrt(q) − 1/2 along q = cos t: it falls at arccos(1/4), and has no value from π/2 on."""
@@ -219,6 +228,7 @@ def test_a_condition_that_becomes_no_number_ends_the_run_by_name(method: str) ->
     assert "'root', sqrt(q) - 1/2, is not a number there" in below.message
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("method", ALL)
 def test_a_gap_between_two_numbers_inside_a_step_is_no_crossing(method: str) -> None:
     """q sqrt(q² − 1e-4) is above 0 before q = 0.01, below after −0.01, and no number between."""
@@ -230,6 +240,7 @@ def test_a_gap_between_two_numbers_inside_a_step_is_no_crossing(method: str) -> 
     assert run.status == -10 and run["q"][-1] == pytest.approx(0.01, abs=1e-4)
 
 
+@pytest.mark.sampled(4)
 @pytest.mark.parametrize("method", ALL)
 def test_an_event_at_the_edge_comes_before_what_has_no_value_beyond_it(method: str) -> None:
     s = oscillator(m=1.0, k=1.0, b=0.0)

@@ -63,6 +63,7 @@ def test_parameters_without_a_value_are_listed() -> None:
     assert s.simulate(1.0, params={"m": 1, k: 4}, q=1.0)["q"][-1] == pytest.approx(np.cos(2.0), abs=1e-9)
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("method", ["dop853", "taylor", "DOP853", "LSODA"])
 def test_a_mass_matrix_that_becomes_singular_is_named(method: str) -> None:
     """A bead whose position is cos q: pushed to q = 0 it would have no mass left."""
@@ -105,6 +106,7 @@ def test_rates_that_together_move_no_mass_are_named_with_their_ratio() -> None:
     assert np.isfinite(s.linearize(at={"theta": 1.0}, operating_point=True).A).all()
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("method", ["dop853", "taylor", "tsit5", "Radau"])
 def test_a_state_that_blows_up_keeps_what_was_reached(method: str) -> None:
     """q̈ = 2 q³ with q = 1, q̇ = 1: q = 1/(1 − t) is infinite at t = 1."""

@@ -12,6 +12,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
+import built_in
 import lagrangian as lg
 from lagrangian.integrate.status import RunStatus
 from lagrangian.simulate.per_run import Recording
@@ -68,7 +69,7 @@ WRONG: list[dict[str, Any]] = [
 
 @pytest.mark.parametrize("options", WRONG, ids=str)
 def test_one_run_and_many_say_the_same(options: dict[str, Any]) -> None:
-    system = lg.example("cart-pole")
+    system = built_in.system("cart-pole")
     if not {"duration", "times"} & set(options):
         options = {"duration": 1.0, **options}
     said = []
@@ -98,7 +99,7 @@ def test_the_way_runs_are_done_is_checked(options: dict[str, Any], words: str) -
     with pytest.raises(lg.RunError, match=words):
         lg.Execution(**options)
     with pytest.raises(lg.RunError, match=words):
-        lg.example("cart-pole").ensemble(1.0, theta=[0.1, 0.2], **options)
+        built_in.system("cart-pole").ensemble(1.0, theta=[0.1, 0.2], **options)
 
 
 def test_settings_are_values_that_stay() -> None:
@@ -121,12 +122,12 @@ def test_settings_are_values_that_stay() -> None:
 )
 def test_an_option_that_is_not_there_is_answered(call: Any, fix: str) -> None:
     with pytest.raises(lg.RunError, match="there is no option or state") as caught:
-        call(lg.example("cart-pole"))
+        call(built_in.system("cart-pole"))
     assert fix in str(caught.value)
 
 
 def test_a_settings_object_is_the_options_of_one_run() -> None:
-    system, options = lg.example("pendulum"), {"duration": "2 s", "rtol": 1e-6, "samples": 11, "method": "tsit5"}
+    system, options = built_in.system("pendulum"), {"duration": "2 s", "rtol": 1e-6, "samples": 11, "method": "tsit5"}
     run = system.simulate(settings=lg.RunSettings(**options), theta=0.5)
     assert run.t.tolist() == pytest.approx([0.2 * i for i in range(11)])
     assert (run.method, run.settings["rtol"]) == ("tsit5", 1e-6)
@@ -134,7 +135,7 @@ def test_a_settings_object_is_the_options_of_one_run() -> None:
 
 
 def test_settings_and_execution_are_the_options_of_many_runs(tmp_path: Path) -> None:
-    system, done = lg.example("pendulum"), []
+    system, done = built_in.system("pendulum"), []
     settings = lg.RunSettings(duration=1.0, method="rk4", step=0.01, samples=5)
     execution = lg.Execution(store=tmp_path / "runs.zarr", progress=lambda now, _: done.append(now))
     for runs in (
@@ -186,5 +187,5 @@ def test_settings_are_taken_as_they_are_by_many_runs() -> None:
 )
 def test_an_option_is_given_once(call: Any, words: str, code: str) -> None:
     with pytest.raises(lg.RunError, match=words) as caught:
-        call(lg.example("pendulum"), lg.RunSettings(duration=1.0))
+        call(built_in.system("pendulum"), lg.RunSettings(duration=1.0))
     assert caught.value.code == code

@@ -21,6 +21,7 @@ def blocks(language: str) -> list[str]:
     return [body.lstrip("\n") for opened, body in zip(parts[1::4], parts[2::4], strict=True) if opened == language]
 
 
+@pytest.mark.slow
 def test_the_python_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     mpl.use("agg")
     monkeypatch.chdir(tmp_path)

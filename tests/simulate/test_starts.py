@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 
+import built_in
 import lagrangian as lg
 from lagrangian.errors import RunError
 from lagrangian.integrate.status import RunStatus
@@ -80,7 +81,7 @@ def test_what_cannot_be_held_is_said(fixed: object, said: str) -> None:
 
 def test_a_system_without_constraints_takes_no_fixed_coordinates() -> None:
     with pytest.raises(RunError, match="has no constraints"):
-        lg.example("pendulum").simulate(1.0, theta=0.2, fixed="theta")
+        built_in.system("pendulum").simulate(1.0, theta=0.2, fixed="theta")
 
 
 def test_a_radius_of_zero_is_refused() -> None:

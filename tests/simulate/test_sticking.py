@@ -62,6 +62,7 @@ def last_stop(start: float, friction: float = C) -> tuple[float, float]:
     return t, angle
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("method", ["dop853", "tsit5", "RK45", "Radau", "LSODA"])
 def test_a_run_that_sticks_ends_where_it_sticks_and_names_the_torque(pendulum: lg.System, method: str) -> None:
     run = pendulum.simulate(20.0, theta=0.5, method=method)
@@ -111,6 +112,7 @@ def test_in_an_ensemble_each_run_sticks_or_not(pendulum: lg.System) -> None:
     assert "sticks where a force jumps" in str(runs.failures()[0])
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(
     ("law", "words"),
     [

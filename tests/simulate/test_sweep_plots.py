@@ -5,8 +5,8 @@ import pathlib
 import numpy as np
 import pytest
 
+import built_in
 import lagrangian as lg
-from lagrangian import examples
 from lagrangian.cli import main
 from lagrangian.view.many import SweptAxis, SweptResult, draw_many
 
@@ -15,7 +15,7 @@ FAST = {"method": "rk4", "step": 0.02, "outputs": {"swing": "max theta2", "reach
 
 @pytest.fixture(scope="module")
 def system() -> lg.System:
-    return lg.loads(examples.text("double-pendulum"))
+    return built_in.system("double-pendulum")
 
 
 def test_one_axis_is_a_curve_angles_in_degrees(system: lg.System) -> None:

@@ -9,8 +9,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
+import built_in
 import lagrangian as lg
-from lagrangian import examples
 from lagrangian.integrate import Solver
 from lagrangian.simulate.inputs import driving
 from lagrangian.simulate.per_run import Recording, study_of
@@ -104,7 +104,7 @@ def test_a_sweep_is_every_combination_and_every_sample(oscillator: lg.System) ->
 
 
 def test_the_same_bits_whatever_the_chunks_and_threads() -> None:
-    system = lg.loads(examples.text("double-pendulum"))
+    system = built_in.system("double-pendulum")
     bits = set()
     for memory, threads in ((2**28, 1), (2**28, 2), (300_000, 2), (100_000, 1), (1, 1)):
         runs = system.sweep(
@@ -125,7 +125,7 @@ def test_the_same_bits_whatever_the_chunks_and_threads() -> None:
 @given(st.integers(0, 2**32 - 1))
 def test_random_double_pendulums_against_scipy(seed: int) -> None:
     rng = np.random.default_rng(seed)
-    system = lg.loads(examples.text("double-pendulum"))
+    system = built_in.system("double-pendulum")
     dyn = system.compile()
     n = 4
     x0 = rng.uniform(-2, 2, (n, 4))
@@ -265,9 +265,10 @@ def test_files(oscillator: lg.System, tmp_path) -> None:
     assert len(list(tmp_path.iterdir())) == 3
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize(("method", "how"), [("dop853", {}), ("tsit5", {}), ("gauss4", {"step": 0.01})])
 def test_every_run_is_what_simulate_gives(method: str, how: dict[str, float]) -> None:
-    system = lg.loads(examples.text("cart-pole"))
+    system = built_in.system("cart-pole")
     theta, m = np.array([0.1, 1.0, 2.0]), np.array([0.2, 0.3, 0.1])
     inputs = {"F": "-x - 0.2*x' + 0.1*sin(t)"}
     asked = ["max theta", "final x'", "mean theta''", "rms F"]

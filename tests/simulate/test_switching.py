@@ -41,6 +41,7 @@ def travelled(force: float, first: float, last: float, end: float) -> float:
     return a * tau**2 / 2 + a * tau * (end - last)
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("method", METHODS)
 @pytest.mark.parametrize(
     "pulse",
@@ -123,6 +124,7 @@ GAIN = 0.1 * np.sqrt(np.pi) + (1 - np.cos(300.0)) / 3
 """What a force of `NARROW` N adds to the speed of 1 kg in 100 s."""
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("method", ["dop853", "tsit5", "taylor", "Radau"])
 def test_a_smooth_pulse_of_a_millisecond_in_a_hundred_seconds_is_not_jumped_over(method: str) -> None:
     s = oscillator(m=1.0, k=0.0, b=0.0)
@@ -153,6 +155,7 @@ def test_a_smooth_pulse_at_a_hundred_different_times_reaches_every_run() -> None
     assert runs["q'"] == pytest.approx(np.full(100, 0.1 * np.sqrt(np.pi)), abs=1e-8) and not runs.notices
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("varied", [{"t1": np.linspace(1.0, 99.0, 1100)}, {"t1": np.linspace(1.0, 99.0, 700)}])
 def test_pulses_at_too_many_different_times_are_told(varied: dict, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(switching, "MOST_PULSES", 2000)

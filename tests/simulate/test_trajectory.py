@@ -137,6 +137,7 @@ def test_a_file_is_replaced_only_when_asked(run: lg.Trajectory, tmp_path: Path) 
         run.save(tmp_path / "none" / "run.npz")
 
 
+@pytest.mark.slow
 def test_a_full_disk_is_told_and_leaves_what_was_there(tmp_path: Path) -> None:
     """A limit on the size of files stands for the disk, in a process of its own."""
     pytest.importorskip("resource")

@@ -2,13 +2,14 @@
 
 import pytest
 
+import built_in
 import lagrangian as lg
-from lagrangian import RunError, examples
+from lagrangian import RunError
 
 
 @pytest.fixture(scope="module")
 def pendulum() -> lg.System:
-    return lg.loads(examples.text("pendulum"))
+    return built_in.system("pendulum")
 
 
 @pytest.mark.parametrize("seed", ["a", None, 1.5, -1, True])

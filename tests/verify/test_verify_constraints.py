@@ -1,5 +1,7 @@
 """What `verify` says of systems with constraints that an independent examination found it wrong about."""
 
+import pytest
+
 import lagrangian as lg
 
 
@@ -7,6 +9,7 @@ def failed(s: lg.System) -> list[str]:
     return [f"{c.what}: {c.figure}" for c in s.verify(states=12) if c.holds is not True]
 
 
+@pytest.mark.slow
 def test_a_rope_over_two_pegs() -> None:
     """Of random lengths some are hardly longer than the way between the pegs: a point there all but meets its peg."""
     s = lg.System("rope over two pegs")

@@ -72,6 +72,7 @@ def ring() -> lg.System:
     return s
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize("made", [wheel, ring])
 def test_rounding_where_all_terms_cancel_is_no_failure(made: Callable[[], lg.System]) -> None:
     checks = made().verify(states=5)
@@ -84,6 +85,7 @@ def sound() -> tuple[Check, ...]:
     return crane().verify(states=5)
 
 
+@pytest.mark.slow
 def test_all_products_of_a_sound_system_hold(sound: tuple[Check, ...]) -> None:
     assert not failing(sound)
     assert {FORMULAS, FORWARD, HESSIAN, PYTHON, C, SLOPES} <= said(sound).keys()
@@ -168,6 +170,7 @@ def test_a_wrong_number_is_noticed_however_small_the_masses_are(monkeypatch: pyt
     assert DERIVED_ENERGIES in failing(s.derive().verified)
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.usefixtures("functions_alone")
 @pytest.mark.parametrize(
     "name", ["forward", "inverse", "mass_matrix", "bias", "potential_force", "coriolis_matrix", "rates", "rhs"]
@@ -207,6 +210,7 @@ def flawed(sources: Callable[..., dict[str, str]], old: str, new: str) -> Callab
     return wrong
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("language", "old", "new", "noticed"),
     [

@@ -13,8 +13,8 @@ import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
+import built_in
 import lagrangian as lg
-from lagrangian import examples
 from lagrangian.view import Marks, Panel, Plotted, Series, draw
 
 matplotlib.use("Agg")
@@ -28,7 +28,7 @@ def _closed() -> Iterator[None]:
 
 @pytest.fixture(scope="module")
 def run() -> lg.Trajectory:
-    s = lg.loads(examples.text("cart-pole"))
+    s = built_in.system("cart-pole")
     return s.simulate(3.0, inputs={"F": "sin(t)"}, samples=101)
 
 
@@ -67,7 +67,7 @@ def test_asked_quantities_of_one_unit_share_a_panel(run: lg.Trajectory) -> None:
 
 
 def test_the_audit_and_events_are_drawn(run: lg.Trajectory) -> None:
-    s = lg.loads(examples.text("pendulum"))
+    s = built_in.system("pendulum")
     swing = s.simulate(5.0, theta=0.5, events=lg.event(s["theta"], name="low"))
     figure: Any = swing.plot(audit=True, energy=False)
     assert labels(figure) == [r"$\theta$ [deg]", r"$\Delta E$ [J]"]
@@ -76,7 +76,7 @@ def test_the_audit_and_events_are_drawn(run: lg.Trajectory) -> None:
 
 
 def test_angles_that_go_round_are_drawn_in_turns() -> None:
-    s = lg.loads(examples.text("pendulum"))
+    s = built_in.system("pendulum")
     figure = s.simulate(10.0, initial={"theta'": 40.0}, params={"b": 0.0}).plot(energy=False)
     assert labels(figure) == [r"$\theta$ [turns]"]
 
@@ -114,7 +114,7 @@ def test_plots_in_another_thread_are_not_pyplots(run: lg.Trajectory) -> None:
 
 
 def test_a_run_that_failed_is_marked(run: lg.Trajectory) -> None:
-    failed = lg.loads(examples.text("pendulum")).simulate(20.0, theta=0.5, max_steps=60)
+    failed = built_in.system("pendulum").simulate(20.0, theta=0.5, max_steps=60)
     figure: Any = failed.plot()
     assert "FAILED: stopped at" in " ".join(figure.get_suptitle().split())
     cross = figure.axes[0].lines[-1]
@@ -123,7 +123,7 @@ def test_a_run_that_failed_is_marked(run: lg.Trajectory) -> None:
 
 
 def test_runs_of_a_sweep_that_failed_are_marked() -> None:
-    runs = lg.loads(examples.text("pendulum")).sweep(0.1, {"m": [-1.0, 1.0, 2.0]}, theta=0.3)
+    runs = built_in.system("pendulum").sweep(0.1, {"m": [-1.0, 1.0, 2.0]}, theta=0.3)
     figure: Any = runs.plot("final theta")
     assert "1 of 3 runs FAILED" in figure.get_suptitle()
     assert list(figure.axes[0].lines[-1].get_xdata()) == [-1.0]
@@ -147,7 +147,7 @@ def test_names_cannot_become_markup() -> None:
 
 
 def test_a_single_instant_and_a_constant_are_drawn() -> None:
-    s = lg.loads(examples.text("pendulum"))
+    s = built_in.system("pendulum")
     s.simulate(0).plot().canvas.draw()
     flat = draw(Plotted("", np.arange(3.0), (Panel("", "m", (Series("c", "c", np.full(3, 2.0)),)),)))
     assert flat.axes[0].get_ylim() == pytest.approx((-2.4, 2.4))

@@ -36,6 +36,7 @@ def check_served(app: Served) -> None:
     assert app.ask("nothing").json() == "nothing"
 
 
+@pytest.mark.sampled(2)
 @pytest.mark.parametrize(
     ("job", "status"), [("spin", 408), ("eat", 507), ("die", 507), ("large", 507), ("deep", 507), ("fail", 500)]
 )
@@ -47,6 +48,7 @@ def test_a_job_that_breaks_a_limit_is_refused_and_the_next_is_served(app: Served
         check_served(app)
 
 
+@pytest.mark.slow
 def test_a_process_that_broke_a_limit_does_nothing_more(app: Served) -> None:
     before = app.ask("process").json()
     while app.ask("process").json() != before:

@@ -1,6 +1,7 @@
 """What the app answers: exactly what the command writes with ``--json``, and pieces of HTML beside it."""
 
 import json
+import sys
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -13,6 +14,11 @@ import lagrangian as lg
 from lagrangian import examples
 from lagrangian.cli import main
 from lagrangian.web.app import PAGES
+
+sys.path.append(str(Path(__file__).parent.parent / "read"))  # where the collections of bad models are
+
+import test_bad_constraints
+import test_bad_file
 
 CART = "\n".join(
     ['name = "cart"', "[coordinates]", 'x = "m"', "[parameters]", 'm = "2 kg"', 'k = "8 N/m"', "[inputs]", 'F = "N"']
@@ -50,6 +56,7 @@ def check_pieces(sections: list[dict[str, str]]) -> None:
         assert "<style" not in section["html"]
 
 
+@pytest.mark.sampled(3)
 @pytest.mark.parametrize("name", ["lecture-3b", "cart-pole", "four-bar", "lecture-2"])
 @pytest.mark.parametrize("notation", ["lecture", "robotics"])
 def test_a_derivation_is_that_of_the_command(
@@ -74,6 +81,7 @@ ANSWERS = {
 }
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("hint", range(4))
 @pytest.mark.parametrize("case", ANSWERS)
 def test_a_verdict_is_that_of_the_command(
@@ -176,6 +184,7 @@ MISFITS: dict[str, dict[str, Any]] = {
 }
 
 
+@pytest.mark.sampled(5)
 @pytest.mark.parametrize("verb", ["derive", "look", "page", "check", "preview", "simulate"])
 @pytest.mark.parametrize("case", MISFITS)
 def test_arguments_that_do_not_fit_are_one_error(kind_app: Served, verb: str, case: str) -> None:
@@ -257,3 +266,39 @@ def test_a_motion_that_no_browser_can_integrate_is_refused(kind_app: Served) -> 
     for model in (CART + "\n" + friction, unknown):
         error = kind_app.ask("page", {"model": model}).json()["error"]
         assert error["what"] and error["code"]
+
+
+# -- the bad models of the reader's tests: each is one error with its line, and never a failure of the app -----------
+
+FILES = {name: (text, line, column) for name, text, line, column, _ in test_bad_file.BAD}
+CONSTRAINTS = {f"constraint: {name}": case for name, case in test_bad_constraints.BAD.items()}
+
+
+@pytest.mark.sampled(6)
+@pytest.mark.parametrize("case", FILES)
+def test_a_bad_file_is_told_at_its_line(kind_app: Served, case: str) -> None:
+    text, line, column = FILES[case]
+    answer = kind_app.ask("derive", {"model": text})
+    assert answer.status_code == 200
+    error = answer.json()["error"]
+    assert error["what"] and error["fix"] and error["code"]
+    assert error["line"] is not None
+    assert line is None or error["line"] == line
+    assert column is None or error["column"] == column
+
+
+@pytest.mark.sampled(6)
+@pytest.mark.parametrize("case", CONSTRAINTS)
+def test_a_bad_constraint_is_told(kind_app: Served, case: str) -> None:
+    text, code, fragment = CONSTRAINTS[case]
+    asked = {"model": test_bad_constraints.HEAD + text}
+    start = {"duration": 0.5, "initial": {"x": 0.3, "y": 0.2}}
+    answers = [kind_app.ask("derive", asked), kind_app.ask("simulate", {**asked, **start})]
+    assert [answer.status_code for answer in answers] == [200, 200]
+    errors = [answer.json()["error"] for answer in answers if "error" in answer.json()]
+    assert errors[0]["code"] == code
+    assert fragment in errors[0]["message"]
+
+
+def test_there_are_a_hundred_bad_models() -> None:
+    assert len(FILES) + len(CONSTRAINTS) >= 100

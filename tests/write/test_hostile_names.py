@@ -8,8 +8,8 @@ from html.parser import HTMLParser
 
 import pytest
 
+import built_in
 import lagrangian as lg
-from lagrangian import examples
 
 ATTACK = (
     '\x1b[31mred\x1b]0;title\x07 <script>alert(1)</script> \\input{x} $x$ `x` | */ # """ \' '
@@ -49,7 +49,7 @@ def test_pages_hold_no_control_characters(hostile: lg.System) -> None:
 
 def test_html_has_the_tags_of_an_innocent_page_only(hostile: lg.System) -> None:
     innocent, attacked = _Tags(), _Tags()
-    innocent.feed(lg.loads(examples.text("lecture-3a")).derive().to_html())
+    innocent.feed(built_in.derivation("lecture-3a").to_html())
     attacked.feed(hostile.derive().to_html())
     assert attacked.tags <= innocent.tags
     assert "<script>alert" not in hostile.derive().to_html()

@@ -12,6 +12,7 @@ from lagrangian import bounded
 from lagrangian.check.candidates import too_long
 from lagrangian.check.constrained import check_constrained
 from lagrangian.check.coordinates import ProposedChange, QuickTest, candidates, in_these, likeliest, new_names
+from lagrangian.check.declared import declared, speeds
 from lagrangian.check.difference import differences, likeness, paired
 from lagrangian.check.lines import filled
 from lagrangian.check.mistakes import mistakes
@@ -35,26 +36,46 @@ def _hard(derivation: Derived, lines: Sequence[AnsweredLine], **_: object) -> bo
 
 
 @bounded.answered("checking the answer", _hard, "shorten the lines of the answer, and the expressions of the system")
-def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3) -> Verdict:
+def check(derivation: Derived, lines: Sequence[AnsweredLine], *, hint: int = 3, explain: bool = True) -> Verdict:
     """Return what is right and what is wrong in an answer, line by line and as a whole.
 
-    Lines are checked in order. Equality is decided in normal form or, if there is none, with 50 digits.
+    Lines are checked in order. Equality is decided in normal form or, if there is none, with 50 digits. Without
+    ``explain``, mistakes are not sought.
     """
     _log.info("checking the answer")
     truth = truth_of(derivation)
+    said = declared(truth, lines)
+    truth = truth.with_values(said.values) if said.values else truth
     truth.algebra.renew()
+    verdict = _checked(truth, said.lines, hint, explain)
+    if (assumed := said.told(truth)) is None:
+        return verdict
+    note = text("Right if " if verdict.right else "With ", *assumed.parts, ".")
+    return replace(verdict, notes=(note, *verdict.notes))
+
+
+def _checked(truth: Reference, lines: Sequence[AnsweredLine], hint: int, explain: bool) -> Verdict:
+    """The verdict on an answer whose own names are written out."""
     written = filled(truth, lines)
-    if derivation.multipliers:
+    if truth.derivation.multipliers:
         return check_constrained(truth, written, hint)
+    written, told = speeds(truth, written)
+    verdict = _valued(truth, lines, written, hint, explain)
+    return replace(verdict, notes=(*told, *verdict.notes))
+
+
+def _valued(
+    truth: Reference, lines: Sequence[AnsweredLine], written: Sequence[AnsweredLine], hint: int, explain: bool
+) -> Verdict:
+    """The verdict on an answer in letters or, if that is not right, in numbers."""
     values = _values(truth, written)
     numbers = bool(values) and in_numbers(truth, written)
-    verdict = _read(truth, spelled(truth, written), hint, explain=not numbers)
+    verdict = _read(truth, spelled(truth, written), hint, explain=explain and not numbers)
     if verdict.right or verdict.status is Status.INCOMPLETE or not values:
         return verdict
     valued = truth.with_values(values)
-    put = _read(
-        valued, _with_values(values, spelled(valued, filled(valued, lines), numbers=False)), hint, explain=numbers
-    )
+    read = _with_values(values, spelled(valued, filled(valued, lines), numbers=False))
+    put = _read(valued, read, hint, explain=explain and numbers)
     return put if put.right or numbers else verdict
 
 
@@ -65,8 +86,8 @@ def _read(truth: Reference, spelling: Spelling, hint: int, *, explain: bool) -> 
     if judged.status.right or judged.status is Status.INCOMPLETE:
         return replace(verdict, combination=judged.combination)
     return (
-        _elsewhere(truth, spelling, verdict)
-        or _own_names(truth, spelling, verdict)
+        _elsewhere(truth, spelling, verdict, explain)
+        or (_own_names(truth, spelling, verdict) if explain else None)
         or (_explained(truth, spelling, judged, verdict) if explain else verdict)
     )
 
@@ -177,8 +198,14 @@ def _equations(
             found.append(Finding(line, Status.WRONG, follows=follow[j]))
             continue
         differing = differences(truth, form, right, like.factor, like.index)
-        found.append(Finding(line, Status.WRONG, None, _name(truth, like.index), differing, follow[j]))
+        name = _name(truth, like.index)
+        found.append(Finding(line, Status.WRONG, None, name, differing, follow[j], _elements(truth, like.index)))
     return found
+
+
+def _elements(truth: Reference, index: int) -> tuple[str, ...]:
+    """The elements that add to a right equation."""
+    return tuple(dict.fromkeys(e for term in truth.derivation.terms[index] for e in term.elements))
 
 
 def _name(truth: Reference, index: int | None) -> str | None:
@@ -220,15 +247,17 @@ def _note(truth: Reference, row: ReferenceRow) -> Text | None:
 # -- other coordinates, and what went wrong ---------------------------------------------------------------------------
 
 
-def _elsewhere(truth: Reference, spelling: Spelling, verdict: Verdict) -> Verdict | None:
+def _elsewhere(truth: Reference, spelling: Spelling, verdict: Verdict, explain: bool) -> Verdict | None:
     """The verdict in other coordinates if the answer is right in some; a known mistake has precedence over an unstated
-    change."""
+    change, which without ``explain`` is not considered."""
     glance = QuickTest(truth, spelling.lines)
     for change in candidates(truth, spelling.lines):
         if not glance.may_be(change):
             continue
         judged = _judged(truth, spelling.lines, change)
         if not judged.status.right and judged.status is not Status.INCOMPLETE:
+            continue
+        if not change.plain and not explain:
             continue
         if not change.plain or not (new_names(truth, spelling.lines) or _tells(spelling.lines)):
             named = mistakes(truth, spelling.lines, verdict.findings)
@@ -257,7 +286,8 @@ def _tells(lines: Sequence[AnsweredLine]) -> bool:
 def _values(truth: Reference, lines: Sequence[AnsweredLine]) -> dict[sp.Symbol, sp.Expr]:
     """The values of the parameters that an answer does not name."""
     used = {x for line in lines for x in line.expr.free_symbols}
-    return {p: sp.Rational(str(v)) for p, v in truth.model.values.items() if p not in used}
+    put = truth.values.keys()
+    return {p: sp.Rational(str(v)) for p, v in truth.model.values.items() if p not in used and p not in put}
 
 
 def _with_values(values: Mapping[sp.Symbol, sp.Expr], spelling: Spelling) -> Spelling:

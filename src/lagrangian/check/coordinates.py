@@ -54,7 +54,7 @@ class ProposedChange(Brief):
             whole[eta] = psi
             whole[sp.Derivative(eta, time)] = rate
             whole[sp.Derivative(eta, (time, 2))] = sp.diff(rate, time)
-        return cast("sp.Expr", expr.xreplace(whole))
+        return cast("sp.Expr", bounded.replaced(expr, whole))  # a derivative by a coordinate stays as it is written
 
     def turn(self, truth: Reference) -> sp.Matrix | None:
         """(∂ψ/∂ξ)⁻¹, with the answer's coordinates in the order of those that they replace; None if it is singular."""
@@ -316,13 +316,24 @@ def _motion(psi: sp.Expr) -> CompiledExpressions:
 
 
 def likeliest(truth: Reference, lines: Sequence[AnsweredLine]) -> ProposedChange | None:
-    """The change for which most equations of a wrong answer are true; None if it makes none true."""
+    """The change for which most equations of a wrong answer are true; if it makes none true, the one that reads a name
+    as a coordinate of which it is the beginning (th for theta), else None."""
     glance = QuickTest(truth, lines)
     tried = [(glance.true_lines(change), -k, change) for k, change in enumerate(candidates(truth, lines))]
     best = max(tried, key=lambda x: x[:2], default=None)
     if best is None:
         return None
-    return best[2] if best[0] or len(tried) == 1 else None
+    if best[0] or len(tried) == 1:
+        return best[2]
+    short = [change for _, _, change in tried if _abbreviates(change)]
+    return short[0] if len(short) == 1 else None
+
+
+def _abbreviates(change: ProposedChange) -> bool:
+    """Whether a change only reads names as the coordinates whose names begin with them."""
+    pairs = [(getattr(eta, "func", eta), getattr(psi, "func", psi)) for eta, psi in change.table.items()]
+    written = [(str(eta), str(psi)) for eta, psi in pairs]
+    return bool(written) and all(1 < len(short) < len(long) and long.startswith(short) for short, long in written)
 
 
 def in_these(truth: Reference, change: ProposedChange) -> Reference | None:

@@ -20,6 +20,9 @@ from lagrangian.model import Model
 LONGEST = 4000
 """An expression with more terms when expanded is compared numerically instead of in normal form."""
 
+MAX_VALUED = 8
+"""The number of sets of values for which the reference is kept."""
+
 
 class Reference:
     """The right equations of a derivation, ready for comparison; ``values`` are substituted for parameters.
@@ -95,10 +98,13 @@ class Reference:
         return natural(cast("sp.Expr", expr.xreplace(self.values)) if self.values else expr, self.sides)
 
     def with_values(self, values: Mapping[sp.Symbol, sp.Expr]) -> Reference:
-        """The same reference with values substituted for parameters, made once."""
+        """The same reference with values substituted for parameters too; the last few are kept."""
         key = tuple(sorted(values.items(), key=str))
         if key not in self._valued:
-            self._valued[key] = Reference(self.derivation, values)
+            while len(self._valued) >= MAX_VALUED:
+                del self._valued[next(iter(self._valued))]
+            own = {p: cast("sp.Expr", v.xreplace(dict(values))) for p, v in self.values.items()}
+            self._valued[key] = Reference(self.derivation, own | dict(values))
         return self._valued[key]
 
     @cached_property

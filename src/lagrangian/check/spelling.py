@@ -43,11 +43,11 @@ def spelled(truth: Reference, lines: Sequence[AnsweredLine], *, numbers: bool = 
     unknown = sorted(used - known, key=str)
     if not unknown:
         return Spelling(lines, notes)
-    free = sorted(known - used - {time}, key=str)
+    free = sorted(known - used - {time} - truth.values.keys(), key=str)
     inputs = [u.symbol for u in truth.model.inputs if not any(line.expr.has(u.symbol) for line in lines)]
     for reading in _readings(unknown, [*free, *inputs]):
         put = tuple(replace(line, expr=cast("sp.Expr", line.expr.xreplace(reading))) for line in lines)
-        if _may_be_right(truth, put):
+        if may_be_right(truth, put):
             return Spelling(put, (*notes, *(_read(a, b) for a, b in reading.items())))
     close = _closest(unknown, [*free, *inputs])
     put = tuple(replace(line, expr=cast("sp.Expr", line.expr.xreplace(close))) for line in lines)
@@ -96,7 +96,7 @@ def _closest(unknown: Sequence[sp.Basic], free: Sequence[sp.Expr]) -> dict[sp.Ba
     return found
 
 
-def _may_be_right(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
+def may_be_right(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
     """Whether the equations vanish along the true motion, or the energies are right, in doubles."""
     for line in lines:
         if line.kind == "equation":
@@ -119,7 +119,7 @@ def _numbers(truth: Reference, lines: tuple[AnsweredLine, ...]) -> tuple[tuple[A
     table: dict[sp.Basic, sp.Expr] = {}
     notes: list[Text] = []
     for p in truth.model.parameters:
-        if p.value is None or p.symbol in used or float(p.value).is_integer():
+        if p.value is None or p.symbol in used or p.symbol in truth.values or float(p.value).is_integer():
             continue
         number: Any = sp.Rational(str(p.value))
         if number.q > 2 and any(line.expr.has(number) for line in lines) and number not in table:

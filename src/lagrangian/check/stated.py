@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import cast
 
 import numpy as np
@@ -172,9 +172,9 @@ def harmless(truth: Reference, line: AnsweredLine, rest: sp.Expr) -> Text | None
 
 
 def _follows(truth: Reference, line: AnsweredLine, i: int | None, above: StatedQuantity) -> bool:
-    """Whether a line is the consequence of the lines above it."""
-    if line.kind == "L" and above.T is not None and above.V is not None:
-        return zero_everywhere(truth, line.expr - above.T + above.V)
+    """Whether a line is the consequence of the lines above it, and of the right T* or V if only one is above it."""
+    if line.kind == "L" and (above.T is not None or above.V is not None):
+        return zero_everywhere(truth, line.expr - replace(above, L=None).lagrangian(truth))
     if i is None or line.kind not in ("p", "p-rate", "slope") or not above.stated:
         return False
     own = _of_coordinate(truth, line.kind, i, above.lagrangian(truth), sp.S.Zero)

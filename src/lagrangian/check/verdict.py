@@ -90,7 +90,10 @@ class TermDifference(Brief):
 
 @dataclass(frozen=True)
 class Mistake(Brief):
-    """A misconception that explains the answer: its name, what was done, why it is wrong, and where."""
+    """A mistake that explains the answer: its name, what was done, why it is wrong, and where.
+
+    ``brief`` says what kind of thing is wrong without the term itself, for a hint.
+    """
 
     name: str
     what: Text
@@ -98,17 +101,20 @@ class Mistake(Brief):
     step: int
     element: str | None = None
     coordinate: str | None = None
+    brief: Text | None = None
 
-    def to_dict(self) -> dict[str, Any]:
-        """Return plain data."""
-        return {
+    def to_dict(self, hint: int = 3) -> dict[str, Any]:
+        """Return plain data; below hint level 3 without what was done."""
+        data: dict[str, Any] = {
             "name": self.name,
             "what": str(self.what),
             "why": str(self.why),
             "step": self.step,
             "element": self.element,
             "coordinate": self.coordinate,
+            "brief": str(self.brief) if self.brief is not None else None,
         }
+        return data if hint >= 3 else {k: v for k, v in data.items() if k != "what"}
 
 
 @dataclass(frozen=True)
@@ -124,6 +130,8 @@ class Finding(Brief):
     coordinate: str | None = None
     differences: tuple[TermDifference, ...] = ()
     follows: bool = False
+    elements: tuple[str, ...] = ()
+    """The elements that add to the right equation, for a wrong one."""
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data."""
@@ -186,8 +194,8 @@ class Verdict:
                 [[plain(x) for x in row] for row in self.combination] if self.combination is not None else None
             )
         if self.hint >= 2:
-            data["mistakes"] = [m.to_dict() for m in self.mistakes]
-            data["alternatives"] = [m.to_dict() for m in self.alternatives]
+            data["mistakes"] = [m.to_dict(self.hint) for m in self.mistakes]
+            data["alternatives"] = [m.to_dict() for m in self.alternatives] if self.hint >= 3 else []
         return data
 
 

@@ -96,29 +96,50 @@ def _word(finding: Finding) -> str:
 
 
 def _why(verdict: Verdict) -> Iterator[Item]:
-    """The mistakes or, if none was found, the steps and elements that the wrong lines point to."""
+    """The mistakes or, if none was found, what is right in the wrong lines and where they differ.
+
+    Below hint level 3 a mistake is told by its kind and place, never by its terms.
+    """
     for k, mistake in enumerate(verdict.mistakes):
-        yield text(*(("And: ",) if k else ()), *mistake.what.parts)
-        yield text("Why that is not so: ", *mistake.why.parts)
-        yield text(*_where(mistake))
+        if verdict.hint >= 3:
+            yield text(*(("And: ",) if k else ()), *mistake.what.parts)
+        elif mistake.brief is not None:
+            yield text(*(("And: ",) if k else ()), *mistake.brief.parts)
+        yield text("Why that is not so: ", *mistake.why.parts) if verdict.hint >= 3 else text(*mistake.why.parts)
+        yield text(*_where(mistake, verdict))
     if verdict.mistakes:
-        if verdict.alternatives:
+        if verdict.alternatives and verdict.hint >= 3:
             yield text("It could also be this: ", *verdict.alternatives[0].what.parts)
         return
-    yield text("No single mistake explains all of it; these are the places to look at.")
-    seen: list[str] = []
+    yield text("No mistake was found that explains all of it; these are the places to look at.")
     for f in verdict.findings:
-        for d in f.differences if not f.follows else ():
-            for origin in d.origins:
-                words = f"{f.line.title}: {origin.element}, step {origin.step} ({STEPS[origin.step]})"
-                if words not in seen:
-                    seen.append(words)
-                    yield text(words)
+        if not f.status.right and not f.follows:
+            yield from _right_and_differing(f)
 
 
-def _where(mistake: Mistake) -> tuple[str, ...]:
-    element = f"; it concerns {mistake.element}" if mistake.element else ""
-    return (f"This belongs to step {mistake.step}, {STEPS[mistake.step].lower()}{element}.",)
+def _right_and_differing(finding: Finding) -> Iterator[Item]:
+    """What is right in a wrong line, by element, and what its differences come from."""
+    differing = list(dict.fromkeys((o.element, o.step) for d in finding.differences for o in d.origins))
+    names = {element for element, _ in differing}
+    fine = [e for e in finding.elements if e not in names]
+    if fine and differing:
+        yield text(f"Right in {finding.line.title}: what comes from {_listed(fine)}.")
+    if differing:
+        places = [f"{element}, step {step} ({STEPS[step].lower()})" for element, step in differing]
+        yield text(f"What differs in {finding.line.title} comes from {'; '.join(places)}.")
+
+
+def _listed(names: list[str]) -> str:
+    return ", ".join(names[:-1]) + (" and " if len(names) > 1 else "") + names[-1]
+
+
+def _where(mistake: Mistake, verdict: Verdict) -> tuple[str, ...]:
+    """The step of a mistake, and its element or those whose terms differ."""
+    origins = [o for f in verdict.findings if not f.follows for d in f.differences for o in d.origins]
+    of_step = [o.element for o in origins if o.step == mistake.step] or [o.element for o in origins]
+    elements = [mistake.element] if mistake.element else list(dict.fromkeys(of_step))[:3]
+    concerns = f"; it concerns {_listed(elements)}" if elements else ""
+    return (f"This belongs to step {mistake.step}, {STEPS[mistake.step].lower()}{concerns}.",)
 
 
 def _differing(verdict: Verdict) -> bool:

@@ -7,17 +7,15 @@ from typing import Annotated
 
 import typer
 
-from lagrangian.check.verb import check_answer, check_folder, read_text
-from lagrangian.cli.door import put
-from lagrangian.cli.formats import Format, FormatOption, chosen, put_report
+from lagrangian.check.verb import check_answer, read_text
+from lagrangian.cli.check_class import Allowed, ClassOptions, FeedbackKind, check_folder
+from lagrangian.cli.formats import FormatOption, chosen, put_report
 from lagrangian.cli.terminal import Example, Force, Json, Output, Width, open_system, standard_input
 from lagrangian.derive import derive
 from lagrangian.errors import Error
-from lagrangian.system import System
-from lagrangian.write.tables import check_target
 
-SUMMARIES = [".csv", ".txt", ".json"]
-"""The endings of files for the results of a folder."""
+CLASS = "A folder of answers"
+"""The group of options for a folder in the help."""
 
 
 def check(
@@ -51,12 +49,95 @@ def check(
     json: Json = False,
     width: Width = None,
     output: Output = None,
+    require: Annotated[
+        str | None,
+        typer.Option(
+            metavar="PARTS",
+            help="Parts without which a right answer is incomplete: equations,T,V,L,Xi.",
+            show_default=False,
+            rich_help_panel=CLASS,
+        ),
+    ] = None,
+    coordinates: Annotated[
+        Allowed,
+        typer.Option(
+            help="Whether an answer in other coordinates than the model's is accepted.", rich_help_panel=CLASS
+        ),
+    ] = Allowed.ANY,
+    points: Annotated[
+        str | None,
+        typer.Option(
+            metavar="POINTS",
+            help="Points by part, T=2,V=2,Xi=2,equations=4, or a TOML file with them.",
+            show_default=False,
+            rich_help_panel=CLASS,
+        ),
+    ] = None,
+    feedback: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="DIR",
+            help="Write a file for every student to this folder; --hint then limits what students are told.",
+            show_default=False,
+            rich_help_panel=CLASS,
+        ),
+    ] = None,
+    feedback_format: Annotated[
+        FeedbackKind, typer.Option(help="Format of the files of --feedback.", rich_help_panel=CLASS)
+    ] = FeedbackKind.HTML,
     answers: Annotated[
         Path | None,
         typer.Option(
             metavar="PATH",
-            help="If ANSWER is a folder: write a CSV table with one row per answer to this file.",
+            help="Write a CSV table with a row for every answer to this file.",
             show_default=False,
+            rich_help_panel=CLASS,
+        ),
+    ] = None,
+    moodle: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="PATH",
+            help="Write the grades and comments for Moodle to this CSV file.",
+            show_default=False,
+            rich_help_panel=CLASS,
+        ),
+    ] = None,
+    gradescope: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="PATH",
+            help="Write the points in the columns of Gradescope to this CSV file.",
+            show_default=False,
+            rich_help_panel=CLASS,
+        ),
+    ] = None,
+    roster: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="PATH",
+            help="The list of the class: Moodle's grading worksheet, or a roster, as CSV.",
+            show_default=False,
+            rich_help_panel=CLASS,
+        ),
+    ] = None,
+    store: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="PATH",
+            help="Keep the verdicts in this file, and judge only answers that are new or changed.",
+            show_default=False,
+            rich_help_panel=CLASS,
+        ),
+    ] = None,
+    processes: Annotated[
+        int | None,
+        typer.Option(
+            metavar="N",
+            help="Processes that judge answers; by default as many as help.",
+            min=1,
+            show_default=False,
+            rich_help_panel=CLASS,
         ),
     ] = None,
     force: Force = False,
@@ -68,14 +149,17 @@ def check(
       lagrangian check carts.toml answer.txt
       lagrangian check --example lecture-3b - --hint 1 < answer.tex
       lagrangian check carts.toml answers/ -o summary.csv --answers table.csv
+      lagrangian check carts.toml answers/ --points T=2,V=2,equations=4 --feedback replies/ --hint 1
     """
     model_file, answer_file = _named(file, answer, example)
     path = None if answer_file == "-" else Path(answer_file)
+    options = ClassOptions(
+        require, coordinates, points, feedback, feedback_format, answers, moodle, gradescope, roster, store, processes
+    )
     if path is not None and path.is_dir():
-        _check_folder(open_system(model_file, example), path, hint, format, json, output, answers, force)
+        check_folder(open_system(model_file, example), path, options, hint, format, json, output, force)
         return
-    if answers is not None:
-        raise Error("--answers is for a folder of answers", fix="name a folder, or leave --answers out", code="E404")
+    options.refuse()
     wanted = chosen(format, json, output, force)
     words = standard_input() if path is None else read_text(path)
     name = "<standard input>" if path is None else answer_file
@@ -83,38 +167,6 @@ def check(
     put_report(verdict.report(), wanted, width, output)
     if not verdict.right:
         raise typer.Exit(1)
-
-
-def _check_folder(
-    system: System,
-    path: Path,
-    hint: int,
-    format: Format | None,
-    json: bool,
-    output: Path | None,
-    answers: Path | None,
-    force: bool,
-) -> None:
-    """Check every answer in a folder; write the counts of mistakes and, if requested, a line for each answer."""
-    json = json or format is Format.JSON
-    if format not in (None, Format.TEXT, Format.JSON):
-        raise Error(
-            "the results of a folder can be written as text, CSV or JSON", fix="-o summary.csv, or --json", code="E402"
-        )
-    for target, endings in ((output, SUMMARIES), (answers, [".csv"])):
-        if target is not None:
-            check_target(target, endings, overwrite=force)
-    folder = check_folder(derive(system.model), path, hint=hint)
-    if output is None:
-        put(folder.to_json() if json else folder.to_text())
-    else:
-        kind = ".json" if json else output.suffix.lower()
-        put({".json": folder.to_json, ".csv": folder.to_csv, ".txt": folder.to_text}[kind](), output)
-        if not json:
-            put(folder.to_text())
-    if answers is not None:
-        put(folder.answers_to_csv(), answers)
-    raise typer.Exit(0 if folder.all_right else 1)
 
 
 def _named(file: str, answer: str | None, example: str | None) -> tuple[str | None, str]:

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from enum import StrEnum
-from typing import Annotated
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from lagrangian import write
 from lagrangian.cli.door import put, say
 from lagrangian.cli.door import width as columns
-from lagrangian.cli.formats import Format, FormatOption, Notation, NotationOption, chosen
+from lagrangian.cli.formats import Format, FormatOption, Notation, NotationOption, chosen, put_report
 from lagrangian.cli.terminal import Example, Force, Json, OptionalFile, Output, Width, open_system
 from lagrangian.derive import pages
 from lagrangian.errors import Error
+
+if TYPE_CHECKING:
+    from lagrangian.derive import Why
 
 
 class Detail(StrEnum):
@@ -34,6 +38,10 @@ def derive(
     describe: Annotated[
         bool, typer.Option("--describe", help="Begin with what the system looks like, in words.")
     ] = False,
+    why: Annotated[
+        bool,
+        typer.Option("--why", help="Write why the equations hold: F = ma for every mass, and its constraint force."),
+    ] = False,
     json: Json = False,
     width: Width = None,
     output: Output = None,
@@ -46,12 +54,20 @@ def derive(
       lagrangian derive --example lecture-3b
       lagrangian derive carts.toml --brief
       lagrangian derive carts.toml --notation physics -o carts.tex
+      lagrangian derive --example pendulum --why
     """
     wanted = chosen(format, json, output, force)
     if describe and wanted not in (Format.TEXT, Format.MARKDOWN):
         what = f"--describe is for text and Markdown; {wanted.value} has the picture, or data, instead"
         raise Error(what, fix="--format markdown", code="E406")
+    if why and (brief or describe or detail is not Detail.USUAL):
+        option = "--brief" if brief else "--describe" if describe else "--detail"
+        what = f"{option} is for the steps of a derivation, and --why writes another page"
+        raise Error(what, fix=f"leave {option} out, or --why", code="E406")
     derivation = open_system(file, example).derive(detail=detail.value)
+    if why:
+        _reasons(derivation.why, wanted, notation, full, width, output)
+        return
     if wanted is Format.TEXT:
         document = pages.lay_out(derivation, notation=notation.value, brief=brief, full=full, described=describe)
         put(write.page_rows(document, columns(width, output)), output)
@@ -61,4 +77,14 @@ def derive(
         put(pages.FORMATS[wanted.value](derivation, notation=notation.value, brief=brief, full=full), output)
     if any(check.holds is False for check in derivation.verified):
         say("a check at the end of the derivation does not hold; see its ✗")
+        raise typer.Exit(1)
+
+
+def _reasons(
+    why: Why, wanted: Format, notation: Notation, full: bool, columns: int | None, output: Path | None
+) -> None:
+    """Write why the equations hold."""
+    put_report(why.report(), wanted, columns, output, notation=notation, full=full)
+    if any(check.holds is False for check in why.checks):
+        say("an equality of the page does not hold; see its ✗")
         raise typer.Exit(1)

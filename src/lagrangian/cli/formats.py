@@ -124,11 +124,12 @@ def put_report(
     output: Path | None,
     *,
     notation: Notation = Notation.LECTURE,
+    full: bool = False,
 ) -> None:
-    """Write a report to a file or to standard output."""
+    """Write a report to a file or to standard output; ``full`` writes out what is too long to read."""
     from lagrangian import write
 
     if format is Format.TEXT:
-        put(write.report_rows(report, notation=notation.value, width=width(columns, output)), output)
+        put(write.report_rows(report, notation=notation.value, full=full, width=width(columns, output)), output)
     else:
-        put(write.write_report(report, format.value, notation=notation.value), output)
+        put(write.write_report(report, format.value, notation=notation.value, full=full), output)

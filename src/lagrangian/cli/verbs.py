@@ -22,6 +22,11 @@ VERBS = {
         "check",
         "Check your own answer: equations, energies or a whole derivation; exit 1 if it is wrong or incomplete.",
     ),
+    "worksheet": (
+        "worksheet",
+        "worksheet",
+        "Write an exercise: a question sheet, its solution, and random variants of the same difficulty.",
+    ),
     "export": (
         "export",
         "export",

@@ -32,7 +32,7 @@ def changed(model: Model, change: Mapping[Any, Any] | Change, *, name: str | Non
 def carried(model: Model, change: Mapping[Any, Any] | Change, *, name: str | None = None) -> Builder:
     """Return the same as `changed`, as a builder that can still be extended."""
     found = change if isinstance(change, Change) else read_change(model, change)
-    return _Carrier(model, found, name or _title(model, found)).built()
+    return Carrier(model, found, name or _title(model, found)).built()
 
 
 def _title(model: Model, change: Change) -> str:
@@ -40,7 +40,7 @@ def _title(model: Model, change: Change) -> str:
     return f"{model.name} ({words})" if words and len(words) <= 60 else model.name
 
 
-class _Carrier:
+class Carrier:
     """Builds the new description piece by piece, in the order of the old one."""
 
     def __init__(self, model: Model, change: Change, name: str) -> None:
@@ -50,6 +50,22 @@ class _Carrier:
 
     def built(self) -> Builder:
         """Return the builder with the complete description."""
+        model, b = self.model, self.builder
+        self.declare()
+        for d in model.definitions:
+            b.define(d.name, self.change.put_in(d.expression), place=d.place)
+        for frame in model.frames:
+            self.frame(frame)
+        for point in model.points:
+            self.point(point)
+        for element in model.elements:
+            for made in self.elements(element):
+                b.add(made)
+        self.settle()
+        return b
+
+    def declare(self) -> None:
+        """Declare the coordinates, parameters and inputs of the new description."""
         model, b = self.model, self.builder
         floating = {c.name: f for f in model.floating if f.floating is not None for c in f.floating.coordinates}
         for c in self.change.new:
@@ -61,20 +77,14 @@ class _Carrier:
             b.parameter(p.name, p.value, unit=p.unit, description=p.description, place=p.place)
         for u in model.inputs:
             b.input(u.name, description=u.description, unit=u.unit, place=u.place)
-        for d in model.definitions:
-            b.define(d.name, self.change.put_in(d.expression), place=d.place)
-        for frame in model.frames:
-            self.frame(frame)
-        for point in model.points:
-            self.point(point)
-        for element in model.elements:
-            for made in self.elements(element):
-                b.add(made)
+
+    def settle(self) -> None:
+        """Carry over the settings of runs and the hints for the picture."""
+        model, b = self.model, self.builder
         b.settings.update(carried_settings(model, self.change))
         if inputs := model.settings.get("inputs"):
             b.settings["inputs"] = carried_signals(model, self.change, inputs)
         b.look.update(carried_look(model, self.change, [e.name for e in b.elements]))
-        return b
 
     def _floating(self, frame: Frame) -> None:
         if id(frame) not in self._things:

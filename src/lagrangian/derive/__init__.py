@@ -7,5 +7,18 @@ from lagrangian.derive.derive import derive
 from lagrangian.derive.derived import Derived, LedgerRow, Origin, Step
 from lagrangian.derive.lagrange import Detail
 from lagrangian.derive.multiplier import Minimal, Multiplier, SpeedLine
+from lagrangian.derive.reasons import Why, why
 
-__all__ = ["Derived", "Detail", "LedgerRow", "Minimal", "Multiplier", "Origin", "SpeedLine", "Step", "derive"]
+__all__ = [
+    "Derived",
+    "Detail",
+    "LedgerRow",
+    "Minimal",
+    "Multiplier",
+    "Origin",
+    "SpeedLine",
+    "Step",
+    "Why",
+    "derive",
+    "why",
+]

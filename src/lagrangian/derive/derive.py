@@ -22,7 +22,7 @@ from lagrangian.derive.forces import contributions, forces
 from lagrangian.derive.holonomy import constrained, holonomic
 from lagrangian.derive.lagrange import Detail, left_hand_sides, left_sides
 from lagrangian.derive.multipliers.minimal import NOTHING_LESS, Found, without_multipliers
-from lagrangian.derive.multipliers.rows import RowForms, multipliers, row_forms
+from lagrangian.derive.multipliers.rows import RowForms, multipliers, row_forms, with_multipliers
 from lagrangian.derive.multipliers.step import by_multipliers, introduced
 from lagrangian.derive.result import Shares, closing, equations, ledger, ledger_items, matrices
 from lagrangian.derive.wiggle import study
@@ -42,6 +42,7 @@ def derive(model: Model, *, detail: Detail = "usual") -> Derived:
     ``detail``. Source: the lecture's steps 0 to 6.
     """
     _check_detail(detail)
+    described, model = model, with_multipliers(model)
     _log.info("deriving: which coordinates move what")
     wiggle = study(model)
     context = Context(model, Algebra(model, _everything(model)), wiggle)
@@ -72,7 +73,7 @@ def derive(model: Model, *, detail: Detail = "usual") -> Derived:
     result, mats, book = equations(context, sides, found, rows), matrices(context, sides, Xi), ledger(model, context)
     less = without_multipliers(context, rows, sides, found, step1.expressions["lengths"]) if rows else NOTHING_LESS
     return Derived(
-        model=model,
+        model=described,
         steps=(step0, step1, step2, step3, step4, step5, step6),
         T=T,
         V=V,

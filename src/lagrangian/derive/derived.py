@@ -22,6 +22,7 @@ from lagrangian.viewed import Brief, cut
 if TYPE_CHECKING:
     from lagrangian.derive.constraints.page import Constraints
     from lagrangian.model import Element, Model
+    from lagrangian.page.report import Report
     from lagrangian.write.document import HeadPicture
 
 
@@ -124,6 +125,11 @@ class Derived(Brief):
     @property
     def picture(self) -> HeadPicture | None:
         """The picture at the head of a page; a derivation without the room that draws has none."""
+        return None
+
+    @property
+    def reasoning(self) -> Report[Model] | None:
+        """The page on why the equations hold, for links to it; None without the room that makes it."""
         return None
 
     @property

@@ -200,6 +200,7 @@ def _two_regimes(context: Context, friction: Friction) -> list[Item]:
         Heading(text(f"{friction.title[:1].upper()}{friction.title[1:]}: it slips or it sticks")),
         text("While it slips, ", fit(shown), " is not 0, and its effort on the deflection is"),
         text(fit(context.readable(friction.effort(model, rate)))),
+        *_pressed(context, friction),
         text(
             "Where that rate reaches 0, it sticks if it can hold: the rate stays 0, which is a constraint, and the "
             "multiplier ",
@@ -225,6 +226,20 @@ def _two_regimes(context: Context, friction: Friction) -> list[Item]:
         )
     )
     return items
+
+
+def _pressed(context: Context, friction: Friction) -> list[Item]:
+    """What the normal force is, if it is a multiplier."""
+    if not friction.pressed_by:
+        return []
+    return [
+        text(
+            "Its normal force ",
+            fit(context.readable(friction.normal_force)),
+            f" is what keeps the constraint '{friction.pressed_by}', and depends on the friction in its turn: the "
+            "equations and the rows are solved for both together.",
+        )
+    ]
 
 
 def _product(effort: sp.Expr, what: Left) -> Left:

@@ -10,7 +10,9 @@ from collections.abc import Callable, Iterator, Mapping
 
 from lagrangian.derive.data import to_dict
 from lagrangian.derive.derived import Derived, Step
+from lagrangian.model import Model
 from lagrangian.page import formula as data
+from lagrangian.page.report import Report
 from lagrangian.write import html_page, latex, markdown, text
 from lagrangian.write.blocks import Items
 from lagrangian.write.described import described
@@ -27,21 +29,38 @@ def lay_out(
     details: bool = False,
     drawn: bool = False,
     described: bool = False,
+    linked: bool = False,
 ) -> Document:
     """Lay out a derivation.
 
     ``brief`` keeps only the titles of steps and what is marked for the one-page checklist. ``full`` writes out what
     would be summarized because of its length; ``details`` puts it under collapsible summaries instead. ``drawn`` puts
-    the picture at the head, and ``described`` says in words what is seen in it. Raises `ModelError` for an unknown
-    notation.
+    the picture at the head, and ``described`` says in words what is seen in it. ``linked`` adds the page on why the
+    equations hold, to which every step has a link. Raises `ModelError` for an unknown notation.
     """
-    return _Layout(derivation, notation, brief, full, details).document(drawn=drawn, described=described)
+    layout = _Layout(derivation, notation, brief, full, details)
+    layout.reasoning = derivation.reasoning if linked and not brief else None
+    return layout.document(drawn=drawn, described=described)
+
+
+SEE: Mapping[int, tuple[int, str]] = {
+    0: (3, "the constraint forces do no work"),
+    1: (2, "equations (2) and (3)"),
+    2: (4, "equations (7) to (9)"),
+    3: (5, "equations (10) and (11)"),
+    4: (5, "equations (10) to (12)"),
+    5: (4, "equations (4) to (8)"),
+    6: (5, "equation (12)"),
+}
+"""For every step, the part of the page on why the equations hold that it rests on, and that part in words."""
 
 
 class _Layout(Items):
     def __init__(self, derivation: Derived, notation: Notation, brief: bool, full: bool, details: bool) -> None:
         super().__init__(derivation.model, notation, brief=brief, full=full, details=details)
         self.derivation = derivation
+        self.reasoning: Report[Model] | None = None
+        self.from_masses = all(e.ledger != "T*" or e in derivation.model.bodies for e in derivation.model.elements)
 
     def document(self, *, drawn: bool, described: bool) -> Document:
         d = self.derivation
@@ -63,6 +82,7 @@ class _Layout(Items):
         sections.append(Section("result", ("Result",), tuple(self.result())))
         if d.verified:
             sections.append(Section("verified", ("Verified",), (self.checks(d.verified),)))
+        sections += self.reasons()
         if notes := self.notes():
             sections.append(Section("notes", ("Notes",), notes))
         kept = tuple(s for s in sections if s.blocks or s.number is not None)
@@ -83,9 +103,29 @@ class _Layout(Items):
         if not self.brief:
             yield Paragraph(self.inline(step.what), "what")
             yield Paragraph(self.inline(step.why), "why")
+            if not anchor and self.from_masses:
+                yield self.see(step.number)
         yield from self.items(step.items, anchor or f"step-{step.number}")
         if step.checked and not self.brief:
             yield self.checks(step.checked)
+
+    def see(self, number: int) -> Paragraph:
+        """The line of a step that leads to the page on why the equations hold."""
+        part, words = SEE[number]
+        if self.reasoning is None:
+            return Paragraph((f"why: {words} of --why",), "see")
+        return Paragraph((f"why: {words}, for this system",), "see", f"why-{part}")
+
+    def reasons(self) -> Iterator[Section]:
+        """The page on why the equations hold, part by part."""
+        if self.reasoning is None:
+            return
+        words = "The lecture's equations (1) to (12), carried out on this system: where the constraint forces go."
+        yield Section("why", ("Why Lagrange's equations hold",), (Paragraph((words,), "what"),))
+        for k, part in enumerate(self.reasoning.parts, 1):
+            blocks = list(self.items(part.items, f"why-{k}"))
+            blocks += [self.checks(part.checks)] if part.checks else []
+            yield Section(f"why-{k}", self.inline(part.title), tuple(blocks), minor=True)
 
     def result(self) -> Iterator[Block]:
         d = self.derivation
@@ -137,7 +177,7 @@ def to_latex(derivation: Derived, *, notation: Notation = "lecture", brief: bool
 
 def to_html(derivation: Derived, *, notation: Notation = "lecture", brief: bool = False, full: bool = False) -> str:
     """Return the derivation as a self-contained HTML page. Raises `ModelError` for an unknown notation."""
-    page = lay_out(derivation, notation=notation, brief=brief, full=full, details=True, drawn=True)
+    page = lay_out(derivation, notation=notation, brief=brief, full=full, details=True, drawn=True, linked=True)
     return html_page.page(page, "equations of motion")
 
 

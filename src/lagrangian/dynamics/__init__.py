@@ -19,7 +19,17 @@ from lagrangian.dynamics.constraint_programs import (
 from lagrangian.dynamics.describe import describe, placed
 from lagrangian.dynamics.description import Inputs
 from lagrangian.dynamics.feedback import SUPPLY, balance_terms_closed, closed, observe_closed, power_closed
-from lagrangian.dynamics.friction import Modes, Watch, regime, verdict, watched, watches
+from lagrangian.dynamics.friction import (
+    LEAST_REGULARITY,
+    PARADOX,
+    Modes,
+    Watch,
+    regime,
+    slips,
+    verdict,
+    watched,
+    watches,
+)
 from lagrangian.dynamics.impacts import impacts
 from lagrangian.dynamics.loose import loose, moving_no_mass
 from lagrangian.dynamics.mechanics import Mechanics
@@ -44,6 +54,8 @@ from lagrangian.dynamics.programs import (
 from lagrangian.dynamics.reactions import ReactionProgram, check_joint, reaction
 
 __all__ = [
+    "LEAST_REGULARITY",
+    "PARADOX",
     "SUPPLY",
     "Bodies",
     "Inputs",
@@ -95,6 +107,7 @@ __all__ = [
     "regime",
     "residual",
     "rhs",
+    "slips",
     "velocities",
     "verdict",
     "watched",

@@ -189,13 +189,16 @@ class Elimination:
             elif minimise:
                 self.minimise(i, self.names.get(i, "?"))
 
-    def accelerations(self) -> dict[int, int]:
-        """v̇ of every node, by one forward pass: v̇ = constant + Σ c_j v̇_j, the last eliminated node first."""
+    def accelerations(self, given: Mapping[int, int] | None = None, *, slopes: bool = False) -> dict[int, int]:
+        """v̇ of every node, by one forward pass: v̇ = constant + Σ c_j v̇_j, the last eliminated node first.
+
+        ``given`` are unknowns that were not eliminated; with ``slopes`` the constants are left out.
+        """
         g = self.graph
-        value: dict[int, int] = {}
+        value: dict[int, int] = dict(given or {})
         for i, constant, form in reversed(self.found):
             terms = [g.mul(c, value[k]) for k, c in form.items()]
-            total = constant
+            total = g.zero if slopes else constant
             for x in terms:
                 total = g.add(total, x)
             value[i] = total

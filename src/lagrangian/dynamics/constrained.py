@@ -73,7 +73,7 @@ def _correction(
         for links in m.distinct_groupings:
             yield from m.problems(links, [], asked, nothing, held, strict=False)
 
-    return cheapest_solution(problems(), multipliers=False)
+    return cheapest_solution(problems(), multipliers=False)[0]
 
 
 def gap(m: Mechanics, rows: Sequence[ConstraintRow], values: Sequence[int]) -> int:

@@ -8,14 +8,15 @@ of the tape. If the points coincide, these rows have the same multipliers as the
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from itertools import pairwise
+from itertools import pairwise, takewhile
 from typing import Any
 
 from lagrangian.dynamics.axes import Accelerations, Axes, PlaceMotion
 from lagrangian.dynamics.description import Description
 from lagrangian.dynamics.rows import ConstraintRow
 from lagrangian.dynamics.vectors import Vector, cross, dot, minus, plus, times, transposed, zeros
-from lagrangian.model.elements.base import Condition
+from lagrangian.model import Point
+from lagrangian.model.elements.base import Condition, difference
 from lagrangian.model.elements.conditions import (
     Coincidence,
     NoSlip,
@@ -24,6 +25,7 @@ from lagrangian.model.elements.conditions import (
     SameTurn,
     Separation,
     Stated,
+    Unmoved,
 )
 from lagrangian.model.rows import named_conditions
 
@@ -140,6 +142,23 @@ def _stated(d: Description, s: Any) -> Made:
     return _differentiated(d, d.node(s.value))
 
 
+def _held(d: Description, s: Any) -> Made:
+    return _stated(d, s) if s.between is None else (slip_rate(d, *s.between), None, None)
+
+
+def slip_rate(d: Description, start: Point, end: Point) -> int:
+    """δ̇ of two points from their velocities: along the one fixed line on which they are apart, or of their distance."""
+    g, motion = d.graph, d.motion
+    places = d.places[start], d.places[end]
+    gap = motion.between(*places)
+    a, b = (motion.turned(place.velocity, place.axes, motion.root) for place in places)
+    velocity = minus(g, b, a)
+    apart = [k for k, x in enumerate(difference(d.model, start, end)) if x != 0]
+    if len(apart) == 1:
+        return velocity[apart[0]]
+    return g.div(dot(g, gap, velocity), g.sqrt(dot(g, gap, gap)))
+
+
 def _same_turn(d: Description, s: Any) -> Made:
     g = d.graph
     other = d.angles[s.second] if s.second is not None else g.zero
@@ -178,17 +197,59 @@ def _no_slip(d: Description, s: Any) -> Made:
         if s.axes is not None:
             e = times(g, target.turn, e)
         return dot(g, e, velocity), None, None
-    if target is not motion.root:
-        arm = times(g, transposed(motion.rotation(target)), arm)
-    omega = motion.turned(body.omega, body, target)
-    velocity = plus(g, motion.turned(centre.velocity, centre.axes, target), cross(g, omega, arm))
+    velocity = _matter(d, centre, d.places[s.at], body, target)
+    if velocity is None:
+        if target is not motion.root:
+            arm = times(g, transposed(motion.rotation(target)), arm)
+        omega = motion.turned(body.omega, body, target)
+        velocity = plus(g, motion.turned(centre.velocity, centre.axes, target), cross(g, omega, arm))
     return dot(g, e, velocity), None, None
+
+
+def _matter(d: Description, centre: PlaceMotion, at: PlaceMotion, body: Axes, target: Axes) -> Vector | None:
+    """The velocity of a body's matter ``at`` a place, from the place Q that carries this one and the centre:
+
+        v = v_Q + Σ_steps to the centre ((ω_step − ω_body) × offset + its rate) + Σ_steps to the place ω_body × offset
+
+    What turns both the body and the steps to its centre does not enter: of a disc that rolls, its own turn is left.
+    None where a place on the way floats.
+    """
+    motion, g = d.motion, d.graph
+    above = set(_upwards(centre))
+    common = next(place for place in _upwards(at) if place in above)
+    ways = [list(takewhile(lambda p: p is not common, _upwards(end))) for end in (centre, at)]
+    if any(place.slide is not None for way in ways for place in way):
+        return None
+    total = motion.turned(common.velocity, common.axes, target)
+    for step in ways[0]:
+        moved = plus(g, cross(g, _spin_between(d, step.axes, body), step.offset), step.offset_rate)
+        total = plus(g, total, motion.turned(moved, step.axes, target))
+    for step in ways[1]:
+        moved = cross(g, motion.turned(body.omega, body, step.axes), step.offset)
+        total = plus(g, total, motion.turned(moved, step.axes, target))
+    return total
+
+
+def _spin_between(d: Description, axes: Axes, other: Axes) -> Vector:
+    """ω_axes − ω_other along ``axes``: the turns between the two alone."""
+    g, total = d.graph, zeros(d.graph, 3)
+    a, b = axes, other
+    while a is not b:
+        if b.parent is None or (a.parent is not None and a.depth > b.depth):
+            total = plus(g, total, d.motion.turned(a.own, a, axes))
+            assert a.parent is not None
+            a = a.parent
+        else:
+            total = minus(g, total, d.motion.turned(b.own, b, axes))
+            b = b.parent
+    return total
 
 
 CONDITIONS: dict[type[Condition], Callable[[Description, Any], Made]] = {
     Coincidence: _coincidence,
     Separation: _separation,
     Stated: _stated,
+    Unmoved: _held,
     SameTurn: _same_turn,
     Perpendicular: _perpendicular,
     OnLine: _on_line,

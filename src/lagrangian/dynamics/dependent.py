@@ -6,14 +6,14 @@ the row repeats others: it is left out, and its multiplier is 0. If not, no moti
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, MutableMapping, Sequence
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.dynamics.multipliers import DependentRow, Problem, RowSolution
-from lagrangian.dynamics.ordering import cheapest_solution
+from lagrangian.dynamics.ordering import Order, cheapest_solution, solution_in
 from lagrangian.dynamics.rows import ConstraintRow
 from lagrangian.errors import ModelError, RunError
 from lagrangian.graph import Graph, Output, Program, evaluate, reached
@@ -25,29 +25,51 @@ ROUNDING = 1e-8
 """A residual below this counts as zero."""
 
 
+Known = tuple[tuple[str, ...], Order]
+"""The names of the rows that are left out, and the order in which the others are eliminated."""
+
+
 def without_dependent(
     graph: Graph,
     rows: Sequence[ConstraintRow],
     v: Sequence[int],
     problems: Callable[[Sequence[ConstraintRow]], Iterator[Problem]],
+    known: MutableMapping[tuple[str, ...], Known],
 ) -> tuple[RowSolution, tuple[str, ...]]:
     """The cheapest solution subject to the independent rows, and the names of the other rows.
 
+    ``known`` remembers the choice for the programs of a model, each of which needs a solution in a graph of its own.
     Raises `ModelError` (E302) if a row contradicts the others.
     """
+    asked = tuple(row.name for row in rows)
+    found, left_out = None, ()
+    if asked in known:
+        left_out, order = known[asked]
+        found = solution_in(order, problems([row for row in rows if row.name not in left_out]))
+    if found is None:
+        found, order, left_out = _chosen(graph, rows, v, problems)
+        known[asked] = left_out, order
+    return _filled(graph, found, [row.name not in left_out for row in rows]), left_out
+
+
+def _chosen(
+    graph: Graph,
+    rows: Sequence[ConstraintRow],
+    v: Sequence[int],
+    problems: Callable[[Sequence[ConstraintRow]], Iterator[Problem]],
+) -> tuple[RowSolution, Order, tuple[str, ...]]:
+    """The cheapest solution, its order, and the names of the rows that depend on others."""
     kept = list(rows)
     while True:
         try:
-            found = cheapest_solution(problems(kept))
+            found, order = cheapest_solution(problems(kept))
             break
         except DependentRow as dependent:
             if not _vanishes(graph, dependent, rows, v):
                 raise _contradiction(dependent.row, rows) from None
             kept.remove(dependent.row)
     names = {row.name for row in kept}
-    return _filled(graph, found, [row.name in names for row in rows]), tuple(
-        r.name for r in rows if r.name not in names
-    )
+    return found, order, tuple(row.name for row in rows if row.name not in names)
 
 
 def _contradiction(row: ConstraintRow, rows: Sequence[ConstraintRow]) -> ModelError:
@@ -75,6 +97,7 @@ def _filled(graph: Graph, found: RowSolution, kept: Sequence[bool]) -> RowSoluti
         spread(found.sizes, graph.zero),
         spread(found.regular, graph.zero),
         found.divisors,
+        found.pressing,
     )
 
 

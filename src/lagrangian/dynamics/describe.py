@@ -14,12 +14,13 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.dynamics.axes import Axes, PlaceMotion
 from lagrangian.dynamics.bodies import Bodies
-from lagrangian.dynamics.constraints import rows
+from lagrangian.dynamics.constraints import rows, slip_rate
 from lagrangian.dynamics.description import Description, Inputs
 from lagrangian.dynamics.floating import Float, floating_body, floating_rates
 from lagrangian.dynamics.mechanics import Mechanics, Pairs
 from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.rotations import along_axis
+from lagrangian.dynamics.rows import Drag
 from lagrangian.dynamics.vectors import Vector, dot, minus, plus, scaled, times, zeros
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, gradient
@@ -57,6 +58,7 @@ def described(
             error.at(element.place)
             raise
     m.rows, m.spare = rows(d), model.spare
+    m.known = model.remembered("orders of rows", dict)
     return m, d
 
 
@@ -317,6 +319,28 @@ def _generalized_force(d: Description, m: Mechanics, e: Any) -> None:
     m.efforts.append((rate, d.node(e.value)))
 
 
+def _friction(d: Description, m: Mechanics, e: Any) -> None:
+    """−μ |N| sign(δ̇) − b δ̇; with a multiplier as the normal force, its part is solved for with the multiplier."""
+    g = d.graph
+    rate = d.node(e.rate(d.model)) if e.between is None else slip_rate(d, *e.between)
+    if e.pressed_by is None:
+        sense = g.sign(rate) if e.sense is None else d.node(e.sense)
+        effort = g.neg(g.mul(d.node(d.model.expand(e.slipping_limit)), sense))
+        if e.viscous is not None:
+            effort = g.sub(effort, g.mul(d.node(e.viscous), rate))
+        m.efforts.append((rate, effort))
+        m.losses.append(g.neg(g.mul(effort, rate)))
+        return
+    known = e.sense is not None and e.side is not None
+    factor = d.node(-e.mu * e.sense * e.side) if known else None
+    if factor != g.zero:
+        m.drags.append(Drag(rate, factor, e.pressed_by))
+    if e.viscous is not None:
+        effort = g.neg(g.mul(d.node(e.viscous), rate))
+        m.efforts.append((rate, effort))
+        m.losses.append(g.neg(g.mul(effort, rate)))
+
+
 def _any(d: Description, m: Mechanics, e: Any) -> None:
     """Convert an element by its own T*, V and actions; one with mass needs its own function, because of gravity."""
     if isinstance(e, Body):
@@ -345,4 +369,5 @@ ELEMENTS: dict[str, Callable[[Description, Mechanics, Any], None]] = {
     "kinetic": _kinetic,
     "dissipation": _dissipation,
     "generalized_force": _generalized_force,
+    "friction": _friction,
 }

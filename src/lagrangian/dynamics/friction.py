@@ -2,6 +2,7 @@
 
     mode ±1:  Ξ += −F · (±1) − b δ̇ on δ̇          while ±δ̇ > 0
     mode  0:  the row δ̇ = 0 with its multiplier λ   while |λ| ≤ F_s
+    side ±1:  |λ_N| = ±λ_N of a row that presses on friction, F = μ |λ_N|, while ±λ_N ≥ 0
 
 A regime is a model of its own, in which a friction that sticks is a constraint. What ends it are zeros of smooth
 functions; a verdict on a state tells which regime follows.
@@ -14,6 +15,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from lagrangian.dynamics.constrained import velocity_correction
+from lagrangian.dynamics.drags import undetermined
 from lagrangian.dynamics.feedback import SUPPLY, Feedback, with_feedback
 from lagrangian.dynamics.impacts import Impact, impact_outputs
 from lagrangian.dynamics.mechanics import Mechanics
@@ -22,42 +24,66 @@ from lagrangian.dynamics.vectors import zeros
 from lagrangian.errors import ModelError
 from lagrangian.graph import Output, Program
 from lagrangian.model import Friction, Model
+from lagrangian.model.rows import pressed_rows
 
 DEPENDENT = 1e-9
 """A row whose margin is below this follows from others."""
 
+LEAST_REGULARITY = 1e-6
+"""Friction that determines what presses on it less than this is a paradox."""
+
 Modes = tuple[int, ...]
-"""A mode for every friction, in order: −1 or +1 while it slips in that sense, 0 while it sticks."""
+"""A mode for every friction, in order: −1 or +1 while it slips in that sense, 0 while it sticks; then a side for every
+row that presses, the sign ±1 of its multiplier, in the order of `pressed_rows`."""
 
 
 def regime(model: Model, modes: Modes) -> Model:
-    """The model in which every friction keeps its mode."""
+    """The model in which every friction keeps its mode, and every row that presses its side."""
     known: dict[Modes, Model] = model._memo.setdefault("regimes", {})
     if modes not in known:
-        kept = dict(zip(model.frictions, modes, strict=True))
-        elements = tuple(_kept(e, kept[e]) if isinstance(e, Friction) else e for e in model.elements)
+        kept = dict(zip(model.frictions, _sided(model, modes), strict=True))
+        elements = tuple(kept[e] if isinstance(e, Friction) else e for e in model.elements)
         known[modes] = replace(model, elements=elements, _memo={})
     return known[modes]
 
 
-def _kept(friction: Friction, mode: int) -> Any:
-    return friction.slipping(mode) if mode else friction.sticking()
+def slips(model: Model) -> Model:
+    """The model itself, or where a multiplier presses on friction a regime of it, whose states have the same names."""
+    rows = pressed_rows(model)
+    return regime(model, (1,) * (len(model.frictions) + len(rows))) if rows else model
+
+
+def _sided(model: Model, modes: Modes) -> list[Any]:
+    """The frictions in their modes."""
+    on = [f.on_side(side) if side else f for f, side in _sides(model, modes)]
+    return [f.slipping(mode) if mode else f.sticking() for f, mode in zip(on, modes, strict=False)]
+
+
+def _sides(model: Model, modes: Modes) -> list[tuple[Friction, int]]:
+    """The frictions with the sides of what presses on them, 0 where that is no multiplier."""
+    sides = dict(zip(pressed_rows(model), modes[len(model.frictions) :], strict=True))
+    return [(f, sides.get(f.pressed_by, 0)) for f in model.frictions]
 
 
 @dataclass(frozen=True)
 class Watch:
-    """What ends a regime: the number of a friction that comes to rest (``sense`` 0), or breaks away in a ``sense``."""
+    """What ends a regime: the number of a friction that comes to rest (``sense`` 0), or breaks away in a ``sense``; the
+    number of a row that presses, counted on, whose multiplier changes its sign; ``friction`` −1: a paradox."""
 
     friction: int
-    sense: int
+    sense: int = 0
 
 
-def watches(modes: Modes) -> tuple[Watch, ...]:
+PARADOX = Watch(-1)
+"""Friction and the force that presses on it do not determine each other any more."""
+
+
+def watches(model: Model, modes: Modes) -> tuple[Watch, ...]:
     """What may end a regime, in the order of `watched`."""
     found: list[Watch] = []
     for i, mode in enumerate(modes):
-        found += [Watch(i, 0)] if mode else [Watch(i, -1), Watch(i, 1)]
-    return tuple(found)
+        found += [Watch(i)] if mode else [Watch(i, -1), Watch(i, 1)]
+    return (*found, PARADOX) if pressed_rows(model) else tuple(found)
 
 
 def watched(
@@ -65,18 +91,22 @@ def watched(
 ) -> Program:
     """x, u, p, t → ``g``: the functions of ``events``, then those of `watches`, each of which falls through zero.
 
-    They are ±δ̇ + rest for a friction that slips, F_s − λ and F_s + λ for one that sticks. ``rest`` is above 0, so that
-    rounding at the start of a slip does not end it. With ``supply``, the last entry of x is the energy supplied.
+    They are ±δ̇ + rest for a friction that slips, F_s − λ and F_s + λ for one that sticks, ±λ_N + rest of a row that
+    presses. ``rest`` is above 0, so that rounding at the start of a slip does not end it. With ``supply``, the last
+    entry of x is the energy supplied.
     """
     seen = Observed(regime(model, modes))
     g = list(impact_outputs(seen, [(name, function, {}) for name, function, _ in events], supply)["g"].ids)
     graph, states = seen.graph, _states(seen, model, modes)
-    for mode, state in zip(modes, states, strict=True):
+    for mode, state in zip(modes, states, strict=False):
         if mode:
             speed = state.rate if mode > 0 else graph.neg(state.rate)
             g.append(graph.add(speed, graph.const(rest)))
         else:
             g += [graph.sub(state.most, state.effort), graph.add(state.most, state.effort)]
+    g += [graph.add(force, graph.const(rest)) for force in _normals(seen, model, modes)]
+    if pressed_rows(model):
+        g.append(graph.sub(_regularity(seen.mechanics), graph.const(LEAST_REGULARITY)))
     outputs = {"g": Output(tuple(g), (len(g),))}
     return with_feedback(seen, outputs, feedback, "ends of a regime", (SUPPLY,) if supply else ())
 
@@ -85,7 +115,9 @@ def verdict(model: Model, modes: Modes, feedback: Feedback) -> Program:
     """x, u, p, t → for every friction (k,): ``rate`` δ̇, ``change`` δ̈, ``effort`` on δ, ``least`` F and ``most`` F_s.
 
     ``effort`` is λ where it sticks. ``dv`` (nv,) is the least change of the velocities after which all rows hold, those
-    of what sticks among them. ``dependent`` is the number of rows that follow from others there.
+    of what sticks among them. ``dependent`` is the number of rows that follow from others there. For every row that
+    presses ``normal`` is |λ_N|, below 0 on the wrong side; ``regularity`` is above 0 as long as friction and what
+    presses on it determine each other (`drags`).
     """
     seen = Observed(regime(model, modes))
     m = seen.mechanics
@@ -102,7 +134,26 @@ def verdict(model: Model, modes: Modes, feedback: Feedback) -> Program:
     }
     outputs = {name: Output(tuple(ids), (len(ids),)) for name, ids in columns.items()}
     outputs["dependent"] = Output((_dependent(m),), ())
+    normals = _normals(seen, model, modes)
+    outputs["normal"] = Output(tuple(normals), (len(normals),))
+    outputs["regularity"] = Output((_regularity(m),), ())
     return with_feedback(seen, outputs, feedback, "verdict on friction")
+
+
+def _normals(seen: Observed, model: Model, modes: Modes) -> list[int]:
+    """±λ_N of the rows that press, on their sides."""
+    rows, g = pressed_rows(model), seen.graph
+    if not rows:
+        return []
+    known = {row.name: x for row, x in zip(seen.mechanics.rows, seen.mechanics.constrained.multipliers, strict=True)}
+    sides = modes[len(model.frictions) :]
+    return [known[row] if side > 0 else g.neg(known[row]) for row, side in zip(rows, sides, strict=True)]
+
+
+def _regularity(m: Mechanics) -> int:
+    """The least determinant of the equations for what presses on friction; 1 if nothing does."""
+    pressing = m.constrained.pressing if m.rows else None
+    return m.graph.one if pressing is None else pressing.regularity()
 
 
 def _dependent(m: Mechanics) -> int:
@@ -131,7 +182,8 @@ def _states(seen: Observed, model: Model, modes: Modes) -> list[_State]:
         solution, left_out = m.settled
         _check_split(model, modes, left_out)
         forces = {row.name: force for row, force in zip(m.rows, solution.multipliers, strict=True)}
-    for friction, mode in zip(model.frictions, modes, strict=True):
+    for (given, side), mode in zip(_sides(model, modes), modes, strict=False):
+        friction = given.on_side(side) if side else given
         what = friction.title
         rate = friction.rate(seen.model)
         effort = seen.node(friction.slipping(mode).effort(seen.model, rate), what) if mode else forces[friction.name]
@@ -148,7 +200,9 @@ def _states(seen: Observed, model: Model, modes: Modes) -> list[_State]:
 
 def _check_split(model: Model, modes: Modes, left_out: Sequence[str]) -> None:
     """Refuse frictions whose shares of one force cannot be told."""
-    stuck = [f for f, mode in zip(model.frictions, modes, strict=True) if not mode]
+    stuck = [f for f, mode in zip(model.frictions, modes, strict=False) if not mode]
+    if left_out and not set(pressed_rows(model)).isdisjoint(left_out):
+        raise undetermined(left_out[0])
     if stuck and left_out:
         names = " and ".join(f"'{name}'" for name in (*(f.name for f in stuck), *left_out))
         raise ModelError(

@@ -1,7 +1,6 @@
 """A mechanical system on the graph, independent of how it was described.
 
-`Mechanics` contains coordinates, velocities, links, efforts and energies as nodes, from which all programs are
-computed. The equations of motion by virtual work are
+All programs are computed from the nodes of a `Mechanics`. The equations of motion by virtual work are
 
     r_i = Σ_b (inertial force − applied force) · ∂(velocity of b)/∂v_i = 0
 
@@ -10,19 +9,20 @@ which takes one reverse pass over the velocities, with the forces as cotangents.
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
 from lagrangian.dynamics.accelerations import Quadratic, condensed, solve
 from lagrangian.dynamics.axes import Accelerations
 from lagrangian.dynamics.bodies import Bodies
-from lagrangian.dynamics.dependent import without_dependent
+from lagrangian.dynamics.dependent import Known, without_dependent
+from lagrangian.dynamics.drags import AttachedDrag, slip_factor
 from lagrangian.dynamics.floating import Float, transported
 from lagrangian.dynamics.inertia import AnyLink
 from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.multipliers import AttachedRow, Problem, RowSolution
-from lagrangian.dynamics.rows import ConstraintRow
+from lagrangian.dynamics.rows import ConstraintRow, Drag
 from lagrangian.dynamics.tape import make_tape, maximal_linear_nodes, moving_nodes
 from lagrangian.dynamics.vectors import dot, minus, plus, zeros
 from lagrangian.graph import Graph, count_operations, gradient, hessian, jvp, vjp
@@ -49,7 +49,8 @@ class Mechanics:
     their power is Σ rate · effort, and Ξ_i = Σ effort · ∂rate/∂v_i. ``stores`` are the (rate, effort) pairs of the
     energies in ``potentials``. ``kinetics`` are kinetic co-energies that were given directly, ``losses`` the powers
     that dampers take. ``rows`` are the rows of constraints, ``spare`` the sets in which some are known to follow from
-    others along the motion.
+    others along the motion. ``drags`` are frictions whose normal forces are multipliers of rows. ``known`` are the
+    orders of elimination that other programs of the model found.
     """
 
     graph: Graph
@@ -65,6 +66,8 @@ class Mechanics:
     rows: list[ConstraintRow] = field(default_factory=list)
     floats: tuple[Float, ...] = ()
     spare: tuple[SpareRows, ...] = ()
+    drags: list[Drag] = field(default_factory=list)
+    known: dict[tuple[str, ...], Known] = field(default_factory=dict)
 
     @property
     def q(self) -> tuple[int, ...]:
@@ -102,9 +105,7 @@ class Mechanics:
 
     def raw_inertial(self, vdot: Sequence[int]) -> Pairs:
         """d/dt ∂T/∂v − ∂T/∂q of kinetic co-energies that were given directly, for the velocities."""
-        if not self.kinetics:
-            return []
-        return list(zip(self.v, self._lagrange(self.raw_kinetic, vdot), strict=True))
+        return list(zip(self.v, self._lagrange(self.raw_kinetic, vdot), strict=True)) if self.kinetics else []
 
     def _lagrange(self, L: int, vdot: Sequence[int]) -> list[int]:
         """d/dt ∂L/∂v − Nᵀ ∂L/∂q, minus ad_uᵀ ∂L/∂u for quasi-velocities (`floating` has the formula)."""
@@ -135,6 +136,18 @@ class Mechanics:
         applied = [(rate, g.neg(effort)) for rate, effort in (*self.stores, *self.efforts)]
         return [*inertial, *self.raw_inertial(acc.vdot), *applied]
 
+    @cached_property
+    def dragged(self) -> Pairs:
+        """The frictions whose normal forces are multipliers, with those multipliers, as (rate, effort) pairs."""
+        if not self.drags:
+            return []
+        names = [row.name for row in self.rows]
+        return self.dragged_by(dict(zip(names, self.constrained.multipliers, strict=True)))
+
+    def dragged_by(self, multipliers: Mapping[str, int]) -> Pairs:
+        """The same with multipliers that are given by the names of their rows."""
+        return [(drag.rate, self.graph.mul(slip_factor(drag), multipliers[drag.row])) for drag in self.drags]
+
     def gathered(self, pairs: Pairs) -> list[int]:
         """Σ effort · ∂rate/∂v_i of (rate, effort) pairs."""
         g = self.graph
@@ -149,7 +162,8 @@ class Mechanics:
     def inverse(self, vdot: Sequence[int]) -> list[int]:
         """The generalized forces that are missing at v̇ = vdot: M v̇ + C v + G − Ξ."""
         acc = self.accelerations(vdot)
-        return self.cheapest(self.gathered(self.missing(acc, links)) for links in self.groupings)
+        drags = [(rate, self.graph.neg(effort)) for rate, effort in self.dragged]
+        return self.cheapest(self.gathered([*self.missing(acc, links), *drags]) for links in self.groupings)
 
     def bias(self) -> list[int]:
         """`inverse` at v̇ = 0."""
@@ -227,8 +241,9 @@ class Mechanics:
         return total
 
     def loss(self) -> int:
-        """The power that dampers take."""
-        return self._sum(self.losses)
+        """The power that dampers and friction take."""
+        g = self.graph
+        return self._sum([*self.losses, *(g.neg(g.mul(effort, rate)) for rate, effort in self.dragged)])
 
     def potential_force(self) -> list[int]:
         """G = ∂V/∂q, for the velocities."""
@@ -239,7 +254,7 @@ class Mechanics:
         """d/dt ∂L/∂v − ∂L/∂q − Ξ of L = T − V, the independent route to `inverse`."""
         g = self.graph
         L = g.sub(self.kinetic(), self.potential())
-        return minus(g, self._lagrange(L, vdot), self.gathered(self.efforts))
+        return minus(g, self._lagrange(L, vdot), self.gathered([*self.efforts, *self.dragged]))
 
     # -- forward dynamics ---------------------------------------------------------------------------------------
 
@@ -288,7 +303,7 @@ class Mechanics:
     @cached_property
     def settled(self) -> tuple[RowSolution, tuple[str, ...]]:
         """The solution, and the names of rows that say again, whatever the state, what others say."""
-        return without_dependent(self.graph, self.rows, self.v, self._constrained_problems)
+        return without_dependent(self.graph, self.rows, self.v, self._constrained_problems, self.known)
 
     def _constrained_problems(self, rows: Sequence[ConstraintRow]) -> Iterator[Problem]:
         zero, few = zeros(self.graph, len(self.v)), len(self.v) <= SMALL
@@ -297,7 +312,7 @@ class Mechanics:
             for free in references:
                 acc = self.accelerations(zero, free=free)
                 asked = [pair for pair in self.row_accelerations(acc) if pair[0] in rows]
-                yield from self.problems(links, self.missing(acc, links), asked, acc.vdot)
+                yield from self.problems(links, self.missing(acc, links), asked, acc.vdot, drags=self.drags)
 
     @cached_property
     def distinct_groupings(self) -> list[list[AnyLink]]:
@@ -325,11 +340,12 @@ class Mechanics:
         fixed: Container[int] = (),
         *,
         strict: bool = True,
+        drags: Sequence[Drag] = (),
     ) -> Iterator[Problem]:
         """The eliminations worth trying: along the tape with and without exchanges, and of the mass matrix.
 
         ``pairs`` are the forces missing at ``reference``, ``rows`` come with what they are to change by, times −1; the
-        velocities in ``fixed`` (numbers) stay as they are.
+        velocities in ``fixed`` (numbers) stay as they are. ``drags`` are frictions that their multipliers press on.
         """
         H = self.inertia(links)
         ways = [(H, self._linear(pairs), True), (H, self._linear(pairs), False)]
@@ -337,7 +353,9 @@ class Mechanics:
             gathered = dict(zip(self.v, self.gathered(pairs), strict=True))
             ways.append((self._dense, gathered, False))
         attached = [AttachedRow.of(self.graph, row, value) for row, value in rows]
-        nodes, names = [a.node for a in attached], {row.name for row, _ in rows}
+        names = [row.name for row, _ in rows]
+        pressed = [AttachedDrag.of(self.graph, drag, names) for drag in drags]
+        nodes = [a.node for a in (*attached, *pressed)]
         rates = [v for i, v in enumerate(self.v) if i not in fixed]
         for form, linear, exchange in ways:
             seeds = list(dict.fromkeys((*form.rows, *linear, *nodes)))
@@ -356,7 +374,8 @@ class Mechanics:
                 self._named,
                 self.motion.constant,
                 strict,
-                [spare for spare in self.spare if names.issuperset(spare.names)],
+                [spare for spare in self.spare if set(names).issuperset(spare.names)],
+                pressed,
             )
 
     @cached_property

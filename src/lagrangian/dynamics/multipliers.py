@@ -22,6 +22,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from lagrangian.dynamics.accelerations import Elimination, Quadratic, no_inertia
+from lagrangian.dynamics.drags import AttachedDrag, Pressing
 from lagrangian.dynamics.guard import Guard, Spared
 from lagrangian.dynamics.rows import ConstraintRow
 from lagrangian.dynamics.tape import EliminationTape, Form
@@ -70,7 +71,8 @@ class Problem:
     """The input of an elimination: H and g along a tape, subject to rows. The result is added to ``reference``.
 
     With ``strict``, a row without a pivot raises `DependentRow`, and a rate without inertia is an error too. ``spare``
-    are sets of rows in which some are known to follow from others along the motion.
+    are sets of rows in which some are known to follow from others along the motion. ``drags`` are frictions that
+    multipliers press on.
     """
 
     graph: Graph
@@ -84,6 +86,11 @@ class Problem:
     constant: Callable[[Sequence[int]], bool]
     strict: bool = True
     spare: Sequence[SpareRows] = ()
+    drags: Sequence[AttachedDrag] = ()
+
+    def drag_key(self, k: int) -> int:
+        """The key of the force of a drag: it follows those of the multipliers."""
+        return -1 - len(self.rows) - k
 
     def spared(self, order: Sequence[int]) -> dict[int, Spared]:
         """The sets with spare rows by multiplier, if multipliers are eliminated by pivots in this order."""
@@ -101,7 +108,7 @@ class RowSolution:
 
     These are λ with the sign of `rows` (nearly 0 for a skipped row), the margin, the residual of a skipped row (else
     0), the sum of the magnitudes that cancel in it, and whether the row was used. ``divisors`` are divisors that no
-    margin watches, with the names of their rows.
+    margin watches, with the names of their rows. ``pressing`` are the equations of multipliers that press on friction.
     """
 
     vdot: list[int]
@@ -111,6 +118,7 @@ class RowSolution:
     sizes: list[int]
     regular: list[int]
     divisors: list[tuple[str, int]]
+    pressing: Pressing | None = None
 
 
 @dataclass
@@ -163,6 +171,9 @@ class RowElimination(Elimination):
             if attached.node in self.place:
                 self.H.add(attached.node, key, attached.sign)
             self.support[key] = self._reached(attached.node)
+        for k, drag in enumerate(self.problem.drags):
+            if drag.node in self.place:
+                self.H.add(drag.node, self.problem.drag_key(k), self.graph.neg(drag.sign))
         carried = set[int]().union(*(self._reached(i) for i in self.problem.H.rows))
         self.bare = (self.leaves - carried) if self.support else set[int]()
 
@@ -332,10 +343,28 @@ class RowElimination(Elimination):
 
     # -- result -------------------------------------------------------------------------------------------------
 
+    def pressing(self) -> Pressing | None:
+        """The equations of the multipliers that press on friction, after everything is eliminated."""
+        g, problem = self.graph, self.problem
+        if not problem.drags:
+            return None
+        forces = [problem.drag_key(k) for k in range(len(problem.drags))]
+        keys = {drag.row: -1 - drag.row for drag in problem.drags}
+        still = self.accelerations(dict.fromkeys(forces, g.zero))
+        slopes: list[dict[int, int]] = []
+        for force in forces:
+            moved = self.accelerations({**dict.fromkeys(forces, g.zero), force: g.one}, slopes=True)
+            slopes.append({row: g.neg(moved[key]) for row, key in keys.items()})
+        return Pressing.of(g, problem.drags, {row: g.neg(still[key]) for row, key in keys.items()}, slopes)
+
     def solution(self) -> RowSolution:
         """The solution, after everything is eliminated."""
         g, problem, guard = self.graph, self.problem, self.guard
-        value = self.accelerations()
+        pressing, forces = self.pressing(), dict[int, int]()
+        if pressing is not None:
+            lam = pressing.solved()
+            forces = {problem.drag_key(k): g.mul(drag.factor, lam[drag.row]) for k, drag in enumerate(problem.drags)}
+        value = self.accelerations(forces)
         keys = [-1 - r for r in range(len(problem.rows))]
         return RowSolution(
             [g.add(x, value.get(v, g.zero)) for v, x in zip(problem.rates, problem.reference, strict=True)],
@@ -345,4 +374,5 @@ class RowElimination(Elimination):
             [self.sizes.get(key, g.zero) for key in keys],
             [guard.regular[key] for key in keys],
             self.divisors,
+            pressing,
         )

@@ -18,6 +18,7 @@ from sympy.core.function import AppliedUndef
 from lagrangian.codes import Code
 from lagrangian.dynamics.describe import describe
 from lagrangian.dynamics.description import Inputs
+from lagrangian.dynamics.friction import slips
 from lagrangian.dynamics.programs import mass_matrix
 from lagrangian.errors import ModelError, Notice
 from lagrangian.graph import Graph, Program, evaluate
@@ -63,7 +64,7 @@ def dependent_rows(model: Model) -> tuple[str, ...]:
 
     def found() -> tuple[str, ...]:
         graph = Graph()
-        return describe(model, graph, Inputs.of(graph, model)).settled[1] if model.constraints else ()
+        return describe(slips(model), graph, Inputs.of(graph, model)).settled[1] if model.constraints else ()
 
     return model.remembered("dependent rows", found)
 

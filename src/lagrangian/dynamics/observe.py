@@ -21,7 +21,8 @@ from lagrangian.dynamics.programs import _program
 from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.graph import Graph, Output, Program, from_sympy
 from lagrangian.model import Model, Point, as_expr, time
-from lagrangian.model.rows import drive_symbol, multiplier_symbol
+from lagrangian.model.names import multiplier_symbol
+from lagrangian.model.rows import drive_symbol
 from lagrangian.page.plain import plain
 
 

@@ -7,6 +7,7 @@ take the cheapest possible step next is better for small systems.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import islice
 
 from lagrangian.dynamics.multipliers import DependentRow, Problem, RowElimination, RowSolution
 from lagrangian.errors import ModelError
@@ -100,7 +101,11 @@ def _solved(problem: Problem, way: Callable[..., RowElimination], *, pairs: bool
     return done.solution()
 
 
-def solutions(problem: Problem) -> Iterator[RowSolution | ModelError]:
+Order = tuple[int, Callable[..., RowElimination], bool]
+"""Which of several problems is eliminated, in what order, and whether with pairs."""
+
+
+def solutions(problem: Problem) -> Iterator[tuple[RowSolution | ModelError, Callable[..., RowElimination], bool]]:
     """The solutions in all orders to be compared, or the reason why there is none; in large systems only the tape's."""
     ways = (tape_backwards, cheapest_first) if len(problem.rates) <= MOST_FREE else (tape_backwards,)
     for way in ways:
@@ -110,29 +115,39 @@ def solutions(problem: Problem) -> Iterator[RowSolution | ModelError]:
             except DependentRow:
                 raise
             except ModelError as error:  # a rate without inertia that this order does not find a row for
-                yield error
+                yield error, way, pairs
                 continue
-            yield found
+            yield found, way, pairs
             if not any(x == problem.graph.one for x in found.margins):
                 break  # without pairs it is the same
 
 
-def cheapest_solution(problems: Iterable[Problem], *, multipliers: bool = True) -> RowSolution:
-    """The solution with the fewest operations for v̇ and λ, or for v̇ alone; terms of parameters are not counted.
+def solution_in(order: Order, problems: Iterable[Problem]) -> RowSolution | None:
+    """The solution in an order that was found before, or None if it does not succeed here."""
+    at, way, pairs = order
+    try:
+        return next((_solved(problem, way, pairs=pairs) for problem in islice(problems, at, None)), None)
+    except ModelError:
+        return None
+
+
+def cheapest_solution(problems: Iterable[Problem], *, multipliers: bool = True) -> tuple[RowSolution, Order]:
+    """The solution with the fewest operations for v̇ and λ, or for v̇ alone, and its order; terms of parameters are not
+    counted.
 
     Raises the `ModelError` of the first order if no order succeeds, and `DependentRow`.
     """
-    best: tuple[int, RowSolution] | None = None
+    best: tuple[int, RowSolution, Order] | None = None
     failed: list[ModelError] = []
-    for problem in problems:
-        for found in solutions(problem):
+    for at, problem in enumerate(problems):
+        for found, way, pairs in solutions(problem):
             if isinstance(found, ModelError):
                 failed.append(found)
                 continue
             wanted = [*found.vdot, *found.multipliers] if multipliers else found.vdot
             cost = count_operations(problem.graph, wanted, hoist=["p"]).operations
             if best is None or cost < best[0]:
-                best = cost, found
+                best = cost, found, (at, way, pairs)
     if best is None:
         raise failed[0]
-    return best[1]
+    return best[1:]

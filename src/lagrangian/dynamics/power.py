@@ -58,7 +58,7 @@ def balanced(seen: Observed) -> int:
 def supplied(seen: Observed) -> int:
     """P = Ξ·v − ∂L/∂t − ∂V_u/∂q·q̇, where V_u are the potentials that depend on inputs."""
     g, m = seen.graph, seen.mechanics
-    total = dot(g, m.gathered(m.efforts), m.v)
+    total = dot(g, m.gathered([*m.efforts, *m.dragged]), m.v)
     own = g.sub(m.kinetic(), _own_potential(seen))
     total = g.sub(total, gradient(g, own, [seen.inputs.t])[0])
     for driven in _driven(seen):

@@ -34,6 +34,7 @@ from lagrangian.errors import ModelError
 from lagrangian.graph import Output, Program, jvp, replaced, vjp
 from lagrangian.model import Frame, Model
 from lagrangian.model.elements.conditions import NoSlip, Stated
+from lagrangian.model.elements.friction import Stuck
 from lagrangian.model.rows import named_conditions, rows_of
 
 
@@ -78,8 +79,10 @@ def reaction(
         size = len(twists[0])
         kept = [i for i in range(size) if i < len(wrench) or any(column[i] != seen.graph.zero for column in twists)]
         outputs["twists"] = Output(tuple(column[i] for i in kept for column in twists), (len(kept), len(twists)))
-    if seen.mechanics.rows:
-        outputs["margins"] = _vector(seen.mechanics.constrained.margins)
+    own = [not isinstance(named.element, Stuck) for named in named_conditions(model)]
+    if any(own):
+        margins = zip(seen.mechanics.constrained.margins, own, strict=True)
+        outputs["margins"] = _vector([margin for margin, kept in margins if kept])
     if frame is not None:
         outputs["R"] = _matrix(seen.mechanics.motion.rotation(seen.description.axes[frame]))
     if state:
@@ -137,7 +140,8 @@ def _of_joint(seen: Observed, asked: Any, on: Any) -> tuple[Vector, list[Vector]
     m, _ = described(model, g, seen.inputs, release)
     own = kept[0]
     total = own.inertial(m, seen.vdot)
-    pairs = [pair for pair in (*m.stores, *m.efforts) if g.zero not in pair]
+    dragged = m.dragged_by({drag.row: seen.multiplier(drag.row) for drag in m.drags})
+    pairs = [pair for pair in (*m.stores, *m.efforts, *dragged) if g.zero not in pair]
     applied = vjp(g, [rate for rate, _ in pairs], [effort for _, effort in pairs], w)
     total = minus(g, minus(g, total, applied), own.of_rows(seen))
     still = dict.fromkeys(w, g.zero)
@@ -256,6 +260,7 @@ def _check_says_where(model: Model, element: Any) -> None:
     coordinates = [c.symbol for c in model.coordinates]
     if element.ledger == "λ":
         stated = [row for row in rows_of(model) if row.element is element and isinstance(row.condition, Stated)]
+        stated = [row for row in stated if getattr(row.condition, "between", None) is None]
         exprs = [(row.rate, [c.rate for c in model.coordinates]) for row in stated]
     else:
         between = getattr(element, "between", None)

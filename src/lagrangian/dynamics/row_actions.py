@@ -14,7 +14,7 @@ from lagrangian.dynamics.axes import PlaceMotion
 from lagrangian.dynamics.description import Description
 from lagrangian.dynamics.vectors import Vector, cross, dot, scaled, times
 from lagrangian.model import Frame, Point
-from lagrangian.model.elements.base import Condition
+from lagrangian.model.elements.base import Condition, difference
 from lagrangian.model.elements.conditions import (
     Coincidence,
     NoSlip,
@@ -23,6 +23,7 @@ from lagrangian.model.elements.conditions import (
     SameTurn,
     Separation,
     Stated,
+    Unmoved,
 )
 
 
@@ -101,6 +102,19 @@ def _no_slip(d: Description, s: NoSlip) -> list[RowAction]:
     return [RowAction(s.centre, e, 0), RowAction(s.frame, crossed(d, _gap(d, s.centre, s.at), e), 0)]
 
 
+def _held(d: Description, s: Unmoved) -> list[RowAction]:
+    if s.between is None:
+        return []
+    start, end = s.between
+    gap = _gap(d, start, end)
+    apart = [k for k, x in enumerate(difference(d.model, start, end)) if x != 0]
+    if len(apart) == 1:
+        e = [d.graph.one if k == apart[0] else d.graph.zero for k in range(len(gap))]
+    else:
+        e = scaled(d.graph, d.graph.div(d.graph.one, d.graph.sqrt(dot(d.graph, gap, gap))), gap)
+    return [RowAction(start, _opposite(d, e), 0), RowAction(end, e, 1)]
+
+
 def _nothing(d: Description, s: Any) -> list[RowAction]:
     return []
 
@@ -109,6 +123,7 @@ ACTIONS: dict[type[Condition], Callable[[Description, Any], list[RowAction]]] = 
     Coincidence: _coincidence,
     Separation: _separation,
     Stated: _nothing,
+    Unmoved: _held,
     SameTurn: _same_turn,
     Perpendicular: _perpendicular,
     OnLine: _on_line,

@@ -29,3 +29,15 @@ class ConstraintRow:
     residual: int | None = None
     acceleration: Callable[[Accelerations], int] | None = None
     scale: float = 1.0
+
+
+@dataclass(frozen=True)
+class Drag:
+    """A friction whose normal force is the multiplier λ of a row: its effort is ``factor`` · λ on ``rate``.
+
+    ``factor`` is None where it is not known whether the friction slips, and in which sense.
+    """
+
+    rate: int
+    factor: int | None
+    row: str

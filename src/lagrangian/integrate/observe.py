@@ -15,12 +15,13 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from lagrangian.codegen import Kernel, compile
+from lagrangian.codegen import Kernel
 from lagrangian.codegen.workers import over
 from lagrangian.errors import RunError
 from lagrangian.integrate.closing import Closing
 from lagrangian.integrate.design import Rows
 from lagrangian.integrate.fitness import Fitness
+from lagrangian.integrate.in_modes import LEAST, NOT_FINITE, InModes, kernel_of, lost, signals_at
 from lagrangian.integrate.projection import BREAKS, Drift, Projection
 from lagrangian.integrate.status import RunStatus
 
@@ -31,10 +32,8 @@ Array: TypeAlias = NDArray[np.float64]
 Values: TypeAlias = dict[str, NDArray[Any]]
 
 STATES = 1 << 15  # number of states that are observed together
-LEAST = 8  # the smallest number, so that machine code never has to pad
 LOGGED = 3  # copies of an event's numbers in memory: as logged, in order, and run by run
 MANY = 1000  # number of events of a run for which memory is reserved; few runs have more
-NOT_FINITE = "E503"
 
 
 def _mean(y: Array, t: Array) -> Array:
@@ -82,11 +81,6 @@ DRIFTED = {
 """What is kept of every run with a projection: the greatest of these of its `Drift`."""
 
 
-def _kernel(program: Program, **optional: float) -> Kernel:
-    """The code of a program, compiled once."""
-    return program.remembered("kernel", lambda: compile(program, optional=optional, threads=1))
-
-
 @dataclass(frozen=True)
 class Study:
     """What is done with every run of an ensemble; small, and can be sent to another process.
@@ -96,6 +90,8 @@ class Study:
     with time and are the same for all runs. ``canonical``: if ``program`` is over [q; p], the programs x → p and
     [q; p] → v. A run whose parameters ``fitness`` refuses is not started. ``options`` are passed to the solver (rtol,
     atol, step, …). ``solver``: what integrates if it is not a `Solver` of ``program``, with the same method ``solve``.
+    ``further`` are functions that compute more outputs, by name, from the outputs of a ``program`` that they have.
+    ``regimes``: where solutions have ``modes``, ``programs(modes)`` of it are the ``outputs`` and ``further`` of each.
     """
 
     program: Program
@@ -112,6 +108,8 @@ class Study:
     fitness: Fitness | None = None
     options: Mapping[str, Any] = field(default_factory=dict)
     solver: Any = None
+    further: tuple[Any, ...] = ()
+    regimes: Any = None
 
     @property
     def whole(self) -> bool:
@@ -148,13 +146,13 @@ class Study:
         """The code of the outputs; None if each is an entry of the state, so that nothing has to be computed."""
         if all(entry is not None for entry in self._entries.values()):
             return None
-        return _kernel(self.outputs)
+        return kernel_of(self.outputs)
 
     @cached_property
     def _transforms(self) -> tuple[Kernel, Kernel]:
         """The code that converts velocities to momenta, and momenta to velocities."""
         assert self.canonical is not None
-        return _kernel(self.canonical[0], u=0.0), _kernel(self.canonical[1], u=0.0)
+        return kernel_of(self.canonical[0], u=0.0), kernel_of(self.canonical[1], u=0.0)
 
     @cached_property
     def _entries(self) -> dict[str, int | None]:
@@ -230,7 +228,7 @@ class Study:
             return -1
 
         over(len(rows), size, 50 * (len(self.times) if self.whole else 1), threads, reduced)
-        failed = _lost(made["status"])
+        failed = lost(made["status"])
         for k in self.kept:
             made[k.name][failed] = np.nan
         return made
@@ -238,7 +236,15 @@ class Study:
     def _reduced(self, solution: Any, rows: Rows, part: slice, made: Values) -> None:
         """The results of the runs in ``part``."""
         states, times, beyond = self._samples(solution, rows, part)
-        y = self._observed(states, times, rows, part)
+        if self.regimes is not None:
+            y = InModes(self.regimes, self.whole, self.times, self.signals, solution, rows, part).observed(
+                states, times
+            )
+        else:
+            y = self._observed(states, times, rows, part)
+            for more in self.further:
+                u = rows.u if self.signals is None else signals_at(self.signals, times)
+                y |= more(self._evaluated(kernel_of(more.program), states, u, times, rows, part))
         for k in self.kept:
             if k.reduction is None:
                 made[k.name][part] = y[k.of] if beyond is None else np.where(beyond, np.nan, y[k.of])
@@ -252,7 +258,7 @@ class Study:
         run keeps its first state, so that everything observed is finite; its results are dropped later.
         """
         status, reached = solution.status[part], solution.reached[part]
-        failed = _lost(status)
+        failed = lost(status)
         ended = np.where(failed, self.times[0], reached)
         last = np.where(failed[:, None], 0.0, solution.final[part])
         if not self.whole:
@@ -337,15 +343,3 @@ class Study:
                 np.take_along_axis(mine, order, axis=1), np.take_along_axis(solution.event_time, order, axis=1), np.nan
             )
             made[f"time {e.name}"][:] = times if e.times > 1 else times[:, 0]
-
-
-def _lost(status: NDArray[Any]) -> NDArray[np.bool_]:
-    """Which runs have no results: those that failed, except those whose events accumulate, because their motion is
-    over."""
-    return (status < 0) & (status != RunStatus.ZENO)
-
-
-def signals_at(signals: Any, times: Array) -> Array:
-    """Piecewise linear inputs at ``times`` (…), shape (…, nu); at a knot, those of the piece that begins there."""
-    k = np.searchsorted(signals.knots, times, side="right") - 1
-    return signals.start[k] + signals.slope[k] * (times - signals.knots[k])[..., None]

@@ -20,11 +20,11 @@ from lagrangian.integrate.status import RunStatus
 
 from . import check
 from .chattering import NEAR, Pace, Sticking
+from .in_modes import signals_at
 from .machine import Machine, build_of
 from .methods import METHODS, memory_layout
 from .methods.events import ROUNDS
 from .methods.loop import IntegratorVariant
-from .observe import signals_at
 from .problem import Events, Signals
 from .projection import DRIFT, Drift, Projection
 from .solution import Solution

@@ -35,5 +35,6 @@ class RunStatus(IntEnum):
     BROKEN = -11, "an event leaves a state that breaks a constraint"
     APART = -13, "a row of constraints that followed from the others does so no more"
     OPEN = -12, "no start near the given one satisfies the constraints"
+    PARADOX = -14, "friction and the force that presses on it do not determine each other (Painlevé's paradox)"
     LOST = -127, "its results are damaged"
     NOT_RUN = -128, "not run yet"

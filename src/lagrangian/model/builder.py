@@ -5,7 +5,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any, TypeVar
 
 import sympy as sp
@@ -22,7 +22,7 @@ from lagrangian.model.floating import Floating
 from lagrangian.model.geometry import Frame, Point, as_expr, as_vector, is_listed
 from lagrangian.model.model import Model
 from lagrangian.model.names import check_name, is_text, time
-from lagrangian.model.rows import check_rows
+from lagrangian.model.rows import check_rows, with_pressing_rows
 from lagrangian.model.symbols import Coordinate, Velocity
 
 E = TypeVar("E", bound=Element)
@@ -302,6 +302,16 @@ class Builder(Declarations):
             number += 1
         return f"{base} {number}"
 
+    def exchange(self, elements: Iterable[Element]) -> None:
+        """Put other elements in the places of those that were added."""
+        self._frozen = None
+        self._elements = list(elements)
+        self._element_names = {e.name: e for e in self._elements}
+
+    def is_free(self, name: str) -> bool:
+        """Whether no symbol has this name."""
+        return not any(name in table for table in self._symbol_tables)
+
     @property
     def floating(self) -> tuple[Coordinate | Velocity, ...]:
         """The coordinates and velocities of floating frames, in order."""
@@ -383,6 +393,7 @@ class Builder(Declarations):
             settings=dict(self.settings),
             look=dict(self.look),
         )
+        made = with_pressing_rows(made)
         check_effect(made)
         check_rows(made)
         self._frozen = made

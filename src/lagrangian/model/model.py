@@ -96,8 +96,8 @@ class Model(Brief):
 
     @cached_property
     def frictions(self) -> tuple[Friction, ...]:
-        """Dry friction, in order: what slips or sticks."""
-        return tuple(e for e in self.elements if isinstance(e, Friction))
+        """Dry friction, in order, of which it is not known whether it slips or sticks."""
+        return tuple(e for e in self.elements if isinstance(e, Friction) and e.sense is None)
 
     @cached_property
     def floating(self) -> tuple[Frame, ...]:

@@ -24,6 +24,11 @@ def moving_symbol(name: str, *, positive: bool = False) -> AppliedUndef:
     return cast("AppliedUndef", sp.Function(name, **assumed)(time))
 
 
+def multiplier_symbol(name: str) -> sp.Symbol:
+    """The symbol of a row's multiplier λ in expressions of a run. No symbol of a user can have its name."""
+    return sp.Symbol(f"λ({name})", real=True)
+
+
 FUNCTIONS = frozenset(
     [
         "sin",

@@ -6,14 +6,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import cast
 
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.errors import ModelError
-from lagrangian.model.elements import Element, Words
+from lagrangian.errors import ModelError, did_you_mean
+from lagrangian.model.elements import Element, Friction, Words
 from lagrangian.model.elements.answers import Unit
 from lagrangian.model.elements.base import Condition
 from lagrangian.model.elements.conditions import Stated
@@ -63,14 +63,52 @@ def named_conditions(model: Model) -> Iterator[NamedCondition]:
             yield NamedCondition(name, element, condition)
 
 
-def multiplier_symbol(name: str) -> sp.Symbol:
-    """The symbol of a row's multiplier λ in expressions of a run. No symbol of a user can have its name."""
-    return sp.Symbol(f"λ({name})", real=True)
-
-
 def drive_symbol(name: str) -> sp.Symbol:
     """The symbol of a₀ of a row c = A v + a₀ in expressions of a run: the part of c that depends on time alone."""
     return sp.Symbol(f"a₀({name})", real=True)
+
+
+def pressed_rows(model: Model) -> tuple[str, ...]:
+    """The rows whose multipliers are normal forces of friction, each once, in the order of the frictions."""
+    return tuple(dict.fromkeys(f.pressed_by for f in model.frictions if f.pressed_by))
+
+
+def with_pressing_rows(model: Model) -> Model:
+    """The model in which every friction that is pressed by a constraint names the row.
+
+    Raises `ModelError` (E402) if there is no such row, or several.
+    """
+    if not pressed_rows(model):
+        return model
+    rows: dict[str, list[str]] = {}
+    for named in named_conditions(model):
+        rows.setdefault(named.element.name, []).append(named.name)
+    known = {name: [name] for names in rows.values() for name in names}
+    elements = tuple(
+        _pressed(e, {**rows, **known}) if isinstance(e, Friction) and e.pressed_by else e for e in model.elements
+    )
+    return replace(model, elements=elements, _memo={})
+
+
+def _pressed(friction: Friction, rows: dict[str, list[str]]) -> Friction:
+    found = rows.get(friction.pressed_by)
+    if found is None:
+        raise ModelError(
+            f"no row of a constraint is named '{friction.pressed_by}'",
+            element=friction.title,
+            place=friction.place,
+            fix=did_you_mean(friction.pressed_by, rows) or "known: " + (", ".join(rows) or "none"),
+            code="E402",
+        )
+    if len(found) > 1:
+        raise ModelError(
+            f"the constraint '{friction.pressed_by}' has {len(found)} rows, and one of them is the normal force",
+            element=friction.title,
+            place=friction.place,
+            fix=f"pressed_by='{found[0]}', or one friction for each of {', '.join(found)}",
+            code="E412",
+        )
+    return friction.pressed(found[0])
 
 
 def check_rows(model: Model) -> None:

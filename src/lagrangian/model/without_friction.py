@@ -15,6 +15,8 @@ def check_no_friction(model: Model, what: str) -> None:
         f"it sticks or slips, and accelerations at rest are no smooth function of the state: {what}",
         element=friction.title,
         place=friction.place,
-        fix="use simulate, ensemble or sweep; or describe the slip alone, by a damper with a smooth law of its rate",
+        fix="use simulate, ensemble or sweep; or a regime in which nothing jumps: "
+        f"regime({{'{friction.name}': 1}}) while it slips and its deflection grows, -1 while it slips the other way, "
+        "0 while it sticks",
         code="E311",
     )

@@ -116,6 +116,10 @@ class _Reader:
             )
         return bodies[value]
 
+    def row(self, key: str, value: Any, entry: Entry) -> Any:
+        """Read the name of a row; constraints may follow in the file, so it is looked up when all are there."""
+        return value
+
     def directions(self, key: str, value: Any, entry: Entry) -> Any:
         """Read a vector, or a list of vectors."""
         path, what = self.where(key), f"the {key} of {self.title}"
@@ -154,6 +158,7 @@ _FIELDS: dict[FieldKind, Callable[[_Reader, str, Any, Entry], Any]] = {
     FieldKind.POINTS: _Reader.points,
     FieldKind.FRAMES: _Reader.frames,
     FieldKind.BODY: _Reader.body,
+    FieldKind.ROW: _Reader.row,
     FieldKind.DIRECTIONS: _Reader.directions,
 }
 

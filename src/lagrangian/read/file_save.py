@@ -246,6 +246,8 @@ class _Writer:
             return "[" + ", ".join(self.vector(value.row(i), what) for i in range(3)) + "]"
         if isinstance(value, Element):
             return _text(value.name)
+        if isinstance(value, str):
+            return _text(value)
         if isinstance(value, tuple):
             if isinstance(value[0], sp.Expr):
                 return self.vector(value, what)

@@ -141,6 +141,7 @@ _TYPES: dict[FieldKind, Any] = {
     FieldKind.POINTS: Points,
     FieldKind.FRAMES: Frames,
     FieldKind.BODY: str,
+    FieldKind.ROW: str,
     FieldKind.DIRECTIONS: Directions,
     FieldKind.STRENGTH_OF_GRAVITY: Expression,
 }

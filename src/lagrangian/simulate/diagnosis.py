@@ -14,6 +14,7 @@ from lagrangian.integrate.status import RunStatus
 from lagrangian.page.plain import plain
 from lagrangian.simulate import sticking
 from lagrangian.simulate.integrating import Task, right_hand_side
+from lagrangian.simulate.settling import PARADOX_FIX
 
 Array = NDArray[np.float64]
 
@@ -69,6 +70,8 @@ def _reason(task: Task, outcome: Outcome) -> tuple[str, str]:
             )
         case RunStatus.ZENO | RunStatus.CROWDED if task.model.frictions:
             return said, Advice("a shorter run, or a larger ", Argument("max_events"))
+        case RunStatus.PARADOX:
+            return f"[E505] {said}", PARADOX_FIX
         case RunStatus.ZENO:
             return (
                 f"[E505] event '{_last_event(task, outcome)}' repeats itself without end: {len(outcome.hits)} events, "

@@ -135,7 +135,7 @@ def _close(task: Task, outcome: Outcome, drift: RunDrift) -> tuple[Notice, ...]:
 
 
 def _margins(task: Task, outcome: Outcome, k: int) -> Array:
-    found = _at(task.model, dynamics.multipliers, task, outcome.times[k], outcome.states[k])
+    found = _at(dynamics.slips(task.model), dynamics.multipliers, task, outcome.times[k], outcome.states[k])
     return np.array(found["margins"], float)
 
 

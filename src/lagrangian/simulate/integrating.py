@@ -91,7 +91,7 @@ def right_hand_side(model: Model, drive: InputSignals, *, canonical: bool = Fals
     """ẋ with feedback compiled in and, if anything can supply energy, the supplied energy as a last state."""
     key = ("rhs", canonical, frozenset(drive.feedback.items()))
     make = dynamics.canonical if canonical else dynamics.closed
-    return remembered(model, key, lambda: make(model, drive.feedback, supply=True))
+    return remembered(model, key, lambda: make(dynamics.slips(model), drive.feedback, supply=True))
 
 
 def projection(model: Model, rates: Program, *, project: bool) -> Projection | None:

@@ -22,12 +22,16 @@ from lagrangian.simulate.drift import check_method
 from lagrangian.simulate.events import listed_events
 from lagrangian.simulate.inputs import InputSignals
 from lagrangian.simulate.integrating import SYMPLECTIC, projection, remembered
+from lagrangian.simulate.joint_forces import JointForce, joint_force, observed_joints
 from lagrangian.simulate.quantities import quantity
+from lagrangian.simulate.regime_outputs import RegimeOutputs
 from lagrangian.simulate.settings import DEFAULT, RunSettings
 from lagrangian.simulate.variation import TAKEN
 
 Array: TypeAlias = NDArray[np.float64]
 Outputs: TypeAlias = Mapping[str, Any] | Iterable[Any] | str | sp.Expr | None
+
+Observable: TypeAlias = sp.Expr | JointForce
 
 MOST_CHARACTERS = 200
 """The longest name of a result, which is also the name of a folder in a store."""
@@ -53,7 +57,7 @@ def instants(model: Model, settings: RunSettings) -> Array:
 
 def study_of(
     model: Model, settings: RunSettings, recording: Recording, drive: InputSignals, times: Array
-) -> tuple[Study, dict[str, sp.Expr]]:
+) -> tuple[Study, dict[str, Observable]]:
     """What is done with every run, and the observed expressions by name.
 
     Raises `RunError` or `ModelError` for unknown names and values that do not fit.
@@ -62,14 +66,16 @@ def study_of(
     if method not in METHODS:
         fix = f"use one of {', '.join(METHODS)}, or run one at a time with simulate"
         raise RunError(f"method '{method}' is one of SciPy's, which are not for ensembles", fix=fix, code="E402")
-    expressions, kept = _kept(model, recording.outputs, recording.reduce)
+    asked, kept = _kept(model, recording.outputs, recording.reduce)
+    expressions = {name: x for name, x in asked.items() if not isinstance(x, JointForce)}
+    joints = {name: x for name, x in asked.items() if isinstance(x, JointForce)}
     events, events_kept = _events(model, settings, recording, drive)
     check_method(model, method)
     slipping.check_method(model, method)
     signals = None if drive.constant else Signals(*drive.pieces(float(times[0]), float(times[-1])))
     canonical, feedback = method in SYMPLECTIC, frozenset(drive.feedback.items())
     make = dynamics.canonical if canonical else dynamics.closed
-    rates = remembered(model, ("runs", canonical, feedback), lambda: make(model, drive.feedback))
+    rates = remembered(model, ("runs", canonical, feedback), lambda: make(dynamics.slips(model), drive.feedback))
     study = Study(
         program=rates,
         method=method,
@@ -77,7 +83,7 @@ def study_of(
         outputs=remembered(
             model,
             ("observed", tuple(expressions.items()), feedback),
-            lambda: dynamics.observe_closed(model, expressions, drive.feedback),
+            lambda: dynamics.observe_closed(dynamics.slips(model), expressions, drive.feedback),
         ),
         kept=kept,
         events=events,
@@ -88,9 +94,15 @@ def study_of(
         if canonical
         else None,
         options=_accuracy(settings, method),
-        solver=slipping.solver_of_runs(model, settings, method, drive, expressions) if model.frictions else None,
+        solver=slipping.solver_of_runs(model, settings, method, drive) if model.frictions else None,
+        regimes=RegimeOutputs(model, expressions, joints, drive.feedback) if model.frictions else None,
+        further=remembered(
+            model,
+            ("joints", tuple(joints.items()), feedback),
+            lambda: observed_joints(dynamics.slips(model), joints, drive.feedback),
+        ),
     )
-    return study, expressions
+    return study, asked
 
 
 def _accuracy(settings: RunSettings, method: str) -> dict[str, Any]:
@@ -105,14 +117,14 @@ def _accuracy(settings: RunSettings, method: str) -> dict[str, Any]:
 
 def _kept(
     model: Model, outputs: Outputs, reduce: str | Sequence[str] | None
-) -> tuple[dict[str, sp.Expr], tuple[Kept, ...]]:
+) -> tuple[dict[str, Observable], tuple[Kept, ...]]:
     """The expressions to observe by name, and the results to store of each."""
     reductions = list(reduce) if isinstance(reduce, Iterable) and not isinstance(reduce, str) else [reduce]
     for r in reductions:
         _reduction(r)
     if not reductions:
         raise RunError("reduce is empty", fix='reduce=("final",), or reduce=None for samples', code="E501")
-    expressions: dict[str, sp.Expr] = {}
+    expressions: dict[str, Observable] = {}
     kept: dict[str, Kept] = {}
     for name, asked in _named(model, outputs):
         own, expr, title = _asked(model, name, asked)
@@ -159,7 +171,7 @@ def _named(model: Model, outputs: Outputs) -> list[tuple[str | None, Any]]:
     return [(None, asked) for asked in outputs]
 
 
-def _asked(model: Model, name: str | None, asked: Any) -> tuple[str | None, sp.Expr, str]:
+def _asked(model: Model, name: str | None, asked: Any) -> tuple[str | None, Observable, str]:
     """The reduction that an output requests ("max theta1"), its expression, and its name."""
     if isinstance(asked, sp.Expr):
         return None, asked, name or plain(asked)
@@ -168,6 +180,8 @@ def _asked(model: Model, name: str | None, asked: Any) -> tuple[str | None, sp.E
     first, space, rest = asked.strip().partition(" ")
     own = first if space and first in REDUCTIONS else None
     text = rest.strip() if own else asked.strip()
+    if (force := joint_force(model, text)) is not None:
+        return own, force, name or text
     try:
         expr = quantity(model, text, f"output '{text[:40]}'")
     except ModelError as trouble:

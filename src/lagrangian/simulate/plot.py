@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from lagrangian.errors import ModelError
 from lagrangian.model import Frame, Model
-from lagrangian.model.rows import Row, multiplier_symbol, rows_of
+from lagrangian.model.names import multiplier_symbol
+from lagrangian.model.rows import Row, rows_of
 from lagrangian.page.plain import plain
 from lagrangian.simulate.integrating import remembered
 from lagrangian.simulate.quantities import multiplier_words, quantity, row_of

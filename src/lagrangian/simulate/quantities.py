@@ -9,7 +9,8 @@ import sympy as sp
 from lagrangian import read
 from lagrangian.errors import ModelError, did_you_mean
 from lagrangian.model import Model
-from lagrangian.model.rows import Row, multiplier_symbol, named_conditions, rows_of
+from lagrangian.model.names import multiplier_symbol
+from lagrangian.model.rows import Row, named_conditions, rows_of
 from lagrangian.page.plain import plain
 
 

@@ -45,16 +45,22 @@ class Reaction(Brief):
 
 def worked_out(model: Model, made: ReactionProgram, answer: Mapping[str, Array]) -> Reaction:
     """The reaction from the outputs of its program."""
-    wrench, d = made.sign * np.asarray(answer["wrench"]), model.dimension
-    if "twists" in answer:
-        wrench = across(wrench, np.asarray(answer["twists"]))
-    force, torque = wrench[..., :d], wrench[..., d:]
+    d = model.dimension
+    force, torque = force_and_torque(made.sign, d, answer)
     if "R" in answer:
         back = np.swapaxes(np.asarray(answer["R"]), -1, -2)
         force = np.einsum("...ij,...j->...i", back, force)
         torque = torque if d == 2 else np.einsum("...ij,...j->...i", back, torque)
     notices = _not_unique(model, np.asarray(answer["margins"])) if "margins" in answer else ()
     return Reaction(force, torque[..., 0] if d == 2 else torque, made.on, made.at, notices)
+
+
+def force_and_torque(sign: int, dimension: int, answer: Mapping[str, Array]) -> tuple[Array, Array]:
+    """The force (..., d) and the torque (..., 1 or 3) in the fixed axes, from the outputs of a reaction's program."""
+    wrench = sign * np.asarray(answer["wrench"])
+    if "twists" in answer:
+        wrench = across(wrench, np.asarray(answer["twists"]))
+    return wrench[..., :dimension], wrench[..., dimension:]
 
 
 def across(wrench: Array, twists: Array) -> Array:

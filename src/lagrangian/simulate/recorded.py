@@ -19,8 +19,8 @@ from lagrangian.calls import TRAJECTORY, Guided
 from lagrangian.errors import ModelError, NoSuchEntry, Notice, did_you_mean
 from lagrangian.integrate.status import RunStatus
 from lagrangian.model import Element, Model, Point, as_expr
-from lagrangian.model.rows import drive_symbol, multiplier_symbol, named_conditions
-from lagrangian.model.without_friction import check_no_friction
+from lagrangian.model.names import multiplier_symbol
+from lagrangian.model.rows import drive_symbol, named_conditions
 from lagrangian.simulate.drift import RunDrift
 from lagrangian.simulate.integrating import remembered
 from lagrangian.simulate.quantities import quantity
@@ -111,6 +111,7 @@ class Recorded(Guided):
     notices: tuple[Notice, ...] = ()
     drift: RunDrift | None = None
     modes: Mapping[str, NDArray[np.int8]] = field(default_factory=dict[str, NDArray[np.int8]])
+    regimes: NDArray[np.int8] = field(default_factory=lambda: np.zeros((0, 0), np.int8))
     reactions: Sequence[str] = ()
 
     # -- quantities ---------------------------------------------------------------------------------------------
@@ -167,7 +168,7 @@ class Recorded(Guided):
         """
         if not self.modes:
             return self._evaluated_in(self.model, key, make, slice(None))
-        regimes, which = np.unique(np.array(list(self.modes.values())).T, axis=0, return_inverse=True)
+        regimes, which = np.unique(self.regimes, axis=0, return_inverse=True)
         found: dict[str, Array] = {}
         for k, modes in enumerate(regimes.tolist()):
             at = np.flatnonzero(which.reshape(-1) == k)
@@ -251,14 +252,17 @@ class Recorded(Guided):
         Torques and springs that act on a joint's own coordinate are no part of its reaction. Raises `ModelError` for
         what is no joint.
         """
-        check_no_friction(self.model, "reactions are not computed from regime to regime")
         key = ("reaction", joint, on, axes, frozenset(self.feedback.items()))
-        made = remembered(
-            self.model,
-            (*key, "program"),
-            lambda: dynamics.reaction(self.model, joint, on, axes, self.feedback, state=True),
-        )
-        return worked_out(self.model, made, self._evaluated(key, lambda _: made.program))
+
+        def made(model: Model) -> dynamics.ReactionProgram:
+            return remembered(
+                model,
+                (*key, "program"),
+                lambda: dynamics.reaction(model, joint, on, axes, self.feedback, state=True),
+            )
+
+        first = made(dynamics.slips(self.model))
+        return worked_out(self.model, first, self._evaluated(key, lambda model: made(model).program))
 
     @cached_property
     def multipliers(self) -> Mapping[str, Array]:

@@ -15,6 +15,7 @@ from lagrangian.errors import RunError
 from lagrangian.graph import Program, evaluate
 from lagrangian.integrate import Events, Solver
 from lagrangian.model import Model
+from lagrangian.model.rows import pressed_rows
 from lagrangian.simulate import resets
 from lagrangian.simulate.events import Event
 from lagrangian.simulate.integrating import projection, remembered
@@ -53,6 +54,7 @@ class Regimes:
         self.project, self.supply = project, supply
         self.size = len(model.coordinates) + len(model.velocities)
         self.count = len(model.frictions)
+        self.start: Modes = (0,) * self.count + (1,) * len(pressed_rows(model))
         self.drifts = bool(model.constraints) and dynamics.projection(model) != (None, None)
         self._key = (method, frozenset(self.feedback.items()), project, supply)
         if any(e.reset for e in events) and model.constraints:
@@ -75,7 +77,7 @@ class Regimes:
         )
         supplies = len(program.inputs["x"]) > self.size
         impacts = [(e.title, e.expression, e.reset) for e in self.events]
-        ends = dynamics.watches(modes)
+        ends = dynamics.watches(self.model, modes)
         watched = dynamics.watched(self.model, modes, impacts, self.feedback, supply=supplies, rest=rest)
         events = Events(
             watched,
@@ -91,6 +93,11 @@ class Regimes:
         key = ("verdict", *self._key)
         model = dynamics.regime(self.model, modes)
         return remembered(model, key, lambda: dynamics.verdict(self.model, modes, self.feedback))
+
+    def paradox(self, modes: Modes) -> int:
+        """The number of the event at which friction and what presses on it determine each other no more; −1: none."""
+        ends = dynamics.watches(self.model, modes)
+        return len(self.events) + ends.index(dynamics.PARADOX) if dynamics.PARADOX in ends else -1
 
     def after(self, k: int, x: Array, u: Array, p: Array, t: float) -> Array:
         """The state after event k."""

@@ -235,7 +235,7 @@ def _jumps(task: Task, hits: Sequence[Hit], t: Array, n: int, *, after_last: boo
         return total
     key = ("power", frozenset(task.drive.feedback.items()))
     kernel = remembered(
-        task.model, key, lambda: machine.compile(dynamics.power_closed(task.model, task.drive.feedback))
+        task.model, key, lambda: machine.compile(dynamics.power_closed(dynamics.slips(task.model), task.drive.feedback))
     )
     at = np.array([h.time for h in changed])
     before = np.array([h.before[:n] for h in changed])

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
-import sympy as sp
 
 from lagrangian import dynamics
-from lagrangian.dynamics.observe import holds_acceleration
 from lagrangian.errors import RunError
 from lagrangian.integrate import METHODS, RunStatus
 from lagrangian.integrate.scipy_methods import Outcome
 from lagrangian.model import Model
-from lagrangian.model.rows import multiplier_symbol, named_conditions
 from lagrangian.simulate.events import listed_events
 from lagrangian.simulate.inputs import InputSignals
 from lagrangian.simulate.integrating import SYMPLECTIC, Task, outcome_of, right_hand_side, solver_options
@@ -42,19 +38,8 @@ def check_method(model: Model, method: str) -> None:
     )
 
 
-def solver_of_runs(
-    model: Model, settings: RunSettings, method: str, drive: InputSignals, expressions: Mapping[str, sp.Expr]
-) -> StickSlip:
-    """What integrates the runs of an ensemble, of which ``expressions`` are observed."""
-    for name, expr in expressions.items():
-        worked = model.expand(expr)
-        rows = {multiplier_symbol(row.name) for row in named_conditions(model)}
-        if holds_acceleration(worked, model) or not rows.isdisjoint(worked.free_symbols):
-            raise RunError(
-                f"the output '{name}' contains an acceleration or a multiplier, which depend on what sticks",
-                fix="observe coordinates and rates; simulate gives accelerations and multipliers of one run",
-                code="E501",
-            )
+def solver_of_runs(model: Model, settings: RunSettings, method: str, drive: InputSignals) -> StickSlip:
+    """What integrates the runs of an ensemble."""
     events = listed_events(settings.events)
     return StickSlip(model, method, drive.feedback, events, project=settings.project, supply=False)
 
@@ -74,6 +59,7 @@ class SlipRun:
         modes = self.solution.modes[0, : min(count, len(self.outcome.times))]
         modes = np.concatenate([modes, np.repeat(self.solution.last_modes, count - len(modes), axis=0)])
         made.modes = Entries({f.name: modes[:, i] for i, f in enumerate(frictions)}, "modes")
+        made.regimes = modes
         events = dict(made.events)
         for i, f in enumerate(frictions):
             for word, sticks in (("sticks", True), ("slips", False)):

@@ -62,7 +62,7 @@ def onto_constraints(
 
 def _check_divisors(model: Model, p: Array, t: float) -> None:
     """Raise an error for parameters that make a coefficient 0 by which the accelerations are divided."""
-    program: Program = remembered(model, "divisors", lambda: dynamics.divisors(model))
+    program: Program = remembered(model, "divisors", lambda: dynamics.divisors(dynamics.slips(model)))
     if not program.outputs:
         return
     sizes = {"q": len(model.coordinates), "v": len(model.velocities), "u": len(model.inputs)}

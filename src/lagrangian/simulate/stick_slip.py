@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 
 from lagrangian import dynamics
 from lagrangian.integrate import Drift, RunStatus, Signals, Solution
-from lagrangian.integrate.observe import signals_at
+from lagrangian.integrate.in_modes import signals_at
 from lagrangian.simulate.regimes import Modes, Regimes
-from lagrangian.simulate.settling import Crossroads
+from lagrangian.simulate.settling import Crossroads, Paradox
 
 Array = NDArray[np.float64]
 
@@ -43,8 +43,8 @@ class Transition:
 
 @dataclass
 class SlipSolution(Solution):
-    """N runs with friction: besides, the ``modes`` (N, S, k) at the samples, the ``last_modes`` (N, k), and the
-    transitions of every run."""
+    """N runs with friction: besides, the ``modes`` (N, S, k) at the samples, the ``last_modes`` (N, k), both with the
+    sides of rows that press after the frictions, and the transitions of every run."""
 
     modes: NDArray[np.int8] = field(kw_only=True)
     last_modes: NDArray[np.int8] = field(kw_only=True)
@@ -115,11 +115,15 @@ class _Run:
     def go(self, x: Array, max_steps: int, max_events: int, until: float) -> None:
         """Integrate from the first time to the last, regime by regime."""
         t, end = float(self.times[0]), float(self.times[-1])
-        modes = self.crossroads(x, t).settled((0,) * self.way.count, set(), {})
+        modes, paradox = self.way.start, False
+        try:
+            modes = self.crossroads(x, t).settled(modes, set(), {})
+        except Paradox:
+            paradox = True
         self.states.append(x)
         self.modes.append(modes)
-        x, soon = self.landed(modes, x, t), 0
-        while True:
+        x, soon = (x if paradox else self.landed(modes, x, t)), 0
+        while not paradox:
             left = until - time.monotonic()
             if t >= end or left <= 0:
                 self.status = RunStatus.REACHED if t >= end else RunStatus.LATE
@@ -129,11 +133,18 @@ class _Run:
             x, t, fired = self.regime_from(modes, x, t, max_steps - self.steps, room, left)
             if not fired:
                 break
+            if paradox := self.way.paradox(modes) in fired:
+                break
             soon = soon + 1 if t - before <= SOON * max(abs(t), end - float(self.times[0])) else 0
             if soon > MOST_SOON or room <= 1:
                 self.status = RunStatus.ZENO if soon > MOST_SOON else RunStatus.CROWDED
                 break
-            x, modes = self.turned(modes, x, t, fired)
+            try:
+                x, modes = self.turned(modes, x, t, fired)
+            except Paradox:
+                paradox = True
+        if paradox:
+            self.status = RunStatus.PARADOX
         self.reached, self.final, self.last = t, x, modes
 
     def regime_from(
@@ -190,18 +201,20 @@ class _Run:
             changed = np.abs(after.judged(modes)["rate"] - before.judged(modes)["rate"]) > before.near
             new = after.settled(modes, {i for i, mode in enumerate(modes) if not mode and not changed[i]}, {})
         else:
-            ends = [dynamics.watches(modes)[k - len(way.events)] for k in fired]
+            ends = [dynamics.watches(way.model, modes)[k - len(way.events)] for k in fired]
             forced = {end.friction: end.sense for end in ends if end.sense}
-            resting = {i for i, mode in enumerate(modes) if not mode} | {end.friction for end in ends}
+            turned = {end.friction for end in ends if end.friction >= way.count}
+            resting = ({i for i, mode in enumerate(modes) if not mode} | {end.friction for end in ends}) - turned
+            forced.update((i, -modes[i]) for i in turned)
             new = self.crossroads(x, t).settled(modes, resting, forced)
         for i, (a, b) in enumerate(zip(modes, new, strict=True)):
-            if a != b:
+            if a != b and i < way.count:
                 self.transitions.append(Transition(i, b, t, x))
         return self.landed(new, x, t), new
 
     def landed(self, modes: Modes, x: Array, t: float) -> Array:
         """The state with the velocities that what sticks allows."""
-        if all(modes):
+        if all(modes[: self.way.count]):
             return x
         x = x.copy()
         n = len(self.way.model.coordinates)
@@ -222,9 +235,9 @@ def _wider(a: Drift, b: Drift) -> Drift:
 def _gathered(runs: Sequence[_Run]) -> SlipSolution:
     """The runs as arrays over runs and samples; NaN after the end of a run."""
     first = runs[0]
-    samples, size, count = len(first.times) if first.store else 0, len(first.final), first.way.count
+    samples, size = len(first.times) if first.store else 0, len(first.final)
     states = np.full((len(runs), samples, size), math.nan)
-    modes = np.zeros((len(runs), samples, count), np.int8)
+    modes = np.zeros((len(runs), samples, len(first.way.start)), np.int8)
     most = max(len(r.hits) for r in runs)
     index = np.full((len(runs), most), -1)
     when, where = np.full((len(runs), most), math.nan), np.full((len(runs), most, size), math.nan)

@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 import numpy as np
-import sympy as sp
 from numpy.typing import NDArray
 
 from lagrangian.advice import Advice
@@ -33,7 +32,8 @@ from lagrangian.simulate.drift import of_runs
 from lagrangian.simulate.ensemble import Ensemble
 from lagrangian.simulate.inputs import InputSignals, check_covers, driving
 from lagrangian.simulate.integrating import remembered
-from lagrangian.simulate.per_run import Recording, instants, study_of
+from lagrangian.simulate.joint_forces import JointForce
+from lagrangian.simulate.per_run import Observable, Recording, instants, study_of
 from lagrangian.simulate.plot import Units
 from lagrangian.simulate.settings import STORE, Execution, RunSettings, check_names, chosen, names_of, picked, whole
 from lagrangian.simulate.starts import held, starts_of_runs
@@ -268,13 +268,13 @@ def _plan(
     model: Model,
     varying: Varying,
     study: Study,
-    expressions: Mapping[str, sp.Expr],
+    expressions: Mapping[str, Observable],
     portions: Portions,
     task: dict[str, Any],
 ) -> ChunkPlan:
     fields, units = study.fields(), Units(model)
     dims = varying.dims(fields)
-    made_of = {k.name: (k, units.of(expressions[k.of])) for k in study.kept}
+    made_of = {k.name: (k, _unit(expressions[k.of], units)) for k in study.kept}
     results = {}
     for name, (dtype, extra) in fields.items():
         more = () if not extra else (EVENT,) if name.startswith("time ") else (TIME,)
@@ -288,6 +288,10 @@ def _plan(
     )
     words = {"title": model.name, **({"coordinates": beside} if beside else {})}
     return ChunkPlan(portions, results, coordinates, task, words)
+
+
+def _unit(asked: Observable, units: Units) -> str:
+    return asked.unit if isinstance(asked, JointForce) else units.of(asked)
 
 
 def _words(made_of: Mapping[str, tuple[Kept, str]], name: str) -> dict[str, Any]:
@@ -322,6 +326,7 @@ def _task(model: Model, varying: Varying, drive: InputSignals, study: Study) -> 
         "options": {k: v if np.isfinite(v) else str(v) for k, v in study.options.items()},
         "kept": [k.name for k in study.kept],
         "outputs": digest(study.outputs),
+        **({"further": [digest(more.program) for more in study.further]} if study.further else {}),
         "events": "none" if study.events is None else _events(study),
         **({} if study.projection is None else {"projection": _projection(study.projection)}),
         **({"friction": [str(f.sticking_limit) for f in model.frictions]} if model.frictions else {}),

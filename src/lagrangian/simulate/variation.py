@@ -48,7 +48,7 @@ class ListedEntries:
     def of(cls, model: Model) -> ListedEntries:
         """The default entries: coordinates at their initial values, at rest, inputs 0, declared parameters, and
         [simulate]."""
-        given = Given.of(model, remembered(model, "states", lambda: dynamics.rhs(model)))
+        given = Given.of(model, remembered(model, "states", lambda: dynamics.rhs(dynamics.slips(model))))
         x: dict[str, float | None] = dict.fromkeys(given.states.names, 0.0)
         x.update({c.name: c.start for c in model.coordinates})
         x.update(given.states.values(model.settings.get("initial", {})))

@@ -31,6 +31,7 @@ from lagrangian.model import Model, is_hard, time
 from lagrangian.page.formula import Check, Name, text
 from lagrangian.values.dimensions import Mismatch, check_dimensions, check_terms
 from lagrangian.values.values import check_sampling
+from lagrangian.verify.in_regimes import InRegimes
 from lagrangian.verify.row_checks import RowChecks
 from lagrangian.verify.states import evaluated, state_groups
 
@@ -173,29 +174,34 @@ def _figures(derivation: Derived, states: int, seed: int) -> _Figures:
     exprs += [*(row.symbol for row in derivation.multipliers.values())]
     sampler = Sampler(model, exprs)
     program = _program(derivation, sampler)
-    routes = (dynamics.inverse(model), dynamics.inverse_from_lagrangian(model))
-    machine = (dynamics.forward(model), dynamics.mass_matrix(model), dynamics.energy(model))
+    regimes = InRegimes(derivation)
+    machine = (dynamics.mass_matrix(model), dynamics.energy(model))
     found = _Figures()
     rows = None if not derivation.multipliers else RowChecks(derivation)
     found.rows = rows
     free = ((state, state_groups(model, state)) for state, _ in sampler.states(states, seed=seed))
     for state, groups in free if rows is None else rows.states(sampler, states, seed):
+        if (here := regimes.at(state, groups)) is None:
+            continue
+        state, routes = here
         got = {k: np.array(v, float) for k, v in evaluate(program, {"x": [state[s] for s in sampler.symbols]}).items()}
         M, C, Mdot = (got[k].reshape(n, n) for k in ("M", "C", "Mdot"))
         v, a = got["v"], got["a"]
         # rates and accelerations are about 1, so M gives the scale, however small the masses are
         size = float(np.abs(M).max())
         scale = max(size, float(max(np.abs(M * a).max(), np.abs(C * v).max(), np.abs(got["G"]).max())))
-        by_work, by_energy = (np.array(evaluate(r, groups)["r"], float) for r in routes)
+        by_work, by_energy = (
+            np.array(evaluate(r, groups)["r"], float) for r in (routes.inverse, routes.from_lagrangian)
+        )
         if rows is not None:
             push = rows.pushed(groups, got["lambda"])
             by_work, by_energy = by_work - push, by_energy - push
-            rows.hold(got, groups, state)
+            rows.hold(got, groups, state, routes)
         found.work = _worse(found.work, float(np.abs(got["equations"] - by_work).max()) / scale)
         found.energy = _worse(found.energy, float(np.abs(got["equations"] - by_energy).max()) / scale)
         _hold_machine(found, got, machine, groups)
         if rows is None:
-            _hold_forward(found, got, machine[0], groups)
+            _hold_forward(found, got, routes.forward, groups)
         found.asymmetry = _worse(found.asymmetry, float(np.abs(M - M.T).max()) / size)
         least = np.linalg.eigvalsh((M + M.T) / 2).min() if rows is None else rows.smallest(got)
         found.smallest = float(np.minimum(found.smallest, least))
@@ -216,9 +222,9 @@ def _figures(derivation: Derived, states: int, seed: int) -> _Figures:
 def _hold_machine(
     found: _Figures, got: Mapping[str, Array], machine: Sequence[Program], groups: Mapping[str, list[float]]
 ) -> None:
-    """Compare the programs for forward dynamics, M and the energies at a state with the derivation."""
+    """Compare the programs for M and the energies at a state with the derivation."""
     n = len(got["v"])
-    mass, energy = (evaluated(program, groups) for program in machine[1:])
+    mass, energy = (evaluated(program, groups) for program in machine)
     M = got["M"].reshape(n, n)
     compiled = np.array(mass["M"], float)
     for other in (M, got["H"].reshape(n, n)):

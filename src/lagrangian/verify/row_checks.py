@@ -13,7 +13,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import TypeAlias, cast
+from typing import Any, TypeAlias, cast
 
 import numpy as np
 import sympy as sp
@@ -25,6 +25,7 @@ from lagrangian.derive.sample import Sampler
 from lagrangian.model import time
 from lagrangian.model.rows import rows_of
 from lagrangian.page.formula import Check, Name, text
+from lagrangian.verify.in_regimes import Routes
 from lagrangian.verify.on_rows import Groups, OnRows, State
 from lagrangian.verify.states import evaluated
 
@@ -56,17 +57,12 @@ class RowChecks:
         self._matrix = dynamics.constraint_matrix(model)
         names = [row.name for row in rows_of(model)]
         self._kept = [names.index(name) for name in derivation.multipliers]
-        self._forward = dynamics.forward(model)
-        self._multipliers = dynamics.multipliers(model)
-        self._dual = dynamics.forward_dual(model)
         self._minimal = None if derivation.minimal is None else _MinimalRoute(derivation, derivation.minimal)
 
     def states(self, sampler: Sampler, count: int, seed: int) -> Iterator[tuple[State, Groups]]:
         """Up to ``count`` random states on the rows; if there are none, the parameters keep their values."""
         for given in (False, True):
-            for state, groups in self._on_rows.states(sampler, count, seed, given=given):
-                self.figures.count += 1
-                yield state, groups
+            yield from self._on_rows.states(sampler, count, seed, given=given)
             if self.figures.count:
                 return
 
@@ -91,8 +87,10 @@ class RowChecks:
         M = got["M"].reshape(n, n)
         return float(np.linalg.eigvalsh(allowed.T @ (M + M.T) @ allowed / 2).min(initial=np.inf))
 
-    def hold(self, got: Mapping[str, Array], groups: Groups, state: State) -> None:
+    def hold(self, got: Mapping[str, Array], groups: Groups, state: State, routes: Routes) -> None:
         """Compare the rows, the accelerations, the multipliers and the equations without them at a state."""
+        assert routes.multipliers is not None and routes.dual is not None
+        self.figures.count += 1
         found, n = self.figures, len(got["v"])
         A, gamma, v = got["A"].reshape(-1, n), got["gamma"], got["v"]
         machine = evaluated(self._matrix, groups)
@@ -101,21 +99,20 @@ class RowChecks:
         for off in (whole[self._kept] - A, change[self._kept] - gamma, whole @ v + drive):
             found.rows = _worse(found.rows, float(np.abs(off).max(initial=0.0)) / size)
         a, lam = self.solved(got)
-        compiled = _of(evaluated(self._forward, groups)["a"]), _of(evaluated(self._multipliers, groups)["lam"])
+        compiled = _of(evaluated(routes.forward, groups)["a"]), _of(evaluated(routes.multipliers, groups)["lam"])
         found.accelerations = _worse(found.accelerations, _apart((a, A.T @ lam), (compiled[0], whole.T @ compiled[1])))
         if found.dual is not None:
-            found.dual = self._against_dual(got, groups, (a, A.T @ lam), whole)
+            found.dual = self._against_dual(got, evaluated(routes.dual, groups), (a, A.T @ lam), whole)
         if self._minimal is not None:
             found.minimal = _worse(found.minimal, self._minimal.difference(state, a))
 
     def _against_dual(
-        self, got: Mapping[str, Array], groups: Groups, found: tuple[Array, Array], A: Array
+        self, got: Mapping[str, Array], other: Mapping[str, Any], found: tuple[Array, Array], A: Array
     ) -> float | None:
         """The dense second route; None where M alone is singular, for it divides by M."""
         n = len(got["v"])
         if np.linalg.matrix_rank(got["M"].reshape(n, n), tol=RANK * np.abs(got["M"]).max()) < n:
             return None
-        other = evaluated(self._dual, groups)
         assert self.figures.dual is not None
         return _worse(self.figures.dual, _apart(found, (_of(other["a"]), A.T @ _of(other["lam"]))))
 

@@ -21,10 +21,13 @@ class HeadingBlock:
 
 @dataclass(frozen=True)
 class Paragraph:
-    """A paragraph; its role is "", "what" (what a step did), "why" (the reason) or "note" (small print)."""
+    """A paragraph; its role is "", "what" (what a step did), "why" (the reason), "see" (where to read on) or "note"
+    (small print). ``link`` is the anchor of the section to read, in formats with links.
+    """
 
     text: Inline
-    role: Literal["", "what", "why", "note"] = ""
+    role: Literal["", "what", "why", "see", "note"] = ""
+    link: str = ""
 
 
 @dataclass(frozen=True)
@@ -93,12 +96,16 @@ Block: TypeAlias = HeadingBlock | Paragraph | Display | Boxed | TableBlock | Che
 
 @dataclass(frozen=True)
 class Section:
-    """A step of the derivation, or a section before or after the steps. ``number`` is the number of the step."""
+    """A step of the derivation, or a section before or after the steps. ``number`` is the number of the step.
+
+    A ``minor`` section is not in the table of contents: it belongs to the one before it.
+    """
 
     anchor: str
     title: Inline
     blocks: tuple[Block, ...]
     number: int | None = None
+    minor: bool = False
 
 
 @dataclass(frozen=True)

@@ -157,7 +157,8 @@ def _flowing(formula: Math) -> str:
 def _contents(document: Document) -> str:
     if document.brief:
         return ""
-    items = "".join(f'<li><a href="#{s.anchor}">{_number(s)}{inline(s.title)}</a></li>' for s in document.sections)
+    listed = [s for s in document.sections if not s.minor]
+    items = "".join(f'<li><a href="#{s.anchor}">{_number(s)}{inline(s.title)}</a></li>' for s in listed)
     return f'<nav aria-label="Contents"><ol>{items}</ol></nav>\n'
 
 
@@ -168,6 +169,7 @@ def _number(section: Section) -> str:
 def section_html(section: Section, *, brief: bool = False, anchors: bool = True) -> str:
     """Return a section; a step can be folded."""
     identity = f' id="{section.anchor}"' if anchors else ""
+    identity += ' class="minor"' if section.minor else ""
     inner = blocks_html(section, anchors=anchors)
     title = f"<h2>{_number(section)}{inline(section.title)}</h2>"
     if section.number is None or brief:
@@ -185,7 +187,10 @@ def _block(block: Block, anchors: bool) -> Iterator[str]:
     match block:
         case HeadingBlock(text):
             yield f"<h3>{inline(text)}</h3>"
-        case Paragraph(text, role):
+        case Paragraph(text, role, link):
+            if link and anchors:
+                yield f'<p class="{role}"><a href="#{link}">{inline(text)}</a></p>'
+                return
             lead = '<span class="lead">Why:</span> ' if role == "why" else ""
             yield f"<p{f' class={role}' if role else ''}>{lead}{inline(text)}</p>"
         case Display():

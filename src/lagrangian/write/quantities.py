@@ -99,6 +99,11 @@ _COMMON: dict[str, tuple[Letter, ...]] = {
     "lambda": (Letter("lambda"), Letter("mu"), Letter("Lambda")),
     "f": (Letter("f"), Letter("Phi")),
     "c": (Letter("c"), Letter("Psi")),
+    "r": (Letter("r"), Letter("rho")),
+    "moment": (Letter("Gamma"), Letter("Theta")),
+    "pull": (Letter("S"), Letter("𝒮")),
+    "push": (Letter("N"), Letter("𝒩")),
+    "sum": (Letter("Sigma"),),
 }
 _VECTORS = (
     {letter: letter for letter in "MCGqABJKS"}

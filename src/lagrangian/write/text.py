@@ -73,7 +73,7 @@ def _section(section: Section, width: int, brief: bool) -> list[str]:
 
 
 def _tight(block: Block) -> bool:
-    return isinstance(block, Display) or (isinstance(block, Paragraph) and block.role in ("what", "why"))
+    return isinstance(block, Display) or (isinstance(block, Paragraph) and block.role in ("what", "why", "see"))
 
 
 def _block(block: Block, width: int) -> Iterator[str]:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import sympy as sp
+
 from lagrangian.check.misconceptions.base import Ingredients, Variant, half_square, put
 from lagrangian.page.formula import text
 
@@ -26,3 +28,18 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             yield Variant(
                 what=text(f"The prescribed motion is missing in the velocity of {body.title}."), T=change, element=body
             )
+    yield from _everywhere(s)
+
+
+def _everywhere(s: Ingredients) -> Iterator[Variant]:
+    """Yield the same for all bodies together."""
+    zero = dict.fromkeys(s.v, 0)
+    change: sp.Expr = sp.S.Zero
+    count = 0
+    for body in s.bodies:
+        velocity = s.velocity(body)
+        own = tuple(x - put(x, zero) for x in velocity)
+        count += own != velocity
+        change = change + half_square(s.expand(body.mass), own) - s.translation(body)
+    if count > 1:
+        yield Variant(what=text("The prescribed motion is missing in the velocities of all bodies."), T=change)

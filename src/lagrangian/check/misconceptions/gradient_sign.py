@@ -18,10 +18,11 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     L = sp.Symbol("L")
     for energy in (s.T - s.V, s.T):
         slopes = [energy.diff(q) for q in s.q]
+        part = "What T* adds to " if energy == s.T and s.V != 0 else ""
         if sum(x != 0 for x in slopes) > 1:
-            what = text("∂L/∂ξ has the wrong sign in every equation.")
+            what = text(f"{part}∂L/∂ξ has the wrong sign in every equation.")
             yield Variant(what=what, rows={i: 2 * x for i, x in enumerate(slopes) if x != 0})
         for i, x in enumerate(slopes):
             if x != 0:
-                what = text(Partial(L, s.q[i]), " has the wrong sign.")
+                what = text(*([part] if part and s.V.has(s.q[i]) else []), Partial(L, s.q[i]), " has the wrong sign.")
                 yield Variant(what=what, rows={i: 2 * x}, coordinate=i)

@@ -22,4 +22,4 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             held = {i: c for i, c in change.items() if c != 0}
             what = text(f"{element.title[:1].upper() + element.title[1:]} is counted in every ", Name("Xi"), ".")
             if held:
-                yield Variant(what=what, Xi=held, element=element)
+                yield Variant(what=what, Xi=held, element=element, doubt=int(len(shares) == s.n))

@@ -27,7 +27,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         yield Variant(what=text("Sine and cosine are exchanged in ", Name("V"), "."), V=other - s.V)
     for body in s.bodies:
         own = s.kinetic(body)
-        for other in _swapped(own):
+        for other in _swapped(own)[:1]:
             what = text(f"Sine and cosine are exchanged in the kinetic energy of {body.title}.")
             yield Variant(what=what, T=other - own, element=body)
     yield from _in_rows(s)

@@ -18,7 +18,9 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     springs = list(s.springs())
     for spring, _, V in springs:
         yield Variant(what=text(f"The ½ in the energy of {spring.title} is missing."), V=V, element=spring)
-        yield Variant(what=text(f"The ½ in the energy of {spring.title} is applied twice."), V=-V / 2, element=spring)
+        yield Variant(
+            what=text(f"Half of what {spring.title} adds is missing: its ½ counts twice."), V=-V / 2, element=spring
+        )
     if len(springs) > 1:
         yield Variant(
             what=text("The ½ is missing in the energy of every spring."), V=sp.Add(*[V for _, _, V in springs])

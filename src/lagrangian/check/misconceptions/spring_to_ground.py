@@ -24,12 +24,14 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
             for q, p in ((q, p) for q in held for p in s.q if p not in held):
                 what = text(f"{title} is stretched by ", q + p, " in your V, as if to the ground.")
                 yield Variant(what=what, V=k * put(extension, {q: q + p}) ** 2 / 2 - V, element=spring)
-            each = sp.Add(*[(extension.diff(q) * q) ** 2 for q in held])
-            yield Variant(
-                what=text(f"{title} pulls each body as if to the ground."), V=k * each / 2 - V, element=spring
-            )
         if len(held) < 2:
             continue
+        if not any(extension.diff(q).has(*s.q) for q in held):
+            each = sp.Add(*[(extension.diff(q) * q) ** 2 for q in held])
+            what = text(
+                f"The parts of the deflection of {spring.title} were squared one by one: the mixed term is missing."
+            )
+            yield Variant(what=what, V=k * each / 2 - V, element=spring)
         for q in held:
             own = put(extension, {p: sp.S.Zero for p in held if p != q})
             if own.has(sp.nan, sp.zoo):

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field
 from typing import Literal, TypeAlias
 
 import sympy as sp
@@ -10,7 +11,7 @@ import sympy as sp
 from lagrangian.errors import Place
 
 Kind: TypeAlias = Literal[
-    "equation", "T", "V", "L", "D", "Xi", "p", "p-rate", "slope", "left", "definition", "identity", "statement"
+    "equation", "T", "V", "L", "D", "Xi", "p", "p-rate", "slope", "left", "definition", "identity", "statement", "given"
 ]
 """What a line states:
 
@@ -22,6 +23,7 @@ Kind: TypeAlias = Literal[
     left        d/dt ∂L/∂ξ̇ − ∂L/∂ξ of the coordinate ``name``, worked out
     definition  a name of the person's own, or a coordinate of the model in new ones
     identity    lhs = rhs holds whatever the motion: the rate of a name that was defined before
+    given       the value of a parameter of the model in others, which is an assumption: J = m R²/2
     statement   a general truth that holds nothing of this system: d/dt ∂L/∂ξ̇ − ∂L/∂ξ = Ξ, before L was given
 """
 
@@ -63,11 +65,16 @@ class Unknown:
 
 @dataclass(frozen=True)
 class Answer:
-    """A whole answer, in the order in which it was written."""
+    """A whole answer, in the order in which it was written; ``notes`` say how unusual spellings were read.
+
+    ``others`` read the same text in the less likely ways.
+    """
 
     lines: tuple[AnswerLine, ...]
     notation: Literal["text", "latex"]
     unknown: tuple[Unknown, ...] = ()
+    notes: tuple[str, ...] = ()
+    others: tuple[Callable[[], Answer], ...] = field(default=(), repr=False, compare=False)
 
     @property
     def equations(self) -> tuple[AnswerLine, ...]:

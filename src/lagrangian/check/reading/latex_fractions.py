@@ -78,7 +78,8 @@ class LatexFractions(LatexSymbols):
                 return
 
     def _rate_fraction(self, token: AnswerToken, top: list[AnswerToken], order: int) -> Tree:
-        rest = [x for x in top[1:] if x.kind not in ("^", "{", "}") and not (x.kind == "number" and x is top[-1])]
+        inner = [x for x in top[1:] if x.kind not in ("{", "}")]
+        rest = inner[2:] if inner and inner[0].kind == "^" else inner
         if len(top[0].text) == 1 and (len(top) == 1 or (top[1].kind == "^" and not rest)):
             self._skip_part()
             self._skip_part()

@@ -6,8 +6,10 @@ import re
 from collections.abc import Iterator
 from itertools import pairwise
 
+from lagrangian.check.reading.latex_layout import closing, without_braces, without_units
 from lagrangian.check.reading.latex_tokens import MATRICES, SYMMETRIC
-from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, blank, incomplete, plain_words
+from lagrangian.check.reading.markup import blank
+from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, incomplete, plain_words
 
 _COMMENT = re.compile(r"(?<!\\)%.*")
 _DISPLAYS = [
@@ -39,6 +41,7 @@ _SHORT = re.compile(r"\w{1,20}\Z")
 _LINKS = frozenset(
     ["and", "where", "with", "so", "then", "for", "or", "hence", "thus", "therefore", "gives", "if", "when", "let"]
 )
+_LISTS = re.compile(r"\\(?:operatorname|mathrm)\{(?:atan2|min|max)\}|\\(?:min|max)(?![A-Za-z])|atan2")
 _SYMMETRIC = frozenset(["sym", "symm", "symmetric"])
 _MARK = re.compile(r"\\begin\{(\w+\*?)\}|\\end\{(\w+\*?)\}|\\\\(?:\s*\[[^\]\n]{0,20}\])?|\\[{}]|[{}]|\n")
 _SPACE = r"(?:\s|&|~|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})*"
@@ -46,11 +49,15 @@ _NUMBER_BEFORE = re.compile(rf"{_SPACE}\(\s*\d{{1,3}}[a-z]?\s*\)(?={_SPACE}[^\s=
 _PIECE = re.compile(r"(?:\s|&|~|\x00|\\[,;:! ]|\\q?quad(?![A-Za-z])|\{\s*\})|(?P<content>.)", re.DOTALL)
 _NUMBER = re.compile(r"\(\s*(?:\d{1,3}[a-z]?|[ivx]{1,4})\s*\)\Z")
 _GAP = re.compile(r"(?:\\q?quad|&|~|\s\s|\\[,;: ])\s*\Z")
-_ARROW = re.compile(rf"{_SPACE}\\(?:Rightarrow|implies|therefore|iff|Leftrightarrow|Longrightarrow|to|rightarrow)\b")
+_ARROWS = (
+    r"\\(?:Rightarrow|implies|therefore|iff|Leftrightarrow|Longrightarrow|Longleftrightarrow|longrightarrow|to|rightarrow"
+    r"|leadsto|Leftarrow|because|land)(?![A-Za-z])|[⇒⟹⇔⟺→⟶∴]|<?=>"
+)
+_ARROW = re.compile(rf"{_SPACE}(?:{_ARROWS})")
 _INDENTED = re.compile(r"\s*&?\s*(?:\\q?quad(?![A-Za-z])|\{\s*\})")
 _STARTS = re.compile(rf"{_SPACE}(?:[+*/=·×)\]^]|\\(?:cdot|times|right)(?![A-Za-z]))")
 _MINUS = re.compile(rf"{_SPACE}[-−–]")
-_CUT = re.compile(r"[,;](?!\w)|\\q?quad(?![A-Za-z])|\x00")
+_CUT = re.compile(rf"(?<!\\)[,;](?!\w)|\\q?quad(?![A-Za-z])|\x00|{_ARROWS}")
 
 
 def latex_rows(text: str) -> list[AnswerRow]:
@@ -86,7 +93,7 @@ def _statements(text: str, start: int, *, lines: bool) -> list[AnswerRow]:
     text = _SYSTEM.sub(lambda m: m["rows"].rjust(m.end("rows") - m.start()).ljust(len(m.group())), text)
     for form in (_WRAPPER, _NOTE):
         text = form.sub(lambda m: " " * len(m.group()), text)
-    text = _without_words(_unboxed(text))
+    text = without_units(without_braces(_with_points(_without_words(_unboxed(text)))))
     rows: list[AnswerRow] = []
     for at, piece, hard in _cut(text, lines):
         kept = _labels(piece)
@@ -100,11 +107,16 @@ def _statements(text: str, start: int, *, lines: bool) -> list[AnswerRow]:
     return [part for row in rows for part in _parts(_tidy(row))]
 
 
+def _with_points(text: str) -> str:
+    """Replace decimal commas by points, except between the arguments of a function."""
+    return re.sub(r"(?<=\d),(?=\d)", ".", text) if not _LISTS.search(text) else text
+
+
 def _without_words(text: str) -> str:
     """Replace words by a mark and spaces, except a short word that may be a name."""
     at = 0
     while (match := _WORDS.search(text, at)) is not None:
-        end = _closing(text, match.end())
+        end = closing(text, match.end())
         words = text[match.end() : end - 1].strip()
         symmetric = words.lower().rstrip(".") in _SYMMETRIC
         if symmetric or not _SHORT.match(words) or words.lower() in _LINKS:
@@ -126,18 +138,6 @@ def _unboxed(text: str) -> str:
         if len(mark) > 2 or (mark == "}" and boxes and boxes.pop()):
             letters[match.start() : match.end()] = " " * len(mark)
     return "".join(letters)
-
-
-def _closing(text: str, start: int) -> int:
-    """The position where the brace that was opened before ``start`` is closed."""
-    depth, at = 1, start
-    while at < len(text) and depth:
-        if text[at] == "\\":
-            at += 1
-        else:
-            depth += {"{": 1, "}": -1}.get(text[at], 0)
-        at += 1
-    return at
 
 
 def _cut(text: str, lines: bool) -> list[tuple[int, str, bool]]:

@@ -164,5 +164,9 @@ class LatexSymbols(Parser):
         return False
 
     def _of_time(self) -> bool:
-        r"""Whether (t) is next: \theta(t)."""
-        return [x.text for x in self.tokens[self.i : self.i + 3]] == ["(", "t", ")"]
+        r"""Whether (t) is next: \theta(t), or \theta{\left(t \right)} as SymPy writes it."""
+        texts = [x.text for x in self.tokens[self.i : self.i + 5]]
+        if texts == ["{", "(", "t", ")", "}"]:
+            del self.tokens[self.i], self.tokens[self.i + 3]
+            return True
+        return texts[:3] == ["(", "t", ")"]

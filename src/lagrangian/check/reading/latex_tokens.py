@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 
 from lagrangian.check.reading.parser import AnswerToken
+from lagrangian.check.reading.words import function_of
 from lagrangian.errors import did_you_mean
 from lagrangian.model.names import FUNCTIONS
 from lagrangian.quantities.source import Source, shown
-from lagrangian.read.functions import ALIASES
 from lagrangian.read.letters import GREEK
 
 MATRICES = frozenset(f"{kind}matrix{star}" for kind in ("", "p", "b", "B", "small") for star in ("", "*")) | {"array"}
@@ -31,7 +31,7 @@ _TOKEN = re.compile(
     | (?P<delimiter>\\(?:left|right|middle|[bB]igg?[lrm]?)(?![A-Za-z])\s*\.?)
     | \\(?P<command>[A-Za-z]+\*?)
     | (?P<brace>\\[{}])
-    | (?P<number>[0-9]+\.?[0-9]*|\.[0-9]+)
+    | (?P<number>[0-9]+\{,\}[0-9]+|[0-9]+\.?[0-9]*|\.[0-9]+)
     | (?P<fraction>[¼½¾⅐-⅞])
     | (?P<letters>[A-Za-z]+)
     | (?P<greek>[^\W\d_¹²³¼-¾⁰-₟⅐-⅞][\u0307\u0308\u20db\u20dc]*)
@@ -88,6 +88,8 @@ def tokenize(source: Source) -> list[AnswerToken]:
             kind = text = "(" if text.endswith("{") else ")"
         elif kind == "mark":
             kind = text
+        elif kind == "number":
+            text = text.replace("{,}", ".")
         elif kind == "greek":
             kind = "symbol"
         elif kind == "other":
@@ -103,7 +105,7 @@ def tokenize(source: Source) -> list[AnswerToken]:
 def _command(name: str, source: Source, start: int) -> tuple[str, str]:
     """The kind and the text of a command."""
     name = _VARIANTS.get(name, name)
-    function = ALIASES.get(name, name)
+    function = function_of(name)
     if name in _SKIPPED:
         return "skipped", name
     if name in _OPERATORS and _OPERATORS[name] != "other":
@@ -116,7 +118,7 @@ def _command(name: str, source: Source, start: int) -> tuple[str, str]:
         return "decoration", name
     if name in _PAIRS:
         return _PAIRS[name], name
-    if function in FUNCTIONS:
+    if function is not None:
         return "function", function
     near = did_you_mean(name, [*_GREEK, *_VARIANTS, *_ACCENTS, *_DECORATIONS, *_PAIRS, *_OPERATORS, *FUNCTIONS])
     if near is not None:
@@ -129,8 +131,7 @@ def _command(name: str, source: Source, start: int) -> tuple[str, str]:
 def _word(text: str, source: Source, start: int) -> tuple[str, str]:
     r"""The kind and the text of upright letters: ``\mathrm{rod}``, ``\operatorname{sign}``, ``\text{d}``."""
     plain = text.replace(r"\_", "_").replace(" ", "").replace("~", "")
-    function = ALIASES.get(plain, plain)
-    if function in FUNCTIONS:
+    if (function := function_of(plain)) is not None:
         return "function", function
     if not plain:
         return "skipped", plain

@@ -4,25 +4,31 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import cast
 
 import sympy as sp
 from lark import Token, Tree
 from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
+from lagrangian import bounded
 from lagrangian.check.reading.answer import AnswerLine, Kind
 from lagrangian.check.reading.meaning import Meaning, ReadingBudget
-from lagrangian.check.reading.names import Names, Value, spelled_rates
-from lagrangian.check.reading.nodes import Node, inside, only_name, squared_name, start_of
+from lagrangian.check.reading.names import Names, Value, names_in
+from lagrangian.check.reading.nodes import is_matrix, only_name, start_of
 from lagrangian.check.reading.placeholders import ENERGIES, generalized_force, is_force, is_placeholder, is_vector
-from lagrangian.check.reading.stated import energy_of, force_of, momentum_of
+from lagrangian.check.reading.stated import energy_of
+from lagrangian.check.reading.subjects import Subject, Subjects
+from lagrangian.errors import ParseError
 from lagrangian.model import Model
+from lagrangian.model.names import time
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import key, undotted
 
 MAX_CHAIN = 20
 """The largest number of definitions that may each need the one below it."""
+
+MAX_ERRORS = 5
+"""The largest number of errors that are reported at once."""
 
 
 @dataclass(frozen=True)
@@ -31,17 +37,6 @@ class Statement:
 
     sides: tuple[Tree, ...]
     source: Source
-
-
-@dataclass(frozen=True)
-class Subject:
-    """The subject of a statement: its kind, its name, the token, the order of a rate, and whether it is squared."""
-
-    kind: Kind
-    name: str | None = None
-    token: Token | None = None
-    order: int = 0
-    square: bool = False
 
 
 class Lines:
@@ -53,21 +48,52 @@ class Lines:
         self.names.later = self._look_ahead
         self.budget = ReadingBudget()
         self._waiting: dict[str, int] = {}
+        self.subjects = Subjects(model, self.names)
         self._statements: Sequence[Statement] = ()
         self._made: dict[int, list[AnswerLine]] = {}
         self._chain = 0
+        self._matrices: set[str] = set()
 
-    def read(self, statements: Sequence[Statement]) -> tuple[AnswerLine, ...]:
-        """Return the lines of the statements, in their order."""
+    def read(self, statements: Sequence[Statement], errors: Sequence[ParseError] = ()) -> tuple[AnswerLine, ...]:
+        """Return the lines of the statements, in their order.
+
+        Raises one error for all statements that cannot be read, ``errors`` included, in the order of their places.
+        """
         self._statements = statements
         self.names.gather(tree for s in statements for tree in s.sides)
-        for i, statement in enumerate(statements):
-            subject = self._subject(statement.sides[0]) if len(statement.sides) > 1 else None
-            if subject is not None and subject.kind == "definition" and subject.token is not None:
-                self._waiting.setdefault(key(undotted(subject.token)[0]), i)
+        self._collect()
+        found = list(errors)
         for i in range(len(statements)):
-            self._line(i)
+            try:
+                self._line(i)
+            except ParseError as error:
+                found.append(error)
+            if len(found) >= MAX_ERRORS or (found and found[-1].code == "E703"):
+                break
+        if found:
+            raise together(found)
         return tuple(line for i in range(len(statements)) for line in self._made[i])
+
+    def _collect(self) -> None:
+        """Record which names are defined where, which energies are stated, and how many statements may be equations."""
+        first = [self.subjects.turned(list(s.sides))[0] for s in self._statements]
+        self._equal = sum(s is None or (s.kind == "definition" and s.right) for s in first)
+        defining = [(i, x) for i, x in enumerate(first) if x is not None and x.kind == "definition"]
+        for i, subject in sorted(defining, key=lambda x: (x[1].order > 0, x[1].right, x[0])):
+            self._waiting.setdefault(key(undotted(str(subject.token))[0]), i)  # omega = theta' before omega' = …
+        named = [s for s in first if s is not None and s.kind == "definition" and not s.order]
+        self._matrices = {key(str(s.token)) for s in named if is_matrix(self._statements[first.index(s)].sides[1])}
+        self.subjects.left = {key(undotted(str(s.token))[0]) for s in named if not s.right}
+        self.names.defined = self.subjects.defined = {key(undotted(str(s.token))[0]) for s in named}
+        self.names.stating = {s.kind for s in first if s is not None and s.kind in ENERGIES}
+
+    def _has_matrices(self, sides: Sequence[Tree]) -> bool:
+        """Whether a matrix stands in a statement, or two names of matrices; M alone may be a mass."""
+        if len(sides) > 1 and only_name(sides[0]) is not None and is_matrix(sides[1]):
+            return False  # its entries are in the letters of the system
+        names = {key(str(token)) for side in sides for token, _ in names_in(side)} & self._matrices
+        written = (tree.data == "matrix" for side in sides for tree in side.iter_subtrees())
+        return len(names) > 1 or (bool(self._matrices) and any(written))
 
     def _look_ahead(self, base: str) -> None:
         """Read the definition of a name that comes later in the answer."""
@@ -84,88 +110,20 @@ class Lines:
         self._made[i] = []  # a definition that refers to itself finds its own name unknown
         statement = self._statements[i]
         sides = list(statement.sides)
-        subject, sides = self._turned(sides)
+        subject, sides = self.subjects.turned(sides)
+        above = self.names.moving, self.names.matrices
+        self.names.moving = any(self.subjects.accelerates(x) for x in sides)
+        self.names.matrices = self._has_matrices(statement.sides)
         reader = Meaning(statement.source, self.names, self.budget)
-        if subject is not None and subject.token is not None:
-            self._waiting.pop(key(undotted(subject.token)[0]), None)
+        for base in [base for base, at in self._waiting.items() if at == i]:
+            del self._waiting[base]
         before = set(self.names.unknown)
         lines = self._about(subject, sides, reader) if subject else self._equations(sides, reader)
         if all(line.kind == "statement" for line in lines):  # a general statement may use its own letters: ξ_i
             for new in set(self.names.unknown) - before:
                 del self.names.unknown[new]
         self._made[i] = lines
-
-    def _turned(self, sides: list[Tree]) -> tuple[Subject | None, list[Tree]]:
-        """The subject of a statement and its sides, the subject first; it may be on the left or right, a Ξ anywhere."""
-        if len(sides) == 1:
-            return None, sides
-        subjects = [self._subject(side) for side in sides]
-        order = [0, len(sides) - 1, *(i for i, s in enumerate(subjects) if s is not None and s.kind == "Xi")]
-        for i in order:
-            if subjects[i] is not None:
-                return subjects[i], [sides[i], *sides[:i], *sides[i + 1 :]]
-        return None, sides
-
-    # -- what a statement is about -----------------------------------------------------------------------------------
-
-    def _subject(self, side: Tree) -> Subject | None:
-        """The subject of a statement with this left-hand side; None if it is an equation."""
-        if (found := only_name(side)) is not None:
-            return self._named(*found)
-        if (token := squared_name(side)) is not None and not self._taken(token):
-            return Subject("definition", str(token), token, square=True)
-        return self._derivative_of_energy(inside(side))
-
-    def _left_side(self, side: Tree) -> Subject | None:
-        """Recognize d/dt ∂L/∂ξ̇ − ∂L/∂ξ, written with L alone."""
-        side = inside(side)
-        terms = [inside(x) for x in side.children if isinstance(x, Tree)] if side.data == "sum" else []
-        if len(terms) != 2 or [str(x) for x in side.children if isinstance(x, Token)] != ["-"]:
-            return None
-        first, second = (self._derivative_of_energy(x) for x in terms)
-        if first is None or second is None or (first.kind, second.kind) != ("p-rate", "slope"):
-            return None
-        return Subject("left", first.name) if first.name == second.name else None
-
-    def _taken(self, token: Token) -> bool:
-        """Whether a name belongs to the model, or spells out the rate of one of its names: theta1_ddot."""
-        scope = self.names.scope
-        return bool(scope.meanings(token)[0]) or any(scope.meanings(stem)[0] for _, stem in spelled_rates(token))
-
-    def _named(self, token: Token, primes: int) -> Subject | None:
-        base, dots = undotted(token)
-        order = primes + dots
-        if order:
-            if self._taken(token):
-                return None
-            own = key(base) in self.names.own or key(base) in self._waiting
-            return Subject("identity" if own else "definition", base, token, order)
-        if (kind := energy_of(token, self.model, lhs=True)) is not None:
-            return Subject(cast("Kind", kind), None, token)
-        if (coordinate := force_of(token, self.model)) is not None:
-            return Subject("Xi", coordinate)
-        if (coordinate := momentum_of(token, self.model)) is not None and self.names.occurs(token) == 1:
-            return Subject("p", coordinate)
-        return None if self._taken(token) or token in ("t", "pi") else Subject("definition", str(token), token)
-
-    def _derivative_of_energy(self, side: Node) -> Subject | None:
-        """Recognize ∂L/∂ξ, ∂L/∂ξ̇ and d/dt ∂L/∂ξ̇ alone on one side."""
-        if not isinstance(side, Tree):
-            return None
-        if side.data == "rate" and side.children[1] == 1:
-            inner = self._derivative_of_energy(inside(side.children[0]))
-            return Subject("p-rate", inner.name) if inner is not None and inner.kind == "p" else None
-        if side.data != "partial" or side.children[0] not in ("L", "ℒ"):
-            return None
-        found = only_name(side.children[1])
-        if found is None:
-            return None
-        token, primes = found
-        names, dots = self.names.scope.meanings(token)
-        coordinates = {c.name for c in self.model.coordinates}
-        if len(names) != 1 or names[0] not in coordinates or primes + dots > 1:
-            return None
-        return Subject("p" if primes + dots else "slope", names[0])
+        self.names.moving, self.names.matrices = above
 
     # -- lines ---------------------------------------------------------------------------------------------------------
 
@@ -186,6 +144,8 @@ class Lines:
         lhs: sp.Expr | None = None
         if _general(value):
             return self._make("statement", None, value, None, sides[0], side, reader)
+        if kind in ENERGIES and (given := self._parameter(sides[0], value)) is not None:
+            return self._make("given", None, value, given, sides[0], side, reader)
         if kind in ENERGIES:
             self.names.stated[kind] = value
             if subject.token is not None and energy_of(subject.token, self.model) is None:
@@ -196,18 +156,28 @@ class Lines:
                 return self._make("equation", reader.value(sides[0]), value, None, sides[0], side, reader)
             self._define(subject, value)
         elif kind == "identity":
-            lhs = reader.value(sides[0])
+            lhs = rate = reader.value(sides[0])
+            if _solves(rate, value):
+                kind = "equation"
         elif kind == "Xi" and _accelerates(value):
             assert name is not None
             return self._make("equation", value, generalized_force(name), None, sides[0], side, reader)
         return self._make(kind, lhs, value, name, sides[0], side, reader)
 
     def _is_equation(self, subject: Subject, value: sp.Expr) -> bool:
-        """Whether a new name alone on a side is not a definition: nothing else uses it, and it equals accelerations."""
+        """Whether a new name alone on a side is no definition but an input of the answer's own, or a coordinate.
+
+        It is a definition if it stands on the left and there are as many equations without it as coordinates:
+        N = m g - m y''. The acceleration of an unknown name equals accelerations only if it is defined.
+        """
         assert subject.token is not None
-        if subject.order or subject.square or self.names.occurs(subject.token) > 1:
+        if subject.order:
+            new = any(self.names.is_unknown(x) for x in value.atoms(AppliedUndef, sp.Derivative))
+            return new or self.names.occurs(subject.token) == 1 or (subject.order > 1 and not _accelerates(value))
+        if subject.square or not _accelerates(value):
             return False
-        return _accelerates(value)
+        others = self._equal - subject.right
+        return subject.right or self.names.occurs(subject.token) == 1 or others < len(self.model.coordinates)
 
     def _define(self, subject: Subject, value: sp.Expr) -> None:
         assert subject.token is not None
@@ -219,7 +189,7 @@ class Lines:
     def _matrix_of(self, subject: Subject, value: Value, side: Tree, reader: Meaning) -> list[AnswerLine]:
         """Read a named matrix: a column of all Ξ states each of them; any other is stored for the lines that use it."""
         token = subject.token
-        if token is None or subject.order or subject.kind in ENERGIES:
+        if token is None or subject.order:
             reader.fail("a single quantity cannot equal a matrix", side, fix="write one equation per line")
         names = [c.name for c in self.model.coordinates]
         if key(token) in ("Xi", "Q", "bold Xi", "bold Q") and value.shape == (len(names), 1):
@@ -252,13 +222,22 @@ class Lines:
     def _judged(self, left: sp.Expr, right: sp.Expr, a: Tree, b: Tree, reader: Meaning) -> AnswerLine:
         kind: Kind = "equation"
         for side, value in ((a, right), (b, left)):
-            if (subject := self._left_side(side)) is not None and _accelerates(value):
+            if (subject := self.subjects.left_side(side)) is not None and _accelerates(value):
                 return self._make("left", None, value, subject.name, a, b, reader)
         if _general(left) or _general(right):
             kind = "statement"
         elif (found := only_name(a)) is not None and not found[1] and self._change(found[0], right):
             return self._make("definition", None, right, str(found[0]), a, b, reader)
+        elif (given := self._parameter(a, right) or self._parameter(b, left)) is not None:
+            return self._make("given", None, right if left == self.names.scope[given] else left, given, a, b, reader)
         return self._make(kind, left, right, None, a, b, reader)
+
+    def _parameter(self, side: Tree, value: sp.Expr) -> str | None:
+        """The parameter that a side consists of, if the other side is its value: J = m*R^2/2."""
+        if (found := only_name(side)) is None or found[1] or value.has(AppliedUndef, time):
+            return None
+        names, dots = self.names.scope.meanings(found[0])
+        return names[0] if not dots and names and names[0] in {p.name for p in self.model.parameters} else None
 
     def _change(self, token: Token, value: sp.Expr) -> bool:
         """Whether a line expresses a coordinate of the model in new ones: x2 = x1 + s, where the model has no s."""
@@ -278,6 +257,13 @@ class Lines:
         return AnswerLine(kind, lhs, rhs, name, source.at(start), " ".join(source.text.split()))
 
 
+def together(errors: Sequence[ParseError]) -> ParseError:
+    """Return one error for several places, in their order; one at the same place counts once."""
+    placed = {(e.place.line or 0, e.place.column or 0) if e.place is not None else (0, 0): e for e in reversed(errors)}
+    first, *others = [placed[at] for at in sorted(placed)]
+    return first.with_others(others)
+
+
 def _general(value: sp.Expr) -> bool:
     """Whether an expression contains energies or variations that have no value."""
     return any(is_placeholder(x) and not is_force(x) for x in value.atoms(AppliedUndef))
@@ -285,6 +271,17 @@ def _general(value: sp.Expr) -> bool:
 
 def _accelerates(value: sp.Expr) -> bool:
     return any(d.derivative_count > 1 for d in value.atoms(sp.Derivative))
+
+
+def _solves(rate: sp.Expr, value: sp.Expr) -> bool:
+    """Whether the rate of a name of the answer equals something else than its derivative: omega' = -g/L*sin(theta).
+
+    The name is a rate up to a constant, or the value contains no acceleration.
+    """
+    if not _accelerates(rate) or bounded.expand(rate - value) == 0:
+        return False
+    alone = rate / next(d for d in rate.atoms(sp.Derivative) if d.derivative_count > 1)
+    return not _accelerates(value) or not alone.atoms(AppliedUndef)
 
 
 def _rows(left: Value, right: Value, node: Tree, reader: Meaning) -> list[tuple[sp.Expr, sp.Expr]]:

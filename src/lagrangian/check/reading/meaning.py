@@ -6,13 +6,15 @@ from collections.abc import Iterator
 from typing import Any, cast
 
 import sympy as sp
+from lark import Tree
 from sympy.core.function import AppliedUndef
 from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian import bounded
 from lagrangian.check.reading.names import Names, Value
-from lagrangian.check.reading.nodes import Node, only_name
+from lagrangian.check.reading.nodes import Node, leaf, only_name
 from lagrangian.check.reading.placeholders import ENERGIES, is_vector, variation
+from lagrangian.check.reading.words import RECIPROCALS
 from lagrangian.model.names import time
 from lagrangian.quantities.source import Source
 from lagrangian.read.expression import MAX_ORDER, ExpressionReader
@@ -203,6 +205,9 @@ class Meaning(ExpressionReader):
         return super()._raise(node, base, exponent)
 
     def _call(self, node: Node) -> sp.Expr:
+        if (below := RECIPROCALS.get(str(node.children[0]))) is not None:
+            token, *arguments = node.children
+            return 1 / self._call(Tree("call", [leaf("NAME", below, token.start_pos), *arguments], node.meta))
         for argument in node.children[1:]:
             if argument.data != "condition" and isinstance(self.value(argument), MatrixBase):
                 self.fail("a function is applied to a matrix", argument, fix="write the entries out")

@@ -11,6 +11,7 @@ from typing import Any
 import sympy as sp
 from lark import Token, Tree
 from sympy.core.function import AppliedUndef
+from sympy.matrices.matrixbase import MatrixBase
 
 from lagrangian.check.reading.answer import Unknown
 from lagrangian.check.reading.nodes import Node, start_of
@@ -34,6 +35,9 @@ SHORTEST_NEAR, NEAR = 4, 0.8
 """In LaTeX, where adjacent letters are a product: the fewest letters of a misspelled name, and the required
 similarity."""
 
+COLUMNS = frozenset(["q", "x", "X", "y", "z", "xi", "eta"])
+"""Letters that often are the column of all coordinates."""
+
 Value = Any
 """An expression, or a matrix of expressions."""
 
@@ -47,9 +51,19 @@ class Names:
         self.own: dict[str, tuple[str, Value]] = {}
         self.stated: dict[str, Value] = {}
         self.unknown: dict[str, Unknown] = {}
+        self.notes: dict[str, None] = {}
+        """How names were read that the answer does not spell as the system does."""
         self.rates: dict[tuple[str, int], Value] = {}
         self.later: Callable[[str], None] = lambda base: None
         self.derivatives: dict[tuple[Value, sp.Expr], Value] = {}
+        self.stating: set[str] = set()
+        """The energies that lines of the answer state."""
+        self.moving = False
+        """Whether the statement that is being read contains accelerations; then an energy must be stated."""
+        self.matrices = False
+        """Whether the statement that is being read contains matrices, so that a name may be one."""
+        self.defined: set[str] = set()
+        """The names that a statement of the answer defines."""
         self._moving: set[str] = set()
         self._seen: Counter[str] = Counter()
 
@@ -58,13 +72,13 @@ class Names:
     def gather(self, trees: Iterable[Tree]) -> None:
         """Record which names occur in the trees, and which of them are differentiated anywhere."""
         for tree in trees:
-            for token, changing in _names(tree):
+            for token, changing in names_in(tree):
                 base, dots = undotted(token)
                 self._seen[key(base)] += 1
                 if changing or dots:
                     self._moving.add(key(base))
         for base in list(self._seen):
-            self._moving.update(key(stem) for _, stem in rate_stems(base) if key(stem) in self._seen)
+            self._moving.update(key(stem) for _, stem in spelled_rates(base) if key(stem) in self._seen)
 
     def known(self, written: str) -> bool:
         """Whether a name already has a meaning."""
@@ -86,9 +100,16 @@ class Names:
         """How often a name occurs in the answer."""
         return self._seen[key(undotted(written)[0])]
 
-    def moves(self, written: str) -> bool:
-        """Whether a name is differentiated by time anywhere in the answer."""
-        return key(undotted(written)[0]) in self._moving
+    def changes(self, written: str) -> bool:
+        """Whether a name, of the system or of the answer, changes with time, so that it can have a rate."""
+        names, _ = self.scope.meanings(written)
+        if names:
+            return self.scope[names[0]].has(AppliedUndef)
+        return key(written) in self._moving
+
+    def is_own(self, written: str) -> bool:
+        """Whether the answer has said what a name is."""
+        return key(undotted(written)[0]) in self.own
 
     # -- meaning -----------------------------------------------------------------------------------------------------
 
@@ -102,6 +123,8 @@ class Names:
         ``later`` looks up a name that the answer defines further down ("where h = …").
         """
         names, dots = self.scope.meanings(token)
+        if self.matrices and (matrix := self._matrix(undotted(token)[0])) is not None:
+            return str(token), matrix, undotted(token)[1]
         if len(names) > 1:
             listed = " or ".join(f"'{n}'" for n in names)
             what = f"'{token[:40]}' can mean {listed}"
@@ -116,7 +139,7 @@ class Names:
         if base in ("bold Xi", "bold Q"):
             column = [generalized_force(c.name) for c in self.model.coordinates]
             return base, sp.ImmutableMatrix(column), dots
-        if (kind := energy_of(base, self.model)) is not None:
+        if (kind := energy_of(base, self.model)) is not None and (kind in self.stating or not self.moving):
             given = self.energy(kind)
             return kind, ENERGIES[kind] if given is None else given, dots
         if (coordinate := force_of(base, self.model)) is not None:
@@ -130,9 +153,19 @@ class Names:
                 return base, vector(base[5:]), dots
             return self.meaning(Token("NAME", base[5:], start_pos=start_of(token)), source)
         for order, stem in spelled_rates(base):
-            if (found := self._rate_of(stem)) is not None:
+            if (found := self._rate_of(stem, token, source)) is not None:
                 return *found, order + dots
+        if (near := self._near_rate(base, token, source)) is not None:
+            return near[0], self.scope[near[0]], near[1] + dots
         return self._noted(base, token, source), self.unknown[key(base)].symbol, dots
+
+    def _matrix(self, base: str) -> Value | None:
+        """The matrix that the answer gives this name; q or x is the column of coordinates if it is nothing else."""
+        if (mine := self.own.get(key(base))) is not None:
+            return mine[1] if isinstance(mine[1], MatrixBase) else None
+        if key(base) not in COLUMNS or self.scope.meanings(base)[0] or key(base) in self.defined:
+            return None
+        return sp.ImmutableMatrix([c.symbol for c in self.model.coordinates])
 
     def energy(self, kind: str) -> sp.Expr | None:
         """An energy as stated so far; the Lagrangian also from T* and V."""
@@ -145,16 +178,40 @@ class Names:
         of = symbol.args[0] if isinstance(symbol, sp.Derivative) else symbol
         return any(u.symbol == of for u in self.unknown.values())
 
-    def _rate_of(self, stem: str) -> tuple[str, Value] | None:
+    def _rate_of(self, stem: str, token: Token, source: Source) -> tuple[str, Value] | None:
         """The symbol or function that depends on time and is called ``stem``."""
         names, _ = self.scope.meanings(stem)
         if len(names) == 1 and self.scope[names[0]].has(AppliedUndef):
             return names[0], self.scope[names[0]]
         if (mine := self.own.get(key(stem))) is not None:
             return mine
-        if key(stem) in self.unknown and key(stem) in self._moving:
-            return stem, self.unknown[key(stem)].symbol
+        if not names and key(stem) in self._seen and key(stem) in self._moving:
+            return self._noted(stem, token, source), self.unknown[key(stem)].symbol
         return None
+
+    def _near_rate(self, base: str, token: Token, source: Source) -> tuple[str, int] | None:
+        """The coordinate and the order that a shortened name with dd, ddot, … means: thdd is theta''.
+
+        None if the name is no rate in letters; an error if it is one, of no coordinate or of several.
+        """
+        spelled_out = [(k, key(stem)) for k, stem in spelled_rates(base)]
+        found: dict[str, int] = {}
+        for order, stem in spelled_out:
+            near = [c.name for c in self.model.coordinates if key(c.name).startswith(stem)]
+            if len(stem) > 1 or key(base).endswith(("dd", "dot")):
+                for name in near:
+                    found.setdefault(name, order)
+        if len(found) == 1:
+            ((name, order),) = found.items()
+            self.notes.setdefault(f"'{base}' was read as {name}{chr(39) * order}.")
+            return name, order
+        if not key(base).endswith(("dd", "dot")) or not spelled_out:
+            return None
+        order = spelled_out[0][0]
+        possible = found or dict.fromkeys((c.name for c in self.model.coordinates[:3]), order)
+        meant = [f"{name}{chr(39) * order}" for name, order in possible.items()]
+        fix = f"Did you mean {' or '.join(meant)}?"
+        raise source.error(f"'{base[:40]}' cannot be read", start_of(token), fix=fix, code="E402")
 
     def _hint(self, base: str) -> str | None:
         """A suggestion for an unknown name: a product without *, a shorter spelling, or a similar name."""
@@ -204,7 +261,7 @@ def spelled_rates(base: str) -> Iterator[tuple[int, str]]:
             yield order, base.removesuffix(suffix)
 
 
-def _names(tree: Tree) -> Iterator[tuple[Token, bool]]:
+def names_in(tree: Tree) -> Iterator[tuple[Token, bool]]:
     """The names in a tree, and whether each is differentiated by time there."""
     stack: list[tuple[Node, bool]] = [(tree, False)]
     while stack:

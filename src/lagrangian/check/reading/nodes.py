@@ -68,6 +68,12 @@ def inside(tree: Node) -> Node:
     return tree
 
 
+def is_matrix(tree: Node) -> bool:
+    """Whether a tree is a matrix that is written out."""
+    tree = inside(tree)
+    return isinstance(tree, Tree) and tree.data == "matrix"
+
+
 def squared_name(tree: Node) -> Token | None:
     """Return the name if a tree is the square of a name: v^2, v²."""
     tree = inside(tree)

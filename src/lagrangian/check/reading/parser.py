@@ -43,6 +43,10 @@ class Parser(ABC):
     def side_by_side(self) -> bool:
         """Whether the next token begins another factor of a product that has no operator."""
 
+    def stays_below(self, begins: int) -> bool:
+        """Whether the next factor, which has no operator, belongs to the denominator that begins at a token."""
+        return False
+
     @abstractmethod
     def stopped(self, wants_operand: bool) -> ParseError:
         """Return the error for a text that cannot continue with the next token."""
@@ -114,9 +118,13 @@ class Parser(ABC):
         while True:
             if (operator := self.accept("times", "over")) is not None:
                 children.append(leaf("OPERATOR", "/" if operator.kind == "over" else "*", operator.start))
-                at = self.next.start
+                at, begins = self.next.start, self.i
                 sign = self._sign()
-                children.append(node("signed", at, sign, self.operand()))
+                below = [self.operand()]
+                while operator.kind == "over" and self.side_by_side() and self.stays_below(begins):
+                    below += [leaf("OPERATOR", "*", self.next.start), self.operand()]
+                below = below if len(below) == 1 else [node("product", at, *below)]
+                children.append(node("signed", at, sign, *below))
             elif self.side_by_side():
                 children += [leaf("OPERATOR", "*", self.next.start), self.operand()]
             else:

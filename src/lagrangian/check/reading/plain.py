@@ -1,86 +1,63 @@
-"""Answers in plain text: the grammar of model files, with the ways people write derivatives and matrices.
+"""Answers in plain text: the grammar of model files, with the ways people and programs write derivatives and products.
 
-x1'  x1''  ẋ₁  dx1/dt  d2x1/dt2  d^2 x1/dt^2  d/dt(…)  d(…)/dt  diff(…, t, 2)  Derivative(x1(t), t)  ddot(x1)
-∂L/∂x1'  dL/dx1'  diff(L, x1')          [a, b; c, d]  [[a, b], [c, d]]          sin^2(x)  sin²(x)
+x1'  x1''  ẋ₁  dx1/dt  d2x1/dt2  d^2 x1/dt^2  d/dt(…)  d(…)/dt  diff(…, t, 2)  Derivative(x1(t), t)  ddot(x1)  x1''[t]
+∂L/∂x1'  dL/dx1'  diff(L, x1')     [a, b; c, d]  [[a, b], [c, d]]  Matrix([a, b])     sin^2(x)  sin² x  Sin[x]
+m L^2 phi''  k(x1 - x2)  2mgL      Eq(a, b)
 """
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable
-
 from lark import Tree
 
 from lagrangian.check.reading.nodes import Node, leaf, matrix, name, node, number, only_name
-from lagrangian.check.reading.parser import AnswerToken, Parser
+from lagrangian.check.reading.parser import AnswerToken
+from lagrangian.check.reading.plain_conditions import AND, NOT, OR
+from lagrangian.check.reading.plain_derivatives import CLOSING, DIFFERENTIATE, DOTS, ORDERS, PlainDerivatives
+from lagrangian.check.reading.plain_tokens import TOKEN, tokenize
+from lagrangian.check.reading.words import Words, function_of
 from lagrangian.errors import ParseError
-from lagrangian.model.names import FUNCTIONS
 from lagrangian.quantities.source import Source
 from lagrangian.read.explain import explain
+from lagrangian.read.letters import undotted
 
-_LETTER = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞]"
-_MARK = r"[\u0307\u0308\u20db\u20dc]"
-_NAME = rf"{_LETTER}{_MARK}*(?:[^\W⁰¹²³⁴-⁹¼½¾⅐-⅞]{_MARK}*)*"
-_TWO = r"\s*(?:(?:\^|\*\*)\s*2|²|2)"
-_PRIME = r"['’′″‴]"
-_KINDS = [
-    ("space", r"\s+"),
-    ("ddt2", rf"d{_TWO}\s*/\s*dt{_TWO}(?!\w)"),
-    ("ddt", r"d\s*/\s*dt(?!\w)"),
-    ("rate2", rf"d{_TWO}\s*(?P<of2>{_NAME})\s*/\s*dt{_TWO}(?!\w)"),
-    ("rate", rf"d\s*(?P<of1>{_NAME}{_PRIME}*)\s*/\s*dt(?!\w)"),
-    (
-        "partial",
-        rf"(?:∂|d)\s*(?P<what>T|V|L|D|ℒ)\s*/\s*(?:∂|d)\s*(?P<open>\()?\s*(?P<by>{_NAME})(?P<dots>{_PRIME}*)(?(open)\s*\))",
-    ),
-    ("number", r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"),
-    ("fraction", r"[¼½¾⅐-⅞]"),
-    ("star", r"T\*(?=\s*(?:[-+−–=),;]|\Z))"),
-    ("name", _NAME),
-    ("primes", rf"{_PRIME}+"),
-    ("raised", r"[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+"),
-    ("power", r"\^|\*\*"),
-    ("times", r"[*×·⋅∙]"),
-    ("over", r"[/÷∕]"),
-    ("plus", r"\+"),
-    ("minus", r"[-−–]"),
-    ("relation", r"<=|>=|!=|<|>|≤|≥|≠"),
-    ("=", r"==?"),
-    ("bracket", r"[()\[\],;]"),
-    ("other", r"."),
-]
-_TOKEN = re.compile("|".join(f"(?P<{'eq' if kind == '=' else kind}>{form})" for kind, form in _KINDS), re.DOTALL)
-_ORDERS = {"'": 1, "’": 1, "′": 1, "″": 2, "‴": 3}
-_DIFFERENTIATE = frozenset(["diff", "Derivative", "D"])
-OR, AND, NOT = ("or", "|", "||", "∨"), ("and", "&", "&&", "∧"), ("not", "~", "¬")
-_DOTS = {"dot": 1, "ddot": 2}
+_EQUALITIES = frozenset(["Eq", "Equality", "Equal"])
+_BEGINS = frozenset(["number", "fraction", "name", "(", "rate", "rate2", "ddt", "ddt2", "partial"])
+_NUMBERS = frozenset(["number", "fraction"])
 
 
-def tokenize(text: str) -> list[AnswerToken]:
-    """Return the tokens of a statement."""
-    tokens: list[AnswerToken] = []
-    for match in _TOKEN.finditer(text):
-        kind = "=" if match.lastgroup == "eq" else str(match.lastgroup)
-        if kind == "star":  # the kinetic co-energy T*, not a product
-            tokens.append(AnswerToken("name", "T", match.start(), match.end()))
-        elif kind != "space":
-            tokens.append(
-                AnswerToken(match.group() if kind == "bracket" else kind, match.group(), match.start(), match.end())
-            )
-    tokens.append(AnswerToken("end", "", len(text), len(text)))
-    return tokens
+class PlainParser(PlainDerivatives):
+    """Parses one statement of plain text. A product without a sign needs factors that can be told apart."""
 
-
-class PlainParser(Parser):
-    """Parses one statement of plain text; an implicit product is an error that says so, except between matrices."""
-
-    def __init__(self, source: Source) -> None:
-        super().__init__(source, tokenize(source.text))
+    def __init__(self, source: Source, words: Words) -> None:
+        super().__init__(source, tokenize(source, words))
+        self.words = words
 
     def side_by_side(self) -> bool:
-        """Only matrices may be next to each other without an operator."""
-        before = self.tokens[self.i - 1].kind if self.i else "end"
-        return self.next.kind == "[" and before == "]"
+        """Whether the next token begins a factor: known names, numbers and brackets may be next to each other."""
+        token = self.next
+        before = self.tokens[self.i - 1] if self.i else token
+        if token.kind == "[":
+            return before.kind in ("]", "name", "primes")
+        if token.kind not in _BEGINS or (token.kind in _NUMBERS and before.kind in _NUMBERS):
+            return False
+        names = [x for x in (before, token) if x.kind == "name"]
+        if any(x.text in (*OR, *AND, *NOT) for x in names):
+            return False
+        return all(self.words.readable(x.text) for x in names)
+
+    def stays_below(self, begins: int) -> bool:
+        """Whether the next factor belongs to the denominator: in g/2L, which is written in one piece, but not in 1/2 m.
+
+        The other reading is tried if an answer is not right with this one.
+        """
+        last = self.tokens[self.i - 1]
+        moves = self.next.kind == "name" and self.words.names.changes(undotted(self.next.text)[0])
+        if last.kind == ")" or moves or (self.next.kind == "name" and self.words.is_function(self.next.text)):
+            return False
+        self.words.asked = True
+        numbers = self.tokens[begins].kind == "number" and self.tokens[begins - 2].kind == "number"
+        likely = self.next.start == last.end and not numbers
+        return likely != self.words.flipped
 
     def stopped(self, wants_operand: bool) -> ParseError:
         """Raise the error that explains what is wrong at the next token."""
@@ -95,6 +72,20 @@ class PlainParser(Parser):
             )
         return explain(self.source, token.start, wants_operand)
 
+    def sides(self) -> list[Tree]:
+        """Read sums with = between them, or Eq(a, b); what a program calls an equation is ignored: eq1 = a == b."""
+        texts = [x.text for x in self.tokens]
+        if self.tokens[0].kind == "name" and texts[1:2] == ["="] and ("==" in texts or texts[2] in _EQUALITIES):
+            self.i = 2
+        token = self.next
+        if token.text not in _EQUALITIES or self.ahead().kind not in CLOSING or self.words.is_name(token.text):
+            return super().sides()
+        self.take()
+        found = self._arguments()
+        if self.next.kind != "end" or len(found) != 2:
+            raise self.source.error("Eq takes two sides", token.start, fix="write Eq(left, right), or left = right")
+        return found
+
     # -- operands --------------------------------------------------------------------------------------------------
 
     def operand(self) -> Tree:
@@ -105,6 +96,11 @@ class PlainParser(Parser):
             if self.next.kind == "name" and self.next.text == "T" and self.tokens[self.i - 2].kind == "]":
                 self.take()
                 continue  # a list in brackets is already a column
+            if only_name(children[0]) == ("e", 0) and len(children) == 1 and not self.words.is_name("e"):
+                sign = self._sign()
+                exponent = node("signed", power.start, sign, self._postfix())
+                children = [node("call", start, leaf("NAME", "exp", start), exponent)]
+                continue
             children += [leaf("POWER", "^", power.start), self._sign(), self._postfix()]
         return node("power", start, *children)
 
@@ -122,15 +118,8 @@ class PlainParser(Parser):
                 return made
 
     def _of_time(self) -> bool:
-        """Whether (t) is next: x1''(t) is x1''."""
-        return [x.text for x in self.tokens[self.i : self.i + 3]] == ["(", "t", ")"]
-
-    def _primed(self, made: Tree, primes: AnswerToken) -> Tree:
-        order = sum(_ORDERS[c] for c in primes.text)
-        if made.data == "name" and made.children[1] is None:
-            token: Node = made.children[0]
-            return name(token, token.start_pos, order)
-        return node("rate", primes.start, made, order)
+        """Whether (t) or [t] is next: x1''(t) is x1''."""
+        return [x.text for x in self.tokens[self.i : self.i + 3]] in (["(", "t", ")"], ["[", "t", "]"])
 
     def _atom(self) -> Tree:
         token = self.next
@@ -154,29 +143,11 @@ class PlainParser(Parser):
                 return node("rate", token.start, self._postfix(), 1 if token.kind == "ddt" else 2)
             case "partial":
                 self.take()
-                found = _TOKEN.match(self.source.text, token.start)
+                found = TOKEN.match(self.source.text, token.start)
                 assert found is not None
-                by = name(found["by"], found.start("by"), sum(_ORDERS[c] for c in found["dots"]))
+                by = name(found["by"], found.start("by"), sum(ORDERS[c] for c in found["dots"]))
                 return node("partial", token.start, leaf("NAME", found["what"], token.start), by)
         raise self.stopped(True)
-
-    def _fraction_rate(self) -> Tree:
-        token = self.take()
-        found = _TOKEN.match(self.source.text, token.start)
-        assert found is not None
-        group, order = ("of1", 1) if token.kind == "rate" else ("of2", 2)
-        written = found[group].rstrip("'’′″‴")
-        order += sum(_ORDERS[c] for c in found[group][len(written) :])
-        return name(written, found.start(group), order)
-
-    def _bracket(self) -> Tree:
-        start = self.take().start
-        self.deeper(start)
-        inner = self.sum()
-        if not self.accept(")"):
-            raise self.stopped(False)
-        self.opened.pop()
-        return inner
 
     def _matrix(self) -> Tree:
         """Read [a, b; c, d] or [[a, b], [c, d]]; a plain list is a column; a single entry is itself."""
@@ -206,187 +177,133 @@ class PlainParser(Parser):
 
     def _named(self) -> Tree:
         token = self.take()
-        if token.text in _DIFFERENTIATE and self.next.kind == "(":
+        opens = self.next.kind in ("(", "[")
+        if token.text in DIFFERENTIATE and opens and not self.words.is_name(token.text):
             return self._differentiated(token)
-        if token.text in _DOTS and self.next.kind == "(":
-            return node("rate", token.start, self._bracket(), _DOTS[token.text])
+        if token.text in DOTS and self.next.kind == "(":
+            return node("rate", token.start, self._bracket(), DOTS[token.text])
+        if token.text == "Matrix" and opens and not self.words.is_name("Matrix"):
+            return self._bracket_of_one()
         if token.text == "d" and self.next.kind == "(" and (rate := self._d_of_bracket(token)) is not None:
             return rate
-        if token.text in FUNCTIONS and self.next.kind in ("power", "raised"):
-            return self._powered_call(token)
-        if self.next.kind == "(":
+        if self.words.is_function(token.text):
+            return self._function(token)
+        if self.next.kind == "(" and self._called(token):
             return self._call(token)
         return name(token.text, token.start)
+
+    def _called(self, token: AnswerToken) -> bool:
+        """Whether the bracket after a name holds what it depends on, or its arguments, and is no factor."""
+        inside = [x.text for x in self.tokens[self.i + 1 : self.i + 4]]
+        if inside[:2] == ["t", ")"] or self.words.calls(token.text):
+            return True
+        moving = self.words.names.changes(token.text)
+        if moving and self.ahead().kind == "number" and inside[1:2] == [")"]:
+            return True  # x(0) is no product
+        if self.i > 1:
+            return False
+        end = self.i
+        while self.tokens[end].kind not in (")", "end"):
+            end += 1
+        listed = all(x.kind in ("name", "primes", ",", "(") for x in self.tokens[self.i : end])
+        return listed and self.tokens[end + 1 : end + 2] != [] and self.tokens[end + 1].kind == "="
 
     def _call(self, token: AnswerToken) -> Tree:
         arguments = self._arguments()
         if len(arguments) == 1 and only_name(arguments[0]) == ("t", 0):  # x1(t)
             return name(token.text, token.start)
         depends = arguments and all(only_name(x) is not None for x in arguments) and self.next.kind == "="
-        if depends and token.text not in FUNCTIONS:  # V(theta) = …
+        if depends and token is self.tokens[0] and not self.words.is_function(token.text):  # V(theta) = …
             return name(token.text, token.start)
         return node("call", token.start, leaf("NAME", token.text, token.start), *arguments)
 
     def _arguments(self) -> list[Tree]:
+        closing = CLOSING[self.next.kind]
         start = self.take().start
         self.deeper(start)
-        arguments = [] if self.next.kind == ")" else [self._argument()]
+        arguments = [] if self.next.kind == closing else [self.argument()]
         while self.accept(","):
-            arguments.append(self._argument())
-        if not self.accept(")"):
+            arguments.append(self.argument())
+        if not self.accept(closing):
             raise self.stopped(False)
         self.opened.pop()
         return arguments
 
-    # -- conditions, for piecewise ---------------------------------------------------------------------------------
+    def _bracket_of_one(self) -> Tree:
+        """Read Matrix([[a, b], [c, d]])."""
+        found = self._arguments()
+        return found[0]
 
-    def _argument(self) -> Tree:
-        return self._condition() if self._compares(self.i) else self.sum()
+    def _function(self, token: AnswerToken) -> Tree:
+        """Read sin(x), sin^2(x), sin² x, Sin[x] or sin 2 x: without brackets, numbers and one factor."""
+        called = function_of(token.text) or token.text
+        raised = self.accept("power", "raised")
+        exponent = self._exponent(token, raised) if raised is not None else None
+        if self.next.kind in ("(", "["):
+            arguments = self._arguments()
+        elif self.next.kind == "minus" or self.next.kind not in _BEGINS - {"("}:
+            raise self.stopped(False) if raised is not None else self._without_argument(token)
+        else:
+            arguments = [self._bare_argument(token)]
+        call = node("call", token.start, leaf("NAME", called, token.start), *arguments)
+        if exponent is None or raised is None:
+            return call
+        power = leaf("POWER", "^", raised.start)
+        return node("power", token.start, call, power, None, number(exponent, raised.start))
 
-    def _compares(self, at: int) -> bool:
-        """Whether there is a comparison before the end of the argument or bracket that begins here.
+    def _without_argument(self, token: AnswerToken) -> ParseError:
+        shown = "-x" if self.next.kind == "minus" else "x"
+        return self.source.error(
+            f"the argument of {token.text} is missing", token.start, fix=f"write {token.text}({shown})"
+        )
 
-        A comparison inside a factor or a function does not count: max(piecewise(x > 0, 1, 2), 3) is no condition.
-        """
-        depth = 0
-        factor: int | None = None  # the depth outside the bracket, no condition, that is being passed over
-        for k in range(at, len(self.tokens)):
-            token, before = self.tokens[k], self.tokens[k - 1].text
-            if factor is None and token.kind in "([" and before not in ("(", ",", *OR, *AND, *NOT):
-                factor = depth
-            depth += (token.kind in "([") - (token.kind in ")]")
-            if depth < 0 or (depth == 0 and token.kind in (",", "end")):
-                return False
-            if factor is not None:
-                factor = factor if depth > factor else None
-            elif token.kind == "relation" or token.text == "==":
-                return True
-        return False
-
-    def _condition(self) -> Tree:
-        """Read conditions joined by or, each of which consists of conditions joined by and."""
-        return self._joined("condition", OR, self._conjunction)
-
-    def _conjunction(self) -> Tree:
-        return self._joined("conjunction", AND, self._truth)
-
-    def _joined(self, kind: str, words: tuple[str, ...], part: Callable[[], Tree]) -> Tree:
-        start = self.next.start
-        children: list[Node] = [part()]
-        while self.next.text in words:
-            word = self.take()
-            children += [leaf("WORD", word.text, word.start), part()]
-        return node(kind, start, *children)
-
-    def _truth(self) -> Tree:
-        """Read a comparison, a condition in brackets, or the negation of one."""
-        token = self.next
-        if token.text in NOT:
-            self.take()
-            self.deeper(token.start)
-            made = node("negation", token.start, leaf("NOT", token.text, token.start), self._truth())
-            self.opened.pop()
-            return made
-        if token.kind == "(" and self._compares(self.i + 1):
-            self.take()
-            self.deeper(token.start)
-            made = self._condition()
-            if not self.accept(")"):
-                raise self.stopped(False)
-            self.opened.pop()
-            return made
-        left = self.sum()
-        relation = self.next
-        if relation.kind != "relation" and relation.text != "==":
-            raise self.stopped(False)
-        self.take()
-        return node("comparison", token.start, left, leaf("RELATION", relation.text, relation.start), self.sum())
-
-    def _powered_call(self, token: AnswerToken) -> Tree:
-        """Read sin^2(x) or sin²(x)."""
-        at = self.i
-        raised = self.take()
-        sign = self.accept("minus") if raised.kind == "power" else None
+    def _exponent(self, token: AnswerToken, raised: AnswerToken) -> str:
+        """The exponent between a function and its argument: sin^2(x), sin²(x)."""
+        sign, exponent = None, ""
         if raised.kind == "power":
+            opened = self.accept("(")
+            sign = self.accept("minus")
             digits = self.accept("number")
-            exponent = None if digits is None else digits.text
+            exponent = "" if digits is None or (opened and not self.accept(")")) else digits.text
         else:
             exponent = raised.text.translate(str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁺", "0123456789-+")).lstrip("+")
-        if exponent is not None and (sign or exponent.startswith("-")):
+        if sign or exponent.startswith("-"):
             raise self.source.error(
                 f"{token.text} to a negative power can mean its inverse or its reciprocal",
                 token.start,
                 fix=f"write a{token.text}(x) for the inverse, 1/{token.text}(x) for the reciprocal",
             )
-        if exponent is None or self.next.kind != "(":
-            self.i = at
+        if not exponent:
             raise self.stopped(False)
-        call = self._call(token)
-        power = leaf("POWER", "^", raised.start)
-        return node("power", token.start, call, power, None, number(exponent, raised.start))
+        return exponent
 
-    def _d_of_bracket(self, token: AnswerToken) -> Tree | None:
-        """Read d(…)/dt; None if no /dt follows."""
-        at = self.i
-        inner = self._bracket()
-        if self.next.kind == "over" and self.ahead().kind == "name" and self.ahead().text == "dt":
-            self.take()
-            self.take()
-            return node("rate", token.start, inner, 1)
-        self.i = at
-        return None
-
-    def _differentiated(self, token: AnswerToken) -> Tree:
-        """Read diff(x, t), diff(x, t, 2), diff(x, t, t), Derivative(x(t), (t, 2)) or diff(L, x')."""
-        start = self.take().start
-        self.deeper(start)
-        made = self.sum()
-        order = 0
-        while self.accept(","):
-            tuple_open = self.accept("(")
-            by = self.sum()
-            which = only_name(by)
-            if which == ("t", 0):
-                order += 1
-                if self.next.kind == "," and self.ahead().kind == "number":
-                    self.take()
-                    order += self._order() - 1
-            elif which is not None:
-                made = node("partial", token.start, self._energy(made, token), by)
-            else:
-                raise self.source.error(
-                    "a derivative must be with respect to t or to one name",
-                    by.meta.start_pos,
-                    fix="write diff(x1, t, 2) or x1''",
-                )
-            if tuple_open and not self.accept(")"):
-                raise self.stopped(False)
-        if not self.accept(")"):
-            raise self.stopped(False)
-        self.opened.pop()
-        if not order and made.data != "partial":
-            raise self.source.error(
-                f"{token.text} needs a variable to differentiate by", token.start, fix=f"write {token.text}(x1, t)"
-            )
-        return node("rate", token.start, made, order) if order else made
-
-    def _order(self) -> int:
-        token = self.take()
-        if token.text not in ("1", "2"):
-            raise self.source.error(
-                "derivatives go up to the second", token.start, fix="write x1'' for an acceleration"
-            )
-        return int(token.text)
-
-    def _energy(self, made: Tree, token: AnswerToken) -> Node:
-        which = only_name(made)
-        if which is None or which[1] or which[0] not in ("T", "V", "L", "D", "ℒ"):
-            raise self.source.error(
-                "only T, V, L and D can be differentiated by a coordinate or its rate",
-                token.start,
-                fix="write ∂L/∂x1' or diff(L, x1')",
-            )
-        return which[0]
+    def _bare_argument(self, token: AnswerToken) -> Tree:
+        """Read numbers, then one factor; a constant and t count as one factor."""
+        start = self.next.start
+        children: list[Node] = []
+        while True:
+            if children:
+                children.append(leaf("OPERATOR", "*", self.next.start))
+            kind, text = self.next.kind, self.next.text
+            if kind == "name" and self.words.is_function(text):
+                raise self._without_argument(token)
+            children.append(self.operand())
+            if kind in ("number", "fraction"):
+                if self.next.kind in ("name", "(", "rate"):
+                    continue
+                self.accept("times") if self.next.kind == "times" and self.ahead().kind == "name" else None
+                if self.next.kind in ("name", "("):
+                    continue
+                break
+            if self.next.kind == "name" and self.next.text == "t":
+                children += [leaf("OPERATOR", "*", self.next.start), self.operand()]
+            break
+        if self.next.kind in ("times", "over"):
+            end = self.tokens[self.i - 1].end
+            inner = self.source.text[start:end].strip()
+            read = f"{token.text} {inner}{self.next.text}… was read as {token.text}({inner})."
+            self.words.names.notes.setdefault(read)
+        return node("product", start, *children)
 
 
 def _entries(tree: Tree) -> list[Tree] | None:

@@ -3,38 +3,77 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 from functools import partial
 
 from lagrangian.check.reading.answer import Answer
+from lagrangian.check.reading.characters import plainer
 from lagrangian.check.reading.latex import LatexParser
 from lagrangian.check.reading.latex_rows import latex_rows
-from lagrangian.check.reading.lines import Lines, Statement
+from lagrangian.check.reading.lines import MAX_ERRORS, Lines, Statement
+from lagrangian.check.reading.markup import all_bullets, bullets, without_bullets, without_markup
 from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain import PlainParser
-from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, plain_rows
-from lagrangian.errors import Place
+from lagrangian.check.reading.plain_tokens import with_points
+from lagrangian.check.reading.rows import ENGLISH, MAX_STATEMENTS, AnswerRow, plain_rows
+from lagrangian.check.reading.words import Words
+from lagrangian.errors import ParseError, Place
 from lagrangian.model import Model
 from lagrangian.quantities.source import Source
 
 MAX_ANSWER = 60_000
 """The largest number of characters of an answer."""
 
+MANY_WORDS = 2
+"""English words in a row that make it a sentence."""
+
+EXAMPLE = "an equation, such as m*x'' + k*x = F"
 _LATEX = re.compile(r"\\[A-Za-z(\[\\]|\$|[_^]\{")
+_NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*(?:[^\W⁰¹²³⁴-⁹¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*)*"
+_DEFINED = re.compile(
+    rf"(?:^|[,;:)]|\bwhere|\bwith|\band)\s*((?>{_NAME}))\s*(?:(?:\^|\*\*)\s*2|²)?\s*=(?!=)", re.MULTILINE
+)
+_USED = re.compile(rf"(?<!\w)((?>{_NAME}))(?:['’′″]|\s*(?:[*/^²³]))|[*/^]\s*((?>{_NAME}))")
+_ALONE = re.compile(rf"(?<![\w.])(?<!\d\s)((?>{_NAME}))")
 
 
-def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
+@dataclass(frozen=True)
+class Choices:
+    """How what can be read in two ways is read: denominators the other way, a minus in front as that of a list, letters
+    after numbers as units."""
+
+    flipped: bool = False
+    listed: bool = False
+    units: bool = False
+
+
+LIKELIEST = Choices()
+"""The reading that is tried first."""
+
+
+def parse_answer(text: str, model: Model, *, name: str | None = None, reading: Choices = LIKELIEST) -> Answer:
     """Return the content of an answer to ``model``, line by line.
 
     ``text`` is LaTeX, or plain text in the grammar of model files; ``name`` is the name of its file, for messages.
     Names that the model does not have are listed in ``unknown`` of the answer; they are not errors. Nothing in the text
     is executed; sizes, depths and exponents are bounded. Raises `ParseError` with line, column, caret and what was
-    expected there.
+    expected there; if several statements cannot be read, the error lists all of them.
     """
-    source = Source(text, "the answer", Place(name) if name else None)
-    source.check_text(MAX_ANSWER, "an equation, such as m*x'' + k*x = F")
+    place = Place(name) if name else None
+    Source(text, "the answer", place).check_text(MAX_ANSWER, EXAMPLE)
+    typed = plainer(text)
+    text = without_markup(typed)
+    listed = reading.listed or all_bullets(text, marked=text != typed)
+    choice = bool(bullets(text)) and not listed
+    text = without_bullets(text) if listed else text
+    source = Source(text, "the answer", place)
+    source.check_text(MAX_ANSWER, EXAMPLE)
     latex = bool(_LATEX.search(text))
-    rows = latex_rows(text) if latex else plain_rows(text)
+    lines = Lines(model)
+    words = _words(lines, text)
+    words.flipped, words.units = reading.flipped, reading.units
+    rows = latex_rows(text) if latex else plain_rows(text, words)
     if not rows:
         raise source.error(
             "this contains no equation and no energy", 0, fix="write an equation, such as m*x'' + k*x = 0"
@@ -42,14 +81,62 @@ def parse_answer(text: str, model: Model, *, name: str | None = None) -> Answer:
     if len(rows) > MAX_STATEMENTS:
         what = f"more than {MAX_STATEMENTS} statements"
         raise source.error(what, rows[MAX_STATEMENTS].start, fix="give the answer in several parts", code="E703")
-    lines = Lines(model)
-    parser = partial(LatexParser, known=lines.names.known, misspelled=lines.names.misspelled) if latex else PlainParser
-    statements = [_parsed(source, row, parser) for row in rows]
-    return Answer(lines.read(statements), "latex" if latex else "text", tuple(lines.names.unknown.values()))
+    parser: Callable[[Source], Parser] = partial(PlainParser, words=words)
+    if latex:
+        parser = partial(LatexParser, known=lines.names.known, misspelled=lines.names.misspelled)
+    statements, errors = _parsed(source, rows, parser, latex)
+    made = lines.read(statements, errors)
+    less_likely = [
+        (Choices(units=True), words.doubtful),
+        (Choices(flipped=True), words.asked),
+        (Choices(listed=True), choice),
+    ]
+    others = [x for x, asked in less_likely if asked]
+    again = [partial(parse_answer, text, model, name=name, reading=x) for x in others] if reading == LIKELIEST else []
+    notes = (*words.notes(), *_chosen(reading), *lines.names.notes)
+    notation = "latex" if latex else "text"
+    return Answer(made, notation, tuple(lines.names.unknown.values()), notes, tuple(again))
 
 
-def _parsed(source: Source, row: AnswerRow, parser: Callable[[Source], Parser]) -> Statement:
-    """Parse one statement; its places refer to the whole answer."""
-    start = row.start + len(row.text) - len(row.text.lstrip())
-    own = Source(row.text.strip(), source.what, source.place, lambda offset: source.at(start + offset))
-    return Statement(tuple(parser(own).sides()), own)
+def _chosen(reading: Choices) -> Iterator[str]:
+    """What to say about a reading that is not the likeliest."""
+    if reading.flipped:
+        yield "Denominators without brackets, as in a/b c, were read in the other way that is possible."
+    if reading.listed:
+        yield "The sign at the beginning of a line was read as that of a list."
+
+
+def _words(lines: Lines, text: str) -> Words:
+    """The words of an answer: those that it defines, all, and those that it uses as names."""
+    own, alone = (dict.fromkeys(m[1] for m in form.finditer(text)) for form in (_DEFINED, _ALONE))
+    used = dict.fromkeys(m[1] or m[2] for m in _USED.finditer(text))
+    return Words(lines.names, own, alone, used)
+
+
+def _parsed(
+    source: Source, rows: Sequence[AnswerRow], parser: Callable[[Source], Parser], latex: bool
+) -> tuple[list[Statement], list[ParseError]]:
+    """The statements, whose places refer to the whole answer, and the errors of those that cannot be parsed."""
+    found: list[Statement] = []
+    errors: list[ParseError] = []
+    words: list[ParseError] = []
+    for row in rows:
+        start = row.start + len(row.text) - len(row.text.lstrip())
+        written = row.text.strip() if latex else with_points(row.text.strip())
+        own = Source(written, source.what, source.place, partial(_place, source, start))
+        try:
+            found.append(Statement(tuple(parser(own).sides()), own))
+        except ParseError as error:
+            (errors if _is_stated(written) or error.code == "E703" else words).append(error)
+            if len(errors) >= MAX_ERRORS or error.code == "E703":
+                break
+    return found, errors if found or errors else words[:1]
+
+
+def _is_stated(row: str) -> bool:
+    """Whether a row that cannot be read is a statement, and no heading and no sentence."""
+    return "=" in row and sum(word.lower() in ENGLISH for word in re.findall(r"[^\W\d_]+", row)) < MANY_WORDS
+
+
+def _place(source: Source, start: int, offset: int) -> Place:
+    return source.at(start + offset)

@@ -6,6 +6,9 @@ import re
 from dataclasses import dataclass
 from itertools import pairwise
 
+from lagrangian.check.reading.markup import blank, opened_list
+from lagrangian.check.reading.prose import is_prose, without_lead, without_remarks
+from lagrangian.check.reading.words import Words
 from lagrangian.model.names import FUNCTIONS
 
 MAX_STATEMENTS = 500
@@ -34,14 +37,16 @@ _ENGLISH_LISTED = (
     "potential coordinate coordinates first second becomes follows which yields now finally using from by "
     "in at on to reads"
 )
-_ENGLISH = frozenset(_ENGLISH_LISTED.split())
+ENGLISH = frozenset(_ENGLISH_LISTED.split())
+"""Words that are seldom names."""
+
 _LEADING = re.compile(r"\s*(?:[^\W\d_]+[,:]?\s+)+(?=\S)")
 _TRAIL = re.compile(rf"(?<=[\w)\]'’′²³])\s*,?\s+{_WORDS}\s*[,:]?\s*\Z", re.IGNORECASE)
 _AFTER = re.compile(
-    r"(?<=[\w)\]'’′²³])\s+(?:\(\s*(?:\d{1,3}[a-z]?|[ivx]{1,4})\s*\)|\[\s*\d{1,3}[a-z]?\s*\])\s*[.,;]?\s*\Z"
+    r"(?<=[\w)\]'’′″²³])(?:\s*[.,;])?\s+(?:\(\s*(?:\d{1,3}[a-z]?|[ivx]{1,4})\s*\)|\[\s*\d{1,3}[a-z]?\s*\])\s*[.,;]?\s*\Z"
 )
 _OPEN_END = re.compile(r"(?:[-+*/×·=(\[,^−]|\.\.\.|…|\\)\s*\Z")
-_OPEN_START = re.compile(r"\s*[+*/×·=)\]^]")
+_OPEN_START = re.compile(r"\s*(?:[+*/×·)\]^]|=(?!>))")
 _MINUS_START = re.compile(r"\s*[-−–]")
 _STATEMENT_SIGN = re.compile(r"[=+*/^()\[\]'′″\u0307\u0308]")
 _DOTTED = re.compile(r"(?:\.\.\.|…|\\)(?=\s*\Z)")
@@ -50,14 +55,16 @@ _PLUS_END = re.compile(r"\+\s*\Z")
 _PLUS_START = re.compile(r"\s*\+")
 _GOES_ON = re.compile(r"\s*(?:\.\.\.|…)")
 
+_ARROWS = "<?=>|⇒|⟹|⇔|⟺|<?-+>|→|⟶|↔|⟷|∴"
+_LINKS = r"(?<=[\s,;])(?:and|where|with|so|thus|hence|therefore|implies|then|i\.e\.)(?=[\s,:])"
+_BETWEEN = re.compile(rf"[(\[{{}}\])\n]|(?<=[^\s>])[ \t]*(?P<arrow>{_ARROWS}|\bimplies\b)|{_LINKS}")
 
-def blank(text: str, start: int, end: int) -> str:
-    """Return the text with [start, end) replaced by as many spaces, so that all places stay the same."""
-    return text[:start] + " " * (end - start) + text[end:]
 
-
-def plain_rows(text: str) -> list[AnswerRow]:
-    """Return the statements of an answer in plain text."""
+def plain_rows(text: str, words: Words) -> list[AnswerRow]:
+    """Return the statements of an answer in plain text; headings and remarks are ignored."""
+    text = without_remarks(text, words)
+    text = _separated(opened_list(text) if "\n\n" not in text.strip() else text)
+    text = "\n".join(opened_list(line) if "Eq" in line else line for line in text.split("\n"))
     rows: list[AnswerRow] = []
     offset = 0
     open_row: AnswerRow | None = None
@@ -77,7 +84,33 @@ def plain_rows(text: str) -> list[AnswerRow]:
             rows.append(open_row)
         offset += len(line)
     split = [piece for row in rows for part in pieces(row, ";", always=True) for piece in pieces(part, ",")]
-    return [_without_lead(row) for row in split]
+    found = [AnswerRow(row.start, without_lead(_without_lead(row).text, words)) for row in split]
+    stated = [row for row in found if not is_prose(row.text, words)]
+    return stated or found[:1]
+
+
+def _separated(text: str) -> str:
+    """Replace arrows and linking words between statements by semicolons: a = b ⇒ c = d, a = b and c = d."""
+    depth = 0
+    letters = list(text)
+    for match in _BETWEEN.finditer(text):
+        mark = match.group()
+        if mark in "([{":
+            depth += 1
+        elif mark in ")]}":
+            depth -= 1
+        elif mark == "\n":
+            depth = depth if depth > 0 else 0
+        elif depth <= 0 and (match["arrow"] or _both(text, match.start(), match.end())):
+            at = match.start()
+            letters[at : match.end()] = ";" + " " * (match.end() - at - 1)
+    return "".join(letters)
+
+
+def _both(text: str, start: int, end: int) -> bool:
+    """Whether there is an equals sign on the same line before and after a place."""
+    first, last = text.rfind("\n", 0, start) + 1, text.find("\n", end)
+    return "=" in text[first:start] and "=" in text[end : last if last >= 0 else len(text)]
 
 
 def _before(line: str) -> str:
@@ -92,7 +125,7 @@ def _without_lead(row: AnswerRow) -> AnswerRow:
     """Blank out English words in front: "the kinetic energy is T = …"."""
     if (match := _LEADING.match(row.text)) is None:
         return row
-    words = [w for w in re.finditer(r"[^\W\d_]+", match.group()) if w.group().lower() in _ENGLISH]
+    words = [w for w in re.finditer(r"[^\W\d_]+", match.group()) if w.group().lower() in ENGLISH]
     return AnswerRow(row.start, blank(row.text, 0, words[-1].end() + 1)) if words else row
 
 
@@ -113,7 +146,7 @@ def plain_words(line: str) -> bool:
 def _remark(part: str) -> bool:
     """Whether a part of a line consists of words: "with the stretch s,"."""
     words = re.findall(r"[^\W\d_]+", part)
-    return "=" not in part and any(w.lower() in _ENGLISH for w in words) and not FUNCTIONS & set(words)
+    return "=" not in part and any(w.lower() in ENGLISH for w in words) and not FUNCTIONS & set(words)
 
 
 def _continues(before: str, line: str) -> bool:
@@ -129,6 +162,11 @@ def incomplete(text: str) -> bool:
     return bool(_OPEN_END.search(text)) or sum((c in "([") - (c in ")]") for c in text) > 0
 
 
+def _stated(part: str) -> bool:
+    """Whether a part of a row is a statement of its own."""
+    return "=" in part or bool(re.match(r"\s*Eq\w*\s*[(\[]", part))
+
+
 def pieces(row: AnswerRow, separators: str, *, always: bool = False) -> list[AnswerRow]:
     """Split a row at separators outside brackets; unless ``always``, only if every piece contains an =."""
     cuts, depth = [-1], 0
@@ -138,12 +176,12 @@ def pieces(row: AnswerRow, separators: str, *, always: bool = False) -> list[Ans
             cuts.append(i)
     cuts.append(len(row.text))
     parts = [(a + 1, row.text[a + 1 : b]) for a, b in pairwise(cuts)]
-    if any("=" in part for _, part in parts):
+    if any(_stated(part) for _, part in parts):
         parts = [(at, part) for at, part in parts if not _remark(part)]
     if (
         len(parts) > 1
         and not always
-        and sum("=" in part for _, part in parts) < sum(bool(part.strip()) for _, part in parts)
+        and sum(_stated(part) for _, part in parts) < sum(bool(part.strip()) for _, part in parts)
     ):
         return [row]
     return [AnswerRow(row.start + at, part) for at, part in parts if part.strip()]

@@ -23,7 +23,7 @@ from lagrangian.derive.lagrange import LeftSide
 from lagrangian.derive.multiplier import Minimal, equality
 from lagrangian.derive.multipliers.rows import RowForms
 from lagrangian.derive.multipliers.speeds import Linear, Speeds, reduced_speeds
-from lagrangian.model import time
+from lagrangian.model import Friction, time
 from lagrangian.page.formula import EquationTerm, Heading, Item, Left, Name, Text, formula, text
 
 MOST_DIVIDED = 2
@@ -50,6 +50,9 @@ def without_multipliers(
 
     ``lengths`` tells which coordinates are lengths.
     """
+    if pressed := next((f for f in context.model.elements if isinstance(f, Friction) and f.pressed_by), None):
+        reason = text(f"The multipliers stay: {pressed.title} holds the one of '{pressed.pressed_by}'.")
+        return Found(None, reason, (Heading(text(TITLE)), reason))
     try:
         rates = [c.rate for c in context.model.coordinates if lengths[c.symbol]]
         speeds = reduced_speeds(context, rows, rates, MOST_DIVIDED)

@@ -7,16 +7,17 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Container
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import sympy as sp
 
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import Context
 from lagrangian.derive.multiplier import Multiplier
+from lagrangian.model import Friction, Model
 from lagrangian.model.elements import answers
 from lagrangian.model.names import moving_symbol
-from lagrangian.model.rows import Row, rows_of
+from lagrangian.model.rows import Row, named_conditions, rows_of
 from lagrangian.page.formula import text
 
 
@@ -41,11 +42,9 @@ def row_forms(context: Context, names: Collection[str]) -> tuple[RowForms, ...]:
     """The rows of a model with these names in normal form, in order."""
     model, algebra = context.model, context.algebra
     found: list[RowForms] = []
-    taken = {*model.symbols}
+    symbols = multiplier_symbols(model)
     for row in (row for row in rows_of(model) if row.name in names):
-        name = symbol_name(row.name, taken)
-        taken.add(name)
-        multiplier = moving_symbol(name)
+        multiplier = symbols[row.name]
         rate = algebra.form(row.rate)
         slopes = tuple(rate.diff(c.rate) for c in model.coordinates)
         moved = [slope * algebra.form(c.rate) for slope, c in zip(slopes, model.coordinates, strict=True)]
@@ -53,6 +52,28 @@ def row_forms(context: Context, names: Collection[str]) -> tuple[RowForms, ...]:
         drive = rate - algebra.total(moved)
         found.append(RowForms(row, multiplier, rate, slopes, drive, rate.total_derivative(), pushes))
     return tuple(found)
+
+
+def multiplier_symbols(model: Model) -> dict[str, sp.Expr]:
+    """The symbol of every row's multiplier, by the names of the rows."""
+    taken, found = {*model.symbols}, dict[str, sp.Expr]()
+    for row in named_conditions(model):
+        name = symbol_name(row.name, taken)
+        taken.add(name)
+        found[row.name] = moving_symbol(name)
+    return found
+
+
+def with_multipliers(model: Model) -> Model:
+    """The model in which friction that a multiplier presses on holds that multiplier by its symbol on the page."""
+    if not any(isinstance(e, Friction) and e.pressed_by for e in model.elements):
+        return model
+    symbols = multiplier_symbols(model)
+    elements = tuple(
+        e.with_multiplier(symbols[e.pressed_by]) if isinstance(e, Friction) and e.pressed_by else e
+        for e in model.elements
+    )
+    return replace(model, elements=elements, _memo={})
 
 
 def symbol_name(row: str, taken: Container[str]) -> str:

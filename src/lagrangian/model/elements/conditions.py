@@ -117,6 +117,13 @@ class Stated(Condition):
 
 
 @dataclass(frozen=True, kw_only=True)
+class Unmoved(Stated):
+    """A deflection that does not change: that of two points, or one that is given by an expression."""
+
+    between: tuple[Point, Point] | None = None
+
+
+@dataclass(frozen=True, kw_only=True)
 class SameTurn(Condition):
     """In the plane: ``first`` is turned by ``angle`` from ``second`` (None: from the fixed axes)."""
 

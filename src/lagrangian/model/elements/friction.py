@@ -28,10 +28,10 @@ from lagrangian.model.elements.base import (
     norm,
     pair_ends,
 )
-from lagrangian.model.elements.conditions import Stated
+from lagrangian.model.elements.conditions import Unmoved
 from lagrangian.model.elements.constraint import Restriction
 from lagrangian.model.geometry import Point, as_expr
-from lagrangian.model.names import time
+from lagrangian.model.names import is_text, multiplier_symbol, time
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -39,55 +39,83 @@ class Friction(Element):
     """Dry friction along a deflection δ: it slips with the effort −F sign(δ̇) − b δ̇, or it sticks, δ̇ = 0.
 
     F [N or N m] is ``limit``, or ``mu`` times ``normal``. Of a ``limit`` or ``normal`` that changes, only the magnitude
-    counts; constant ones must not be negative.
+    counts; constant ones must not be negative. Instead of ``normal``, ``pressed_by`` names a row of a constraint, whose
+    multiplier λ_N is the normal force: F = μ |λ_N|. That force depends on the friction in its turn.
     While it sticks, its effort is the multiplier λ of the row δ̇ = 0, as long as |λ| ≤ F_s. F_s is F unless ``static``
     is given: the limit at rest if ``limit`` is given, the coefficient at rest if ``mu`` is; it is not below F.
-    ``viscous`` is b. δ is the distance of two points (``between``) or an expression in coordinates and t
+    ``viscous`` is b. With ``sense``, ±1, it is known to slip in that sense, and nothing jumps: then ``side`` is the
+    sign of λ_N. δ is the distance of two points (``between``) or an expression in coordinates and t
     (``deflection``; an angle makes F a torque).
     """
 
     mu: Any = None
     normal: Any = None
+    pressed_by: Any = None
     limit: Any = None
     static: Any = None
     viscous: Any = None
     between: Any = None
     deflection: Any = None
+    sense: Any = None
+    side: Any = None
 
     kind: ClassVar[str] = "friction"
     plural = "Dry friction."
     about = "Dry friction that slips or sticks, with the limit F or the coefficient mu and a normal force."
     entries: ClassVar[Mapping[str, Entry]] = {
-        "mu": Entry(FieldKind.EXPRESSION, "Its coefficient while it slips; needs normal."),
+        "mu": Entry(FieldKind.EXPRESSION, "Its coefficient while it slips; needs normal or pressed_by."),
         "normal": Entry(FieldKind.EXPRESSION, "The normal force, whose magnitude counts."),
+        "pressed_by": Entry(FieldKind.ROW, "The constraint, or its row, whose multiplier is the normal force."),
         "limit": Entry(FieldKind.EXPRESSION, "The friction force or torque F while it slips, instead of mu."),
         "static": Entry(FieldKind.EXPRESSION, "The coefficient at rest (with mu), or the limit at rest (with limit)."),
         "viscous": Entry(FieldKind.EXPRESSION, "The coefficient b of a viscous part b δ̇."),
         "between": Entry(FieldKind.TWO_POINTS, "The two points that slide along the line through both."),
         "deflection": Entry(FieldKind.EXPRESSION, "Its deflection δ, instead of two points."),
+        "sense": Entry(FieldKind.EXPRESSION, "1 or -1 if it is known to slip in that sense: it never sticks then."),
+        "side": Entry(FieldKind.EXPRESSION, "With sense and pressed_by, the sign of that multiplier, 1 or -1."),
     }
     ledger: ClassVar[Literal["T*", "V", "Ξ"]] = "Ξ"
     because = ("it takes energy out while it slips and does no work while it sticks: no potential, so it is in ", XI)
     resists = True
-    sense: ClassVar[sp.Expr | None] = None
-    """The sense, ±1, of a friction that is known to slip; otherwise None."""
+    normal_multiplier: ClassVar[sp.Expr | None] = None
+    """λ_N of ``pressed_by``, by another symbol than that of runs."""
 
     def __post_init__(self) -> None:
-        if (self.mu is None) == (self.limit is None) or (self.mu is None) != (self.normal is None):
-            given = [key for key in ("mu", "normal", "limit") if getattr(self, key) is not None]
+        given = [key for key in ("mu", "normal", "pressed_by", "limit") if getattr(self, key) is not None]
+        if given not in (["mu", "normal"], ["mu", "pressed_by"], ["limit"]):
             raise self._error(
-                f"give either mu and normal, or limit (got {', '.join(given) or 'none'})",
+                f"give mu with normal or pressed_by, or else limit (got {', '.join(given) or 'none'})",
                 fix="mu='mu', normal='m*g' for a coefficient and a normal force; limit='F' for a force or torque",
                 code="E412",
             )
         if isinstance(self.normal, str):
             raise self._error(
-                f"the normal force '{self.normal[:64]}' is text, and the multiplier of a constraint cannot be one",
-                fix="normal=m*g*cos(alpha), an expression in coordinates, rates, t, parameters and inputs",
+                f"the normal force '{self.normal[:64]}' is text",
+                fix=f"pressed_by='{self.normal[:64]}' if the multiplier of that constraint is the normal force; else "
+                "an expression in coordinates, rates, t, parameters and inputs",
                 code="E406",
             )
+        if self.pressed_by is not None:
+            row = self.pressed_by.name if isinstance(self.pressed_by, Restriction) else self.pressed_by
+            if not is_text(row) or not row:
+                raise self._error(
+                    "pressed_by must be a constraint or the name of one of its rows",
+                    fix="pressed_by='floor'",
+                    code="E406",
+                )
+            self._set(pressed_by=row)
         self._set(between=check_ends(self, self.between, self.deflection))
-        for key in ("mu", "normal", "limit", "static", "viscous", "deflection"):
+        for key in ("sense", "side"):
+            value = getattr(self, key)
+            if value is not None and (isinstance(value, bool) or value not in (1, -1)):
+                raise self._error(f"{key} is {value!r:.40}", fix=f"{key}=1 or {key}=-1", code="E406")
+        if (self.side is None) != (self.sense is None or self.pressed_by is None):
+            raise self._error(
+                "side, the sign of the multiplier that presses, is given with sense and pressed_by",
+                fix="sense=1, side=1",
+                code="E412",
+            )
+        for key in ("mu", "normal", "limit", "static", "viscous", "deflection", "sense", "side"):
             value = getattr(self, key)
             if value is not None:
                 self._set(**{key: as_expr(value, f"the {key} of {self.title}", place=self.place)})
@@ -112,11 +140,14 @@ class Friction(Element):
         """With the unit [δ]: limit and normal force J/[δ], viscous coefficient J s/[δ]²; mu is a number."""
         along = None if self.between else self.deflection
         if self.mu is not None:
-            yield Measure("coefficient", self.mu, (0, 0, 0))
-            yield Measure("normal force", self.normal, ENERGY, along, -1)
+            # λ of a row has its own unit: coefficients of lengths, such as the radius of a bearing, are left to users
+            yield from () if self.pressed_by else (Measure("coefficient", self.mu, (0, 0, 0)),)
+            yield from () if self.pressed_by else (Measure("normal force", self.normal, ENERGY, along, -1),)
         else:
             yield Measure("limit", self.limit, ENERGY, along, -1)
-        if self.static is not None and self.mu is not None:
+        if self.static is not None and self.pressed_by:
+            pass
+        elif self.static is not None and self.mu is not None:
             yield Measure("coefficient at rest", self.static, (0, 0, 0))
         elif self.static is not None:
             yield Measure("limit at rest", self.static, ENERGY, along, -1)
@@ -137,14 +168,22 @@ class Friction(Element):
     @property
     def slipping_limit(self) -> sp.Expr:
         """F [N or N m]: the friction while it slips."""
-        return _magnitude(self.limit) if self.mu is None else self.mu * _magnitude(self.normal)
+        return _magnitude(self.limit) if self.mu is None else self.mu * self.normal_force
 
     @property
     def sticking_limit(self) -> sp.Expr:
         """F_s [N or N m]: the greatest |λ| at which it sticks."""
         if self.static is None:
             return self.slipping_limit
-        return self.static if self.mu is None else self.static * _magnitude(self.normal)
+        return self.static if self.mu is None else self.static * self.normal_force
+
+    @property
+    def normal_force(self) -> sp.Expr:
+        """The magnitude of the normal force: |N|, or |λ_N|, which is ± λ_N on a known side."""
+        if self.pressed_by is None:
+            return _magnitude(self.normal)
+        lam = multiplier_symbol(self.pressed_by) if self.normal_multiplier is None else self.normal_multiplier
+        return sp.Abs(lam) if self.side is None else self.side * lam
 
     def displacement(self, model: Surroundings) -> sp.Expr:
         """δ [m or rad]; along one fixed line it is the signed separation."""
@@ -197,6 +236,24 @@ class Friction(Element):
         made._set(sense=sp.Integer(sense))
         return made
 
+    def pressed(self, row: str) -> Friction:
+        """The same friction with the name of the row that presses on it."""
+        made = self.named(self.name)
+        made._set(pressed_by=row)
+        return made
+
+    def on_side(self, side: int) -> Friction:
+        """The same friction while λ_N has one sign, ±1."""
+        made = self.named(self.name)
+        made._set(side=sp.Integer(side))
+        return made
+
+    def with_multiplier(self, symbol: sp.Expr) -> Friction:
+        """The same friction with another symbol for λ_N."""
+        made = self.named(self.name)
+        made._set(normal_multiplier=symbol)
+        return made
+
     def sticking(self) -> Stuck:
         """The row δ̇ = 0 that replaces it while it sticks."""
         return Stuck(friction=self, name=self.name, place=self.place)
@@ -223,4 +280,4 @@ class Stuck(Restriction):
 
     def conditions(self, model: Surroundings) -> tuple[Condition, ...]:
         """δ̇ = 0."""
-        return (Stated(value=self.friction.rate(model), velocity=True),)
+        return (Unmoved(value=self.friction.rate(model), velocity=True, between=self.friction.between),)

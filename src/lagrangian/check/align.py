@@ -1,0 +1,172 @@
+"""How the equations of an answer may correspond to the right ones: which to which, divided by what.
+
+An equation P_j that was divided, multiplied or solved is f·(W_i + ΔW_i) with a factor f that depends on the place
+alone. It is found without any guess of its form: the quotient of two slopes that are not wrong, if it is constant at
+every place.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from itertools import permutations
+
+import numpy as np
+import sympy as sp
+
+from lagrangian.check.reference import Reference
+from lagrangian.check.rows import ratio
+from lagrangian.derive.sampling import PLACES, SETS, Array, CompiledExpressions
+
+CONSTANT = 1e-7
+"""The relative spread of a quotient at one place that counts as none."""
+LARGEST = 1e100
+"""Larger values are not compared: their squares would overflow."""
+MOST_FACTORS = 6
+MOST_ALIGNMENTS = 24
+
+
+@dataclass(frozen=True, eq=False)
+class Alignment:
+    """A correspondence: row j of the answer is ``factors[j]`` (S) times the right row ``rows[j]`` and what is wrong.
+
+    ``rest`` is what is wrong, in the terms of the right rows, (k, S); ``doubt`` grows with less likely alignments.
+    """
+
+    rows: tuple[int, ...]
+    factors: Array
+    rest: Array
+    doubt: float
+    solved: bool = False
+    exprs: tuple[sp.Expr, ...] = ()
+
+    def factor(self, truth: Reference, i: int) -> sp.Expr | None:
+        """The factor of the answer's equation that corresponds to the right row ``i``, if its form is found."""
+        if self.solved or i not in self.rows or not self.exprs:
+            return None
+        j = self.rows.index(i)
+        mine, right = truth.form(self.exprs[j]), truth.forms[i]
+        found = ratio(mine, right) if mine is not None and right is not None else None
+        if found is None:
+            return None
+        values = CompiledExpressions([found[0]]).at(truth.states)[0]
+        return found[0] if np.allclose(values, self.factors[j], rtol=1e-9) else None
+
+
+def alignments(truth: Reference, exprs: Sequence[sp.Expr], P: Array) -> list[Alignment]:
+    """The correspondences of the equations P (k, S), left minus right, the likeliest first."""
+    k = len(exprs)
+    if not 0 < k <= truth.n:
+        return []
+    table = _factors(truth, exprs)
+    found: list[Alignment] = []
+    for rows in _orders(table, k, truth.n):
+        options = [table[j][i] for j, i in enumerate(rows)]
+        for chosen, votes in _combined(options):
+            factors = np.array([f for f, _ in chosen])
+            with np.errstate(all="ignore"):
+                rest = P / factors - truth.W[list(rows)]
+            if np.isfinite(rest).all() and np.abs(rest).max() < LARGEST:
+                found.append(Alignment(rows, factors, rest, -votes, exprs=tuple(exprs)))
+    found.sort(key=lambda a: a.doubt)
+    found = found[:MOST_ALIGNMENTS]
+    found += _unsolved(truth, exprs, P)
+    return [replace(a, doubt=0.25 * place) for place, a in enumerate(found)]
+
+
+def _orders(table: Sequence[Sequence[list[tuple[Array, float]]]], k: int, n: int) -> list[tuple[int, ...]]:
+    """The likeliest assignments of the answer's equations to the right ones."""
+    best = [[max((v for _, v in cell), default=0.0) for cell in row] for row in table]
+    if n > 5:
+        order = tuple(int(np.argmax(row)) for row in best)
+        return [order] if len(set(order)) == k else [tuple(range(k))]
+    every = sorted(
+        permutations(range(n), k),
+        key=lambda p: -sum(best[j][i] for j, i in enumerate(p)) + (p != tuple(sorted(p))) * 0.1,
+    )
+    return every[:3]
+
+
+def _combined(options: Sequence[Sequence[tuple[Array, float]]]) -> Iterator[tuple[list[tuple[Array, float]], float]]:
+    """Combinations of one factor for each row with the sum of their votes, the best first."""
+    partial: list[tuple[list[tuple[Array, float]], float]] = [([], 0.0)]
+    for cell in options:
+        grown = [([*chosen, f], votes + f[1]) for chosen, votes in partial for f in cell]
+        partial = sorted(grown, key=lambda x: -x[1])[:MOST_ALIGNMENTS]
+    yield from partial
+
+
+def _factors(truth: Reference, exprs: Sequence[sp.Expr]) -> list[list[list[tuple[Array, float]]]]:
+    """For every pair of an equation and a right row, possible factors with their votes."""
+    mine, by = _slopes(truth, exprs), range(truth.n)
+    right = _slopes_of_truth(truth)
+    return [[_agreed(truth, mine[j], right[i]) for i in by] for j in range(len(exprs))]
+
+
+def _slopes_of_truth(truth: Reference) -> Array:
+    key = "slopes of the right rows"
+    if key not in truth.others:
+        truth.others[key] = _slopes(truth, truth.rows)  # type: ignore[assignment]
+    return truth.others[key]  # type: ignore[return-value]
+
+
+def _slopes(truth: Reference, exprs: Sequence[sp.Expr]) -> Array:
+    """The slopes of every equation by accelerations, inputs, rates and parameters, and its value at rest, (k, m, S)."""
+    model = truth.model
+    by = [
+        *(c.acceleration for c in model.coordinates),
+        *(u.symbol for u in model.inputs),
+        *(c.rate for c in model.coordinates),
+    ]
+    by += [p.symbol for p in model.parameters if p.symbol not in truth.values]
+    compiled = CompiledExpressions(exprs)
+    values = compiled.slopes(by).at(truth.states).reshape(len(exprs), len(by), truth.states.size)
+    still: dict[sp.Basic, Array] = {
+        x: np.zeros(truth.states.size)
+        for x in by[: len(by) - sum(p.symbol not in truth.values for p in model.parameters)]
+    }
+    rest = CompiledExpressions(exprs).at(truth.states, still)
+    return np.concatenate([values, rest[:, None]], axis=1)
+
+
+def _agreed(truth: Reference, mine: Array, right: Array) -> list[tuple[Array, float]]:
+    """The quotients of slopes that are constant at every place, equal ones counted together; always ±1 as well."""
+    size = truth.states.size
+    blocks = SETS * PLACES
+    with np.errstate(all="ignore"):
+        quotient = mine / right
+    found: list[tuple[Array, float]] = [(np.ones(size), 1.5), (-np.ones(size), 0.4)]
+    for f in quotient:
+        if not np.isfinite(f).all() or (np.abs(f) < 1e-12).any():
+            continue
+        shaped = f.reshape(blocks, -1)
+        middle = shaped.mean(axis=1, keepdims=True)
+        if (np.abs(shaped - middle) > CONSTANT * np.abs(middle)).any():
+            continue
+        for place, (other, votes) in enumerate(found):
+            if (np.abs(f - other) <= CONSTANT * np.abs(other)).all():
+                found[place] = (other, votes + 1.0)
+                break
+        else:
+            spread = np.ptp(middle) <= CONSTANT * np.abs(middle).max()
+            found.append((np.repeat(middle[:, 0], size // blocks), 1.0 + (0.2 if spread else 0.0)))
+    return sorted(found, key=lambda x: -x[1])[:MOST_FACTORS]
+
+
+def _unsolved(truth: Reference, exprs: Sequence[sp.Expr], P: Array) -> list[Alignment]:
+    """Rows solved for one acceleration each, multiplied back by the right mass matrix."""
+    n, size = truth.n, truth.states.size
+    accelerations = [c.acceleration for c in truth.model.coordinates]
+    if len(exprs) != n or n == 1 or any(sum(e.has(a) for a in accelerations) != 1 for e in exprs):
+        return []
+    mine = CompiledExpressions(exprs).slopes(accelerations).at(truth.states).reshape(n, n, size).transpose(2, 0, 1)
+    right = _slopes_of_truth(truth)[:, :n].transpose(2, 0, 1)
+    try:
+        back = right @ np.linalg.inv(mine)
+    except np.linalg.LinAlgError:
+        return []
+    with np.errstate(all="ignore"):
+        rest = np.einsum("sij,js->is", back, P) - truth.W
+    if not np.isfinite(rest).all() or np.abs(rest).max() > LARGEST:
+        return []
+    return [Alignment(tuple(range(n)), np.ones((n, size)), rest, 0.0, solved=True)]

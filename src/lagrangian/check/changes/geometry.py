@@ -1,0 +1,351 @@
+"""Changes of the geometry: a piece of a position, a rate in a velocity, an angular velocity, a deflection."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import combinations
+from typing import Any, cast
+
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.changes.change import LocalChange, Site, Words
+from lagrangian.check.changes.ring import TooLong, minus
+from lagrangian.check.changes.sites import Sites
+from lagrangian.check.misconceptions.base import half_square
+from lagrangian.check.misconceptions.base import put as replaced
+from lagrangian.model import Gravity
+from lagrangian.page.formula import Name
+
+AXES = "xyz"
+MOST_PIECES = 16
+"""A position or deflection with more pieces is not changed piece by piece."""
+
+
+class GeometryChanges:
+    """All changes of positions, velocities, angular velocities and deflections of a system."""
+
+    def __init__(self, sites: Sites, lengths: Sequence[sp.Symbol]) -> None:
+        self.sites = sites
+        self.s = sites.of
+        self.lengths = list(lengths)
+
+    def changes(self) -> Iterator[LocalChange]:
+        """All of them; those whose sums would be too long are left out."""
+        for b in self.s.bodies:
+            for made in (self._positions(b), self._velocities(b), self._turning(b)):
+                yield from made
+        yield from self._rates_everywhere()
+        for spring, extension, _ in self.s.springs():
+            if spring.k is not None:
+                yield from self._deflections(spring, extension)
+
+    # -- bodies -------------------------------------------------------------------------------------------------------
+
+    def _positions(self, b: Any) -> Iterator[LocalChange]:
+        """A piece of the position left out, with the wrong sign, sine for cosine, without its number."""
+        position = [bounded.expand(x) for x in self.s.position(b)]
+        pieces = [(c, p) for c, x in enumerate(position) for p in sp.Add.make_args(x) if self.s.moves(p)]
+        if not 0 < len(pieces) <= MOST_PIECES:
+            return
+        for c, p in pieces:
+            along: Words = (f" along {AXES[c]}",) if len(position) > 1 else ()
+            words: Words = (f"the position of {b.title}", *along)
+            brief: Words = (f"the position of {b.title}",)
+            for instead, kind, cost in _instead_of_piece(p):
+                moved = list(position)
+                moved[c] = cast("sp.Expr", position[c] - p + instead)
+                yield from self._moved(b, moved, kind, cost, words, brief, p, instead)
+        groups: dict[Any, list[tuple[int, sp.Expr]]] = {}
+        for c, p in pieces:
+            groups.setdefault(_segment(p), []).append((c, p))
+        for key, group in groups.items():
+            if len(group) > 1:
+                for number, kind, cost in ((0, "segment_left_out", 1.3), (-1, "segment_sign", 1.9)):
+                    moved = list(position)
+                    for c, p in group:
+                        moved[c] = cast("sp.Expr", moved[c] + (number - 1) * p)
+                    words = (f"the position of {b.title}",)
+                    yield from self._moved(b, moved, kind, cost, words, words, key, None)
+
+    def _moved(
+        self,
+        b: Any,
+        position: list[sp.Expr],
+        kind: str,
+        cost: float,
+        words: Words,
+        brief: Words,
+        right: Any,
+        written: Any,
+    ) -> Iterator[LocalChange]:
+        """The change of the speed alone, and of the speed and the height."""
+        velocity = tuple(self.s.rate(x) for x in position)
+        T = self._difference(half_square(self.s.expand(b.mass), velocity), self.s.translation(b))
+        V = self._lifted(b, position)
+        if T is None:
+            return
+        site = Site(words=words, brief=brief, step=2, element=b)
+        if V:
+            yield self._of(kind, cost, site, {"T": T, "V": V}, right, written)
+            yield self._of(kind, cost + 0.5, _in(site, "height", 3), {"V": V}, right, written)
+        if T:
+            yield self._of(kind, cost + 0.2, _in(site, "velocity", 2), {"T": T}, right, written)
+
+    def _lifted(self, b: Any, position: list[sp.Expr]) -> Any:
+        """What a moved position adds to m g h."""
+        total: sp.Expr = sp.S.Zero
+        for element in self.sites.model.elements:
+            if isinstance(element, Gravity):
+                moved = [x - y for x, y in zip(position, self.s.position(b), strict=True)]
+                h = -sum((n * x for n, x in zip(element.direction, moved, strict=True)), sp.S.Zero)
+                total = total + self.s.expand(b.mass * element.g * h)
+        whole = self.sites.sum(total)
+        return {m: c for m, c in whole.items() if self.sites.ring.moving(m)}
+
+    def _velocities(self, b: Any) -> Iterator[LocalChange]:
+        """A rate left out or with the wrong sign in one component; speeds added as numbers."""
+        velocity = [bounded.expand(x) for x in self.s.velocity(b)]
+        own = self.s.translation(b)
+        mass = self.s.expand(b.mass)
+        brief: Words = (f"the velocity of {b.title}",)
+        for c, x in enumerate(velocity):
+            rates = [v for v in self.s.v if x.has(v)]
+            for v in rates:
+                twice = x - replaced(x, {v: sp.S.Zero})
+                new = own + mass / 2 * twice**2
+                yield from self._kinetic(b, new, own, "velocity_part_twice", 2.3, brief, brief, twice)
+                part = x - replaced(x, {v: sp.S.Zero})
+                words: Words = (f"the velocity of {b.title} along {AXES[c]}",)
+                for number, kind, cost in ((-1, "velocity_part_left_out", 1.5), (-2, "velocity_part_sign", 1.6)):
+                    changed = list(velocity)
+                    changed[c] = cast("sp.Expr", x + number * part)
+                    yield from self._kinetic(b, half_square(mass, tuple(changed)), own, kind, cost, words, brief, part)
+        rates = [v for v in self.s.v if any(x.has(v) for x in velocity)]
+        for v in rates if len(rates) > 1 else ():
+            gone = tuple(cast("sp.Expr", x - 2 * (x - replaced(x, {v: sp.S.Zero}))) for x in velocity)
+            yield from self._kinetic(b, half_square(mass, gone), own, "rate_sign", 1.7, brief, brief, v)
+        if 2 <= len(rates) <= 3:
+            yield from self._as_numbers(b, velocity, rates, own, mass, brief)
+
+    def _as_numbers(
+        self, b: Any, velocity: list[sp.Expr], rates: list[Any], own: sp.Expr, mass: sp.Expr, brief: Words
+    ) -> Iterator[LocalChange]:
+        """½ m (Σ ± |∂v/∂ξ̇| ξ̇)²: the speeds added as numbers instead of as vectors."""
+        speeds: list[sp.Expr] = []
+        for v in rates:
+            square = self.sites.sum(sp.Add(*[x.diff(v) ** 2 for x in velocity]))
+            if not square:
+                return
+            speeds.append(cast("sp.Expr", sp.powdenest(sp.sqrt(self.sites.ring.expr(square)), force=True)))
+        for signs in ((1, 1, 1), (1, -1, 1), (1, 1, -1), (1, -1, -1)):
+            if len(rates) == 2 and signs[2] < 0:
+                continue
+            total = sp.Add(*[g * s * v for g, s, v in zip(signs, speeds, rates, strict=False)])
+            cost = 1.3 if signs == (1, 1, 1) else 1.6
+            yield from self._kinetic(b, mass / 2 * total**2, own, "speeds_as_numbers", cost, brief, brief, None, total)
+
+    def _rates_everywhere(self) -> Iterator[LocalChange]:
+        """A rate taken as absolute or relative: ξ̇_i ± ξ̇_j in place of ξ̇_i, in one body or in all of T*."""
+        for v, w in ((v, w) for v in self.s.v for w in self.s.v if v != w):
+            for sign in (1, -1):
+                table = {v: v + sign * w}
+                for b in self.s.bodies:
+                    old = self.s.kinetic(b)
+                    if old.has(v):
+                        words: Words = (f"the kinetic energy of {b.title}",)
+                        yield from self._kinetic(
+                            b, replaced(old, table), old, "rate", 1.6, words, words, v, v + sign * w
+                        )
+                if self.s.T.has(v):
+                    words = (Name("T*"),)
+                    yield from self._kinetic(
+                        None, replaced(self.s.T, table), self.s.T, "rate", 1.7, words, words, v, v + sign * w
+                    )
+
+    def _turning(self, b: Any) -> Iterator[LocalChange]:
+        """Another angular velocity; m L² in place of J; an inertia where there is none."""
+        omega = self.s.omega(b)
+        words: Words = (f"the angular velocity of {b.title}",)
+        mass = self.s.expand(b.mass)
+        if omega and len([w for w in omega if w != 0]) == 1 and b.axes is not None:
+            own = self.s.rotation(b)
+            [right] = [w for w in omega if w != 0]
+            for instead in self._other_rates(right):
+                turned = tuple(instead if w != 0 else w for w in omega)
+                yield from self._kinetic(b, self.s.rotating(b, turned), own, "omega", 1.8, words, words, right, instead)
+            for length in self.lengths:
+                yield from self._inertias(b, own, right, mass * length**2)
+        for length in self.lengths:
+            for v in self.s.v:
+                extra = mass * length**2 * v**2 / 2
+                where: Words = (f"the kinetic energy of {b.title}",)
+                T = self._difference(extra, sp.S.Zero)
+                if T:
+                    site = Site(words=where, brief=where, step=2, element=b, T=T)
+                    yield LocalChange(
+                        kind="inertia_added",
+                        cost=2.5,
+                        site=site,
+                        effect=site,
+                        free=True,
+                        right=mass * length**2,
+                        written=v,
+                    )
+
+    def _inertias(self, b: Any, own: sp.Expr, omega: sp.Expr, full: sp.Expr) -> Iterator[LocalChange]:
+        names = {
+            sp.Integer(1): 1.9,
+            sp.Rational(1, 2): 2.0,
+            sp.Rational(2, 5): 2.2,
+            sp.Rational(1, 3): 2.0,
+            sp.Rational(1, 12): 2.0,
+            sp.Rational(1, 4): 2.3,
+            sp.Rational(2, 3): 2.4,
+        }
+        words: Words = (f"the moment of inertia of {b.title}",)
+        for number, cost in names.items():
+            yield from self._kinetic(
+                b, number * full * omega**2 / 2, own, "inertia_form", cost, words, words, None, number * full
+            )
+
+    def _other_rates(self, right: sp.Expr) -> list[sp.Expr]:
+        v = self.s.v
+        found: list[sp.Expr] = [*v, *(x for a, b in combinations(v, 2) for x in (a + b, a - b))]
+        for r in self.lengths[:4]:
+            found += [x / r for x in v]
+        ratios = [a / b for a in self.lengths[:4] for b in self.lengths[:4] if a != b]
+        found += [r * x for r in ratios for x in v]
+        found += [replaced(right, {x: sp.S.Zero}) for x in v]
+        return [x for x in dict.fromkeys(found) if x not in (0, right, -right)]
+
+    # -- springs ------------------------------------------------------------------------------------------------------
+
+    def _deflections(self, spring: Any, extension: sp.Expr) -> Iterator[LocalChange]:
+        """A piece of the deflection left out or with the wrong sign; another coordinate; the inner derivative."""
+        k = self.s.expand(spring.k)
+        whole = bounded.expand(extension)
+        pieces = sp.Add.make_args(whole)
+        own = k * extension**2 / 2
+        words: Words = (f"the deflection of {spring.title}",)
+        found: list[tuple[sp.Expr, str, float]] = []
+        if 1 < len(pieces) <= MOST_PIECES:
+            for p in pieces:
+                found += [(whole - p, "deflection_left_out", 1.4), (whole - 2 * p, "deflection_sign", 1.5)]
+        for q in [q for q in self.s.q if whole.has(q)]:
+            others = [x for x in self.s.q if x != q]
+            found += [
+                (replaced(whole, {q: x}), "deflection", 1.9)
+                for x in (*others, *(q + x for x in others), *(q - x for x in others))
+            ]
+        found += [(q, "deflection", 2.0) for q in self.s.q]
+        for p in [p for p in self.lengths if whole.has(p)]:
+            others = [x for x in self.lengths if x != p]
+            found += [(replaced(whole, {p: x}), "deflection", 1.9) for r in others for x in (p + r, p - r, r - p)]
+            found += [(f(q) * p, "deflection", 2.0) for q in self.s.q if whole.has(q) for f in (sp.sin, sp.cos, sp.tan)]
+        found += [(f(q), "deflection", 2.0) for q in self.s.q if whole.has(q) for f in (sp.sin, sp.tan)]
+        for f in sorted(whole.atoms(sp.sin, sp.cos), key=sp.default_sort_key):
+            size = whole.coeff(f)
+            found += [(size * x, "deflection", 1.9) for x in (_partner(f), f) if size != 0]
+        found += [(p - q, "deflection", 2.0) for p, q in combinations(self.s.q, 2)]
+        for p in pieces:
+            found += [
+                (whole - p + x, kind, cost + 0.2)
+                for x, kind, cost in _instead_of_piece(p)
+                if kind not in ("piece_left_out", "piece_sign")
+            ]
+        for other, kind, cost in found:
+            if other in (0, whole, -whole) or other.has(sp.zoo, sp.nan):
+                continue
+            V = self._difference(k * other**2 / 2, own, still=True)
+            if V:
+                site = Site(words=words, brief=words, step=3, element=spring)
+                yield self._of(kind, cost, site, {"V": V}, whole, other)
+        yield from self._inner(spring, k, whole)
+
+    def _inner(self, spring: Any, k: sp.Expr, extension: sp.Expr) -> Iterator[LocalChange]:
+        """The chain rule left out: ∂(½kδ²)/∂ξ_i without ∂δ/∂ξ_i, or with a part of it."""
+        for i, q in enumerate(self.s.q):
+            slope = bounded.expand(bounded.diff(extension, q)) if extension.has(q) else sp.S.Zero
+            if slope == 0:
+                continue
+            others: list[sp.Expr] = [sp.S.One, *(p for p in sp.Add.make_args(slope)), -slope]
+            for f in slope.atoms(sp.sin, sp.cos):
+                others += [replaced(slope, {f: sp.S.One}), replaced(slope, {f: _partner(f)})]
+            for other in dict.fromkeys(others):
+                if other == slope:
+                    continue
+                row = self._difference(k * extension * other, k * extension * slope)
+                if row:
+                    words: Words = ("∂/∂", q, f" of the energy of {spring.title}")
+                    site = Site(words=words, brief=words, step=5, element=spring, coordinate=i, lines=frozenset())
+                    yield self._of("inner_derivative", 1.9, site, {"rows": {i: row}}, slope, other)
+
+    # -- what they have in common -------------------------------------------------------------------------------------
+
+    def _kinetic(
+        self,
+        b: Any,
+        new: sp.Expr,
+        old: sp.Expr,
+        kind: str,
+        cost: float,
+        words: Words,
+        brief: Words,
+        right: Any,
+        written: Any = None,
+    ) -> Iterator[LocalChange]:
+        T = self._difference(new, old)
+        if T:
+            yield self._of(kind, cost, Site(words=words, brief=brief, step=2, element=b), {"T": T}, right, written)
+
+    def _difference(self, new: sp.Expr, old: sp.Expr, *, still: bool = False) -> Any:
+        """new − old as a sum; None if that is too long. With ``still``, terms that do not move are left out."""
+        try:
+            found = minus(self.sites.ring.of(self.s.expand(new)), self.sites.ring.of(old))
+        except TooLong:
+            return None
+        return {m: c for m, c in found.items() if self.sites.ring.moving(m)} if still else found
+
+    def _of(self, kind: str, cost: float, site: Site, sums: dict[str, Any], right: Any, written: Any) -> LocalChange:
+        effect = Site(
+            words=site.words,
+            brief=site.brief,
+            step=site.step,
+            element=site.element,
+            coordinate=site.coordinate,
+            lines=site.lines,
+            **sums,
+        )
+        return LocalChange(kind=kind, cost=cost, site=site, effect=effect, right=right, written=written)
+
+
+def _in(site: Site, what: str, step: int) -> Site:
+    words: Words = (f"the {what} of {site.element.title}" if site.element is not None else what,)
+    return Site(words=words, brief=words, step=step, element=site.element)
+
+
+def _instead_of_piece(p: sp.Expr) -> Iterator[tuple[sp.Expr, str, float]]:
+    """What may stand in place of a piece of a position: nothing, its negative, sine for cosine, without its number."""
+    yield sp.S.Zero, "piece_left_out", 1.4
+    yield -p, "piece_sign", 1.6
+    for f in sorted(p.atoms(sp.sin, sp.cos), key=sp.default_sort_key):
+        yield replaced(p, {f: _partner(f)}), "piece_function", 1.8
+        yield replaced(p, {f: sp.S.One}), "piece_function", 2.0
+    number = p.as_coeff_Mul()[0]
+    if number not in (1, -1):
+        yield p / abs(number), "piece_number", 1.9
+        yield p / abs(number) ** 2, "piece_number", 2.6
+    else:
+        yield p / 2, "piece_number", 2.0
+        yield 2 * p, "piece_number", 2.2
+
+
+def _partner(f: sp.Expr) -> sp.Expr:
+    return sp.cos(f.args[0]) if isinstance(f, sp.sin) else sp.sin(f.args[0])
+
+
+def _segment(p: sp.Expr) -> sp.Expr:
+    """What pieces of one segment have in common: all factors but numbers and sines and cosines."""
+    factors = [f for f in sp.Mul.make_args(p) if not f.is_number and not isinstance(f, (sp.sin, sp.cos))]
+    return cast("sp.Expr", sp.Mul(*factors))

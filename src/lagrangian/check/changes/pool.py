@@ -1,0 +1,177 @@
+"""All local changes of a system and their effects at the random states: numbers to be compared with an answer's."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from typing import Any
+
+import numpy as np
+from scipy import sparse
+
+from lagrangian.check.align import LARGEST
+from lagrangian.check.candidates import Effects, Wrong, effects_of
+from lagrangian.check.changes.change import LocalChange
+from lagrangian.check.changes.geometry import GeometryChanges
+from lagrangian.check.changes.letters import LetterChanges
+from lagrangian.check.changes.ring import Monomial, Sum, TooLong
+from lagrangian.check.changes.scales import scales
+from lagrangian.check.changes.sites import Sites
+from lagrangian.check.changes.slopes import AtomSlopes
+from lagrangian.check.changes.work import WorkChanges
+from lagrangian.check.reference import Reference
+from lagrangian.derive.sampling import Array
+
+MOST = 9_000
+"""The largest number of changes that are tried, the likeliest first."""
+MONOMIALS = 150_000
+"""The largest number of monomials in all changes together."""
+
+
+@dataclass(frozen=True, eq=False)
+class Possible:
+    """A mistake that may explain an answer: a local change or a well-known misconception."""
+
+    cost: float
+    free: bool
+    sign: float = 0.15
+    change: LocalChange | None = None
+    wrong: Wrong | None = None
+
+
+class Pool:
+    """Every possible mistake with what it adds to the rows, T*, V and every Ξ, at every state of the reference.
+
+    ``W`` (C, n, S), ``T`` and ``V`` (C, S), ``Xi`` (C, n, S).
+    """
+
+    def __init__(self, truth: Reference) -> None:
+        self.truth = truth
+        self.effects: Effects = effects_of(truth)
+        self.sites = Sites(self.effects.ingredients)
+        changes = sorted(self._within_reach(), key=lambda c: c.cost)[:MOST]
+        W, T, V, Xi = self._values(changes)
+        known = [Possible(_cost(w), False, wrong=w) for w in self.effects.wrongs]
+        keep = [k for k, p in enumerate(known) if p.wrong is not None and not p.wrong.general]
+        e = self.effects
+        self.all = [*(Possible(c.cost, c.free, c.sign, change=c) for c in changes), *(known[k] for k in keep)]
+        self.W = np.concatenate([W, e.W[keep]])
+        self.T, self.V = np.concatenate([T, e.T[keep]]), np.concatenate([V, e.V[keep]])
+        self.L = np.concatenate([T - V, e.L[keep]])
+        self.Xi = np.concatenate([Xi, e.Xi[keep]])
+        self.cost = np.array([p.cost for p in self.all])
+        self.free = np.array([p.free for p in self.all], dtype=bool)
+        self._kept: dict[object, Any] = {}
+        count = len(self.all)
+        largest = [np.abs(x.reshape(count, -1)).max(axis=1) for x in (self.W, self.T, self.V, self.Xi)]
+        self._choose(np.isfinite(largest).all(axis=0) & (np.max(largest, axis=0) < LARGEST))
+
+    def _choose(self, chosen: Any) -> None:
+        """Keep some of the possible mistakes."""
+        self.all = [p for p, keep in zip(self.all, chosen, strict=True) if keep]
+        for name in ("W", "T", "V", "L", "Xi", "cost", "free"):
+            setattr(self, name, getattr(self, name)[chosen])
+
+    def key(self, possible: Possible, times: float) -> tuple[float, ...]:
+        """What a multiple of a possible mistake does to the equations, as a few numbers: equal ones do the same."""
+        seen = self.kept("seen", self._seen)
+        place = self.kept("place", lambda: {id(p): k for k, p in enumerate(self.all)})
+        return tuple(float(x) for x in np.round(times * seen[place[id(possible)]], 7))
+
+    def _seen(self) -> Array:
+        """The effects on rows, energies and forces along three random directions."""
+        random, count = np.random.default_rng(5), len(self.all)
+        everything = [self.W.reshape(count, -1), self.T, self.V, self.Xi.reshape(count, -1)]
+        return sum((x @ random.standard_normal((x.shape[1], 3)) for x in everything), np.zeros((count, 3)))
+
+    def kept(self, key: object, make: Callable[[], Any]) -> Any:
+        """The result of ``make``, computed once for every key."""
+        if key not in self._kept:
+            self._kept[key] = make()
+        return self._kept[key]
+
+    def _changes(self) -> Iterator[LocalChange]:
+        sites = self.sites
+        letters = LetterChanges(sites)
+        parts, wholes = list(sites.parts()), list(sites.wholes())
+        terms, rows = list(sites.terms()), list(sites.in_rows())
+        yield from scales(sites, [*parts, *wholes, *terms, *rows])
+        yield from letters.exchanges([*parts, *wholes])
+        yield from letters.changes([*parts, *wholes, *terms, *rows])
+        yield from letters.factors([*parts, *terms, *rows])
+        yield from GeometryChanges(sites, letters.lengths).changes()
+        yield from WorkChanges(sites, letters.lengths).changes()
+
+    def _within_reach(self) -> Iterator[LocalChange]:
+        """The changes until their sums are too long together; the reference says if some were left out."""
+        left = MONOMIALS
+        try:
+            for change in self._changes():
+                left -= sum(map(len, change.effect.sums()))
+                if left < 0:
+                    break
+                yield change
+        except TooLong:
+            left = -1
+        if left < 0:
+            self.truth.tried_all = False
+
+    def _values(self, changes: Sequence[LocalChange]) -> tuple[Array, Array, Array, Array]:
+        """The effects of local changes on the rows, T*, V and Ξ."""
+        truth, n, size, count = self.truth, self.truth.n, self.truth.states.size, len(changes)
+        jets = AtomSlopes(truth, self.sites.ring)
+        T, in_T = _table([c.effect.T for c in changes])
+        V, in_V = _table([c.effect.V for c in changes])
+        lagrange = in_T @ jets.lagrange(T).reshape(len(T), n * size)
+        slopes = in_V @ jets.slopes(V).reshape(len(V), n * size)
+        W = (lagrange + slopes).reshape(count, n, size)
+        felt = np.ones((count, n))
+        for k, c in enumerate(changes):
+            if c.effect.only is not None:
+                felt[k] = [i in c.effect.only for i in range(n)]
+        W *= felt[:, :, None]
+        Xi = np.zeros((count, n, size))
+        for i in range(n):
+            own, table = _table([c.effect.Xi.get(i, {}) for c in changes])
+            Xi[:, i] = table @ jets.values(own)
+            own, table = _table([c.effect.rows.get(i, {}) for c in changes])
+            W[:, i] += table @ jets.values(own) - Xi[:, i]
+        shown = np.array([c.effect.only is None for c in changes], dtype=float)[:, None]
+        return W, (in_T @ jets.values(T)) * shown, (in_V @ jets.values(V)) * shown, Xi
+
+
+def _table(sums: Sequence[Sum]) -> tuple[list[Monomial], sparse.csr_matrix]:
+    """The monomials of all sums, and the number of each in every sum."""
+    index: dict[Monomial, int] = {}
+    rows: list[int] = []
+    columns: list[int] = []
+    values: list[float] = []
+    for k, s in enumerate(sums):
+        for m, c in s.items():
+            rows.append(k)
+            columns.append(index.setdefault(m, len(index)))
+            values.append(float(c))
+    return list(index), sparse.csr_matrix((values, (rows, columns)), shape=(len(sums), len(index)))
+
+
+FORGOTTEN = (
+    "reaction_forgotten",
+    "rotation_forgotten",
+    "translation_forgotten",
+    "gravity_forgotten",
+    "element_forgotten",
+)
+"""What comes before anything else that says the same."""
+
+
+def _cost(wrong: Wrong) -> float:
+    """How unlikely a misconception is; of two that say the same, the one that says it shorter is likelier."""
+    rank = FORGOTTEN.index(wrong.name) if wrong.name in FORGOTTEN else wrong.rank
+    return 0.9 + 0.006 * rank + 0.6 * wrong.variant.doubt + 0.00002 * len(str(wrong.variant.what))
+
+
+@lru_cache(maxsize=16)
+def pool_of(truth: Reference) -> Pool:
+    """All possible mistakes in a system, made once for the systems that were checked most recently."""
+    return Pool(truth)

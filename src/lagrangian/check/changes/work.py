@@ -1,0 +1,157 @@
+"""Changes of what forces, torques and dampers do: another arm, another equation, another rate in a damper."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import combinations
+from typing import Any
+
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.changes.change import LocalChange, Site, Words
+from lagrangian.check.changes.ring import Sum, TooLong, scaled
+from lagrangian.check.changes.sites import Sites
+from lagrangian.check.misconceptions.base import put
+from lagrangian.model import Element
+
+MOST_ARMS = 24
+
+
+class WorkChanges:
+    """All changes of the generalized forces of a system."""
+
+    def __init__(self, sites: Sites, lengths: Sequence[sp.Symbol]) -> None:
+        self.sites = sites
+        self.s = sites.of
+        self.lengths = list(lengths)
+
+    def changes(self) -> Iterator[LocalChange]:
+        """Every effort with every arm in every equation; shares moved to another equation; other rates in dampers."""
+        for element, shares in self.sites.shares.items():
+            yield from self._moved(element, shares)
+            yield from self._arms(element, shares)
+            if element in self.s.resisting:
+                yield from self._rates(element)
+
+    def _moved(self, element: Element, shares: dict[int, Sum]) -> Iterator[LocalChange]:
+        """A share repeated in another equation, or moved there."""
+        for i, x in shares.items():
+            for j in range(self.sites.n):
+                if j == i:
+                    continue
+                words: Words = (f"what {element.title} adds to the equation of ", self.s.q[j])
+                site = Site(words=words, brief=words, step=6, element=element, coordinate=j)
+                for number in (1, -1):
+                    added = scaled(x, number)
+                    cost = 2.0 if number == 1 else 2.2
+                    yield _change("share_repeated", cost, site, {j: added}, (self.s.q[i],), None)
+                    if j not in shares:
+                        yield _change(
+                            "share_moved", cost - 0.4, site, {j: added, i: scaled(x, -1)}, (self.s.q[i],), None
+                        )
+
+    def _arms(self, element: Element, shares: dict[int, Sum]) -> Iterator[LocalChange]:
+        """Every effort of an element times every arm, in place of its share or where it has none."""
+        for effort, right in self._efforts(element, shares):
+            for i in range(self.sites.n):
+                words: Words = (f"what {element.title} adds to the equation of ", self.s.q[i])
+                site = Site(words=words, brief=words, step=6, element=element, coordinate=i)
+                for arm in self.arms:
+                    for sign in (1, -1):
+                        if sign * arm == right[i]:
+                            continue
+                        extra = self._sum(effort * (sign * arm - right[i]))
+                        if extra:
+                            cost = (
+                                (1.9 if arm == 1 else 2.1)
+                                + (0.0 if sign == 1 else 0.2)
+                                + (0.0 if right[i] != 0 else 0.3)
+                            )
+                            kind = "arm_added" if right[i] == 0 else "no_arm" if arm == 1 else "arm"
+                            yield _change(kind, cost, site, {i: extra}, right[i], sign * arm)
+
+    def _efforts(self, element: Element, shares: dict[int, Sum]) -> Iterator[tuple[sp.Expr, list[sp.Expr]]]:
+        """The efforts of an element, each with its arm in every equation; one for all components of a vector."""
+        actions = self.s.actions(element)
+        if len(actions) == 1:
+            rates = [self.s.expand(sp.diff(actions[0].rate, v)) for v in self.s.v]
+            yield self.s.expand(actions[0].effort), [bounded.expand(r) for r in rates]
+            return
+        ring = self.sites.ring
+        held = [
+            {a for a, e in m if e == 1 and not isinstance(ring.atoms[a], (sp.sin, sp.cos))}
+            for x in shares.values()
+            for m in x
+        ]
+        common = set[int].intersection(*held) if held else set[int]()
+        inputs = [ring.atoms[a] for a in common if ring.atoms[a] in {u.symbol for u in self.s.model.inputs}]
+        efforts = inputs or [ring.atoms[a] for a in sorted(common) if isinstance(ring.atoms[a], sp.Symbol)][:1]
+        for effort in efforts:
+            whole = [ring.expr(shares.get(i, {})) for i in range(self.sites.n)]
+            yield effort, [bounded.expand(x / effort) for x in whole]
+
+    def _sum(self, expr: sp.Expr) -> Sum | None:
+        try:
+            return self.sites.sum(expr)
+        except TooLong:
+            return None
+
+    @property
+    def arms(self) -> list[sp.Expr]:
+        """1, the lengths, sines and cosines of the system's angles, and both together."""
+        every: list[sp.Expr] = [sp.S.One, *self.lengths]
+        turned: list[sp.Expr] = []
+        for a in self.s.angles(self.s.T + self.s.V + sp.Add(*self.s.Xi)):
+            turned += [sp.cos(a), sp.sin(a)]
+        every += turned
+        every += [r * f for r in self.lengths[:3] for f in turned[:6]]
+        every += [1 / r for r in self.lengths[:3]]
+        every += [a + b for a, b in combinations(self.lengths[:3], 2)]
+        every += [a - b for a, b in combinations(self.lengths[:3], 2)]
+        every += [a / b for a in self.lengths[:3] for b in self.lengths[:3] if a != b]
+        return list(dict.fromkeys(every))[:MOST_ARMS]
+
+    def _rates(self, element: Element) -> Iterator[LocalChange]:
+        """Another rate in a damper, also in its force alone: a piece left out or with the wrong sign, another rate."""
+        for action in self.s.actions(element):
+            rate = bounded.expand(self.s.expand(action.rate))
+            effort = self.s.expand(action.effort)
+            force = bounded.cancel(-effort / rate) if rate != 0 else None
+            if force is None or force.has(*self.s.v):
+                continue
+            for other, kind, cost in self._other_rates(rate):
+                for both in (True, False):
+                    found: dict[int, Any] = {}
+                    for i, v in enumerate(self.s.v):
+                        new = -force * other * sp.diff(other if both else rate, v)
+                        extra = self._sum(new + force * rate * sp.diff(rate, v))
+                        if extra:
+                            found[i] = extra
+                    if found:
+                        words: Words = (f"the rate of {element.title}",)
+                        site = Site(words=words, brief=words, step=6, element=element)
+                        yield _change(kind, cost + (0.0 if both else 0.3), site, found, rate, other)
+
+    def _other_rates(self, rate: sp.Expr) -> Iterator[tuple[sp.Expr, str, float]]:
+        pieces = sp.Add.make_args(rate)
+        listed: list[tuple[sp.Expr, str, float]] = []
+        if 1 < len(pieces) <= 8:
+            for p in pieces:
+                listed += [(rate - p, "rate_left_out", 1.5), (rate - 2 * p, "rate_sign_in_damper", 1.6)]
+        v = self.s.v
+        listed += [(x, "damper_rate", 2.0) for x in v]
+        listed += [(x, "damper_rate", 2.1) for a, b in combinations(v, 2) for x in (a - b, a + b)]
+        for a in v:
+            listed += [(put(rate, {a: x}), "damper_rate", 2.0) for b in v if b != a for x in (b, a + b, a - b)]
+        for p in self.s.model.parameters:
+            if rate.has(p.symbol):
+                listed.append((put(rate, {p.symbol: sp.S.One}), "damper_rate", 2.0))
+        for other, kind, cost in listed:
+            if other not in (0, rate, -rate):
+                yield other, kind, cost
+
+
+def _change(kind: str, cost: float, site: Site, Xi: dict[int, Sum], right: Any, written: Any) -> LocalChange:
+    effect = Site(words=site.words, brief=site.brief, step=6, element=site.element, coordinate=site.coordinate, Xi=Xi)
+    return LocalChange(kind=kind, cost=cost, site=site, effect=effect, right=right, written=written)

@@ -1,0 +1,149 @@
+"""Judges one answer of a class and returns plain data: the verdict, the marks, and what the student is told."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any, Literal, TypeAlias
+
+from lagrangian.check.classes.feedback import comment, feedback_report, words_report
+from lagrangian.check.classes.marks import lacking, marks
+from lagrangian.check.classes.scheme import MarkingScheme
+from lagrangian.check.reading import parse_answer
+from lagrangian.check.verb import CheckedAnswer, check_answer
+from lagrangian.check.verdict import Finding, Mistake, Status
+from lagrangian.derive import Derived
+from lagrangian.errors import Error
+from lagrangian.read import MAX_BYTES, decode
+from lagrangian.viewed import Brief
+from lagrangian.write.report import write_report
+
+_log = logging.getLogger(__name__)
+
+FeedbackFormat: TypeAlias = Literal["text", "markdown", "html"]
+"""The formats of the files that students get."""
+
+Record: TypeAlias = dict[str, Any]
+"""What is known of one answer after it was judged, as plain data."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Judging(Brief):
+    """How the answers of a class are judged: the scheme, and how much is revealed to whom.
+
+    ``hint`` limits the results, ``told`` the feedback that students get; ``feedback`` is the format of their files.
+    """
+
+    scheme: MarkingScheme = field(default_factory=MarkingScheme)
+    hint: int = 3
+    told: int = 3
+    feedback: FeedbackFormat | None = None
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return plain data, from which `from_dict` makes it again."""
+        return {"scheme": self.scheme.to_dict(), "hint": self.hint, "told": self.told, "feedback": self.feedback}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Judging:
+        """Return what `to_dict` made plain data of."""
+        rest = {key: value for key, value in data.items() if key != "scheme"}
+        return cls(scheme=MarkingScheme(**data["scheme"]), **rest)
+
+
+class Judge:
+    """Judges answers to one derivation; the derivation and what is found from it are made once."""
+
+    def __init__(self, derivation: Derived, judging: Judging) -> None:
+        self.derivation, self.judging = derivation, judging
+
+    def judge(self, file: str, content: bytes) -> Record:
+        """Return the record of one answer; a text that cannot be read is a record as well."""
+        read = False
+        try:
+            if len(content) > MAX_BYTES:
+                raise Error(f"the answer has more than {MAX_BYTES} bytes", fix="shorten it", code="E703")
+            answer = parse_answer(decode(content, file), self.derivation.model, name=file)
+            read = True
+            return self._told(file, check_answer(self.derivation, answer))
+        except Error as error:
+            return self._untold(file, error, read=read)
+        except Exception as fault:  # a fault of ours in one answer must not cost the others
+            _log.warning("the answer '%s' could not be judged", file, exc_info=True)
+            words = f"a fault of this program ({type(fault).__name__}); please report it"
+            return self._untold(file, Error(words), read=True)
+
+    def _told(self, file: str, verdict: CheckedAnswer) -> Record:
+        judging, scheme = self.judging, self.judging.scheme
+        lacks = lacking(verdict, self.derivation, scheme.require)
+        earned = marks(verdict, self.derivation, scheme)
+        moved = scheme.coordinates == "given" and verdict.status is Status.OTHER_COORDINATES
+        student = replace(verdict, hint=judging.told)
+        report = feedback_report(student, lacks, earned, moved=moved)
+        return {
+            "file": file,
+            "status": verdict.status.value,
+            "right": verdict.right and not lacks and not moved,
+            "read": True,
+            "trouble": "",
+            "lacks": list(lacks),
+            "moved": moved,
+            "lines": [_line(f) for f in verdict.findings],
+            "mistakes": [_mistake(m) for m in verdict.mistakes],
+            "verdict": replace(verdict, hint=judging.hint).to_dict(),
+            "marks": [m.to_dict() | {"title": m.title} for m in earned],
+            "comment": list(comment(student, lacks, earned, moved=moved)),
+            "feedback": write_report(report, judging.feedback) if judging.feedback else None,
+        }
+
+    def _untold(self, file: str, error: Error, *, read: bool) -> Record:
+        record = untold(file, " ".join(str(error).split()), read=read)
+        if self.judging.feedback:
+            report = words_report(self.derivation.model, record["comment"])
+            record["feedback"] = write_report(report, self.judging.feedback)
+        return record
+
+
+def untold(file: str, trouble: str, *, read: bool) -> Record:
+    """The record of an answer that could not be read, or not be judged."""
+    words = "Your answer could not be " + ("judged" if read else "read") + ": " + trouble
+    return {
+        "file": file,
+        "status": None,
+        "right": False,
+        "read": read,
+        "trouble": trouble,
+        "lacks": [],
+        "moved": False,
+        "lines": [],
+        "mistakes": [],
+        "verdict": None,
+        "marks": [],
+        "comment": [words],
+        "feedback": None,
+    }
+
+
+def _line(finding: Finding) -> dict[str, Any]:
+    """A line for statistics: what it states, whether it is right, and the elements and steps that it points to."""
+    origins = [o for d in finding.differences for o in d.origins]
+    return {
+        "line": finding.line.number,
+        "kind": finding.line.kind,
+        "coordinate": finding.coordinate or finding.line.name,
+        "right": finding.status.right,
+        "said": finding.status is not Status.INCOMPLETE,
+        "follows": finding.follows,
+        "elements": sorted({o.element for o in origins}),
+        "steps": sorted({o.step for o in origins}),
+    }
+
+
+def _mistake(mistake: Mistake) -> dict[str, Any]:
+    return {
+        "name": mistake.name,
+        "what": str(mistake.what),
+        "brief": str(mistake.brief) if mistake.brief is not None else "",
+        "step": mistake.step,
+        "element": mistake.element,
+    }

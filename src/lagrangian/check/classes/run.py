@@ -1,0 +1,227 @@
+"""Checks the answers of a class: finds the files, judges what is not in the store, and puts the results together."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import logging
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from lagrangian.advice import Advice, Argument
+from lagrangian.check.classes.checked import ENDINGS, CheckedClass
+from lagrangian.check.classes.judge import FeedbackFormat, Judge, Judging, Record, untold
+from lagrangian.check.classes.processes import Task, judged_by_processes, process_count
+from lagrangian.check.classes.rows import ClassRow
+from lagrangian.check.classes.scheme import AllowedCoordinates, MarkingScheme
+from lagrangian.check.classes.store import VerdictStore, fingerprint, key_of
+from lagrangian.check.classes.students import MOODLE_FILE, Roster, read_roster
+from lagrangian.derive import Derived, derive
+from lagrangian.errors import Error, ModelError
+from lagrangian.model import Model
+from lagrangian.read import MAX_BYTES, dumps
+
+_log = logging.getLogger(__name__)
+
+ANSWER = "the answer"
+"""What every answer is called in messages, because equal ones are judged once."""
+
+Progress = Callable[[int, int], None]
+"""A callback with the number of answers that are judged and of all."""
+
+
+@dataclass(frozen=True)
+class AnswerFile:
+    """The file of an answer: its name in the results, its content, or why it has none."""
+
+    name: str
+    content: bytes
+    trouble: str = ""
+
+
+def answer_files(folder: Path) -> list[AnswerFile]:
+    """The files of a folder by name, and the single files in folders that Moodle made for submissions.
+
+    Raises `Error` if there are none.
+    """
+    found: list[AnswerFile] = []
+    try:
+        entries = sorted(p for p in folder.iterdir() if not p.name.startswith("."))
+    except OSError as error:
+        what = f"cannot read '{folder}': {(error.strerror or str(error)).lower()}"
+        raise Error(what, fix="name a folder of answers", code="E702") from error
+    for path in entries:
+        if path.is_file():
+            found.append(_content(path, path.name))
+        elif path.is_dir() and MOODLE_FILE.fullmatch(path.name):
+            found.append(_submitted(path))
+    if not found:
+        raise Error(f"the folder '{folder}' holds no answers", fix="put one answer in each file", code="E702")
+    return found
+
+
+def _submitted(folder: Path) -> AnswerFile:
+    files = sorted(p for p in folder.iterdir() if p.is_file() and not p.name.startswith("."))
+    if len(files) == 1:
+        return _content(files[0], f"{folder.name}/{files[0].name}")
+    return AnswerFile(f"{folder.name}/", b"", f"the folder holds {len(files)} files; one answer is one file")
+
+
+def _content(path: Path, name: str) -> AnswerFile:
+    try:
+        with path.open("rb") as file:
+            return AnswerFile(name, file.read(MAX_BYTES + 1))
+    except OSError as error:
+        return AnswerFile(name, b"", f"cannot read '{path}': {(error.strerror or str(error)).lower()}")
+
+
+def given_answers(answers: str | Path | Mapping[str, str]) -> list[AnswerFile]:
+    """The answers of a folder, or those given as texts by name; raises `Error` if there are none."""
+    if isinstance(answers, str | Path):
+        return answer_files(Path(answers))
+    if not isinstance(answers, Mapping) or not all(isinstance(x, str) for item in answers.items() for x in item):
+        what = "the answers of a class are a folder, or texts by name"
+        raise ModelError(what, fix='check_class("answers/"), or check_class({"ann": "m*x\'\' = F"})', code="E406")
+    if not answers:
+        raise ModelError("there are no answers", fix='check_class({"ann": "m*x\'\' = F"})', code="E702")
+    return [AnswerFile(name, text.encode("utf-8", "surrogatepass")) for name, text in answers.items()]
+
+
+def check_class(
+    model: Model,
+    answers: str | Path | Mapping[str, str],
+    *,
+    derivation: Derived | None = None,
+    points: Mapping[str, float] | None = None,
+    require: Sequence[str] = (),
+    coordinates: AllowedCoordinates = "any",
+    other: float = 0.5,
+    hint: int = 3,
+    told: int | None = None,
+    feedback: FeedbackFormat | None = None,
+    roster: str | Path | None = None,
+    store: str | Path | None = None,
+    processes: int | None = None,
+    progress: Progress | None = None,
+) -> CheckedClass:
+    """Check the answers of a class; see `lagrangian.Derivation.check_class`."""
+    for name, level in (("hint", hint), ("told", told)):
+        if level is not None and (isinstance(level, bool) or level not in (0, 1, 2, 3)):
+            what = f"a hint has a level from 0 to 3 (got {level})"
+            raise ModelError(what, fix=Advice(Argument(name, "2")), code="E406")
+    if feedback is not None and feedback not in ENDINGS:
+        what = f"feedback is written as {', '.join(ENDINGS)} (got {feedback!r})"
+        raise ModelError(what, fix='feedback="html"', code="E406")
+    scheme = MarkingScheme(points=points or {}, require=require, coordinates=coordinates, other=other)
+    _check_coordinates(scheme, model)
+    judging = Judging(scheme=scheme, hint=hint, told=hint if told is None else told, feedback=feedback)
+    listed = read_roster(Path(roster)) if roster is not None else None
+    files = given_answers(answers)
+    _log.info("checking %d answers", len(files))
+    run = _ClassRun(model, derivation, judging, files, processes, progress)
+    with VerdictStore(Path(store)) if store is not None else contextlib.nullcontext() as kept:
+        records = run.records(kept)
+    most = scheme.total
+    rows = tuple(
+        ClassRow(file.name, record, most, hint, listed.find(file.name) if listed else None)
+        for file, record in zip(files, records, strict=True)
+    )
+    _check_once(rows, listed)
+    damaged = kept.damaged if kept is not None else 0
+    return CheckedClass(name=model.name, rows=rows, judging=judging, roster=listed, reused=run.reused, damaged=damaged)
+
+
+def _check_coordinates(scheme: MarkingScheme, model: Model) -> None:
+    known = {c.name for c in model.coordinates}
+    for part in scheme.points:
+        name = part.partition("_")[2]
+        if name and name not in known:
+            fix = f"the coordinates are {', '.join(sorted(known))}"
+            raise ModelError(
+                f"points are given for '{part}', and there is no coordinate '{name}'", fix=fix, code="E402"
+            )
+
+
+def _check_once(rows: Sequence[ClassRow], roster: Roster | None) -> None:
+    """Raise `Error` if two answers belong to one student of the list."""
+    seen: dict[int | None, str] = {}
+    for row in rows if roster is not None else ():
+        if row.student is None:
+            continue
+        if row.student.row in seen:
+            who = row.student.full_name or row.student.identifier or row.student.email
+            what = f"both '{seen[row.student.row]}' and '{row.file}' are answers of {who}"
+            raise Error(what, fix="keep one of them in the folder", code="E404")
+        seen[row.student.row] = row.file
+
+
+class _ClassRun:
+    """One check of a class: judges the answers that the store does not have."""
+
+    def __init__(
+        self,
+        model: Model,
+        derivation: Derived | None,
+        judging: Judging,
+        files: Sequence[AnswerFile],
+        processes: int | None,
+        progress: Progress | None,
+    ) -> None:
+        self.model, self.derivation, self.judging = model, derivation, judging
+        self.files, self.processes, self.progress = files, processes, progress
+        self.reused = 0
+
+    def records(self, store: VerdictStore | None) -> list[Record]:
+        """Return the records of all answers, in the order of the files."""
+        found: dict[int, Record] = {}
+        keys: dict[int, str] = {}
+        subject = self._subject() if store is not None else ""
+        for k, file in enumerate(self.files):
+            if file.trouble:
+                found[k] = untold(file.name, file.trouble, read=False)
+            elif store is not None:
+                keys[k] = key_of(file.content, subject)
+                if (known := store.get(keys[k])) is not None:
+                    found[k] = known
+                    self.reused += 1
+        alike: dict[bytes, list[int]] = {}
+        for k, file in enumerate(self.files):
+            if k not in found:
+                alike.setdefault(file.content, []).append(k)
+        tasks = [(group[0], ANSWER, content) for content, group in alike.items()]
+        self._tell(len(found))
+        for k, record, final in self._judged(tasks):
+            found.update(dict.fromkeys(alike[self.files[k].content], record))
+            if store is not None and final:
+                store.put(keys[k], record)
+            self._tell(len(found))
+        return [{**found[k], "file": file.name} for k, file in enumerate(self.files)]
+
+    def _subject(self) -> str:
+        """What a stored verdict depends on besides the answer."""
+        return json.dumps([fingerprint(), dumps(self.model), self.judging.to_dict()], sort_keys=True)
+
+    def _judged(self, tasks: Sequence[Task]) -> Iterator[tuple[int, Record, bool]]:
+        if not tasks:
+            return
+        count = process_count(self.processes, len(tasks))
+        if count > 1 and (model := self._written()) is not None:
+            yield from judged_by_processes(model, self.judging, tasks, count)
+            return
+        judge = Judge(self.derivation or derive(self.model), self.judging)
+        for k, file, content in tasks:
+            yield k, judge.judge(file, content), True
+
+    def _written(self) -> str | None:
+        """The text of the model for other processes; None if it cannot be written and one process was not excluded."""
+        try:
+            return dumps(self.model)
+        except Error:
+            if self.processes is not None:
+                raise
+            return None
+
+    def _tell(self, done: int) -> None:
+        if self.progress is not None:
+            self.progress(done, len(self.files))

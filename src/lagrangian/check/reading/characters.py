@@ -1,0 +1,47 @@
+"""Characters that look alike or are typed for each other: one form for each, so that answers from anywhere are read."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+
+_SAME = {
+    **dict.fromkeys("ʹ´ʼ‘ˈ＇", "'"),
+    **dict.fromkeys("“”＂", '"'),
+    **dict.fromkeys("‐‑‒—﹣－", "-"),
+    **dict.fromkeys("∗＊✱⁎﹡", "*"),
+    **dict.fromkeys("✕⨯╳", "×"),
+    **dict.fromkeys("⁄／", "/"),
+    **dict.fromkeys("＋﹢", "+"),
+    **dict.fromkeys("＝﹦≡", "="),
+    **dict.fromkeys("（﹙", "("),
+    **dict.fromkeys("）﹚", ")"),
+    **dict.fromkeys("［⟦", "["),
+    **dict.fromkeys("］⟧", "]"),
+    **dict.fromkeys("，", ","),
+    **dict.fromkeys("；", ";"),
+    **dict.fromkeys("ϑ", "θ"),
+    **dict.fromkeys("ϕ", "φ"),
+    **dict.fromkeys("ϵ", "ε"),
+    **dict.fromkeys("ϱ", "ρ"),
+    "\u2223": "|",
+    "\u0085": "\n",
+    "\u2028": "\n",
+    "\u2029": "\n",
+}
+_TABLE = str.maketrans(_SAME)
+_NOTHING = re.compile("[\u200b\u200c\u200d\u2060\u2061\u2062\u2063\u2064\ufeff\u00ad]")
+_ASSIGNED = re.compile(r":=|≔")
+_STYLED = re.compile("[\U0001d400-\U0001d7ff\u210e\u2110-\u2112\u211b\u212c\u2130\u2131\u2133]")
+
+
+def plainer(text: str) -> str:
+    """Return the text with characters that look alike replaced, letters in mathematical styles by plain ones, and
+    characters without width left out."""
+    text = _NOTHING.sub("", text.replace("\r\n", "\n").replace("\r", "\n")).translate(_TABLE)
+    return _ASSIGNED.sub(" =", _STYLED.sub(_unstyled, text))
+
+
+def _unstyled(match: re.Match[str]) -> str:
+    plain = unicodedata.normalize("NFKC", match.group())
+    return match.group() if match.group() == "ℒ" or len(plain) != 1 else plain

@@ -1,0 +1,75 @@
+r"""Takes layout off LaTeX: braces under terms, marks over signs, crossed-out terms, colours, upright units."""
+
+from __future__ import annotations
+
+import re
+
+from lagrangian.quantities.units import lookup
+
+_COVERS = "underbrace overbrace underbracket overbracket underset overset stackrel cancel bcancel xcancel"
+_UNDER = re.compile(rf"\\(?:{'|'.join(_COVERS.split())})\s*\{{")
+_DROPPED_FIRST = frozenset(["underset", "overset", "stackrel"])
+_SIGN = re.compile(r"\s*\{\s*([=+<>-]|\\equiv)\s*\}")
+_COLOURED = re.compile(
+    r"\\(?:textcolor|colorbox|mathcolor)\s*(?:\[[^\]]*\])?\s*\{[^{}]*\}\s*(?=\{)|\\color\s*\{[^{}]*\}"
+)
+_UNITS = re.compile(r"(?<=\d)(?:\s|~|\\[,;:! ])*\\(?:mathrm|text|textrm|si|unit)\s*\{(?P<unit>[^{}]{0,60})\}")
+_MAX = 200
+
+
+def without_braces(text: str) -> str:
+    r"""Return the text with \\underbrace{X}_{words} as X, \\overset{!}{=} as =, and colours left out; places stay."""
+    text = _COLOURED.sub(lambda m: " " * len(m.group()), text)
+    for _ in range(_MAX):
+        match = _UNDER.search(text)
+        if match is None:
+            return text
+        text = _uncovered(text, match)
+    return text
+
+
+def _uncovered(text: str, match: re.Match[str]) -> str:
+    """The text without one such command."""
+    inside = match.end() - 1
+    end = closing(text, match.end())
+    name = match.group()[1:].rstrip("{ ")
+    letters = list(text)
+
+    def drop(start: int, stop: int) -> None:
+        letters[start:stop] = " " * (stop - start)
+
+    drop(match.start(), inside)
+    if name in _DROPPED_FIRST:
+        drop(inside, end)
+        if (sign := _SIGN.match(text, end)) is not None:
+            drop(end, sign.start(1))
+            drop(sign.end(1), sign.end())
+        return "".join(letters)
+    if (below := re.compile(r"\s*[_^]\s*").match(text, end)) is not None:
+        stop = closing(text, below.end() + 1) if text[below.end() : below.end() + 1] == "{" else below.end() + 1
+        drop(end, stop)
+    return "".join(letters)
+
+
+def without_units(text: str) -> str:
+    r"""Return the text without SI units in upright letters after a number: 3\\,\\mathrm{kg\\,m^2} is 3."""
+
+    def plain(match: re.Match[str]) -> str:
+        names = re.findall(r"[^\W\d_]+", re.sub(r"\\(?:cdot|,|;|:|!)", " ", match["unit"]))
+        found = [lookup(name) for name in names]
+        whole = bool(found) and all(unit is not None and unit.factor == 1 for unit in found)
+        return " " * len(match.group()) if whole else match.group()
+
+    return _UNITS.sub(plain, text)
+
+
+def closing(text: str, start: int) -> int:
+    """The position after the brace that closes the one that was opened before ``start``."""
+    depth, at = 1, start
+    while at < len(text) and depth:
+        if text[at] == "\\":
+            at += 1
+        else:
+            depth += {"{": 1, "}": -1}.get(text[at], 0)
+        at += 1
+    return min(at, len(text))

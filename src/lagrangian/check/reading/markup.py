@@ -1,0 +1,74 @@
+"""Takes the layout of other programs off an answer: Markdown, code fences, lists, the brackets of a list of equations.
+
+Everything is replaced by spaces, so that all places stay the same.
+"""
+
+from __future__ import annotations
+
+import re
+
+_FENCE = re.compile(r"^[ \t]*(?:```|~~~)[^\n]*$", re.MULTILINE)
+_RULE = re.compile(r"^[ \t]*(?:[-=_~–—][ \t]*){3,}$|^[ \t]*(?:\*[ \t]*){3,}$", re.MULTILINE)
+_CODE = re.compile(r"(?<!`)(`{1,2})(?!`)([^`\n]+)\1(?!`)")
+_BOLD = re.compile(r"(?<![\w)\]'*])(\*\*|__)(?=[^\s*_])([^*\n]*?[^\s*])\1(?![\w(*])")
+_HEADING = re.compile(r"^[ \t]{0,3}#{1,6}[ \t][^\n]*$", re.MULTILINE)
+_QUOTE = re.compile(r"^[ \t]*(?:>[ \t]*)+", re.MULTILINE)
+_BULLET = re.compile(r"^[ \t]*[-*+•–][ \t]+(?=\S)", re.MULTILINE)
+_LISTS = re.compile(r"\s*(?:(?P<open>[\[{(])|\w+\s*=\s*(?P<named>[\[{]))\s*(?=\S)")
+_STATED = re.compile(r"==|\bEq\s*\(|\bEquality\s*\(")
+_CLOSED = {"[": "]", "{": "}", "(": ")"}
+_WHOLE_LINE = re.compile(r"^[ \t]*(?:In\[\d+\]:?=|Out\[\d+\]=|>>>|\.\.\.(?= )|>>)", re.MULTILINE)
+
+
+def blank(text: str, start: int, end: int) -> str:
+    """Return the text with [start, end) replaced by as many spaces, so that all places stay the same."""
+    return text[:start] + " " * (end - start) + text[end:]
+
+
+def without_markup(text: str) -> str:
+    """Return an answer without Markdown; what is not mathematics is blank."""
+    for form in (_FENCE, _RULE, _HEADING, _QUOTE, _WHOLE_LINE):
+        text = form.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), text)
+    for form in (_BOLD, _CODE):
+        text = form.sub(lambda m: " " * len(m[1]) + m[2] + " " * len(m[1]), text)
+    return text
+
+
+def bullets(text: str) -> int:
+    """Return how many statements begin with what may be a bullet: - m x'' + k x = 0."""
+    return len(_BULLET.findall(text))
+
+
+def all_bullets(text: str, *, marked: bool = False) -> bool:
+    """Whether several lines with an equals sign begin with the same bullet, and none without; one if Markdown is used
+    elsewhere (``marked``)."""
+    stated = [line for line in text.split("\n") if "=" in line]
+    marks = [m.group().strip() if (m := _BULLET.match(line)) else "" for line in stated]
+    return len(marks) > (0 if marked else 1) and len(set(marks)) == 1 and marks[0] != ""
+
+
+def without_bullets(text: str) -> str:
+    """Return the text with bullets replaced by spaces."""
+    return _BULLET.sub(lambda m: " " * len(m.group()), text)
+
+
+def opened_list(text: str) -> str:
+    """Return a list of equations of a program without its brackets: [Eq(a, b), Eq(c, d)], {a == b, c == d}."""
+    match = _LISTS.match(text)
+    if match is None or not _STATED.search(text):
+        return text
+    kind = "open" if match["open"] else "named"
+    at, opening = match.start(kind), match[kind]
+    depth = 0
+    for end in range(at, len(text)):
+        depth += (text[end] in "[{(") - (text[end] in "]})")
+        if depth == 0:
+            break
+    else:
+        return text
+    if text[end] != _CLOSED[opening] or text[end + 1 :].strip(" \t\n;,.") or not _STATED.search(text, at, end):
+        return text
+    inside = text[at + 1 : end]
+    if opening == "(" and "," not in inside:
+        return text
+    return blank(blank(text, end, end + 1), match.start(), at + 1).replace("\n", " ")

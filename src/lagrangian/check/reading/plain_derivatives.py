@@ -1,0 +1,119 @@
+"""Reads derivatives in plain text: primes, dx/dt, d(…)/dt, diff(x, t, 2), Derivative(x(t), (t, 2)), D[x[t], {t, 2}]."""
+
+from __future__ import annotations
+
+from lark import Tree
+
+from lagrangian.check.reading.nodes import Node, name, node, only_name
+from lagrangian.check.reading.parser import AnswerToken
+from lagrangian.check.reading.plain_conditions import PlainConditions
+from lagrangian.check.reading.plain_tokens import TOKEN
+
+ORDERS = {"'": 1, "’": 1, "′": 1, "″": 2, "‴": 3, '"': 2}
+"""How often each mark differentiates."""
+
+DIFFERENTIATE = frozenset(["diff", "Derivative", "D", "Diff"])
+"""The functions of programs that differentiate."""
+
+DOTS = {"dot": 1, "ddot": 2}
+"""Functions that stand for dots."""
+
+CLOSING = {"(": ")", "[": "]"}
+"""Opening brackets, with their closing brackets."""
+
+
+class PlainDerivatives(PlainConditions):
+    """The part of the parser that reads derivatives."""
+
+    def _primed(self, made: Tree, primes: AnswerToken) -> Tree:
+        order = sum(ORDERS[c] for c in primes.text)
+        if made.data == "name" and made.children[1] is None:
+            token: Node = made.children[0]
+            return name(token, token.start_pos, order)
+        return node("rate", primes.start, made, order)
+
+    def _bracket(self) -> Tree:
+        closing = CLOSING[self.next.kind]
+        start = self.take().start
+        self.deeper(start)
+        inner = self.sum()
+        if not self.accept(closing):
+            raise self.stopped(False)
+        self.opened.pop()
+        return inner
+
+    def _fraction_rate(self) -> Tree:
+        token = self.take()
+        found = TOKEN.match(self.source.text, token.start)
+        assert found is not None
+        group, order = ("of1", 1) if token.kind == "rate" else ("of2", 2)
+        written = found[group].rstrip("'’′″‴\"")
+        order += sum(ORDERS[c] for c in found[group][len(written) :])
+        return name(written, found.start(group), order)
+
+    def _d_of_bracket(self, token: AnswerToken) -> Tree | None:
+        """Read d(…)/dt; None if no /dt follows."""
+        at = self.i
+        inner = self._bracket()
+        if self.next.kind == "over" and self.ahead().kind == "name" and self.ahead().text == "dt":
+            self.take()
+            self.take()
+            return node("rate", token.start, inner, 1)
+        self.i = at
+        return None
+
+    def _differentiated(self, token: AnswerToken) -> Tree:
+        """Read diff(x, t), diff(x, t, 2), diff(x, t, t), Derivative(x(t), (t, 2)), D[x[t], {t, 2}] or diff(L, x')."""
+        closing = CLOSING[self.next.kind]
+        start = self.take().start
+        self.deeper(start)
+        made = self.sum()
+        order = 0
+        while self.accept(","):
+            if self.next.kind == "number" and not order and made.data != "partial":  # diff(x, 2)
+                order = self._order()
+                continue
+            tuple_open = self.accept("(", "{")
+            by = self.sum()
+            which = only_name(by)
+            if which == ("t", 0):
+                order += 1
+                if self.next.kind == "," and self.ahead().kind == "number":
+                    self.take()
+                    order += self._order() - 1
+            elif which is not None:
+                made = node("partial", token.start, self._energy(made, token), by)
+            else:
+                raise self.source.error(
+                    "a derivative must be with respect to t or to one name",
+                    by.meta.start_pos,
+                    fix="write diff(x1, t, 2) or x1''",
+                )
+            if tuple_open and not self.accept(")", "}"):
+                raise self.stopped(False)
+        if not self.accept(closing):
+            raise self.stopped(False)
+        self.opened.pop()
+        if not order and made.data != "partial":
+            raise self.source.error(
+                f"{token.text} needs a variable to differentiate by", token.start, fix=f"write {token.text}(x1, t)"
+            )
+        return node("rate", token.start, made, order) if order else made
+
+    def _order(self) -> int:
+        token = self.take()
+        if token.text not in ("1", "2"):
+            raise self.source.error(
+                "derivatives go up to the second", token.start, fix="write x1'' for an acceleration"
+            )
+        return int(token.text)
+
+    def _energy(self, made: Tree, token: AnswerToken) -> Node:
+        which = only_name(made)
+        if which is None or which[1] or which[0] not in ("T", "V", "L", "D", "ℒ"):
+            raise self.source.error(
+                "only T, V, L and D can be differentiated by a coordinate or its rate",
+                token.start,
+                fix="write ∂L/∂x1' or diff(L, x1')",
+            )
+        return which[0]

@@ -1,0 +1,152 @@
+"""Recognizes what a statement of an answer is about: an energy, a Ξ, a momentum, a name of the answer."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import cast
+
+from lark import Token, Tree
+
+from lagrangian.check.reading.answer import Kind
+from lagrangian.check.reading.names import Names, spelled_rates
+from lagrangian.check.reading.nodes import Node, inside, is_matrix, only_name, squared_name
+from lagrangian.check.reading.stated import energy_of, force_of, momentum_of
+from lagrangian.model import Model
+from lagrangian.read.letters import key, undotted
+
+
+@dataclass(frozen=True)
+class Subject:
+    """The subject of a statement: its kind, its name, the token, the order of a rate, whether it is squared, and
+    whether it is on the right."""
+
+    kind: Kind
+    name: str | None = None
+    token: Token | None = None
+    order: int = 0
+    square: bool = False
+    right: bool = False
+
+
+class Subjects:
+    """Recognizes the subjects of statements; ``defined`` holds the names that a statement of the answer defines."""
+
+    def __init__(self, model: Model, names: Names) -> None:
+        self.model, self.names = model, names
+        self.defined: set[str] = set()
+        self.left: set[str] = set()
+        """The names that a statement defines on its left side."""
+
+    def turned(self, sides: list[Tree]) -> tuple[Subject | None, list[Tree]]:
+        """The subject of a statement and its sides, the subject first; it may be on the left or right, a Ξ anywhere."""
+        if len(sides) == 1:
+            return None, sides
+        if (found := only_name(sides[0])) is not None and not found[1] and is_matrix(sides[1]):
+            return Subject("definition", str(found[0]), found[0]), sides  # M = [a, b; c, d], even if M is a mass, too
+        moving = any(self.accelerates(side) for side in sides)
+        subjects = [self.of(side, moving=moving) for side in sides]
+        order = [0, len(sides) - 1, *(i for i, s in enumerate(subjects) if s is not None and s.kind == "Xi")]
+        first, last = subjects[0], subjects[-1]
+        if first is not None and last is not None and (first.order or first.kind == "identity") and self._new(last):
+            order = [len(sides) - 1]  # x1' = x2 says what x2 is
+        for i in order:
+            subject = subjects[i]
+            if i and subject is not None and key(str(subject.token)) in self.left:
+                continue  # … = f, where another line says f = …
+            if subject is not None:
+                return replace(subject, right=i > 0), [sides[i], *sides[:i], *sides[i + 1 :]]
+        return None, sides
+
+    def accelerates(self, tree: Node) -> bool:
+        """Whether an acceleration stands in a tree: of any name, in any spelling."""
+        stack: list[tuple[Node, int]] = [(tree, 0)]
+        while stack:
+            item, order = stack.pop()
+            if not isinstance(item, Tree):
+                continue
+            if item.data == "name":
+                order += self._order(*item.children)
+            elif item.data == "rate":
+                order += cast("int", item.children[1])
+                stack.append((item.children[0], order))
+            else:
+                stack.extend((child, order) for child in item.children)
+            if order > 1:
+                return True
+        return False
+
+    def _order(self, token: Node, primes: Node) -> int:
+        """How often a name is differentiated: by primes, dots, or in letters."""
+        base, dots = undotted(token)
+        order = len(primes or "") + dots
+        if self.names.scope.meanings(token)[0]:
+            return order
+        return order + max((k for k, stem in spelled_rates(base) if self.names.changes(stem)), default=0)
+
+    def _new(self, subject: Subject) -> bool:
+        """Whether a statement is the first to say what a name is."""
+        return subject.kind == "definition" and not subject.order and not self.names.is_own(str(subject.token))
+
+    def of(self, side: Tree, *, moving: bool = False) -> Subject | None:
+        """The subject of a statement with this left-hand side; None if it is an equation.
+
+        ``moving``: the statement contains accelerations, so it states no energy: T is then a torque.
+        """
+        if (found := only_name(side)) is not None:
+            return self._named(*found, moving)
+        if (token := squared_name(side)) is not None and not self._taken(token):
+            return Subject("definition", str(token), token, square=True)
+        return self._derivative_of_energy(inside(side))
+
+    def left_side(self, side: Tree) -> Subject | None:
+        """Recognize d/dt ∂L/∂ξ̇ − ∂L/∂ξ, written with L alone."""
+        side = inside(side)
+        terms = [inside(x) for x in side.children if isinstance(x, Tree)] if side.data == "sum" else []
+        if len(terms) != 2 or [str(x) for x in side.children if isinstance(x, Token)] != ["-"]:
+            return None
+        first, second = (self._derivative_of_energy(x) for x in terms)
+        if first is None or second is None or (first.kind, second.kind) != ("p-rate", "slope"):
+            return None
+        return Subject("left", first.name) if first.name == second.name else None
+
+    def _taken(self, token: Token) -> bool:
+        """Whether a name belongs to the model, or spells out the rate of one of its names: theta1_ddot."""
+        scope = self.names.scope
+        return bool(scope.meanings(token)[0]) or any(scope.meanings(stem)[0] for _, stem in spelled_rates(token))
+
+    def _named(self, token: Token, primes: int, moving: bool) -> Subject | None:
+        base, dots = undotted(token)
+        order = primes + dots
+        if not order and not self._taken(token):
+            order, base = next(((k, x) for k, x in spelled_rates(base) if self.names.changes(x)), (0, base))
+        if order:
+            if self._taken(token):
+                return None
+            own = self.names.is_own(base) or key(base) in self.defined
+            return Subject("identity" if own else "definition", base, Token("NAME", base), order)
+        if not moving and (kind := energy_of(token, self.model, lhs=True)) is not None:
+            return Subject(cast("Kind", kind), None, token)
+        if (coordinate := force_of(token, self.model)) is not None:
+            return Subject("Xi", coordinate)
+        if (coordinate := momentum_of(token, self.model)) is not None and self.names.occurs(token) == 1:
+            return Subject("p", coordinate)
+        return None if self._taken(token) or token in ("t", "pi") else Subject("definition", str(token), token)
+
+    def _derivative_of_energy(self, side: Node) -> Subject | None:
+        """Recognize ∂L/∂ξ, ∂L/∂ξ̇ and d/dt ∂L/∂ξ̇ alone on one side."""
+        if not isinstance(side, Tree):
+            return None
+        if side.data == "rate" and side.children[1] == 1:
+            inner = self._derivative_of_energy(inside(side.children[0]))
+            return Subject("p-rate", inner.name) if inner is not None and inner.kind == "p" else None
+        if side.data != "partial" or side.children[0] not in ("L", "ℒ"):
+            return None
+        found = only_name(side.children[1])
+        if found is None:
+            return None
+        token, primes = found
+        names, dots = self.names.scope.meanings(token)
+        coordinates = {c.name for c in self.model.coordinates}
+        if len(names) != 1 or names[0] not in coordinates or primes + dots > 1:
+            return None
+        return Subject("p" if primes + dots else "slope", names[0])

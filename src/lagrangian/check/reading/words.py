@@ -1,0 +1,171 @@
+"""Splits words into known names: mgLsin is m g L sin. If a word can be split in two ways, the reader asks.
+
+A word is split only if it is no name itself. Longer names are preferred: no part of a name is split again.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from functools import cache
+
+from lagrangian.check.reading.names import Names, spelled_rates
+from lagrangian.errors import did_you_mean
+from lagrangian.model.names import FUNCTIONS
+from lagrangian.quantities.source import Source
+from lagrangian.read.functions import ALIASES
+from lagrangian.read.letters import key
+
+RECIPROCALS = {"cot": "tan", "sec": "cos", "csc": "sin", "cosec": "sin", "coth": "tanh", "sech": "cosh", "csch": "sinh"}
+"""Functions of answers that are 1 over another."""
+
+MAX_WORD = 40
+"""The longest word that is split."""
+
+MAX_WORDS = 500
+"""The largest number of words in one answer that are tried to be split."""
+
+MAX_SPLITS = 64
+"""The largest number of ways to split a word that are looked at."""
+
+MAX_TOLD = 6
+"""The largest number of split words that a note lists."""
+
+_WHOLE = frozenset(["dt", "pi", "diff", "Derivative", "Matrix", "Eq", "piecewise", "ddot", "dot"])
+_NUMBER = re.compile(r"\d+")
+
+
+def function_of(word: str) -> str | None:
+    """The function that a word means, in any case and under the names of other programs: Sin, arctan, tg; or None."""
+    if word in FUNCTIONS or word in RECIPROCALS:
+        return word
+    for form in (word, word.lower(), word.lower().replace("_", "")):
+        other = ALIASES.get(form, form)
+        if other in FUNCTIONS or other in RECIPROCALS:
+            return other
+    return None
+
+
+class Words:
+    """What the words of one answer may mean, before its statements are read.
+
+    ``own`` are the names that the answer defines, ``alone`` all its words, and ``used`` those with primes or next to an
+    operator, which are names.
+    """
+
+    def __init__(self, names: Names, own: Iterable[str], alone: Iterable[str], used: Iterable[str]) -> None:
+        self.names = names
+        self._own = {key(x) for x in own if function_of(x) is None}
+        self._alone = {key(x) for x in alone}
+        self._used = {key(x) for x in used if function_of(x) is None}
+        self._split: dict[str, str] = {}
+        self._products: dict[str, bool] = {}
+        self.flipped = False
+        """Whether the denominators that can be read in two ways are read in the less likely one."""
+        self.asked = False
+        """Whether there was such a denominator."""
+        self.units = False
+        """Whether letters after a number are a unit even if they are names of the system."""
+        self.doubtful = False
+        """Whether there were such letters."""
+
+    def known(self, word: str) -> bool:
+        """Whether a word is a name of the system or of the answer, or the rate of one in letters."""
+        if self.names.known(word) or key(word) in self._own:
+            return True
+        return any(self.names.changes(stem) or key(stem) in self._own for _, stem in spelled_rates(word))
+
+    def is_name(self, word: str) -> bool:
+        """Whether the system or the answer has this name; energies do not count."""
+        return bool(self.names.scope.meanings(word)[0]) or key(word) in self._own
+
+    def readable(self, word: str) -> bool:
+        """Whether a word may be a factor of a product without a sign: known, a function, or a single letter."""
+        bare = re.sub(r"[\W\d_]", "", word)
+        named = self.known(word) or function_of(word) is not None or key(word) in self._used
+        return named or len(bare) == 1 or len(key(word)) > len(word)
+
+    def alone(self, word: str) -> bool:
+        """Whether a word occurs in the answer elsewhere than after a number."""
+        return key(word) in self._alone
+
+    def is_product(self, word: str) -> bool:
+        """Whether a word can be split into names of the system."""
+        if word not in self._products:
+            few = 1 < len(word) <= MAX_WORD and len(self._products) < MAX_WORDS
+            self._products[word] = few and bool(self._splits(word, called=False, extra=False))
+        return self._products[word]
+
+    def is_function(self, word: str) -> bool:
+        """Whether a word is a function and no name."""
+        return function_of(word) is not None and not self.is_name(word)
+
+    def calls(self, word: str) -> bool:
+        """Whether a word before a bracket is a function, perhaps misspelled, and not a factor."""
+        if self.known(word):
+            return False
+        return self.is_function(word) or (len(word) > 2 and did_you_mean(word.lower(), FUNCTIONS) is not None)
+
+    def parts(self, word: str, source: Source, start: int, *, called: bool) -> list[str]:
+        """The names of which a word consists, the word itself if it is a name or cannot be split.
+
+        ``called``: a bracket or an argument follows, so that the last part may be a function. Raises an error that
+        names both readings if there are two.
+        """
+        if not 1 < len(word) <= MAX_WORD or word in _WHOLE or self.known(word) or function_of(word) is not None:
+            return [word]
+        for extra in (False, True):
+            found = _coarsest(self._splits(word, called, extra))
+            if len(found) > 1:
+                one, other = ("*".join(x) for x in found[:2])
+                what = f"'{word}' can mean {one} or {other}"
+                raise source.error(what, start, fix="write the product that you mean with its *", code="E402")
+            if found:
+                self._split.setdefault(word, " ".join(found[0]))
+                return found[0]
+        return [word]
+
+    def _splits(self, word: str, called: bool, extra: bool) -> list[list[str]]:
+        """All ways to split a word; with ``extra``, names that only the answer has, time and π are parts too."""
+
+        @cache
+        def fits(part: str, last: bool, after: bool) -> bool:
+            if function_of(part) is not None and part not in ("t", "pi"):
+                return not last or called
+            if after and _NUMBER.fullmatch(part):
+                return not last
+            return self._is_part(part, extra, word)
+
+        @cache
+        def splits(at: int, after: bool) -> list[list[str]]:
+            """The splits of what begins at a place, ``after`` a function."""
+            found: list[list[str]] = [[]] if at == len(word) else []
+            for end in range(len(word), at, -1):
+                part = word[at:end]
+                if (at > 0 or end < len(word)) and fits(part, end == len(word), after):
+                    found += [[part, *rest] for rest in splits(end, function_of(part) is not None)]
+            return found[:MAX_SPLITS]
+
+        return splits(0, False)
+
+    def _is_part(self, part: str, extra: bool, word: str) -> bool:
+        if part[0] in "_0123456789" or part.endswith("_"):
+            return False
+        if self.names.scope.meanings(part)[0] or key(part) in self._own:
+            return True
+        if any(self.names.changes(stem) and len(part) - len(stem) > 2 for _, stem in spelled_rates(part)):
+            return True
+        return extra and (part in ("t", "pi") or (key(part) in self._alone and key(part) != key(word)))
+
+    def notes(self) -> Iterator[str]:
+        """How words were split, in one sentence."""
+        if self._split:
+            told = [f"{word} as {parts}" for word, parts in list(self._split.items())[:MAX_TOLD]]
+            more = ", …" if len(self._split) > MAX_TOLD else ""
+            yield f"Products without signs were read: {', '.join(told)}{more}."
+
+
+def _coarsest(splits: list[list[str]]) -> list[list[str]]:
+    """The splits that do not only split the parts of another."""
+    cuts = [{sum(map(len, s[: k + 1])) for k in range(len(s))} for s in splits]
+    return [s for s, mine in zip(splits, cuts, strict=True) if not any(other < mine for other in cuts)]

@@ -1,0 +1,249 @@
+"""Finds the mistakes that explain an answer: one, or two together, whose effects are what is wrong in it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations
+from typing import Any, cast
+
+import numpy as np
+import sympy as sp
+
+from lagrangian import bounded
+from lagrangian.check.align import LARGEST, Alignment
+from lagrangian.check.changes.pool import Pool, Possible
+from lagrangian.check.reference import terms
+from lagrangian.derive.sampling import Array, CompiledExpressions
+
+SMALL = 1e-7
+"""The relative size below which a rest counts as explained."""
+PARALLEL = 1e-9
+"""1 − |cos| below which two vectors count as parallel."""
+LARGEST_DENOMINATOR = 24
+PLAIN = (Fraction(-1), Fraction(-2), Fraction(1), Fraction(-1, 2))
+"""Left out, other sign, twice, half: the multiples that are tried in pairs."""
+EXOTIC = 4.6
+"""A single mistake that costs more may be less likely than two plain ones."""
+MOST_FOR_PAIRS = 6
+"""The number of correspondences of rows for which pairs are tried."""
+MOST_OWN_TERMS = 250
+"""The largest number of terms of an expanded equation that are examined."""
+PAIR = 1.0
+"""What a pair costs besides its two mistakes."""
+
+
+@dataclass(frozen=True, eq=False)
+class Told:
+    """One mistake with its multiple."""
+
+    mistake: Possible
+    times: Fraction
+    cost: float
+
+
+@dataclass(frozen=True, eq=False)
+class Explanation:
+    """Mistakes that together are what is wrong, under one correspondence of the rows (None for a line)."""
+
+    told: tuple[Told, ...]
+    cost: float
+    under: Alignment | None = None
+
+
+def singles(pool: Pool, E: Array, rest: Array, under: Alignment | None = None) -> list[Explanation]:
+    """The single mistakes whose effects E (C, …) are a multiple of ``rest``, the cheapest first."""
+    flat = E.reshape(len(E), -1)
+    r = rest.reshape(-1)
+    size = np.abs(r).max()
+    with np.errstate(all="ignore"):
+        norms = np.linalg.norm(flat, axis=1)
+        along = flat @ (r / np.linalg.norm(r)) / norms
+    found: list[Explanation] = []
+    doubt = under.doubt if under is not None else 0.0
+    for k in np.flatnonzero(np.abs(along) > 1 - PARALLEL):
+        times = float(flat[k] @ r) / float(norms[k]) ** 2
+        if np.abs(times * flat[k] - r).max() > SMALL * size:
+            continue
+        number = _number(times)
+        if number is None or (not pool.free[k] and number != 1):
+            continue
+        cost = float(pool.cost[k]) + _oddness(number, pool.all[k])
+        found.append(Explanation((Told(pool.all[k], number, cost),), cost + doubt, under))
+    return sorted(found, key=lambda e: e.cost)
+
+
+def _number(times: float) -> Fraction | None:
+    """The simple fraction that a multiple is; None if it is none."""
+    number = Fraction(times).limit_denominator(LARGEST_DENOMINATOR)
+    near = abs(float(number) - times) <= SMALL * max(1.0, abs(times))
+    return number if near and number != 0 else None
+
+
+def _oddness(number: Fraction, possible: Possible) -> float:
+    """What a multiple costs: leaving out is likelier than another sign, and that than another number."""
+    if not possible.free or number == -1:
+        return 0.0
+    if number == -2:
+        return possible.sign
+    if number in (1, Fraction(-1, 2)):
+        return 0.3
+    return 0.9 if number.denominator <= 6 and abs(number.numerator) <= 6 else 1.6
+
+
+class Vectors:
+    """The different effects of a pool on some rows, for pairs: every plain multiple of every change."""
+
+    def __init__(self, pool: Pool, E: Array) -> None:
+        flat = E.reshape(len(E), -1)
+        felt = np.flatnonzero(np.abs(flat).max(axis=1, initial=0.0) > 1e-12)
+        every = [(int(k), t) for k in felt for t in (PLAIN if pool.free[k] else (Fraction(1),))]
+        cost = np.array([float(pool.cost[k]) + _oddness(t, pool.all[k]) for k, t in every])
+        index, times = np.array([k for k, _ in every], int), np.array([float(t) for _, t in every])
+        probe = np.random.default_rng(11).standard_normal((3, flat.shape[1]))
+        seen = (flat @ probe.T)[index] * times[:, None]
+        likely = np.argsort(cost, kind="stable")
+        _, first = np.unique(np.round(seen[likely], 9), axis=0, return_index=True)
+        keep = likely[np.sort(first)]
+        self.pool, self.flat, self.probe = pool, flat, probe
+        self.index, self.times, self.cost, self.seen = index[keep], times[keep], cost[keep], seen[keep]
+        self.order = np.argsort(self.seen[:, 0])
+        self.sorted = self.seen[self.order, 0]
+
+    def pairs(self, rest: Array, under: Alignment | None = None, most: float = 9.0) -> list[Explanation]:
+        """The pairs whose effects add up to ``rest``, the cheapest first."""
+        r = rest.reshape(-1)
+        size = float(np.abs(r).max())
+        target = self.probe @ r
+        wanted = target[0] - self.seen[:, 0]
+        slack = 1e-8 * (np.abs(self.seen[:, 0]) + abs(target[0]) + size)
+        low = np.searchsorted(self.sorted, wanted - slack)
+        high = np.searchsorted(self.sorted, wanted + slack)
+        found: list[tuple[float, int, int]] = []
+        for a in np.flatnonzero(high > low):
+            for b in self.order[low[a] : min(high[a], low[a] + 40)]:
+                cost = float(self.cost[a] + self.cost[b]) + PAIR
+                if b <= a or cost > most or self.index[a] == self.index[b]:
+                    continue
+                left = np.abs(self.seen[a] + self.seen[b] - target)
+                if (left <= 1e-7 * (np.abs(target) + size)).all():
+                    found.append((cost, int(a), int(b)))
+        doubt = under.doubt if under is not None else 0.0
+        return [Explanation(t, c + doubt, under) for c, t in self._sure(sorted(found)[:60], r, size)]
+
+    def _sure(
+        self, found: Sequence[tuple[float, int, int]], r: Array, size: float
+    ) -> Iterator[tuple[float, tuple[Told, Told]]]:
+        for cost, a, b in found:
+            both = self.flat[self.index[a]] * self.times[a] + self.flat[self.index[b]] * self.times[b]
+            if np.abs(both - r).max() <= SMALL * size:
+                yield cost, (self._told(a), self._told(b))
+
+    def _told(self, a: int) -> Told:
+        number = Fraction(float(self.times[a])).limit_denominator(LARGEST_DENOMINATOR)
+        return Told(self.pool.all[self.index[a]], number, float(self.cost[a]))
+
+
+def first_explained(pool: Pool, found: Sequence[Alignment]) -> list[Explanation]:
+    """The explanations of all rows at once: single mistakes, and pairs where no single one is plausible."""
+    best = sorted((e for a in found for e in singles(pool, pool.W[:, list(a.rows)], a.rest, a)), key=lambda e: e.cost)
+    if best and best[0].cost <= EXOTIC:
+        return best
+    vectors: dict[tuple[int, ...], Vectors] = {}
+    pairs: list[Explanation] = []
+    for a in found[:MOST_FOR_PAIRS]:
+        if a.rows not in vectors:
+            vectors[a.rows] = pool.kept(("vectors", a.rows), lambda rows=a.rows: Vectors(pool, pool.W[:, list(rows)]))
+        pairs += vectors[a.rows].pairs(a.rest, a)
+    return sorted([*best, *pairs], key=lambda e: e.cost)
+
+
+def by_rows(pool: Pool, found: Sequence[Alignment]) -> list[Explanation]:
+    """Explanations of every wrong row on its own, put together; nothing unless all are explained."""
+    for a in found:
+        told: list[Told] = []
+        total = 0.0
+        for j, i in enumerate(a.rows):
+            if np.abs(a.rest[j]).max() <= 1e-9 * (1 + np.abs(pool.truth.W[i]).max()):
+                continue
+            one = singles(pool, pool.W[:, [i]], a.rest[[j]], a)
+            if not one or one[0].cost > EXOTIC:
+                vectors: Vectors = pool.kept(("vectors", (i,)), lambda i=i: Vectors(pool, pool.W[:, [i]]))
+                one = sorted([*one, *vectors.pairs(a.rest[[j]], a)], key=lambda e: e.cost)
+            if not one:
+                break
+            told += [t for t in one[0].told if all(t.mistake is not x.mistake for x in told)]
+            total += one[0].cost
+        else:
+            if told:
+                return [Explanation(tuple(told), total, a)]
+    return []
+
+
+@dataclass(frozen=True)
+class OwnTerm:
+    """A term of the answer's equation ``row`` that is wrong: P − ``times``·term is right.
+
+    1: too much, 2: wrong sign. ``forgotten``: it is not there, but one like it with sine and cosine exchanged is.
+    """
+
+    row: int
+    term: sp.Expr
+    times: Fraction
+    forgotten: bool = False
+
+    @property
+    def cost(self) -> float:
+        """How unlikely it is that this was the mistake."""
+        return 2.6 if self.forgotten or self.times in (1, 2) else 3.2
+
+
+def own_terms(pool: Pool, exprs: Sequence[sp.Expr], P: Array, found: Sequence[Alignment]) -> list[OwnTerm] | None:
+    """For every wrong row a term of its own that is wrong; None unless all wrong rows are explained so."""
+    for a in found:
+        if a.solved:
+            continue
+        told: list[OwnTerm] = []
+        for j, i in enumerate(a.rows):
+            if np.abs(a.rest[j]).max() <= 1e-9 * (1 + np.abs(pool.truth.W[i]).max()):
+                continue
+            one = _own(pool, exprs[j], a.rest[j] * a.factors[j], i)
+            if one is None:
+                break
+            told.append(one)
+        else:
+            if told:
+                return told
+    return None
+
+
+def _own(pool: Pool, expr: sp.Expr, rest: Array, row: int) -> OwnTerm | None:
+    if terms(expr) > MOST_OWN_TERMS:
+        return None
+    parts = (*sp.Add.make_args(expr), *sp.Add.make_args(bounded.expand(expr)))
+    written = [t for t in dict.fromkeys(parts) if t not in (0, expr)]
+    siblings = list(dict.fromkeys(s for t in written for s in _siblings(t)))[: 4 * MOST_OWN_TERMS]
+    every = [*written, *siblings]
+    values = CompiledExpressions(every).at(pool.truth.states) if every else np.zeros((0, rest.size))
+    for k, (t, v) in enumerate(zip(every, values, strict=True)):
+        if not np.isfinite(v).all() or not 1e-12 < np.abs(v).max() < LARGEST:
+            continue
+        c = float(v @ rest) / float(v @ v)
+        if np.abs(rest - c * v).max() > SMALL * np.abs(rest).max() or (number := _number(c)) is None:
+            continue
+        if k < len(written):
+            return OwnTerm(row, t, number)
+        if number in (1, -1):
+            return OwnTerm(row, cast("sp.Expr", -number * t), number, forgotten=True)
+    return None
+
+
+def _siblings(t: sp.Expr) -> Iterator[sp.Expr]:
+    """The term with sine and cosine exchanged in one place, or in two."""
+    table: dict[Any, Any] = {}
+    for f in sorted(t.atoms(sp.sin, sp.cos), key=sp.default_sort_key):
+        table[f] = sp.cos(f.args[0]) if isinstance(f, sp.sin) else sp.sin(f.args[0])
+    for count in (1, 2):
+        for chosen in combinations(table, count):
+            yield cast("sp.Expr", t.xreplace({f: table[f] for f in chosen}))

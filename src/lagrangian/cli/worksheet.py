@@ -1,0 +1,116 @@
+"""``lagrangian worksheet``: question sheets, solutions and variants."""
+
+from __future__ import annotations
+
+import re
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from lagrangian.cli.door import put, say
+from lagrangian.cli.formats import Format, FormatOption, Notation, NotationOption, as_json
+from lagrangian.cli.progress import status
+from lagrangian.cli.terminal import OUTPUT, Example, Force, Json, OptionalFile, open_system
+from lagrangian.errors import Error
+from lagrangian.worksheet import Worksheet, sheet_files
+from lagrangian.write import check_free
+
+MAX_VARIANTS = 1000
+"""The most variants of one command."""
+
+
+class SolutionLength(StrEnum):
+    """How much of the derivation the solution sheet has."""
+
+    BRIEF = "brief"
+    FULL = "full"
+
+
+def worksheet(
+    file: OptionalFile = None,
+    example: Example = None,
+    variants: Annotated[
+        int,
+        typer.Option(
+            metavar="N", help="Write so many variants of the system instead of itself.", min=0, max=MAX_VARIANTS
+        ),
+    ] = 0,
+    seed: Annotated[
+        int, typer.Option(metavar="N", help="Seed of the first variant; the next has the next.", min=0)
+    ] = 1,
+    solution: Annotated[
+        SolutionLength, typer.Option(help="The whole derivation, or the checklist.")
+    ] = SolutionLength.FULL,
+    format: FormatOption = None,
+    notation: NotationOption = Notation.LECTURE,
+    folder: Annotated[
+        Path | None,
+        typer.Option(
+            "--output",
+            "-o",
+            metavar="DIR",
+            help="Write question sheets, solutions and model files into this folder.",
+            show_default=False,
+            rich_help_panel=OUTPUT,
+        ),
+    ] = None,
+    json: Json = False,
+    force: Force = False,
+) -> None:
+    """Write an exercise: a question sheet, its solution, and random variants of the same difficulty.
+
+    Without -o, the question sheet of the system goes to standard output. --json says what was written and changed.
+
+    \b
+    Examples:
+      lagrangian worksheet --example cart-pole
+      lagrangian worksheet carts.toml -f html -o sheets/
+      lagrangian worksheet carts.toml --variants 30 --seed 100 -f latex -o sheets/
+    """
+    if format is Format.JSON:
+        raise Error("a sheet is not written as JSON", fix="--format html", code="E402")
+    if folder is None and variants:
+        raise Error("variants are written into a folder", fix="-o sheets/", code="E401")
+    system = open_system(file, example)
+    if folder is None:
+        sheet = system.worksheet(notation=notation.value)
+        question = sheet.question((format or Format.TEXT).value)
+        put(as_json({**sheet.to_dict(), "question": question}) if json else question)
+        return
+    stem = re.sub(r"[^A-Za-z0-9._-]+", "-", example or Path(file or "").stem).strip("-.") or "system"
+    kind = (format or Format.HTML).value
+    seeds = [seed + k for k in range(variants)] or [None]
+    stems = [stem if s is None else f"{stem}-{s}" for s in seeds]
+    _make(folder)
+    for name in stems:
+        for path in sheet_files(folder, name, kind):
+            check_free(path, overwrite=force)
+    progress = status.counted("sheets")
+    written: list[dict[str, Any]] = []
+    for k, (one, name) in enumerate(zip(seeds, stems, strict=True)):
+        progress(k, len(seeds))
+        sheet = system.worksheet(seed=one, notation=notation.value)
+        paths = sheet.save(folder, name, format=kind, brief=solution is SolutionLength.BRIEF, overwrite=force)
+        written.append({**sheet.to_dict(), "files": [str(path) for path in paths]})
+        if not json:
+            _tell(name, sheet)
+    if json:
+        put(as_json(written))
+
+
+def _tell(name: str, sheet: Worksheet) -> None:
+    """Say what a variant changes, and whether a copied solution of the original would be wrong."""
+    if sheet.seed is None:
+        return
+    copied = "" if sheet.substantial else " (a solution of the original may be right here, in other letters)"
+    say(f"{name}: {'; '.join(sheet.changes)}{copied}")
+
+
+def _make(folder: Path) -> None:
+    try:
+        folder.mkdir(exist_ok=True)
+    except OSError as error:
+        what = f"cannot make the folder '{folder}': {(error.strerror or str(error)).lower()}"
+        raise Error(what, fix="make the folder above it first", code="E801") from error

@@ -1,0 +1,277 @@
+"""The later parts of the page: the chain rule, both energies, what is left, numbers and counts."""
+
+# SymPy and mpmath have no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false, reportUnknownArgumentType=false
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import mpmath
+
+from lagrangian.derive.context import big_xi
+from lagrangian.derive.reasons.at_a_state import NumbersAt
+from lagrangian.derive.reasons.laws import AGREE, Law, chain_check, kinetic_check, potential_check, work_check
+from lagrangian.derive.reasons.result import Reasoning
+from lagrangian.derive.reasons.shown import (
+    FORCE,
+    LONG,
+    MASS,
+    MOST_LISTED,
+    MOST_SUMMED,
+    PLACE,
+    SUM,
+    and_,
+    capital,
+    short,
+)
+from lagrangian.model import Coordinate, Element
+from lagrangian.page.formula import (
+    Check,
+    Formula,
+    Item,
+    Left,
+    Minus,
+    Name,
+    Partial,
+    Product,
+    Table,
+    Terms,
+    Text,
+    Total,
+    formula,
+    text,
+)
+from lagrangian.page.report import Part
+
+MOST_COORDINATES = 5
+"""With more coordinates, the tables of numbers are left out."""
+
+VELOCITY = Name("r", "i", 1)
+BY_XI, BY_RATE = Partial(PLACE, Name("xi", "j")), Partial(VELOCITY, Name("xi", "j"))
+
+
+def _pairs(why: Reasoning) -> Iterator[tuple[Coordinate, Law]]:
+    """Every coordinate with its equations, if they are few enough to be read."""
+    if len(why.laws) <= MOST_SUMMED:
+        yield from zip(why.derived.model.coordinates, why.laws, strict=True)
+
+
+# -- (4) to (9) -----------------------------------------------------------------------------------------------------
+
+
+def kinetic(why: Reasoning) -> Part:
+    """Σ m r̈·∂r/∂ξ = d/dt(Σ m ṙ·∂r/∂ξ) − Σ m ṙ·∂ṙ/∂ξ, and both sums are derivatives of T*."""
+    T, whole = Name("T*"), Product((SUM, MASS, Name("r", "i", 2), BY_XI))
+    law = formula(
+        whole,
+        Terms((Total(Product((SUM, MASS, VELOCITY, BY_XI))), Minus(Product((SUM, MASS, VELOCITY, BY_RATE))))),
+        note=text("equations 4 to 6"),
+    )
+    words = text("What is left of F = ma is mass times acceleration, which the product rule takes apart:")
+    items: list[Item] = [words, law]
+    for c, found in _pairs(why):
+        left = Product((SUM, MASS, Name("r", "i", 2), Partial(PLACE, c.symbol)))
+        items.append(formula(left, short(why, found.inertia, LONG)))
+    items.append(text("Both sums on the right are derivatives of the energy of step 2, ", T, ":"))
+    if len(why.laws) > MOST_SUMMED:
+        which = text("equations 7 and 8, for every coordinate")
+        by_rate, by_place = Partial(T, Name("xi", "j", 1)), Partial(T, Name("xi", "j"))
+        items.append(formula(Product((SUM, MASS, VELOCITY, BY_XI)), by_rate, note=which))
+        items.append(formula(Product((SUM, MASS, VELOCITY, BY_RATE)), by_place))
+    for c, found in _pairs(why):
+        items += _sums(why, c, found)
+    if any(m.turning for m in why.moving):
+        items.append(
+            text(
+                "The sums run over all the mass of a body too: its centre of mass with m, and its turning with J about "
+                "it, where the angular velocity ω takes the place of ",
+                Name("r", "", 1),
+                ", and ∂ω/∂",
+                Name("xi", "j", 1),
+                " that of ",
+                Partial(Name("r"), Name("xi", "j")),
+                ".",
+            )
+        )
+    moved = Terms((Total(Partial(T, Name("xi", "j", 1))), Minus(Partial(T, Name("xi", "j")))))
+    items += [
+        text("So F = ma along a wiggle, with the forces that were described on the left, is"),
+        formula(Product((SUM, Name("F", "i"), BY_XI)), moved, note=text("equation 9, with forces")),
+    ]
+    checks = (chain_check(why.context, why.laws), kinetic_check(why.context, why.laws))
+    return Part(text("From accelerations to kinetic energy"), tuple(items), checks)
+
+
+def _sums(why: Reasoning, c: Coordinate, found: Law) -> Iterator[Formula]:
+    """Σ m ṙ·∂r/∂ξ = ∂T/∂ξ̇ and Σ m ṙ·∂ṙ/∂ξ = ∂T/∂ξ of one coordinate."""
+    T = Name("T*")
+    momentum = Product((SUM, MASS, VELOCITY, Partial(PLACE, c.symbol)))
+    yield formula(momentum, Partial(T, c.rate), short(why, found.by_rate, LONG), note=text("equation 7"))
+    slope = Product((SUM, MASS, VELOCITY, Partial(VELOCITY, c.symbol)))
+    yield formula(slope, Partial(T, c.symbol), short(why, found.by_place, LONG), note=text("equation 8"))
+
+
+# -- (10) to (12) ---------------------------------------------------------------------------------------------------
+
+
+def forces(why: Reasoning) -> Part:
+    """Σ F·∂r/∂ξ = −∂V/∂ξ + Ξ."""
+    V, L = Name("V"), Name("L")
+    stored = [e.title for e in elements(why, "V")]
+    left = [e.title for e in elements(why, "Ξ")]
+    items: list[Item] = []
+    if stored:
+        one = len(stored) == 1
+        items.append(
+            text(
+                f"The force{'' if one else 's'} of {and_(stored)} {'has' if one else 'have'} a potential: the work in "
+                "a wiggle is what ",
+                V,
+                " loses.",
+            )
+        )
+        for c, found in _pairs(why):
+            work = Product((SUM, Name("F", "i"), Partial(PLACE, c.symbol)))
+            items.append(
+                formula(work, Minus(Partial(V, c.symbol)), short(why, found.fall, LONG), note=text("equation 10"))
+            )
+    else:
+        items.append(text("No force here has a potential, so ", V, " = 0."))
+    if left:
+        items.append(text(f"What is left is the work of {and_(left)}, and that is what ", Name("Xi"), " means:"))
+        items += _left_over(why)
+    else:
+        items.append(text("No other force was described, so every ", Name("Xi", "j"), " is 0."))
+    by_rate, by_place = Partial(L, Name("xi", "j", 1)), Partial(L, Name("xi", "j"))
+    right: list[Left] = [Name("Xi", "j")]
+    right += [Product((Name("A transposed"), Name("lambda vector")))] if why.derived.shares.rows else []
+    items += [
+        text("With ", L, " = ", Terms((Name("T*"), Minus(V))), " this is equation (12), one for every coordinate:"),
+        formula(Terms((Total(by_rate), Minus(by_place))), Terms(tuple(right)), boxed=True),
+    ]
+    return Part(
+        text("Potential energy, and what is left"),
+        tuple(items),
+        (potential_check(why.context, why.laws), work_check(why.context, why.laws)),
+    )
+
+
+def _left_over(why: Reasoning) -> Iterator[Formula]:
+    for j, (c, found) in enumerate(_pairs(why)):
+        work = Product((SUM, Name("F", "i"), Partial(PLACE, c.symbol)))
+        yield formula(big_xi(j), work, short(why, found.Xi, LONG))
+
+
+# -- numbers --------------------------------------------------------------------------------------------------------
+
+
+def in_numbers(why: Reasoning) -> Part:
+    """The constraint forces, their work, and both sides of the equations at a random state."""
+    n, title = why.numbers, text("The same in numbers")
+    if n is None:
+        words = (
+            "No state was found at which everything has a value and the constraints are independent, so there are no "
+        )
+        return Part(title, (text(f"{words}numbers here; what is marked as exact was decided without them."),))
+    coordinates = why.derived.model.coordinates
+    how = " that satisfies the constraints" if why.derived.shares.rows else ""
+    words = (
+        "Another route: positions differentiated twice by a computer algebra system, and the accelerations that solve "
+        f"the equations of motion, at a random state{how}"
+    )
+    items: list[Item] = []
+    if len(coordinates) > MOST_COORDINATES or len(why.moving) > 2 * MOST_LISTED:
+        items.append(text(f"{words}. There are too many numbers to show; all of them were compared."))
+    else:
+        listed: list[str | Left] = []
+        for c in coordinates:
+            listed += [", ", c.symbol, f" = {figure(n.state.get(c.symbol))}", ", ", c.rate]
+            listed += [f" = {figure(n.state.get(c.rate))}"]
+        items += [text(words, ": ", *listed[1:], "."), _works(why, n)]
+    worst = f"to {min(n.digits, 50)} of 50 digits"
+    what = text("F = ma, both sides of (3) to (12), and the work of the constraint forces")
+    return Part(title, tuple(items), (Check(what, n.agree, f"agree {worst}; {AGREE} are asked for"),))
+
+
+def _works(why: Reasoning, n: NumbersAt) -> Table:
+    """The constraint force on every mass, and its work for every coordinate."""
+    coordinates = why.derived.model.coordinates
+    header = (
+        text("constraint force on"),
+        text("in the fixed axes [N]"),
+        *(text(Product((FORCE, Partial(PLACE, c.symbol)))) for c in coordinates),
+    )
+    rows: list[tuple[Text, ...]] = []
+    for m, R, works in zip(why.moving, n.reactions, n.works, strict=True):
+        title = f"{capital(m.body.title)}{', moment [N m]' if m.turning else ''}"
+        rows.append((text(title), text(f"({', '.join(map(figure, R))})"), *(text(figure(w)) for w in works)))
+    if any(x.passed for x in n.laws):
+        rows.append((text("less what is passed on"), text(""), *(text(figure(-x.passed)) for x in n.laws)))
+    rows.append((text("sum"), text(""), *(text(figure(x.held - x.passed)) for x in n.laws)))
+    if why.derived.shares.rows:
+        rows.append((text("of the multipliers"), text(""), *(text(figure(x.rows)) for x in n.laws)))
+    return Table(header, tuple(rows))
+
+
+def figure(x: Any) -> str:
+    """A number with five digits; what is zero but for rounding is 0."""
+    if x is None:
+        return "0"
+    if abs(x) < 1e-25:
+        return "0"
+    return str(mpmath.nstr(x, 5, strip_zeros=False)).removesuffix(".0").replace("-", "−")
+
+
+# -- what was spared ------------------------------------------------------------------------------------------------
+
+
+def spared_part(why: Reasoning) -> Part:
+    """The numbers of equations and unknowns by both ways."""
+    s = why.spared
+    dimension = why.derived.model.dimension
+    of: list[str] = []
+    if s.particles:
+        of.append(f"{dimension} for each of {_counted(s.particles, 'particle')}")
+    if s.rigid_bodies:
+        of.append(f"{3 if dimension == 2 else 6} for each of {_counted(s.rigid_bodies, 'rigid body', 'rigid bodies')}")
+    m = s.multipliers
+    rows = (
+        (
+            text("free bodies: F = ma"),
+            text(str(s.equations)),
+            text(_unknowns(s.accelerations, s.forces, "constraint force")),
+        ),
+        (
+            text("Lagrange"),
+            text(str(s.coordinates + m)),
+            text(_unknowns(s.coordinates, m, "multiplier") if m else _counted(s.coordinates, "acceleration")),
+        ),
+    )
+    items: list[Item] = [
+        Table((text("way"), text("equations"), text("unknowns")), rows),
+        text(
+            f"Free bodies: {and_(of)}. A part without mass, and a pin between two such parts, would add still more. By "
+            "Lagrange no free body has to be drawn, and ",
+            Name("R"),
+            " never has to be calculated.",
+        ),
+    ]
+    return Part(text("What Lagrange spared you"), tuple(items))
+
+
+def _counted(number: int, what: str, many: str = "") -> str:
+    return f"{number} {what if number == 1 else many or what + 's'}"
+
+
+def _unknowns(accelerations: int, forces: int, what: str) -> str:
+    more = f" and {forces} component{'s' if forces != 1 else ''} of constraint forces"
+    if what == "multiplier":
+        more = f" and {_counted(forces, what)}"
+    return _counted(accelerations, "acceleration") + (more if forces else "")
+
+
+def elements(why: Reasoning, ledger: str) -> list[Element]:
+    """The elements that are counted in V, or in Ξ."""
+    return [e for e in why.derived.model.elements if e.ledger == ledger]

@@ -1,0 +1,70 @@
+"""Directions in words, found from the geometry: which way a positive coordinate moves, and where a force points."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import sympy as sp
+
+from lagrangian.model import Coordinate, Model
+
+AXES = {
+    (1, 0): "to the right",
+    (-1, 0): "to the left",
+    (0, 1): "upward",
+    (0, -1): "downward",
+}
+"""The directions along the fixed axes of the plane."""
+
+OPPOSITES = {
+    "to the right": "to the left",
+    "upward": "downward",
+    "counter-clockwise": "clockwise",
+}
+OPPOSITES |= {other: one for one, other in OPPOSITES.items()}
+
+
+def turned_round(sense: str) -> str:
+    """Return the opposite direction."""
+    return OPPOSITES[sense]
+
+
+def positive_sense(model: Model, coordinate: Coordinate) -> str | None:
+    """Return which way the first body that a coordinate moves is moved by it, in the plane; None if that depends.
+
+    For a rotation r″ = −(r − centre), with primes for ∂/∂ξ, so (r − centre) × r′ says its sense.
+    """
+    if model.dimension != 2:
+        return None
+    q = coordinate.symbol
+    for body in model.bodies:
+        x, y = (model.expand(value) for value in model.position(body.at))
+        first = [sp.diff(value, q) for value in (x, y)]
+        if all(value == 0 for value in first):
+            continue
+        second = [sp.diff(value, q) for value in first]
+        if all(value == 0 for value in second):
+            return along(first)
+        cross = sp.simplify(first[0] * second[1] - first[1] * second[0])
+        third = [sp.diff(value, q) for value in second]
+        if all(sp.simplify(a + b) == 0 for a, b in zip(first, third, strict=True)) and cross != 0:
+            return "counter-clockwise" if _positive(cross) else "clockwise" if _positive(-cross) else None
+        return None
+    return None
+
+
+def along(vector: Sequence[Any]) -> str | None:
+    """Return the direction of a vector with one constant component, such as "to the left"; None for any other."""
+    known = [x for x in vector if x != 0]
+    if len(vector) != 2 or len(known) != 1 or not known[0].is_number:
+        return None
+    sign = 1 if known[0] > 0 else -1
+    return AXES[(sign if vector[0] != 0 else 0, sign if vector[1] != 0 else 0)]
+
+
+def _positive(expr: sp.Expr) -> bool:
+    """Whether an expression of lengths is a square, or a number, with a positive factor."""
+    factor, rest = expr.as_coeff_Mul()
+    lengths = {s: sp.Dummy(positive=True) for s in rest.free_symbols}
+    return bool((factor * rest.xreplace(lengths)).is_positive)

@@ -1,0 +1,193 @@
+"""What a question sheet gives, in words and letters, and the seven steps that it asks for."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian.model import Body, Damper, Element, Force, Gravity, Model, RigidBody, Spring, Torque
+from lagrangian.page.formula import Item, Left, Name, Table, Text, text
+from lagrangian.page.plain import plain
+from lagrangian.worksheet.directions import along, positive_sense
+from lagrangian.write.numerals import measured, unit
+
+STEPS: tuple[tuple[str | Left, ...], ...] = (
+    ("Is the system holonomic? Count the generalized coordinates and the degrees of freedom.",),
+    ("The generalized coordinates: are those of the table complete and independent? Absolute or relative?",),
+    (
+        "The kinetic co-energy ",
+        Name("T*"),
+        ": the position and the velocity of every mass, then its share.",
+    ),
+    (
+        "The potential energy ",
+        Name("V"),
+        " of everything that stores energy by where it is.",
+    ),
+    (
+        "The Lagrangian ",
+        Name("L"),
+        " and, for every coordinate, its derivatives.",
+    ),
+    ("The left-hand sides of Lagrange's equations.",),
+    (
+        "The generalized forces ",
+        Name("Xi"),
+        " of everything that is not in ",
+        Name("V"),
+        ", each with its reason.",
+    ),
+)
+"""The seven steps of the lecture, as questions."""
+
+
+def given(model: Model, seen: str) -> Iterator[Item]:
+    """What is seen, where springs are relaxed, which way forces are positive, and the tables of letters."""
+    if seen:
+        yield text(_quoted(model, seen))
+    for element in model.elements:
+        if isinstance(element, Spring):
+            yield from _relaxed(model, element)
+        elif isinstance(element, Damper) and not seen and element.deflection is not None:
+            yield text(f"{_capital(element)} resists the rate of ", element.deflection, ".")
+        elif isinstance(element, Force | Torque):
+            yield from _positive(model, element)
+    yield _coordinates(model)
+    if rows := [*_letters(model)]:
+        yield Table((text("letter"), text("what it is"), text("value")), tuple(rows))
+    for d in (d for d in model.definitions if not d.expression.is_Symbol and not d.expression.is_Function):
+        yield text(d.symbol, " stands for ", d.expression, ".")
+
+
+def _quoted(model: Model, words: str) -> str:
+    """A sentence in which letters that name elements are quoted, so that they are set as letters."""
+    letters = {x.name for x in (*model.parameters, *model.inputs)} & {e.name for e in model.elements} - {"a", "I"}
+    return re.sub(r"\w+", lambda found: f"'{found[0]}'" if found[0] in letters else found[0], words)
+
+
+def _capital(element: Element) -> str:
+    return element.title[:1].upper() + element.title[1:]
+
+
+def _relaxed(model: Model, spring: Spring) -> Iterator[Item]:
+    """Where a spring is relaxed, and its law if it is not linear."""
+    if spring.deflection is not None:
+        side = _sign(spring.deflection) if spring.rest == 0 else 1
+        yield text(
+            f"{_capital(spring)} is relaxed where ", side * spring.deflection, " = ", sp.sympify(spring.rest), "."
+        )
+    elif spring.rest != 0:
+        yield text(f"The length of {spring.title} is ", spring.rest, " where it is relaxed.")
+    else:
+        yield text(f"{_capital(spring)} is relaxed where its ends meet.")
+    for what, law in (("pulls with", spring.law), ("stores the energy", spring.energy)):
+        if law is not None:
+            yield text(f"At an extension δ it {what} ", law.xreplace({sp.Symbol("delta"): sp.Symbol("δ")}), ".")
+            return
+
+
+def _positive(model: Model, element: Force | Torque) -> Iterator[Item]:
+    """Which way a force or torque is positive, and how it depends on its letter."""
+    if isinstance(element, Torque):
+        if isinstance(element.on, sp.Expr) and isinstance(element.value, sp.Expr):
+            yield text(*_named(element, element.value), " in the sense in which ", element.on, " grows.")
+        return
+    if element.at is None:
+        if element.deflection is not None:
+            yield text(*_named(element, element.value), " in the sense in which ", element.deflection, " grows.")
+        else:
+            yield text(*_named(element, element.value), " where it pushes its two ends apart.")
+        return
+    values = [x for x in element.value if x != 0]
+    known = along([sp.S.One * _sign(x) if x != 0 else x for x in element.value])
+    if known is not None and element.axes is None:
+        yield text(*_named(element, values[0] * _sign(values[0])), f" {known}{_where(model, element)}.")
+    else:
+        parts = [x for value in element.value for x in (value, ", ")][:-1]
+        frame = f" in the axes of {element.axes.name}" if element.axes is not None else ""
+        yield text(f"{_capital(element)} has the components ", *parts, f"{frame}.")
+
+
+def _where(model: Model, force: Force) -> str:
+    """Where a force acts on a body that is not a point."""
+    found = next((b for b in model.bodies if b.at is force.at and isinstance(b, RigidBody)), None)
+    return "" if found is None else f"; it acts at the centre of mass of {found.title}"
+
+
+def _named(element: Element, value: sp.Expr) -> tuple[str | Left, ...]:
+    """The beginning of a sentence: "Force F is positive", or "Force 'hoist' is −F_h, positive"."""
+    if plain(value) == element.name:
+        return (f"{_capital(element)} is positive",)
+    return (f"{_capital(element)} is ", value, ", positive")
+
+
+def _sign(value: sp.Expr) -> int:
+    return -1 if value.could_extract_minus_sign() else 1
+
+
+def _coordinates(model: Model) -> Table:
+    rows: list[tuple[Text, ...]] = []
+    for c in model.coordinates:
+        sense = positive_sense(model, c)
+        known = sense is None or "positive" in c.description or sense in c.description
+        words = c.description or "a coordinate"
+        rows.append((text(c.symbol), text(words if known else f"{words}; positive {sense}")))
+    return Table((text("coordinate"), text("what it measures")), tuple(rows))
+
+
+def _letters(model: Model) -> Iterator[tuple[Text, ...]]:
+    """The parameters with their values and the inputs with their units."""
+    for p in model.parameters:
+        value = "" if p.value is None else measured(p.value, p.unit)
+        yield text(p.symbol), text(_meaning(model, p.symbol, p.description)), text(value)
+    for u in model.inputs:
+        measure = f"[{unit(u.unit)}]" if u.unit else ""
+        yield text(u.symbol), text(_meaning(model, u.symbol, u.description)), text(measure)
+
+
+ROLES: tuple[tuple[type[Element], str, str, str], ...] = (
+    (Body, "mass", "mass", "mass of {}"),
+    (Body, "inertia", "moment of inertia about the centre of mass", "moment of inertia of {} about its centre of mass"),
+    (Spring, "k", "stiffness", "stiffness of {}"),
+    (Damper, "b", "damping", "damping of {}"),
+    (Gravity, "g", "acceleration of gravity", "acceleration of gravity"),
+    (Force, "value", "force", "{}"),
+    (Torque, "value", "torque", "{}"),
+)
+"""What a letter is: the kind of element, its field, the role beside a description, and the words without one."""
+
+
+def _meaning(model: Model, symbol: sp.Expr, description: str) -> str:
+    """The description of a letter with its role in the element that has it: "pole (mass)"."""
+    for element in model.elements:
+        for kind, key, role, alone in ROLES:
+            if isinstance(element, kind) and _holds(getattr(element, key, None), symbol):
+                if not description:
+                    return alone.format(element.title)
+                return description if _says(description, role) else f"{description} ({role})"
+    if description:
+        return description
+    return "input" if isinstance(symbol, AppliedUndef) else "constant"
+
+
+def _holds(value: object, symbol: sp.Expr) -> bool:
+    """Whether a value is a letter, or a vector or matrix with that letter as an entry."""
+    entries = value.flat() if isinstance(value, sp.MatrixBase) else value if isinstance(value, tuple) else (value,)
+    return any(x in (symbol, -symbol) for x in entries)
+
+
+def _says(description: str, role: str) -> bool:
+    return any(word in description.casefold() for word in role.split() if len(word) > 4) or role in description
+
+
+def asked(model: Model) -> Iterator[Item]:
+    """The seven steps, and the result."""
+    yield text("Derive the equations of motion by the Lagrangian approach, every step with its reason.")
+    yield Table((text("step"), text("what is asked")), tuple((text(str(k)), text(*s)) for k, s in enumerate(STEPS)))
+    count = len(model.coordinates)
+    what = "the equation of motion" if count == 1 else f"the {count} equations of motion"
+    held = " with the forces of the constraints" if model.constraints else ""
+    yield text(f"Result: {what}{held}.")

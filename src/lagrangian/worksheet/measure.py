@@ -1,0 +1,127 @@
+"""Other ways to measure the coordinates of a variant: from the other side, the other way round, absolute or relative.
+
+Each comes with the words for the sheet; where the words cannot be made from those of the original, there is no such
+change.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+
+from lagrangian.derive.coordinates import MeasuredFrom, measured
+from lagrangian.model import Coordinate, Model
+from lagrangian.model.names import moving_symbol
+from lagrangian.worksheet.dice import Dice
+from lagrangian.worksheet.directions import positive_sense, turned_round
+
+OPPOSITE = (
+    (r"hanging(?: straight)? down", "pointing straight up"),
+    (r"(?:pointing )?(?:straight up|upright)", "hanging straight down"),
+)
+"""What an angle is measured from, and what it is measured from on the other side."""
+
+FROM = re.compile(r"(?P<head>[^,]+), (?:(?:up|down) )?from (?P<tail>[^,:;]+)$")
+RELATIVE = re.compile(r"(?P<head>[^,]+), (?:relative to (?P<parent>[^,:;]+)|from (?P<from>[^,:;(]+) \(relative\))")
+"""Descriptions of coordinates: "cart 1, from the wall", "rod 2, relative to rod 1"."""
+
+SAID = re.compile(r"positive|\bup\b|\bdownward|\bdown$|clockwise|forward|\bleft\b|\bright\b", re.IGNORECASE)
+"""Words of a description that say which way is positive."""
+
+
+@dataclass(frozen=True)
+class Remeasured:
+    """One coordinate in another way: old = ``expression`` of new symbols, its new description, and what was done.
+
+    ``to`` are the coordinates from which it was, or is now, measured.
+    """
+
+    coordinate: Coordinate
+    name: str
+    expression: sp.Expr
+    description: str
+    what: str = ""
+    to: tuple[Any, ...] = ()
+
+
+def remeasured(model: Model, names: Mapping[str, str], dice: Dice) -> list[Remeasured]:
+    """Return the coordinates in new names, some of them measured in another way.
+
+    At most one coordinate is changed from absolute to relative or back, because others refer to it.
+    """
+    kinds = measured(model)
+    named = {c.symbol: names.get(c.name, c.name) for c in model.coordinates}
+    symbols = {c.symbol: moving_symbol(named[c.symbol], positive=c.positive) for c in model.coordinates}
+    chosen: dict[Any, Remeasured] = {}
+    related = [r for c in model.coordinates if c.name in names for r in _related(model, c, kinds, symbols)]
+    fixed: set[Any] = set()
+    if related and dice.chance(0.7):
+        one = dice.one(related)
+        chosen[one.coordinate.symbol] = one
+        fixed = set(one.to)  # it is measured from this one, which therefore stays as it was
+    for c in model.coordinates:
+        options = [] if c.symbol in fixed or c.name not in names else list(_turned(model, c, kinds, symbols))
+        if c.symbol not in chosen and options and dice.chance(0.6):
+            chosen[c.symbol] = dice.one(options)
+    plainly = {c.symbol: Remeasured(c, named[c.symbol], symbols[c.symbol], c.description) for c in model.coordinates}
+    return [chosen.get(s, r) for s, r in plainly.items()]
+
+
+def _turned(
+    model: Model, c: Coordinate, kinds: Mapping[sp.Expr, MeasuredFrom], symbols: Mapping[Any, Any]
+) -> Iterator[Remeasured]:
+    """An absolute coordinate from the opposite direction, or with the other sense."""
+    kind, new = kinds[c.symbol], symbols[c.symbol]
+    name = new.func.__name__
+    if kind.to is not None or not kind.known or c.positive or model.dimension != 2:
+        return
+    others = [k.to for s, k in kinds.items() if s != c.symbol]
+    tail = FROM.fullmatch(c.description)
+    if kind.angle and tail is not None:
+        for pattern, opposite in OPPOSITE:
+            if re.fullmatch(pattern, tail["tail"]):
+                yield Remeasured(
+                    c, name, new - sp.pi, f"{tail['head']}, from {opposite}", f"{c.name} from the other side"
+                )
+    sense = positive_sense(model, c)
+    if c.description and sense is not None and c.symbol not in others and not SAID.search(c.description):
+        words = f"{c.description}, positive {turned_round(sense)}"
+        yield Remeasured(c, name, -new, words, f"{c.name} the other way round")
+
+
+def _related(
+    model: Model, c: Coordinate, kinds: Mapping[sp.Expr, MeasuredFrom], symbols: Mapping[Any, Any]
+) -> Iterator[Remeasured]:
+    """A relative coordinate made absolute, or an absolute one relative to that of the body before it."""
+    kind, new = kinds[c.symbol], symbols[c.symbol]
+    name = new.func.__name__
+    by_symbol = {x.symbol: x for x in model.coordinates}
+    if c.positive or not kind.known or any(k.to == c.symbol for k in kinds.values()):
+        return
+    if kind.to is not None:
+        parent = by_symbol.get(kind.to)  # type: ignore[arg-type]
+        own = RELATIVE.match(c.description)
+        above = FROM.fullmatch(parent.description) if parent is not None else None
+        same = parent is not None and kinds[parent.symbol].angle == kind.angle and kinds[parent.symbol].to is None
+        if own is not None and above is not None and same and parent is not None:
+            words = f"{own['head']}, from {above['tail']}"
+            bare = name.removesuffix("r")  # x2r is a name for what is relative
+            name = name if bare in {s.func.__name__ for s in symbols.values()} or not bare else bare
+            yield Remeasured(
+                c, name, moving_symbol(name) - symbols[parent.symbol], words, f"{c.name} absolute", (parent.symbol,)
+            )
+        return
+    listed = list(model.coordinates)
+    before = [x for x in listed[: listed.index(c)] if kinds[x.symbol] == MeasuredFrom(kind.angle, None)]
+    own = FROM.fullmatch(c.description)
+    for parent in before[-1:]:
+        above = FROM.fullmatch(parent.description)
+        if own is None or above is None or own["head"] == above["head"]:
+            continue
+        if own["tail"].strip() in (above["tail"], f"{above['tail']} as well"):
+            words, what = f"{own['head']}, relative to {above['head']}", f"{c.name} relative to {parent.name}"
+            yield Remeasured(c, name, symbols[parent.symbol] + new, words, what, (parent.symbol,))

@@ -1,0 +1,67 @@
+"""LaTeX as people typeset it, matrices by name, and prose around statements: read, and right.
+
+Oracle: the equations of the built-in examples, written by hand.
+"""
+
+import pytest
+
+from built_in import derivation
+
+ONE = r"mL^2\ddot\theta + b\dot\theta + mgL\sin\theta = 0"
+MATRICES = r"M = \begin{bmatrix} m_1 & 0\\0&m_2\end{bmatrix}, \quad K = \begin{bmatrix} k & -k\\-k&k\end{bmatrix}"
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        r"T = \frac12 mL^2\dot\theta^2,\; V = -mgL\cos\theta,\; " + ONE,
+        r"T = \frac12 mL^2\dot\theta^2 \Rightarrow " + ONE,
+        r"V=-mgL\cos\theta \quad\Leftrightarrow\quad " + ONE,
+        r"\underbrace{mL^2\ddot\theta}_{\text{inertia}} + \underbrace{b\dot\theta}_{damping} + mgL\sin\theta = 0",
+        r"mL^2\ddot\theta + b\dot\theta = -mgL/\csc\theta",
+        r"L^{2} m \frac{d^{2}}{d t^{2}} \theta{\left(t \right)} + L g m \sin{\left(\theta{\left(t \right)} \right)}"
+        r" + b \frac{d}{d t} \theta{\left(t \right)} = 0",
+        r"0{,}25\ddot\theta + 0,02\dot\theta + 4.905\sin\theta = 0",
+        r"0.25\,\mathrm{kg\,m^2}\,\ddot\theta + 0.02\dot\theta+4.905\sin\theta \overset{!}{=} 0",
+        "Step 2 - the kinetic co-energy:\n" + r"\textbf{so}:" + "\n" + ONE,
+    ],
+)
+def test_the_pendulum_in_latex(written: str) -> None:
+    verdict = derivation("pendulum").check(written)
+    assert verdict.right, verdict.to_text()
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        "M = [m1, 0; 0, m2]\nK = [k, -k; -k, k]\nM q'' + K q = f\nf = [-F; F]",
+        "M = [[m1, 0], [0, m2]], K = [[k, -k], [-k, k]]\nM*[x1''; x2''] + K*[x1; x2] = [-F; F]",
+        MATRICES
+        + r"\\ M\ddot q + K q = \begin{bmatrix}-F\\F\end{bmatrix}, \; q = \begin{bmatrix}x_1\\x_2\end{bmatrix}",
+    ],
+)
+def test_a_letter_that_is_given_a_matrix_is_that_matrix(written: str) -> None:
+    assert derivation("lecture-3a").check(written).right
+
+
+def test_a_matrix_may_have_the_letter_of_a_mass_in_it() -> None:
+    written = (
+        "M = [M + m, m*l*cos(theta); m*l*cos(theta), J + m*l^2]\nq = [x; theta]\n"
+        "h = [b*x' - m*l*sin(theta)*theta'^2; -m*g*l*sin(theta)]\nM*q'' + h = [F; 0]"
+    )
+    assert derivation("cart-pole").check(written).right
+
+
+@pytest.mark.parametrize(
+    "written",
+    [
+        "Solution\n--------\nLagrangian\nEq. 1: m*L^2*theta'' + b*theta' + m*g*L*sin(theta) = 0,   (1)",
+        "syms theta(t) m L b g\neqn1 = m*L^2*diff(theta(t), t, 2) + b*diff(theta(t), t) == -m*g*L*sin(theta(t));",
+        "s = L*theta (arc length)\n=>\nm*L*s'' + b*theta' + m*g*L*sin(theta) = 0. (1)",
+        "with the arc length s := L*theta we get\n=> m*L*s'' + b*theta' + m*g*L*sin(theta) = 0",
+        "m = 1 kg; L = 0,5 m; b = 0.02 N*m*s\n0.25 θ'' + 0.02 θ' + 0.5 g sin θ = 0",
+    ],
+)
+def test_words_and_values_around_the_pendulum(written: str) -> None:
+    verdict = derivation("pendulum").check(written)
+    assert verdict.right, verdict.to_text()

@@ -1,0 +1,164 @@
+"""Exercises: sheets, solutions and variants; the oracle of a variant is `check`, with its own model file."""
+
+from __future__ import annotations
+
+import json
+import re
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+import lagrangian as lg
+from built_in import derivation
+from lagrangian.check import Status
+from lagrangian.cli import main
+from lagrangian.errors import Error, ModelError
+from lagrangian.worksheet.dice import Dice
+from lagrangian.worksheet.letters import new_letters
+
+
+@cache
+def sheet(name: str, seed: int | None) -> lg.Worksheet:
+    return lg.example(name).worksheet(seed=seed)
+
+
+def kinds(system: lg.System) -> list[str]:
+    return sorted(e.kind for e in system.model.elements)
+
+
+def check_variant(name: str, seed: int) -> None:
+    made = sheet(name, seed)
+    saved = lg.loads(made.to_toml())
+    original = lg.example(name)
+    assert len(saved.model.coordinates) == len(original.model.coordinates)
+    assert kinds(saved) == kinds(original)
+    judge = saved.derive()
+    assert judge.check(made.solution("markdown"), hint=0).right
+    if made.substantial:
+        copied = judge.check(derivation(name).to_markdown(), hint=0)
+        assert copied.status is Status.WRONG, made.changes
+
+
+def test_a_variants_own_solution_is_right_and_a_copied_one_wrong() -> None:
+    check_variant("lecture-3b", 1)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("seed", [1, 2, 3])
+@pytest.mark.parametrize(
+    "name",
+    ["lecture-1", "lecture-2", "lecture-2-absolute", "lecture-3a", "lecture-3b", "two-carts", "cart-pole"]
+    + ["three-masses", "quarter-car", "crane", "double-pendulum", "double-pendulum-relative", "furuta-pendulum"],
+)
+def test_variants_of_many_systems(name: str, seed: int) -> None:
+    check_variant(name, seed)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["lecture-1", "lecture-2", "lecture-3b", "cart-pole", "three-masses", "quarter-car"])
+def test_systems_with_forces_have_variants_that_differ_in_substance(name: str) -> None:
+    assert all(sheet(name, seed).substantial for seed in (1, 2, 3))
+
+
+def test_the_same_seed_gives_the_same_bytes() -> None:
+    made, again = sheet("lecture-3b", 1), lg.example("lecture-3b").worksheet(seed=1)
+    assert made.to_toml() == again.to_toml()
+    for format in ("text", "markdown", "latex", "html"):
+        assert made.question(format) == again.question(format)
+    assert made.solution("latex", brief=True) == again.solution("latex", brief=True)
+    assert sheet("lecture-3b", 3).to_toml() != made.to_toml()
+
+
+def test_a_question_sheet_says_what_is_given_and_asks_for_seven_steps() -> None:
+    words = sheet("cart-pole", None).question()
+    flat = " ".join(words.split())
+    assert "A cart on a horizontal track; a pole hinged on the cart." in flat
+    assert "Force F is positive to the right." in flat
+    assert "pole, from upright, positive where it leans forward" in flat
+    assert "pole (mass) 0.2 kg" in flat and "0.006 kg·m²" in flat and "acceleration of gravity 9.81 m/s²" in flat
+    assert [line[0] for line in words.splitlines() if re.match(r"[0-6]   ", line)] == list("0123456")
+    assert "ẍ" not in words  # nothing of the solution
+
+
+def test_a_question_sheet_has_the_figure_where_the_format_has_figures() -> None:
+    made = sheet("lecture-3b", None)
+    assert "<svg" in made.question("html") and r"\begin{tikzpicture}" in made.question("latex")
+    assert "Spring k between cart m₁ and cart m₂" in " ".join(made.question().split())
+
+
+def test_words_follow_what_a_variant_changes() -> None:
+    made = sheet("lecture-3b", 1)
+    assert made.substantial and "x2r absolute" in made.changes
+    one, two = made.model.coordinates
+    assert two.description == one.description.replace("cart 1", "cart 2")
+    assert "relative" not in made.model.name and "pushes the carts apart" not in made.question()
+
+
+def test_a_coordinate_is_relative_to_one_that_stays() -> None:
+    """q3 relative to mass 2 means that mass 3 is at q2 + q3, so q2 itself is not turned round."""
+    made = sheet("three-masses", 2)
+    (what,) = [c for c in made.changes if "relative" in c]
+    assert what == "x3 relative to x2" and "x2 the other way round" not in made.changes
+    first, second, third = (made.model.position(b.at)[0] for b in made.model.bodies)
+    q1, q2, q3 = (c.symbol for c in made.model.coordinates)
+    assert third == q2 + q3 and second == q2 and abs(first.coeff(q1)) == 1
+
+
+def test_letters_keep_their_index_and_never_collide() -> None:
+    pools = [("m1", ("m", "M")), ("m2", ("m", "M")), ("k", ("k", "c")), ("l_a", ("l", "a"))]
+    for seed in range(20):
+        found = new_letters(pools, ["c", "M3"], Dice(seed))
+        assert found["m1"] == "M1" and found["m2"] == "M2"
+        assert found["k"] == "k"  # c is taken
+        assert found["l_a"] == "a_a"
+
+
+def test_dice_are_the_same_everywhere() -> None:
+    dice = Dice(7, 1)
+    assert dice.shuffled(range(8)) == Dice(7, 1).shuffled(range(8))
+    assert sorted(dice.shuffled("abc")) == ["a", "b", "c"]
+    drawn = {Dice(seed, 1).one("abcd") for seed in range(60)}
+    assert drawn == set("abcd")
+
+
+def test_wrong_arguments() -> None:
+    for seed in (-1, 1.5, True):
+        with pytest.raises(ModelError, match="seed"):
+            lg.example("pendulum").worksheet(seed=seed)  # type: ignore[arg-type]
+    with pytest.raises(ModelError, match="sheet"):
+        sheet("lecture-3b", None).question("pdf")  # type: ignore[arg-type]
+
+
+def test_the_command_writes_sheets_solutions_and_models(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    sheets = tmp_path / "sheets"
+    assert (
+        main(["worksheet", "-e", "pendulum", "--variants", "1", "--seed", "5", "-o", str(sheets), "-f", "latex"]) == 0
+    )
+    assert "other letters and values" in capsys.readouterr().err
+    names = ["pendulum-5-questions.tex", "pendulum-5-solution.tex", "pendulum-5.toml"]
+    assert sorted(p.name for p in sheets.iterdir()) == names
+    answer = tmp_path / "answer.tex"
+    answer.write_text((sheets / names[1]).read_text(encoding="utf-8"), encoding="utf-8")
+    assert main(["check", str(sheets / names[2]), str(answer), "--hint", "0"]) == 0
+    capsys.readouterr()
+    assert (
+        main(["worksheet", "-e", "pendulum", "--variants", "1", "--seed", "5", "-o", str(sheets), "-f", "latex"]) == 2
+    )
+    assert "exists already" in capsys.readouterr().err
+    assert main(["worksheet", "-e", "pendulum"]) == 0
+    assert "What is asked" in capsys.readouterr().out
+    assert main(["worksheet", "-e", "pendulum", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["seed"] is None
+    for wrong in (["--variants", "2"], ["-f", "json"], ["-o", str(tmp_path / "a" / "b")]):
+        assert main(["worksheet", "-e", "pendulum", *wrong]) == 2
+
+
+def test_the_manuals_example_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    page = (Path(__file__).parents[2] / "docs" / "worksheets.md").read_text(encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    for code in re.findall(r"^```python\n(.*?)^```", page, flags=re.M | re.S):
+        exec(code, {})
+    assert (tmp_path / "pendulum-questions.html").exists()
+    with pytest.raises(Error, match="exists already"):
+        sheet("pendulum", None).save(tmp_path, "pendulum")
