@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -159,7 +161,7 @@ def check_readable_or_said(text: str) -> None:
         answer = parse_answer(text, CARTS)
     except ParseError as error:
         assert error.place is not None and error.place.line is not None
-        assert 1 <= error.place.line <= text.count("\n") + 1
+        assert 1 <= error.place.line <= len(re.split(r"\r\n|[\n\r\x85\u2028\u2029]", text))  # all of these end a line
     else:
         assert all(line.place.line and line.rhs is not None for line in answer.lines)
 

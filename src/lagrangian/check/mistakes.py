@@ -60,7 +60,8 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
     against = _contradicted(pool, [f.line for f in findings if f.status.right])
     groups = [_of_line(pool, line) for line in wrong if line.kind != "equation"]
     groups = [_likely(found, against) or found for found in groups]  # a slip in one of two lines shows in that one
-    equations = [line for line in lines if line.kind == "equation"]
+    combined = {id(f.line) for f in findings if f.status.right and f.coordinate is None}  # sums of right equations
+    equations = [line for line in lines if line.kind == "equation" and id(line) not in combined]
     own: list[Mistake] = []
     if any(w.kind == "equation" for w in wrong):
         found, own = _of_equations(pool, equations)

@@ -106,10 +106,10 @@ def check_class(
     progress: Progress | None = None,
 ) -> CheckedClass:
     """Check the answers of a class; see `lagrangian.Derivation.check_class`."""
-    for name, level in (("hint", hint), ("told", told)):
+    for fix, level in ((Advice(Argument("hint", "2")), hint), ("told=2", told)):  # the command has no --told
         if level is not None and (isinstance(level, bool) or level not in (0, 1, 2, 3)):
             what = f"a hint has a level from 0 to 3 (got {level})"
-            raise ModelError(what, fix=Advice(Argument(name, "2")), code="E406")
+            raise ModelError(what, fix=fix, code="E406")
     if feedback is not None and feedback not in ENDINGS:
         what = f"feedback is written as {', '.join(ENDINGS)} (got {feedback!r})"
         raise ModelError(what, fix='feedback="html"', code="E406")
