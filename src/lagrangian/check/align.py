@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import permutations
 
 import numpy as np
@@ -99,33 +100,28 @@ def _combined(options: Sequence[Sequence[tuple[Array, float]]]) -> Iterator[tupl
 def _factors(truth: Reference, exprs: Sequence[sp.Expr]) -> list[list[list[tuple[Array, float]]]]:
     """For every pair of an equation and a right row, possible factors with their votes."""
     mine, by = _slopes(truth, exprs), range(truth.n)
-    right = _slopes_of_truth(truth)
+    right = slopes_of(truth)
     return [[_agreed(truth, mine[j], right[i]) for i in by] for j in range(len(exprs))]
 
 
-def _slopes_of_truth(truth: Reference) -> Array:
-    key = "slopes of the right rows"
-    if key not in truth.others:
-        truth.others[key] = _slopes(truth, truth.rows)  # type: ignore[assignment]
-    return truth.others[key]  # type: ignore[return-value]
+@lru_cache(maxsize=32)
+def slopes_of(truth: Reference) -> Array:
+    """The slopes of the right rows, see `_slopes`, computed once for the systems that were checked most recently."""
+    return _slopes(truth, truth.rows)
 
 
 def _slopes(truth: Reference, exprs: Sequence[sp.Expr]) -> Array:
     """The slopes of every equation by accelerations, inputs, rates and parameters, and its value at rest, (k, m, S)."""
-    model = truth.model
-    by = [
+    model, size = truth.model, truth.states.size
+    moving = [
         *(c.acceleration for c in model.coordinates),
         *(u.symbol for u in model.inputs),
         *(c.rate for c in model.coordinates),
     ]
-    by += [p.symbol for p in model.parameters if p.symbol not in truth.values]
+    by = [*moving, *(p.symbol for p in model.parameters if p.symbol not in truth.values)]
     compiled = CompiledExpressions(exprs)
-    values = compiled.slopes(by).at(truth.states).reshape(len(exprs), len(by), truth.states.size)
-    still: dict[sp.Basic, Array] = {
-        x: np.zeros(truth.states.size)
-        for x in by[: len(by) - sum(p.symbol not in truth.values for p in model.parameters)]
-    }
-    rest = CompiledExpressions(exprs).at(truth.states, still)
+    values = compiled.slopes(by).at(truth.states).reshape(len(exprs), len(by), size)
+    rest = compiled.at(truth.states, dict.fromkeys(moving, np.zeros(size)))
     return np.concatenate([values, rest[:, None]], axis=1)
 
 
@@ -160,7 +156,7 @@ def _unsolved(truth: Reference, exprs: Sequence[sp.Expr], P: Array) -> list[Alig
     if len(exprs) != n or n == 1 or any(sum(e.has(a) for a in accelerations) != 1 for e in exprs):
         return []
     mine = CompiledExpressions(exprs).slopes(accelerations).at(truth.states).reshape(n, n, size).transpose(2, 0, 1)
-    right = _slopes_of_truth(truth)[:, :n].transpose(2, 0, 1)
+    right = slopes_of(truth)[:, :n].transpose(2, 0, 1)
     try:
         back = right @ np.linalg.inv(mine)
     except np.linalg.LinAlgError:

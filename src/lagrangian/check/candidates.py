@@ -14,7 +14,7 @@ import numpy as np
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.check.misconceptions import GENERAL, MISCONCEPTIONS, Ingredients, Variant
+from lagrangian.check.misconceptions import MISCONCEPTIONS, Ingredients, Variant
 from lagrangian.check.reference import Reference
 from lagrangian.check.verdict import Mistake
 from lagrangian.derive.sampling import Array, CompiledExpressions
@@ -41,11 +41,6 @@ class Wrong:
     def name(self) -> str:
         """The name of the misconception, which is the name of its file."""
         return self.module.__name__.rsplit(".", 1)[-1]
-
-    @property
-    def general(self) -> bool:
-        """Whether the misconception is so general that it explains little."""
-        return self.name in GENERAL
 
     @property
     def step(self) -> int:
@@ -158,18 +153,6 @@ class Effects:
         """1 for the variants that are visible in a line of this kind, which excludes those of single equations."""
         shown = [key in w.variant.stated and w.variant.only is None for w in self.wrongs]
         return np.array(shown, dtype=float)[:, None]
-
-    @cached_property
-    def usable(self) -> Array:
-        """Which variants have a finite value everywhere and change something, as Booleans (variants,)."""
-        finite = np.isfinite(self._values).all(axis=(1, 2))
-        size = np.abs(np.where(np.isfinite(self._values), self._values, 0)).max(axis=(1, 2))
-        return finite & (size > 1e-12)
-
-    @cached_property
-    def felt(self) -> Array:
-        """Which variants change an equation, as Booleans (variants,)."""
-        return np.abs(self.W).max(axis=(1, 2)) > 1e-12
 
 
 def too_long(truth: Reference) -> bool:

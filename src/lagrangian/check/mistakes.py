@@ -116,12 +116,19 @@ def _contradicted(pool: Pool, right: Sequence[AnsweredLine]) -> set[int]:
     found: set[int] = set()
     for line in right:
         i = index_of(pool.truth, line.name)
-        if line.kind not in ENERGIES or (line.kind == "Xi" and i is None):
-            continue
-        change = _changes(pool, line.kind, i)
-        shown = np.abs(change).max(axis=1) > 1e-9
-        found.update(id(pool.all[k]) for k in np.flatnonzero(shown))
+        if line.kind in ENERGIES and (line.kind != "Xi" or i is not None):
+            found |= _shown(pool, line.kind, i)
     return found
+
+
+def _shown(pool: Pool, kind: str, i: int | None) -> set[int]:
+    """The possible mistakes that would be visible in a line, by their identity."""
+
+    def shown() -> set[int]:
+        visible = np.abs(_changes(pool, kind, i)).max(axis=1) > 1e-9
+        return {id(pool.all[k]) for k in np.flatnonzero(visible)}
+
+    return pool.kept(("shown", kind, i), shown)
 
 
 def _changes(pool: Pool, kind: str, i: int | None) -> Array:
@@ -130,7 +137,7 @@ def _changes(pool: Pool, kind: str, i: int | None) -> Array:
         return pool.Xi[:, i]
     if kind == "T":
         return pool.T
-    return _without_constant(pool.V if kind == "V" else pool.L)
+    return pool.kept(("line", kind), lambda: _without_constant(pool.V if kind == "V" else pool.L))
 
 
 def _of_line(pool: Pool, line: AnsweredLine) -> list[Explanation]:

@@ -110,9 +110,6 @@ KINDS: Mapping[str, KindWords] = {
     "factor_missing": KindWords(
         "In {site}, the factor {written} is missing.", "A factor is missing in {brief}.", UNITS
     ),
-    "divided_by": KindWords(
-        "{Site} was divided by {written}, which does not belong there.", "There is a factor too much in {brief}.", UNITS
-    ),
     "piece_left_out": KindWords("In {site}, the piece {right} is left out.", "Something is left out in {brief}.", WAY),
     "piece_sign": KindWords(
         "In {site}, the piece {right} has the wrong sign.", "There is a wrong sign in {brief}.", WAY

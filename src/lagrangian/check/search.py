@@ -14,6 +14,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.check.align import LARGEST, Alignment
 from lagrangian.check.changes.pool import Pool, Possible
+from lagrangian.check.misconceptions.base import partner, put
 from lagrangian.check.reference import terms
 from lagrangian.derive.sampling import Array, CompiledExpressions
 
@@ -83,10 +84,10 @@ def _number(times: float) -> Fraction | None:
 
 def _oddness(number: Fraction, possible: Possible) -> float:
     """What a multiple costs: leaving out is likelier than another sign, and that than another number."""
-    if not possible.free or number == -1:
+    if possible.change is None or not possible.free or number == -1:
         return 0.0
     if number == -2:
-        return possible.sign
+        return possible.change.site.sign_cost
     if number in (1, Fraction(-1, 2)):
         return 0.3
     return 0.9 if number.denominator <= 6 and abs(number.numerator) <= 6 else 1.6
@@ -241,9 +242,7 @@ def _own(pool: Pool, expr: sp.Expr, rest: Array, row: int) -> OwnTerm | None:
 
 def _siblings(t: sp.Expr) -> Iterator[sp.Expr]:
     """The term with sine and cosine exchanged in one place, or in two."""
-    table: dict[Any, Any] = {}
-    for f in sorted(t.atoms(sp.sin, sp.cos), key=sp.default_sort_key):
-        table[f] = sp.cos(f.args[0]) if isinstance(f, sp.sin) else sp.sin(f.args[0])
+    turned: list[Any] = sorted(t.atoms(sp.sin, sp.cos), key=sp.default_sort_key)
     for count in (1, 2):
-        for chosen in combinations(table, count):
-            yield cast("sp.Expr", t.xreplace({f: table[f] for f in chosen}))
+        for chosen in combinations(turned, count):
+            yield put(t, {f: partner(f) for f in chosen})

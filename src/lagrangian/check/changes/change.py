@@ -38,8 +38,6 @@ class Site:
     whole: bool = False
     sign_cost: float = 0.15
     """What the other sign costs besides; less where a sign is slipped most easily."""
-    lines: frozenset[str] = frozenset({"T", "V", "L", "Xi"})
-    """The kinds of lines in which a change would be seen, besides the equations."""
 
     def sums(self) -> Iterator[Sum]:
         """All its sums."""
@@ -68,7 +66,7 @@ class Site:
 
     def within(self, row: int) -> Site:
         """The same in one row alone."""
-        return replace(self, only=frozenset({row}), coordinate=row, surcharge=self.surcharge + 1.2, lines=frozenset())
+        return replace(self, only=frozenset({row}), coordinate=row, surcharge=self.surcharge + 1.2)
 
     @property
     def empty(self) -> bool:
@@ -89,6 +87,5 @@ class LocalChange:
     site: Site
     effect: Site
     free: bool = False
-    sign: float = 0.15
     right: sp.Expr | Words | None = None
     written: sp.Expr | Words | None = None

@@ -12,7 +12,7 @@ from lagrangian import bounded
 from lagrangian.check.changes.change import LocalChange, Site, Words
 from lagrangian.check.changes.ring import TooLong, minus
 from lagrangian.check.changes.sites import Sites
-from lagrangian.check.misconceptions.base import half_square
+from lagrangian.check.misconceptions.base import half_square, partner
 from lagrangian.check.misconceptions.base import put as replaced
 from lagrangian.model import Gravity
 from lagrangian.page.formula import Name
@@ -100,8 +100,7 @@ class GeometryChanges:
                 moved = [x - y for x, y in zip(position, self.s.position(b), strict=True)]
                 h = -sum((n * x for n, x in zip(element.direction, moved, strict=True)), sp.S.Zero)
                 total = total + self.s.expand(b.mass * element.g * h)
-        whole = self.sites.sum(total)
-        return {m: c for m, c in whole.items() if self.sites.ring.moving(m)}
+        return self.sites.ring.moving(self.sites.sum(total))
 
     def _velocities(self, b: Any) -> Iterator[LocalChange]:
         """A rate left out or with the wrong sign in one component; speeds added as numbers."""
@@ -112,10 +111,9 @@ class GeometryChanges:
         for c, x in enumerate(velocity):
             rates = [v for v in self.s.v if x.has(v)]
             for v in rates:
-                twice = x - replaced(x, {v: sp.S.Zero})
-                new = own + mass / 2 * twice**2
-                yield from self._kinetic(b, new, own, "velocity_part_twice", 2.3, brief, brief, twice)
                 part = x - replaced(x, {v: sp.S.Zero})
+                new = own + mass / 2 * part**2
+                yield from self._kinetic(b, new, own, "velocity_part_twice", 2.3, brief, brief, part)
                 words: Words = (f"the velocity of {b.title} along {AXES[c]}",)
                 for number, kind, cost in ((-1, "velocity_part_left_out", 1.5), (-2, "velocity_part_sign", 1.6)):
                     changed = list(velocity)
@@ -246,7 +244,7 @@ class GeometryChanges:
         found += [(f(q), "deflection", 2.0) for q in self.s.q if whole.has(q) for f in (sp.sin, sp.tan)]
         for f in sorted(whole.atoms(sp.sin, sp.cos), key=sp.default_sort_key):
             size = whole.coeff(f)
-            found += [(size * x, "deflection", 1.9) for x in (_partner(f), f) if size != 0]
+            found += [(size * x, "deflection", 1.9) for x in (partner(f), f) if size != 0]
         found += [(p - q, "deflection", 2.0) for p, q in combinations(self.s.q, 2)]
         for p in pieces:
             found += [
@@ -271,14 +269,14 @@ class GeometryChanges:
                 continue
             others: list[sp.Expr] = [sp.S.One, *(p for p in sp.Add.make_args(slope)), -slope]
             for f in slope.atoms(sp.sin, sp.cos):
-                others += [replaced(slope, {f: sp.S.One}), replaced(slope, {f: _partner(f)})]
+                others += [replaced(slope, {f: sp.S.One}), replaced(slope, {f: partner(f)})]
             for other in dict.fromkeys(others):
                 if other == slope:
                     continue
                 row = self._difference(k * extension * other, k * extension * slope)
                 if row:
                     words: Words = ("∂/∂", q, f" of the energy of {spring.title}")
-                    site = Site(words=words, brief=words, step=5, element=spring, coordinate=i, lines=frozenset())
+                    site = Site(words=words, brief=words, step=5, element=spring, coordinate=i)
                     yield self._of("inner_derivative", 1.9, site, {"rows": {i: row}}, slope, other)
 
     # -- what they have in common -------------------------------------------------------------------------------------
@@ -305,7 +303,7 @@ class GeometryChanges:
             found = minus(self.sites.ring.of(self.s.expand(new)), self.sites.ring.of(old))
         except TooLong:
             return None
-        return {m: c for m, c in found.items() if self.sites.ring.moving(m)} if still else found
+        return self.sites.ring.moving(found) if still else found
 
     def _of(self, kind: str, cost: float, site: Site, sums: dict[str, Any], right: Any, written: Any) -> LocalChange:
         effect = Site(
@@ -314,7 +312,6 @@ class GeometryChanges:
             step=site.step,
             element=site.element,
             coordinate=site.coordinate,
-            lines=site.lines,
             **sums,
         )
         return LocalChange(kind=kind, cost=cost, site=site, effect=effect, right=right, written=written)
@@ -330,7 +327,7 @@ def _instead_of_piece(p: sp.Expr) -> Iterator[tuple[sp.Expr, str, float]]:
     yield sp.S.Zero, "piece_left_out", 1.4
     yield -p, "piece_sign", 1.6
     for f in sorted(p.atoms(sp.sin, sp.cos), key=sp.default_sort_key):
-        yield replaced(p, {f: _partner(f)}), "piece_function", 1.8
+        yield replaced(p, {f: partner(f)}), "piece_function", 1.8
         yield replaced(p, {f: sp.S.One}), "piece_function", 2.0
     number = p.as_coeff_Mul()[0]
     if number not in (1, -1):
@@ -339,10 +336,6 @@ def _instead_of_piece(p: sp.Expr) -> Iterator[tuple[sp.Expr, str, float]]:
     else:
         yield p / 2, "piece_number", 2.0
         yield 2 * p, "piece_number", 2.2
-
-
-def _partner(f: sp.Expr) -> sp.Expr:
-    return sp.cos(f.args[0]) if isinstance(f, sp.sin) else sp.sin(f.args[0])
 
 
 def _segment(p: sp.Expr) -> sp.Expr:

@@ -15,6 +15,7 @@ from lagrangian import bounded
 from lagrangian.check.changes.change import LocalChange, Site
 from lagrangian.check.changes.ring import Sum, TooLong, put, scaled, times
 from lagrangian.check.changes.sites import Sites
+from lagrangian.check.misconceptions.base import partner
 from lagrangian.model import Damper
 from lagrangian.values.dimensions import check_dimensions
 
@@ -148,9 +149,8 @@ class LetterChanges:
         """What may stand in place of a sine or cosine."""
         function: Any = type(expr)
         angle: Any = expr.args[0]
-        other = sp.cos(angle) if function is sp.sin else sp.sin(angle)
-        yield other, "sine_cosine", 1.8
-        yield -other, "sine_cosine", 2.1
+        yield partner(expr), "sine_cosine", 1.8
+        yield -partner(expr), "sine_cosine", 2.1
         yield sp.S.One, "lost", 1.9
         for wrong in self.angles_for(angle):
             yield (
@@ -204,9 +204,14 @@ class LetterChanges:
         return [p for p in symbols if any(a.coeff(p).is_number and a.coeff(p) != 0 for a in every)]
 
     @cached_property
+    def _dimensions(self) -> Any:
+        """What is known of the dimensions; None if they contradict each other."""
+        return check_dimensions(self.model)
+
+    @cached_property
     def _kinds(self) -> dict[sp.Symbol, object]:
         """What decides which parameters may be taken for each other: the unit if it is known, else the first letter."""
-        dims = check_dimensions(self.model)
+        dims = self._dimensions
         found: dict[sp.Symbol, object] = {}
         for p in self.model.parameters:
             dim = dims.of(p.symbol) if dims is not None else None
@@ -238,7 +243,7 @@ class LetterChanges:
     @cached_property
     def lengths(self) -> list[sp.Symbol]:
         """The parameters that are lengths, as far as the units are known."""
-        dims = check_dimensions(self.model)
+        dims = self._dimensions
         if dims is None:
             return [p.symbol for p in self.model.parameters if p.name[0].lower() in "lrdhabse"]
         found: list[sp.Symbol] = []

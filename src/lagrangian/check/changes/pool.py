@@ -34,10 +34,13 @@ class Possible:
     """A mistake that may explain an answer: a local change or a well-known misconception."""
 
     cost: float
-    free: bool
-    sign: float = 0.15
     change: LocalChange | None = None
     wrong: Wrong | None = None
+
+    @property
+    def free(self) -> bool:
+        """Whether any multiple of it is a mistake of the same kind."""
+        return self.change is not None and self.change.free
 
 
 class Pool:
@@ -52,14 +55,13 @@ class Pool:
         self.sites = Sites(self.effects.ingredients)
         changes = sorted(self._within_reach(), key=lambda c: c.cost)[:MOST]
         W, T, V, Xi = self._values(changes)
-        known = [Possible(_cost(w), False, wrong=w) for w in self.effects.wrongs]
-        keep = [k for k, p in enumerate(known) if p.wrong is not None and not p.wrong.general]
         e = self.effects
-        self.all = [*(Possible(c.cost, c.free, c.sign, change=c) for c in changes), *(known[k] for k in keep)]
-        self.W = np.concatenate([W, e.W[keep]])
-        self.T, self.V = np.concatenate([T, e.T[keep]]), np.concatenate([V, e.V[keep]])
-        self.L = np.concatenate([T - V, e.L[keep]])
-        self.Xi = np.concatenate([Xi, e.Xi[keep]])
+        self.all = [Possible(c.cost, change=c) for c in changes]
+        self.all += [Possible(_cost(w), wrong=w) for w in e.wrongs]
+        self.W = np.concatenate([W, e.W])
+        self.T, self.V = np.concatenate([T, e.T]), np.concatenate([V, e.V])
+        self.L = np.concatenate([T - V, e.L])
+        self.Xi = np.concatenate([Xi, e.Xi])
         self.cost = np.array([p.cost for p in self.all])
         self.free = np.array([p.free for p in self.all], dtype=bool)
         self._kept: dict[object, Any] = {}
@@ -96,7 +98,7 @@ class Pool:
         letters = LetterChanges(sites)
         parts, wholes = list(sites.parts()), list(sites.wholes())
         terms, rows = list(sites.terms()), list(sites.in_rows())
-        yield from scales(sites, [*parts, *wholes, *terms, *rows])
+        yield from scales(sites.n, [*parts, *wholes, *terms, *rows])
         yield from letters.exchanges([*parts, *wholes])
         yield from letters.changes([*parts, *wholes, *terms, *rows])
         yield from letters.factors([*parts, *terms, *rows])

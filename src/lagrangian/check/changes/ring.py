@@ -17,6 +17,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian import bounded
+from lagrangian.check.misconceptions.base import partner
 from lagrangian.errors import ModelError
 from lagrangian.model import Model, time
 
@@ -150,12 +151,11 @@ class SumRing:
 
     def _partner(self, f: sp.Expr) -> int | None:
         """The number of the cosine of the same angle for a sine, and the other way round, if it is an atom."""
-        other = sp.cos(f.args[0]) if isinstance(f, sp.sin) else sp.sin(f.args[0])
-        return self._index.get(other)
+        return self._index.get(partner(f))
 
-    def moving(self, monomial: Monomial) -> bool:
-        """Whether a monomial contains something that changes with time."""
-        return any(self.changes(a) for a, _ in monomial)
+    def moving(self, value: Sum) -> Sum:
+        """The monomials that contain something that changes with time."""
+        return {m: c for m, c in value.items() if any(self.changes(a) for a, _ in m)}
 
     def changes(self, atom: int) -> bool:
         """Whether an atom changes with time."""

@@ -15,7 +15,6 @@ from lagrangian.check.misconceptions.base import Ingredients
 from lagrangian.model import Element, time
 from lagrangian.page.formula import Name, Partial, Total
 
-NOWHERE: frozenset[str] = frozenset()
 MOST_TERMS = 60
 """A part with more terms is changed only as a whole."""
 
@@ -47,11 +46,21 @@ class Sites:
         return {b: x for b, x in found.items() if x}
 
     @cached_property
+    def kinetic(self) -> dict[Any, Sum]:
+        """Both together, for every body."""
+        return {b: plus(x, self.rotations.get(b, {})) for b, x in self.translations.items()}
+
+    @cached_property
+    def all_kinetic(self) -> Sum:
+        """T*."""
+        return plus(*self.kinetic.values(), *self.others.values())
+
+    @cached_property
     def weights(self) -> dict[Any, tuple[Element, Sum]]:
         """Gravity and m g h of every body; constant heights are left out."""
         found: dict[Any, tuple[Element, Sum]] = {}
         for gravity, body, energy in self.of.weights():
-            moving = {m: c for m, c in self.sum(energy).items() if self.ring.moving(m)}
+            moving = self.ring.moving(self.sum(energy))
             found[body] = (gravity, plus(found[body][1], moving) if body in found else moving)
         return found
 
@@ -62,8 +71,7 @@ class Sites:
         found: dict[Element, Sum] = {}
         for element in self.model.elements:
             if element.ledger == "V" and element not in heavy:
-                whole = self.sum(self.of.expand(element.potential(self.model)))
-                found[element] = {m: c for m, c in whole.items() if self.ring.moving(m)}
+                found[element] = self.ring.moving(self.sum(self.of.expand(element.potential(self.model))))
         return {e: x for e, x in found.items() if x}
 
     @cached_property
@@ -97,8 +105,7 @@ class Sites:
     def element_rows(self) -> dict[Element, dict[int, Sum]]:
         """The terms of every element in every left-hand side, folded; those of Ξ with the sign that they have there."""
         found: dict[Element, dict[int, Sum]] = {}
-        kinetic = [(b, plus(self.translations[b], self.rotations.get(b, {}))) for b in self.of.bodies]
-        for element, T in [*kinetic, *self.others.items()]:
+        for element, T in [*self.kinetic.items(), *self.others.items()]:
             rows: dict[int, Sum] = {}
             for i in range(self.n):
                 parts, slope = self.momentum_rates(T, i)
@@ -158,18 +165,20 @@ class Sites:
             yield Site(words=words, brief=words, step=2, element=b, T=J, sign_cost=0.9)
         if T and J:
             words = (f"the kinetic energy of {title}",)
-            yield Site(words=words, brief=words, step=2, element=b, T=plus(T, J), surcharge=0.1, sign_cost=0.9)
+            yield Site(words=words, brief=words, step=2, element=b, T=self.kinetic[b], surcharge=0.1, sign_cost=0.9)
         if b in self.weights:
             gravity, V = self.weights[b]
             words = (f"the weight of {title}",)
             yield Site(words=words, brief=words, step=3, element=gravity, V=V)
             if T or J:
                 words = (f"the kinetic energy and the weight of {title}",)
-                yield Site(words=words, brief=words, step=2, element=b, T=plus(T, J), V=V, surcharge=0.3, sign_cost=0.9)
+                yield Site(
+                    words=words, brief=words, step=2, element=b, T=self.kinetic[b], V=V, surcharge=0.3, sign_cost=0.9
+                )
 
     def wholes(self) -> Iterator[Site]:
         """T*, V, all weights, all springs, and everything together."""
-        T = plus(*self.translations.values(), *self.rotations.values(), *self.others.values())
+        T = self.all_kinetic
         weights = plus(*[x for _, x in self.weights.values()])
         V = plus(weights, *self.energies.values())
         Xi = {i: plus(*[s[i] for s in self.shares.values() if i in s]) for i in range(self.n)}
@@ -207,7 +216,7 @@ class Sites:
             if 1 < len(group) < len(self.of.bodies):
                 names = " and ".join(b.title for b in group)
                 words: Words = (f"the kinetic energy of {names}",)
-                T = plus(*[plus(self.translations[b], self.rotations.get(b, {})) for b in group])
+                T = plus(*[self.kinetic[b] for b in group])
                 yield Site(words=words, brief=words, step=2, element=group[0], T=T, surcharge=0.1, sign_cost=0.9)
                 V = plus(*[self.weights[b][1] for b in group if b in self.weights])
                 words = (f"the weights of {names}",)
@@ -269,7 +278,6 @@ class Sites:
                     coordinate=i,
                     rows={i: x},
                     surcharge=0.4,
-                    lines=NOWHERE,
                 )
         for i, row in enumerate(self.rows):
             yield from self._of_row(i, row)
@@ -293,13 +301,12 @@ class Sites:
             yield Site(
                 words=words,
                 brief=own,
-                step=self._step_of(element, m),
+                step=self._step_of(element),
                 element=element,
                 coordinate=i,
                 rows={i: {m: c}},
                 surcharge=0.6,
                 single=True,
-                lines=NOWHERE,
             )
         for key, x in groups.items():
             if key and 1 < len(x) < len(row):
@@ -311,7 +318,6 @@ class Sites:
                     coordinate=i,
                     rows={i: x},
                     surcharge=0.5,
-                    lines=NOWHERE,
                 )
 
     def _element_of(self, i: int, m: Monomial) -> Element | None:
@@ -319,16 +325,15 @@ class Sites:
         found = [e for e, rows in self.element_rows.items() if m in rows.get(i, {})]
         return found[0] if len(found) == 1 else None
 
-    def _step_of(self, element: Element | None, m: Monomial) -> int:
+    def _step_of(self, element: Element | None) -> int:
         """The step in which a single term of an equation is made."""
         return 6 if element is not None and element.ledger == "Ξ" else 5
 
     def _derivatives(self, i: int) -> Iterator[Site]:
         """The parts of d/dt ∂T*/∂ξ̇_i, and −∂T*/∂ξ_i; of all bodies, then of each."""
-        every = [(None, plus(*self.translations.values(), *self.rotations.values(), *self.others.values()))]
-        single = [(b, plus(self.translations[b], self.rotations.get(b, {}))) for b in self.of.bodies]
+        every = [(None, self.all_kinetic)]
         T, q, v = Name("T*"), self.of.q[i], self.of.v[i]
-        for body, energy in [*every, *(single if len(single) > 1 else ())]:
+        for body, energy in [*every, *(self.kinetic.items() if len(self.kinetic) > 1 else ())]:
             parts, slope = self.momentum_rates(energy, i)
             extra = 0.0 if body is None else 0.15
             of: Words = () if body is None else (f" of {body.title}",)
@@ -336,21 +341,20 @@ class Sites:
                 "step": 5,
                 "element": body,
                 "coordinate": i,
-                "lines": NOWHERE,
                 "surcharge": extra,
                 "sign_cost": 0.9,
             }
             if slope:
                 words: Words = (Partial(T, q), *of)
                 yield Site(words=words, brief=words, rows={i: slope}, **step)
-            moved = plus(*[x for k, x in parts.items() if k not in "a"])
+            moved = plus(*[x for k, x in parts.items() if k != "a"])
             for k, x in parts.items():
                 if k in ("a", "t") or not x:
                     continue
                 rate = self.of.v[int(k)]
                 words = ("what ", rate, " adds to ", Total(Partial(T, v)), *of)
                 yield Site(words=words, brief=(Total(Partial(T, v)), *of), rows={i: x}, **step)
-            if sum(bool(x) for k, x in parts.items() if k not in "a") > 1:
+            if sum(bool(x) for k, x in parts.items() if k != "a") > 1:
                 words = ("what the changing coefficients add to ", Total(Partial(T, v)), *of)
                 yield Site(words=words, brief=(Total(Partial(T, v)), *of), rows={i: moved}, **step)
             if slope and moved:

@@ -1,7 +1,7 @@
 """The known mistakes, likely ones first; each has a file of the same name.
 
-If several explain an answer equally well, the first in this list is reported. Specific mistakes come before general
-ones, and mistakes about whole elements before those about single terms.
+If several explain an answer equally well, the first in this list is reported. Mistakes about whole elements come
+before those about single terms.
 """
 
 from types import ModuleType
@@ -38,7 +38,6 @@ from lagrangian.check.misconceptions import (
     input_everywhere,
     mass_swapped,
     one_component,
-    one_side_scaled,
     parameter_swapped,
     plus_potential,
     potential_forgotten,
@@ -49,7 +48,6 @@ from lagrangian.check.misconceptions import (
     relative_speed,
     rest_forgotten,
     rotation_forgotten,
-    sign_of_a_term,
     sine_for_cosine,
     small_angle,
     spring_half_forgotten,
@@ -58,7 +56,6 @@ from lagrangian.check.misconceptions import (
     spring_sign,
     spring_square_forgotten,
     spring_to_ground,
-    term_forgotten,
     torque_on_parent,
     translation_forgotten,
     velocity_terms_forgotten,
@@ -122,13 +119,7 @@ MISCONCEPTIONS: tuple[ModuleType, ...] = (
     element_twice,
     wrong_angle,
     inertia_left_out,
-    one_side_scaled,
-    sign_of_a_term,
-    term_forgotten,
 )
 """All misconceptions, the most likely first."""
 
-GENERAL = frozenset({"sign_of_a_term", "term_forgotten", "one_side_scaled"})
-"""Mistakes that are so general that two of them together explain any answer."""
-
-__all__ = ["GENERAL", "MISCONCEPTIONS", "Ingredients", "Misconception", "Variant"]
+__all__ = ["MISCONCEPTIONS", "Ingredients", "Misconception", "Variant"]

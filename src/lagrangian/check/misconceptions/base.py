@@ -15,13 +15,10 @@ from typing import Any, Protocol, cast
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from lagrangian import bounded
 from lagrangian.derive import Derived
 from lagrangian.model import Action, Body, Coordinate, Element, Gravity, Model, RigidBody, Spring, time
 from lagrangian.page.formula import Text
 
-MOST_PIECES = 120
-"""The largest number of terms of one equation that are considered."""
 ENERGIES = frozenset({"T", "V", "L", "Xi"})
 
 
@@ -237,49 +234,14 @@ def put(expr: Any, table: Mapping[Any, Any]) -> sp.Expr:
     return cast("sp.Expr", expr.xreplace(dict(table)))
 
 
+def partner(f: sp.Expr) -> sp.Expr:
+    """The cosine of the same angle for a sine, and the other way round."""
+    return sp.cos(f.args[0]) if isinstance(f, sp.sin) else sp.sin(f.args[0])
+
+
 def letters(expr: sp.Expr) -> list[Any]:
     """The constants in an expression, by name."""
     return sorted((s for s in expr.free_symbols if s != time), key=str)
-
-
-@dataclass(frozen=True)
-class Piece:
-    """A term of an equation on the left-hand side: the index of the equation, the term, and how it is displayed."""
-
-    row: int
-    expr: sp.Expr
-    shown: sp.Expr
-
-
-def pieces(s: Ingredients) -> list[Piece]:
-    """The terms of the equations: as displayed, expanded, and with cos(a − b) expanded."""
-    return s.kept("pieces", lambda: list(_pieces(s)))
-
-
-def _pieces(s: Ingredients) -> Iterator[Piece]:
-    for i, row in enumerate(s.derivation.terms):
-        seen: dict[sp.Expr, Piece] = {}
-        for term in row:
-            sign = -1 if term.kind == "input" else 1
-            whole = s.expand(term.expr) * sign
-            seen.setdefault(whole, Piece(i, whole, term.expr))
-            for part in _addends(s, whole):
-                seen.setdefault(part, Piece(i, part, part))
-        yield from list(seen.values())[:MOST_PIECES]
-
-
-def _addends(s: Ingredients, term: sp.Expr) -> Iterator[sp.Expr]:
-    """The terms of a term: expanded, with sums of angles expanded, and split by sin² + cos² = 1."""
-    expanded = bounded.expand(term)
-    yield from sp.Add.make_args(expanded)
-    if expanded.has(sp.sin, sp.cos):
-        for part in sp.Add.make_args(bounded.expand_angles(expanded)):
-            yield part
-        return
-    for f in sorted({a for a in s.angles(s.T + s.V) if a in s.q}, key=str):
-        for part in sp.Add.make_args(expanded):
-            yield part * sp.sin(f) ** 2
-            yield part * sp.cos(f) ** 2
 
 
 def half_square(mass: sp.Expr, velocity: tuple[sp.Expr, ...]) -> sp.Expr:

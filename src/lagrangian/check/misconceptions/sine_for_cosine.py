@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
-from lagrangian.check.misconceptions.base import Ingredients, Variant, put
+from lagrangian.check.misconceptions.base import Ingredients, Variant, partner, put
 from lagrangian.page.formula import Name, text
 
 STEP = 3
@@ -54,8 +54,5 @@ def _in_rows(s: Ingredients) -> Iterator[Variant]:
 
 def _swapped(expr: sp.Expr) -> tuple[sp.Expr, ...]:
     """The expression with sine and cosine exchanged, also with the opposite sign; nothing if it contains neither."""
-    table: dict[sp.Expr, sp.Expr] = {}
-    for f in expr.atoms(sp.sin, sp.cos):
-        table[f] = sp.cos(f.args[0]) if isinstance(f, sp.sin) else sp.sin(f.args[0])
-    changed = put(expr, table)
+    changed = put(expr, {f: partner(f) for f in expr.atoms(sp.sin, sp.cos)})
     return (changed, -changed) if changed != expr else ()
