@@ -111,11 +111,12 @@ class Derivation(Guided, derive.Derived):
         Raises `ModelError` for arguments that do not fit, and `Error` for files that cannot be read. An answer that
         cannot be read does not stop the others.
         """
-        from lagrangian.check.classes import check_class
+        from lagrangian.check.classes import Judging, MarkingScheme, check_class
 
-        found: dict[str, Any] = {"hint": hint, "told": told, "feedback": feedback, "roster": roster, "store": store}
-        found |= {"points": points, "require": require, "coordinates": coordinates, "other": other}
-        return check_class(self.model, answers, derivation=self, processes=processes, progress=progress, **found)
+        scheme = MarkingScheme(points=points or {}, require=require, coordinates=coordinates, other=other)
+        judging = Judging(scheme=scheme, hint=hint, told=hint if told is None else told, feedback=feedback)
+        run: dict[str, Any] = {"roster": roster, "store": store, "processes": processes, "progress": progress}
+        return check_class(self.model, answers, judging=judging, derivation=self, **run)
 
     @cached_property
     def why(self) -> Why:

@@ -10,6 +10,7 @@ import typer
 
 from lagrangian.check.classes import (
     CheckedClass,
+    Judging,
     answer_files,
     check_class,
     check_feedback,
@@ -88,16 +89,16 @@ def check_folder(
     scheme = scheme_of(options.points, options.require, options.coordinates.value)
     if (options.moodle or options.gradescope) and not scheme.points:
         raise Error("grades need points", fix="--points T=2,V=2,Xi=2,equations=4", code="E401")
-    found = check_class(
-        system.model,
-        path,
-        points=scheme.points,
-        require=scheme.require,
-        coordinates=scheme.coordinates,
-        other=scheme.other,
+    judging = Judging(
+        scheme=scheme,
         hint=3 if options.for_students else hint,
         told=hint,
         feedback=options.feedback_format.value if options.feedback is not None else None,
+    )
+    found = check_class(
+        system.model,
+        path,
+        judging=judging,
         roster=options.roster,
         store=options.store,
         processes=options.processes,

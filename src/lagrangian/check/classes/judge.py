@@ -5,8 +5,9 @@ from __future__ import annotations
 import logging
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal, TypeAlias, get_args
 
+from lagrangian.advice import Advice, Argument
 from lagrangian.check.classes.feedback import comment, feedback_report, words_report
 from lagrangian.check.classes.marks import lacking, marks
 from lagrangian.check.classes.scheme import MarkingScheme
@@ -14,7 +15,7 @@ from lagrangian.check.reading import parse_answer
 from lagrangian.check.verb import CheckedAnswer, check_answer
 from lagrangian.check.verdict import Finding, Mistake, Status
 from lagrangian.derive import Derived
-from lagrangian.errors import Error
+from lagrangian.errors import Error, ModelError
 from lagrangian.read import MAX_BYTES, decode
 from lagrangian.viewed import Brief
 from lagrangian.write.report import write_report
@@ -33,12 +34,22 @@ class Judging(Brief):
     """How the answers of a class are judged: the scheme, and how much is revealed to whom.
 
     ``hint`` limits the results, ``told`` the feedback that students get; ``feedback`` is the format of their files.
+    Raises `ModelError` for a level or a format that does not exist.
     """
 
     scheme: MarkingScheme = field(default_factory=MarkingScheme)
     hint: int = 3
     told: int = 3
     feedback: FeedbackFormat | None = None
+
+    def __post_init__(self) -> None:
+        for fix, level in ((Advice(Argument("hint", "2")), self.hint), ("told=2", self.told)):  # no --told
+            if isinstance(level, bool) or level not in (0, 1, 2, 3):
+                raise ModelError(f"a hint has a level from 0 to 3 (got {level})", fix=fix, code="E406")
+        known = get_args(FeedbackFormat)
+        if self.feedback is not None and self.feedback not in known:
+            what = f"feedback is written as {', '.join(known)} (got {self.feedback!r})"
+            raise ModelError(what, fix='feedback="html"', code="E406")
 
     def to_dict(self) -> dict[str, Any]:
         """Return plain data, from which `from_dict` makes it again."""

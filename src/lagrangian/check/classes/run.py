@@ -9,12 +9,11 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from lagrangian.advice import Advice, Argument
-from lagrangian.check.classes.checked import ENDINGS, CheckedClass
-from lagrangian.check.classes.judge import FeedbackFormat, Judge, Judging, Record, untold
+from lagrangian.check.classes.checked import CheckedClass
+from lagrangian.check.classes.judge import Judge, Judging, Record, untold
 from lagrangian.check.classes.processes import Task, judged_by_processes, process_count
 from lagrangian.check.classes.rows import ClassRow
-from lagrangian.check.classes.scheme import AllowedCoordinates, MarkingScheme
+from lagrangian.check.classes.scheme import MarkingScheme
 from lagrangian.check.classes.store import VerdictStore, fingerprint, key_of
 from lagrangian.check.classes.students import MOODLE_FILE, Roster, read_roster
 from lagrangian.derive import Derived, derive
@@ -92,39 +91,23 @@ def check_class(
     model: Model,
     answers: str | Path | Mapping[str, str],
     *,
+    judging: Judging,
     derivation: Derived | None = None,
-    points: Mapping[str, float] | None = None,
-    require: Sequence[str] = (),
-    coordinates: AllowedCoordinates = "any",
-    other: float = 0.5,
-    hint: int = 3,
-    told: int | None = None,
-    feedback: FeedbackFormat | None = None,
     roster: str | Path | None = None,
     store: str | Path | None = None,
     processes: int | None = None,
     progress: Progress | None = None,
 ) -> CheckedClass:
     """Check the answers of a class; see `lagrangian.Derivation.check_class`."""
-    for fix, level in ((Advice(Argument("hint", "2")), hint), ("told=2", told)):  # the command has no --told
-        if level is not None and (isinstance(level, bool) or level not in (0, 1, 2, 3)):
-            what = f"a hint has a level from 0 to 3 (got {level})"
-            raise ModelError(what, fix=fix, code="E406")
-    if feedback is not None and feedback not in ENDINGS:
-        what = f"feedback is written as {', '.join(ENDINGS)} (got {feedback!r})"
-        raise ModelError(what, fix='feedback="html"', code="E406")
-    scheme = MarkingScheme(points=points or {}, require=require, coordinates=coordinates, other=other)
-    _check_coordinates(scheme, model)
-    judging = Judging(scheme=scheme, hint=hint, told=hint if told is None else told, feedback=feedback)
+    _check_coordinates(judging.scheme, model)
     listed = read_roster(Path(roster)) if roster is not None else None
     files = given_answers(answers)
     _log.info("checking %d answers", len(files))
     run = _ClassRun(model, derivation, judging, files, processes, progress)
     with VerdictStore(Path(store)) if store is not None else contextlib.nullcontext() as kept:
         records = run.records(kept)
-    most = scheme.total
     rows = tuple(
-        ClassRow(file.name, record, most, hint, listed.find(file.name) if listed else None)
+        ClassRow(file.name, record, judging.scheme.total, judging.hint, listed.find(file.name) if listed else None)
         for file, record in zip(files, records, strict=True)
     )
     _check_once(rows, listed)
