@@ -22,8 +22,8 @@ KNOWN = {
     "four-bar": "A crank hinged on the ground; a coupler hinged on the crank; a rocker hinged on the ground. Pin loop "
     "joins the coupler and the rocker. Gravity acts; torque tau turns the crank. Coordinates: theta1: crank, from the "
     "base; theta2: coupler, from the base; theta3: rocker, from the base.",
-    "atwood": "Block m1 on a vertical line; block m2 on a vertical line; a pulley on a fixed axle. Gravity acts. "
-    "Coordinates: x: mass 1, downward.",
+    "atwood": "Block m1 on a vertical line; block m2 on a vertical line; a pulley on a fixed axle. A string "
+    "from block m1 over a fixed pulley to block m2. Gravity acts. Coordinates: x: mass 1, downward.",
     "ball-and-beam": "A ball rolling along the beam; a beam turning about a fixed point. Gravity acts; torque tau "
     "turns the beam. Coordinates: r: ball, along the beam, from the pivot; theta: tilt of the beam, counter-clockwise.",
 }

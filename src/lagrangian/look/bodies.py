@@ -36,7 +36,8 @@ def draw_bodies(board: Board, parts: list[Player]) -> None:
     """Draw every body as what it was cast."""
     for part in parts:
         if part.glyph is not BodyGlyph.NONE:
-            DRAWERS[part.glyph](board, part)
+            if part.radius is not None or part.glyph is not BodyGlyph.PULLEY:  # others are drawn with their string
+                DRAWERS[part.glyph](board, part)
             board.handles.append(board.anchor(part.point))
 
 
@@ -95,14 +96,8 @@ def _block(board: Board, part: Player) -> None:
 def _wedge(board: Board, part: Player) -> None:
     """A triangle with its top at the body's point, and the slope of what slides on it."""
     of, stage = (part.name,), board.stage
-    rider = next(
-        k
-        for k in range(len(stage.points))
-        if board.motions.holds[k].holder == part.point
-        and board.motions.holds[k].how is HoldKind.SLIDE
-        and k != part.point
-    )
     J = board.views.J[0]
+    rider = next(k for k in range(len(stage.points)) if _on_slope(board, k, part))
     e = board.seen(direction(J[rider] - J[part.point]))
     if e[1] < 0:
         e = -e
@@ -120,6 +115,15 @@ def _wedge(board: Board, part: Player) -> None:
     name = board.motions.slope_name(direction(J[rider] - J[part.point]))
     slope_angle(board, at + (sense * width, height), pi if sense > 0 else 0.0, heading((-e[0], -e[1])), name)
     board.sole[part.point] = height
+
+
+def _on_slope(board: Board, k: int, part: Player) -> bool:
+    """Whether a point slides along a wedge, in another direction than the wedge itself and not across it."""
+    hold = board.motions.holds[k]
+    if k == part.point or hold.holder != part.point or hold.how is not HoldKind.SLIDE or part.direction is None:
+        return False
+    J = board.views.J[0]
+    return FLAT < abs(float(direction(J[k] - J[part.point]) @ part.direction)) < 0.999
 
 
 def slope_angle(board: Board, corner: Array, start: float, end: float, name: str) -> None:

@@ -270,12 +270,12 @@ def linked(motions: Motions, part: Player) -> None:
 
 
 def _slides_on(motions: Motions, above: Player, below: Player) -> bool:
-    """Whether a body slides along another one that itself slides in another direction."""
+    """Whether a body slides along another one that itself slides in another direction, neither along it nor across."""
     hold = motions.holds[above.point]
     if hold.how is not HoldKind.SLIDE or hold.holder != below.point or below.direction is None or above is below:
         return False
     e = direction(motions.views.J[0, above.point] - motions.views.J[0, below.point])
-    return float(abs(e @ below.direction)) < 0.999
+    return FLAT < float(abs(e @ below.direction)) < 0.999
 
 
 def _runs_on(motions: Motions, above: Player, below: Player) -> bool:

@@ -37,8 +37,8 @@ def _crossing(a: Pair, b: Pair, c: Pair, d: Pair) -> bool:
 class MeasureArtist:
     """Draws the coordinates of a system."""
 
-    def __init__(self, board: Board, parts: list[Player], turns: list[Turn]) -> None:
-        self.board, self.parts, self.turns = board, parts, turns
+    def __init__(self, board: Board, parts: list[Player], turns: list[Turn], pulleys: list[int]) -> None:
+        self.board, self.parts, self.turns, self.pulleys = board, parts, turns, pulleys
         self.arrows: list[tuple[Array, Array]] = []
         self.arcs: dict[int, int] = {}
 
@@ -68,7 +68,7 @@ class MeasureArtist:
             if h.how is HoldKind.SLIDE and k not in [p.point for p in sliders]
         ]
         for k, part in points:
-            for h in (0, *(p.point for p in sliders if p.point != k)):
+            for h in (0, *self.pulleys, *(p.point for p in sliders if p.point != k)):
                 known = motions.coordinates(k)
                 if motions.coordinates(k, h) == (i,) and i in known and (h == 0 or i not in motions.coordinates(h)):
                     J = motions.views.J[0, k] - motions.views.J[0, h]

@@ -24,6 +24,9 @@ from lagrangian.look.pose import Pose
 from lagrangian.look.space_scene import draw_in_space
 from lagrangian.look.space_supports import draw_fixed_axes
 from lagrangian.look.spread import spread
+from lagrangian.look.string_glyphs import draw_strings, floor_ends
+from lagrangian.look.string_layout import extent, lay_strings, show_strings
+from lagrangian.look.strings import PulleyString, cast_strings, strings_of, undrawn_string
 from lagrangian.look.supports import draw_supports
 from lagrangian.look.tie_glyphs import TieArtist
 from lagrangian.look.ties import Resolver
@@ -69,9 +72,12 @@ def _drawn(model: Model, hints: Hints) -> tuple[Scene, Program]:
         board, said = draw_in_space(motions, p, hints)
         return _framed(board, model, hints, said, None)
     parts = cast(motions, hints.kinds)
+    strings = strings_of(motions, parts)
+    cast_strings(motions, parts, strings, set(hints.kinds))
     pose = Pose(motions, p, hints.pose)
+    to_scale = show_strings(pose, strings)
     board = Board(stage, motions, pose.closed(pose.q), p, PLANE, hidden=frozenset(hints.hide))
-    board.scale = _scale(board, parts)
+    board.scale = _scale(board, parts, to_scale)
     _slide_apart(board, pose, parts)
     board.pinned = frozenset(
         stage.index(point) for e in model.constraints for _, point in e.points() if e.kind in ("pin", "ball", "weld")
@@ -80,24 +86,31 @@ def _drawn(model: Model, hints: Hints) -> tuple[Scene, Program]:
     resolver = Resolver(motions, parts, turns)
     tied = [e for e in model.elements if getattr(e, "between", None) or getattr(e, "deflection", None) is not None]
     ties = [resolver.resolve(e) for e in tied if e.ledger != "λ"]
-    room = spread(board, parts, ties)
+    room = spread(board, parts, ties, {end.point for x in strings for end in x.ends})
+    laid = lay_strings(board, parts, strings)
     draw_bodies(board, parts)
     turns = turns_of(motions, parts, board.tips)
     resolver.turns = turns
     ties = [resolver.resolve(e) for e in tied if e.ledger != "λ"]
     TieArtist(board, parts, ties).draw()
-    draw_supports(board, parts, ties)
+    draw_supports(board, parts, ties, floor_ends(board, parts, laid))
+    draw_strings(board, parts, laid)
+    if (on := undrawn_string(motions, parts, strings)) is not None:
+        board.lacks(
+            f"the string from {on[0]} to {on[1]} is not drawn, because no point of the model is its moving pulley",
+            "name the place of the pulley in [points]",
+        )
     draw_constraints(board, parts)
     draw_hints(board, parts, hints)
     EffortArtist(board, parts, turns, ties, resolver).draw()
-    MeasureArtist(board, parts, turns).draw()
-    return _framed(board, model, hints, description(board, parts, ties, turns), room)
+    MeasureArtist(board, parts, turns, [x.holder for x in strings if x.holder]).draw()
+    return _framed(board, model, hints, description(board, parts, ties, turns, strings), room)
 
 
 # -- scale ------------------------------------------------------------------------------------------------------------
 
 
-def _scale(board: Board, parts: list[Player]) -> float:
+def _scale(board: Board, parts: list[Player], strings: list[PulleyString]) -> float:
     """Pixels a metre: so that rods, links and wheels fill the picture, whatever their true size."""
     board.scale = 1.0
     structure: list[Array] = []
@@ -125,6 +138,7 @@ def _scale(board: Board, parts: list[Player]) -> float:
             structure += [at + (reach, 0.0), at - (reach, 0.0)]
         if part.glyph is BodyGlyph.BAR or not structure:
             structure.append(at)
+    structure += extent(board, strings)
     spots = np.array(structure) if structure else np.zeros((1, 2))
     size = float(np.ptp(spots, axis=0).max())
     size = max(size, 1e-9)

@@ -17,13 +17,13 @@ Array = NDArray[np.float64]
 ACROSS, UPWARD = 140.0, 92.0
 """The distance of the centres of two bodies on one line [px], on horizontal and on vertical lines."""
 
-DROP = 150.0
-"""How far below a pulley the first block hangs [px]."""
 
+def spread(board: Board, parts: list[Player], ties: list[Tie], strung: set[int]) -> float | None:
+    """Set the shifts of bodies on common lines, and return how far these can move [px] without meeting.
 
-def spread(board: Board, parts: list[Player], ties: list[Tie]) -> float | None:
-    """Set the shifts of bodies on common lines, and return how far these can move [px] without meeting."""
-    groups = _groups(board, parts)
+    Bodies at the points ``strung`` hang on strings and are not moved.
+    """
+    groups = _groups(board, [part for part in parts if part.point not in strung])
     room: float | None = None
     for group in groups:
         if len(group) < 2 or not _crowded(board, group):
@@ -40,7 +40,6 @@ def spread(board: Board, parts: list[Player], ties: list[Tie]) -> float | None:
             x, y = board.shifts.get(part.point, (0.0, 0.0))
             board.shifts[part.point] = (x + float(dx), y + float(dy))
         room = (gap - 62.0) / 2
-    _hang(board, parts)
     return room
 
 
@@ -110,13 +109,3 @@ def _ordered(group: list[Player], ties: list[Tie]) -> list[Player]:
         near = [b if a == k else a for a, b in pairs if k in (a, b)]
         waiting += [x for x in near if isinstance(x, int) and x in points and x not in order]
     return [group[points.index(k)] for k in order]
-
-
-def _hang(board: Board, parts: list[Player]) -> None:
-    """Blocks beside a pulley hang below it."""
-    if not any(x.glyph is BodyGlyph.PULLEY for x in parts):
-        return
-    for part in parts:
-        if part.direction is not None and part.glyph is BodyGlyph.BLOCK and abs(slide_along(board, part)[1]) > 0.99:
-            x, y = board.shifts.get(part.point, (0.0, 0.0))
-            board.shifts[part.point] = (x, y + DROP)

@@ -28,8 +28,8 @@ MARGIN = 62.0
 LINKS = (BodyGlyph.LINK, BodyGlyph.PLATE, BodyGlyph.BAR, BodyGlyph.BEAM)
 
 
-def draw_supports(board: Board, parts: list[Player], ties: list[Tie]) -> None:
-    """Draw what holds the bodies."""
+def draw_supports(board: Board, parts: list[Player], ties: list[Tie], ends: dict[int, list[Array]]) -> None:
+    """Draw what holds the bodies; ``ends`` are the places [px] where the floors of some end, by their points."""
     needed = _needed(board, parts)
     springs = {t.b for t in ties if t.way == "telescope" and t.element.kind == "spring"}
     rods: list[tuple[int, int]] = []
@@ -46,8 +46,7 @@ def draw_supports(board: Board, parts: list[Player], ties: list[Tie]) -> None:
         rods.append((hold.holder, k))
     _wires(board, parts)
     _joints(board, parts, rods)
-    _floors(board, parts)
-    _pulleys(board, parts)
+    _floors(board, parts, ends)
 
 
 def _needed(board: Board, parts: list[Player]) -> list[int]:
@@ -181,36 +180,43 @@ def _stand(board: Board, k: int) -> None:
 # -- floors ---------------------------------------------------------------------------------------------------------
 
 
-def _floors(board: Board, parts: list[Player]) -> None:
+def _floors(board: Board, parts: list[Player], ends: dict[int, list[Array]]) -> None:
     """The lines on which bodies slide or roll."""
-    lines: list[tuple[float, Array, Array, list[Array], int]] = []
+    lines: list[tuple[float, Array, Array, list[Array], list[int]]] = []
     for part in parts:
         sole = sole_of(board, part)
         if sole is None or part.direction is None:
             continue
         angle, normal = slide_heading(board, part)
         foot = board.at(part.point) - sole * normal
-        for known, start, along, feet, _ in lines:
+        for known, start, along, feet, points in lines:
             if abs(known - angle) < 1e-6 and abs((foot - start) @ np.array([-along[1], along[0]])) < 3.0:
                 feet.append(foot)
+                points.append(part.point)
                 break
         else:
             along = np.array([np.cos(angle), np.sin(angle)])
-            lines.append((angle, foot, along, [foot], part.point))
-    for angle, start, along, feet, k in lines:
-        _floor(board, angle, start, along, feet, k)
+            lines.append((angle, foot, along, [foot], [part.point]))
+    for angle, start, along, feet, points in lines:
+        _floor(board, angle, start, along, feet, points[0], [end for k in points for end in ends.get(k, ())])
 
 
-def _floor(board: Board, angle: float, start: Array, along: Array, feet: list[Array], k: int) -> None:
+def _floor(
+    board: Board, angle: float, start: Array, along: Array, feet: list[Array], k: int, ends: list[Array]
+) -> None:
+    """The line below bodies, from margin to margin or as far as the pulley at its end."""
     ways = [float((foot - start) @ along) for foot in feet]
     left = min(ways) - MARGIN
     right = max(ways) + MARGIN
     if k in board.sole:
         right += 150.0
+    stops = [float((end - start) @ along) for end in ends]
+    left = max([x for x in stops if x < min(ways)], default=left)
+    right = min([x for x in stops if x > max(ways)], default=right)
     base = board.stage.fixed(board.r[k])
     x, y = start - board.scale * (board.view @ board.r[k])
     place = Placement(board.anchor(base), shift=(float(x), float(y)))
-    board.put(turned(floor(left, right), angle), "ground", place, kind="floor", layer=GROUND)
+    board.put(turned(floor(left, right), angle), "ground", place, kind="table" if ends else "floor", layer=GROUND)
     board.fence(start + left * along, start + right * along)
     if abs(np.sin(angle)) > 0.04:
         moved = board.motions.views.J[0, k] - board.motions.views.J[0, board.motions.holds[k].holder]
@@ -253,32 +259,3 @@ def _grounded(board: Board, part: Player) -> bool:
     if part.direction is None or not J.any():
         return False
     return float(abs(direction(J) @ part.direction)) > 0.9999
-
-
-def _pulleys(board: Board, parts: list[Player]) -> None:
-    """What a pulley hangs from, and the strings to the blocks beside it."""
-    for pulley in (x for x in parts if x.glyph is BodyGlyph.PULLEY):
-        assert pulley.radius is not None
-        radius = board.pixels(pulley.radius)
-        place, at = board.placed(pulley.point), board.at(pulley.point)
-        top = -radius - 26.0
-        board.put(line((0.0, 0.0), (0.0, top)), "rod", place, kind="pin", width=2.0, layer=BODY - 3)
-        board.put(turned(floor(-26.0, 26.0), pi, 0.0, top), "ground", place, kind="pin", layer=GROUND)
-        board.block(at + (0, top), 52, 16)
-        for part in parts:
-            if part.glyph is not BodyGlyph.BLOCK:
-                continue
-            spot = board.at(part.point)
-            side = spot[0] - at[0]
-            if abs(abs(side) - radius) < 3.0:
-                rim = board.stage.fixed(board.views.r[0, pulley.point] + _sideways(board, side))
-                string = board.towards(rim, part.point)
-                board.put(line((0.0, 0.0), (1.0, 0.0)), "rod", string, of=(part.name,), kind="rope", layer=BODY - 6)
-                board.fence((spot[0], at[1]), spot)
-
-
-def _sideways(board: Board, side: float) -> Array:
-    """A step on the screen of ``side`` pixels to the right, in metres of the fixed axes."""
-    step = np.zeros(board.stage.dimension)
-    step[0] = side / board.scale
-    return step

@@ -14,6 +14,7 @@ import numpy as np
 from lagrangian.look.board import Board
 from lagrangian.look.cast import FLAT, BodyGlyph, Player, direction
 from lagrangian.look.holds import Hold, HoldKind
+from lagrangian.look.strings import PulleyString
 from lagrangian.look.ties import Tie
 from lagrangian.look.turning import Turn
 from lagrangian.model import Element, Frame, Point, Rolling, Rope
@@ -34,11 +35,18 @@ WORDS = {
 """What a glyph is called in a sentence, where that is not its own word."""
 
 
-def description(board: Board, parts: list[Player], ties: Sequence[Tie], turns: Sequence[Turn]) -> str:
+def description(
+    board: Board,
+    parts: list[Player],
+    ties: Sequence[Tie],
+    turns: Sequence[Turn],
+    strings: Sequence[PulleyString] = (),
+) -> str:
     """The bodies and what holds them; what ties them together; what acts on them; the coordinates."""
     words = _Sentences(board, parts, list(ties), list(turns))
     sentences = ["; ".join(_cut(list(words.bodies()), "more bodies"))]
     sentences.append("; ".join(_cut(list(words.ties_between()), "more")))
+    sentences.append("; ".join(_cut([words.string(x) for x in strings], "more strings")))
     sentences.append("; ".join(_cut(list(words.constraints()), "more constraints")))
     sentences.append("; ".join(_cut(list(words.actions()), "more")))
     coordinates = [_coordinate(c.name, c.description) for c in board.stage.model.coordinates]
@@ -176,7 +184,7 @@ class _Sentences:
         if part.glyph is BodyGlyph.SHAFT:
             return "on a common shaft"
         if part.glyph is BodyGlyph.PULLEY:
-            return "on a fixed axle"
+            return "on a fixed axle" if self.motions.still(part.point) else "hanging on a string"
         if part.glyph is BodyGlyph.WHEEL and part.direction is not None and not self.space:
             return f"rolling on {self._line(part.direction)}"
         if any(isinstance(e, Rolling) and e.body is part.body for e in self.stage.model.elements):
@@ -253,6 +261,13 @@ class _Sentences:
 
     def _end(self, k: int | Turn | None) -> str:
         return GROUND if k is None else self.of_turn(k) if isinstance(k, Turn) else self.owner(k)
+
+    def string(self, string: PulleyString) -> str:
+        """What a string joins, and over what."""
+        moving = self.owner(string.holder)
+        over = "a fixed pulley" if not string.holder else moving if "pulley" in moving else f"the pulley at {moving}"
+        first, second = (self.owner(end.point) for end in string.ends)
+        return f"a string from {first} over {over} to {second}{', which hangs in a loop' if string.fold == 2 else ''}"
 
     def constraints(self) -> Iterator[str]:
         for element in self.stage.model.constraints:
