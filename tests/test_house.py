@@ -144,6 +144,27 @@ def test_files_and_functions_are_short() -> None:
     assert not [found for found in functions if found[2] > MAX_FUNCTION]
 
 
+def functions_of_a_script(text: str) -> list[tuple[int, int]]:
+    """Line and length of every function in JavaScript: from where it opens to the brace at the same indentation."""
+    lines = text.splitlines()
+    found = []
+    for k, line in enumerate(lines):
+        if re.search(r"(\bfunction\b.*|=>|^ +(async |static |get )?#?\w+\(.*\)) \(?\{$", line):
+            closing = " " * (len(line) - len(line.lstrip())) + "}"
+            end = next((n for n in range(k + 1, len(lines)) if lines[n].startswith(closing)), len(lines))
+            found.append((k + 1, end - k + 1))
+    return found
+
+
+def test_scripts_and_their_functions_are_short() -> None:
+    """What holds for Python holds for the scripts of pages: one question, one function or class."""
+    scripts = {str(file.relative_to(SOURCE)): file.read_text(encoding="utf-8") for file in SOURCE.rglob("*.js")}
+    functions = {name: functions_of_a_script(text) for name, text in scripts.items()}
+    assert sum(map(len, functions.values())) > 200
+    assert not [name for name, text in scripts.items() if len(text.splitlines()) > MAX_FILE]
+    assert not [(name, line) for name, found in functions.items() for line, length in found if length > MAX_FUNCTION]
+
+
 def test_no_module_is_named_like_one_of_the_standard_library() -> None:
     names = {p.stem for p in FILES} | {p.name for p in SOURCE.rglob("*") if p.is_dir()}
     assert not (names & sys.stdlib_module_names) - {"__init__", "__main__", "__pycache__"}

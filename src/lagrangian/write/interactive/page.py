@@ -22,8 +22,25 @@ from lagrangian.write.expression_tree import Math
 from lagrangian.write.html_page import escape
 from lagrangian.write.mathml import mathml
 
-SCRIPTS = ("history.js", "run.js", "picture.js", "dragging.js", "plots.js", "map.js", "page.js")
-"""The scripts of the page itself, in this order."""
+SCRIPTS = (
+    "elements.js",
+    "history.js",
+    "run.js",
+    "state.js",
+    "picture.js",
+    "motion.js",
+    "player.js",
+    "plots.js",
+    "graphs.js",
+    "address.js",
+    "sliders.js",
+    "dragging.js",
+    "lighting.js",
+    "map.js",
+    "saving.js",
+    "page.js",
+)
+"""The scripts of the page itself, in this order: those that define, then the one that starts the page."""
 
 
 @dataclass(frozen=True)
@@ -122,13 +139,13 @@ def page_html(contents: PageContents) -> str:
         derivation=packed(_steps(contents.document).encode()),
         data=embedded(contents.data),
         engine=contents.solver.script(),
-        shared=squeezed(_file("closing.js")),
-        worker=squeezed(_file("worker.js")),
+        shared=_script("closing.js"),
+        worker=_script("worker.js"),
         map_of=_choice("map-of", "what is coloured", coordinates, 0),
         map_across=_choice("map-x", "from left to right", states, 0),
         map_up=_choice("map-y", "upward", states, 1 if len(states) > 1 else 0),
         map_end=f"{float(contents.data['duration']) / 4:.3g}",
-        scripts="\n".join(squeezed(_file(name)) for name in SCRIPTS),
+        scripts="\n".join(map(_script, SCRIPTS)),
     )
 
 
@@ -149,6 +166,15 @@ def squeezed(script: str) -> str:
 
 def _file(name: str) -> str:
     return files("lagrangian.write.interactive").joinpath(name).read_text(encoding="utf-8")
+
+
+_SPACED = re.compile(r" ?([=,:;?&|(){}\[\]*%]) ?")
+
+
+def _script(name: str) -> str:
+    """A script of this folder, squeezed; where nothing is quoted or divided, spaces beside punctuation mean nothing."""
+    lines = squeezed(_file(name)).splitlines()
+    return "\n".join(line if re.search(r"[\"'`/\\]", line) else _SPACED.sub(r"\1", line) for line in lines)
 
 
 def _missing(listed: Sequence[str]) -> str:

@@ -41,46 +41,59 @@ function fitted(canvas, context) {
 
 const DASHES = [[], [7, 3], [2, 3], [9, 3, 2, 3], [4, 2], [12, 4]];
 
-/**
- * A plot on a canvas, which follows the size of its element.
- * @param {HTMLCanvasElement} canvas
- */
-function makePlot(canvas) {
-  const context = /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
-  let box = { left: 46, top: 8, width: 1, height: 1 }, xs = [0, 1], ys = [0, 1];
-  const X = (x) => box.left + ((x - xs[0]) / (xs[1] - xs[0])) * box.width;
-  const Y = (y) => box.top + box.height - ((y - ys[0]) / (ys[1] - ys[0])) * box.height;
+/** A plot on a canvas, which follows the size of its element. */
+class Plot {
+  box = { left: 46, top: 8, width: 1, height: 1 };
+  xs = [0, 1];
+  ys = [0, 1];
+
+  /** @param {HTMLCanvasElement} canvas */
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.context = canvas.getContext("2d");
+  }
+
+  X(x) {
+    const { box, xs } = this;
+    return box.left + ((x - xs[0]) / (xs[1] - xs[0])) * box.width;
+  }
+
+  Y(y) {
+    const { box, ys } = this;
+    return box.top + box.height - ((y - ys[0]) / (ys[1] - ys[0])) * box.height;
+  }
 
   /** Clear the plot and draw its grid. */
-  function begin(xLimits, yLimits, colours) {
-    const [width, height] = fitted(canvas, context);
+  begin(xs, ys, colours) {
+    const { context } = this, [width, height] = fitted(this.canvas, context);
     context.clearRect(0, 0, width, height);
-    [xs, ys] = [xLimits, yLimits];
+    [this.xs, this.ys] = [xs, ys];
     context.font = "11px system-ui, sans-serif";
     context.lineWidth = 1;
     context.setLineDash([]);
     const across = ticks(xs[0], xs[1], Math.max(4, width / 70)), up = ticks(ys[0], ys[1], Math.max(3, height / 36));
     const labels = up.found.map((y) => tickText(y, up.step));
     const wide = Math.max(18, ...labels.map((text) => context.measureText(text).width));
-    box = { left: wide + 10, top: 8, width: Math.max(1, width - wide - 18), height: Math.max(1, height - 30) };
+    const box = (this.box = { left: wide + 10, top: 8, width: Math.max(1, width - wide - 18), height: Math.max(1, height - 30) });
     context.fillStyle = colours.soft;
     context.textBaseline = "middle";
     context.textAlign = "right";
     for (const [i, y] of up.found.entries()) {
       context.strokeStyle = y === 0 ? colours.axis : colours.line;
-      segment(box.left, Y(y), box.left + box.width, Y(y));
-      context.fillText(labels[i], box.left - 6, Y(y));
+      this.segment(box.left, this.Y(y), box.left + box.width, this.Y(y));
+      context.fillText(labels[i], box.left - 6, this.Y(y));
     }
     context.textAlign = "center";
     context.textBaseline = "top";
     for (const x of across.found) {
       context.strokeStyle = colours.line;
-      segment(X(x), box.top + box.height, X(x), box.top + box.height + 4);
-      context.fillText(tickText(x, across.step), X(x), box.top + box.height + 7);
+      this.segment(this.X(x), box.top + box.height, this.X(x), box.top + box.height + 4);
+      context.fillText(tickText(x, across.step), this.X(x), box.top + box.height + 7);
     }
   }
 
-  function segment(x0, y0, x1, y1) {
+  segment(x0, y0, x1, y1) {
+    const { context } = this;
     context.beginPath();
     context.moveTo(x0, y0);
     context.lineTo(x1, y1);
@@ -88,7 +101,8 @@ function makePlot(canvas) {
   }
 
   /** Draw a line through the samples from `first` to `last`; where `broken(i)` is true, the line is interrupted. */
-  function line(first, last, x, y, colour, dash, broken = null) {
+  line(first, last, x, y, colour, dash, broken = null) {
+    const { context, box } = this;
     context.save();
     context.beginPath();
     context.rect(box.left, box.top - 2, box.width, box.height + 4);
@@ -100,28 +114,30 @@ function makePlot(canvas) {
     context.beginPath();
     const stride = broken ? 1 : Math.max(1, Math.floor((last - first) / (2 * box.width)));
     for (let i = first; i <= last; i += stride) {
-      const px = X(x(i)), py = Y(y(i));
+      const px = this.X(x(i)), py = this.Y(y(i));
       if (i === first || (broken && broken(i))) context.moveTo(px, py);
       else context.lineTo(px, py);
     }
-    if (stride > 1) context.lineTo(X(x(last)), Y(y(last)));
+    if (stride > 1) context.lineTo(this.X(x(last)), this.Y(y(last)));
     context.stroke();
     context.restore();
   }
 
   /** A vertical line at a time. */
-  function mark(x, colour) {
+  mark(x, colour) {
+    const { context, box } = this;
     context.strokeStyle = colour;
     context.setLineDash([2, 3]);
     context.lineWidth = 1;
-    segment(X(x), box.top, X(x), box.top + box.height);
+    this.segment(this.X(x), box.top, this.X(x), box.top + box.height);
     context.setLineDash([]);
   }
 
   /** A dot at a point, with a rim in the colour of the paper. */
-  function dot(x, y, colour, paper) {
+  dot(x, y, colour, paper) {
+    const { context } = this;
     context.beginPath();
-    context.arc(X(x), Y(y), 4.5, 0, 2 * Math.PI);
+    context.arc(this.X(x), this.Y(y), 4.5, 0, 2 * Math.PI);
     context.fillStyle = colour;
     context.fill();
     context.lineWidth = 1.5;
@@ -130,11 +146,9 @@ function makePlot(canvas) {
   }
 
   /** What a pointer is over, in the units of the axes. */
-  function at(event) {
-    const edge = canvas.getBoundingClientRect();
+  at(event) {
+    const { box, xs, ys } = this, edge = this.canvas.getBoundingClientRect();
     const px = event.clientX - edge.left - box.left, py = event.clientY - edge.top - box.top;
     return [xs[0] + (px / box.width) * (xs[1] - xs[0]), ys[1] - (py / box.height) * (ys[1] - ys[0])];
   }
-
-  return { begin, line, mark, dot, at, canvas };
 }

@@ -1,0 +1,96 @@
+"use strict";
+// The motion on its canvas: the frame that holds it, the moving picture, and the paths of points.
+
+class Motion {
+  canvas = element("canvas");
+  context = this.canvas.getContext("2d");
+  /** What a hand holds, if anything. */
+  held = null;
+
+  /**
+   * @param {PageState} state
+   * @param {Picture} picture
+   */
+  constructor(state, picture) {
+    Object.assign(this, { state, picture });
+  }
+
+  /** Run ahead to know how far things go; the frame then holds the motion. */
+  measure() {
+    const { state, picture } = this, { run, size } = state;
+    const box = [Infinity, Infinity, -Infinity, -Infinity], states = Array.from({ length: size }, () => [Infinity, -Infinity]), energy = [Infinity, -Infinity];
+    const widen = (pair, x) => ([pair[0], pair[1]] = [Math.min(pair[0], x), Math.max(pair[1], x)]);
+    const passed = run.measure(state.stored(0), state.span);
+    picture.spread(passed);
+    for (const { x, t } of passed) {
+      picture.place(x, t);
+      picture.cover(box);
+      x.forEach((value, i) => widen(states[i], value));
+      const [h, , T, V] = run.energies(x, t);
+      for (const e of [T, V, h]) widen(energy, e);
+    }
+    const margin = 6;
+    for (const [low, high, least] of picture.scene.size.map((length, i) => [i, i + 2, 0.3 * length])) {
+      const lacking = Math.max(0, least - (box[high] - box[low])) / 2;
+      box[low] -= lacking + margin;
+      box[high] += lacking + margin;
+    }
+    state.reach = { box, states, energy, first: Math.max(box[2] - box[0], box[3] - box[1]) };
+    state.stale = true;
+  }
+
+  /** Place the picture as the sample that is shown says. */
+  place() {
+    this.picture.place(this.state.x(), this.state.shown);
+  }
+
+  draw() {
+    const { state, picture, context } = this, { colours } = state, [width, height] = fitted(this.canvas, context);
+    context.fillStyle = colours.paper; // a recording has no background of its own
+    context.fillRect(0, 0, width, height);
+    this.place();
+    this.grow();
+    picture.fit(state.reach.box, width, height);
+    if (state.set.trail) state.data.trail.forEach((anchor) => this.drawTrail(anchor));
+    this.place();
+    picture.draw(context, colours, state.lit, width);
+    if (this.held) this.drawHeld();
+  }
+
+  /** What goes further than the run ahead widens the frame, up to four times. */
+  grow() {
+    const { reach } = this.state, box = [...reach.box];
+    this.picture.cover(box);
+    if (Math.max(box[2] - box[0], box[3] - box[1]) < 4 * reach.first) reach.box = box;
+  }
+
+  /** The path of an anchor in the last seconds, fading. */
+  drawTrail(anchor) {
+    const { state, picture, context } = this, end = state.history.index(state.shown), pieces = 12;
+    const length = Math.min(end, 800), stride = Math.max(1, Math.round(length / 300)), points = [];
+    for (let i = end - length; i <= end; i += stride) {
+      picture.place(state.stored(i), state.history.at(i, 0));
+      points.push(picture.onCanvas(anchor));
+    }
+    context.lineWidth = 1.5;
+    context.strokeStyle = state.colours.accent;
+    for (let piece = 0; piece < pieces; piece++) {
+      context.globalAlpha = 0.04 + (0.45 * (piece + 1)) / pieces;
+      context.beginPath();
+      const from = Math.floor((piece * (points.length - 1)) / pieces), to = Math.floor(((piece + 1) * (points.length - 1)) / pieces);
+      for (let i = from; i <= to; i++) context.lineTo(points[i][0], points[i][1]);
+      context.stroke();
+    }
+    context.globalAlpha = 1;
+  }
+
+  /** A ring about what is held. */
+  drawHeld() {
+    const { context } = this, [x, y] = this.picture.onCanvas(this.held.anchor);
+    context.strokeStyle = this.state.colours.accent;
+    context.lineWidth = 1.5;
+    context.beginPath();
+    context.arc(x, y, 16, 0, 2 * Math.PI);
+    context.stroke();
+  }
+}
