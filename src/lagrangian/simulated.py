@@ -146,19 +146,17 @@ class Simulated(Described):
 
         ``initial``, ``params``, ``inputs`` map names or symbols to numbers, text with a unit, or arrays; ``dims`` names
         the axes. ``outputs``: expressions, as a list or by name, ("theta1", "max theta1"). ``reduce`` says how each is
-        reduced over time (`lagrangian.integrate.observe.REDUCTIONS`); None returns samples at ``times``, which is a
-        number of times or an array of them. ``method``, ``rtol``, ``atol``, ``step``, ``events`` are those of
-        `simulate`.
+        reduced over time (`lagrangian.integrate.observe.REDUCTIONS`); None returns samples at ``times``, a number of
+        times or an array. ``method``, ``rtol``, ``atol``, ``step`` and ``events`` are those of `simulate`.
 
         ``memory`` [bytes] limits the memory in use at a time, ``threads`` the number of cores; ``progress(done, all)``
         is called now and then. ``store="name.zarr"`` writes results to disk as they are computed, and ``resume=True``
         continues an interrupted ensemble. ``scheduler`` is the address of a Dask scheduler. A run that fails has NaN
         results and a negative status.
 
-        ``settings`` is a `lagrangian.RunSettings`, taken as it is: an ensemble does not change its ``samples`` (1001
-        by default) or its ``max_events`` (100 000 by default, more than here); it must not have a ``timeout``.
-        ``execution`` is a `lagrangian.Execution`, with the options from ``memory`` to ``scheduler``. No option of
-        either can be given beside it. Raises `RunError` for arguments that do not fit.
+        ``settings`` is a `lagrangian.RunSettings` without a ``timeout``, with its own ``samples`` and ``max_events``
+        (100 000 by default, more than here); ``execution`` a `lagrangian.Execution`. No option of either can be given
+        beside it. Raises `RunError` for arguments that do not fit.
         """
         given = locals()
         from lagrangian.simulate.sweeping import ensemble, options

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from lagrangian.cli.assignments import assignments, names
-from lagrangian.cli.door import fail, put, say
+from lagrangian.cli.assignments import names
+from lagrangian.cli.door import put, say
 from lagrangian.cli.formats import as_json
 from lagrangian.cli.progress import status
-from lagrangian.cli.simulate import input_signal
+from lagrangian.cli.simulate import end, start_values
 from lagrangian.cli.terminal import (
     OUTPUT,
     Duration,
@@ -38,51 +38,56 @@ SAMPLES = 2001
 """The number of samples of a run; between them, the animation follows smooth curves."""
 
 
+MotionFile = Annotated[
+    Path | None,
+    typer.Option(
+        "--output",
+        "-o",
+        metavar="PATH",
+        help="The file to write (.svg, .html, .gif, .mp4, .webm); - writes SVG to standard output.",
+        show_default=False,
+        rich_help_panel=OUTPUT,
+    ),
+]
+Trail = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--trail", metavar="POINT[,POINT]", help="Draw the paths of these points. By default, as the file says."
+    ),
+]
+Speed = Annotated[
+    float | None,
+    typer.Option(
+        metavar="NUMBER",
+        help="Seconds of the run shown in a second. By default 1, but slower for very short runs and faster for "
+        "long ones.",
+        show_default=False,
+    ),
+]
+Fps = Annotated[float, typer.Option(metavar="NUMBER", help="Frames a second.", rich_help_panel=OUTPUT)]
+PictureWidth = Annotated[
+    float | None,
+    typer.Option(metavar="PIXELS", help="Width of the picture.", show_default=False, rich_help_panel=OUTPUT),
+]
+Dark = Annotated[bool, typer.Option("--dark", help="Light on dark, in .gif, .mp4 and .webm.", rich_help_panel=OUTPUT)]
+Samples = Annotated[int, typer.Option(metavar="N", help="Number of evenly spaced times at which the run is stored.")]
+
+
 def animate(
     file: OptionalFile = None,
     example: Example = None,
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            "--output",
-            "-o",
-            metavar="PATH",
-            help="The file to write (.svg, .html, .gif, .mp4, .webm); - writes SVG to standard output.",
-            show_default=False,
-            rich_help_panel=OUTPUT,
-        ),
-    ] = None,
+    output: MotionFile = None,
     duration: Duration = None,
     init: Initial = None,
     fixed: Fixed = None,
     set_: Parameters = None,
     input_: InputSignals = None,
-    trail: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--trail", metavar="POINT[,POINT]", help="Draw the paths of these points. By default, as the file says."
-        ),
-    ] = None,
-    speed: Annotated[
-        float | None,
-        typer.Option(
-            metavar="NUMBER",
-            help="Seconds of the run shown in a second. By default 1, but slower for very short runs and faster for "
-            "long ones.",
-            show_default=False,
-        ),
-    ] = None,
-    fps: Annotated[float, typer.Option(metavar="NUMBER", help="Frames a second.", rich_help_panel=OUTPUT)] = 25.0,
-    width: Annotated[
-        float | None,
-        typer.Option(metavar="PIXELS", help="Width of the picture.", show_default=False, rich_help_panel=OUTPUT),
-    ] = None,
-    dark: Annotated[
-        bool, typer.Option("--dark", help="Light on dark, in .gif, .mp4 and .webm.", rich_help_panel=OUTPUT)
-    ] = False,
-    samples: Annotated[
-        int, typer.Option(metavar="N", help="Number of evenly spaced times at which the run is stored.")
-    ] = SAMPLES,
+    trail: Trail = None,
+    speed: Speed = None,
+    fps: Fps = 25.0,
+    width: PictureWidth = None,
+    dark: Dark = False,
+    samples: Samples = SAMPLES,
     json: Json = False,
     force: Force = False,
 ) -> None:
@@ -104,10 +109,7 @@ def animate(
     system = open_system(file, example)
     run = system.simulate(
         duration,
-        initial=assignments(init, "--init"),
-        fixed=fixed,
-        params=assignments(set_, "--set"),
-        inputs={name: input_signal(name, value) for name, value in assignments(input_, "--input").items()},
+        **start_values(init, fixed, set_, input_),
         samples=samples,
     )
     points = None if trail is None else names(trail)
@@ -119,9 +121,7 @@ def animate(
         put(as_json(figures(run, animation, output)) if json else summary(animation, output))
     for notice in run.notices:
         say(f"note: {notice}")
-    if not run.success:
-        fail(in_options(run.message))
-        raise typer.Exit(1)
+    end(run)
 
 
 def summary(animation: Animation, path: Path) -> list[str]:

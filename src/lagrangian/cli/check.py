@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -18,128 +18,85 @@ CLASS = "A folder of answers"
 """The group of options for a folder in the help."""
 
 
+def _of_class(metavar: str, help: str, **limits: Any) -> Any:
+    """An option of that group."""
+    return typer.Option(metavar=metavar, help=help, show_default=False, rich_help_panel=CLASS, **limits)
+
+
+ModelFile = Annotated[
+    str,
+    typer.Argument(
+        metavar="FILE",
+        help="A model file. With --example, leave it out and give the answer here.",
+        show_default=False,
+    ),
+]
+AnswerPath = Annotated[
+    str | None,
+    typer.Argument(
+        metavar="ANSWER",
+        help="A file with your answer, a folder of such files, or - for standard input.",
+        show_default=False,
+    ),
+]
+Hint = Annotated[
+    int,
+    typer.Option(
+        help="How much to reveal: 0 only whether it is right, 1 also the wrong line, 2 also the element and "
+        "the step, 3 also the term.",
+        min=0,
+        max=3,
+    ),
+]
+Require = Annotated[
+    str | None, _of_class("PARTS", "Parts without which a right answer is incomplete: equations,T,V,L,Xi.")
+]
+Coordinates = Annotated[
+    Allowed,
+    typer.Option(help="Whether an answer in other coordinates than the model's is accepted.", rich_help_panel=CLASS),
+]
+Points = Annotated[
+    str | None, _of_class("POINTS", "Points by part, T=2,V=2,Xi=2,equations=4, or a TOML file with them.")
+]
+Feedback = Annotated[
+    Path | None,
+    _of_class("DIR", "Write a file for every student to this folder; --hint then limits what students are told."),
+]
+FeedbackFormat = Annotated[FeedbackKind, typer.Option(help="Format of the files of --feedback.", rich_help_panel=CLASS)]
+AnswersTable = Annotated[Path | None, _of_class("PATH", "Write a CSV table with a row for every answer to this file.")]
+MoodleTable = Annotated[Path | None, _of_class("PATH", "Write the grades and comments for Moodle to this CSV file.")]
+GradescopeTable = Annotated[
+    Path | None, _of_class("PATH", "Write the points in the columns of Gradescope to this CSV file.")
+]
+Roster = Annotated[
+    Path | None, _of_class("PATH", "The list of the class: Moodle's grading worksheet, or a roster, as CSV.")
+]
+Store = Annotated[
+    Path | None, _of_class("PATH", "Keep the verdicts in this file, and judge only answers that are new or changed.")
+]
+Processes = Annotated[int | None, _of_class("N", "Processes that judge answers; by default as many as help.", min=1)]
+
+
 def check(
-    file: Annotated[
-        str,
-        typer.Argument(
-            metavar="FILE",
-            help="A model file. With --example, leave it out and give the answer here.",
-            show_default=False,
-        ),
-    ],
-    answer: Annotated[
-        str | None,
-        typer.Argument(
-            metavar="ANSWER",
-            help="A file with your answer, a folder of such files, or - for standard input.",
-            show_default=False,
-        ),
-    ] = None,
+    file: ModelFile,
+    answer: AnswerPath = None,
     example: Example = None,
-    hint: Annotated[
-        int,
-        typer.Option(
-            help="How much to reveal: 0 only whether it is right, 1 also the wrong line, 2 also the element and "
-            "the step, 3 also the term.",
-            min=0,
-            max=3,
-        ),
-    ] = 3,
+    hint: Hint = 3,
     format: FormatOption = None,
     json: Json = False,
     width: Width = None,
     output: Output = None,
-    require: Annotated[
-        str | None,
-        typer.Option(
-            metavar="PARTS",
-            help="Parts without which a right answer is incomplete: equations,T,V,L,Xi.",
-            show_default=False,
-            rich_help_panel=CLASS,
-        ),
-    ] = None,
-    coordinates: Annotated[
-        Allowed,
-        typer.Option(
-            help="Whether an answer in other coordinates than the model's is accepted.", rich_help_panel=CLASS
-        ),
-    ] = Allowed.ANY,
-    points: Annotated[
-        str | None,
-        typer.Option(
-            metavar="POINTS",
-            help="Points by part, T=2,V=2,Xi=2,equations=4, or a TOML file with them.",
-            show_default=False,
-            rich_help_panel=CLASS,
-        ),
-    ] = None,
-    feedback: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="DIR",
-            help="Write a file for every student to this folder; --hint then limits what students are told.",
-            show_default=False,
-            rich_help_panel=CLASS,
-        ),
-    ] = None,
-    feedback_format: Annotated[
-        FeedbackKind, typer.Option(help="Format of the files of --feedback.", rich_help_panel=CLASS)
-    ] = FeedbackKind.HTML,
-    answers: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="PATH",
-            help="Write a CSV table with a row for every answer to this file.",
-            show_default=False,
-            rich_help_panel=CLASS,
-        ),
-    ] = None,
-    moodle: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="PATH",
-            help="Write the grades and comments for Moodle to this CSV file.",
-            show_default=False,
-            rich_help_panel=CLASS,
-        ),
-    ] = None,
-    gradescope: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="PATH",
-            help="Write the points in the columns of Gradescope to this CSV file.",
-            show_default=False,
-            rich_help_panel=CLASS,
-        ),
-    ] = None,
-    roster: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="PATH",
-            help="The list of the class: Moodle's grading worksheet, or a roster, as CSV.",
-            show_default=False,
-            rich_help_panel=CLASS,
-        ),
-    ] = None,
-    store: Annotated[
-        Path | None,
-        typer.Option(
-            metavar="PATH",
-            help="Keep the verdicts in this file, and judge only answers that are new or changed.",
-            show_default=False,
-            rich_help_panel=CLASS,
-        ),
-    ] = None,
-    processes: Annotated[
-        int | None,
-        typer.Option(
-            metavar="N",
-            help="Processes that judge answers; by default as many as help.",
-            min=1,
-            show_default=False,
-            rich_help_panel=CLASS,
-        ),
-    ] = None,
+    require: Require = None,
+    coordinates: Coordinates = Allowed.ANY,
+    points: Points = None,
+    feedback: Feedback = None,
+    feedback_format: FeedbackFormat = FeedbackKind.HTML,
+    answers: AnswersTable = None,
+    moodle: MoodleTable = None,
+    gradescope: GradescopeTable = None,
+    roster: Roster = None,
+    store: Store = None,
+    processes: Processes = None,
     force: Force = False,
 ) -> None:
     """Check your own answer: equations, energies or a whole derivation; exit 1 if it is wrong or incomplete.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -41,10 +41,57 @@ from lagrangian.simulate.inputs import MAX_KNOTS
 from lagrangian.write import write_with
 from lagrangian.write.tables import ENDINGS, check_target
 
+if TYPE_CHECKING:
+    from lagrangian.simulate.ensemble import Ensemble
+    from lagrangian.simulate.trajectory import Trajectory
+
 PICTURES = (".png", ".pdf", ".svg", ".jpg")
 
 MAX_BYTES = 64 * MAX_KNOTS
 """The largest size in bytes of a table: that many lines of two long numbers."""
+
+
+Results = Annotated[
+    Path | None,
+    typer.Option(
+        "--output",
+        "-o",
+        metavar="PATH",
+        help="Write the results to this file (.csv, .nc, .parquet, .npz); - writes CSV to standard output.",
+        rich_help_panel=OUTPUT,
+    ),
+]
+Reactions = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--reactions",
+        metavar="NAME[,NAME]",
+        help="Add the forces and torques of joints to the results: constraints, points or bodies by name.",
+        rich_help_panel=OUTPUT,
+    ),
+]
+Samples = Annotated[
+    int | None,
+    typer.Option(
+        metavar="N", help="Number of evenly spaced times in the results; 1001 by default.", rich_help_panel=OUTPUT
+    ),
+]
+JsonSummary = Annotated[bool, typer.Option("--json", help="Write the summary as JSON.", rich_help_panel=OUTPUT)]
+Method = Annotated[
+    str | None,
+    typer.Option(
+        metavar="NAME",
+        help=f"One of {', '.join(METHODS)} (machine code; dop853 by default), {', '.join(SCIPY)} (SciPy).",
+        rich_help_panel=INTEGRATION,
+    ),
+]
+MaxEvents = Annotated[
+    int, typer.Option(metavar="N", help="Stop the run after so many events.", rich_help_panel=COMPUTING)
+]
+Timeout = Annotated[
+    float | None,
+    typer.Option(metavar="SECONDS", help="Stop the run after so much computing time.", rich_help_panel=COMPUTING),
+]
 
 
 def simulate(
@@ -55,54 +102,20 @@ def simulate(
     fixed: Fixed = None,
     set_: Parameters = None,
     input_: InputSignals = None,
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            "--output",
-            "-o",
-            metavar="PATH",
-            help="Write the results to this file (.csv, .nc, .parquet, .npz); - writes CSV to standard output.",
-            rich_help_panel=OUTPUT,
-        ),
-    ] = None,
-    reactions: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--reactions",
-            metavar="NAME[,NAME]",
-            help="Add the forces and torques of joints to the results: constraints, points or bodies by name.",
-            rich_help_panel=OUTPUT,
-        ),
-    ] = None,
+    output: Results = None,
+    reactions: Reactions = None,
     plot: Plot = None,
-    samples: Annotated[
-        int | None,
-        typer.Option(
-            metavar="N", help="Number of evenly spaced times in the results; 1001 by default.", rich_help_panel=OUTPUT
-        ),
-    ] = None,
-    json: Annotated[bool, typer.Option("--json", help="Write the summary as JSON.", rich_help_panel=OUTPUT)] = False,
+    samples: Samples = None,
+    json: JsonSummary = False,
     force: Force = False,
-    method: Annotated[
-        str | None,
-        typer.Option(
-            metavar="NAME",
-            help=f"One of {', '.join(METHODS)} (machine code; dop853 by default), {', '.join(SCIPY)} (SciPy).",
-            rich_help_panel=INTEGRATION,
-        ),
-    ] = None,
+    method: Method = None,
     step: Step = None,
     rtol: Rtol = 1e-9,
     atol: Atol = 1e-12,
     max_step: MaxStep = None,
     max_steps: MaxSteps = 10_000_000,
-    max_events: Annotated[
-        int, typer.Option(metavar="N", help="Stop the run after so many events.", rich_help_panel=COMPUTING)
-    ] = 100_000,
-    timeout: Annotated[
-        float | None,
-        typer.Option(metavar="SECONDS", help="Stop the run after so much computing time.", rich_help_panel=COMPUTING),
-    ] = None,
+    max_events: MaxEvents = 100_000,
+    timeout: Timeout = None,
 ) -> None:
     """Simulate the system and print a summary; exit 1 if the run stopped early (its results up to then are kept).
 
@@ -112,46 +125,76 @@ def simulate(
       lagrangian simulate carts.toml -d 10 --set k=80 --init "x2=0.4 m" -o run.csv
       lagrangian simulate cart.toml -d "500 ms" --input "F=3*sin(t)" --method taylor
     """
-    for path, endings in ((plot, PICTURES), (output, [*ENDINGS])):
-        if path is not None and str(path) != "-":
-            check_target(path, list(endings), overwrite=force)
+    _check_targets(output, plot, force)
     system = open_system(file, example)
     asked = names(reactions)
     for name in asked:
         dynamics.check_joint(system.model, name)
     run = system.simulate(
         duration,
-        initial=assignments(init, "--init"),
-        fixed=fixed,
-        params=assignments(set_, "--set"),
-        inputs={name: input_signal(name, value) for name, value in assignments(input_, "--input").items()},
-        method=method,
-        step=step,
-        rtol=rtol,
-        atol=atol,
+        **start_values(init, fixed, set_, input_),
+        **integration_options(method, step, rtol, atol, max_step, max_steps),
         samples=samples,
         timeout=timeout,
-        max_step=math.inf if max_step is None else max_step,
-        max_steps=max_steps,
         max_events=max_events,
     )
     if asked:
         run.reactions = asked
-    if plot is not None:
-        figure = run.figure()
-        kind = plot.suffix.lower().removeprefix(".")
-        write_with(plot, lambda beside: figure.savefig(beside, format=kind, dpi=150))
-        say(f"wrote {plot}")
-    if output is not None and str(output) != "-":
-        say(f"wrote {run.save(output, overwrite=force)}")
-    if output is not None and str(output) == "-":
-        put(run.to_csv())
-    else:
-        put(as_json(figures(run)) if json else summary(run))
-    for notice in run.notices:
-        say(f"note: {notice}")
+    save_plot(run, plot)
+    _put(run, output, json, force)
     if run.audit.missed and run.success:
         say(f"note: {in_options(run.audit.missed)}")
+    end(run)
+
+
+def _check_targets(output: Path | None, plot: Path | None, force: bool) -> None:
+    """Raise `Error`, before anything is computed, if the results or a picture cannot be written."""
+    for path, endings in ((plot, PICTURES), (output, [*ENDINGS])):
+        if path is not None and str(path) != "-":
+            check_target(path, list(endings), overwrite=force)
+
+
+def start_values(
+    initial: list[str] | None, fixed: str | None, parameters: list[str] | None, signals: list[str] | None
+) -> dict[str, Any]:
+    """Return what --init, --fixed, --set and --input say, as the options of `lagrangian.System.simulate`."""
+    return {
+        "initial": assignments(initial, "--init"),
+        "fixed": fixed,
+        "params": assignments(parameters, "--set"),
+        "inputs": {name: input_signal(name, value) for name, value in assignments(signals, "--input").items()},
+    }
+
+
+def integration_options(
+    method: str | None, step: str | None, rtol: float, atol: float, max_step: str | None, max_steps: int
+) -> dict[str, Any]:
+    """Return the options of the group Integration, as those of `lagrangian.System.simulate`."""
+    longest = math.inf if max_step is None else max_step
+    return {"method": method, "step": step, "rtol": rtol, "atol": atol, "max_step": longest, "max_steps": max_steps}
+
+
+def save_plot(runs: Trajectory | Ensemble, path: Path | None) -> None:
+    """Draw a picture of what was computed into a file, if one is named."""
+    if path is None:
+        return
+    figure, kind = runs.figure(), path.suffix.lower().removeprefix(".")
+    write_with(path, lambda beside: figure.savefig(beside, format=kind, dpi=150))
+    say(f"wrote {path}")
+
+
+def _put(run: Trajectory, output: Path | None, json: bool, force: bool) -> None:
+    """Write the results into their file, and the summary or the results to standard output."""
+    piped = output is not None and str(output) == "-"
+    if output is not None and not piped:
+        say(f"wrote {run.save(output, overwrite=force)}")
+    put(run.to_csv() if piped else as_json(figures(run)) if json else summary(run))
+    for notice in run.notices:
+        say(f"note: {notice}")
+
+
+def end(run: Trajectory) -> None:
+    """Exit with 1 if a run stopped early, after the reason."""
     if not run.success:
         fail(in_options(run.message))
         raise typer.Exit(1)

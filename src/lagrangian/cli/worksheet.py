@@ -28,34 +28,34 @@ class SolutionLength(StrEnum):
     FULL = "full"
 
 
+Variants = Annotated[
+    int,
+    typer.Option(metavar="N", help="Write so many variants of the system instead of itself.", min=0, max=MAX_VARIANTS),
+]
+Seed = Annotated[int, typer.Option(metavar="N", help="Seed of the first variant; the next has the next.", min=0)]
+SolutionOption = Annotated[SolutionLength, typer.Option(help="The whole derivation, or the checklist.")]
+Folder = Annotated[
+    Path | None,
+    typer.Option(
+        "--output",
+        "-o",
+        metavar="DIR",
+        help="Write question sheets, solutions and model files into this folder.",
+        show_default=False,
+        rich_help_panel=OUTPUT,
+    ),
+]
+
+
 def worksheet(
     file: OptionalFile = None,
     example: Example = None,
-    variants: Annotated[
-        int,
-        typer.Option(
-            metavar="N", help="Write so many variants of the system instead of itself.", min=0, max=MAX_VARIANTS
-        ),
-    ] = 0,
-    seed: Annotated[
-        int, typer.Option(metavar="N", help="Seed of the first variant; the next has the next.", min=0)
-    ] = 1,
-    solution: Annotated[
-        SolutionLength, typer.Option(help="The whole derivation, or the checklist.")
-    ] = SolutionLength.FULL,
+    variants: Variants = 0,
+    seed: Seed = 1,
+    solution: SolutionOption = SolutionLength.FULL,
     format: FormatOption = None,
     notation: NotationOption = Notation.LECTURE,
-    folder: Annotated[
-        Path | None,
-        typer.Option(
-            "--output",
-            "-o",
-            metavar="DIR",
-            help="Write question sheets, solutions and model files into this folder.",
-            show_default=False,
-            rich_help_panel=OUTPUT,
-        ),
-    ] = None,
+    folder: Folder = None,
     json: Json = False,
     force: Force = False,
 ) -> None:

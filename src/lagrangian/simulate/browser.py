@@ -22,7 +22,7 @@ from lagrangian.codegen.javascript import names_function
 from lagrangian.codegen.labels import comment
 from lagrangian.errors import RunError
 from lagrangian.integrate import METHODS, RunStatus
-from lagrangian.integrate.portable import driver, portable
+from lagrangian.integrate.portable import driver
 from lagrangian.model import Model
 from lagrangian.simulate import drift, spared
 from lagrangian.simulate.admission import check_masses
@@ -176,19 +176,9 @@ def browser_module(
     check_masses(model, p)
     guess = initial_state(given, model, program, model.settings.get("initial", {}), initial, {})
     x0, _ = onto_constraints(model, guess, p, float(settings.start), held(model, None))
-    relative, absolute = settings.of_a_step()
     knowing, _ = spared.of_run(model, x0, p, float(settings.start))
     parts = BrowserParts.of(knowing, drive, method, listed_events(settings.events))
-    made = portable(
-        parts.rates,
-        method,
-        events=parts.events,
-        projection=parts.rows,
-        signals=parts.signals,
-        lanes=lanes,
-        tolerance=relative,
-    )
-    duration = _duration(model)
+    made = parts.compiled(method, lanes, settings.of_a_step()[0])
     layout = {
         "version": VERSION,
         "name": model.name,
@@ -196,21 +186,27 @@ def browser_module(
         "adaptive": METHODS[method].adaptive,
         **_named_values(model, drive, p),
         "start": x0[: len(model.coordinates) + len(model.velocities)].tolist(),
-        "duration": duration,
-        "defaults": {
-            "rtol": relative,
-            "atol": absolute,
-            "step": STEP if settings.step is None else float(settings.step),
-            "maxStep": parts.longest(p, duration),
-            "maxSteps": MAX_STEPS,
-            "maxEvents": settings.max_events,
-        },
+        **_run(settings, parts, p, _duration(model)),
         **parts.layout(),
         "statuses": {str(int(s)): s.message for s in RunStatus},
         "codes": {name: int(status) for name, status in CODES.items()},
         "machine": made.layout,
     }
     return BrowserModule(made.code, layout, parts.functions(functions or {}, fallback=fallback), driver())
+
+
+def _run(settings: RunSettings, parts: BrowserParts, p: NDArray[np.float64], duration: float) -> dict[str, Any]:
+    """The duration of a run [s], and the options that a page can leave out."""
+    relative, absolute = settings.of_a_step()
+    defaults = {
+        "rtol": relative,
+        "atol": absolute,
+        "step": STEP if settings.step is None else float(settings.step),
+        "maxStep": parts.longest(p, duration),
+        "maxSteps": MAX_STEPS,
+        "maxEvents": settings.max_events,
+    }
+    return {"duration": duration, "defaults": defaults}
 
 
 def _step(method: str, step: float | str | None) -> float | str | None:

@@ -17,6 +17,7 @@ from lagrangian.errors import RunError
 from lagrangian.graph import Program
 from lagrangian.integrate import Events, Projection
 from lagrangian.integrate.chattering import ASIDE, LEAST, NEAR, RESTS, Sticking
+from lagrangian.integrate.portable import PortableIntegrator, portable
 from lagrangian.integrate.projection import BREAKS
 from lagrangian.model import Model
 from lagrangian.simulate.events import Event
@@ -84,6 +85,18 @@ class BrowserParts:
     def signals(self) -> bool:
         """Whether steps have to end at certain times: knots of tables, and times at which conditions switch."""
         return bool(self.switches) or not self.drive.constant
+
+    def compiled(self, method: str, lanes: int, tolerance: float) -> PortableIntegrator:
+        """The integrator as WebAssembly; ``tolerance`` is the relative one of a step."""
+        return portable(
+            self.rates,
+            method,
+            events=self.events,
+            projection=self.rows,
+            signals=self.signals,
+            lanes=lanes,
+            tolerance=tolerance,
+        )
 
     def longest(self, p: NDArray[np.float64], duration: float) -> float | None:
         """The longest step [s] that does not jump over a pulse in time, None if there are no pulses."""
