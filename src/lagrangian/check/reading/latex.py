@@ -6,12 +6,12 @@ sin(2θ) θ̇. A constant followed by t counts as one factor there: ``\cos\omega
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from copy import deepcopy
 
 from lark import Tree
 
 from lagrangian.check.reading.latex_fractions import CLOSING, LatexFractions
+from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.nodes import Node, inside, leaf, matrix, name, node, number, wrapped
 from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.errors import ParseError
@@ -29,8 +29,8 @@ _INVERSE = {"sin": "asin", "cos": "acos", "tan": "atan", "sinh": "asinh", "cosh"
 class LatexParser(LatexFractions):
     """Parses one statement."""
 
-    def __init__(self, source: Source, known: Callable[[str], bool], misspelled: Callable[[str], bool]) -> None:
-        super().__init__(source, known, misspelled)
+    def __init__(self, source: Source, names: Names) -> None:
+        super().__init__(source, names)
         self._bars = 0
 
     def side_by_side(self) -> bool:
@@ -81,13 +81,14 @@ class LatexParser(LatexFractions):
     def _powered(self, made: Tree, start: int) -> Tree:
         """Read what follows an operand: primes, powers, a transposition."""
         raised = False
+        listed = self.tokens[self.i - 1].kind in (")", "]")  # (x, y)^T is the column that (x, y) is
         while True:
             if (primes := self.accept("primes")) is not None:
                 made = node("rate", primes.start, made, sum(_ORDERS[c] for c in primes.text))
             elif (digits := self.accept("raised")) is not None:
                 made = node("postfix", start, made, leaf("SUPERSCRIPT", digits.text, digits.start))
             elif self.next.kind == "^" and inside(made).data == "matrix" and self._transposed():
-                made = wrapped("transpose", start, made)
+                made = made if listed else wrapped("transpose", start, made)
             elif self.next.kind == "^" and not raised:
                 power = self.take()
                 made = node("power", start, made, leaf("POWER", "^", power.start), None, self._argument())
@@ -125,12 +126,14 @@ class LatexParser(LatexFractions):
         start = self.take().start
         self.deeper(start)
         bars, self._bars = self._bars, 0
-        inner = self.sum()
+        listed = [self.sum()]
+        while closing in (")", "]") and self.accept(","):
+            listed.append(self.sum())
         if not self.accept(closing):
             raise self.stopped(False)
         self._bars = bars
         self.opened.pop()
-        return inner
+        return listed[0] if len(listed) == 1 else matrix(start, [[x] for x in listed])
 
     def _atom(self) -> Tree:
         token = self.next

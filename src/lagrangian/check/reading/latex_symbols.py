@@ -5,24 +5,23 @@ A run that cannot be split into known names, but is similar to one, is a misspel
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 
+from lagrangian.check.reading.arguments import written
 from lagrangian.check.reading.latex_tokens import tokenize
+from lagrangian.check.reading.names import Names
 from lagrangian.check.reading.parser import AnswerToken, Parser
+from lagrangian.check.reading.splits import splits
 from lagrangian.quantities.source import Source
 from lagrangian.read.letters import normal
 
 
 class LatexSymbols(Parser):
-    """The part of the parser that reads names.
+    """The part of the parser that reads names."""
 
-    ``known`` says whether a name has a meaning, ``misspelled`` whether a run of letters is similar to a name.
-    """
-
-    def __init__(self, source: Source, known: Callable[[str], bool], misspelled: Callable[[str], bool]) -> None:
+    def __init__(self, source: Source, names: Names) -> None:
         super().__init__(source, tokenize(source))
-        self.known, self.misspelled = known, misspelled
+        self.known, self.names = names.known, names
 
     def _base(self) -> tuple[str, int, int]:
         """Read a Latin or Greek letter or a word, dotted or decorated: its name, its dots, and where it begins."""
@@ -73,8 +72,15 @@ class LatexSymbols(Parser):
             ending = self.ahead().text
         elif self.ahead().kind == "lowered":
             ending = normal(self.ahead().text)
-        if self.misspelled(run):
+        if self.names.misspelled(run):
             return len(run)
+        found = splits(run, lambda part, last, _: self.known(part + ending if last else part))
+        if len(found) > 1:
+            one, other = (r" \cdot ".join(x) for x in found[:2])
+            what = f"'{run}' can mean {one} or {other}"
+            raise self.source.error(what, token.start, fix="write the product that you mean with spaces", code="E402")
+        if found:
+            return len(found[0][0])
         for length in range(len(run), 0, -1):
             candidate = run[:length] + (ending if length == len(run) else "")
             if self.known(candidate) or (length == len(run) and length > 1 and self.known(run)):
@@ -95,6 +101,8 @@ class LatexSymbols(Parser):
         if self.next.kind != "{":
             if self.next.kind not in ("letters", "number", "symbol", "upright"):
                 raise self.stopped(True)
+            if self.next.kind == "letters":
+                self._cut(self._subscript_length(underscore))
             return self.take().text.removeprefix("bold ")
         text, depth = "", 0
         while True:
@@ -113,6 +121,15 @@ class LatexSymbols(Parser):
                 )
             if not depth:
                 return text
+
+    def _subscript_length(self, underscore: AnswerToken) -> int:
+        """How many of the letters after _ belong to it: one if that makes a known name, as TeX does, otherwise all."""
+        letters = self.next.text
+        before = next((x.text for x in reversed(self.tokens[: self.tokens.index(underscore)]) if x.kind != "}"), "")
+        for length in (len(letters), 1):
+            if any(self.known(f"{before[at:]}_{letters[:length]}") for at in range(len(before))):
+                return length
+        return len(letters)
 
     def _raised_primes(self) -> int:
         r"""Count and consume the primes in ^\prime or ^{\prime\prime}."""
@@ -152,7 +169,12 @@ class LatexSymbols(Parser):
         if not plain or end == self.i + 1 or self.tokens[end].kind == "end":
             return 0
         stated = self.tokens[end + 1].kind == "="
+        stated = stated or self._says(base, self.next.start, self.tokens[end].end)
         return end + 1 - self.i if commas or stated or base.startswith("bold ") else 0
+
+    def _says(self, base: str, start: int, end: int) -> bool:
+        """Whether the answer states this quantity with these arguments elsewhere."""
+        return written(base) + written(self.source.text[start:end]) in self.names.dependents
 
     def _starred(self) -> bool:
         """Whether ^* is next, as in T^*; if so, consume it."""

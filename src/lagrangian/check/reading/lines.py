@@ -129,12 +129,16 @@ class Lines:
 
     def _about(self, subject: Subject, sides: list[Tree], reader: Meaning) -> list[AnswerLine]:
         lines: list[AnswerLine] = []
+        above: Value = None
         for side in sides[1:]:
             value = reader.value(side)
             if isinstance(value, MatrixBase):
                 lines += self._matrix_of(subject, value, sides[0], reader)
+            elif above is not None and subject.kind == "p-rate" and _accelerates(above) and not _accelerates(value):
+                lines.append(self._make("equation", above, value, None, side, side, reader))  # d/dt ∂L/∂x' = m x'' = F
             else:
                 lines.append(self._stated(subject, value, sides, side, reader))
+            above = value
         return lines
 
     def _stated(self, subject: Subject, value: sp.Expr, sides: list[Tree], side: Tree, reader: Meaning) -> AnswerLine:

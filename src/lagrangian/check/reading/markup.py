@@ -16,6 +16,8 @@ _QUOTE = re.compile(r"^[ \t]*(?:>[ \t]*)+", re.MULTILINE)
 _BULLET = re.compile(r"^[ \t]*[-*+•–][ \t]+(?=\S)", re.MULTILINE)
 _LISTS = re.compile(r"\s*(?:(?P<open>[\[{(])|\w+\s*=\s*(?P<named>[\[{]))\s*(?=\S)")
 _STATED = re.compile(r"==|\bEq\s*\(|\bEquality\s*\(")
+_ANY = re.compile(r"=|\bEq\w*\s*\(")
+_TABLE = re.compile(r"^[ \t]*\|(?=\s).*\s\|[ \t]*$", re.MULTILINE)
 _CLOSED = {"[": "]", "{": "}", "(": ")"}
 _WHOLE_LINE = re.compile(r"^[ \t]*(?:In\[\d+\]:?=|Out\[\d+\]=|>>>|\.\.\.(?= )|>>)", re.MULTILINE)
 
@@ -29,6 +31,7 @@ def without_markup(text: str) -> str:
     """Return an answer without Markdown; what is not mathematics is blank."""
     for form in (_FENCE, _RULE, _HEADING, _QUOTE, _WHOLE_LINE):
         text = form.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), text)
+    text = _TABLE.sub(lambda m: m.group().replace("|", ";"), text)
     for form in (_BOLD, _CODE):
         text = form.sub(lambda m: " " * len(m[1]) + m[2] + " " * len(m[1]), text)
     return text
@@ -55,10 +58,13 @@ def without_bullets(text: str) -> str:
 def opened_list(text: str) -> str:
     """Return a list of equations of a program without its brackets: [Eq(a, b), Eq(c, d)], {a == b, c == d}."""
     match = _LISTS.match(text)
-    if match is None or not _STATED.search(text):
+    if match is None:
         return text
     kind = "open" if match["open"] else "named"
     at, opening = match.start(kind), match[kind]
+    stated = _ANY if kind == "open" and opening in "[{" else _STATED
+    if not stated.search(text, at):
+        return text
     depth = 0
     for end in range(at, len(text)):
         depth += (text[end] in "[{(") - (text[end] in "]})")
@@ -66,7 +72,7 @@ def opened_list(text: str) -> str:
             break
     else:
         return text
-    if text[end] != _CLOSED[opening] or text[end + 1 :].strip(" \t\n;,.") or not _STATED.search(text, at, end):
+    if text[end] != _CLOSED[opening] or text[end + 1 :].strip(" \t\n;,.") or not stated.search(text, at, end):
         return text
     inside = text[at + 1 : end]
     if opening == "(" and "," not in inside:

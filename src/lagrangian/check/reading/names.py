@@ -64,6 +64,8 @@ class Names:
         """Whether the statement that is being read contains matrices, so that a name may be one."""
         self.defined: set[str] = set()
         """The names that a statement of the answer defines."""
+        self.dependents: frozenset[str] = frozenset()
+        """The quantities that the answer states with what they depend on: I(r)."""
         self._moving: set[str] = set()
         self._seen: Counter[str] = Counter()
 

@@ -9,7 +9,8 @@ from __future__ import annotations
 
 from lark import Tree
 
-from lagrangian.check.reading.nodes import Node, leaf, matrix, name, node, number, only_name
+from lagrangian.check.reading.arguments import written
+from lagrangian.check.reading.nodes import Node, is_matrix, leaf, matrix, name, node, number, only_name
 from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.check.reading.plain_conditions import AND, NOT, OR
 from lagrangian.check.reading.plain_derivatives import CLOSING, DIFFERENTIATE, DOTS, ORDERS, PlainDerivatives
@@ -93,7 +94,7 @@ class PlainParser(PlainDerivatives):
         start = self.next.start
         children: list[Node] = [self._postfix()]
         while (power := self.accept("power")) is not None:
-            if self.next.kind == "name" and self.next.text == "T" and self.tokens[self.i - 2].kind == "]":
+            if self.next.kind == "name" and self.next.text == "T" and self._listed(children[0]):
                 self.take()
                 continue  # a list in brackets is already a column
             if only_name(children[0]) == ("e", 0) and len(children) == 1 and not self.words.is_name("e"):
@@ -103,6 +104,10 @@ class PlainParser(PlainDerivatives):
                 continue
             children += [leaf("POWER", "^", power.start), self._sign(), self._postfix()]
         return node("power", start, *children)
+
+    def _listed(self, made: Tree) -> bool:
+        """Whether what was just read is a list in brackets, before ^T."""
+        return self.tokens[self.i - 2].kind == "]" or is_matrix(made)
 
     def _postfix(self) -> Tree:
         start = self.next.start
@@ -195,12 +200,12 @@ class PlainParser(PlainDerivatives):
     def _called(self, token: AnswerToken) -> bool:
         """Whether the bracket after a name holds what it depends on, or its arguments, and is no factor."""
         inside = [x.text for x in self.tokens[self.i + 1 : self.i + 4]]
-        if inside[:2] == ["t", ")"] or self.words.calls(token.text):
+        if inside[:2] == ["t", ")"] or self.words.calls(token.text) or self._says(token):
             return True
         moving = self.words.names.changes(token.text)
         if moving and self.ahead().kind == "number" and inside[1:2] == [")"]:
             return True  # x(0) is no product
-        if self.i > 1:
+        if self.i > 1 or self.words.names.scope.meanings(token.text)[0]:
             return False
         end = self.i
         while self.tokens[end].kind not in (")", "end"):
@@ -208,12 +213,18 @@ class PlainParser(PlainDerivatives):
         listed = all(x.kind in ("name", "primes", ",", "(") for x in self.tokens[self.i : end])
         return listed and self.tokens[end + 1 : end + 2] != [] and self.tokens[end + 1].kind == "="
 
+    def _says(self, token: AnswerToken) -> bool:
+        """Whether the answer says that a quantity depends on what is in this bracket: I(r) = …"""
+        end = self.source.text.find(")", self.next.start) + 1
+        return written(token.text + self.source.text[self.next.start : end]) in self.words.names.dependents
+
     def _call(self, token: AnswerToken) -> Tree:
+        stated = self._says(token)
         arguments = self._arguments()
         if len(arguments) == 1 and only_name(arguments[0]) == ("t", 0):  # x1(t)
             return name(token.text, token.start)
         depends = arguments and all(only_name(x) is not None for x in arguments) and self.next.kind == "="
-        if depends and token is self.tokens[0] and not self.words.is_function(token.text):  # V(theta) = …
+        if (stated or (depends and token is self.tokens[0])) and not self.words.is_function(token.text):  # V(theta) = …
             return name(token.text, token.start)
         return node("call", token.start, leaf("NAME", token.text, token.start), *arguments)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from lark import Tree
 
-from lagrangian.check.reading.nodes import Node, name, node, only_name
+from lagrangian.check.reading.nodes import Node, inside, matrix, name, node, only_name
 from lagrangian.check.reading.parser import AnswerToken
 from lagrangian.check.reading.plain_conditions import PlainConditions
 from lagrangian.check.reading.plain_tokens import TOKEN
@@ -27,8 +27,9 @@ class PlainDerivatives(PlainConditions):
 
     def _primed(self, made: Tree, primes: AnswerToken) -> Tree:
         order = sum(ORDERS[c] for c in primes.text)
-        if made.data == "name" and made.children[1] is None:
-            token: Node = made.children[0]
+        inner = inside(made)
+        if inner.data == "name" and inner.children[1] is None:
+            token: Node = inner.children[0]
             return name(token, token.start_pos, order)
         return node("rate", primes.start, made, order)
 
@@ -36,11 +37,13 @@ class PlainDerivatives(PlainConditions):
         closing = CLOSING[self.next.kind]
         start = self.take().start
         self.deeper(start)
-        inner = self.sum()
+        listed = [self.sum()]
+        while self.accept(","):  # (x, y) is a column
+            listed.append(self.sum())
         if not self.accept(closing):
             raise self.stopped(False)
         self.opened.pop()
-        return inner
+        return listed[0] if len(listed) == 1 else matrix(start, [[x] for x in listed])
 
     def _fraction_rate(self) -> Tree:
         token = self.take()

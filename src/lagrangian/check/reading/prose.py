@@ -11,9 +11,27 @@ _REMARK = re.compile(r"(?<=\s)\(([^\W\d_][^()=+*/^\n]*)\)")
 _MATHEMATICS = re.compile(r"\s[-−]\s|['′]{1,2}(?:\s|$)")
 _IDENTIFIER = re.compile(r"[^\W\d]\w*")
 _WORD = re.compile(r"[^\W\d_]+(?:['’-][^\W\d_]+)*")
-_LEADING = re.compile(r"\s*((?:[^\W\d_]{2,}(?:-[^\W\d_]+)*[,:]?\s+)+)(?=\S)")
+_ONE = r"[^\W\d_]+(?:['’-][^\W\d_]+)*"
+_LEADING = re.compile(rf"\s*((?:{_ONE}[.,:]?\s+)+)(?=\S)")
+_LAST = re.compile(rf"(?:(?<=\s)|(?<=[,;]))({_ONE})[.,;:!]*\s*\Z")
+_ENDS = re.compile(r"[\w)\]'’′″²³¹½]\s*[.,;:]?\s*\Z")
 _NUMBER_ALONE = re.compile(r"\s*[(\[]?\s*\d{0,3}[a-z]?\s*[)\]]?\s*[.,;:]?\s*\Z")
 _SINGLE = re.compile(r"\s*[^\W\d_]+[.,:]?\s*\Z")
+_LISTED = (
+    "the is are of for we with that this these as get gets gives obtain find finds have has so and then "
+    "thus hence where let therefore since because both every equation equations motion energy kinetic "
+    "potential coordinate coordinates first second becomes follows which yields now finally using from by "
+    "in at on to reads be holds respectively "
+    "die der das ist sind lautet lauten gilt folgt ergibt sich also daraus damit somit mit wobei und für "
+    "wird dann nun aus dem den des eine einer bzw sowie nach erhält gleichung bewegungsgleichung "
+    "est sont avec donc alors où obtient équation"
+)
+LINKING = frozenset(_LISTED.split())
+"""Words of English, German and French that are seldom names."""
+
+_MOST = 40
+"""The largest number of words behind a statement."""
+
 _SHORTEST = 3
 """The fewest letters of a word that cannot be a name."""
 
@@ -32,14 +50,36 @@ def without_remarks(text: str, words: Words) -> str:
 def without_lead(text: str, words: Words) -> str:
     """Return a statement without the words in front of it: absolute displacements x1 = w1 + s."""
     match = _LEADING.match(text)
-    if match is None or "=" not in text:
+    if match is None:
         return text
+    stated = "=" in text
     end = match.start(1)
     for word in re.finditer(r"\S+\s+", match[1]):
-        if not _is_word(word.group().strip(" \t,:"), words):
-            break
-        end = match.start(1) + word.end()
+        written = word.group().strip(" \t,:.")
+        first = stated and end == match.start(1) + word.start()
+        if _links(written, words) or (first and _is_word(written, words)):
+            end = match.start(1) + word.end()
     return blank(text, 0, end) if end > match.start(1) else text
+
+
+def without_tail(text: str, words: Words) -> str:
+    """Return a statement without the words behind it: s = r - l holds, φ = π/2 − θ be the angle from the top."""
+    if "=" not in text:
+        return text
+    end, count, linked = len(text), 0, False
+    while count < _MOST and (match := _LAST.search(text, max(0, end - 80), end)) is not None:
+        links = _links(match[1], words)
+        if not links and not _is_word(match[1], words):
+            break
+        end, count, linked = match.start(1), count + 1, linked or links
+    if count < (1 if linked else 2) or not _ENDS.search(text[:end]):
+        return text
+    return blank(text, end, len(text))
+
+
+def _links(written: str, words: Words) -> bool:
+    """Whether this is a common word of English, German or French, and no name of the system or of the answer."""
+    return written.lower() in LINKING and not words.is_name(written)
 
 
 def is_prose(text: str, words: Words) -> bool:

@@ -8,15 +8,19 @@ from dataclasses import dataclass
 from functools import partial
 
 from lagrangian.check.reading.answer import Answer
+from lagrangian.check.reading.arguments import dependents
 from lagrangian.check.reading.characters import plainer
 from lagrangian.check.reading.latex import LatexParser
+from lagrangian.check.reading.latex_macros import ExpandedLatex, written_out
 from lagrangian.check.reading.latex_rows import latex_rows
+from lagrangian.check.reading.linear_format import plain_format
 from lagrangian.check.reading.lines import MAX_ERRORS, Lines, Statement
 from lagrangian.check.reading.markup import all_bullets, bullets, without_bullets, without_markup
 from lagrangian.check.reading.parser import Parser
 from lagrangian.check.reading.plain import PlainParser
 from lagrangian.check.reading.plain_tokens import with_points
-from lagrangian.check.reading.rows import ENGLISH, MAX_STATEMENTS, AnswerRow, plain_rows
+from lagrangian.check.reading.prose import LINKING
+from lagrangian.check.reading.rows import MAX_STATEMENTS, AnswerRow, plain_rows
 from lagrangian.check.reading.words import Words
 from lagrangian.errors import ParseError, Place
 from lagrangian.model import Model
@@ -64,27 +68,32 @@ def parse_answer(text: str, model: Model, *, name: str | None = None, reading: C
     Source(text, "the answer", place).check_text(MAX_ANSWER, EXAMPLE)
     typed = plainer(text)
     text = without_markup(typed)
-    listed = reading.listed or all_bullets(text, marked=text != typed)
+    latex = bool(_LATEX.search(text))
+    text = text if latex else plain_format(text)
+    listed = reading.listed or all_bullets(text, marked=text != typed and not latex)
     choice = bool(bullets(text)) and not listed
     text = without_bullets(text) if listed else text
     source = Source(text, "the answer", place)
     source.check_text(MAX_ANSWER, EXAMPLE)
-    latex = bool(_LATEX.search(text))
     lines = Lines(model)
+    lines.names.dependents = dependents(text, lambda name: bool(lines.names.scope.meanings(name)[0]))
     words = _words(lines, text)
     words.flipped, words.units = reading.flipped, reading.units
-    rows = latex_rows(text) if latex else plain_rows(text, words)
+    written = written_out(source) if latex else None
+    rows = plain_rows(text, words) if written is None else latex_rows(written.text)
     if not rows:
         raise source.error(
             "this contains no equation and no energy", 0, fix="write an equation, such as m*x'' + k*x = 0"
         )
     if len(rows) > MAX_STATEMENTS:
         what = f"more than {MAX_STATEMENTS} statements"
-        raise source.error(what, rows[MAX_STATEMENTS].start, fix="give the answer in several parts", code="E703")
+        at = rows[MAX_STATEMENTS].start
+        at = at if written is None else written.origin(at)
+        raise source.error(what, at, fix="give the answer in several parts", code="E703")
     parser: Callable[[Source], Parser] = partial(PlainParser, words=words)
     if latex:
-        parser = partial(LatexParser, known=lines.names.known, misspelled=lines.names.misspelled)
-    statements, errors = _parsed(source, rows, parser, latex)
+        parser = partial(LatexParser, names=lines.names)
+    statements, errors = _parsed(source, rows, parser, written)
     made = lines.read(statements, errors)
     less_likely = [
         (Choices(units=True), words.doubtful),
@@ -114,7 +123,7 @@ def _words(lines: Lines, text: str) -> Words:
 
 
 def _parsed(
-    source: Source, rows: Sequence[AnswerRow], parser: Callable[[Source], Parser], latex: bool
+    source: Source, rows: Sequence[AnswerRow], parser: Callable[[Source], Parser], latex: ExpandedLatex | None
 ) -> tuple[list[Statement], list[ParseError]]:
     """The statements, whose places refer to the whole answer, and the errors of those that cannot be parsed."""
     found: list[Statement] = []
@@ -122,8 +131,8 @@ def _parsed(
     words: list[ParseError] = []
     for row in rows:
         start = row.start + len(row.text) - len(row.text.lstrip())
-        written = row.text.strip() if latex else with_points(row.text.strip())
-        own = Source(written, source.what, source.place, partial(_place, source, start))
+        written = row.text.strip() if latex is not None else with_points(row.text.strip())
+        own = Source(written, source.what, source.place, partial(_place, source, latex, start))
         try:
             found.append(Statement(tuple(parser(own).sides()), own))
         except ParseError as error:
@@ -135,8 +144,8 @@ def _parsed(
 
 def _is_stated(row: str) -> bool:
     """Whether a row that cannot be read is a statement, and no heading and no sentence."""
-    return "=" in row and sum(word.lower() in ENGLISH for word in re.findall(r"[^\W\d_]+", row)) < MANY_WORDS
+    return "=" in row and sum(word.lower() in LINKING for word in re.findall(r"[^\W\d_]+", row)) < MANY_WORDS
 
 
-def _place(source: Source, start: int, offset: int) -> Place:
-    return source.at(start + offset)
+def _place(source: Source, latex: ExpandedLatex | None, start: int, offset: int) -> Place:
+    return source.at(start + offset if latex is None else latex.origin(start + offset))

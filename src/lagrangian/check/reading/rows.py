@@ -6,8 +6,9 @@ import re
 from dataclasses import dataclass
 from itertools import pairwise
 
+from lagrangian.check.reading.labels import before, behind, numbering
 from lagrangian.check.reading.markup import blank, opened_list
-from lagrangian.check.reading.prose import is_prose, without_lead, without_remarks
+from lagrangian.check.reading.prose import LINKING, is_prose, without_lead, without_remarks, without_tail
 from lagrangian.check.reading.words import Words
 from lagrangian.model.names import FUNCTIONS
 
@@ -24,47 +25,30 @@ class AnswerRow:
 
 
 _COMMENT = re.compile(r"(?:#|%|//(?=\s)).*")
-_ARROW = re.compile(r"\s*(?:=>|⇒|⟹|->|→|⟶|∴|•|>)\s*")
-_NUMBERED = re.compile(
-    r"\s*(?:\(\s*(?:\d{1,3}[a-z]?|[ivx]{1,4}|[A-Z]-?\d)\s*\)|\[\s*\d{1,3}[a-z]?\s*\]|\d{1,3}[a-z]?[.)]|[a-h]\))"
-    r"(?=\s+[^\s*/^])"
-)
-_LABEL = re.compile(r"\s*(?=[^=:]*[^\W\d_])[\w(][\w\s().,#'’-]{0,60}:(?!=)")
-_WORDS = r"(?:where|with|and|so|thus|then|hence|therefore|let|also|gives|we get|so that)"
-_ENGLISH_LISTED = (
-    "the is are of for we with that this these as get gets gives obtain find finds have has so and then "
-    "thus hence where let therefore since because both every equation equations motion energy kinetic "
-    "potential coordinate coordinates first second becomes follows which yields now finally using from by "
-    "in at on to reads"
-)
-ENGLISH = frozenset(_ENGLISH_LISTED.split())
-"""Words that are seldom names."""
-
-_LEADING = re.compile(r"\s*(?:[^\W\d_]+[,:]?\s+)+(?=\S)")
-_TRAIL = re.compile(rf"(?<=[\w)\]'’′²³])\s*,?\s+{_WORDS}\s*[,:]?\s*\Z", re.IGNORECASE)
-_AFTER = re.compile(
-    r"(?<=[\w)\]'’′″²³])(?:\s*[.,;])?\s+(?:\(\s*(?:\d{1,3}[a-z]?|[ivx]{1,4})\s*\)|\[\s*\d{1,3}[a-z]?\s*\])\s*[.,;]?\s*\Z"
-)
 _OPEN_END = re.compile(r"(?:[-+*/×·=(\[,^−]|\.\.\.|…|\\)\s*\Z")
 _OPEN_START = re.compile(r"\s*(?:[+*/×·)\]^]|=(?!>))")
+_LISTED_START = re.compile(r"\s*[+*][ \t]+[^=]*=")
 _MINUS_START = re.compile(r"\s*[-−–]")
 _STATEMENT_SIGN = re.compile(r"[=+*/^()\[\]'′″\u0307\u0308]")
 _DOTTED = re.compile(r"(?:\.\.\.|…|\\)(?=\s*\Z)")
-_TAIL = re.compile(r"(?<!\.)[.,;:]\s*\Z")
 _PLUS_END = re.compile(r"\+\s*\Z")
 _PLUS_START = re.compile(r"\s*\+")
 _GOES_ON = re.compile(r"\s*(?:\.\.\.|…)")
 
 _ARROWS = "<?=>|⇒|⟹|⇔|⟺|<?-+>|→|⟶|↔|⟷|∴"
-_LINKS = r"(?<=[\s,;])(?:and|where|with|so|thus|hence|therefore|implies|then|i\.e\.)(?=[\s,:])"
+_LINKED = "and|where|with|so|thus|hence|therefore|implies|then|i\\.e\\.|und|wobei|mit|sowie|also|daraus|somit|d\\.h\\."
+_LINKS = rf"(?<=[\s,;])(?:{_LINKED}|et|avec|où|donc|soit)(?=[\s,:])"
 _BETWEEN = re.compile(rf"[(\[{{}}\])\n]|(?<=[^\s>])[ \t]*(?P<arrow>{_ARROWS}|\bimplies\b)|{_LINKS}")
 
 
 def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     """Return the statements of an answer in plain text; headings and remarks are ignored."""
     text = without_remarks(text, words)
+    numbers = numbering(text)
     text = _separated(opened_list(text) if "\n\n" not in text.strip() else text)
-    text = "\n".join(opened_list(line) if "Eq" in line else line for line in text.split("\n"))
+    text = "\n".join(
+        opened_list(line) if "Eq" in line or line.lstrip()[:1] in ("[", "{") else line for line in text.split("\n")
+    )
     rows: list[AnswerRow] = []
     offset = 0
     open_row: AnswerRow | None = None
@@ -78,13 +62,13 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
             if (repeated := _PLUS_END.search(head)) is not None and _PLUS_START.match(bare):
                 head = blank(head, repeated.start(), len(head))  # "a + …" continues with "… + b"
             gap = offset - open_row.start - len(head)
-            rows[-1] = open_row = AnswerRow(open_row.start, head + " " * gap + _after(bare))
-        elif (stripped := _before(bare)).strip() and not plain_words(stripped):
-            open_row = AnswerRow(offset, _after(stripped))
+            rows[-1] = open_row = AnswerRow(open_row.start, head + " " * gap + behind(bare, words, numbers))
+        elif (stripped := before(bare, words, numbers)).strip() and not plain_words(stripped):
+            open_row = AnswerRow(offset, behind(stripped, words, numbers))
             rows.append(open_row)
         offset += len(line)
     split = [piece for row in rows for part in pieces(row, ";", always=True) for piece in pieces(part, ",")]
-    found = [AnswerRow(row.start, without_lead(_without_lead(row).text, words)) for row in split]
+    found = [AnswerRow(row.start, without_tail(without_lead(row.text, words), words)) for row in split]
     stated = [row for row in found if not is_prose(row.text, words)]
     return stated or found[:1]
 
@@ -113,30 +97,6 @@ def _both(text: str, start: int, end: int) -> bool:
     return "=" in text[first:start] and "=" in text[end : last if last >= 0 else len(text)]
 
 
-def _before(line: str) -> str:
-    """Blank out an arrow, a number or a label before a statement."""
-    for form in (_ARROW, _NUMBERED, _LABEL, _ARROW):
-        if match := form.match(line):
-            line = blank(line, 0, match.end())
-    return line
-
-
-def _without_lead(row: AnswerRow) -> AnswerRow:
-    """Blank out English words in front: "the kinetic energy is T = …"."""
-    if (match := _LEADING.match(row.text)) is None:
-        return row
-    words = [w for w in re.finditer(r"[^\W\d_]+", match.group()) if w.group().lower() in ENGLISH]
-    return AnswerRow(row.start, blank(row.text, 0, words[-1].end() + 1)) if words else row
-
-
-def _after(line: str) -> str:
-    """Blank out the number of an equation after it, and a full stop."""
-    for form in (_TAIL, _TRAIL, _AFTER, _TAIL):
-        if match := form.search(line):
-            line = blank(line, match.start(), len(line))
-    return line
-
-
 def plain_words(line: str) -> bool:
     """Whether a line consists of words, without anything found in an expression or equation."""
     words = re.findall(r"[^\W\d_]{2,}", line)
@@ -146,15 +106,15 @@ def plain_words(line: str) -> bool:
 def _remark(part: str) -> bool:
     """Whether a part of a line consists of words: "with the stretch s,"."""
     words = re.findall(r"[^\W\d_]+", part)
-    return "=" not in part and any(w.lower() in ENGLISH for w in words) and not FUNCTIONS & set(words)
+    return "=" not in part and any(w.lower() in LINKING for w in words) and not FUNCTIONS & set(words)
 
 
-def _continues(before: str, line: str) -> bool:
-    if incomplete(before) or _OPEN_START.match(line):
+def _continues(above: str, line: str) -> bool:
+    if incomplete(above) or (_OPEN_START.match(line) and not (_LISTED_START.match(line) and "=" in above)):
         return True
     if not _MINUS_START.match(line):
         return False
-    return ("=" in before) != ("=" in line) or (line[:1].isspace() and "=" not in line)
+    return ("=" in above) != ("=" in line) or (line[:1].isspace() and "=" not in line)
 
 
 def incomplete(text: str) -> bool:

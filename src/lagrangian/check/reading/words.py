@@ -10,6 +10,7 @@ from collections.abc import Iterable, Iterator
 from functools import cache
 
 from lagrangian.check.reading.names import Names, spelled_rates
+from lagrangian.check.reading.splits import LONGEST, splits
 from lagrangian.errors import did_you_mean
 from lagrangian.model.names import FUNCTIONS
 from lagrangian.quantities.source import Source
@@ -19,14 +20,8 @@ from lagrangian.read.letters import key
 RECIPROCALS = {"cot": "tan", "sec": "cos", "csc": "sin", "cosec": "sin", "coth": "tanh", "sech": "cosh", "csch": "sinh"}
 """Functions of answers that are 1 over another."""
 
-MAX_WORD = 40
-"""The longest word that is split."""
-
 MAX_WORDS = 500
 """The largest number of words in one answer that are tried to be split."""
-
-MAX_SPLITS = 64
-"""The largest number of ways to split a word that are looked at."""
 
 MAX_TOLD = 6
 """The largest number of split words that a note lists."""
@@ -92,7 +87,7 @@ class Words:
     def is_product(self, word: str) -> bool:
         """Whether a word can be split into names of the system."""
         if word not in self._products:
-            few = 1 < len(word) <= MAX_WORD and len(self._products) < MAX_WORDS
+            few = 1 < len(word) <= LONGEST and len(self._products) < MAX_WORDS
             self._products[word] = few and bool(self._splits(word, called=False, extra=False))
         return self._products[word]
 
@@ -112,10 +107,10 @@ class Words:
         ``called``: a bracket or an argument follows, so that the last part may be a function. Raises an error that
         names both readings if there are two.
         """
-        if not 1 < len(word) <= MAX_WORD or word in _WHOLE or self.known(word) or function_of(word) is not None:
+        if not 1 < len(word) <= LONGEST or word in _WHOLE or self.known(word) or function_of(word) is not None:
             return [word]
         for extra in (False, True):
-            found = _coarsest(self._splits(word, called, extra))
+            found = self._splits(word, called, extra)
             if len(found) > 1:
                 one, other = ("*".join(x) for x in found[:2])
                 what = f"'{word}' can mean {one} or {other}"
@@ -126,7 +121,7 @@ class Words:
         return [word]
 
     def _splits(self, word: str, called: bool, extra: bool) -> list[list[str]]:
-        """All ways to split a word; with ``extra``, names that only the answer has, time and π are parts too."""
+        """The coarsest ways to split a word; with ``extra``, also into names that only the answer has, time and π."""
 
         @cache
         def fits(part: str, last: bool, after: bool) -> bool:
@@ -136,17 +131,7 @@ class Words:
                 return not last
             return self._is_part(part, extra, word)
 
-        @cache
-        def splits(at: int, after: bool) -> list[list[str]]:
-            """The splits of what begins at a place, ``after`` a function."""
-            found: list[list[str]] = [[]] if at == len(word) else []
-            for end in range(len(word), at, -1):
-                part = word[at:end]
-                if (at > 0 or end < len(word)) and fits(part, end == len(word), after):
-                    found += [[part, *rest] for rest in splits(end, function_of(part) is not None)]
-            return found[:MAX_SPLITS]
-
-        return splits(0, False)
+        return splits(word, fits, lambda part: function_of(part) is not None)
 
     def _is_part(self, part: str, extra: bool, word: str) -> bool:
         if part[0] in "_0123456789" or part.endswith("_"):
@@ -155,7 +140,9 @@ class Words:
             return True
         if any(self.names.changes(stem) and len(part) - len(stem) > 2 for _, stem in spelled_rates(part)):
             return True
-        return extra and (part in ("t", "pi") or (key(part) in self._alone and key(part) != key(word)))
+        if not extra or part in ("t", "pi"):
+            return extra
+        return key(part) in self._alone and key(part) != key(word) and not self.is_product(part)
 
     def notes(self) -> Iterator[str]:
         """How words were split, in one sentence."""
@@ -163,9 +150,3 @@ class Words:
             told = [f"{word} as {parts}" for word, parts in list(self._split.items())[:MAX_TOLD]]
             more = ", …" if len(self._split) > MAX_TOLD else ""
             yield f"Products without signs were read: {', '.join(told)}{more}."
-
-
-def _coarsest(splits: list[list[str]]) -> list[list[str]]:
-    """The splits that do not only split the parts of another."""
-    cuts = [{sum(map(len, s[: k + 1])) for k in range(len(s))} for s in splits]
-    return [s for s, mine in zip(splits, cuts, strict=True) if not any(other < mine for other in cuts)]

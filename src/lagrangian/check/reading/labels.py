@@ -1,0 +1,93 @@
+"""Takes what only marks a statement off its line: bullets, arrows, numbers and labels in front, numbers behind."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+
+from lagrangian.check.reading.markup import blank
+from lagrangian.check.reading.words import Words
+from lagrangian.quantities.units import lookup
+
+_ARROW = re.compile(r"\s*(?:<?=+>|⇒|⟹|⇔|⟺|<?-+>|→|⟶|↔|➔|➜|➡|➤|↪|∴|[•◦▪●‣⁃✓✔]|>|[·o]\t)\s*")
+_BRACE = re.compile(r"\s*(?:[⎧⎨⎩⎪]|\{(?![^{}]*\}))\s*")
+_BULLET = re.compile(r"\s*[*+][ \t]+(?=[\w(\[])")
+_EQUATION = r"(?:[Ee]qn?|[Ee]quation|[Gg]l|[Gg]ln|[Gg]leichung|EOM|DGL|BWG|[Éé]q)"
+_NUMBER = r"\d{1,3}(?:\.\d{1,3}){0,2}[a-z]?['′*]{0,2}"
+_NUMBERED = re.compile(
+    rf"\s*(?:\(\s*(?P<inside>{_NUMBER}|[ivx]{{1,5}}|[IVX]{{1,4}}|[A-Z]-?\d|[a-h])\s*\)|\[\s*{_NUMBER}\s*\]|[①-⑳]"
+    rf"|{_EQUATION}\.?\s*[(\[]?{_NUMBER}[)\]]?[.:]?|{_NUMBER}\s?(?:[.)]{{1,2}}|:)|(?P<open>[a-h](?=\))|[ivx]{{1,5}}|[IVX]{{1,4}})[.)])"
+    r"(?=\s+[^\s*/^=])"
+)
+_CLOSE = re.compile(r"\s*\(\s*\d{1,2}[a-z]?\s*\)")
+_LABEL = re.compile(r"\s*(?=[^=:]*[^\W\d_])[∑Σ↑→↓←↻↺⟲⟳⤵]*\s*[\w(][\w\s().,#'’-]{0,60}:(?!=)")
+_WORDS = r"(?:where|with|and|so|thus|then|hence|therefore|let|also|gives|we get|so that)"
+_TRAIL = re.compile(rf"(?<=[\w)\]'’′²³])\s*,?\s+{_WORDS}\s*[,:]?\s*\Z", re.IGNORECASE)
+_LEADERS = r"\s*(?:\.\.|…|·{3}|-{4}|_{3})[\s.…·_-]*"
+_MARK = r"\d{1,3}[a-z]?['′*]{0,2}|[ivx]{1,4}|[IVX]{2,4}|[A-Z]\.?-?\d{1,2}|\*{1,3}"
+_BEHIND = rf"[(\[]\s*(?:{_EQUATION}\.?\s*)?(?:{_MARK})\s*[)\]]"
+_DECIMAL = rf"[(\[]\s*(?:{_EQUATION}\.?\s*)?{_NUMBER}\s*[)\]]"
+_END = r"\s*[.,;]?\s*\Z"
+_BEFORE_END = r"(?<=[\w)\]'’′″²³])(?:\s*[.,;])?"
+_NAMED = rf"[(\[]\s*{_EQUATION}\.?\s*{_NUMBER}\s*[)\]]"
+_AFTER = re.compile(rf"{_BEFORE_END}(?:\s+{_BEHIND}|(?:{_LEADERS}|\s{{2,}}|\t){_DECIMAL}|\s*{_NAMED}){_END}")
+_AFTER_CLOSE = re.compile(rf"{_BEFORE_END}\s*(?:{_BEHIND}|{_DECIMAL}){_END}")
+_TAIL = re.compile(r"(?<!\.)[.,;:]\s*\Z")
+_DONE = re.compile(r"(?<=[\w)\]'’′″²³])\s*(?:[!✓✔☑∎□■▢]+|q\.?\s?e\.?\s?d\.?|w\.?\s?z\.?\s?b\.?\s?w\.?)\s*\Z")
+_STEP = re.compile(r"\s\|\s*(?:[:·*/+÷−-]|d/dt|²|\(\s*\)).*\Z|\s(?:<-+|←)\s.*\Z")
+"""What is done to an equation next, | : m, and what points at it, <- here."""
+_UNIT = re.compile(r"(?<=\s)\[([A-Za-zµΩ·*/^²³⁻¹\d\s-]{1,12})\]\s*\Z")
+_NUMBER_BEHIND = re.compile(rf"[(\[]\s*(?:\d{{1,3}}\.)?(\d{{1,3}})\s*[)\]]{_END}")
+
+
+@dataclass(frozen=True)
+class Numbering:
+    """Whether the equations of an answer are numbered in order in front, or behind, so that no number is a factor."""
+
+    before: bool
+    behind: bool
+
+
+def numbering(text: str) -> Numbering:
+    """Recognize how the equations of an answer are numbered: (1), (2), … one after the other."""
+    lines = [line for line in text.split("\n") if "=" in line]
+    first = [int(m[1]) for line in lines if (m := re.match(r"\s*\(\s*(\d{1,2})\s*\)", line))]
+    last = [int(m[1]) for line in lines if (m := _NUMBER_BEHIND.search(line[-30:]))]
+    return Numbering(*(len(x) > 1 and x == list(range(x[0], x[0] + len(x))) for x in (first, last)))
+
+
+def before(line: str, words: Words, numbers: Numbering) -> str:
+    """Blank out an arrow, a bullet, a number or a label before a statement."""
+    for form in (_BRACE, _ARROW, _BULLET, _NUMBERED, _NUMBERED, _LABEL, _ARROW):
+        match = form.match(line)
+        if match is None and form is _NUMBERED and numbers.before:
+            match = _CLOSE.match(line)
+        if match is None or (form is _NUMBERED and _is_factor(match, words)):
+            continue
+        line = blank(line, 0, match.end())
+    return line
+
+
+def _is_unit(written: str, words: Words) -> bool:
+    """Whether all words in brackets are units, and none is a name."""
+    found = re.findall(r"[^\W\d_]+", written)
+    return bool(found) and not any(words.is_name(x) or (lookup(x) is None and x != "Nm") for x in found)
+
+
+def _is_factor(match: re.Match[str], words: Words) -> bool:
+    """Whether the letter of a number in front, (i) or (a), is a name of the system."""
+    named = match.groupdict()
+    letter = named.get("inside") or named.get("open")
+    return letter is not None and not letter[0].isdigit() and words.is_name(letter)
+
+
+def behind(line: str, words: Words, numbers: Numbering) -> str:
+    """Blank out the number of an equation after it, a full stop, a linking word, and the unit of both sides: [N m]."""
+    if (unit := _UNIT.search(line)) is not None and _is_unit(unit[1], words):
+        line = blank(line, unit.start(), len(line))
+    if line.count("|") == 1 or "<-" in line or "←" in line:
+        line = _STEP.sub(lambda m: " " * len(m.group()), line)
+    for form in (_TAIL, _TRAIL, _AFTER_CLOSE if numbers.behind else _AFTER, _DONE, _TAIL):
+        if match := form.search(line):
+            line = blank(line, match.start(), len(line))
+    return line
