@@ -11,6 +11,7 @@ import built_in
 import lagrangian as lg
 from built_in import SOME, SPACE, picture
 from lagrangian.examples import names
+from lagrangian.look.kinematics import Kinematics
 from lagrangian.page.scene import Scene
 
 IN_THE_PLANE = [name for name in names() if name not in SPACE]
@@ -85,6 +86,19 @@ def test_an_absolute_angle_counts_from_the_fixed_direction_and_a_relative_one_fr
         start, end = _arc_ends(scene, "theta2")
         assert _towards(scene, joint, start) == pytest.approx(-np.pi / 2 + first, abs=1e-9)
         assert _towards(scene, joint, end) == pytest.approx(-np.pi / 2 + first + 0.7, abs=1e-9)
+
+
+def test_points_that_are_added_are_seen_as_if_they_had_been_there() -> None:
+    """Only their own places are computed, and in one system all of them at once for comparison."""
+    known = Kinematics(built_in.system("crane").model)
+    q, p = np.array([0.3, 1.2, 0.4]), known.parameters()
+    before = known.views([q], p)
+    for parent in (1, 2):
+        known.add(parent, (0.2, parent * known.model.parameters[0].symbol), None)
+    grown, whole = known.views([q], p, known=before), known.views([q], p)
+    for name in ("r", "J", "rt", "R", "RJ"):
+        assert np.array_equal(getattr(grown, name), getattr(whole, name))
+    assert grown.r.shape[1] == before.r.shape[1] + 2
 
 
 def test_a_relative_length_is_measured_from_the_other_body() -> None:

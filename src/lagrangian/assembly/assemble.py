@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
+from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
@@ -37,8 +38,13 @@ class Assembler:
     def __init__(self, model: Model, fixed: Collection[str] = ()) -> None:
         self.model, self.fixed = model, tuple(fixed)
         self.names = [c.name for c in model.coordinates]
-        self.closing = closing(model, self.fixed)
-        self.search = None if self.closing.position is None else LoopSearch(self.closing)
+        self._positions = positions_closing(model, self.fixed)
+        self.search = None if self._positions.position is None else LoopSearch(self._positions)
+
+    @cached_property
+    def closing(self) -> Closing:
+        """The programs for positions and velocities; what moves velocities is long and not needed for a picture."""
+        return replace(self._positions, velocity=dynamics.correction(self.model, self.fixed, position=False))
 
     @cached_property
     def rows(self) -> tuple[NamedCondition, ...]:
@@ -162,11 +168,10 @@ def fixed_names(model: Model, fixed: Iterable[Any] | str) -> tuple[str, ...]:
     return names
 
 
-def closing(model: Model, fixed: Collection[str] = ()) -> Closing:
-    """The programs that move a state onto a model's constraints and leave the coordinates in ``fixed`` as they are."""
+def positions_closing(model: Model, fixed: Collection[str] = ()) -> Closing:
+    """The programs that move positions onto a model's constraints; coordinates in ``fixed`` stay as they are."""
     position = dynamics.correction(model, fixed, position=True)
-    velocity = dynamics.correction(model, fixed, position=False)
-    return Closing(position, velocity, dynamics.residual(model), dynamics.constraint_matrix(model))
+    return Closing(position, None, dynamics.residual(model), dynamics.constraint_matrix(model))
 
 
 def consistent(

@@ -84,7 +84,7 @@ class Board:
         """The stage in the pose, with all points that there are."""
         found = self._views
         if found is None or found.r.shape[1] != len(self.stage.points):
-            found = self._views = self.stage.views([self.q], self.p)
+            found = self._views = self.stage.views([self.q], self.p, known=found)
         return found
 
     def posed(self, q: Array) -> None:

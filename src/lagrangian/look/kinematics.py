@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from lagrangian.dynamics import Inputs, placed
 from lagrangian.errors import ModelError
-from lagrangian.graph import Graph, Output, Program, evaluate, jvp
+from lagrangian.graph import Graph, Output, Program, Tangents, evaluate, jvp
 from lagrangian.model import Frame, Model, Point
 
 Array = NDArray[np.float64]
@@ -64,6 +64,7 @@ class Kinematics:
         self.frames: list[Frame] = sorted(axes, key=lambda f: f.serial)
         self._index = {id(p): k for k, p in enumerate(self.points)}
         self._nodes: list[list[int]] = [self._position(p) for p in self.points]
+        self._tangents = [Tangents(self.graph, {s: self.graph.one}) for s in (*self.inputs.q, self.inputs.t)]
 
     def _position(self, point: Point) -> list[int]:
         motion = self.described.motion
@@ -114,15 +115,19 @@ class Kinematics:
         x = [*map(float, q), *[0.0] * len(self.inputs.v)]
         return {"x": x, "u": [u] * len(self.inputs.u), "p": [float(v) for v in p], "t": [t]}
 
-    def views(self, states: Sequence[Array], p: Array, *, t: float = 0.0) -> Views:
-        """Positions, rotations and their derivatives at coordinates q, one array for each state."""
-        d, n, count, turns = self.dimension, len(self.inputs.q), len(self.points), len(self.frames)
+    def views(self, states: Sequence[Array], p: Array, *, t: float = 0.0, known: Views | None = None) -> Views:
+        """Positions, rotations and their derivatives at coordinates q, one array for each state.
+
+        ``known`` are the views of the first points at the same states: only the others are computed.
+        """
+        first = 0 if known is None else known.r.shape[1]
+        frames = self.frames if known is None else []
+        d, n, count, turns = self.dimension, len(self.inputs.q), len(self.points) - first, len(frames)
         motion = self.described.motion
-        r = [i for node in self._nodes for i in node]
-        rotations = [motion.rotation(self.described.axes[f]) for f in self.frames]
+        r = [i for node in self._nodes[first:] for i in node]
+        rotations = [motion.rotation(self.described.axes[f]) for f in frames]
         R = [x for rows in rotations for row in rows for x in row]
-        seeds = [*self.inputs.q, self.inputs.t]
-        slopes = [jvp(self.graph, [*r, *R], {s: self.graph.one}) for s in seeds]
+        slopes = [along([*r, *R]) for along in self._tangents]
         flat = [*r, *R, *(x for column in slopes for x in column)]
         program = self._program({"all": Output(tuple(flat), (len(flat),))})
         rows: list[Array] = []
@@ -133,10 +138,18 @@ class Kinematics:
         width = size + turns * d * d
         many = len(states)
         slots = values[:, width:].reshape(many, n + 1, width)
-        return Views(
+        places = (
             values[:, :size].reshape(many, count, d),
             np.moveaxis(slots[:, :n, :size].reshape(many, n, count, d), 1, -1),
             slots[:, n, :size].reshape(many, count, d),
+        )
+        if known is not None:
+            r_all, J_all, rt_all = (
+                np.concatenate(x, axis=1) for x in zip((known.r, known.J, known.rt), places, strict=True)
+            )
+            return Views(r_all, J_all, rt_all, known.R, known.RJ, p)
+        return Views(
+            *places,
             values[:, size:width].reshape(many, turns, d, d),
             np.moveaxis(slots[:, :n, size:].reshape(many, n, turns, d, d), 1, -1),
             p,

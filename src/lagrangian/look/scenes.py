@@ -170,13 +170,14 @@ def _slide_apart(board: Board, pose: Pose, parts: list[Player]) -> None:
 
 def _framed(board: Board, model: Model, hints: Hints, said: str, room: float | None) -> tuple[Scene, Program]:
     """The scene, moved so that everything lies within its frame."""
-    low, high = _extent(board)
+    low, high = _extent(board, 0)
+    drawn = len(board.parts)
     draw_gravity(board, np.array([high[0] + 26.0, low[1] + 8.0]))
     if board.stage.dimension == 3:
         draw_fixed_axes(board, np.array([low[0] - 12.0, high[1] + 10.0]))
-        low, high = _extent(board)
     labels = placed_labels(board)
-    low, high = _extent(board)
+    last = _extent(board, drawn) if len(board.parts) > drawn else (low, high)
+    low, high = np.minimum(low, last[0]), np.maximum(high, last[1])
     for label in labels:
         x, y, w, h = label.box
         low, high = np.minimum(low, (x, y)), np.maximum(high, (x + w, y + h))
@@ -203,18 +204,20 @@ def _framed(board: Board, model: Model, hints: Hints, said: str, room: float | N
     return scene, board.stage.program(anchors)
 
 
-def _extent(board: Board) -> tuple[Array, Array]:
-    """The corners of what is drawn [px]."""
+def _extent(board: Board, first: int) -> tuple[Array, Array]:
+    """The corners of what is drawn [px], from part number ``first`` on."""
     at = board.scale * (board.r[list(board.anchors)] @ board.view.T)
     spots: list[Array] = []
-    for part in board.parts:
-        half = part.outline / 2
+    reaches: list[float] = []
+    for part in board.parts[first:]:
         for letter, numbers in placed(part, at):
-            reach = half + (float(numbers[2]) if letter == "O" else 0.0)
             found = numbers[:2] if letter == "O" else numbers
-            spots += [x + d for x in found.reshape(-1, 2) for d in (reach, -reach)]
-    found = np.array(spots) if spots else np.zeros((1, 2))
-    return found.min(axis=0), found.max(axis=0)
+            spots.append(found)
+            reaches += [part.outline / 2 + (float(numbers[2]) if letter == "O" else 0.0)] * (len(found) // 2)
+    if not reaches:
+        return np.zeros(2), np.zeros(2)
+    found, reach = np.concatenate(spots).reshape(-1, 2), np.array(reaches)[:, None]
+    return (found - reach).min(axis=0), (found + reach).max(axis=0)
 
 
 def _moved(part: Shape, by: Array) -> Shape:
