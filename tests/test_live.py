@@ -93,13 +93,25 @@ def opened(browser: Any, file: Path) -> Iterator[Opened]:
 
 def test_the_page_is_one_small_file_that_forbids_itself_every_request(file: Path) -> None:
     text = file.read_text(encoding="utf-8")
-    assert len(text.encode()) < 150_000
+    assert len(text.encode()) < 100_000
     policy = re.search(r'http-equiv="Content-Security-Policy" content="([^"]*)"', text)
     assert policy is not None and policy[1].startswith("default-src 'none'")
     assert "'unsafe-eval'" not in policy[1]
     assert not re.search(r"""(src|href|action)\s*=\s*["']?https?:""", text)
     for id_ in ("schematic", "motion", "equations", "controls", "plots", "steps"):
         assert f'id="{id_}"' in text
+
+
+@in_browser
+def test_a_browser_that_cannot_unpack_says_so(browser: Any, file: Path) -> None:
+    context = browser.new_context()
+    context.add_init_script("delete globalThis.DecompressionStream")
+    page = context.new_page()
+    page.goto(file.as_uri())
+    page.wait_for_timeout(100)
+    assert page.locator("#status").inner_text().startswith("Nothing moves here: DecompressionStream")
+    assert page.locator("#drawing svg").count() == 1
+    context.close()
 
 
 @in_browser

@@ -11,8 +11,6 @@
   const player = new Player(state, motion, address), sliders = new Sliders(state, player, address);
   // without the functions that close loops nothing can be dragged
   new Dragging(motion, player, sliders, data.constrained && !physics.functions.approach ? [] : scene.handles);
-  // the derivation is the largest part of the page, and comes packed
-  element("whole").innerHTML = await unpacked(element("packed-steps").textContent).text();
   lightEachOther(state);
   sliders.changed = offerMap(state, sliders);
   graphs.listen(player);

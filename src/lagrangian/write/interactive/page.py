@@ -129,24 +129,34 @@ def page_html(contents: PageContents) -> str:
         schematic=contents.schematic,
         missing=_missing(contents.missing),
         motion_hint="drag a body to place it" + ("; drag beside it to turn the view" if contents.space else ""),
-        equations=_equations(contents.document),
-        controls=_controls(contents.adjustables, contents.coordinates),
         coordinate_legend=_legend(coordinates),
         energy_legend=_ENERGIES,
         phase_up=_choice("phase-y", "vertical axis", states, len(coordinates) if rates else 0),
         phase_across=_choice("phase-x", "horizontal axis", states, 0),
-        numbers=_numbers(states),
-        derivation=packed(_steps(contents.document).encode()),
-        data=embedded(contents.data),
-        engine=contents.solver.script(),
-        shared=_script("closing.js"),
-        worker=_script("worker.js"),
+        packed=packed(_parts(contents).encode()),
+        unpack=_script("unpack.js"),
         map_of=_choice("map-of", "what is coloured", coordinates, 0),
         map_across=_choice("map-x", "from left to right", states, 0),
         map_up=_choice("map-y", "upward", states, 1 if len(states) > 1 else 0),
         map_end=f"{float(contents.data['duration']) / 4:.3g}",
-        scripts="\n".join(map(_script, SCRIPTS)),
     )
+
+
+def _parts(contents: PageContents) -> str:
+    """What is packed, as JSON: [id, text, type] of the insides of elements and of scripts, in the order of use."""
+    html, plain, script = "text/html", "text/plain", "text/javascript"
+    parts = [
+        ("result", _equations(contents.document), html),
+        ("values", _controls(contents.adjustables), html),
+        ("numbers", _numbers([a for a in contents.adjustables if a.group == "x"]), html),
+        ("whole", _steps(contents.document), html),
+        ("data", embedded(contents.data), "application/json"),
+        ("engine", contents.solver.script(), script),
+        ("shared", _script("closing.js"), script),
+        ("worker", _script("worker.js"), plain),
+        ("page", "\n".join(map(_script, SCRIPTS)), script),
+    ]
+    return json.dumps(parts, ensure_ascii=False)
 
 
 def embedded(data: Mapping[str, Any]) -> str:
@@ -201,7 +211,7 @@ def _steps(document: Document) -> str:
 # -- sliders ----------------------------------------------------------------------------------------------------------
 
 
-def _controls(adjustables: Sequence[Adjustable], coordinates: int) -> str:
+def _controls(adjustables: Sequence[Adjustable]) -> str:
     titles = {"p": "Parameters", "u": "Inputs", "x": "Initial state"}
     return "\n".join(
         f'<fieldset class="{kind}"><legend>{title}</legend><div class="sliders">{"".join(rows)}</div></fieldset>'
