@@ -234,6 +234,70 @@ def test_the_map_shows_where_starts_lead(opened: Opened, file: Path) -> None:
 
 
 @in_browser
+def test_the_sweep_draws_many_runs_and_follows_its_range(opened: Opened) -> None:
+    page = opened.page
+    page.click("#sweep summary")
+    opened.wait_for("document.getElementById('sweep-told').textContent.startsWith('129 runs')")
+    assert page.inner_text("#sweep-range") == "0.700 … 1.30"
+    opened.slide("sweep-high", 2.0)
+    opened.wait_for("document.getElementById('sweep-range').textContent === '0.700 … 2.00'")
+    page.select_option("#sweep-of", label="g [m/s²]")
+    assert page.inner_text("#sweep-unit") == "m/s²"
+    opened.asked = [url for url in opened.asked if not url.startswith("blob:")]
+
+
+SECTION = """async ([x, p]) => {
+  const add = (text) => document.body.append(Object.assign(document.createElement("script"), { textContent: text }));
+  add(document.getElementById("worker").textContent);
+  const found = [], across = { state: 1, low: 0, high: 0 };
+  const job = { x, p, u: [], where: 0, value: 0, round: true, machine: x.length, across, up: 3, speed: 2, rate: 2,
+    energy: energyOf(physics.functions, x, p, []), runs: 1, most: 6, dt: 0.03, longest: 100 };
+  await jobs.section(job, await physics.solver(), ({ points }) => found.push(...points));
+  return found;
+}"""
+
+
+@in_browser
+def test_a_section_has_the_points_at_which_events_are_found_in_python(opened: Opened) -> None:
+    """Through θ₁ = 0 upward, with the energy of (0.3, 0.2) at rest; θ₂ and its rate there are those of an event."""
+    system = lg.example("double-pendulum")
+    values = [float(p.value) for p in system.model.parameters]
+    points = opened.page.evaluate(SECTION, [[0.3, 0.2, 0.0, 0.0], values])
+    energy = -9.81 * (2 * math.cos(0.3) + math.cos(0.2))
+    rate = math.sqrt(energy + 3 * 9.81)  # at θ = 0 and θ₂' = 0: T = ½ (m₁ + m₂) L² θ₁'², all of them 1
+    run = system.simulate(
+        20.0, theta1=0.0, theta2=0.0, initial={"theta1'": rate}, events=lg.event(system["theta1"], 1, name="up")
+    )
+    found = run.events["up"]
+    assert len(points) >= 12
+    start = 1 if found.t[0] < 1e-6 else 0  # Python also counts the start itself
+    for k in range(5):
+        expected = found.y[1, start + k], found.y[3, start + k]
+        assert points[2 * k : 2 * k + 2] == pytest.approx(expected, abs=1e-6)
+
+
+@in_browser
+def test_a_page_finds_the_events_that_it_is_given_with_their_resets(browser: Any, tmp_path: Path) -> None:
+    """A ball that falls from 1 m and loses a tenth of its speed at the floor: it rises to 0.81 m."""
+    ball = lg.System("ball")
+    y = ball.coordinates("y")
+    ball.particle(ball.parameter("m", "1 kg"), at=ball.point("P", (0, y)), name="ball")
+    ball.gravity(direction=(0, -1), g=9.81)
+    bounce = lg.event(y, direction=-1, reset={y.diff(): -0.9 * y.diff()}, name="bounce")
+    path = tmp_path / "ball.html"
+    ball.look().save(path, events=bounce)
+    made = Opened(browser, path.as_uri())
+    field = made.page.locator('.control[data-group="x"] input[type="text"]').first
+    field.fill("1")
+    field.blur()
+    made.run_to(0.9)
+    assert "bounce at 0.452 s" in made.page.inner_text("#status")
+    _, height, speed, *_ = made.sample()  # on a line between stored samples: g h²/8 = 2e-5 m
+    assert height > 0 and height + speed**2 / (2 * 9.81) == pytest.approx(0.81, abs=4e-5)
+    made.context.close()
+
+
+@in_browser
 def test_without_webassembly_javascript_takes_over_and_says_so(browser: Any, file: Path, tmp_path: Path) -> None:
     path = tmp_path / "forbidden.html"
     path.write_text(file.read_text(encoding="utf-8").replace(" 'wasm-unsafe-eval'", ""), encoding="utf-8")

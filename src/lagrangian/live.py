@@ -18,6 +18,7 @@ from lagrangian.page.scene import Scene, as_data
 from lagrangian.quantities.quantity import unit_factor
 from lagrangian.read import dumps
 from lagrangian.simulate.browser import BrowserModule, browser_module
+from lagrangian.simulate.events import Event
 from lagrangian.simulate.inputs import driving
 from lagrangian.simulate.simulation import named
 from lagrangian.values.values import Given
@@ -42,14 +43,14 @@ MAX_FUNCTIONS = 60_000
 """Functions in JavaScript of more characters are left out as far as WebAssembly replaces them."""
 
 
-def live_page(model: Model, scene: Scene, anchors: Program) -> str:
+def live_page(model: Model, scene: Scene, anchors: Program, events: Sequence[Event] | Event = ()) -> str:
     """Return the page.
 
-    ``anchors`` is the program of the scene, x, u, p, t → r. A system whose equations cannot be written out moves
-    nevertheless, and the page says why it has none. Raises `RunError` for a system that a browser cannot integrate,
-    and for parameters without a value.
+    ``anchors`` is the program of the scene, x, u, p, t → r. ``events`` are found in every run, and their resets are
+    made. A system whose equations cannot be written out moves nevertheless, and the page says why it has none. Raises
+    `RunError` for a system that a browser cannot integrate, and for parameters without a value.
     """
-    module = _module(model, anchors)
+    module = _module(model, anchors, events)
     adjustables = _adjustables(model, module.layout, 0.5 * max(scene.size) / scene.scale)
     contents = PageContents(
         _document(model),
@@ -81,14 +82,14 @@ def _subtitle(scene: Scene) -> str:
     return words[:1].upper() + words[1:]
 
 
-def _module(model: Model, anchors: Program) -> BrowserModule:
+def _module(model: Model, anchors: Program, events: Sequence[Event] | Event) -> BrowserModule:
     """The solver, with the energy balance and the places of the anchors as functions of the state."""
     given = Given.of(model, named(model))
     dims = dict(zip(given.inputs.names, given.inputs.dims, strict=True))
     drive = driving(model, None, model.settings.get("inputs", {}), dims)
     free = {u.name: k for k, u in enumerate(drive.free)}
     functions = {"power": dynamics.power_closed(model, drive.feedback), "anchors": _of_free_inputs(anchors, free)}
-    return browser_module(model, functions=functions, fallback=MAX_FUNCTIONS)
+    return browser_module(model, events=events, functions=functions, fallback=MAX_FUNCTIONS)
 
 
 def _of_free_inputs(program: Program, free: Mapping[str, int]) -> Program:
@@ -171,10 +172,17 @@ def _data(model: Model, layout: Mapping[str, Any], scene: Scene, adjustables: Se
         "u": group("u"),
         "duration": duration,
         "pace": 1.0 if FASTEST <= duration <= SLOWEST else duration / 10,
+        "section": {"period": _period(layout)},
         "trail": scene.trail or (scene.handles[-1:] if any(angles) else ()),
         "elements": {name: clean(title) for name, title in element_titles(model).items()},
         "model": _file(model, adjustables),
     }
+
+
+def _period(layout: Mapping[str, Any]) -> float:
+    """The time [s] after which a section by time looks again: that of the first parameter that is a speed in rad/s."""
+    speeds = [x["value"] for x in layout["parameters"] if x["unit"] == "rad/s" and x["value"]]
+    return 2 * math.pi / abs(speeds[0]) if speeds else 1.0
 
 
 def _moving(scene: Scene) -> dict[str, Any]:

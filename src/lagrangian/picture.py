@@ -6,7 +6,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -17,6 +17,7 @@ from lagrangian.look.hints import Hints, hints_of
 from lagrangian.look.scenes import scene_of
 from lagrangian.model import Model
 from lagrangian.page.scene import Scene
+from lagrangian.simulate.events import Event
 from lagrangian.viewed import Brief, cut
 from lagrangian.write import check_free, write_file
 from lagrangian.write.scene_svg import scene_svg
@@ -70,21 +71,25 @@ class Picture(Brief):
         """Return the picture as a TikZ picture for LaTeX, which needs only the package ``tikz``."""
         return scene_tikz(self.scene)
 
-    def to_html(self) -> str:
+    def to_html(self, *, events: Sequence[Event] | Event = ()) -> str:
         """Return a page that moves: the schematic, the motion, sliders, plots and the derivation in one HTML file.
 
-        It needs neither a network nor Python. Raises `RunError` for a system that a browser cannot integrate, such as
-        one with dry friction, and if a parameter has no value.
+        ``events``, made by `lagrangian.event`, are found in its motion, with their resets, as in `simulate`. It needs
+        neither a network nor Python. Raises `RunError` for a system that a browser cannot integrate, such as one with
+        dry friction, and if a parameter has no value.
         """
         from lagrangian.live import live_page
 
-        return live_page(self.model, self.scene, self.program)
+        return live_page(self.model, self.scene, self.program, events)
 
-    def save(self, path: str | os.PathLike[str], *, overwrite: bool = True) -> Path:
+    def save(
+        self, path: str | os.PathLike[str], *, overwrite: bool = True, events: Sequence[Event] | Event = ()
+    ) -> Path:
         """Write the picture to a file and return its path; the ending chooses the format.
 
         ``.svg`` and ``.tex`` (TikZ) are the schematic; ``.html`` is a page with the motion, sliders, plots and the
-        derivation. Raises `Error` for another ending, and for ``.html`` as `to_html` does.
+        derivation, and with the ``events`` of `to_html`. Raises `Error` for another ending, and for ``.html`` as
+        `to_html` does.
         """
         ending = Path(path).suffix.lower()
         check_free(path, overwrite=overwrite)
@@ -93,7 +98,7 @@ class Picture(Brief):
         if ending == ".tex":
             return write_file(path, scene_tikz(self.scene, document=True))
         if ending == ".html":
-            return write_file(path, self.to_html())
+            return write_file(path, self.to_html(events=events))
         raise Error(
             f"a picture cannot be written as '{ending or Path(path).name}'",
             fix="choose a name that ends in .svg, .tex or .html",

@@ -1,5 +1,5 @@
 "use strict";
-// States that satisfy constraints; the page and its worker share this.
+// States that satisfy constraints or have a given energy; the page and its worker share this.
 
 /**
  * The state nearest to x that satisfies all constraints: Newton steps on positions, then one on velocities.
@@ -21,4 +21,25 @@ function consistent(functions, x, p, u, t, machine, velocities = true) {
     for (let i = 0; i < n; i++) y[i] += change[i];
   }
   return y.every(Number.isFinite) ? y.slice(0, n) : Float64Array.from(x);
+}
+
+/** T + V of a state at t = 0. */
+function energyOf(functions, x, p, u) {
+  const [, , T, V] = functions.power(x, p, u, 0, new Float64Array(4));
+  return T + V;
+}
+
+/**
+ * Give a state the energy that is asked, by one of its rates, the larger of two; null if no rate does. T + V is a v² + b v + c.
+ * @param {number} rate  the number of this rate among the states
+ */
+function energetic(functions, x, p, u, rate, energy) {
+  const of = (v) => {
+    x[rate] = v;
+    return energyOf(functions, x, p, u);
+  };
+  const c = of(0), up = of(1), down = of(-1), a = (up + down) / 2 - c, b = (up - down) / 2, square = b * b - 4 * a * (c - energy);
+  if (!(square >= 0) || !(a > 0)) return null;
+  x[rate] = (-b + Math.sqrt(square)) / (2 * a);
+  return x;
 }

@@ -23,10 +23,8 @@ function colourOf(x, [low, high], round) {
 class StartMap {
   width = 384;
   height = 288;
-  id = 0;
   /** What is computed, once anything is. */
   asked = null;
-  worker = null;
   picture = document.createElement("canvas");
 
   /**
@@ -34,30 +32,17 @@ class StartMap {
    */
   constructor(parts) {
     Object.assign(this, parts);
+    this.background = new Background((found) => this.take(found), this.told);
     [this.picture.width, this.picture.height] = [this.width, this.height];
-  }
-
-  /** The worker runs the page's own scripts. */
-  open() {
-    const text = ["engine", "shared", "worker"].map((name) => element(name).textContent).join("\n");
-    const made = new Worker(URL.createObjectURL(new Blob([text], { type: "text/javascript" })));
-    made.addEventListener("message", (event) => event.data.id === this.id && this.take(event.data));
-    made.addEventListener("error", (event) => this.told(`The map cannot be computed: ${event.message}`));
-    return made;
   }
 
   /** Begin a new map; what was being computed is dropped. */
   draw() {
-    this.worker ??= this.open();
-    this.asked = { ...this.job(), id: ++this.id, width: this.width, height: this.height };
+    this.asked = { ...this.job(), width: this.width, height: this.height };
     this.range = [Infinity, -Infinity];
     [this.began, this.started] = [performance.now(), 0];
-    this.worker.postMessage(this.asked);
+    this.background.ask({ ...this.asked, kind: "map" });
     this.told("Computing …");
-  }
-
-  stop() {
-    this.worker?.postMessage({ id: ++this.id });
   }
 
   /** Rows of the map have come. */
@@ -122,7 +107,7 @@ class StartMap {
  * @param {Sliders} sliders
  */
 function offerMap(state, sliders) {
-  const { set, data } = state, details = element("map").querySelector("details"), canvas = element("map-canvas");
+  const { set, data } = state, canvas = element("map-canvas");
   const chosen = (id) => Number(element(`map-${id}`).value);
   const axis = (id) => {
     const n = chosen(id), { range } = sliders.starts()[n];
@@ -134,14 +119,6 @@ function offerMap(state, sliders) {
     angle: (n) => state.angle(n),
     told: (words) => (element("map-told").textContent = words),
   });
-  let soon = 0;
-  const redraw = () => {
-    clearTimeout(soon);
-    if (details.open) soon = setTimeout(() => map.draw(), 40);
-    else map.stop();
-  };
-  details.addEventListener("toggle", redraw);
-  for (const id of ["x", "y", "of", "end"]) on(`map-${id}`, "change", redraw);
   const pick = (event) => {
     if (!map.asked) return;
     const { across, up } = map.asked, [a, b] = map.at(event);
@@ -152,5 +129,5 @@ function offerMap(state, sliders) {
   };
   canvas.addEventListener("pointerdown", pick);
   canvas.addEventListener("pointermove", (event) => event.buttons && pick(event));
-  return redraw;
+  return whileOpen("map", ["map-x", "map-y", "map-of", "map-end"], () => map.draw(), () => map.background.stop());
 }

@@ -12,7 +12,8 @@
   // without the functions that close loops nothing can be dragged
   new Dragging(motion, player, sliders, data.constrained && !physics.functions.approach ? [] : scene.handles);
   lightEachOther(state);
-  sliders.changed = offerMap(state, sliders);
+  const studies = [offerMap, offerSweep, offerSection].map((offer) => offer(state, sliders));
+  sliders.changed = () => studies.forEach((redraw) => redraw());
   graphs.listen(player);
   offerTrail(state);
   offerSaving(state, address);

@@ -36,11 +36,18 @@ SCRIPTS = (
     "sliders.js",
     "dragging.js",
     "lighting.js",
+    "background.js",
     "map.js",
+    "sweep.js",
+    "section.js",
     "saving.js",
     "page.js",
 )
 """The scripts of the page itself, in this order: those that define, then the one that starts the page."""
+
+
+WORKER = ("worker.js", "work_map.js", "work_sweep.js", "work_section.js")
+"""The scripts of the page's workers."""
 
 
 @dataclass(frozen=True)
@@ -135,11 +142,29 @@ def page_html(contents: PageContents) -> str:
         phase_across=_choice("phase-x", "horizontal axis", states, 0),
         packed=packed(_parts(contents).encode()),
         unpack=_script("unpack.js"),
+        **_studies(contents, states, coordinates),
         map_of=_choice("map-of", "what is coloured", coordinates, 0),
         map_across=_choice("map-x", "from left to right", states, 0),
         map_up=_choice("map-y", "upward", states, 1 if len(states) > 1 else 0),
         map_end=f"{float(contents.data['duration']) / 4:.3g}",
     )
+
+
+def _studies(contents: PageContents, states: Sequence[Adjustable], coordinates: Sequence[Adjustable]) -> dict[str, str]:
+    """The choices of the sweep and of the section: at first the second coordinate and its rate where the first is 0."""
+    nq, duration = len(coordinates), float(contents.data["duration"])
+    parameters = [a for a in contents.adjustables if a.group == "p"]
+    shown = min(1, nq - 1)
+    where = _choice("section-where", "section", coordinates, 0 if nq > 1 else -1)
+    stroboscope = f'<option value="-1"{"" if nq > 1 else " selected"}>time, again and again</option>'
+    return {
+        "sweep_of": _choice("sweep-of", "parameter", parameters, 0),
+        "sweep_state": _choice("sweep-state", "what is shown", states, 0),
+        "sweep_end": f"{duration / 2:.3g}",
+        "section_where": where.replace("</select>", f"{stroboscope}</select>"),
+        "section_across": _choice("section-x", "from left to right", states, shown),
+        "section_up": _choice("section-y", "upward", states, min(nq + shown, len(states) - 1)),
+    }
 
 
 def _parts(contents: PageContents) -> str:
@@ -153,7 +178,7 @@ def _parts(contents: PageContents) -> str:
         ("data", embedded(contents.data), "application/json"),
         ("engine", contents.solver.script(), script),
         ("shared", _script("closing.js"), script),
-        ("worker", _script("worker.js"), plain),
+        ("worker", "\n".join(map(_script, WORKER)), plain),
         ("page", "\n".join(map(_script, SCRIPTS)), script),
     ]
     return json.dumps(parts, ensure_ascii=False)

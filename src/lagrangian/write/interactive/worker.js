@@ -1,49 +1,34 @@
 "use strict";
-// In a worker: the same run from very many starts, coarse first, then finer, until something else is asked.
+// In a worker: very many runs, coarse first, then finer, until something else is asked.
+
+/** What can be asked, by kind: (job, solver, tell) → nothing; `tell` sends results, and says whether they are wanted. */
+const jobs = {};
+
+/** How long [ms] a job computes before messages that have arrived are read. */
+const BUSY = 15;
 
 (function work() {
   const loading = physics.solver();
-  let current = 0, solver = /** @type {any} */ (null);
+  let current = 0;
 
-  /** Wait until messages that have arrived are read. */
-  const pause = () => new Promise((go) => setTimeout(go, 0));
-
-  async function draw(job) {
-    solver = await loading;
-    const { id, x, p, u, across, up, end, which, width, height, machine } = job, size = x.length;
-    for (let coarse = 16; coarse >= 1; coarse /= 2) {
-      const columns = Math.ceil(width / coarse), rows = Math.ceil(height / coarse), some = Math.max(1, Math.floor(1500 / columns));
-      for (let row = 0; row < rows; row += some) {
-        const count = columns * Math.min(some, rows - row), states = new Float64Array(count * size);
-        for (let k = 0; k < count; k++) {
-          const start = Float64Array.from(x), i = k % columns, j = row + Math.floor(k / columns);
-          start[across.state] = across.low + ((i + 0.5) / columns) * (across.high - across.low);
-          start[up.state] = up.high - ((j + 0.5) / rows) * (up.high - up.low);
-          states.set(physics.functions.approach ? consistent(physics.functions, start, p, u, 0, machine) : start, k * size);
-        }
-        const found = many(states, count, p, u, end), values = new Float64Array(count);
-        for (let k = 0; k < count; k++) values[k] = found.status[k] < 0 ? NaN : found.final[k * size + which];
-        postMessage({ id, columns, rows, row, values, finest: coarse === 1 });
-        await pause();
-        if (current !== id) return;
+  addEventListener("message", async ({ data: job }) => {
+    current = job.id;
+    if (!job.kind) return;
+    const solver = await loading;
+    let since = performance.now();
+    const tell = async (found) => {
+      postMessage({ ...found, id: job.id });
+      if (performance.now() - since > BUSY) {
+        await new Promise((go) => setTimeout(go, 0));
+        since = performance.now();
       }
-    }
-  }
-
-  /** Runs side by side; where there is no WebAssembly, one after another. */
-  function many(states, count, p, u, end) {
-    if (solver.many) return solver.many({ states, count, params: p, inputs: u, t0: 0, t1: end, rtol: 1e-5, atol: 1e-8, maxSteps: 20000, seconds: 5 });
-    const size = states.length / count, final = new Float64Array(states.length), status = new Array(count);
-    for (let k = 0; k < count; k++) {
-      const found = solver.solve({ state: states.slice(k * size, (k + 1) * size), params: p, inputs: u, t0: 0, t1: end, samples: 2, step: end / 500 });
-      final.set(found.final, k * size);
-      status[k] = found.status;
-    }
-    return { final, status };
-  }
-
-  addEventListener("message", (event) => {
-    current = event.data.id;
-    if (event.data.x) draw(event.data);
+      return current === job.id;
+    };
+    if (current === job.id) jobs[job.kind](job, solver, tell);
   });
 })();
+
+/** A start that satisfies the constraints, if there are any. */
+function startOf(x, p, u, machine) {
+  return physics.functions.approach ? consistent(physics.functions, x, p, u, 0, machine) : x;
+}

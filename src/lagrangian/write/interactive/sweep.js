@@ -1,0 +1,78 @@
+"use strict";
+// The sweep: one state over time, for many values of a parameter at once.
+
+/** @param {PageState} state */
+class Sweep {
+  plot = new Plot(element("sweep-canvas"));
+  /** The runs that have come, by their place between the ends of the range. */
+  runs = new Map();
+  asked = null;
+  due = false;
+
+  constructor(state, told) {
+    Object.assign(this, { state, told });
+    this.background = new Background((found) => this.take(found), told);
+  }
+
+  /** Begin anew with a range of a parameter. */
+  draw(job) {
+    this.asked = job;
+    this.runs.clear();
+    this.began = performance.now();
+    this.background.ask({ ...job, kind: "sweep" });
+  }
+
+  take({ share, values, count, whole }) {
+    this.runs.set(share, { values, whole });
+    const ended = [...this.runs.values()].filter((run) => !run.whole).length;
+    this.told(`${count} runs in ${((performance.now() - this.began) / 1000).toFixed(1)} s${ended ? `, ${ended} of them end early` : ""}`);
+    if (this.due) return;
+    this.due = true;
+    requestAnimationFrame(() => this.show());
+  }
+
+  show() {
+    this.due = false;
+    if (!this.asked) return;
+    const { plot, state } = this, { end, samples } = this.asked, dark = matchMedia("(prefers-color-scheme: dark)").matches;
+    let [low, high] = [Infinity, -Infinity];
+    for (const { values } of this.runs.values()) for (const x of values) [low, high] = [Math.min(low, x), Math.max(high, x)];
+    plot.begin([0, end], limits(low, high), state.colours);
+    const [first, last] = dark ? [0.25, 1] : [0, 0.85]; // what stands out from the paper
+    plot.context.globalAlpha = this.runs.size > 40 ? 0.55 : 0.9;
+    for (const [share, { values }] of [...this.runs].sort(([a], [b]) => a - b)) {
+      const [r, g, b] = colourOf(first + share * (last - first), [0, 1], false);
+      if (values.length > 1) plot.line(0, values.length - 1, (i) => (i / (samples - 1)) * end, (i) => values[i], `rgb(${r} ${g} ${b})`, []);
+    }
+    plot.context.globalAlpha = 1;
+  }
+}
+
+/**
+ * Put the sweep on the page. Returns what draws it again.
+ * @param {PageState} state
+ * @param {Sliders} sliders
+ */
+function offerSweep(state, sliders) {
+  const { data, set } = state, told = (words) => (element("sweep-told").textContent = words), sweep = new Sweep(state, told);
+  element("sweep").hidden = !data.p.names.length;
+  if (!data.p.names.length) return () => {};
+  const chosen = () => Number(element("sweep-of").value);
+  /** The range is that of the parameter's slider; it begins around the value. */
+  const choose = () => {
+    const { range, unit } = sliders.rows.find(({ group, index }) => group === "p" && index === chosen()), value = set.p[chosen()];
+    for (const [id, at] of [["sweep-low", 0.7 * value], ["sweep-high", 1.3 * value]]) {
+      Object.assign(element(id), { min: range.min, max: range.max, value: String(at) });
+    }
+    element("sweep-unit").textContent = unit;
+  };
+  const draw = () => {
+    const [low, high] = ["sweep-low", "sweep-high"].map((id) => Number(element(id).value)), end = numberIn("sweep-end");
+    element("sweep-range").textContent = `${digits(low)} … ${digits(high)}`;
+    if (!(end > 0)) return told("The time must be greater than 0.");
+    sweep.draw({ x: set.x, p: set.p, u: set.u, parameter: chosen(), low, high, which: Number(element("sweep-state").value), end, samples: 321, machine: data.machine });
+  };
+  choose();
+  on("sweep-of", "change", choose);
+  return whileOpen("sweep", ["sweep-of", "sweep-low", "sweep-high", "sweep-state", "sweep-end"], draw, () => sweep.background.stop());
+}
