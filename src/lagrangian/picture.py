@@ -16,11 +16,15 @@ from lagrangian.graph import Program
 from lagrangian.look.hints import Hints, hints_of
 from lagrangian.look.scenes import scene_of
 from lagrangian.model import Model
+from lagrangian.page.palette import DARK, LIGHT
+from lagrangian.page.placing import on_bodies, places
 from lagrangian.page.scene import Scene
 from lagrangian.simulate.events import Event
+from lagrangian.view.still import LabelLetters, Lettering, scene_png
 from lagrangian.viewed import Brief, cut
 from lagrangian.write import check_free, write_file
-from lagrangian.write.scene_svg import scene_svg
+from lagrangian.write.scene_letters import SMALLER, pieces, scene_letters
+from lagrangian.write.scene_svg import LOWER, MIDDLE, scene_svg
 from lagrangian.write.scene_tikz import scene_tikz
 
 
@@ -71,6 +75,14 @@ class Picture(Brief):
         """Return the picture as a TikZ picture for LaTeX, which needs only the package ``tikz``."""
         return scene_tikz(self.scene)
 
+    def to_png(self, *, dark: bool = False, scale: float = 2.0) -> bytes:
+        """Return the picture as a PNG image; ``scale``: its pixels for each pixel of the picture.
+
+        Raises `MissingExtra`, which says what to install, without matplotlib.
+        """
+        scene = self.scene
+        return scene_png(scene, _lettering(scene), palette=DARK if dark else LIGHT, scale=scale)
+
     def to_html(self, *, events: Sequence[Event] | Event = ()) -> str:
         """Return a page that moves: the schematic, the motion, sliders, plots and the derivation in one HTML file.
 
@@ -87,9 +99,9 @@ class Picture(Brief):
     ) -> Path:
         """Write the picture to a file and return its path; the ending chooses the format.
 
-        ``.svg`` and ``.tex`` (TikZ) are the schematic; ``.html`` is a page with the motion, sliders, plots and the
-        derivation, and with the ``events`` of `to_html`. Raises `Error` for another ending, and for ``.html`` as
-        `to_html` does.
+        ``.svg``, ``.tex`` (TikZ) and ``.png`` (which needs matplotlib) are the schematic; ``.html`` is a page with the
+        motion, sliders, plots and the derivation, and with the ``events`` of `to_html`. Raises `Error` for another
+        ending, and otherwise as `to_html` and `to_png` do.
         """
         ending = Path(path).suffix.lower()
         check_free(path, overwrite=overwrite)
@@ -97,11 +109,13 @@ class Picture(Brief):
             return write_file(path, self.to_svg())
         if ending == ".tex":
             return write_file(path, scene_tikz(self.scene, document=True))
+        if ending == ".png":
+            return write_file(path, self.to_png())
         if ending == ".html":
             return write_file(path, self.to_html(events=events))
         raise Error(
             f"a picture cannot be written as '{ending or Path(path).name}'",
-            fix="choose a name that ends in .svg, .tex or .html",
+            fix="choose a name that ends in .svg, .tex, .png or .html",
             code="E802",
         )
 
@@ -113,6 +127,19 @@ class Picture(Brief):
 
     def __repr__(self) -> str:
         return cut(f"<Picture of '{self.model.name}'>")
+
+
+def _lettering(scene: Scene) -> list[LabelLetters]:
+    """The labels of a scene as pieces of text with their sizes and places."""
+    table, found = scene_letters(scene), list[LabelLetters]()
+    for label, on_body in on_bodies(scene, places(scene)):
+        size, (x, y) = label.size, label.centre
+        listed = [
+            Lettering(piece.text, piece.italic, SMALLER[piece.lowered] * size, LOWER[piece.lowered] * size)
+            for piece in pieces(label, table)
+        ]
+        found.append(LabelLetters((x, y + MIDDLE * size), label.role, listed, on_body))
+    return found
 
 
 def picture(model: Model, **hints: Any) -> Picture:

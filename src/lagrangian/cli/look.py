@@ -40,7 +40,7 @@ def look(
             "--output",
             "-o",
             metavar="PATH",
-            help="Write the page (.html) or the schematic (.svg, .tex) to this file instead of opening the page.",
+            help="Write the page (.html) or the schematic (.svg, .tex, .png) to this file instead of opening the page.",
             show_default=False,
             rich_help_panel=OUTPUT,
         ),
