@@ -54,7 +54,7 @@ def test_the_ending_chooses_it(tmp_path: Any) -> None:
 
 
 def test_without_matplotlib_the_error_says_what_to_install(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(sys.modules, "matplotlib", None)
+    monkeypatch.setitem(sys.modules, "matplotlib.figure", None)
     with pytest.raises(lg.Error, match="matplotlib") as caught:
         picture("pendulum").to_png()
     assert "pip install 'lagrangian[plot]'" in str(caught.value)
