@@ -25,6 +25,8 @@ LARGEST = 1e100
 """Larger values are not compared: their squares would overflow."""
 MOST_FACTORS = 6
 MOST_ALIGNMENTS = 24
+SCALED = 0.7
+"""What it costs to take an equation for a scaled one: a factor in one term is likelier than in all others."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,6 +42,13 @@ class Alignment:
     doubt: float
     solved: bool = False
     exprs: tuple[sp.Expr, ...] = ()
+
+    def scale(self, truth: Reference, j: int) -> sp.Expr | None:
+        """The factor of the answer's equation ``j``, if its form is found."""
+        first = float(self.factors[j][0])
+        if abs(first) == 1 and (self.factors[j] == first).all():
+            return sp.Integer(int(first))
+        return self.factor(truth, self.rows[j])
 
     def factor(self, truth: Reference, i: int) -> sp.Expr | None:
         """The factor of the answer's equation that corresponds to the right row ``i``, if its form is found."""
@@ -72,7 +81,12 @@ def alignments(truth: Reference, exprs: Sequence[sp.Expr], P: Array) -> list[Ali
     found.sort(key=lambda a: a.doubt)
     found = found[:MOST_ALIGNMENTS]
     found += _unsolved(truth, exprs, P)
-    return [replace(a, doubt=0.25 * place) for place, a in enumerate(found)]
+    return [replace(a, doubt=0.25 * place + (0.0 if _plain(a) else SCALED)) for place, a in enumerate(found)]
+
+
+def _plain(alignment: Alignment) -> bool:
+    """Whether the equations are not scaled, but for their signs."""
+    return not alignment.solved and bool((np.abs(alignment.factors) == 1).all())
 
 
 def _orders(table: Sequence[Sequence[list[tuple[Array, float]]]], k: int, n: int) -> list[tuple[int, ...]]:
@@ -149,12 +163,18 @@ def _agreed(truth: Reference, mine: Array, right: Array) -> list[tuple[Array, fl
     return sorted(found, key=lambda x: -x[1])[:MOST_FACTORS]
 
 
+def solved(truth: Reference, exprs: Sequence[sp.Expr]) -> bool:
+    """Whether there are as many equations as coordinates, more than one, and each holds one acceleration alone."""
+    accelerations = [c.acceleration for c in truth.model.coordinates]
+    return len(exprs) == truth.n > 1 and all(sum(e.has(a) for a in accelerations) == 1 for e in exprs)
+
+
 def _unsolved(truth: Reference, exprs: Sequence[sp.Expr], P: Array) -> list[Alignment]:
     """Rows solved for one acceleration each, multiplied back by the right mass matrix."""
     n, size = truth.n, truth.states.size
-    accelerations = [c.acceleration for c in truth.model.coordinates]
-    if len(exprs) != n or n == 1 or any(sum(e.has(a) for a in accelerations) != 1 for e in exprs):
+    if not solved(truth, exprs):
         return []
+    accelerations = [c.acceleration for c in truth.model.coordinates]
     mine = CompiledExpressions(exprs).slopes(accelerations).at(truth.states).reshape(n, n, size).transpose(2, 0, 1)
     right = slopes_of(truth)[:, :n].transpose(2, 0, 1)
     try:

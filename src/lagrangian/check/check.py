@@ -73,10 +73,31 @@ def _valued(
     verdict = _read(truth, spelled(truth, written), hint, explain=explain and not numbers)
     if verdict.right or verdict.status is Status.INCOMPLETE or not values:
         return verdict
+    sure = values if numbers or not _names_values(truth, written) else {p: v for p, v in values.items() if v != 1}
+    if sure:
+        put = _put(truth, lines, sure, hint, explain=explain and numbers)
+        if put.right or numbers:
+            return put
+    if len(sure) < len(values) and _put(truth, lines, values, hint, explain=False).right:
+        ones = [x for p in sorted(values.keys() - sure.keys(), key=str) for x in (p, " = 1, ")]
+        note = text("It would be right with ", *ones[:-1], " = 1; a letter that is given must be written.")
+        return replace(verdict, notes=(*verdict.notes, note))
+    return verdict
+
+
+def _put(
+    truth: Reference, lines: Sequence[AnsweredLine], values: Mapping[sp.Symbol, sp.Expr], hint: int, *, explain: bool
+) -> Verdict:
+    """The verdict on an answer with values substituted for the parameters that it does not name."""
     valued = truth.with_values(values)
     read = _with_values(values, spelled(valued, filled(valued, lines), numbers=False))
-    put = _read(valued, read, hint, explain=explain and numbers)
-    return put if put.right or numbers else verdict
+    return _read(valued, read, hint, explain=explain)
+
+
+def _names_values(truth: Reference, lines: Sequence[AnsweredLine]) -> bool:
+    """Whether an answer names a parameter that has a value: one whose value is 1 may then just have been forgotten."""
+    used = {x for line in lines for x in line.expr.free_symbols}
+    return any(p in used for p in truth.model.values)
 
 
 def _read(truth: Reference, spelling: Spelling, hint: int, *, explain: bool) -> Verdict:

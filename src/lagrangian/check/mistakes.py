@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import sympy as sp
@@ -11,19 +11,20 @@ import sympy as sp
 from lagrangian.check import say
 from lagrangian.check.align import LARGEST, Alignment, alignments
 from lagrangian.check.changes.pool import Pool, Possible, pool_of
+from lagrangian.check.own_terms import own_term, own_terms
 from lagrangian.check.reference import Reference
 from lagrangian.check.search import (
     EXOTIC,
     Explanation,
-    OwnTerm,
     Told,
     Vectors,
     by_rows,
     first_explained,
-    own_terms,
     singles,
 )
+from lagrangian.check.solved import denominator, solved_from_wrong
 from lagrangian.check.stated import dissipation, index_of
+from lagrangian.check.undivided import undivided
 from lagrangian.check.verdict import AnsweredLine, Finding, Mistake, Status
 from lagrangian.derive.sampling import SETS, Array, CompiledExpressions
 from lagrangian.page.formula import text
@@ -31,9 +32,10 @@ from lagrangian.page.formula import text
 ENERGIES = ("T", "V", "L", "Xi")
 SPARED = 1.0
 """What an explanation gains for every other wrong line that it explains as well."""
+ALIKE = 0.05
+"""The largest difference of the costs of one mistake in two elements of which neither is the likelier."""
 UNNATURAL = 8.0
 """An explanation that costs more may be true, but is no help."""
-OWN_TERM = text("Go through ∂L/∂ξ̇, its d/dt and ∂L/∂ξ once more, term by term, and mind the signs.")
 
 
 @dataclass(frozen=True)
@@ -58,18 +60,26 @@ def mistakes(truth: Reference, lines: Sequence[AnsweredLine], findings: Sequence
         return NamedMistakes()
     pool = pool_of(truth)
     against = _contradicted(pool, [f.line for f in findings if f.status.right])
-    groups = [_of_line(pool, line) for line in wrong if line.kind != "equation"]
-    groups = [_likely(found, against) or found for found in groups]  # a slip in one of two lines shows in that one
-    combined = {id(f.line) for f in findings if f.status.right and f.coordinate is None}  # sums of right equations
-    equations = [line for line in lines if line.kind == "equation" and id(line) not in combined]
+    groups: list[list[Explanation]] = []
     own: list[Mistake] = []
+    for line in wrong:
+        if line.kind != "equation":
+            found, more = _of_line(pool, line)
+            groups.append(_likely(found, against) or found)  # a slip in one of two lines shows in that one
+            own += more
+    equations = [line for line in lines if line.kind == "equation"]
+    combined = {id(f.line) for f in findings if f.status.right and f.coordinate is None}  # sums of right equations
     if any(w.kind == "equation" for w in wrong):
-        found, own = _of_equations(pool, equations)
-        groups.append(_likely(found, against))
+        against |= _changing(pool, [line.expr for line in equations if id(line) in combined])
+        own_rows = [line for line in equations if id(line) not in combined]
+        found, more = _of_equations(pool, own_rows, equations, against)
+        groups.append(found)
+        own += more
     groups = [g for g in groups if g]
     if not groups:
         return NamedMistakes(tuple(own))
-    return _named(pool, groups)
+    named = _named(pool, groups)
+    return replace(named, told=(*named.told, *_once(own, named.told)), certain=named.certain and not own)
 
 
 def _likely(found: Sequence[Explanation], against: set[int]) -> list[Explanation]:
@@ -77,38 +87,61 @@ def _likely(found: Sequence[Explanation], against: set[int]) -> list[Explanation
     return [e for e in found if not any(id(t.mistake) in against for t in e.told)]
 
 
-def _of_equations(pool: Pool, equations: Sequence[AnsweredLine]) -> tuple[list[Explanation], list[Mistake]]:
-    """The explanations of all equations together; if there is none, the terms of their own that are wrong."""
-    exprs = [line.expr for line in equations]
+def _changing(pool: Pool, exprs: Sequence[sp.Expr]) -> set[int]:
+    """The possible mistakes that would change sums of right equations, by their identity."""
+    truth = pool.truth
+    found: set[int] = set()
+    W = truth.W.reshape(truth.n, -1, truth.states.motions).transpose(1, 2, 0)
+    for p in CompiledExpressions(exprs).at(truth.states) if exprs else ():
+        blocks = p.reshape(len(W), -1)
+        if not np.isfinite(blocks).all():
+            continue
+        factors = np.array([np.linalg.lstsq(w, b, rcond=None)[0] for w, b in zip(W, blocks, strict=True)])
+        if np.abs(np.einsum("bmi,bi->bm", W, factors) - blocks).max() > 1e-7 * np.abs(blocks).max():
+            continue
+        changed = np.einsum("cis,si->cs", pool.W, np.repeat(factors, truth.states.motions, axis=0))
+        found.update(id(pool.all[k]) for k in np.flatnonzero(np.abs(changed).max(axis=1) > 1e-7 * np.abs(p).max()))
+    return found
+
+
+def _stated(pool: Pool, lines: Sequence[AnsweredLine]) -> tuple[list[sp.Expr], Array]:
+    """The equations that have a value and say something, left minus right, with their values."""
+    exprs = [line.expr for line in lines]
     P = CompiledExpressions(exprs).at(pool.truth.states)
     says = np.isfinite(P).all(axis=1) & (np.abs(P).max(axis=1, initial=0.0) > 1e-12)
-    exprs, P = [e for e, s in zip(exprs, says, strict=True) if s], P[says]
+    return [e for e, s in zip(exprs, says, strict=True) if s], P[says]
+
+
+def _of_equations(
+    pool: Pool, equations: Sequence[AnsweredLine], every: Sequence[AnsweredLine], against: set[int]
+) -> tuple[list[Explanation], list[Mistake]]:
+    """The explanations of all equations together; if there is none, the terms of their own that are wrong.
+
+    ``every`` are all equations of the answer, with those that are sums of right ones; ``against`` are the mistakes that
+    a right line speaks against.
+    """
+    exprs, P = _stated(pool, equations)
     found = alignments(pool.truth, exprs, P)
     if any(np.abs(a.rest).max() <= 1e-9 for a in found):
         return [], []  # what is wrong is too small to be seen in doubles
-    explained = first_explained(pool, found) or by_rows(pool, found)
-    if explained and len(explained[0].told) == 1 and explained[0].cost <= EXOTIC:
+    explained = _likely(first_explained(pool, found), against) or _likely(by_rows(pool, found), against)
+    cost = explained[0].cost if explained else np.inf
+    forgotten = undivided(pool, found)
+    if forgotten is not None and forgotten.cost < cost:
+        return [], [forgotten.mistake(pool.truth)]
+    if explained and len(explained[0].told) == 1 and cost <= EXOTIC:
         return explained, []
+    solved, Q = _stated(pool, every)
+    more = _likely(solved_from_wrong(pool, solved, Q), against)
+    if more and more[0].cost < cost:
+        explained, cost = more, more[0].cost
     own = own_terms(pool, exprs, P, found)
-    if own is not None and (not explained or sum(t.cost for t in own) + len(own) - 1 < explained[0].cost):
-        return [], [_own_term(pool.truth, t) for t in own]
-    return [e for e in explained if e.cost <= UNNATURAL], []
-
-
-def _own_term(truth: Reference, own: OwnTerm) -> Mistake:
-    """A term of the answer's own that is too much or missing, or has the wrong sign or number."""
-    name, t = truth.model.coordinates[own.row].name, own.term
-    brief = text("A term of the equation of ", truth.derivation.coordinates[own.row], " is not right.")
-    if own.forgotten:
-        what = text("The term ", t, " is missing: there is one like it with sine and cosine the other way round.")
-        return Mistake("term_forgotten", what, OWN_TERM, 5, None, name, brief)
-    if own.times == 2:
-        return Mistake("sign_of_a_term", text("The term ", t, " has the wrong sign."), OWN_TERM, 5, None, name, brief)
-    if own.times == 1:
-        return Mistake("term_too_much", text("The term ", t, " is too much."), OWN_TERM, 5, None, name, brief)
-    number = 1 - sp.Rational(own.times.numerator, own.times.denominator)
-    what = text("The term ", t, " should be ", number * t, ".")
-    return Mistake("factor_of_a_term", what, OWN_TERM, 5, None, name, brief)
+    if own is not None and sum(t.cost for t in own) + len(own) - 1 < cost:
+        return [], [t.mistake(pool.truth) for t in own]
+    explained = [e for e in explained if e.cost <= UNNATURAL]
+    if not explained and (under := denominator(pool.truth, solved, Q)) is not None:
+        return [], [under]
+    return explained, []
 
 
 def _contradicted(pool: Pool, right: Sequence[AnsweredLine]) -> set[int]:
@@ -140,35 +173,37 @@ def _changes(pool: Pool, kind: str, i: int | None) -> Array:
     return pool.kept(("line", kind), lambda: _without_constant(pool.V if kind == "V" else pool.L))
 
 
-def _of_line(pool: Pool, line: AnsweredLine) -> list[Explanation]:
-    """The mistakes that lead to a line of T*, V, L, D or a Ξ, the most likely first."""
+def _of_line(pool: Pool, line: AnsweredLine) -> tuple[list[Explanation], list[Mistake]]:
+    """The mistakes that lead to a line of T*, V, L, D or a Ξ, the most likely first, or a term of its own."""
     truth, i = pool.truth, index_of(pool.truth, line.name)
     if line.kind == "D":
         rest = line.expr - dissipation(truth)
         values = CompiledExpressions([-rest.diff(c.rate) for c in truth.model.coordinates]).at(truth.states)
-        return (
-            singles(pool, pool.Xi, values)
-            if np.isfinite(values).all() and 1e-12 < np.abs(values).max() < LARGEST
-            else []
-        )
+        seen = np.isfinite(values).all() and 1e-12 < np.abs(values).max() < LARGEST
+        return singles(pool, pool.Xi, values) if seen else [], []
     if line.kind not in ENERGIES or (line.kind == "Xi" and i is None):
-        return []
+        return [], []
     right = {"T": truth.T, "V": truth.V, "L": truth.L}.get(line.kind)
     if right is None:
         assert i is not None
         right = truth.Xi[i]
     values = CompiledExpressions([line.expr - right]).at(truth.states)[0]
     if not np.isfinite(values).all() or np.abs(values).max() > LARGEST:
-        return []
+        return [], []
+    whole = values
     change = _changes(pool, line.kind, i)
     values = _without_constant(values) if line.kind in ("V", "L") else values
     if np.abs(values).max() <= 1e-12:
-        return []
+        return [], []
     found = singles(pool, change, values)
-    if found:
-        return found
+    if found and found[0].cost <= EXOTIC:
+        return found, []
     vectors: Vectors = pool.kept(("vectors", line.kind, i), lambda: Vectors(pool, change))
-    return vectors.pairs(values)
+    found = sorted([*found, *vectors.pairs(values)], key=lambda e: e.cost)
+    own = own_term(pool, line.expr, whole, line.kind, i)
+    if own is not None and (not found or own.cost < found[0].cost):
+        return [], [own.mistake(truth)]
+    return [e for e in found if e.cost <= UNNATURAL], []
 
 
 def _without_constant(values: Array) -> Array:
@@ -205,11 +240,35 @@ def _named(pool: Pool, groups: Sequence[Sequence[Explanation]]) -> NamedMistakes
             others = [e for e in others if reach(e) < reach(best) + SPARED]
         chosen += [(t, best.under) for t in best.told if key(t) not in known]
     every = [_mistake(pool.truth, t, a) for t, a in chosen]
+    if len(every) == 1:
+        every[0], others = _of_either(pool.truth, every[0], chosen[0][0], others)
     told = tuple(
         {(m.name, m.element, m.coordinate) if m.element else str(m.what): m for m in reversed(every)}.values()
     )[::-1]
-    more = _once([_mistake(pool.truth, t, e.under) for e in others[:8] for t in e.told], told)
+    listed = [_mistake(pool.truth, t, e.under) for e in others[:8] for t in e.told]
+    ledgers = {e.title: e.ledger for e in pool.truth.model.elements}
+    own = ledgers.get(told[0].element or "")  # in which of two bodies, two springs, … it is may be open
+    elsewhere = [m for m in listed[:3] if own and m.element != told[0].element and ledgers.get(m.element or "") == own]
+    more = _once([*elsewhere, *listed], told)
     return NamedMistakes(told, more[:5], len(chosen) == 1 and chosen[0][0].mistake.wrong is not None)
+
+
+def _of_either(
+    truth: Reference, mistake: Mistake, told: Told, others: Sequence[Explanation]
+) -> tuple[Mistake, list[Explanation]]:
+    """The mistake in either of the elements in which it would lead to the same answer, and the others that are left."""
+    rivals = [e for e in others if e.cost <= told.cost + ALIKE + (e.under.doubt if e.under is not None else 0.0)]
+    for e in rivals:
+        rival = _mistake(truth, e.told[0], e.under)
+        if rival.name == mistake.name and rival.element not in (None, mistake.element) and mistake.element:
+            what = text("Either this: ", *mistake.what.parts, " Or this: ", *rival.what.parts)
+            element = f"{mistake.element} or {rival.element}"
+            brief = None
+            if mistake.brief is not None and rival.brief is not None:
+                brief = text("Either this: ", *mistake.brief.parts, " Or this: ", *rival.brief.parts)
+            either = replace(mistake, what=what, brief=brief, element=element)
+            return either, [x for x in others if x is not e]
+    return mistake, list(others)
 
 
 def _mistake(truth: Reference, told: Told, under: Alignment | None) -> Mistake:

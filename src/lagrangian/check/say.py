@@ -110,6 +110,9 @@ KINDS: Mapping[str, KindWords] = {
     "factor_missing": KindWords(
         "In {site}, the factor {written} is missing.", "A factor is missing in {brief}.", UNITS
     ),
+    "divided_by": KindWords(
+        "In {site} there is the divisor {written} too much.", "There is a divisor too much in {brief}.", UNITS
+    ),
     "piece_left_out": KindWords("In {site}, the piece {right} is left out.", "Something is left out in {brief}.", WAY),
     "piece_sign": KindWords(
         "In {site}, the piece {right} has the wrong sign.", "There is a wrong sign in {brief}.", WAY
@@ -151,7 +154,7 @@ KINDS: Mapping[str, KindWords] = {
         "Take the moment of inertia that is given, about the centre of mass.",
     ),
     "inertia_added": KindWords(
-        "In {site} there is {right} too much as an inertia for {written}.",
+        "In {site} there is {times}{right} too much as an inertia for {written}.",
         "There is an inertia too much in {brief}.",
         "Each body has ½mv² of its centre of mass and ½Jω² about it, and nothing else.",
     ),
@@ -168,7 +171,7 @@ KINDS: Mapping[str, KindWords] = {
         "∂/∂ξ of ½kδ² is kδ·∂δ/∂ξ.",
     ),
     "share_repeated": KindWords(
-        "{Site} is too much: it belongs to the equation of {right} alone.", "{Brief} is not right.", WHY_PART[6]
+        "{Site} is too much: that share belongs to the equation of {right}.", "{Brief} is not right.", WHY_PART[6]
     ),
     "share_moved": KindWords("{Site} belongs to the equation of {right}.", "{Brief} is not right.", WHY_PART[6]),
     "no_arm": KindWords("In {site}, the factor {right} is missing.", "{Brief} comes with a wrong factor.", WHY_PART[6]),
@@ -198,8 +201,8 @@ def mistake(change: LocalChange, times: Fraction, model: Model, factor: sp.Expr 
     if change.kind in KINDS:
         kind = KINDS[change.kind]
         what, brief, why, name = (
-            _filled(kind.what, change, site),
-            _filled(kind.brief, change, site),
+            _filled(kind.what, change, site, times),
+            _filled(kind.brief, change, site, times),
             kind.why,
             change.kind,
         )
@@ -257,9 +260,11 @@ def _only(site: Site) -> Words:
     return (" in one equation alone",) if site.only is not None else ()
 
 
-def _filled(words: str, change: LocalChange, site: Site) -> Text:
+def _filled(words: str, change: LocalChange, site: Site, times: Fraction) -> Text:
     """A template with its gaps filled."""
+    number = sp.Rational(times.numerator, times.denominator)
     values: dict[str, Words] = {
+        "times": () if number == 1 else (number, "·"),
         "site": (*site.words, *_only(site)),
         "brief": (*site.brief, *_only(site)),
         "Site": _capital(site.words),

@@ -5,18 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import combinations
-from typing import Any, cast
 
 import numpy as np
-import sympy as sp
 
-from lagrangian import bounded
-from lagrangian.check.align import LARGEST, Alignment
+from lagrangian.check.align import Alignment
 from lagrangian.check.changes.pool import Pool, Possible
-from lagrangian.check.misconceptions.base import partner, put
-from lagrangian.check.reference import terms
-from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.derive.sampling import Array
 
 SMALL = 1e-7
 """The relative size below which a rest counts as explained."""
@@ -29,8 +23,6 @@ EXOTIC = 4.6
 """A single mistake that costs more may be less likely than two plain ones."""
 MOST_FOR_PAIRS = 6
 """The number of correspondences of rows for which pairs are tried."""
-MOST_OWN_TERMS = 250
-"""The largest number of terms of an expanded equation that are examined."""
 PAIR = 1.0
 """What a pair costs besides its two mistakes."""
 
@@ -67,15 +59,15 @@ def singles(pool: Pool, E: Array, rest: Array, under: Alignment | None = None) -
         times = float(flat[k] @ r) / float(norms[k]) ** 2
         if np.abs(times * flat[k] - r).max() > SMALL * size:
             continue
-        number = _number(times)
-        if number is None or (not pool.free[k] and number != 1):
+        number = simple_number(times)
+        if number is None or not pool.all[k].takes(number):
             continue
         cost = float(pool.cost[k]) + _oddness(number, pool.all[k])
         found.append(Explanation((Told(pool.all[k], number, cost),), cost + doubt, under))
     return sorted(found, key=lambda e: e.cost)
 
 
-def _number(times: float) -> Fraction | None:
+def simple_number(times: float) -> Fraction | None:
     """The simple fraction that a multiple is; None if it is none."""
     number = Fraction(times).limit_denominator(LARGEST_DENOMINATOR)
     near = abs(float(number) - times) <= SMALL * max(1.0, abs(times))
@@ -84,7 +76,7 @@ def _number(times: float) -> Fraction | None:
 
 def _oddness(number: Fraction, possible: Possible) -> float:
     """What a multiple costs: leaving out is likelier than another sign, and that than another number."""
-    if possible.change is None or not possible.free or number == -1:
+    if possible.change is None or not possible.change.free or number == -1:
         return 0.0
     if number == -2:
         return possible.change.site.sign_cost
@@ -99,7 +91,7 @@ class Vectors:
     def __init__(self, pool: Pool, E: Array) -> None:
         flat = E.reshape(len(E), -1)
         felt = np.flatnonzero(np.abs(flat).max(axis=1, initial=0.0) > 1e-12)
-        every = [(int(k), t) for k in felt for t in (PLAIN if pool.free[k] else (Fraction(1),))]
+        every = [(int(k), t) for k in felt for t in PLAIN if pool.all[k].takes(t)]
         cost = np.array([float(pool.cost[k]) + _oddness(t, pool.all[k]) for k, t in every])
         index, times = np.array([k for k, _ in every], int), np.array([float(t) for _, t in every])
         probe = np.random.default_rng(11).standard_normal((3, flat.shape[1]))
@@ -177,72 +169,13 @@ def by_rows(pool: Pool, found: Sequence[Alignment]) -> list[Explanation]:
             told += [t for t in one[0].told if all(t.mistake is not x.mistake for x in told)]
             total += one[0].cost
         else:
-            if told:
+            if told and reproduces(pool, told, a):
                 return [Explanation(tuple(told), total, a)]
     return []
 
 
-@dataclass(frozen=True)
-class OwnTerm:
-    """A term of the answer's equation ``row`` that is wrong: P − ``times``·term is right.
-
-    1: too much, 2: wrong sign. ``forgotten``: it is not there, but one like it with sine and cosine exchanged is.
-    """
-
-    row: int
-    term: sp.Expr
-    times: Fraction
-    forgotten: bool = False
-
-    @property
-    def cost(self) -> float:
-        """How unlikely it is that this was the mistake."""
-        return 2.6 if self.forgotten or self.times in (1, 2) else 3.2
-
-
-def own_terms(pool: Pool, exprs: Sequence[sp.Expr], P: Array, found: Sequence[Alignment]) -> list[OwnTerm] | None:
-    """For every wrong row a term of its own that is wrong; None unless all wrong rows are explained so."""
-    for a in found:
-        if a.solved:
-            continue
-        told: list[OwnTerm] = []
-        for j, i in enumerate(a.rows):
-            if np.abs(a.rest[j]).max() <= 1e-9 * (1 + np.abs(pool.truth.W[i]).max()):
-                continue
-            one = _own(pool, exprs[j], a.rest[j] * a.factors[j], i)
-            if one is None:
-                break
-            told.append(one)
-        else:
-            if told:
-                return told
-    return None
-
-
-def _own(pool: Pool, expr: sp.Expr, rest: Array, row: int) -> OwnTerm | None:
-    if terms(expr) > MOST_OWN_TERMS:
-        return None
-    parts = (*sp.Add.make_args(expr), *sp.Add.make_args(bounded.expand(expr)))
-    written = [t for t in dict.fromkeys(parts) if t not in (0, expr)]
-    siblings = list(dict.fromkeys(s for t in written for s in _siblings(t)))[: 4 * MOST_OWN_TERMS]
-    every = [*written, *siblings]
-    values = CompiledExpressions(every).at(pool.truth.states) if every else np.zeros((0, rest.size))
-    for k, (t, v) in enumerate(zip(every, values, strict=True)):
-        if not np.isfinite(v).all() or not 1e-12 < np.abs(v).max() < LARGEST:
-            continue
-        c = float(v @ rest) / float(v @ v)
-        if np.abs(rest - c * v).max() > SMALL * np.abs(rest).max() or (number := _number(c)) is None:
-            continue
-        if k < len(written):
-            return OwnTerm(row, t, number)
-        if number in (1, -1):
-            return OwnTerm(row, cast("sp.Expr", -number * t), number, forgotten=True)
-    return None
-
-
-def _siblings(t: sp.Expr) -> Iterator[sp.Expr]:
-    """The term with sine and cosine exchanged in one place, or in two."""
-    turned: list[Any] = sorted(t.atoms(sp.sin, sp.cos), key=sp.default_sort_key)
-    for count in (1, 2):
-        for chosen in combinations(turned, count):
-            yield put(t, {f: partner(f) for f in chosen})
+def reproduces(pool: Pool, told: Sequence[Told], under: Alignment) -> bool:
+    """Whether mistakes, made in the right equations, lead to all equations of the answer."""
+    place = pool.places
+    made = sum(float(t.times) * pool.W[place[id(t.mistake)]][list(under.rows)] for t in told)
+    return bool((np.abs(made - under.rest) <= SMALL * (np.abs(under.rest).max() + np.abs(pool.truth.W).max())).all())

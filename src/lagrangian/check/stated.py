@@ -89,14 +89,22 @@ def judge(truth: Reference, lines: Sequence[AnsweredLine], k: int, turn: sp.Matr
         return Finding(line, Status.RIGHT, None, coordinate)
     if (note := harmless(truth, line, rest)) is not None:
         return Finding(line, Status.EQUIVALENT, note, coordinate)
-    elsewhere = any(other.kind in ("D", "equation") for other in lines)
-    if line.kind == "Xi" and i is not None and elsewhere and zero_everywhere(truth, line.expr - driving(truth, i)):
-        note = text("without the dampers, which then stand on the left of the equation or in ", Name("D"))
+    if line.kind == "Xi" and i is not None and _damped_elsewhere(truth, line, i, lines):
+        note = text("without the dampers, which stand on the left of the equation or in ", Name("D"))
         return Finding(line, Status.EQUIVALENT, note, coordinate)
     follows = _follows(truth, line, i, given(truth, lines[:k]))
     mine, own = truth.form(line.expr), truth.form(right)
     differing = differences(truth, mine, own, sp.S.One, i) if mine is not None and own is not None else ()
     return Finding(line, Status.WRONG, None, coordinate, differing, follows)
+
+
+def _damped_elsewhere(truth: Reference, line: AnsweredLine, i: int, lines: Sequence[AnsweredLine]) -> bool:
+    """Whether a line is Ξ_i without the dampers, and D or an equation of the answer holds what they add."""
+    damping = truth.Xi[i] - (drive := driving(truth, i))
+    held = damping.free_symbols | damping.atoms(sp.Derivative)
+    others = [x.expr for x in lines if x.kind in ("D", "equation")]
+    said = any(held <= x.free_symbols | x.atoms(sp.Derivative) for x in others)
+    return said and zero_everywhere(truth, line.expr - drive)
 
 
 def index_of(truth: Reference, name: str | None) -> int | None:

@@ -79,7 +79,8 @@ class LocalChange:
     """One local change: its kind (see `say`), its cost, the site, and ``effect``, what is added at the site.
 
     ``free``: any multiple of it is a mistake of the same kind: −1 times leaves it out, −2 times gives it the other
-    sign. ``right`` and ``written`` are what belongs there and what stands there instead, for the words.
+    sign. If there is nothing at the site that could be left out, only ``positive`` multiples are. ``right`` and
+    ``written`` are what belongs there and what stands there instead, for the words.
     """
 
     kind: str
@@ -87,5 +88,6 @@ class LocalChange:
     site: Site
     effect: Site
     free: bool = False
+    positive: bool = False
     right: sp.Expr | Words | None = None
     written: sp.Expr | Words | None = None

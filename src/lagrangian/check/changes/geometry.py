@@ -187,6 +187,7 @@ class GeometryChanges:
                         site=site,
                         effect=site,
                         free=True,
+                        positive=True,
                         right=mass * length**2,
                         written=v,
                     )

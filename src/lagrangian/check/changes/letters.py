@@ -61,12 +61,13 @@ class LetterChanges:
                 continue
             if kind == "lost" and 0 in exponents:
                 kind = "lost_in_a_sum"
+            times = exponents - {0} if kind.startswith("lost") else set[int]()
             yield LocalChange(
                 kind=kind,
                 cost=cost + site.surcharge,
                 site=site,
                 effect=effect,
-                right=right,
+                right=right ** times.pop() if len(times) == 1 else right,
                 written=self.ring.expr(instead),
             )
         yield from self._powers(site, atom, exponents)
@@ -89,7 +90,8 @@ class LetterChanges:
             def twice(s: Sum) -> Sum:
                 return {_with(m, atom, 2) if dict(m).get(atom) == 1 else m: c for m, c in s.items()}
 
-            yield from self._of(site, twice, "squared", 2.4, atom)
+            turned = isinstance(self.ring.atoms[atom], (sp.sin, sp.cos))
+            yield from self._of(site, twice, "squared", 3.4 if turned else 2.4, atom)
 
     def _of(self, site: Site, change: object, kind: str, cost: float, atom: int) -> Iterator[LocalChange]:
         effect = site.changed(change)  # type: ignore[arg-type]
@@ -258,12 +260,13 @@ class LetterChanges:
         for site in places:
             for p in self.lengths:
                 a = self.ring.atom(p)
+                held = min(dict(m).get(a, 0) for s in site.sums() for m in s)
                 for e in (1, -1, 2, -2):
                     extra: Sum = {((a, e),): Fraction(1)}
                     effect = site.changed(lambda s, by=extra: times(s, by))
                     cost = (1.9 if abs(e) == 1 else 2.2) + site.surcharge
                     yield LocalChange(
-                        kind="foreign_factor" if e > 0 else "factor_missing",
+                        kind="foreign_factor" if e > 0 else "factor_missing" if held >= -e else "divided_by",
                         cost=cost,
                         site=site,
                         effect=effect,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import lru_cache
 from typing import Any
 
@@ -37,10 +38,11 @@ class Possible:
     change: LocalChange | None = None
     wrong: Wrong | None = None
 
-    @property
-    def free(self) -> bool:
-        """Whether any multiple of it is a mistake of the same kind."""
-        return self.change is not None and self.change.free
+    def takes(self, number: Fraction) -> bool:
+        """Whether a multiple of it is a mistake of the same kind."""
+        if self.change is None or not self.change.free:
+            return number == 1
+        return number > 0 or not self.change.positive
 
 
 class Pool:
@@ -63,7 +65,6 @@ class Pool:
         self.L = np.concatenate([T - V, e.L])
         self.Xi = np.concatenate([Xi, e.Xi])
         self.cost = np.array([p.cost for p in self.all])
-        self.free = np.array([p.free for p in self.all], dtype=bool)
         self._kept: dict[object, Any] = {}
         count = len(self.all)
         largest = [np.abs(x.reshape(count, -1)).max(axis=1) for x in (self.W, self.T, self.V, self.Xi)]
@@ -72,14 +73,18 @@ class Pool:
     def _choose(self, chosen: Any) -> None:
         """Keep some of the possible mistakes."""
         self.all = [p for p, keep in zip(self.all, chosen, strict=True) if keep]
-        for name in ("W", "T", "V", "L", "Xi", "cost", "free"):
+        for name in ("W", "T", "V", "L", "Xi", "cost"):
             setattr(self, name, getattr(self, name)[chosen])
 
     def key(self, possible: Possible, times: float) -> tuple[float, ...]:
         """What a multiple of a possible mistake does to the equations, as a few numbers: equal ones do the same."""
         seen = self.kept("seen", self._seen)
-        place = self.kept("place", lambda: {id(p): k for k, p in enumerate(self.all)})
-        return tuple(float(x) for x in np.round(times * seen[place[id(possible)]], 7))
+        return tuple(float(x) for x in np.round(times * seen[self.places[id(possible)]], 7))
+
+    @property
+    def places(self) -> dict[int, int]:
+        """The place of every possible mistake in the arrays, by its identity."""
+        return self.kept("places", lambda: {id(p): k for k, p in enumerate(self.all)})
 
     def _seen(self) -> Array:
         """The effects on rows, energies and forces along three random directions."""

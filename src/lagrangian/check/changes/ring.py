@@ -132,7 +132,7 @@ class SumRing:
 
     def _folded(self, value: Sum, m: Monomial) -> bool:
         """Fold one monomial with its partner, in place; False if it has none."""
-        turned = [(a, e, self.atoms[a]) for a, e in m if isinstance(self.atoms[a], (sp.sin, sp.cos)) and e > 0]
+        turned = [(a, e, self.atoms[a]) for a, e in m if self.turns(a) and e > 0]
         for k, (a, e, f) in enumerate(turned):
             for b, _, g in turned[k if e > 1 else k + 1 :]:
                 partners = self._partner(f), self._partner(g)
@@ -156,6 +156,10 @@ class SumRing:
     def moving(self, value: Sum) -> Sum:
         """The monomials that contain something that changes with time."""
         return {m: c for m, c in value.items() if any(self.changes(a) for a, _ in m)}
+
+    def turns(self, atom: int) -> bool:
+        """Whether an atom is a sine or cosine."""
+        return isinstance(self.atoms[atom], (sp.sin, sp.cos))
 
     def changes(self, atom: int) -> bool:
         """Whether an atom changes with time."""

@@ -291,7 +291,7 @@ class Sites:
         for m, c in row.items():
             key = tuple((a, e) for a, e in m if self.ring.changes(a))
             groups.setdefault(key, {})[m] = c
-            element = self._element_of(i, m)
+            element = self.element_of(i, m)
             words: Words = ("the term ", self.ring.expr({m: c}), " of the equation of ", self.of.q[i])
             own: Words = (
                 (f"a term that comes from {element.title} in the equation of ", self.of.q[i])
@@ -301,7 +301,7 @@ class Sites:
             yield Site(
                 words=words,
                 brief=own,
-                step=self._step_of(element),
+                step=self.step_of(element),
                 element=element,
                 coordinate=i,
                 rows={i: {m: c}},
@@ -320,12 +320,12 @@ class Sites:
                     surcharge=0.5,
                 )
 
-    def _element_of(self, i: int, m: Monomial) -> Element | None:
+    def element_of(self, i: int, m: Monomial) -> Element | None:
         """The element from which a term comes, if it is one."""
         found = [e for e, rows in self.element_rows.items() if m in rows.get(i, {})]
         return found[0] if len(found) == 1 else None
 
-    def _step_of(self, element: Element | None) -> int:
+    def step_of(self, element: Element | None) -> int:
         """The step in which a single term of an equation is made."""
         return 6 if element is not None and element.ledger == "Ξ" else 5
 

@@ -35,10 +35,10 @@ class WorkChanges:
                 yield from self._rates(element)
 
     def _moved(self, element: Element, shares: dict[int, Sum]) -> Iterator[LocalChange]:
-        """A share repeated in another equation, or moved there."""
+        """A share repeated in an equation that has none, or moved there."""
         for i, x in shares.items():
             for j in range(self.sites.n):
-                if j == i:
+                if j in shares:
                     continue
                 words: Words = (f"what {element.title} adds to the equation of ", self.s.q[j])
                 site = Site(words=words, brief=words, step=6, element=element, coordinate=j)
@@ -46,10 +46,8 @@ class WorkChanges:
                     added = scaled(x, number)
                     cost = 2.0 if number == 1 else 2.2
                     yield _change("share_repeated", cost, site, {j: added}, (self.s.q[i],), None)
-                    if j not in shares:
-                        yield _change(
-                            "share_moved", cost - 0.4, site, {j: added, i: scaled(x, -1)}, (self.s.q[i],), None
-                        )
+                    moved = {j: added, i: scaled(x, -1)}
+                    yield _change("share_moved", cost - 0.4, site, moved, (self.s.q[i],), None)
 
     def _arms(self, element: Element, shares: dict[int, Sum]) -> Iterator[LocalChange]:
         """Every effort of an element times every arm, in place of its share or where it has none."""
@@ -59,8 +57,8 @@ class WorkChanges:
                 site = Site(words=words, brief=words, step=6, element=element, coordinate=i)
                 for arm in self.arms:
                     for sign in (1, -1):
-                        if sign * arm == right[i]:
-                            continue
+                        if sign * arm == right[i] or (right[i].is_number and right[i] != 0 and arm == 1):
+                            continue  # another sign or number is a change of the whole
                         extra = self._sum(effort * (sign * arm - right[i]))
                         if extra:
                             cost = (
@@ -68,7 +66,7 @@ class WorkChanges:
                                 + (0.0 if sign == 1 else 0.2)
                                 + (0.0 if right[i] != 0 else 0.3)
                             )
-                            kind = "arm_added" if right[i] == 0 else "no_arm" if arm == 1 else "arm"
+                            kind = "arm_added" if right[i] == 0 else "no_arm" if sign * arm == 1 else "arm"
                             yield _change(kind, cost, site, {i: extra}, right[i], sign * arm)
 
     def _efforts(self, element: Element, shares: dict[int, Sum]) -> Iterator[tuple[sp.Expr, list[sp.Expr]]]:

@@ -22,7 +22,9 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
         shares = s.shares(element)
         efforts = list(dict.fromkeys(s.expand(a.effort) for a in s.actions(element)))
         for i, x in shares.items():
-            others = [sign * e for e in efforts for sign in (1, -1)]
+            others = (
+                [sign * e for e in efforts for sign in (1, -1)] if x not in (*efforts, *(-e for e in efforts)) else []
+            )
             others += [y for p in letters(x) if not (y := bounded.expand(x / p)).has(p)]
             for other in dict.fromkeys(others):
                 if other != x:

@@ -1,0 +1,222 @@
+"""Finds a term of the answer's own that is wrong: too much, with the wrong sign or number, or in place of another."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import combinations
+from typing import Any, cast
+
+import numpy as np
+import sympy as sp
+from sympy.core.function import AppliedUndef
+
+from lagrangian import bounded
+from lagrangian.check.align import LARGEST, Alignment
+from lagrangian.check.changes.pool import Pool
+from lagrangian.check.misconceptions.base import partner, put
+from lagrangian.check.reference import Reference, terms
+from lagrangian.check.right_terms import RightTerm, right_terms
+from lagrangian.check.search import SMALL, simple_number
+from lagrangian.check.verdict import Mistake
+from lagrangian.derive.sampling import Array, CompiledExpressions
+from lagrangian.model import Element
+from lagrangian.page.formula import Text, text
+
+MOST_OWN_TERMS = 250
+"""The largest number of terms of an expanded line that are examined."""
+WHY = text("Go through ∂L/∂ξ̇, its d/dt and ∂L/∂ξ once more, term by term, and mind the signs.")
+WHY_IDLE = text(
+    "Change this coordinate alone and hold the others: if the element neither moves nor deforms, it does no work."
+)
+WHY_ENERGY = text("Go through this line once more, term by term, and compare the units of its terms.")
+
+
+@dataclass(frozen=True, eq=False)
+class OwnTerm:
+    """A term of the answer's line that is wrong: the line less ``times``·term is right.
+
+    1: too much, 2: wrong sign. ``forgotten``: it is not there, but one like it with sine and cosine exchanged is.
+    ``instead``: what belongs in its place, in the scale of the answer, and the right term that this is. ``idle``: the
+    element that such a term is of, which adds nothing to this equation. ``row`` is the equation, None for a line that
+    is none.
+    """
+
+    row: int | None
+    term: sp.Expr
+    times: Fraction = Fraction(1)
+    forgotten: bool = False
+    instead: tuple[sp.Expr, RightTerm] | None = None
+    idle: Element | None = None
+
+    @property
+    def cost(self) -> float:
+        """How unlikely it is that this was the mistake."""
+        if self.instead is not None:
+            return 3.0 if _factors(self.term, self.instead[0]) is not None else 3.3
+        return 2.6 if self.forgotten or self.times in (1, 2) else 3.2
+
+    def mistake(self, truth: Reference) -> Mistake:
+        """The mistake in words."""
+        name = truth.model.coordinates[self.row].name if self.row is not None else None
+        where = ("the equation of ", truth.derivation.coordinates[self.row]) if self.row is not None else ("this line",)
+        kind, what = self._said()
+        brief, why = text("A term of ", *where, " is not right."), WHY if self.row is not None else WHY_ENERGY
+        if self.idle is not None:
+            step = {"T*": 2, "V": 3}.get(self.idle.ledger, 6)
+            brief = text(f"{self.idle.title} does not belong in ", *where, ".")
+            return Mistake(kind, what, WHY_IDLE, step, self.idle.title, name, brief)
+        if self.instead is None:
+            return Mistake(kind, what, why, 5 if self.row is not None else 2, None, name, brief)
+        right = self.instead[1]
+        element = right.element.title if right.element is not None else None
+        if element is not None:
+            brief = text(f"A term that comes from {element} in ", *where, " is not right.")
+        return Mistake(kind, what, why, right.step, element, name, brief)
+
+    def _said(self) -> tuple[str, Text]:
+        t = self.term
+        if self.instead is not None:
+            return _replaced(t, self.instead[0])
+        if self.forgotten:
+            like = " is missing: there is one like it with sine and cosine the other way round."
+            return "term_forgotten", text("The term ", t, like)
+        if self.times == 2:
+            return "sign_of_a_term", text("The term ", t, " has the wrong sign.")
+        if self.times == 1:
+            why = () if self.idle is None else (f": {self.idle.title} adds nothing to this equation",)
+            return "term_too_much", text("The term ", t, " is too much", *why, ".")
+        number = 1 - sp.Rational(self.times.numerator, self.times.denominator)
+        return "factor_of_a_term", text("The term ", t, " should be ", number * t, ".")
+
+
+def _replaced(term: sp.Expr, right: sp.Expr) -> tuple[str, Text]:
+    """The name and the words for a term in place of another."""
+    factors = _factors(term, right)
+    if factors is None:
+        return "term_replaced", text("The term ", term, " stands where ", right, " belongs.")
+    more, less = factors
+    held = {f.as_base_exp()[0] for f in sp.Mul.make_args(sp.fraction(right)[0])}
+    if less == 1 and abs(more) != 1:
+        return "foreign_factor", text("In the term ", term, " there is the factor ", more, " too much.")
+    if more == 1:
+        if not any(f.as_base_exp()[0] in held for f in sp.Mul.make_args(less)):
+            return "divided_by", text("In the term ", term, " there is the divisor ", less, " too much.")
+        return "factor_missing", text("In the term ", term, ", the factor ", less, " is missing.")
+    return "factor_of_a_term", text("The term ", term, " should be ", right, ".")
+
+
+def _factors(term: sp.Expr, right: sp.Expr) -> tuple[sp.Expr, sp.Expr] | None:
+    """By which product of letters and numbers a term is too much, and by which too little; None for anything else."""
+    quotient = bounded.cancel(term / right)
+    if not all(
+        f.is_number or ((f.is_Pow or f.is_Symbol) and f.as_base_exp()[0].is_Symbol) for f in sp.Mul.make_args(quotient)
+    ):
+        return None
+    more, less = sp.fraction(quotient)
+    return more, less
+
+
+def own_terms(pool: Pool, exprs: Sequence[sp.Expr], P: Array, found: Sequence[Alignment]) -> list[OwnTerm] | None:
+    """For every wrong row a term of its own that is wrong; None unless all wrong rows are explained so."""
+    for a in found:
+        if a.solved:
+            continue
+        told: list[OwnTerm] = []
+        for j, i in enumerate(a.rows):
+            if np.abs(a.rest[j]).max() <= 1e-9 * (1 + np.abs(pool.truth.W[i]).max()):
+                continue
+            scale = a.scale(pool.truth, j)
+            one = own_term(pool, exprs[j], a.rest[j] * a.factors[j], "equation", i, scale, a.factors[j])
+            if one is None:
+                break
+            told.append(one)
+        else:
+            if told:
+                return told
+    return None
+
+
+def own_term(
+    pool: Pool,
+    expr: sp.Expr,
+    rest: Array,
+    kind: str,
+    i: int | None,
+    scale: sp.Expr | None = sp.S.One,
+    factor: Array | float = 1.0,
+) -> OwnTerm | None:
+    """The term of a line that is wrong, if it is one: ``rest`` (S) is what the line has too much.
+
+    The right line times ``factor``, as an expression ``scale`` if that is known, is the one that it is compared with.
+    """
+    if terms(expr) > MOST_OWN_TERMS:
+        return None
+    row = i if kind == "equation" else None
+    parts = (*sp.Add.make_args(expr), *sp.Add.make_args(bounded.expand(expr)))
+    written = [t for t in dict.fromkeys(parts) if t != 0]
+    own = [t for t in written if t != expr]
+    siblings = list(dict.fromkeys(s for t in own for s in _siblings(t)))[: 4 * MOST_OWN_TERMS]
+    values = CompiledExpressions([*written, *siblings]).at(pool.truth.states)
+    usable = np.isfinite(values).all(axis=1) & (np.abs(values).max(axis=1) > 1e-12)
+    usable &= np.abs(values).max(axis=1) < LARGEST
+    for k in np.flatnonzero(usable):
+        t, v = [*written, *siblings][k], values[k]
+        c = float(v @ rest) / float(v @ v)
+        if t == expr or np.abs(rest - c * v).max() > SMALL * np.abs(rest).max() or (number := simple_number(c)) is None:
+            continue
+        if k < len(written):
+            return OwnTerm(row, t, number, idle=_idle(pool, row, t) if number == 1 else None)
+        if number in (1, -1):
+            return OwnTerm(row, cast("sp.Expr", -number * t), forgotten=True)
+    if scale is None:
+        return None
+    listed = [(t, v) for t, v, use in zip(written, values, usable, strict=False) if use]
+    return _in_place(pool, listed, rest, kind, i, scale, factor)
+
+
+def _in_place(
+    pool: Pool,
+    written: Sequence[tuple[sp.Expr, Array]],
+    rest: Array,
+    kind: str,
+    i: int | None,
+    scale: sp.Expr,
+    factor: Array | float,
+) -> OwnTerm | None:
+    """A term of the answer that stands where a right one belongs: rest = term − scale·right."""
+    right = right_terms(pool, kind, i)
+    scaled = right.values * factor
+    best: OwnTerm | None = None
+    for t, v in written:
+        missing = np.abs(scaled - (v - rest)).max(axis=1)
+        for k in np.flatnonzero(missing <= SMALL * (np.abs(rest).max() + np.abs(v).max())):
+            belongs = (
+                bounded.expand(scale * right.terms[k].expr) if scale not in (1, -1) else scale * right.terms[k].expr
+            )
+            found = OwnTerm(i if kind == "equation" else None, t, instead=(belongs, right.terms[k]))
+            if best is None or found.cost < best.cost:
+                best = found
+    return best
+
+
+def _idle(pool: Pool, row: int | None, term: sp.Expr) -> Element | None:
+    """The one element with whose letters a term is written, if it adds nothing to an equation."""
+    letters = cast("set[sp.Expr]", term.free_symbols | term.atoms(AppliedUndef))
+    atoms = {pool.sites.ring.atom(x) for x in letters}
+    found: list[Element] = []
+    for element, rows in pool.sites.element_rows.items():
+        held = [{a for a, _ in m if not pool.sites.ring.turns(a)} for x in rows.values() for m in x]
+        own = set[int].intersection(*held) if held else set[int]()
+        if row is not None and own and own <= atoms and not rows.get(row):
+            found.append(element)
+    return found[0] if len(found) == 1 else None
+
+
+def _siblings(t: sp.Expr) -> Iterator[sp.Expr]:
+    """The term with sine and cosine exchanged in one place, or in two."""
+    turned: list[Any] = sorted(t.atoms(sp.sin, sp.cos), key=sp.default_sort_key)
+    for count in (1, 2):
+        for chosen in combinations(turned, count):
+            yield put(t, {f: partner(f) for f in chosen})

@@ -1,0 +1,151 @@
+"""What is told is true of the system and of what was written: divided rows, solved rows, own terms, equal bodies.
+
+The answers are made with SymPy from the right equations, or written by hand.
+"""
+
+from __future__ import annotations
+
+from functools import cache
+
+import pytest
+import sympy as sp
+
+import lagrangian as lg
+from built_in import derivation
+from lagrangian.check.changes.pool import pool_of
+from lagrangian.check.reference import truth_of
+
+SWING = "theta'' + b*L_b^2/(m*L_m^2)*theta' + k*L_k^2/(m*L_m^2)*theta + g/L_m*sin(theta) = tau"
+CART = "(M+m)*x'' + b*x' + m*l*cos(theta)*theta'' - m*l*sin(theta)*theta'^2"
+POLE = "(J+m*l^2)*theta'' + m*l*cos(theta)*x'' - m*g*l*sin(theta)"
+
+
+def told(name: str, answer: object) -> tuple[str, str | None, str]:
+    """The name, the element and the words of the one mistake that is told."""
+    verdict = derivation(name).check(answer)
+    assert not verdict.right
+    (mistake,) = verdict.mistakes
+    return mistake.name, mistake.element, str(mistake.what)
+
+
+@pytest.mark.parametrize(
+    ("name", "answer", "element", "ending"),
+    [
+        ("lecture-1", SWING, "torque 'tau'", "divided by L_m^2*m, but the term tau was not."),
+        ("pendulum", "theta'' + b*theta'/(m*L) + g/L*sin(theta) = 0", "damper 'b'", "b*theta' only by L*m."),
+        ("pendulum", "theta'' + b*theta'/(m*L^2) + m*g*sin(theta) = 0", "gravity 'g'", "sin(theta) only by L."),
+        (
+            "cart-pole",
+            f"{CART} = F\ntheta'' + m*l*cos(theta)*x''/(J + m*l^2) - m*g*l*sin(theta) = 0",
+            "gravity 'g'",
+            "divided by J + l^2*m, but the term g*l*m*sin(theta) was not.",
+        ),
+    ],
+)
+def test_a_term_that_was_not_divided_as_the_others(name: str, answer: str, element: str, ending: str) -> None:
+    kind, blamed, words = told(name, answer)
+    assert kind == "not_divided" and blamed == element
+    assert words.endswith(ending), words
+
+
+BLOCK = "m*s'' + m*cos(alpha)*x'' - m*g*sin(alpha) = 0"
+
+
+@cache
+def cart_pole() -> tuple[sp.Matrix, sp.Matrix, dict[str, sp.Symbol], list[sp.Expr]]:
+    """M and h of M ξ̈ = h, the parameters by name, and the accelerations."""
+    d = derivation("cart-pole")
+    a = [c.acceleration for c in d.model.coordinates]
+    still = dict.fromkeys(a, sp.S.Zero)
+    h = sp.Matrix([e.rhs - e.lhs.xreplace(still) for e in d.equations])
+    return sp.Matrix(d.mass_matrix), h, {p.name: p.symbol for p in d.model.parameters}, a
+
+
+def check_solved(accelerations: sp.Matrix) -> tuple[str, str | None, str]:
+    return told("cart-pole", [sp.Eq(a, x) for a, x in zip(cart_pole()[3], accelerations, strict=True)])
+
+
+def test_a_wrong_element_of_the_mass_matrix_in_solved_rows() -> None:
+    M, h, p, _ = cart_pole()
+    wrong = M.copy()
+    wrong[0, 0] = p["M"]
+    kind, element, _ = check_solved(wrong.LUsolve(h))
+    assert kind == "child_mass_forgotten" and element == "rigid body 'pole'"
+
+
+def test_a_wrong_denominator_of_solved_rows() -> None:
+    M, h, p, _ = cart_pole()
+    numerators, det = M.adjugate() * h, M.det()
+    kind, _, words = check_solved(numerators / (det + p["J"] * p["m"]))
+    assert kind == "denominator" and "common denominator" in words
+    kind, _, words = check_solved(sp.Matrix([numerators[0] / (2 * det), numerators[1] / det]))
+    assert kind == "denominator" and "x'' is 1/2 times" in words
+
+
+def test_an_arm_or_a_weight_in_an_equation_where_it_does_no_work() -> None:
+    kind, element, _ = told("cart-pole", f"{CART} = F\n{POLE} = F*l*cos(theta)")
+    assert kind == "arm_added" and element == "force 'F'"
+    kind, element, words = told("wedge", f"(M+m)*x'' + m*cos(alpha)*s'' - m*g*sin(alpha) = F\n{BLOCK}")
+    assert element == "gravity 'g'" and "adds nothing to this equation" in words
+
+
+def test_a_factor_that_is_not_there_is_not_missing() -> None:
+    kind, _, words = told("lecture-1", SWING.replace("= tau", "= tau/(m*L_m^2)/k"))
+    assert kind == "divided_by" and "divisor k too much" in words
+    kind, _, words = told("lecture-3b", "(m1+m2)*x1'' + m2*x2r'' = 0\nm2*(x1''+x2r'') + k*x2r = F/k")
+    assert kind == "divided_by" and "divisor k too much" in words
+
+
+def test_a_term_in_place_of_another() -> None:
+    kind, element, words = told("lecture-3b", "(m1+m2)*x1'' + m2*x2r'' = 0\nm2*(x1''+x2r'') + m1*x1' = F")
+    assert kind == "term_replaced" and element == "spring 'k'"
+    assert words == "The term m1*x1' stands where k*x2r belongs."
+    kind, _, words = told("cart-pole", "T = (M+m)*x'^2/(2*m) + m*l*cos(theta)*x'*theta' + (J+m*l^2)*theta'^2/2")
+    assert kind == "divided_by" and "divisor m" in words
+
+
+def test_of_two_equal_bodies_either_is_named() -> None:
+    s = lg.System("two pulleys")
+    x = s.coordinates("x")
+    m, M, R = s.parameters("m M R")
+    for name in ("upper", "lower"):
+        frame = s.frame(x / R)
+        s.rigid_body(M, M * R**2 / 2, at=frame.origin, frame=frame, name=name)
+    s.particle(m, at=s.origin + (0, -x))
+    s.gravity(direction=(0, -1))
+    (mistake,) = s.derive().check("T = m*x'^2/2 + M*x'^2/4").mistakes
+    assert mistake.element == "rigid body 'upper' or rigid body 'lower'"
+
+
+def test_a_force_without_the_dampers_is_right_only_if_they_stand_elsewhere() -> None:
+    pendulum = derivation("pendulum")
+    rest = "m*L^2*theta'' + m*g*L*sin(theta)"
+    assert pendulum.check(f"Xi_theta = 0\n{rest} + b*theta' = 0").right
+    assert pendulum.check("D = b*theta'^2/2\nXi_theta = 0").right
+    verdict = pendulum.check(f"Xi_theta = 0\n{rest} = 0")
+    assert not verdict.findings[0].status.right
+    assert verdict.mistake is not None and verdict.mistake.element == "damper 'b'"
+
+
+def test_a_letter_whose_value_is_1_must_be_written_if_others_are() -> None:
+    pendulum = derivation("pendulum")
+    verdict = pendulum.check("V = -g*L*cos(theta)")
+    assert not verdict.right and verdict.mistake is not None and verdict.mistake.name == "lost"
+    assert "would be right with m = 1" in str(verdict.notes[-1])
+    assert pendulum.check("0.25*theta'' + 0.02*theta' + 4.905*sin(theta) = 0").right
+
+
+@pytest.mark.parametrize("name", ["cart-pole", "lecture-1", "elastic-pendulum"])
+def test_what_is_called_missing_belongs_there(name: str) -> None:
+    """Every change that says that a letter is missing or not squared is made where the right equations hold it."""
+    pool = pool_of(truth_of(derivation(name)))
+    ring = pool.sites.ring
+    for possible in pool.all:
+        change = possible.change
+        if change is None or change.kind not in ("lost", "lost_in_a_sum", "not_squared", "factor_missing"):
+            continue
+        (needed,) = ring.of(change.right if change.kind != "factor_missing" else change.written)
+        power = 2 if change.kind == "not_squared" else 1
+        held = [dict(m) for s in change.site.sums() for m in s]
+        some = all if change.kind == "factor_missing" else any
+        assert some(all(m.get(a, 0) * e > 0 and abs(m[a]) >= abs(power * e) for a, e in needed) for m in held)
