@@ -24,6 +24,7 @@ from lagrangian.cli.terminal import (
     OptionalFile,
     Parameters,
     open_system,
+    output_option,
 )
 from lagrangian.cli.wording import in_options
 from lagrangian.errors import Error
@@ -40,14 +41,7 @@ SAMPLES = 2001
 
 MotionFile = Annotated[
     Path | None,
-    typer.Option(
-        "--output",
-        "-o",
-        metavar="PATH",
-        help="The file to write (.svg, .html, .gif, .mp4, .webm); - writes SVG to standard output.",
-        show_default=False,
-        rich_help_panel=OUTPUT,
-    ),
+    output_option("The file to write (.svg, .html, .gif, .mp4, .webm); - writes SVG to standard output."),
 ]
 Trail = Annotated[
     list[str] | None,

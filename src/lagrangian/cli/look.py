@@ -12,7 +12,7 @@ import typer
 from lagrangian.cli.assignments import assignments
 from lagrangian.cli.door import put, say
 from lagrangian.cli.formats import as_json
-from lagrangian.cli.terminal import OUTPUT, Example, Force, Json, OptionalFile, open_system
+from lagrangian.cli.terminal import Example, Force, Json, OptionalFile, open_system, output_option
 
 ListOption = list[str] | None
 
@@ -36,13 +36,8 @@ def look(
     ] = None,
     output: Annotated[
         Path | None,
-        typer.Option(
-            "--output",
-            "-o",
-            metavar="PATH",
-            help="Write the page (.html) or the schematic (.svg, .tex, .png) to this file instead of opening the page.",
-            show_default=False,
-            rich_help_panel=OUTPUT,
+        output_option(
+            "Write the page (.html) or the schematic (.svg, .tex, .png) to this file instead of opening the page."
         ),
     ] = None,
     no_browser: Annotated[

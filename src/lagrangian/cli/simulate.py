@@ -24,6 +24,7 @@ from lagrangian.cli.terminal import (
     Force,
     Initial,
     InputSignals,
+    JsonSummary,
     MaxStep,
     MaxSteps,
     OptionalFile,
@@ -32,6 +33,7 @@ from lagrangian.cli.terminal import (
     Rtol,
     Step,
     open_system,
+    output_option,
 )
 from lagrangian.cli.wording import in_options
 from lagrangian.errors import Error, ModelError, Place
@@ -53,13 +55,7 @@ MAX_BYTES = 64 * MAX_KNOTS
 
 Results = Annotated[
     Path | None,
-    typer.Option(
-        "--output",
-        "-o",
-        metavar="PATH",
-        help="Write the results to this file (.csv, .nc, .parquet, .npz); - writes CSV to standard output.",
-        rich_help_panel=OUTPUT,
-    ),
+    output_option("Write the results to this file (.csv, .nc, .parquet, .npz); - writes CSV to standard output."),
 ]
 Reactions = Annotated[
     list[str] | None,
@@ -76,7 +72,6 @@ Samples = Annotated[
         metavar="N", help="Number of evenly spaced times in the results; 1001 by default.", rich_help_panel=OUTPUT
     ),
 ]
-JsonSummary = Annotated[bool, typer.Option("--json", help="Write the summary as JSON.", rich_help_panel=OUTPUT)]
 Method = Annotated[
     str | None,
     typer.Option(

@@ -23,6 +23,7 @@ from lagrangian.cli.terminal import (
     Fixed,
     Force,
     Initial,
+    JsonSummary,
     MaxStep,
     MaxSteps,
     Parameters,
@@ -30,6 +31,7 @@ from lagrangian.cli.terminal import (
     Rtol,
     Step,
     open_system,
+    output_option,
 )
 from lagrangian.cli.wording import in_options
 from lagrangian.errors import Error
@@ -71,19 +73,12 @@ Draws = Annotated[
 Seed = Annotated[int, typer.Option(metavar="N", help="Seed of the random draws.")]
 Results = Annotated[
     Path | None,
-    typer.Option(
-        "--output",
-        "-o",
-        metavar="PATH",
-        help="Write results to this file (.nc, .csv, .parquet) or .zarr store; - writes CSV to standard output.",
-        rich_help_panel=OUTPUT,
-    ),
+    output_option("Write results to this file (.nc, .csv, .parquet) or .zarr store; - writes CSV to standard output."),
 ]
 Resume = Annotated[
     bool,
     typer.Option("--resume", help="Continue an interrupted sweep in its .zarr store.", rich_help_panel=OUTPUT),
 ]
-JsonSummary = Annotated[bool, typer.Option("--json", help="Write the summary as JSON.", rich_help_panel=OUTPUT)]
 Method = Annotated[str, typer.Option(metavar="NAME", help=f"One of {', '.join(METHODS)}.", rich_help_panel=INTEGRATION)]
 Times = Annotated[
     int,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -24,6 +24,11 @@ def example_names(begun: str) -> list[str]:
     from lagrangian import examples
 
     return [name for name in examples.names() if name.startswith(begun)]
+
+
+def output_option(help: str, metavar: str = "PATH") -> Any:
+    """The option -o of a verb that writes something of its own."""
+    return typer.Option("--output", "-o", metavar=metavar, help=help, show_default=False, rich_help_panel=OUTPUT)
 
 
 File = Annotated[str, typer.Argument(metavar="FILE", help="A model file; - is standard input.", show_default=False)]
@@ -53,16 +58,10 @@ Width = Annotated[
     ),
 ]
 Json = Annotated[bool, typer.Option("--json", help="Write the result as JSON.", rich_help_panel=OUTPUT)]
+JsonSummary = Annotated[bool, typer.Option("--json", help="Write the summary as JSON.", rich_help_panel=OUTPUT)]
 Output = Annotated[
     Path | None,
-    typer.Option(
-        "--output",
-        "-o",
-        metavar="PATH",
-        help="Write to this file instead of standard output.",
-        show_default=False,
-        rich_help_panel=OUTPUT,
-    ),
+    output_option("Write to this file instead of standard output."),
 ]
 Force = Annotated[bool, typer.Option("--force", help="Overwrite an existing file.", rich_help_panel=OUTPUT)]
 Parameters = Annotated[

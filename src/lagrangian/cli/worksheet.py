@@ -12,7 +12,7 @@ import typer
 from lagrangian.cli.door import put, say
 from lagrangian.cli.formats import Format, FormatOption, Notation, NotationOption, as_json
 from lagrangian.cli.progress import status
-from lagrangian.cli.terminal import OUTPUT, Example, Force, Json, OptionalFile, open_system
+from lagrangian.cli.terminal import Example, Force, Json, OptionalFile, open_system, output_option
 from lagrangian.errors import Error
 from lagrangian.worksheet import Worksheet, sheet_files
 from lagrangian.write import check_free
@@ -36,14 +36,7 @@ Seed = Annotated[int, typer.Option(metavar="N", help="Seed of the first variant;
 SolutionOption = Annotated[SolutionLength, typer.Option(help="The whole derivation, or the checklist.")]
 Folder = Annotated[
     Path | None,
-    typer.Option(
-        "--output",
-        "-o",
-        metavar="DIR",
-        help="Write question sheets, solutions and model files into this folder.",
-        show_default=False,
-        rich_help_panel=OUTPUT,
-    ),
+    output_option("Write question sheets, solutions and model files into this folder.", metavar="DIR"),
 ]
 
 
