@@ -89,29 +89,6 @@ def test_unit_vectors_are_seen(vector: tuple[sp.Expr, ...], unit: bool) -> None:
     assert bounded.is_one(sp.Add(*(v**2 for v in vector))) is unit
 
 
-@pytest.mark.parametrize("expr", [sp.cos(a - 2 * b + c), sp.sin(a + b) ** 3 * sp.cos(c - d + e), sp.sin(3 * a) + c])
-def test_angles_written_out_have_no_more_terms_than_predicted(expr: sp.Expr) -> None:
-    found = bounded.expand_angles(expr)
-    assert len(sp.Add.make_args(found)) <= bounded.terms(expr, angles=True)
-    assert found == sp.expand(sp.expand_trig(expr))
-
-
-def test_of_functions_of_functions_only_the_outer_angles_are_written_out() -> None:
-    """SymPy would expand sinh of a cube, and what comes out of it again."""
-    hard = [sp.sinh((a + b + c + d - q) ** 3), sp.sin(a + sp.sin(b + c)), sp.cosh(3 * a + sp.sin(b)), sp.tan(a + b)]
-    for inner in hard:
-        with at_most(20_000):
-            found = bounded.expand_angles(sp.sin(a + b) * inner)
-        assert found == sp.sin(a) * sp.cos(b) * inner + sp.cos(a) * sp.sin(b) * inner
-
-
-def test_the_cosine_of_a_long_sum_stays() -> None:
-    """cos(a₀ + … + a₂₃) has 2²³ terms."""
-    chain = sp.cos(sp.Add(*sp.symbols("a0:24")))
-    assert bounded.terms(chain, angles=True) == 2**24
-    assert bounded.expand_angles(chain) is chain
-
-
 def test_an_expansion_proves_nothing_about_maxima() -> None:
     kinked = sp.Max(*[n * q + (n - 2) ** 2 * w for n in range(9)], evaluate=False)
     with at_most(5_000):

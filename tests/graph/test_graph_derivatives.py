@@ -14,7 +14,6 @@ from lagrangian.graph import (
     from_sympy,
     gradient,
     hessian,
-    hessian_product,
     jacobian,
     jvp,
     vjp,
@@ -84,11 +83,6 @@ def test_second_derivatives_against_sympy():
         wanted = [exact(sp.diff(f, a, b)) for a in (x, y, z) for b in (x, y, z)]
         got = values(g, [second.get(key, g.zero) for key in keys])
         assert all(abs(a - b) < 1e-14 for a, b in zip(got, wanted, strict=True))
-        direction = [g.const(c) for c in (1.0, -2.0, 0.5)]
-        product = values(g, hessian_product(g, node, inputs, direction))
-        for row in range(3):
-            expected = wanted[3 * row] - 2 * wanted[3 * row + 1] + wanted[3 * row + 2] / 2
-            assert abs(product[row] - expected) < 1e-14
 
 
 def test_jacobian_holds_only_what_is_not_zero_by_structure():

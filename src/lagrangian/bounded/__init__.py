@@ -24,7 +24,7 @@ from lagrangian.bounded.sizes import (
     terms,
 )
 from lagrangian.bounded.slopes import diff
-from lagrangian.bounded.writing import expand, expand_angles, is_one, written_out
+from lagrangian.bounded.writing import expand, is_one, written_out
 
 __all__ = [
     "MAX_OPERATIONS",
@@ -38,7 +38,6 @@ __all__ = [
     "count_operations",
     "diff",
     "expand",
-    "expand_angles",
     "hard",
     "is_one",
     "is_zero",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
 from math import comb
-from typing import Any, cast
+from typing import Any
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
@@ -82,11 +82,8 @@ def names(expr: sp.Basic) -> set[sp.Basic]:
     return found | {node.expr for node in found if isinstance(node, sp.Derivative)}
 
 
-def terms(expr: sp.Basic, *, angles: bool = False) -> int:
-    """Return an upper bound on the number of terms in the longest sum that expanding an expression makes.
-
-    With ``angles``, sines and cosines of sums and multiples are expanded, too: cos(a − 2b) has up to 2·3 terms.
-    """
+def terms(expr: sp.Basic) -> int:
+    """Return an upper bound on the number of terms in the longest sum that expanding an expression makes."""
     found: dict[int, int] = {}
     longest = 1
     for node in each(expr):
@@ -101,9 +98,6 @@ def terms(expr: sp.Basic, *, angles: bool = False) -> int:
             power = abs(node.exp.p) // node.exp.q  # SymPy multiplies out (a + b)^(7/2) as (a + b)³ √(a + b)
             raised = inner[0] if inner[0] == 1 else min(comb(min(inner[0], 10**6) + power - 1, power), BEYOND)
             count, longest = (raised, longest) if node.exp > 0 else (1, max(longest, raised))  # so does a denominator
-        elif angles and isinstance(node, (sp.sin, sp.cos)):
-            for addend in sp.Add.make_args(cast("sp.Expr", node.args[0])):
-                count = min(count * (1 + abs(int(addend.as_coeff_Mul()[0]))), BEYOND)
         found[id(node)] = count
         longest = max(longest, count)
     return longest

@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping
 from typing import Any, cast
 
 import sympy as sp
-from sympy.core.function import AppliedUndef
 
 from lagrangian.bounded.parts import bent, replaced
 from lagrangian.bounded.searches import cancel, together
@@ -23,41 +22,6 @@ def expand(expr: sp.Expr) -> sp.Expr:
     Maxima and cases stay as they are, as SymPy would try to prove their conditions.
     """
     return expr if terms(expr) > TERMS or size(expr) > MAX_OPERATIONS else _unbent(sp.expand, expr)
-
-
-def expand_angles(expr: sp.Expr) -> sp.Expr:
-    """Return the sum of products with sines and cosines of single angles, or ``expr`` unchanged if that is too long.
-
-    Other functions stay as they are, and so do sines and cosines of functions: SymPy would expand what is in them again
-    and again.
-    """
-    letters = {node: sp.Dummy(f"whole{k}", real=True) for k, node in enumerate(_not_angles(expr))}
-    plain = cast("sp.Expr", replaced(expr, letters))
-    if terms(plain, angles=True) > TERMS or size(expr) > MAX_OPERATIONS:
-        return expr
-    made = sp.expand(sp.expand_trig(plain))
-    return cast("sp.Expr", replaced(made, {letter: node for node, letter in letters.items()}))
-
-
-def _not_angles(expr: sp.Expr) -> list[sp.Basic]:
-    """The outermost functions in an expression, other than sines and cosines in whose arguments there are none."""
-    nested: dict[sp.Basic, bool] = {}  # whether there is a function in it
-    for node in each(expr):
-        inside = node.args if not isinstance(node, (AppliedUndef, sp.Derivative)) else ()
-        nested[node] = _is_function(node) or any(nested[a] for a in inside)
-    found: dict[sp.Basic, None] = {}
-    stack: list[sp.Basic] = [expr]
-    seen: set[sp.Basic] = set()
-    while stack:
-        node = stack.pop()
-        if node in seen or not nested[node]:
-            continue
-        seen.add(node)
-        if _is_function(node) and (not isinstance(node, (sp.sin, sp.cos)) or nested[node.args[0]]):
-            found[node] = None
-        else:
-            stack += node.args
-    return list(found)
 
 
 def _unbent(routine: Callable[[sp.Expr], Any], expr: sp.Expr) -> sp.Expr:
@@ -91,10 +55,6 @@ def _rates(node: sp.Derivative, table: Mapping[Any, Any]) -> sp.Expr:
     for _ in range(int(node.derivative_count)):
         value = diff(value, node.variables[0])
     return value
-
-
-def _is_function(node: sp.Basic) -> bool:
-    return isinstance(node, (sp.Function, sp.Max, sp.Min)) and not isinstance(node, AppliedUndef)
 
 
 def is_one(expr: sp.Expr) -> bool:

@@ -28,10 +28,10 @@ INFINITE = 0x7FF0000000000000
 NOT_FINITE, DOUBTFUL = 1, 2
 
 
-def emit_single(module: Module, sizes: Sizes, body: str = "body_1", prologue: str = "prologue_1") -> None:
+def emit_single(module: Module, sizes: Sizes) -> None:
     """Print ``single`` around the scalar body, `emit_parameters`, and ``both``."""
     lines = _entries({0: "in", 1: "shared", 2: "out", 3: "scratch"})
-    lines.append(f"  call void @{body}(ptr %in, ptr %shared, ptr %out, ptr %scratch)")
+    lines.append("  call void @body_1(ptr %in, ptr %shared, ptr %out, ptr %scratch)")
     for name, count in (("in", sum(sizes.groups)), ("out", sum(sizes.outputs))):
         lines.append(f"  %{name}_top = call i64 @greatest(ptr %{name}, i64 {count})")
     lines += [
@@ -41,17 +41,17 @@ def emit_single(module: Module, sizes: Sizes, body: str = "body_1", prologue: st
         "  ret i64 %answer",
     ]
     module.define("single", "\n".join(["define i64 @single(ptr %table) nounwind {", "entry:", *lines, "}"]))
-    emit_parameters(module, sizes, prologue)
+    emit_parameters(module, sizes)
     module.define("both", _BOTH)
 
 
-def emit_parameters(module: Module, sizes: Sizes, prologue: str = "prologue_1") -> None:
+def emit_parameters(module: Module, sizes: Sizes) -> None:
     """Print ``parameters`` around the scalar prologue."""
     module.declare("llvm.umax.i64", "i64", ["i64", "i64"])
     module.define("greatest", _GREATEST)
     lines = [
         *_entries({3: "scratch", 4: "hoisted", 5: "own", 6: "look"}),
-        f"  call void @{prologue}(ptr %hoisted, ptr null, ptr %own, ptr %scratch)",
+        "  call void @prologue_1(ptr %hoisted, ptr null, ptr %own, ptr %scratch)",
         f"  %top = call i64 @greatest(ptr %hoisted, i64 {sum(sizes.hoisted)})",
         f"  %bad = icmp uge i64 %top, {INFINITE}",
         "  %wrong = zext i1 %bad to i64",
@@ -68,7 +68,7 @@ def emit_parameters(module: Module, sizes: Sizes, prologue: str = "prologue_1") 
     module.define("parameters", "\n".join(["define i64 @parameters(ptr %table) nounwind {", "entry:", *lines, "}"]))
 
 
-def emit_signs(module: Module, sizes: Sizes, above: int, body: str = "body_1") -> None:
+def emit_signs(module: Module, sizes: Sizes, above: int) -> None:
     """Print ``i64 signs(ptr rows, i64 count)`` around the scalar body.
 
     It returns 0 if, for each of at least one row, the first ``above`` outputs are positive, the others are not
@@ -85,7 +85,7 @@ def emit_signs(module: Module, sizes: Sizes, above: int, body: str = "body_1") -
         "  %row = phi i64 [0, %entry], [%next, %loop]",
         f"  %start = mul i64 %row, {sum(sizes.groups)}",
         "  %in = getelementptr double, ptr %rows, i64 %start",
-        f"  call void @{body}(ptr %in, ptr null, ptr %out, ptr %scratch)",
+        "  call void @body_1(ptr %in, ptr null, ptr %out, ptr %scratch)",
     ]
     known = "true"
     for k in range(count):

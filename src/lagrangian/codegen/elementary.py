@@ -4,7 +4,7 @@
 ``exp``, ``asin``, ``acos`` and ``atan`` from ``atan2``; the others call the C library lane by lane. Each is a function
 of the module that is printed when it is first used.
 
-The coefficients are computed by ``minimax.py``; with z = r²
+The coefficients are computed by ``tools/minimax.py``; with z = r²
 
     sin r = r + r z S(z)     cos r = 1 − z/2 + z² C(z)     |r| ≤ π/4
     exp r = 1 + r + r² E(r)                                |r| ≤ ln 2 / 2

@@ -99,11 +99,6 @@ class Kernel:
         """The number of operations per state; a fused product and sum, a division, and a call count as one each."""
         return self.build.lowered.body.operations
 
-    @property
-    def parameter_operations(self) -> int:
-        """The number of operations per parameter set."""
-        return self.build.lowered.prologue.operations
-
     def __call__(self, *given: Any, out: Any = None, **named: Any) -> Any:
         """Evaluate the program; see the class."""
         if named:

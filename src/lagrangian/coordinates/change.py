@@ -8,7 +8,7 @@ replaces: ``theta2 = theta1 + theta2`` means that the old θ2 is the sum, and th
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import combinations, islice
@@ -83,14 +83,13 @@ class Change(Brief):
         return tuple((c, self.table[c.symbol]) for c in self.old if self.table[c.symbol] != c.symbol)
 
 
-def read_change(model: Model, given: Mapping[Any, Any], *, into: Iterable[str] = ()) -> Change:
+def read_change(model: Model, given: Mapping[Any, Any]) -> Change:
     """Return the change of coordinates described by ``given``, after checking it.
 
     Keys are coordinates of the model (symbols or names); values are expressions of coordinates that stay or are new, as
-    SymPy or text. A mapping of new names to expressions of old coordinates is solved if it is linear. ``into`` lists
-    names of new coordinates that are known beforehand. Raises `ModelError` if the change is singular, if the numbers of
-    old and new coordinates differ, if it contains rates, inputs or undeclared symbols, or if it replaces part of a
-    floating frame.
+    SymPy or text. A mapping of new names to expressions of old coordinates is solved if it is linear. Raises
+    `ModelError` if the change is singular, if the numbers of old and new coordinates differ, if it contains rates,
+    inputs or undeclared symbols, or if it replaces part of a floating frame.
     """
     if not isinstance(given, Mapping) or not given:
         raise ModelError(
@@ -104,12 +103,12 @@ def read_change(model: Model, given: Mapping[Any, Any], *, into: Iterable[str] =
         raise ModelError("a coordinate is given twice, by name and by symbol", fix="give each once", code="E404")
     known = [k in by_name for k in keys]
     if not any(known):
-        pairs = {k: _expression(model, v, k, ()) for k, v in zip(keys, given.values(), strict=True)}
+        pairs = {k: _expression(model, v, k) for k, v in zip(keys, given.values(), strict=True)}
         _check_new(model, pairs)
         return _checked(model, _solved(model, pairs))
     if not all(known):
         raise _no_coordinate(model, keys[known.index(False)])
-    table = {by_name[k]: _expression(model, v, k, into) for k, v in zip(keys, given.values(), strict=True)}
+    table = {by_name[k]: _expression(model, v, k) for k, v in zip(keys, given.values(), strict=True)}
     return _checked(model, _placed(model, table))
 
 
@@ -153,9 +152,9 @@ class _Open(Scope):
         return names, dots
 
 
-def _expression(model: Model, value: object, key: str, into: Iterable[str]) -> sp.Expr:
+def _expression(model: Model, value: object, key: str) -> sp.Expr:
     if isinstance(value, str):
-        scope = _Open({**model.symbols, **{name: moving_symbol(name) for name in into}})
+        scope = _Open(model.symbols)
         return parse_expression(value, scope, what=f"what '{key}' becomes")
     return as_expr(value, f"what '{key}' becomes")
 

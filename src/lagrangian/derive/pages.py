@@ -181,9 +181,9 @@ def to_html(derivation: Derived, *, notation: Notation = "lecture", brief: bool 
     return html_page.page(page, "equations of motion")
 
 
-def to_html_fragment(derivation: Derived, *, notation: Notation = "lecture", brief: bool = True) -> str:
-    """Return the derivation as a piece of HTML for a notebook: the checklist unless ``brief`` is False."""
-    return html_page.fragment(lay_out(derivation, notation=notation, brief=brief, details=True, drawn=True))
+def to_html_fragment(derivation: Derived) -> str:
+    """Return the checklist of a derivation as a piece of HTML for a notebook."""
+    return html_page.fragment(lay_out(derivation, brief=True, details=True, drawn=True))
 
 
 def section_to_html(derivation: Derived, anchor: str) -> str:

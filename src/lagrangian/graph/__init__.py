@@ -1,6 +1,6 @@
 """The expression graph: building, differentiating, evaluating it, and `Program`, on which everything else is built."""
 
-from lagrangian.graph.autodiff import Tangents, gradient, hessian, hessian_product, jacobian, jvp, vjp
+from lagrangian.graph.autodiff import Tangents, gradient, hessian, jacobian, jvp, vjp
 from lagrangian.graph.bounds import bends, bounds, states_read
 from lagrangian.graph.evaluate import evaluate
 from lagrangian.graph.from_sympy import from_sympy, unknown_part
@@ -29,7 +29,6 @@ __all__ = [
     "from_sympy",
     "gradient",
     "hessian",
-    "hessian_product",
     "jacobian",
     "jvp",
     "operands",

@@ -270,12 +270,6 @@ def jacobian(graph: Graph, outputs: Sequence[int], inputs: Sequence[int]) -> dic
     return entries
 
 
-def hessian_product(graph: Graph, output: int, inputs: Sequence[int], direction: Sequence[int]) -> list[int]:
-    """Σ_k ∂²output/∂x_i∂x_k · direction_k: the tangent of the gradient."""
-    first = gradient(graph, output, inputs)
-    return jvp(graph, first, dict(zip(inputs, direction, strict=True)))
-
-
 def hessian(graph: Graph, output: int, inputs: Sequence[int]) -> dict[tuple[int, int], int]:
     """The entries ∂²output/∂x_i∂x_k that are not structurally zero; ``[i, k]`` and ``[k, i]`` are the same node.
 

@@ -39,16 +39,16 @@ def states_read(program: Program) -> tuple[int, ...]:
     return tuple(sorted({nodes[i][2] for i in reached(program.graph, program.ids) if nodes[i][:2] == ("input", "x")}))
 
 
-def bounds(program: Program, output: str = "g") -> Program:
-    """Return a program that says for each entry of ``output`` whether it can be zero, or turn, on a stretch.
+def bounds(program: Program) -> Program:
+    """Return a program that says for each entry of ``g`` whether it can be zero, or turn, on a stretch.
 
     Inputs: ``x``, ``rate`` and ``bend`` (value at the centre, derivative there, bound of the second derivative) of the
     entries in `states_read`; ``u`` and ``drift`` (value and derivative, which is constant); ``p``; ``t``, the time at
-    the centre; ``stretch``: dt/dθ and r. The outputs have the length of ``output`` and are 1 or 0. ``clear`` is 1 if
+    the centre; ``stretch``: dt/dθ and r. The outputs have the length of ``g`` and are 1 or 0. ``clear`` is 1 if
     |v| > R or R = 0, which proves that the entry crosses 0 nowhere on the stretch. ``steady`` is 1 if |d| > K r, which
     proves that it rises or falls throughout.
     """
-    walk, found, inputs = _walked(program, output)
+    walk, found, inputs = _walked(program)
     g = walk.g
     clear = tuple(g.select(g.or_(g.lt(a.R, g.abs(a.v)), g.eq(a.R, g.zero)), g.one, g.zero) for a in found)
     steady = tuple(g.select(g.lt(g.mul(a.K, walk.r), g.abs(a.d)), g.one, g.zero) for a in found)
@@ -57,12 +57,12 @@ def bounds(program: Program, output: str = "g") -> Program:
     return Program(f"{program.name} bounds", g, inputs, outputs, dict(program.defaults))
 
 
-def bends(program: Program, output: str = "g") -> Program:
+def bends(program: Program) -> Program:
     """Return a program for each entry's ``value`` at the centre of a stretch and the bound ``bend`` = K.
 
     The inputs are those of `bounds`. An entry without a finite bound has `ENDLESS`; one without a finite value has 0.
     """
-    walk, found, inputs = _walked(program, output)
+    walk, found, inputs = _walked(program)
     g, shape = walk.g, (len(found),)
 
     def finite(x: int, otherwise: int) -> int:
@@ -73,8 +73,8 @@ def bends(program: Program, output: str = "g") -> Program:
     return Program(f"{program.name} bends", g, inputs, {"value": value, "bend": bend}, dict(program.defaults))
 
 
-def _walked(program: Program, output: str) -> tuple[_Walk, list[Along], dict[str, tuple[str, ...]]]:
-    """The bounds along a stretch for each entry of an output, and the inputs of the program."""
+def _walked(program: Program) -> tuple[_Walk, list[Along], dict[str, tuple[str, ...]]]:
+    """The bounds along a stretch for each entry of ``g``, and the inputs of the program."""
     read = states_read(program)
     names, u = program.inputs.get("x", ()), tuple(program.inputs.get("u", ()))
     kept = tuple(names[k] for k in read)
@@ -83,7 +83,7 @@ def _walked(program: Program, output: str) -> tuple[_Walk, list[Along], dict[str
         "p": tuple(program.inputs.get("p", ())), "t": ("t",), "stretch": ("pace", "r"),
     }  # fmt: skip
     walk = _Walk(Graph(), program.graph, {k: i for i, k in enumerate(read)})
-    found = [walk.number(i) for i in walk.over(program.outputs[output].ids)]
+    found = [walk.number(i) for i in walk.over(program.outputs["g"].ids)]
     return walk, found, {n: e for n, e in inputs.items() if e}
 
 

@@ -158,10 +158,10 @@ class Echelon:
                     lost[name] = (lost.get(name, 0) + factor * share) % p
         return left, {name: share for name, share in lost.items() if share}
 
-    def take(self, name: int, row: Sequence[int], columns: Sequence[int] | None = None) -> bool:
-        """Store a row under a name if it is independent; ``columns`` are those that may lead, best first."""
+    def take(self, name: int, row: Sequence[int]) -> bool:
+        """Store a row under a name if it is independent."""
         left, lost = self.reduce(row)
-        pivot = next((k for k in (range(len(left)) if columns is None else columns) if left[k]), None)
+        pivot = next((k for k, x in enumerate(left) if x), None)
         if pivot is None:
             return False
         scale = pow(left[pivot], -1, self.p)

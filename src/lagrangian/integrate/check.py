@@ -62,13 +62,12 @@ def instants(given: Any) -> Array:
     return times
 
 
-def number(given: Any, what: str, *, positive: bool = True, infinite: bool = False) -> float:
-    """A number greater than zero (or, unless ``positive``, not less than zero)."""
+def number(given: Any, what: str, *, infinite: bool = False) -> float:
+    """A number greater than zero."""
     array = numbers(given, what)
     value = float(array) if array.ndim == 0 else math.nan
-    if math.isnan(value) or (math.isinf(value) and not infinite) or value < 0 or (positive and value == 0):
-        bound = "greater than 0" if positive else "at least 0"
-        raise RunError(f"{what} must be a number {bound} (got {given!r:.40})", code="E501")
+    if math.isnan(value) or (math.isinf(value) and not infinite) or value <= 0:
+        raise RunError(f"{what} must be a number greater than 0 (got {given!r:.40})", code="E501")
     return value
 
 

@@ -11,15 +11,18 @@ Array = NDArray[np.float64]
 
 ZERO_TOLERANCE = 1e-8
 
+NULL_TOLERANCE = 1e-11
+"""Singular values up to this, relative to the largest, count as 0."""
 
-def null_space(matrix: Array, tolerance: float = 1e-11) -> Array:
+
+def null_space(matrix: Array) -> Array:
     """An orthonormal basis, in rows (k, n), of {c : matrix c = 0}. Singular values are taken relative to the
     largest."""
     n = matrix.shape[1]
     _, values, rows = np.linalg.svd(matrix, full_matrices=True) if matrix.size else (None, np.zeros(0), np.eye(n))
     full = np.zeros(n)
     full[: len(values)] = values
-    return rows[full <= tolerance * max(float(full.max(initial=0.0)), 1e-300)]
+    return rows[full <= NULL_TOLERANCE * max(float(full.max(initial=0.0)), 1e-300)]
 
 
 def reduced(rows: NDArray[Any]) -> tuple[NDArray[Any], list[int]]:

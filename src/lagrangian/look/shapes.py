@@ -37,17 +37,17 @@ def joined(*paths: Path) -> Path:
     return Path(tuple(c for path in paths for c in path.commands))
 
 
-def box(width: float, height: float, *, x: float = 0.0, y: float = 0.0, round_by: float = 0.0) -> Path:
-    """A rectangle about (x, y), with round corners if wanted."""
+def box(width: float, height: float, *, y: float = 0.0, round_by: float = 0.0) -> Path:
+    """A rectangle about (0, y), with round corners if wanted."""
     a, b = width / 2, height / 2
     if not round_by:
-        return line((x - a, y - b), (x + a, y - b), (x + a, y + b), (x - a, y + b), closed=True)
+        return line((-a, y - b), (a, y - b), (a, y + b), (-a, y + b), closed=True)
     r, k = round_by, round_by * 0.45
-    commands: list[Command] = [("M", (x - a + r, y - b)), ("L", (x + a - r, y - b))]
-    commands += [("C", (x + a - k, y - b, x + a, y - b + k, x + a, y - b + r)), ("L", (x + a, y + b - r))]
-    commands += [("C", (x + a, y + b - k, x + a - k, y + b, x + a - r, y + b)), ("L", (x - a + r, y + b))]
-    commands += [("C", (x - a + k, y + b, x - a, y + b - k, x - a, y + b - r)), ("L", (x - a, y - b + r))]
-    commands += [("C", (x - a, y - b + k, x - a + k, y - b, x - a + r, y - b)), ("Z", ())]
+    commands: list[Command] = [("M", (-a + r, y - b)), ("L", (a - r, y - b))]
+    commands += [("C", (a - k, y - b, a, y - b + k, a, y - b + r)), ("L", (a, y + b - r))]
+    commands += [("C", (a, y + b - k, a - k, y + b, a - r, y + b)), ("L", (-a + r, y + b))]
+    commands += [("C", (-a + k, y + b, -a, y + b - k, -a, y + b - r)), ("L", (-a, y - b + r))]
+    commands += [("C", (-a, y - b + k, -a + k, y - b, -a + r, y - b)), ("Z", ())]
     return Path(tuple(commands))
 
 
@@ -96,27 +96,27 @@ def arc_end(radius: float, start: float, end: float, *, x: float = 0.0, y: float
     return tip, (tip[0] - x - radius * cos(before), tip[1] - y - radius * sin(before))
 
 
-def coil(windings: int, height: float = COIL) -> Path:
+def coil(windings: int) -> Path:
     """A zigzag spring along x from 0 to 1; y in pixels."""
     start, end = 0.16, 0.84
     steps = 2 * windings
     points: list[Pair] = [(0.0, 0.0), (start, 0.0)]
     for n in range(steps):
-        points.append((start + (end - start) * (n + 0.5) / steps, height if n % 2 else -height))
+        points.append((start + (end - start) * (n + 0.5) / steps, COIL if n % 2 else -COIL))
     points += [(end, 0.0), (1.0, 0.0)]
     return line(*points)
 
 
-def dashpot(height: float = 8.0) -> Path:
+def dashpot() -> Path:
     """A dashpot along x from 0 to 1; y in pixels: a cylinder that is open on the right, and a piston in it."""
-    h = height
+    h = 8.0
     cylinder = ((0.66, -h), (0.36, -h), (0.36, h), (0.66, h))
     return lines(((0.0, 0.0), (0.36, 0.0)), cylinder, ((0.54, -h + 2.5), (0.54, h - 2.5)), ((0.54, 0.0), (1.0, 0.0)))
 
 
-def spiral(turns: float = 2.0, inner: float = 4.0, outer: float = 15.0) -> Path:
+def spiral(outer: float = 15.0) -> Path:
     """A spiral spring about the origin."""
-    steps = int(16 * turns)
+    turns, inner, steps = 2.0, 4.0, 32
     points: list[Pair] = []
     for n in range(steps + 1):
         angle = 2 * pi * turns * n / steps

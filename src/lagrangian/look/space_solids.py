@@ -191,16 +191,15 @@ class Solids:
 
     def cylinder(
         self, a: int, b: int, frame: int | None, axis: Array, radius: float, *, of: Sequence[str] = (), kind: str,
-        role: Role = "body",
     ) -> None:  # fmt: skip
         """A cylinder between two points along an axis [axes of the frame], ``radius`` [px]."""
         u, v = across(axis)
         size = radius * self.pixel
         start, end = (self.plane(k, size * u, size * v, frame) for k in (a, b))
         sides = line((0.0, -radius), (1.0, -radius), (1.0, radius), (0.0, radius), closed=True)
-        self.union([(CIRCLE, start), (sides, self.board.towards(a, b)), (CIRCLE, end)], role, of=of, kind=kind)
+        self.union([(CIRCLE, start), (sides, self.board.towards(a, b)), (CIRCLE, end)], "body", of=of, kind=kind)
         for place in (swapped(start), end):
-            self.board.put(CIRCLE, role, place, of=of, kind=kind, width=1.0, layer=BODY, facing=True)
+            self.board.put(CIRCLE, "body", place, of=of, kind=kind, width=1.0, layer=BODY, facing=True)
 
     def ring(self, k: int, frame: int | None, axis: Array, radius: float, width: float, *, of: Sequence[str]) -> None:
         """A ring about a point across an axis, ``radius`` [m]."""

@@ -341,10 +341,10 @@ def hooped(board: Board, k: int) -> int | None:
     return frame if not board.motions.turns(frame) and time in point.frame.angle.free_symbols else None
 
 
-def round_axis(n: Array, start: float, end: float, steps: int = 31) -> list[Array]:
+def round_axis(n: Array, start: float, end: float) -> list[Array]:
     """Unit vectors around an axis, by angles from the first of the vectors across it."""
     u, v = across(n)
-    return [np.cos(a) * u + np.sin(a) * v for a in np.linspace(start, end, steps)]
+    return [np.cos(a) * u + np.sin(a) * v for a in np.linspace(start, end, 31)]
 
 
 def curved_arrow(

@@ -65,13 +65,13 @@ class _Token:
     end: int
 
 
-def parse_quantity(text: str, *, place: Place | None = None, what: str = "value") -> Quantity:
+def parse_quantity(text: str, *, what: str = "value") -> Quantity:
     """Return the quantity that ``text`` describes. Raises `ParseError` with line, column and a correct form.
 
     >>> parse_quantity("40 N/m").value, parse_quantity("250 mm").value
     (40.0, 0.25)
     """
-    return read_quantity(Source(text, what, place))
+    return read_quantity(Source(text, what))
 
 
 def read_quantity(source: Source) -> Quantity:

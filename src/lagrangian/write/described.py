@@ -9,12 +9,12 @@ from lagrangian.write.blocks import Items
 from lagrangian.write.document import Block, Display, Inline, Section, TableBlock
 from lagrangian.write.expression_tree import Math
 from lagrangian.write.numerals import measured, unit
-from lagrangian.write.quantities import Notation, Quantities
+from lagrangian.write.quantities import Quantities
 
 
-def system_section(model: Model, notation: Notation = "lecture") -> Section:
+def system_section(model: Model) -> Section:
     """Return the section for a system that has not been derived."""
-    return described(Items(model, notation, brief=False, full=False, details=False), model)
+    return described(Items(model, "lecture", brief=False, full=False, details=False), model)
 
 
 def described(items: Items, model: Model) -> Section:

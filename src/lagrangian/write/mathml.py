@@ -37,10 +37,9 @@ _IF = "<mtext>if&#xa0;</mtext>"
 _APPLY = "<mo>&#x2061;</mo>"
 
 
-def mathml(math: Math, *, display: bool = False) -> str:
+def mathml(math: Math) -> str:
     """Return a formula as a ``math`` element."""
-    mode = ' display="block"' if display else ""
-    return f"<math{mode}>{row(tokens(math))}</math>"
+    return f"<math>{row(tokens(math))}</math>"
 
 
 def displayed(sides: tuple[Math, ...], width: int) -> str:

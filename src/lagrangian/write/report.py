@@ -74,6 +74,6 @@ def report_rows(
     return text.page_rows(lay_out_report(report, notation=notation, full=full), width)
 
 
-def report_fragment(report: Report[Model], *, notation: Notation = "lecture") -> str:
+def report_fragment(report: Report[Model]) -> str:
     """Return a report as a piece of HTML for a notebook."""
-    return html_page.fragment(lay_out_report(report, notation=notation, details=True))
+    return html_page.fragment(lay_out_report(report, details=True))

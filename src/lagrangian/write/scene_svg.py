@@ -49,7 +49,6 @@ def document(
     size: tuple[float, float],
     embedded: bool,
     style: str = "",
-    title: str = "",
     width: float | None = None,
 ) -> str:
     """Return SVG of a size in pixels with a title, a description, the style and the lines of a body.
@@ -64,7 +63,7 @@ def document(
         f'width="{number(shown)}" height="{number(shown_h)}" role="img" font-family="{FONTS}" '
         'stroke-width="1.5" stroke-linecap="round" stroke-linejoin="round">'
     )
-    lines = [head, f"<title>{escape(title or scene.name)}</title>"]
+    lines = [head, f"<title>{escape(scene.name)}</title>"]
     if scene.description:
         lines.append(f"<desc>{escape(scene.description)}</desc>")
     lines.append(f"<style>{_style(embedded)}{style}</style>")

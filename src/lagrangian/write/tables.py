@@ -63,13 +63,13 @@ def _json(value: Any) -> str:
     return json.dumps(value, ensure_ascii=False)
 
 
-def needed(module: str, extra: str = "data") -> Any:
+def needed(module: str) -> Any:
     """Import an optional package, or raise `MissingExtra` with the command that installs it."""
     try:
         return importlib.import_module(module)
     except ImportError:
         raise MissingExtra(
-            f"this needs the package '{module}'", fix=f"pip install 'lagrangian[{extra}]'", code="E801"
+            f"this needs the package '{module}'", fix="pip install 'lagrangian[data]'", code="E801"
         ) from None
 
 

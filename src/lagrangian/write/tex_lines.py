@@ -10,9 +10,9 @@ WIDTH = 84
 """The width of a page in columns of Unicode text."""
 
 
-def rows(tex: Tex, sides: tuple[Math, ...], width: int = WIDTH) -> list[str]:
+def rows(tex: Tex, sides: tuple[Math, ...]) -> list[str]:
     """Return the rows of a formula, each with its alignment point."""
-    return [_row(tex, line) for line in lines(sides, width)]
+    return [_row(tex, line) for line in lines(sides, WIDTH)]
 
 
 def _row(tex: Tex, line: Line) -> str:
@@ -26,19 +26,19 @@ def _indent(steps: int) -> str:
     return r"\quad " * steps
 
 
-def displayed(tex: Tex, sides: tuple[Math, ...], width: int = WIDTH) -> str:
+def displayed(tex: Tex, sides: tuple[Math, ...]) -> str:
     """Return a formula for display mathematics: one row as it is, several in ``aligned``."""
-    cut = rows(tex, sides, width)
+    cut = rows(tex, sides)
     if len(cut) == 1:
         return cut[0].replace("&", "", 1).strip()
     return "\\begin{aligned}\n" + " \\\\\n".join(cut) + "\n\\end{aligned}"
 
 
-def boxed(tex: Tex, formulas: list[tuple[tuple[Math, ...], int | None]], width: int = WIDTH) -> list[str]:
+def boxed(tex: Tex, formulas: list[tuple[tuple[Math, ...], int | None]]) -> list[str]:
     """Return the rows of several results, each with a number on its last row if there are several."""
     made: list[str] = []
     for sides, number in formulas:
-        cut = [_flush(tex, line) for line in lines(sides, width)]
+        cut = [_flush(tex, line) for line in lines(sides, WIDTH)]
         if number is not None and len(formulas) > 1:
             cut[-1] += f" && ({number})"
         made += cut

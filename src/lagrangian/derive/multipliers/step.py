@@ -35,9 +35,9 @@ AFTER = 4
 """The lecture's step that the constraints follow: L is there, and nothing is differentiated yet."""
 
 
-def by_multipliers(index: str = "i") -> tuple[Left, ...]:
+def by_multipliers() -> tuple[Left, ...]:
     """Σ over the rows of λ ∂c/∂ξ̇_i: what constraints add to the right-hand side."""
-    return (Product((Name("lambda", "r"), Partial(Name("c", "r"), Name("xi", index, 1)))),)
+    return (Product((Name("lambda", "r"), Partial(Name("c", "r"), Name("xi", "i", 1)))),)
 
 
 def introduced(context: Context, rows: tuple[RowForms, ...], found: Mapping[str, Multiplier]) -> Step:

@@ -74,12 +74,11 @@ class Printer:
         """Write the 64-bit integers of a slot."""
         self.f.do(f"store {self.f.whole} {x}, ptr {self.at(slot)}, align {8 * self.lanes}")
 
-    def lane_at(self, slot: int, lane: str, index: str | int = 0) -> str:
+    def lane_at(self, slot: int, lane: str) -> str:
         """The address of one lane of a slot."""
         f = self.f
-        at = f.put(f"add i64 {index}, {slot}")
-        at = f.put(f"mul i64 {at}, {self.lanes}") if self.lanes > 1 else at
-        return f.put(f"getelementptr double, ptr %work, i64 {f.put(f'add i64 {at}, {lane}')}")
+        place = f.put(f"add i64 {self.lanes * slot}, {lane}")
+        return f.put(f"getelementptr double, ptr %work, i64 {place}")
 
     def get(self, slot: int, lane: str, kind: str = "double") -> str:
         """One lane of a slot: a ``double`` or an ``i64``."""

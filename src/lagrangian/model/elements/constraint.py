@@ -37,11 +37,11 @@ class Restriction(Element):
         """Nothing to check: points and frames have their units already."""
         return iter(())
 
-    def _pair(self, between: object, *, what: str = "between") -> tuple[Point, Point]:
+    def _pair(self, between: object) -> tuple[Point, Point]:
         """Two different points, or an error."""
-        pair = self._points(between, what)
+        pair = self._points(between, "between")
         if len(pair) != 2:
-            raise self._error(f"{what} must be two points (got {len(pair)})", fix=f"{what}=(P, Q)", code="E412")
+            raise self._error(f"between must be two points (got {len(pair)})", fix="between=(P, Q)", code="E412")
         return pair[0], pair[1]
 
     def _points(self, given: object, what: str) -> tuple[Point, ...]:

@@ -1,6 +1,6 @@
 """The coefficients of the elementary functions: minimax polynomials by Remez' exchange, in multiple precision.
 
-``python -m lagrangian.codegen.minimax`` prints the table in ``elementary.py``. This module is not imported at run time.
+``python tools/minimax.py`` prints the table in ``src/lagrangian/codegen/elementary.py``.
 
 A polynomial P of degree n is the best approximation of f on [a, b] under the weight w exactly when the weighted error
 ``w(x) (f(x) − P(x))`` takes its greatest magnitude at n + 2 points with alternating signs (Chebyshev); Remez' iteration
@@ -64,15 +64,6 @@ def _extremes(error: Callable[[Real], Real], a: Real, b: Real, points: list[Real
                 low = x1
         moved.append((low + high) / 2)
     return [*moved, b]
-
-
-def greatest_error(
-    f: Callable[[Real], Real], weight: Callable[[Real], Real], a: Real, b: Real, coefficients: list[float]
-) -> float:
-    """The largest weighted error of a polynomial with these coefficients on a grid of [a, b]."""
-    exact = [mpf(c) for c in coefficients]
-    grid = [a + (b - a) * mpf(k) / 400 for k in range(1, 400)]
-    return float(max(abs(weight(x) * (f(x) - horner(exact, x))) for x in grid))
 
 
 def split(value: Real, bits: list[int]) -> list[float]:
