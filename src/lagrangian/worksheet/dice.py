@@ -21,7 +21,7 @@ class Dice:
         self._random = random.Random(":".join(map(str, seeds)))
 
     def chance(self, probability: float) -> bool:
-        """Return true with a probability."""
+        """Return True with the given probability."""
         return self._random.random() < probability
 
     def one(self, items: Sequence[T]) -> T:
@@ -37,7 +37,7 @@ class Dice:
 
 
 def checked_seed(seed: object) -> int:
-    """Return a seed; raises `ModelError` if it is not a number from 0."""
+    """Return a seed; raises `ModelError` if it is not a whole number, at least 0."""
     if isinstance(seed, bool) or not isinstance(seed, int) or not 0 <= seed < MAX_SEED:
         raise ModelError(f"a seed is a number from 0 (got {seed!r:.40})", fix="seed=1", code="E406")
     return seed

@@ -31,7 +31,7 @@ def turned_round(sense: str) -> str:
 
 
 def positive_sense(model: Model, coordinate: Coordinate) -> str | None:
-    """Return which way the first body that a coordinate moves is moved by it, in the plane; None if that depends.
+    """Return the direction in which a coordinate that grows moves its first body, in the plane; None if it varies.
 
     For a rotation r″ = −(r − centre), with primes for ∂/∂ξ, so (r − centre) × r′ says its sense.
     """

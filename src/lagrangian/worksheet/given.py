@@ -45,7 +45,7 @@ STEPS: tuple[tuple[str | Left, ...], ...] = (
 
 
 def given(model: Model, seen: str) -> Iterator[Item]:
-    """What is seen, where springs are relaxed, which way forces are positive, and the tables of letters."""
+    """What the picture shows, where springs are relaxed, which way forces are positive, and the tables of letters."""
     if seen:
         yield text(_quoted(model, seen))
     for element in model.elements:

@@ -1,7 +1,6 @@
 """Other ways to measure the coordinates of a variant: from the other side, the other way round, absolute or relative.
 
-Each comes with the words for the sheet; where the words cannot be made from those of the original, there is no such
-change.
+Each change comes with words for the sheet. A change is left out if its words cannot be made from those of the original.
 """
 
 from __future__ import annotations
@@ -35,9 +34,9 @@ SAID = re.compile(r"positive|\bup\b|\bdownward|\bdown$|clockwise|forward|\bleft\
 
 @dataclass(frozen=True)
 class Remeasured:
-    """One coordinate in another way: old = ``expression`` of new symbols, its new description, and what was done.
+    """One coordinate measured in another way: old = ``expression`` of new symbols, its description, what was done.
 
-    ``to`` are the coordinates from which it was, or is now, measured.
+    ``to`` are the coordinates that it was measured from, or is measured from now.
     """
 
     coordinate: Coordinate

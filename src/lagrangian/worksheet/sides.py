@@ -1,4 +1,4 @@
-"""Other places of forces, springs and dampers in a variant; every kind of element stays as often as it was."""
+"""Other places of forces, springs and dampers in a variant; the number of elements of each kind stays the same."""
 
 from __future__ import annotations
 

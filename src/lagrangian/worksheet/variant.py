@@ -1,4 +1,4 @@
-"""A variant of a system: other letters, values, coordinates and sides, and the same kinds and number of everything."""
+"""A variant of a system: other letters, values, coordinates and attachments, and as many elements of each kind."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ ATTEMPTS = 8
 
 @dataclass(frozen=True)
 class SystemVariant(Brief):
-    """A variant: its model, what was changed in words, and whether more than letters and coordinates was.
+    """A variant: its model, its changes in words, and whether they concern more than letters, values and coordinates.
 
     If ``substantial``, the solution of the original is wrong here, whatever its letters; otherwise it may be right in
     other letters or coordinates.
@@ -48,8 +48,8 @@ class SystemVariant(Brief):
 def variant_of(model: Model, seed: int) -> SystemVariant:
     """Return the variant of a seed; the same seed gives the same variant.
 
-    Everything is tried with the system itself: a change is taken only if the variant can be derived, has equations of
-    similar size, and is drawn as completely as the original. Raises `Error` if the original cannot be derived.
+    Every change is tried: it is made only if the variant can be derived, has equations of similar size, and is drawn as
+    completely as the original. Raises `Error` if the original cannot be derived.
     """
     model = _running(model, "duration", "initial")
     size = _size(model)
@@ -77,7 +77,7 @@ def variant_of(model: Model, seed: int) -> SystemVariant:
 
 
 def _title(name: str) -> str:
-    """The name of a system without what it says of its coordinates, which may be others in a variant."""
+    """The name of a system without the part about its coordinates, which may be different in a variant."""
     kept = [x for x in name.split(", ") if not re.search(r"\b(relative|absolute)\b", x)]
     return ", ".join(kept) or name
 
@@ -189,7 +189,7 @@ class _Letterer(Carrier):
             self.builder.input(name, description=self._described(u, mentioned), unit=u.unit)
 
     def _described(self, symbol: Any, mentioned: set[str]) -> str:
-        """The description without the parts that hold letters, or say where something was that is elsewhere now."""
+        """The description without the parts that contain letters, or name a place that something has left."""
         if symbol.name in self.told:
             return self.told[symbol.name]
         if symbol.name in self._vague:
@@ -214,7 +214,7 @@ class _Letterer(Carrier):
 
 
 def _letters_of(element: Element) -> set[str]:
-    """The parameters and inputs of an element that moved, whose descriptions would say where it was."""
+    """The parameters and inputs of an element that has moved, whose descriptions may name its old place."""
     values = [getattr(element, key, None) for key in ("k", "b", "value")]
     listed = [x for v in values for x in (v if isinstance(v, tuple) else (v,)) if isinstance(x, sp.Expr)]
     return {getattr(s, "name", None) or s.func.__name__ for x in listed for s in _symbols(x)}

@@ -52,7 +52,7 @@ class LawNumbers(Brief):
 
 @dataclass(frozen=True, eq=False)
 class NumbersAt(Brief):
-    """A state, and all that was computed there.
+    """A state, and everything that was computed there.
 
     ``reactions[k]`` is the constraint force, or its moment, on `Moving` k, and ``works[k][j]`` its virtual work for
     δξ_j = 1. ``wiggles`` are independent admissible wiggles, the columns of the unit matrix without constraints.
@@ -75,7 +75,7 @@ class NumbersAt(Brief):
 
 
 def numbers(d: Derived, moving: tuple[Moving, ...], bearing: Bearing) -> NumbersAt | None:
-    """Everything at a random state; None if nothing has a value at any state that was tried.
+    """Everything at a random state; None if some of it has no value at each of the states that were tried.
 
     Parameters with a value keep it, so that forces are what they are in the system.
     """

@@ -159,7 +159,7 @@ def _held(why: Reasoning, hold: Holding) -> tuple[Text, Text]:
 
 
 def _together(why: Reasoning, body: Body) -> list[str]:
-    """The bodies that a coordinate moves together with this one, and that neither carries the other."""
+    """The bodies that a coordinate moves together with this one, if neither carries the other."""
     bodies = [h.body for h in why.holds]
     carriers = {h.body: h.carrier for h in why.holds}
     found: list[Body] = []

@@ -52,7 +52,7 @@ class Holding(Brief):
 
 
 def holds(context: Context, moving: tuple[Moving, ...], bearing: Bearing) -> tuple[Holding, ...]:
-    """What holds every body, in their order."""
+    """What holds every body, in the order of the bodies."""
     bodies = context.model.bodies
     if len(bodies) > MOST_BODIES:
         return tuple(Holding(b, "other", ()) for b in bodies)
@@ -67,7 +67,7 @@ def holds(context: Context, moving: tuple[Moving, ...], bearing: Bearing) -> tup
 
 
 def _carried(found: list[Holding]) -> dict[Body, tuple[Body, ...]]:
-    """Every body with all that hang on it."""
+    """For every body, itself and all bodies that hang on it."""
     made: dict[Body, tuple[Body, ...]] = {}
     for hold in found:
         mine = [hold.body]

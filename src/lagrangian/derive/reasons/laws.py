@@ -56,7 +56,7 @@ class Law:
 
     @property
     def rest(self) -> Form:
-        """What the constraint forces themselves do: Σ R·∂r/∂ξ without what is only passed on."""
+        """The virtual work of the constraint forces themselves: Σ R·∂r/∂ξ without what is only passed on."""
         return self.held - self.passed
 
 

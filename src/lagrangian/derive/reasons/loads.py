@@ -60,7 +60,7 @@ class Bearing:
 
 @dataclass(frozen=True, eq=False)
 class FixedPoints:
-    """Answers on which body a point is fixed, and whether anything moves it."""
+    """Finds the body in which a point is fixed, and whether a coordinate moves the point."""
 
     context: Context
     moving: tuple[Moving, ...]

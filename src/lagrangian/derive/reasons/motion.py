@@ -1,4 +1,4 @@
-"""What has mass, and how it moves: momenta, their rates, and how far a wiggle of each coordinate moves or turns it.
+"""What has mass, and how it moves: momenta, their rates, and how far a wiggle of each coordinate moves and turns it.
 
 A particle is one `Moving` with p = m v, a rigid body two: p = m v of its centre of mass, and H = I ω about it. Sums
 over all particles of a body are exactly these two (König), so the lecture's sums over masses are sums over `Moving`:

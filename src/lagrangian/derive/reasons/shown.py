@@ -1,4 +1,4 @@
-"""What the parts of the page share: how a line is shortened, the names of components, and lists in words."""
+"""Shared by the parts of the page: shortened formulas, the names of components, and lists in words."""
 
 # SymPy has no type stubs:
 # pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
