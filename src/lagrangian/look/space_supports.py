@@ -75,9 +75,7 @@ class SpaceSupports:
             self.hung.setdefault(h, []).append(board.r[k] - board.r[h])
         for a, b in couplers(motions, self.players):
             with self.solids.item(a, b, radius=2.0):
-                board.put(
-                    line((0.0, 0.0), (1.0, 0.0)), "rod", board.towards(a, b), kind="rod", width=3.0, layer=BODY
-                )  # fmt: skip
+                board.put(line((0.0, 0.0), (1.0, 0.0)), "rod", board.towards(a, b), kind="rod", width=3.0)
             board.fence(board.at(a), board.at(b))
 
     def _on_track(self, k: int) -> bool:
