@@ -17,6 +17,7 @@ def pytest_configure(config: pytest.Config) -> None:
     gc.set_threshold(200_000, 50, 100)  # most of what is made lives long: it is seldom looked at
     _keep_bytecode(config)
     os.environ.setdefault("MPLBACKEND", "Agg")  # plots are pyplot's, and no window is to open
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # every core has its process: more threads wait for each other
     size.FULL = "not slow" not in config.getoption("markexpr")
 
 

@@ -67,7 +67,7 @@ def test_workflows_run_the_scripts_and_the_readmes_set_up() -> None:
     extras, arguments = re.search(r"(-e '\S+') && \.venv/bin/python -m pytest (.+)", readme).groups()  # type: ignore[union-attr]
     script = (ROOT / "scripts" / "test").read_text(encoding="utf-8")
     assert f'"") set -- {arguments} ;;' in script
-    assert "set -- -n auto -m slow" in script
+    assert "set -- -n auto --dist worksteal -m slow" in script
     run = [step["run"] for path in WORKFLOWS for step in steps(path) if "run" in step]
     assert any(extras in command for command in run)
     assert {f"scripts/{path.name}" for path in SCRIPTS} <= set(run)

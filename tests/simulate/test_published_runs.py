@@ -139,7 +139,8 @@ def test_a_turn_by_a_rounded_quarter_is_a_turn_by_a_quarter() -> None:
 @pytest.mark.parametrize("method", ["dop853", "tsit5", "taylor", "rk4", "RK45", "DOP853", "Radau"])
 def test_a_four_bar_stays_closed_for_100_seconds_by_every_method(method: str) -> None:
     s = built_in.system("four-bar")
-    tight: dict[str, Any] = {} if method in STEPS else {"rtol": 1e-11, "atol": 1e-13}
+    rtol = 1e-9 if method == "Radau" else 1e-11  # of order 5 it estimates an error of order 3
+    tight: dict[str, Any] = {} if method in STEPS else {"rtol": rtol, "atol": rtol / 100}
     run = s.simulate(100.0, method=method, step=STEPS.get(method), **tight)
     assert run.success, run.message
     left = s.compile().residual(run.y[:3].T, run.y[3:].T)

@@ -50,10 +50,10 @@ class ProposedChange(Brief):
         """An expression of the answer in the system's coordinates."""
         whole: dict[sp.Basic, sp.Expr] = {}
         for eta, psi in self.table.items():
-            rate = sp.diff(psi, time)
+            rate = bounded.diff(psi, time)
             whole[eta] = psi
             whole[sp.Derivative(eta, time)] = rate
-            whole[sp.Derivative(eta, (time, 2))] = sp.diff(rate, time)
+            whole[sp.Derivative(eta, (time, 2))] = bounded.diff(rate, time)
         return cast("sp.Expr", bounded.replaced(expr, whole))  # a derivative by a coordinate stays as it is written
 
     def turn(self, truth: Reference) -> sp.Matrix | None:
@@ -97,8 +97,7 @@ def new_names(truth: Reference, lines: Sequence[AnsweredLine]) -> list[sp.Expr]:
     """The moving names in an answer that are not coordinates, inputs or definitions of the system."""
     own = set(truth.derivation.coordinates) | {u.symbol for u in truth.model.inputs}
     own |= {d.symbol for d in truth.model.definitions}
-    told = [line.expr for line in lines if line.kind != "statement"]
-    found = {f for expr in told for f in expr.atoms(AppliedUndef) if f.args == (time,)}
+    found = {f for line in lines for f in line.expr.atoms(AppliedUndef) if f.args == (time,)}
     return sorted(found - own, key=str)
 
 
@@ -232,23 +231,23 @@ def shifts(truth: Reference) -> Iterator[tuple[sp.Expr, sp.Expr]]:
         yield q, -c
 
 
-@lru_cache(maxsize=8)
-def _static(truth: Reference) -> list[tuple[sp.Expr, sp.Expr]]:
+@lru_cache(maxsize=32)
+def _static(truth: Reference) -> tuple[tuple[sp.Expr, sp.Expr], ...]:
     """The equilibrium of a system with linear statics, coordinate by coordinate; only coordinates that are not 0
-    there."""
+    there. Found once for the systems that were checked most recently."""
     still: dict[sp.Basic, sp.Expr] = {u.symbol: sp.S.Zero for u in truth.model.inputs}
     for c in truth.model.coordinates:
         still |= {c.rate: sp.S.Zero, c.acceleration: sp.S.Zero}
     q = list(truth.derivation.coordinates)
     rows = [cast("sp.Expr", r.xreplace(still)) for r in truth.rows]
     if truth.n > 4:
-        return []
+        return ()
     slopes = bounded.searched(lambda: sp.Matrix([[bounded.diff(r, x) for x in q] for r in rows]))
     if slopes is None or slopes.has(*q) or slopes.has(time) or slopes.det() == 0:
-        return []
+        return ()
     place = slopes.LUsolve(-sp.Matrix([r.xreplace(dict.fromkeys(q, sp.S.Zero)) for r in rows]))
     found = [(x, bounded.cancel(c)) for x, c in zip(q, place, strict=True)]
-    return [(x, c) for x, c in found if c != 0]
+    return tuple((x, c) for x, c in found if c != 0)
 
 
 # -- quick test
@@ -310,8 +309,8 @@ class QuickTest:
 @lru_cache(maxsize=1024)
 def _motion(psi: sp.Expr) -> CompiledExpressions:
     """ψ, ψ̇ and ψ̈ as one graph, which is made once for the changes of all answers."""
-    rate = sp.diff(psi, time)
-    return CompiledExpressions([psi, rate, sp.diff(rate, time)])
+    rate = bounded.diff(psi, time)
+    return CompiledExpressions([psi, rate, bounded.diff(rate, time)])
 
 
 # -- the system in the answer's coordinates ---------------------------------------------------------------------------

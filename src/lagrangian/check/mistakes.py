@@ -180,7 +180,7 @@ def _of_line(pool: Pool, line: AnsweredLine) -> tuple[list[Explanation], list[Mi
         rest = line.expr - dissipation(truth)
         values = CompiledExpressions([-rest.diff(c.rate) for c in truth.model.coordinates]).at(truth.states)
         seen = np.isfinite(values).all() and 1e-12 < np.abs(values).max() < LARGEST
-        return singles(pool, pool.Xi, values) if seen else [], []
+        return singles(pool, [pool.Xi[:, j] for j in range(truth.n)], values) if seen else [], []
     if line.kind not in ENERGIES or (line.kind == "Xi" and i is None):
         return [], []
     right = {"T": truth.T, "V": truth.V, "L": truth.L}.get(line.kind)
@@ -195,7 +195,7 @@ def _of_line(pool: Pool, line: AnsweredLine) -> tuple[list[Explanation], list[Mi
     values = _without_constant(values) if line.kind in ("V", "L") else values
     if np.abs(values).max() <= 1e-12:
         return [], []
-    found = singles(pool, change, values)
+    found = singles(pool, [change], values)
     if found and found[0].cost <= EXOTIC:
         return found, []
     vectors: Vectors = pool.kept(("vectors", line.kind, i), lambda: Vectors(pool, change))

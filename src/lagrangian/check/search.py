@@ -45,19 +45,25 @@ class Explanation:
     under: Alignment | None = None
 
 
-def singles(pool: Pool, E: Array, rest: Array, under: Alignment | None = None) -> list[Explanation]:
-    """The single mistakes whose effects E (C, …) are a multiple of ``rest``, the cheapest first."""
-    flat = E.reshape(len(E), -1)
-    r = rest.reshape(-1)
+def singles(
+    pool: Pool, E: Sequence[Array], rest: Array, under: Alignment | None = None, squares: Array | None = None
+) -> list[Explanation]:
+    """The single mistakes whose effects are a multiple of ``rest``, the cheapest first.
+
+    ``E`` are the effects (C, S) on each of the k quantities whose rests are ``rest`` (k, S), ``squares`` the sums of
+    their squares (C,) where those are known: cos ∠(E, rest) = Σ_j E_j·rest_j / (|E| |rest|).
+    """
+    r = rest.reshape(len(E), -1)
     size = np.abs(r).max()
     with np.errstate(all="ignore"):
-        norms = np.linalg.norm(flat, axis=1)
-        along = flat @ (r / np.linalg.norm(r)) / norms
+        norms = np.sqrt(sum(map(squared, E)) if squares is None else squares)
+        along = sum(e @ x for e, x in zip(E, r / np.linalg.norm(r), strict=True)) / norms
     found: list[Explanation] = []
     doubt = under.doubt if under is not None else 0.0
-    for k in np.flatnonzero(np.abs(along) > 1 - PARALLEL):
-        times = float(flat[k] @ r) / float(norms[k]) ** 2
-        if np.abs(times * flat[k] - r).max() > SMALL * size:
+    for k in np.flatnonzero((np.abs(along) > 1 - PARALLEL) & (norms > 0)):
+        own = np.array([e[k] for e in E])
+        times = float((own * r).sum()) / float(norms[k]) ** 2
+        if np.abs(times * own - r).max() > SMALL * size:
             continue
         number = simple_number(times)
         if number is None or not pool.all[k].takes(number):
@@ -65,6 +71,18 @@ def singles(pool: Pool, E: Array, rest: Array, under: Alignment | None = None) -
         cost = float(pool.cost[k]) + _oddness(number, pool.all[k])
         found.append(Explanation((Told(pool.all[k], number, cost),), cost + doubt, under))
     return sorted(found, key=lambda e: e.cost)
+
+
+def squared(effects: Array) -> Array:
+    """The sum of the squares of each of the effects (C, S), shape (C,)."""
+    return np.einsum("cs,cs->c", effects, effects)
+
+
+def _in_rows(pool: Pool, rest: Array, under: Alignment, rows: Sequence[int]) -> list[Explanation]:
+    """The single mistakes that explain what is wrong in some of the system's rows, the cheapest first."""
+    E = [pool.W[:, i] for i in rows]
+    squares = np.sum([pool.kept(("squares", i), lambda i=i: squared(pool.W[:, i])) for i in rows], axis=0)
+    return singles(pool, E, rest, under, squares)
 
 
 def simple_number(times: float) -> Fraction | None:
@@ -140,7 +158,7 @@ class Vectors:
 
 def first_explained(pool: Pool, found: Sequence[Alignment]) -> list[Explanation]:
     """The explanations of all rows at once: single mistakes, and pairs where no single one is plausible."""
-    best = sorted((e for a in found for e in singles(pool, pool.W[:, list(a.rows)], a.rest, a)), key=lambda e: e.cost)
+    best = sorted((e for a in found for e in _in_rows(pool, a.rest, a, a.rows)), key=lambda e: e.cost)
     if best and best[0].cost <= EXOTIC:
         return best
     vectors: dict[tuple[int, ...], Vectors] = {}
@@ -160,7 +178,7 @@ def by_rows(pool: Pool, found: Sequence[Alignment]) -> list[Explanation]:
         for j, i in enumerate(a.rows):
             if np.abs(a.rest[j]).max() <= 1e-9 * (1 + np.abs(pool.truth.W[i]).max()):
                 continue
-            one = singles(pool, pool.W[:, [i]], a.rest[[j]], a)
+            one = _in_rows(pool, a.rest[[j]], a, [i])
             if not one or one[0].cost > EXOTIC:
                 vectors: Vectors = pool.kept(("vectors", (i,)), lambda i=i: Vectors(pool, pool.W[:, [i]]))
                 one = sorted([*one, *vectors.pairs(a.rest[[j]], a)], key=lambda e: e.cost)

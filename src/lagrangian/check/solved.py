@@ -46,7 +46,7 @@ def solved_from_wrong(pool: Pool, exprs: Sequence[sp.Expr], P: Array) -> list[Ex
     if np.abs(rest).max() <= 1e-9 * np.abs(truth.W).max():
         return []
     effects[np.abs(effects).max(axis=(1, 2)) <= 1e-9 * (1 + np.abs(pool.W).max(axis=(1, 2)))] = 0.0
-    found = singles(pool, effects, rest)
+    found = singles(pool, [effects[:, i] for i in range(truth.n)], rest)
     if found and found[0].cost <= EXOTIC:
         return found
     return sorted([*found, *Vectors(pool, effects).pairs(rest)], key=lambda e: e.cost)

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import cast
 
 import numpy as np
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.difference import differences
 from lagrangian.check.reference import Reference
 from lagrangian.check.rows import DOUBLE_TOLERANCE, zero_everywhere
@@ -70,7 +70,7 @@ def left_values(truth: Reference, L: sp.Expr) -> Array:
 
 def left_sides(truth: Reference, L: sp.Expr) -> list[sp.Expr]:
     """d/dt ∂L/∂ξ̇_i − ∂L/∂ξ_i of every coordinate."""
-    return [cast("sp.Expr", sp.diff(L.diff(c.rate), time)) - L.diff(c.symbol) for c in truth.model.coordinates]
+    return [bounded.diff(L, c.rate, time) - bounded.diff(L, c.symbol) for c in truth.model.coordinates]
 
 
 def judge(truth: Reference, lines: Sequence[AnsweredLine], k: int, turn: sp.Matrix | None = None) -> Finding:
@@ -135,7 +135,7 @@ def _of_coordinate(truth: Reference, kind: str, i: int, L: sp.Expr, Xi: sp.Expr)
     if kind == "p":
         return L.diff(c.rate)
     if kind == "p-rate":
-        return cast("sp.Expr", sp.diff(L.diff(c.rate), time))
+        return bounded.diff(L, c.rate, time)
     return L.diff(c.symbol) if kind == "slope" else None
 
 
@@ -151,7 +151,7 @@ def driving(truth: Reference, i: int) -> sp.Expr:
     for element in truth.model.elements:
         if element.ledger == "Ξ" and not element.resists:
             rate = truth.model.coordinates[i].rate
-            total += truth.expand(sp.Add(*[a.effort * sp.diff(a.rate, rate) for a in element.works(truth.model)]))
+            total += truth.expand(sp.Add(*[a.effort * bounded.diff(a.rate, rate) for a in element.works(truth.model)]))
     return total
 
 

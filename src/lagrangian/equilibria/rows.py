@@ -84,23 +84,24 @@ class HeldForces:
 
     def __call__(self, q: Array, t: float = 0.0) -> tuple[Array, Array]:
         """P h and f with their slopes, relative to their sizes; `LARGE` and 0 where they are not finite."""
-        found, left, pushes = self._held(q, t)
+        bias = self._bias(q, t)
+        found, left, pushes = self._held(q, t, bias)
         lam = np.einsum("srn,sn->sr", pushes, left)
-        h = np.asarray(self._bias(q, t)) / self.size
+        h = bias / self.size
         n = q.shape[1]
         K = np.asarray(self.pushed(q, 0 * q, self.u, self.p, t, lam)["K"]) / self.size[:, None]
         onto = np.eye(n) - np.einsum("sir,srk->sik", self._load(found), pushes)
         value = np.concatenate([np.einsum("sik,sk->si", onto, h), found["f"] / self.gap], axis=1)
         slope = np.concatenate([np.einsum("sik,skj->sij", onto, K), found["F"] / self.gap[:, None]], axis=1)
         bad = ~(np.abs(value) < LARGE).all(axis=1) | ~(np.abs(slope) < LARGE).all(axis=(1, 2))
-        for raw in (self._bias(q, t), *found.values(), K * self.size[:, None]):
+        for raw in (bias, *found.values(), K * self.size[:, None]):
             bad |= ~(np.abs(raw).reshape(len(q), -1) < LARGE).all(axis=1)
         value[bad], slope[bad] = LARGE, 0.0
         return value, slope
 
     def multipliers(self, q: Array) -> dict[str, float]:
         """λ of every row at one position, the shortest if rows depend on each other."""
-        _, h, pushes = self._held(q[None], 0.0)
+        _, h, pushes = self._held(q[None], 0.0, self._bias(q[None], 0.0))
         lam = pushes[0] @ h[0]
         lam[np.abs(lam) <= 1e-12 * np.abs(lam).max(initial=0.0)] = 0.0
         return dict(zip(self.names, (lam + 0.0).tolist(), strict=True))
@@ -114,9 +115,8 @@ class HeldForces:
         A = np.where(np.abs(found["A"]) < LARGE, found["A"], 0.0)
         return np.swapaxes(A, 1, 2) / self.size[:, None]
 
-    def _held(self, q: Array, t: float) -> tuple[dict[str, Array], Array, Array]:
-        """The rows, h relative to its size, and (Aᵀ)⁺."""
+    def _held(self, q: Array, t: float, bias: Array) -> tuple[dict[str, Array], Array, Array]:
+        """The rows, ``bias`` h relative to its size, and (Aᵀ)⁺."""
         found = {name: np.array(x) for name, x in self.rows(q, 0 * q, self.u, self.p, t).items()}
-        h = self._bias(q, t)
-        h = np.where(np.abs(h) < LARGE, h, 0.0) / self.size
+        h = np.where(np.abs(bias) < LARGE, bias, 0.0) / self.size
         return found, h, np.asarray(np.linalg.pinv(self._load(found), rcond=DEPENDENT), float)

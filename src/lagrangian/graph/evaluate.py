@@ -12,12 +12,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
+from operator import itemgetter
 from typing import Any
 
 import mpmath
 
 from lagrangian.errors import RunError
-from lagrangian.graph.graph import UNARY
+from lagrangian.graph.arithmetic import Node
+from lagrangian.graph.graph import LEAVES, UNARY, operands
 from lagrangian.graph.program import Program, reached
 
 Table = Mapping[str, Callable[..., Any]]
@@ -169,20 +171,39 @@ def _entries(program: Program, group: str, inputs: Mapping[str, Sequence[Any]]) 
 def _run(
     program: Program, inputs: Mapping[str, Sequence[Any]], table: Table, number: Callable[..., Any]
 ) -> dict[str, Any]:
-    nodes = program.graph.nodes
-    value: dict[int, Any] = {}
-    for i in reached(program.graph, program.ids):
+    leaves, steps, ends = program.remembered("interpreted", lambda: _plan(program))
+    value = [_leaf(node, inputs, number) for node in leaves]
+    for op, read in steps:
+        value.append(table[op](*read(value)))
+    return {name: _shaped([value[k] for k in ends[name]], out.shape) for name, out in program.outputs.items()}
+
+
+Plan = tuple[list[Node], list[tuple[str, Callable[[list[Any]], Sequence[Any]]]], dict[str, list[int]]]
+"""Leaves, then operations with what takes their operands out of the values so far, and the places of the outputs."""
+
+
+def _plan(program: Program) -> Plan:
+    """The operations of a program in order; the whole number of a power is a leaf of its own."""
+    nodes, order = program.graph.nodes, reached(program.graph, program.ids)
+    leaves: list[Node] = [nodes[i] for i in order if nodes[i][0] in LEAVES]
+    place = {i: k for k, i in enumerate(i for i in order if nodes[i][0] in LEAVES)}
+    powers = sorted({nodes[i][2] for i in order if nodes[i][0] == "powi"})
+    literal = {n: len(leaves) + k for k, n in enumerate(powers)}
+    leaves += [("literal", n) for n in powers]
+    steps: list[tuple[str, Callable[[list[Any]], Sequence[Any]]]] = []
+    for i in order:
         node = nodes[i]
-        op = node[0]
-        if op == "const":
-            value[i] = number(node[1])
-        elif op == "input":
-            value[i] = number(inputs[node[1]][node[2]])
-        elif op == "powi":
-            value[i] = table[op](value[node[1]], node[2])
-        else:
-            value[i] = table[op](*(value[k] for k in node[1:]))
-    return {name: _shaped([value[i] for i in out.ids], out.shape) for name, out in program.outputs.items()}
+        if node[0] not in LEAVES:
+            where = [place[k] for k in operands(node)] + ([literal[node[2]]] if node[0] == "powi" else [])
+            steps.append((node[0], itemgetter(*where) if len(where) > 1 else itemgetter(slice(where[0], where[0] + 1))))
+            place[i] = len(leaves) + len(steps) - 1
+    return leaves, steps, {name: [place[i] for i in out.ids] for name, out in program.outputs.items()}
+
+
+def _leaf(node: Node, inputs: Mapping[str, Sequence[Any]], number: Callable[..., Any]) -> Any:
+    if node[0] == "input":
+        return number(inputs[node[1]][node[2]])
+    return number(node[1]) if node[0] == "const" else node[1]
 
 
 def _shaped(flat: list[Any], shape: tuple[int, ...]) -> Any:

@@ -65,8 +65,14 @@ def reached(graph: Graph, ids: Iterable[int], stop: Iterable[int] = ()) -> list[
         if i in seen:
             continue
         seen.add(i)
-        if i not in halt:
-            stack.extend(operands(nodes[i]))
+        if i in halt:
+            continue
+        node = nodes[i]
+        op = node[0]
+        if op == "powi":
+            stack.append(node[1])
+        elif op not in LEAVES:
+            stack.extend(node[1:])
     return sorted(seen)
 
 

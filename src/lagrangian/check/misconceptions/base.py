@@ -15,6 +15,7 @@ from typing import Any, Protocol, cast
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.derive import Derived
 from lagrangian.model import Action, Body, Coordinate, Element, Gravity, Model, RigidBody, Spring, time
 from lagrangian.page.formula import Text
@@ -191,7 +192,7 @@ class Ingredients:
 
     def xi(self, actions: tuple[Action, ...], i: int) -> sp.Expr:
         """Σ effort · ∂rate/∂ξ̇_i."""
-        return self.expand(sp.Add(*[a.effort * sp.diff(a.rate, self.v[i]) for a in actions]))
+        return self.expand(sp.Add(*[a.effort * bounded.diff(a.rate, self.v[i]) for a in actions]))
 
     def shares(self, element: Element) -> dict[int, sp.Expr]:
         """The contribution of an element to every Ξ to which it contributes."""
@@ -217,7 +218,7 @@ class Ingredients:
 
     def rate(self, expr: sp.Expr) -> sp.Expr:
         """The time derivative d/dt."""
-        return cast("sp.Expr", sp.diff(expr, time))
+        return bounded.diff(expr, time)
 
     def moves(self, expr: sp.Expr) -> bool:
         """Whether an expression contains a coordinate."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from lagrangian import bounded
 from lagrangian.check.misconceptions.base import Ingredients, Variant
 from lagrangian.page.formula import text
 
@@ -19,7 +20,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     every = {}
     for i in range(s.n):
         for j in range(i + 1, s.n):
-            coupling = s.momenta[i].diff(s.v[j])
+            coupling = bounded.diff(s.momenta[i], s.v[j])
             if coupling == 0:
                 continue
             one, other = -coupling * s.a[j], -coupling * s.a[i]

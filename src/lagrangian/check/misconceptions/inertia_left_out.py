@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.misconceptions.base import Ingredients, Variant, put
 from lagrangian.model import time
 from lagrangian.page.formula import Partial, Total, text
@@ -19,7 +20,7 @@ def wrong(s: Ingredients) -> Iterator[Variant]:
     rates = [s.rate(p) for p in s.momenta]
     hidden = {x: sp.Dummy() for x in (*s.a, *s.v, *s.q)}
     back = {d: x for x, d in hidden.items()}
-    explicit = [put(sp.diff(put(p, hidden), time), back) for p in s.momenta]
+    explicit = [put(bounded.diff(put(p, hidden), time), back) for p in s.momenta]
     what = text(Total(Partial(sp.Symbol("L"), sp.Symbol("ξ̇"))), " was taken as a partial derivative by time.")
     yield Variant(what=what, rows={i: e - r for i, (e, r) in enumerate(zip(explicit, rates, strict=True))})
     for i, (p, r) in enumerate(zip(s.momenta, rates, strict=True)):

@@ -6,6 +6,7 @@ from collections.abc import Iterator
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.check.misconceptions.base import Ingredients, Variant
 from lagrangian.page.formula import text
 
@@ -39,13 +40,13 @@ def velocity_terms(s: Ingredients, i: int) -> tuple[sp.Expr, sp.Expr]:
 
 def _velocity_terms(s: Ingredients, i: int) -> tuple[sp.Expr, sp.Expr]:
     """The squares of rates and the products of two rates in equation i: Σ_jk (∂²T/∂ξ̇_i∂ξ̇_j)_k ξ̇_j ξ̇_k − ∂T/∂ξ_i."""
-    whole = sp.Add(*[s.momenta[i].diff(s.q[k]) * s.v[k] for k in range(s.n)]) - s.T.diff(s.q[i])
+    whole = sp.Add(*[bounded.diff(s.momenta[i], s.q[k]) * s.v[k] for k in range(s.n)]) - bounded.diff(s.T, s.q[i])
     squares: list[sp.Expr] = []
     products: list[sp.Expr] = []
     for j in range(s.n):
-        slope = whole.diff(s.v[j])
+        slope = bounded.diff(whole, s.v[j])
         for k in range(j, s.n):
-            factor = slope.diff(s.v[k])
+            factor = bounded.diff(slope, s.v[k])
             if factor == 0:
                 continue
             (squares if j == k else products).append(factor * s.v[j] * s.v[k] / (2 if j == k else 1))

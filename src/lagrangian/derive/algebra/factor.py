@@ -19,7 +19,7 @@ from typing import Any, cast
 
 import sympy as sp
 
-from lagrangian.derive.algebra.monomials import common_divisor, digits, packed
+from lagrangian.derive.algebra.monomials import common, digits, packed
 
 Flat = dict[int, Fraction]
 """A polynomial over display letters: packed monomial → rational coefficient."""
@@ -98,7 +98,7 @@ class Shortener:
             scale = lcm(*denominators)
             tree = self._outside({m: c * scale for m, c in poly.items()}, whole=False)
             tree = self.times(tree, Fraction(1, scale), 0)
-            bare = poly.get(common_divisor(poly), Fraction(1)).denominator > 1  # ½ (1 + 4 c² x²), not ½ + 2 c² x²
+            bare = poly.get(common(poly), Fraction(1)).denominator > 1  # ½ (1 + 4 c² x²), not ½ + 2 c² x²
             if tree.cost < best.cost + bare:
                 best = tree
         if len(poly) > 1 and any(e < 0 for m in poly for _, e in digits(m)):
@@ -209,11 +209,14 @@ class Shortener:
 def _factors(terms: frozenset[tuple[tuple[int, ...], int]], letters: int) -> list[tuple[Flat, int]] | None:
     """The irreducible factors over the integers, with symbols numbered 0, 1, …; None if there is only one."""
     shape = dict(terms)
-    if min(sum(1 for m in shape if m[k]) for k in range(letters)) == 1 and all(max(m) <= 1 for m in shape):
-        lonely = next(k for k in range(letters) if sum(1 for m in shape if m[k]) == 1)
-        if sum(1 for m in shape if m[lonely]) == 1 and len(shape) > 1:
-            return None  # A·x + B with a monomial A: a factor would divide both, and there is no common monomial
     ring = sp.polys.rings.PolyRing([f"x{k}" for k in range(letters)], sp.ZZ)
+    linear = [k for k in range(letters) if max(m[k] for m in shape) == 1]
+    if linear:  # A·x + B: a factor without x divides A and B, and the one with x is then the rest
+        k = min(linear, key=lambda k: sum(m[k] for m in shape))
+        A = {(*m[:k], 0, *m[k + 1 :]): c for m, c in shape.items() if m[k]}
+        B = {m: c for m, c in shape.items() if not m[k]}
+        if ring.from_dict(A).gcd(ring.from_dict(B)) == 1:
+            return None
     content, found = cast(
         "tuple[Any, list[tuple[dict[tuple[int, ...], Any], int]]]", ring.from_dict(shape).factor_list()
     )
@@ -266,7 +269,7 @@ def primitive(poly: Flat, *, whole: bool = True) -> tuple[Fraction, int, Flat]:
 
     Common denominators of numbers are always taken out, those of symbols only with ``whole``.
     """
-    monomial = common_divisor(poly)
+    monomial = common(poly)
     if not whole:
         shared = {i: all(dict(digits(m)).get(i, 0) < 0 for m in poly) for i, e in digits(monomial) if e < 0}
         monomial = int(packed((i, e) for i, e in digits(monomial) if shared.get(i, True)))
