@@ -5,14 +5,18 @@ of model files.
 """
 
 import contextlib
+import io
+from pathlib import Path
 
 import pytest
 
 from built_in import derivation
 from lagrangian import ParseError
-from lagrangian.check.reading import parse_answer
+from lagrangian.check.reading import decode_answer, parse_answer
+from lagrangian.cli import main
 
 PLAIN = "m L² θ'' + b θ' + m g L sin θ = 0"
+CHANGED = PLAIN.replace("θ", "theta")
 CART = "(M + m) x'' + m l theta'' cos theta - m l theta'^2 sin theta + b x' = F"
 POLE = "(J + m l^2) theta'' + m l x'' cos theta - m g l sin theta = 0"
 
@@ -129,7 +133,57 @@ def test_runs_of_letters_in_latex_are_split_or_asked_about() -> None:
     assert one == other
 
 
+def test_signs_in_front_of_all_lines_may_be_minus_signs() -> None:
+    minus = "- F + (M + m) x'' + m s'' cos α = 0\n- m g sin α + m s'' + m x'' cos α = 0"
+    for rows in (minus, minus.replace("- F", "- -F").replace("- m g", "- -m g")):
+        assert derivation("wedge").check(rows).right, rows
+    assert not derivation("wedge").check(minus.replace("- F", "- 2 F")).right
+
+
 def test_a_chain_that_ends_in_the_force_is_an_equation() -> None:
     chain = "d/dt(∂L/∂x') = (M + m) x'' + m s'' cos α = {F}\nd/dt(∂L/∂s') - ∂L/∂s = m s'' + m x'' cos α - m g sin α = 0"
     assert derivation("wedge").check(chain.format(F="F")).right
     assert not derivation("wedge").check(chain.format(F="2 F")).right
+
+
+@pytest.mark.parametrize(
+    ("written", "encoding"),
+    [
+        *((f"\ufeffLösung:\n{PLAIN}", x) for x in ("utf-8", "utf-16-le", "utf-16-be", "utf-32-le")),
+        *((CHANGED.replace("L²", "L^2"), x) for x in ("utf-16-le", "utf-16-be")),
+        ("Die Lösung für den Winkel – “mit Dämpfer” – lautet:\nT = ½*m*L²*theta'²\n" + CHANGED, "cp1252"),
+        ("L’équation du mouvement :\n" + CHANGED, "cp1252"),
+    ],
+)
+def test_files_of_windows_are_read(written: str, encoding: str) -> None:
+    text = decode_answer(written.encode(encoding), "answer.txt")
+    assert derivation("pendulum").check(text).right
+
+
+@pytest.mark.parametrize(
+    ("data", "said"),
+    [
+        (PLAIN.encode("cp1253"), "not UTF-8"),  # θ is the byte of è
+        ("m*L²*phi'' + m*g*L*sinφ = 0".encode("cp1253"), "not UTF-8"),  # φ that of ö
+        ("φL = 2".encode("cp1253"), "not UTF-8"),
+        ("T = ½*m".encode("cp850"), "not UTF-8"),
+        ("Lösung: T = 1".encode("mac-roman"), "not UTF-8"),
+        (b"\xff\xfeT\0 \xd8", "begins as UTF-16"),
+        (b"\xff\xfe\0\xd8T\0", "begins as UTF-16"),
+        (b"\x7fELF\0\0\0\0", "zero byte"),
+        (b"T = 1\0\0\0", "zero byte"),
+    ],
+)
+def test_what_may_have_other_letters_is_refused(data: bytes, said: str) -> None:
+    with pytest.raises(ParseError, match=said) as caught:
+        decode_answer(data, "answer.txt")
+    assert caught.value.place is not None and caught.value.place.file == "answer.txt"
+
+
+def test_the_command_and_classes_read_utf_16(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    file = tmp_path / "anna.txt"
+    file.write_bytes(PLAIN.encode("utf-16"))
+    assert main(["check", "-e", "pendulum", str(file)]) == 0
+    assert main(["check", "-e", "pendulum", str(tmp_path)]) == 0
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(PLAIN.encode("utf-16"))))
+    assert main(["check", "-e", "pendulum", "-"]) == 0

@@ -155,8 +155,8 @@ def test_a_force_that_is_forgotten_is_noticed(monkeypatch: pytest.MonkeyPatch) -
     """Without the weight among the loads, its work is no longer −∂V/∂ξ, and the rest is no equation of motion."""
     from lagrangian.derive.reasons import page as room
 
-    whole = room.bearing
-    monkeypatch.setattr(room, "bearing", lambda c, m: replace(whole(c, m), loads=()))
+    whole = room.applied_loads
+    monkeypatch.setattr(room, "applied_loads", lambda c, m: replace(whole(c, m), loads=()))
     failed = [str(check.what) for check in why(derivation("pendulum")).checks if check.holds is False]
     assert any("(10)" in words for words in failed) and any("the sum is" in words for words in failed)
 

@@ -97,7 +97,8 @@ def new_names(truth: Reference, lines: Sequence[AnsweredLine]) -> list[sp.Expr]:
     """The moving names in an answer that are not coordinates, inputs or definitions of the system."""
     own = set(truth.derivation.coordinates) | {u.symbol for u in truth.model.inputs}
     own |= {d.symbol for d in truth.model.definitions}
-    found = {f for line in lines for f in line.expr.atoms(AppliedUndef) if f.args == (time,)}
+    told = [line.expr for line in lines if line.kind != "statement"]
+    found = {f for expr in told for f in expr.atoms(AppliedUndef) if f.args == (time,)}
     return sorted(found - own, key=str)
 
 

@@ -8,13 +8,13 @@ from typing import Any
 
 from lagrangian import check
 from lagrangian.advice import Advice, Argument
-from lagrangian.check.reading import Answer, parse_answer
+from lagrangian.check.reading import Answer, decode_answer, parse_answer
 from lagrangian.derive import Derived
 from lagrangian.errors import Error, ModelError, ParseError
 from lagrangian.model import Model
 from lagrangian.page.formula import text
 from lagrangian.page.report import Report
-from lagrangian.read import MAX_BYTES, decode
+from lagrangian.read import MAX_BYTES
 from lagrangian.viewed import cut
 from lagrangian.write.written import Written
 
@@ -78,4 +78,4 @@ def read_text(path: Path) -> str:
     except OSError as error:
         what = f"cannot read '{path}': {(error.strerror or str(error)).lower()}"
         raise Error(what, fix="check the path; - is standard input", code="E702") from error
-    return decode(data, str(path))
+    return decode_answer(data, str(path))

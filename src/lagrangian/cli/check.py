@@ -7,10 +7,11 @@ from typing import Annotated, Any
 
 import typer
 
+from lagrangian.check.reading import decode_answer
 from lagrangian.check.verb import check_answer, read_text
 from lagrangian.cli.check_class import Allowed, ClassOptions, FeedbackKind, check_folder
 from lagrangian.cli.formats import FormatOption, chosen, put_report
-from lagrangian.cli.terminal import Example, Force, Json, Output, Width, open_system, standard_input
+from lagrangian.cli.terminal import Example, Force, Json, Output, Width, open_system, standard_bytes
 from lagrangian.derive import derive
 from lagrangian.errors import Error
 
@@ -118,7 +119,7 @@ def check(
         return
     options.refuse()
     wanted = chosen(format, json, output, force)
-    words = standard_input() if path is None else read_text(path)
+    words = decode_answer(standard_bytes(), "<standard input>") if path is None else read_text(path)
     name = "<standard input>" if path is None else answer_file
     verdict = check_answer(derive(open_system(model_file, example).model), words, hint=hint, name=name)
     put_report(verdict.report(), wanted, width, output)

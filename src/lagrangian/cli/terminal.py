@@ -152,10 +152,16 @@ def open_system(file: str | None, example: str | None = None) -> System:
 
 
 def standard_input() -> str:
-    """Return the text of standard input; raises `Error` if it is closed."""
+    """Return the text of standard input; raises `Error` if it is closed, or no text."""
+    from lagrangian import read
+
+    return read.decode(standard_bytes(), "<standard input>")
+
+
+def standard_bytes() -> bytes:
+    """Return what standard input holds, up to the largest size that is read; raises `Error` if it is closed."""
     if sys.stdin is None:
         raise Error("standard input is closed", fix="name a model file, or pipe a model into the command", code="E702")
     from lagrangian import read
 
-    data = sys.stdin.buffer.read(read.MAX_BYTES + 1)
-    return read.decode(data, "<standard input>")
+    return sys.stdin.buffer.read(read.MAX_BYTES + 1)

@@ -9,7 +9,7 @@ from typing import Any, cast
 import sympy as sp
 
 from lagrangian import bounded
-from lagrangian.compare.motions import how
+from lagrangian.compare.motions import comparison_method
 from lagrangian.compare.pictures import PicturePair, pictures
 from lagrangian.compare.rows import ComparedSystem, Difference, EquationRow, ParameterDifference, Rewritten
 from lagrangian.compare.words import commas, recipe, row_data, summed, symbols, within
@@ -84,7 +84,7 @@ def comparison_report(found: Comparison) -> Report[Model]:
     parts.append(Part(text("Side by side"), tuple(shown.side_by_side())))
     if found.motions:
         parts.append(Part(text("One set of coordinates in the other"), tuple(shown.change())))
-        words = how(found.source.tag, found.into.tag)
+        words = comparison_method(found.source.tag, found.into.tag)
         parts.append(Part(text("Motions"), (words,), tuple(shown.check(c) for c in found.motions)))
     elif found.change is not None:
         parts.append(Part(text("One set of coordinates in the other"), tuple(shown.change())))

@@ -260,8 +260,8 @@ def motion_words(same: bool, first: str) -> Text:
     return text(f"(A) and (B) do not describe the same motion: {first}.")
 
 
-def how(source: str, into: str) -> Text:
-    """What was compared, in words."""
+def comparison_method(source: str, into: str) -> Text:
+    """How systems with multipliers are compared, in words."""
     return text(
         f"Equations with multipliers are not compared row by row. States of ({into}) that its constraints allow are "
         f"put into ({source}), and ",

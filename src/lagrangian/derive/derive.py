@@ -88,7 +88,7 @@ def derive(model: Model, *, detail: Detail = "usual") -> Derived:
         result=closing(context, result, mats, rows, less.items) + ledger_items(book),
         ledger=book,
         shares=Shares(context, sides, found, rows),
-        notes=tuple(left_as_written(context)),
+        notes=tuple(unexpanded_notes(context)),
         constraints=ties,
         **_constrained(context, rows, less),
     )
@@ -118,8 +118,8 @@ SHOWN = 3
 """The largest number of expressions listed in a note."""
 
 
-def left_as_written(context: Context) -> Iterator[Text]:
-    """The parts of the formulas that were left as written because they are too long as sums."""
+def unexpanded_notes(context: Context) -> Iterator[Text]:
+    """Notes on sums that are too long to be multiplied out, and on searches that were ended early."""
     left = list(context.algebra.reader.left)
     if left:
         listed = [part for expr in left[:SHOWN] for part in (fit(expr), ", ")][:-1]

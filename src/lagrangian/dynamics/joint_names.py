@@ -39,7 +39,7 @@ JointSide: TypeAlias = ClosureSide | Held
 Asked: TypeAlias = Any
 
 
-def found(parts: Parts, asked: Asked, on: Any) -> JointSide:
+def joint_side(parts: Parts, asked: Asked, on: Any) -> JointSide:
     """The joint, or the constraint, that is meant. Raises `ModelError` that lists those that there are."""
     model = parts.d.model
     for element in model.constraints:

@@ -23,7 +23,7 @@ from lagrangian.dynamics.programs import mass_matrix
 from lagrangian.errors import ModelError, Notice
 from lagrangian.graph import Graph, Program, evaluate
 from lagrangian.model import Body, Gravity, Model, Parameter, VelocityConstraint
-from lagrangian.model.body_checks import Doubt, Numbers, doubt
+from lagrangian.model.body_checks import ConstantValues, Doubt, doubt
 
 STATES = 20
 """The number of random states at which M is examined, for each random choice of the parameters."""
@@ -44,7 +44,7 @@ def notices(model: Model) -> tuple[Notice, ...]:
 
 
 def _found(model: Model) -> tuple[Notice, ...]:
-    numbers = Numbers.of_model(model)
+    numbers = ConstantValues.of_model(model)
     found = [d for d in (doubt(numbers, body) for body in model.bodies) if d is not None]
     negative = [d for d in found if d.negative]
     if negative:
@@ -199,7 +199,10 @@ def _refused(model: Model, doubts: Sequence[Doubt], low: _Low) -> ModelError:
 def _shares(model: Model, body: Body, low: _Low) -> tuple[float, list[str]]:
     """The contribution of a body's inertia to the eigenvalue of M, and the entries that make it smaller, with
     values."""
-    size, numbers = len(body.tensor), Numbers(dict(zip([x.symbol for x in model.parameters], low.p, strict=True)), {})
+    size, numbers = (
+        len(body.tensor),
+        ConstantValues(dict(zip([x.symbol for x in model.parameters], low.p, strict=True)), {}),
+    )
     pairs = [(i, k) for i in range(size) for k in range(i, size)]
     symbols = {pair: sp.Symbol(f"inertia_{pair[0]}{pair[1]} of {body.name}") for pair in pairs}
     tensor = sp.ImmutableMatrix(size, size, lambda i, k: symbols[min(i, k), max(i, k)])

@@ -22,7 +22,7 @@ from lagrangian.dynamics.describe import described
 from lagrangian.dynamics.description import Description
 from lagrangian.dynamics.feedback import with_feedback
 from lagrangian.dynamics.inertia import Inertia, Link, PlaneLink
-from lagrangian.dynamics.joint_names import ClosureSide, Held, JointSide, found
+from lagrangian.dynamics.joint_names import ClosureSide, Held, JointSide, joint_side
 from lagrangian.dynamics.mechanics import Mechanics
 from lagrangian.dynamics.observe import Observed
 from lagrangian.dynamics.parts import Parts, RigidPart
@@ -69,7 +69,7 @@ def reaction(
     """
     seen = Observed(model, state=state)
     frame = None if axes is None else named_place(model, axes, Frame)
-    what = found(Parts(seen.description), asked, on)
+    what = joint_side(Parts(seen.description), asked, on)
     outputs: dict[str, Output] = {}
     if isinstance(what, ClosureSide):
         outputs["wrench"] = _vector(_of_rows(seen, what))
@@ -94,7 +94,7 @@ def reaction(
 
 def check_joint(model: Model, asked: Any) -> JointSide:
     """The joint that is meant. Raises `ModelError` for what is no joint and no constraint with forces at points."""
-    return found(Parts(Observed(model).description), asked, None)
+    return joint_side(Parts(Observed(model).description), asked, None)
 
 
 # -- constraints ------------------------------------------------------------------------------------------------
@@ -132,7 +132,7 @@ def _of_joint(seen: Observed, asked: Any, on: Any) -> tuple[Vector, list[Vector]
 
     def release(d: Description) -> None:
         parts = Parts(d)
-        held = found(parts, asked, on)
+        held = joint_side(parts, asked, on)
         assert isinstance(held, Held)
         kept.append(_Released(d, parts, held.part))
         kept[0].release(w)

@@ -62,6 +62,8 @@ class Board:
     """The far end of a link or beam, by the point of its body."""
     shaft_spots: dict[str, Array] = field(default_factory=dict[str, Array])
     """Where a disc on a shaft is seen, by the name of its body."""
+    walled: set[tuple[int, float]] = field(default_factory=set[tuple[int, float]])
+    """Bodies' points with the sides on which they are tied to walls: −1 for the left or below, 1 for the others."""
     pinned: frozenset[int] = frozenset()
     """The points at which joints close loops."""
     hidden: frozenset[str] = frozenset()

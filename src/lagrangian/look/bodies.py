@@ -90,7 +90,8 @@ def _block(board: Board, part: Player) -> None:
             return
     board.put(box(w, h, round_by=3.0), "body", place, of=of, kind="block", filled=True)
     board.block(at, w, h)
-    board.wish(mass_names(part), at, (0.0, 0.0), "body", of, inside=True)
+    spot = at - (w / 4, 0.0) if part.point in board.pinned else at
+    board.wish(mass_names(part), spot, (0.0, 0.0), "body", of, inside=True)
 
 
 def _wedge(board: Board, part: Player) -> None:

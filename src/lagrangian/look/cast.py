@@ -189,7 +189,7 @@ def _particle(motions: Motions, body: Body, point: int) -> Player:
 
 
 def direction(J: Array) -> Array:
-    """The unit vector of the first column that is not zero."""
+    """The unit vector of the first column that is not small beside the longest."""
     sizes = np.linalg.norm(J, axis=0)
     column = J[:, int(np.argmax(sizes > 0.3 * sizes.max()))]
     return column / np.linalg.norm(column)

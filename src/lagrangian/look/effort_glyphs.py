@@ -123,25 +123,11 @@ class EffortArtist:
         e = slide_along(board, part)
         if abs(float(side @ e)) < 0.7:
             return False
-        for tie in self.ties:
-            if tie.way != "slides" or k not in (tie.a, tie.b) or tie.element.kind not in ("spring", "damper"):
-                continue
-            other = tie.b if tie.a == k else tie.a
-            if isinstance(other, int):
-                where = board.at(other) - board.at(k)
-            else:
-                where = (
-                    -e
-                    if not any((board.at(p.point) - board.at(k)) @ e < -30 for p in self.parts if p is not part)
-                    else e
-                )
-                if tie.element.kind == "damper" and not any(
-                    t.b == k and t.a is None and t.element.kind == "spring" for t in self.ties
-                ):
-                    continue
-            if float(where @ side) > 0:
-                return True
-        return False
+        if any(point == k and float(wall * (e @ side)) > 0 for point, wall in board.walled):
+            return True
+        pairs = [(t.a, t.b) for t in self.ties if t.way == "slides" and t.element.kind in ("spring", "damper")]
+        others = [b if a == k else a for a, b in pairs if k in (a, b)]
+        return any(float((board.at(x) - board.at(k)) @ side) > 0 for x in others if isinstance(x, int))
 
     def _along(self, element: Force, tie: Tie) -> None:
         """A force along a deflection: on one body, or a pair of forces."""

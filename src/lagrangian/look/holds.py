@@ -75,6 +75,12 @@ class Motions:
             int(i) for i in np.flatnonzero(np.abs(change).max(axis=(0, 1)) > SAME * np.maximum(1e-3, self.moves))
         )
 
+    def even(self, k: int, holder: int, i: int) -> bool:
+        """Whether a coordinate moves a point against another one by the same step everywhere."""
+        J = self.views.J
+        moved = J[:, k, :, i] - J[:, holder, :, i]
+        return bool(np.ptp(moved, axis=0).max() < 1e-8 * max(float(np.abs(moved).max()), SAME))
+
     def turns(self, frame: int | None) -> tuple[int, ...]:
         """The coordinates that turn a frame."""
         if frame is None:

@@ -70,6 +70,8 @@ class MeasureArtist:
         for k, part in points:
             for h in (0, *self.pulleys, *(p.point for p in sliders if p.point != k)):
                 known = motions.coordinates(k)
+                if not motions.even(k, h, i) and any(turn.slopes[i] for turn in self.turns):
+                    continue  # it is an angle that moves this body, too
                 if motions.coordinates(k, h) == (i,) and i in known and (h == 0 or i not in motions.coordinates(h)):
                     J = motions.views.J[0, k] - motions.views.J[0, h]
                     if h and part is None:
@@ -236,7 +238,9 @@ class MeasureArtist:
             and part.radius is not None
             and part.glyph in (BodyGlyph.WHEEL, BodyGlyph.DISC, BodyGlyph.PULLEY)
         ):
-            radius = max(20.0, 0.6 * board.pixels(part.radius))
+            edge = board.pixels(part.radius)
+            outside = turn.frame != part.frame and length > edge + 30.0
+            radius = edge + 16.0 if outside else max(20.0, 0.6 * edge)
         reference = radius + 26.0
         foot = at + reference * np.array([np.cos(start), np.sin(start)])
         board.put(
@@ -249,6 +253,10 @@ class MeasureArtist:
             moves=False,
         )
         board.fence(at, foot)
+        if any(p.point == turn.tip and p.glyph is BodyGlyph.WHEEL for p in self.parts) and length > 1.0:
+            ends = line((float(at[0]), float(at[1])), (float(tip[0]), float(tip[1])))  # no rod is there
+            board.put(ends, "thin", kind="reference", width=1.1, dashed=True, layer=BEHIND + 12, moves=False)
+            board.fence(at, tip)
         board.bow(at, radius, start, now, "coordinate", of=(name,), kind="coordinate", width=1.8)
         middle = (start + now) / 2
         out = np.array([np.cos(middle), np.sin(middle)])

@@ -50,11 +50,12 @@ class Pose:
     # -- which ----------------------------------------------------------------------------------------------------
 
     def _slides(self, i: int) -> bool:
-        """Whether a coordinate moves something along a line, and is no telescope's or track's length."""
+        """Whether a coordinate moves something along a line in proportion, and is no telescope's or track's length."""
         holds = self.motions.holds
         if any(h.along == i and h.how in (HoldKind.TELESCOPE, HoldKind.TRACK, HoldKind.WIRE) for h in holds):
             return False
-        return any(h.how is HoldKind.SLIDE and i in h.moving for h in holds)
+        even = self.motions.even
+        return any(h.how is HoldKind.SLIDE and i in h.moving and even(h.point, h.holder, i) for h in holds)
 
     def _turns(self, i: int) -> bool:
         """Whether a coordinate turns a frame, a rod or a telescope."""

@@ -13,6 +13,7 @@ from lagrangian.look.board import Board
 from lagrangian.look.bodies import draw_bodies
 from lagrangian.look.cast import BodyGlyph, Player, cast
 from lagrangian.look.constraint_glyphs import draw_constraints
+from lagrangian.look.couplers import couplers
 from lagrangian.look.effort_glyphs import EffortArtist, draw_gravity
 from lagrangian.look.hints import Hints
 from lagrangian.look.holds import HoldKind, Motions
@@ -81,7 +82,7 @@ def _drawn(model: Model, hints: Hints) -> tuple[Scene, Program]:
     _slide_apart(board, pose, parts)
     board.pinned = frozenset(
         stage.index(point) for e in model.constraints for _, point in e.points() if e.kind in ("pin", "ball", "weld")
-    )
+    ) | {k for pair in couplers(motions, parts) for k in pair}
     turns = turns_of(motions, parts, {})
     resolver = Resolver(motions, parts, turns)
     tied = [e for e in model.elements if getattr(e, "between", None) or getattr(e, "deflection", None) is not None]
@@ -139,6 +140,9 @@ def _scale(board: Board, parts: list[Player], strings: list[PulleyString]) -> fl
         if part.glyph is BodyGlyph.BAR or not structure:
             structure.append(at)
     structure += extent(board, strings)
+    for a, b in couplers(board.motions, parts):
+        structure += [board.view @ board.r[a], board.view @ board.r[b]]
+        longest = max(longest, float(np.linalg.norm(board.r[a] - board.r[b])))
     spots = np.array(structure) if structure else np.zeros((1, 2))
     size = float(np.ptp(spots, axis=0).max())
     size = max(size, 1e-9)

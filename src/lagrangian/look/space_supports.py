@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from lagrangian.look.board import BEHIND, BODY, GROUND, MEASURE, Board
 from lagrangian.look.cast import BodyGlyph
+from lagrangian.look.couplers import couplers
 from lagrangian.look.holds import HoldKind
 from lagrangian.look.shapes import INK, head, line, lines
 from lagrangian.look.space_bodies import SpaceBodies
@@ -72,6 +73,10 @@ class SpaceSupports:
                 )  # fmt: skip
             board.fence(board.at(h), board.at(k))
             self.hung.setdefault(h, []).append(board.r[k] - board.r[h])
+        for a, b in couplers(motions, self.players):
+            with self.solids.item(a, b, radius=2.0):
+                board.put(line((0.0, 0.0), (1.0, 0.0)), "rod", board.towards(a, b), kind="rod", width=3.0)
+            board.fence(board.at(a), board.at(b))
 
     def _on_track(self, k: int) -> bool:
         return any(t.point == k for t in self.bodies.tracks)

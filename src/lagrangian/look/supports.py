@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from lagrangian.look.board import BEHIND, BODY, GROUND, JOINT, Board
 from lagrangian.look.bodies import slide_heading, slope_angle
 from lagrangian.look.cast import BodyGlyph, Player, direction
+from lagrangian.look.couplers import couplers
+from lagrangian.look.driven import driven, driven_round
 from lagrangian.look.holds import HoldKind
 from lagrangian.look.shapes import CART, INK, WHEEL, arc, floor, line, pin, turned
 from lagrangian.look.ties import Tie
@@ -44,6 +46,9 @@ def draw_supports(board: Board, parts: list[Player], ties: list[Tie], ends: dict
             continue
         _rod(board, hold.holder, k, rope=hold.how is HoldKind.TELESCOPE)
         rods.append((hold.holder, k))
+    for a, b in couplers(board.motions, parts):
+        _rod(board, a, b)
+        rods += [(a, b), (b, a)]
     _wires(board, parts)
     _joints(board, parts, rods)
     _floors(board, parts, ends)
@@ -129,9 +134,9 @@ def _joints(board: Board, parts: list[Player], rods: list[tuple[int, int]]) -> N
         at = board.at(k)
         if board.motions.still(k):
             support(board, k, np.sum(directions, axis=0))
-        elif not board.motions.coordinates(k):
+        elif not board.motions.coordinates(k) and not driven_round(board, k):
             support(board, k, np.sum(directions, axis=0))
-            _driven(board, k)
+            driven(board, k)
         board.put(Disc((0.0, 0.0), 3.6), "body", board.placed(k), kind="joint", filled=True, layer=JOINT, width=INK)
         board.block(at, 9.0, 9.0)
 
@@ -154,17 +159,6 @@ def support(board: Board, k: int, towards: Array) -> None:
     board.put(turned(triangle, angle), "ground", board.placed(k), kind="pin", layer=BEHIND, filled=False)
     board.put(turned(ground, angle), "ground", board.placed(k), kind="pin", layer=BEHIND)
     board.block(board.at(k) + (0, -12 if up else 12), 40, 24)
-
-
-def _driven(board: Board, k: int) -> None:
-    """A double arrow beside a support that is moved as a function of time."""
-    rate = board.seen(board.motions.views.rt[0, k])
-    e = rate / (np.linalg.norm(rate) or 1.0)
-    n = np.array([-e[1], e[0]])
-    n = n if n[0] < 0 else -n
-    at = board.at(k) + 32.0 * n
-    board.arrow(at, at + 20.0 * e, "input", kind="driven", width=1.6)
-    board.arrow(at, at - 20.0 * e, "input", kind="driven", width=1.6)
 
 
 def _stand(board: Board, k: int) -> None:

@@ -46,6 +46,7 @@ class TieArtist:
         self.walls: set[tuple[float, float]] = set()
         self.right: dict[int, int] = {}
         self.arms = 0
+        self.measured: set[tuple[int, str]] = set()
         self.rings: dict[int, int] = {}
 
     def draw(self) -> None:
@@ -110,6 +111,9 @@ class TieArtist:
         self.board.put(self._glyph(tie, length), role, place, of=(tie.element.name,), kind=kind, layer=TIE, width=1.7)
         n = np.array([end[1] - start[1], start[0] - end[0]]) / (length or 1.0)
         n = -n if n[1] > 0 or (abs(n[1]) < 1e-9 and n[0] < 0) else n
+        owner = tie.a if isinstance(tie.a, int) else tie.b
+        aside = float((start - self.board.at(owner)) @ n) if isinstance(owner, int) else 0.0
+        n = -n if aside < -APART / 4 else n  # of two side by side, each has its label on its own side
         middle = (start + end) / 2
         for side in (-6.0, 6.0):
             self.board.fence(start + 0.15 * (end - start) + side * n, end - 0.15 * (end - start) + side * n)
@@ -208,6 +212,8 @@ class TieArtist:
 
     def _to_wall(self, tie: Tie, k: int, offset: float, names: tuple[str, ...], role: Role) -> None:
         board, side = self.board, self._side(tie)
+        if isinstance(tie.b, int):
+            board.walled.add((tie.b, side))
         e = slide_along(board, self.by_point[k])
         n = np.array([-e[1], e[0]])
         edge = side * self._half(k, e) * e + offset * n + self._lift(k, e)
@@ -283,8 +289,9 @@ class TieArtist:
         base = self._tied_to_rest(tie, k, 0 * out, ARM * out, names, role)
         self._wall(k, base, ARM * out, out, 22.0)
         board.put(Disc((0.0, 0.0), 3.0), "body", board.placed(k), kind="joint", filled=True, layer=JOINT)
-        if isinstance(tie.arm, sp.Symbol):
-            board.measure(turn.joint, k, tie.arm.name, 14.0 * self.arms)
+        if isinstance(tie.arm, sp.Symbol) and (turn.joint, tie.arm.name) not in self.measured:
+            self.measured.add((turn.joint, tie.arm.name))
+            board.measure(turn.joint, k, tie.arm.name, 14.0 * len(self.measured))
 
     def _at_joint(self, tie: Tie, turn: Turn, names: tuple[str, ...], role: Role) -> None:
         board, of = self.board, (tie.element.name,)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from lagrangian.look.cast import BodyGlyph, Player
+from lagrangian.look.couplers import couplers
 from lagrangian.look.holds import HoldKind, Motions
 
 Array = NDArray[np.float64]
@@ -38,6 +39,10 @@ def turns_of(motions: Motions, parts: list[Player], tips: dict[int, int]) -> lis
             slopes = motions.angle_slopes(part.frame)
             found.append(Turn(joint, tip, slopes, part.frame, part.name))
         _rods(motions, part, found)
+    for a, b in couplers(motions, parts):
+        slopes = _rod_slopes(motions, b, a)
+        if slopes is not None:
+            found.append(Turn(a, b, slopes))
     return found
 
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from lagrangian.look.board import Board
 from lagrangian.look.cast import FLAT, BodyGlyph, Player, direction
+from lagrangian.look.couplers import couplers
 from lagrangian.look.holds import Hold, HoldKind
 from lagrangian.look.strings import PulleyString
 from lagrangian.look.ties import Tie
@@ -46,7 +47,7 @@ def description(
     words = _Sentences(board, parts, list(ties), list(turns))
     sentences = ["; ".join(_cut(list(words.bodies()), "more bodies"))]
     sentences.append("; ".join(_cut(list(words.ties_between()), "more")))
-    sentences.append("; ".join(_cut([words.string(x) for x in strings], "more strings")))
+    sentences.append("; ".join(_cut([words.string(x) for x in strings] + words.rods(), "more strings and rods")))
     sentences.append("; ".join(_cut(list(words.constraints()), "more constraints")))
     sentences.append("; ".join(_cut(list(words.actions()), "more")))
     coordinates = [_coordinate(c.name, c.description) for c in board.stage.model.coordinates]
@@ -261,6 +262,11 @@ class _Sentences:
 
     def _end(self, k: int | Turn | None) -> str:
         return GROUND if k is None else self.of_turn(k) if isinstance(k, Turn) else self.owner(k)
+
+    def rods(self) -> list[str]:
+        """The rods between bodies that are held by something else."""
+        pairs = couplers(self.motions, self.parts)
+        return [f"a rod between {self.owner(a)} and {self.owner(b)}" for a, b in pairs]
 
     def string(self, string: PulleyString) -> str:
         """What a string joins, and over what."""

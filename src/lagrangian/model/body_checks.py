@@ -35,14 +35,14 @@ RELATIVE_TOLERANCE = 1e-9
 
 
 @dataclass(frozen=True)
-class Numbers:
+class ConstantValues:
     """The values of constant expressions: of parameters that have one, and of definitions."""
 
     values: Mapping[Any, float]
     definitions: Mapping[Any, sp.Expr]
 
     @classmethod
-    def of_model(cls, model: Model) -> Numbers:
+    def of_model(cls, model: Model) -> ConstantValues:
         """The values that a model declares."""
         return cls(model.values, {d.symbol: d.expression for d in model.definitions})
 
@@ -75,7 +75,7 @@ class Doubt:
         return self.code is Code.E106
 
 
-def check_body(numbers: Numbers, body: Body) -> None:
+def check_body(numbers: ConstantValues, body: Body) -> None:
     """Raise an error for a mass that is not positive and for values that are not finite, as far as they are known."""
     mass = numbers.of(body.mass)
     shown = f"mass {body.mass} = {mass:g} kg" if mass is not None and body.mass.free_symbols else f"mass = {mass} kg"
@@ -95,7 +95,7 @@ def check_body(numbers: Numbers, body: Body) -> None:
         raise error("its inertia must be made of finite numbers", "give finite moments of inertia", "E101")
 
 
-def doubt(numbers: Numbers, body: Body) -> Doubt | None:
+def doubt(numbers: ConstantValues, body: Body) -> Doubt | None:
     """Return why no real body has an inertia; None if one may have it, as far as values are known."""
     if body.axes is None:
         return None

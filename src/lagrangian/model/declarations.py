@@ -12,7 +12,7 @@ import sympy as sp
 from sympy.core.function import AppliedUndef
 
 from lagrangian.errors import ModelError, Place, did_you_mean
-from lagrangian.model.body_checks import Numbers
+from lagrangian.model.body_checks import ConstantValues
 from lagrangian.model.checks import checked_number
 from lagrangian.model.geometry import as_expr
 from lagrangian.model.model import Model, written_out
@@ -140,9 +140,9 @@ class Declarations:
             raise ModelError(f"unknown {kind} '{name}' in {where}", place=place, fix=fix, code="E402")
 
     @property
-    def _numbers(self) -> Numbers:
+    def _numbers(self) -> ConstantValues:
         """The values of constant expressions, as far as they are declared."""
-        return Numbers(self._values, {d.symbol: d.expression for d in self._definitions.values()})
+        return ConstantValues(self._values, {d.symbol: d.expression for d in self._definitions.values()})
 
     def _written_out(self, expr: sp.Expr) -> sp.Expr:
         return written_out(expr, {d.symbol: d.expression for d in self._definitions.values()})

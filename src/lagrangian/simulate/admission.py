@@ -13,7 +13,7 @@ from lagrangian.codegen import Look
 from lagrangian.errors import Notice
 from lagrangian.integrate.fitness import MAX_SETS_IN_PYTHON, Fitness
 from lagrangian.model import Model
-from lagrangian.model.body_checks import Numbers, check_body
+from lagrangian.model.body_checks import ConstantValues, check_body
 
 
 def check_masses(model: Model, p: NDArray[np.float64], varied: Iterable[str] = ()) -> tuple[Notice, ...]:
@@ -27,7 +27,7 @@ def check_masses(model: Model, p: NDArray[np.float64], varied: Iterable[str] = (
         return dynamics.notices(model)
     parameters = tuple(replace(q, value=x) for q, x in zip(model.parameters, values, strict=True))
     held = replace(model, parameters=parameters, _memo={"dependent rows": dynamics.dependent_rows(model)})
-    numbers = Numbers.of_model(held)
+    numbers = ConstantValues.of_model(held)
     for body in held.bodies:
         check_body(numbers, body)
     return dynamics.notices(held)

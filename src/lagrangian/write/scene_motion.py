@@ -19,7 +19,7 @@ from lagrangian.page.placing import Drawn, axes, placed
 from lagrangian.page.scene import Disc, Path, Placement, ScenePart, Trace
 from lagrangian.write.html_page import escape
 from lagrangian.write.scene_svg import document, group_opening, number, outline, pair_text, shape
-from lagrangian.write.tracks import TOLERANCE, Timing, animate, keys, moved, stretched, timed, turned
+from lagrangian.write.tracks import TOLERANCE, Timing, animate, key_frames, moved, stretched, timed, turned
 
 Array = NDArray[np.float64]
 
@@ -203,7 +203,7 @@ def _alone(part: ScenePart, at: Array, timing: Timing | None) -> str:
 def _trails(motion: SceneMotion, timing: Timing | None, zoom: float, tolerance: float) -> Iterator[str]:
     """Paths of anchors: all of it faint, and stronger as far as the motion has come."""
     for track in motion.paths:
-        chosen = keys(track, max(TRAIL, tolerance) * max(zoom, 1.0))
+        chosen = key_frames(track, max(TRAIL, tolerance) * max(zoom, 1.0))
         corners = np.round(track[chosen], 1)  # as they are written, so that lengths along the path add up
         steps = np.hypot(*np.diff(corners, axis=0).T)
         length = float(steps.sum())

@@ -30,7 +30,7 @@ class Timing:
     zoom: float = 1.0
 
 
-def keys(track: Array, tolerance: float) -> list[int]:
+def key_frames(track: Array, tolerance: float) -> list[int]:
     """Return the frames between which straight lines stay within a tolerance of a track (frames, k).
 
     It is the method of Ramer (doi:10.1016/S0146-664X(72)80017-0) and of Douglas and Peucker, with distances at equal
@@ -54,7 +54,7 @@ def keys(track: Array, tolerance: float) -> list[int]:
 
 def timed(track: Array, write: Callable[[Array], str], timing: Timing) -> str:
     """Return the attributes ``values``, ``dur``, … of a track whose rows ``write`` turns to text."""
-    chosen = keys(track, timing.tolerance)
+    chosen = key_frames(track, timing.tolerance)
     every = ";".join(map(write, track))
     few = ";".join(write(track[k]) for k in chosen)
     at = ";".join(number(k / (len(track) - 1), 4).removeprefix("0") or "0" for k in chosen)

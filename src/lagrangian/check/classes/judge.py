@@ -11,12 +11,12 @@ from lagrangian.advice import Advice, Argument
 from lagrangian.check.classes.feedback import comment, feedback_report, words_report
 from lagrangian.check.classes.marks import lacking, marks
 from lagrangian.check.classes.scheme import MarkingScheme
-from lagrangian.check.reading import parse_answer
+from lagrangian.check.reading import decode_answer, parse_answer
 from lagrangian.check.verb import CheckedAnswer, check_answer
 from lagrangian.check.verdict import Finding, Mistake, Status
 from lagrangian.derive import Derived
 from lagrangian.errors import Error, ModelError
-from lagrangian.read import MAX_BYTES, decode
+from lagrangian.read import MAX_BYTES
 from lagrangian.viewed import Brief
 from lagrangian.write.report import write_report
 
@@ -74,7 +74,7 @@ class Judge:
         try:
             if len(content) > MAX_BYTES:
                 raise Error(f"the answer has more than {MAX_BYTES} bytes", fix="shorten it", code="E703")
-            answer = parse_answer(decode(content, file), self.derivation.model, name=file)
+            answer = parse_answer(decode_answer(content, file), self.derivation.model, name=file)
             read = True
             return self._told(file, check_answer(self.derivation, answer))
         except Error as error:

@@ -6,8 +6,6 @@ sin(2θ) θ̇. A constant followed by t counts as one factor there: ``\cos\omega
 
 from __future__ import annotations
 
-from copy import deepcopy
-
 from lark import Tree
 
 from lagrangian.check.reading.latex_fractions import CLOSING, LatexFractions
@@ -331,7 +329,7 @@ class LatexParser(LatexFractions):
                 raise self.stopped(False)
         self.opened.pop()
         return matrix(
-            token.start, [[self._mirrored(rows, i, j, token) for j in range(len(row))] for i, row in enumerate(rows)]
+            token.start, [[self.mirrored(rows, i, j, token) for j in range(len(row))] for i, row in enumerate(rows)]
         )
 
     def _says_symmetric(self) -> bool:
@@ -350,13 +348,3 @@ class LatexParser(LatexFractions):
         if symmetric and (self.accept("sym") or self.next.kind in ("&", "rowsep", "end_")):
             return None
         return self.sum()
-
-    def _mirrored(self, rows: list[list[Tree | None]], i: int, j: int, token: AnswerToken) -> Tree:
-        """The entry in row i and column j; for an empty one, the entry on the other side of the diagonal."""
-        entry = rows[i][j]
-        if entry is None and j < i and i < len(rows[j]):
-            entry = rows[j][i]
-        if entry is None:
-            what = "an entry of this matrix is empty and has no counterpart above the diagonal"
-            raise self.source.error(what, token.start, fix="write the diagonal and all that is above it")
-        return deepcopy(entry)

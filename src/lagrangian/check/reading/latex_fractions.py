@@ -100,11 +100,15 @@ class LatexFractions(LatexSymbols):
         return node("rate", token.start, inner, order)
 
     def _differentiated(self) -> Tree:
-        """Read what d/dt applies to: a bracket, or all factors that follow."""
+        """Read what d/dt applies to: a bracket, a function written with its time, or all factors that follow."""
         if self.next.kind in ("(", "[", "{"):
             return self._closed(CLOSING[self.next.kind])
         self.deeper(self.next.start)
-        made = self.product()
+        at = self.i
+        made = self.operand()
+        if [x.text for x in self.tokens[self.i - 3 : self.i]] != ["(", "t", ")"]:
+            self.i = at
+            made = self.product()
         self.opened.pop()
         return made
 

@@ -12,11 +12,12 @@ from __future__ import annotations
 
 import re
 
+from lagrangian.check.reading.latex_tokens import SYMMETRIC
 from lagrangian.check.reading.markup import blank
 
 _NAME = r"[^\W\d_⁰¹²³⁴-⁹₀-₉][^\W⁰¹²³⁴-⁹]*"
 _INDEX = r"_[^\W_⁰¹²³⁴-⁹]+"
-_GROUPED_INDEX = re.compile(r"_\(\s*([^\W_]+)\s*\)")
+_GROUPED_INDEX = re.compile(r"(?<=[\w*\u0307\u0308])_\(\s*(\w+(?:[ -]\w+){0,4})\s*\)")
 _DOTTED = re.compile(rf"(?P<base>[^\W\d_]|\))[ \xa0]+(?P<mark>[\u0307\u0308\u20db])(?P<index>{_INDEX})?")
 _SPACING = re.compile(rf"(?<=[\w)])(?P<mark>[˙¨])(?!\w)|(?<![\w)])(?P<before>[˙¨])(?P<after>{_NAME})")
 _MARKS = {"\u0307": "'", "\u0308": "''", "\u20db": "‴", "˙": "'", "¨": "″"}
@@ -28,6 +29,9 @@ _FRACTION = re.compile(
     rf"(?<!\w)(?P<open>\(\s*)?{_ABOVE}(?(open)(?P<close>\s*\)))\s*/\s*(?P<under>\(\s*)?{_BELOW}(?(under)(?P<end>\s*\)))"
 )
 _ARRAY = re.compile(r"[■█]\s*\(")
+_ROW = re.compile(r"(?P<open>[⎡⎢⎣])(?P<row>[^⎡-⎦]*)(?P<close>[⎤⎥⎦])")
+_TALL = re.compile(r"[⎡-⎦]")
+_COLUMNS = re.compile(r"(?<=\S)\s{2,}(?=\S)")
 _DELIMITERS = str.maketrans("├┤", "  ")
 _SUM = re.compile(r"(?<=[\w)\]'′″\s])\s*[-+−–/±]")
 _MAX = 400
@@ -38,14 +42,27 @@ def plain_format(text: str) -> str:
     """Return an answer with the linear format written in plain text."""
     if "■" in text or "█" in text:
         text = _arrays(text).translate(_DELIMITERS)
+    if "⎡" in text:
+        text = "\n".join(_drawn(line) for line in text.split("\n"))
     if "〖" in text:
         text = _shown(text)
-    text = _GROUPED_INDEX.sub(lambda m: f"_{m[1]}".ljust(len(m.group())), text)
+    text = _GROUPED_INDEX.sub(lambda m: f"_{re.sub('[ -]', '_', m[1])}".ljust(len(m.group())), text)
     text = _DOTTED.sub(_primed, text)
     text = _SPACING.sub(_spaced, text)
     if ".." in text:
         text = _dots_behind(text)
     return _FRACTION.sub(_bare, text)
+
+
+def _drawn(line: str) -> str:
+    """A line of a matrix between tall brackets, ⎡ a   b ⎤, as a row: [a, b, then those that go on until ; c, d]."""
+    match = _ROW.search(line)
+    if match is None or len(_TALL.findall(line)) != 2:
+        return line
+    inside = _COLUMNS.sub(lambda m: ",".ljust(len(m.group())), match["row"])
+    inside = inside.replace("sym.", f"{SYMMETRIC}   ")
+    opened, closed = ("[" if match["open"] == "⎡" else ";"), ("]" if match["close"] == "⎦" else " ")
+    return f"{line[: match.start()]}{opened}{inside}{closed}{line[match.end() :]}"
 
 
 def _primed(match: re.Match[str]) -> str:

@@ -27,6 +27,9 @@ from lagrangian.read.letters import key, undotted
 MAX_CHAIN = 20
 """The largest number of definitions that may each need the one below it."""
 
+_PARTS = "TVUEKPW"
+"""The letters with which names of a part of an energy begin."""
+
 MAX_ERRORS = 5
 """The largest number of errors that are reported at once."""
 
@@ -72,7 +75,16 @@ class Lines:
                 break
         if found:
             raise together(found)
-        return tuple(line for i in range(len(statements)) for line in self._made[i])
+        lines = tuple(line for i in range(len(statements)) for line in self._made[i])
+        self._forget(lines)
+        return lines
+
+    def _forget(self, lines: Sequence[AnswerLine]) -> None:
+        """Drop the unknown names of sides that are not judged."""
+        exprs = [x for line in lines for x in (line.lhs, line.rhs) if x is not None]
+        used = {x for expr in exprs for x in expr.free_symbols | expr.atoms(AppliedUndef)}
+        for base in [base for base, u in self.names.unknown.items() if u.symbol not in used]:
+            del self.names.unknown[base]
 
     def _collect(self) -> None:
         """Record which names are defined where, which energies are stated, and how many statements may be equations."""
@@ -130,8 +142,9 @@ class Lines:
     def _about(self, subject: Subject, sides: list[Tree], reader: Meaning) -> list[AnswerLine]:
         lines: list[AnswerLine] = []
         above: Value = None
-        for side in sides[1:]:
-            value = reader.value(side)
+        values = [reader.value(side) for side in sides[1:]]
+        told = [self._tells(subject, value, values[k + 1 :]) for k, value in enumerate(values)]
+        for side, value in [(s, v) for s, v, tells in zip(sides[1:], values, told, strict=True) if tells]:
             if isinstance(value, MatrixBase):
                 lines += self._matrix_of(subject, value, sides[0], reader)
             elif above is not None and subject.kind == "p-rate" and _accelerates(above) and not _accelerates(value):
@@ -140,6 +153,21 @@ class Lines:
                 lines.append(self._stated(subject, value, sides, side, reader))
             above = value
         return lines
+
+    def _tells(self, subject: Subject, value: Value, after: Sequence[Value]) -> bool:
+        """Whether a side of an energy is to be judged: not T_1 + T_2 or m (x'^2 + y'^2)/2 with names that the answer
+        does not explain, if another side after it has none of them, or if it consists of nothing else."""
+        if subject.kind not in ENERGIES or not isinstance(value, sp.Expr):
+            return True
+        new = self._new_in(value)
+        if new and any(isinstance(x, sp.Expr) and not self._new_in(x) for x in after):
+            return False
+        whole = value.free_symbols | value.atoms(AppliedUndef)
+        return not new or not all(str(x)[:1] in _PARTS for x in new) or bool(whole - new)
+
+    def _new_in(self, value: sp.Expr) -> set[sp.Basic]:
+        """The names in an expression that neither the system nor the answer explains."""
+        return {x for x in value.free_symbols | value.atoms(AppliedUndef) if self.names.is_unknown(x)}
 
     def _stated(self, subject: Subject, value: sp.Expr, sides: list[Tree], side: Tree, reader: Meaning) -> AnswerLine:
         value = reader.finite(value, side)
@@ -210,6 +238,11 @@ class Lines:
         if len(values) == 1:
             values.append(sp.S.Zero)
             sides = [*sides, sides[0]]
+        if len(values) > 2:  # m x'' = F_s = -k x, where nothing says what F_s is
+            plain = [not isinstance(x, sp.Expr) or not self._new_in(x) for x in values]
+            keep = [plain[0] and plain[-1] and not known for known in plain]
+            values = [x for x, drop in zip(values, keep, strict=True) if not drop]
+            sides = [x for x, drop in zip(sides, keep, strict=True) if not drop]
         lines: list[AnswerLine] = []
         for i in range(len(values) - 1):
             lines += self._equation(values[i], values[i + 1], sides[i], sides[i + 1], reader)

@@ -17,6 +17,7 @@ _BULLET = re.compile(r"^[ \t]*[-*+•–][ \t]+(?=\S)", re.MULTILINE)
 _LISTS = re.compile(r"\s*(?:(?P<open>[\[{(])|\w+\s*=\s*(?P<named>[\[{]))\s*(?=\S)")
 _STATED = re.compile(r"==|\bEq\s*\(|\bEquality\s*\(")
 _ANY = re.compile(r"=|\bEq\w*\s*\(")
+_FRAME = re.compile("[\u2500-\u257f]")
 _TABLE = re.compile(r"^[ \t]*\|(?=\s).*\s\|[ \t]*$", re.MULTILINE)
 _CLOSED = {"[": "]", "{": "}", "(": ")"}
 _WHOLE_LINE = re.compile(r"^[ \t]*(?:In\[\d+\]:?=|Out\[\d+\]=|>>>|\.\.\.(?= )|>>)", re.MULTILINE)
@@ -31,6 +32,7 @@ def without_markup(text: str) -> str:
     """Return an answer without Markdown; what is not mathematics is blank."""
     for form in (_FENCE, _RULE, _HEADING, _QUOTE, _WHOLE_LINE):
         text = form.sub(lambda m: re.sub(r"[^\n]", " ", m.group()), text)
+    text = _FRAME.sub(" ", text)
     text = _TABLE.sub(lambda m: m.group().replace("|", ";"), text)
     for form in (_BOLD, _CODE):
         text = form.sub(lambda m: " " * len(m[1]) + m[2] + " " * len(m[1]), text)

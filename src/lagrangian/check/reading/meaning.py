@@ -114,6 +114,9 @@ class Meaning(ExpressionReader):
         energy = self.names.energy(kind)
         if energy is None and kind not in ENERGIES:
             energy = self._meaning(what)[1]
+            if self.names.is_unknown(energy):  # ∂c_r/∂ξ̇_i: a part of something that has no value here
+                self.value(by)
+                return cast("sp.Expr", sp.Derivative(ENERGIES["L"], ENERGIES["T"]))
             if not energy.args or isinstance(energy, AppliedUndef):
                 self.fail(
                     f"'{what}' is not an energy that your answer gives",

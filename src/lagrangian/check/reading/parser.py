@@ -6,6 +6,7 @@ The parser of a notation defines its tokens, its operands, and whether two adjac
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from copy import deepcopy
 from dataclasses import dataclass
 
 from lark import Tree
@@ -129,6 +130,16 @@ class Parser(ABC):
                 children += [leaf("OPERATOR", "*", self.next.start), self.operand()]
             else:
                 return node("product", start, *children)
+
+    def mirrored(self, rows: list[list[Tree | None]], i: int, j: int, token: AnswerToken) -> Tree:
+        """The entry in row i and column j; for an empty one, the entry on the other side of the diagonal."""
+        entry = rows[i][j]
+        if entry is None and j < i and i < len(rows[j]):
+            entry = rows[j][i]
+        if entry is None:
+            what = "an entry of this matrix is empty and has no counterpart above the diagonal"
+            raise self.source.error(what, token.start, fix="write the diagonal and all that is above it")
+        return deepcopy(entry)
 
     def _sign(self) -> Node:
         token = self.accept("plus", "minus")

@@ -158,18 +158,20 @@ class PlainParser(PlainDerivatives):
         """Read [a, b; c, d] or [[a, b], [c, d]]; a plain list is a column; a single entry is itself."""
         start = self.take().start
         self.deeper(start)
-        rows: list[list[Tree]] = [[]]
+        entries: list[list[Tree | None]] = [[]]
         while True:
-            rows[-1].append(self._matrix() if self.next.kind == "[" else self.sum())
+            entries[-1].append(self._entry())
             if self.accept(","):
                 continue
             if self.accept(";"):
-                rows.append([])
+                entries.append([])
                 continue
             if not self.accept("]"):
                 raise self.stopped(False)
             break
         self.opened.pop()
+        token = self.tokens[self.i - 1]
+        rows = [[self.mirrored(entries, i, j, token) for j in range(len(row))] for i, row in enumerate(entries)]
         if len(rows) == 1:
             inner = rows[0]
             if len(inner) == 1:
@@ -177,6 +179,12 @@ class PlainParser(PlainDerivatives):
             nested = [_entries(x) for x in inner]
             rows = [n if n is not None else [x] for n, x in zip(nested, inner, strict=True)]
         return matrix(start, rows)
+
+    def _entry(self) -> Tree | None:
+        """Read an entry of a matrix; None for one that is the same as on the other side of the diagonal."""
+        if self.accept("sym"):
+            return None
+        return self._matrix() if self.next.kind == "[" else self.sum()
 
     # -- names and calls -------------------------------------------------------------------------------------------
 
@@ -187,7 +195,7 @@ class PlainParser(PlainDerivatives):
             return self._differentiated(token)
         if token.text in DOTS and self.next.kind == "(":
             return node("rate", token.start, self._bracket(), DOTS[token.text])
-        if token.text == "Matrix" and opens and not self.words.is_name("Matrix"):
+        if token.text in ("Matrix", "Hold", "HoldForm") and opens and not self.words.is_name(token.text):
             return self._bracket_of_one()
         if token.text == "d" and self.next.kind == "(" and (rate := self._d_of_bracket(token)) is not None:
             return rate

@@ -25,11 +25,11 @@ _KINDS = [
     ("rate", rf"d\s*(?P<of1>{_NAME}{_PRIME}*)\s*/\s*dt(?!\w)"),
     (
         "partial",
-        rf"(?:∂|d)\s*(?P<what>T|V|L|D|ℒ)\s*/\s*(?:∂|d)\s*(?P<open>\()?\s*(?P<by>{_NAME})(?P<dots>{_PRIME}*)(?(open)\s*\))",
+        rf"(?:(?P<round>∂)|d)\s*(?P<what>(?(round){_NAME}|(?:T|V|L|D|ℒ)))\s*/\s*(?:∂|d)\s*(?P<open>\()?\s*(?P<by>{_NAME})(?P<dots>{_PRIME}*)(?(open)\s*\))",
     ),
     ("number", r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?"),
     ("fraction", r"[¼½¾⅐-⅞]"),
-    ("star", r"T\*(?=\s*(?:[-+−–=),;]|\Z))"),
+    ("star", r"T[₀-₉]*\*(?:[₀-₉]+|_\w+)?(?=\s*(?:[-+−–=),;]|\Z))"),
     ("name", _NAME),
     ("primes", rf"{_PRIME}+"),
     ("raised", r"[⁺⁻]?[⁰¹²³⁴⁵⁶⁷⁸⁹]+"),
@@ -40,6 +40,7 @@ _KINDS = [
     ("minus", r"[-−–]"),
     ("relation", r"<=|>=|!=|<|>|≤|≥|≠"),
     ("=", r"==?"),
+    ("sym", "\x01"),
     ("root", r"√"),
     ("bracket", r"[()\[\]{},;]"),
     ("other", r"."),
@@ -72,7 +73,7 @@ def tokenize(source: Source, words: Words) -> list[AnswerToken]:
         if kind == "space":
             continue
         if kind == "star":  # the kinetic co-energy T*, not a product
-            tokens.append(AnswerToken("name", "T", match.start(), at))
+            tokens.append(AnswerToken("name", match.group().replace("*", ""), match.start(), at))
         elif kind == "root":
             tokens.append(AnswerToken("name", "sqrt", match.start(), at))
         elif kind == "number":

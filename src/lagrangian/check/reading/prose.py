@@ -11,11 +11,16 @@ _REMARK = re.compile(r"(?<=\s)\(([^\W\d_][^()=+*/^\n]*)\)")
 _MATHEMATICS = re.compile(r"\s[-−]\s|['′]{1,2}(?:\s|$)")
 _IDENTIFIER = re.compile(r"[^\W\d]\w*")
 _WORD = re.compile(r"[^\W\d_]+(?:['’-][^\W\d_]+)*")
+_BRACKETS = re.compile(r"[()\n]")
+_INSIDE = re.compile(
+    r"\((?:with|where|mit|wobei|let|and|so|denn|because|also|i\.e\.|d\.h\.|da|\s|,)*[^\W\d]\w*['′²]*\s*=(?!=)[^=]"
+)
 _ONE = r"[^\W\d_]+(?:['’-][^\W\d_]+)*"
 _LEADING = re.compile(rf"\s*((?:{_ONE}[.,:]?\s+)+)(?=\S)")
 _LAST = re.compile(rf"(?:(?<=\s)|(?<=[,;]))({_ONE})[.,;:!]*\s*\Z")
 _ENDS = re.compile(r"[\w)\]'’′″²³¹½]\s*[.,;:]?\s*\Z")
 _NUMBER_ALONE = re.compile(r"\s*[(\[]?\s*\d{0,3}[a-z]?\s*[)\]]?\s*[.,;:]?\s*\Z")
+_TITLE = re.compile(r"\s*\d{1,2}[.):]?\s+[^\W\d_]{4,}\s*\Z")
 _SINGLE = re.compile(r"\s*[^\W\d_]+[.,:]?\s*\Z")
 _LISTED = (
     "the is are of for we with that this these as get gets gives obtain find finds have has so and then "
@@ -34,6 +39,23 @@ _MOST = 40
 
 _SHORTEST = 3
 """The fewest letters of a word that cannot be a name."""
+
+
+def stated_remarks(text: str) -> str:
+    """Return an answer in which statements in brackets stand alone: … = 0 (with c = cos θ)."""
+    letters = list(text)
+    opened: list[int] = []
+    for match in _BRACKETS.finditer(text):
+        mark, at = match.group(), match.start()
+        if mark == "(":
+            opened.append(at)
+        elif mark == "\n":
+            opened.clear()
+        elif opened and mark == ")":
+            start = opened.pop()
+            if not opened and _INSIDE.search(text, start, at) and (start == 0 or text[start - 1].isspace()):
+                letters[start] = letters[at] = ";"
+    return "".join(letters)
 
 
 def without_remarks(text: str, words: Words) -> str:
@@ -86,7 +108,7 @@ def is_prose(text: str, words: Words) -> bool:
     """Whether a row without an equals sign is no expression: it contains a word, or only a number."""
     if "=" in text or re.search(r"\bEq\w*\s*[(\[]", text):
         return False
-    if _NUMBER_ALONE.match(text) or _SINGLE.match(text):
+    if _NUMBER_ALONE.match(text) or _SINGLE.match(text) or _TITLE.match(text):
         return True
     return any(_is_word(x, words) for x in _WORD.findall(text))
 

@@ -32,13 +32,17 @@ MAX_ANSWER = 60_000
 MANY_WORDS = 2
 """English words in a row that make it a sentence."""
 
+LONGEST_NAME = 3
+"""The most letters of a word that may be a product."""
+
 EXAMPLE = "an equation, such as m*x'' + k*x = F"
 _LATEX = re.compile(r"\\[A-Za-z(\[\\]|\$|[_^]\{")
 _NAME = r"[^\W\d⁰¹²³⁴-⁹₀-₉¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*(?:[^\W⁰¹²³⁴-⁹¼½¾⅐-⅞][\u0307\u0308\u20db\u20dc]*)*"
 _DEFINED = re.compile(
     rf"(?:^|[,;:)]|\bwhere|\bwith|\band)\s*((?>{_NAME}))\s*(?:(?:\^|\*\*)\s*2|²)?\s*=(?!=)", re.MULTILINE
 )
-_USED = re.compile(rf"(?<!\w)((?>{_NAME}))(?:['’′″]|\s*(?:[*/^²³]))|[*/^]\s*((?>{_NAME}))")
+_CALLED = re.compile(rf"(?<![\w*/^+-])([^\W\d_]{{2,}})[ \t]+((?>{_NAME}))\s*=(?!=)")
+_USED = re.compile(rf"(?<!\w)((?>{_NAME}))(?:['’′″](?!s\b)|\s*(?:[*/^²³]))|[*/^]\s*((?>{_NAME}))")
 _ALONE = re.compile(rf"(?<![\w.])(?<!\d\s)((?>{_NAME}))")
 
 
@@ -48,7 +52,7 @@ class Choices:
     after numbers as units."""
 
     flipped: bool = False
-    listed: bool = False
+    listed: bool | None = None
     units: bool = False
 
 
@@ -70,8 +74,8 @@ def parse_answer(text: str, model: Model, *, name: str | None = None, reading: C
     text = without_markup(typed)
     latex = bool(_LATEX.search(text))
     text = text if latex else plain_format(text)
-    listed = reading.listed or all_bullets(text, marked=text != typed and not latex)
-    choice = bool(bullets(text)) and not listed
+    listed = all_bullets(text, marked=text != typed and not latex) if reading.listed is None else reading.listed
+    choice = bool(bullets(text))
     text = without_bullets(text) if listed else text
     source = Source(text, "the answer", place)
     source.check_text(MAX_ANSWER, EXAMPLE)
@@ -98,7 +102,7 @@ def parse_answer(text: str, model: Model, *, name: str | None = None, reading: C
     less_likely = [
         (Choices(units=True), words.doubtful),
         (Choices(flipped=True), words.asked),
-        (Choices(listed=True), choice),
+        (Choices(listed=not listed), choice),
     ]
     others = [x for x, asked in less_likely if asked]
     again = [partial(parse_answer, text, model, name=name, reading=x) for x in others] if reading == LIKELIEST else []
@@ -111,13 +115,18 @@ def _chosen(reading: Choices) -> Iterator[str]:
     """What to say about a reading that is not the likeliest."""
     if reading.flipped:
         yield "Denominators without brackets, as in a/b c, were read in the other way that is possible."
-    if reading.listed:
-        yield "The sign at the beginning of a line was read as that of a list."
+    if reading.listed is not None:
+        of = "that of a list" if reading.listed else "a minus"
+        yield f"The sign at the beginning of a line was read as {of}."
 
 
 def _words(lines: Lines, text: str) -> Words:
     """The words of an answer: those that it defines, all, and those that it uses as names."""
     own, alone = (dict.fromkeys(m[1] for m in form.finditer(text)) for form in (_DEFINED, _ALONE))
+    for match in _CALLED.finditer(text):  # with the total mass M_t = …
+        word = match[1]
+        if word.lower() in LINKING or (len(word) > LONGEST_NAME and not lines.names.known(word)):
+            own.setdefault(match[2])
     used = dict.fromkeys(m[1] or m[2] for m in _USED.finditer(text))
     return Words(lines.names, own, alone, used)
 

@@ -8,7 +8,14 @@ from itertools import pairwise
 
 from lagrangian.check.reading.labels import before, behind, numbering
 from lagrangian.check.reading.markup import blank, opened_list
-from lagrangian.check.reading.prose import LINKING, is_prose, without_lead, without_remarks, without_tail
+from lagrangian.check.reading.prose import (
+    LINKING,
+    is_prose,
+    stated_remarks,
+    without_lead,
+    without_remarks,
+    without_tail,
+)
 from lagrangian.check.reading.words import Words
 from lagrangian.model.names import FUNCTIONS
 
@@ -26,6 +33,7 @@ class AnswerRow:
 
 _COMMENT = re.compile(r"(?:#|%|//(?=\s)).*")
 _OPEN_END = re.compile(r"(?:[-+*/×·=(\[,^−]|\.\.\.|…|\\)\s*\Z")
+_STAR_END = re.compile(r"(?<!\w)T[₀-₉]*\*\s*\Z")
 _OPEN_START = re.compile(r"\s*(?:[+*/×·)\]^]|=(?!>))")
 _LISTED_START = re.compile(r"\s*[+*][ \t]+[^=]*=")
 _MINUS_START = re.compile(r"\s*[-−–]")
@@ -43,7 +51,7 @@ _BETWEEN = re.compile(rf"[(\[{{}}\])\n]|(?<=[^\s>])[ \t]*(?P<arrow>{_ARROWS}|\bi
 
 def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     """Return the statements of an answer in plain text; headings and remarks are ignored."""
-    text = without_remarks(text, words)
+    text = without_remarks(stated_remarks(text), words)
     numbers = numbering(text)
     text = _separated(opened_list(text) if "\n\n" not in text.strip() else text)
     text = "\n".join(
@@ -55,7 +63,7 @@ def plain_rows(text: str, words: Words) -> list[AnswerRow]:
     for line in re.split(r"(?<=\n)", text):
         bare = _COMMENT.sub(lambda m: " " * len(m.group()), line.rstrip("\r\n"))
         if not bare.strip():
-            open_row = None
+            open_row = open_row if line.strip() else None  # a line with only a comment ends nothing
         elif open_row is not None and (_continues(open_row.text, bare) or _GOES_ON.match(bare)):
             bare = _GOES_ON.sub(lambda m: " " * len(m.group()), bare, count=1)
             head = _DOTTED.sub(lambda m: " " * len(m.group()), open_row.text)
@@ -99,7 +107,7 @@ def _both(text: str, start: int, end: int) -> bool:
 
 def plain_words(line: str) -> bool:
     """Whether a line consists of words, without anything found in an expression or equation."""
-    words = re.findall(r"[^\W\d_]{2,}", line)
+    words = re.findall(r"[^\W\d_₀-₉]{2,}", line)
     return len(words) >= 2 and not _STATEMENT_SIGN.search(line) and not FUNCTIONS & set(words)
 
 
@@ -119,7 +127,9 @@ def _continues(above: str, line: str) -> bool:
 
 def incomplete(text: str) -> bool:
     """Whether the statement must continue: it ends with an operator, or a bracket is open."""
-    return bool(_OPEN_END.search(text)) or sum((c in "([") - (c in ")]") for c in text) > 0
+    return (
+        bool(_OPEN_END.search(text) and not _STAR_END.search(text)) or sum((c in "([") - (c in ")]") for c in text) > 0
+    )
 
 
 def _stated(part: str) -> bool:

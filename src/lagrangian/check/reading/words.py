@@ -26,7 +26,7 @@ MAX_WORDS = 500
 MAX_TOLD = 6
 """The largest number of split words that a note lists."""
 
-_WHOLE = frozenset(["dt", "pi", "diff", "Derivative", "Matrix", "Eq", "piecewise", "ddot", "dot"])
+_WHOLE = frozenset(["dt", "pi", "diff", "Derivative", "Matrix", "Hold", "HoldForm", "Eq", "piecewise", "ddot", "dot"])
 _NUMBER = re.compile(r"\d+")
 
 

@@ -19,7 +19,7 @@ from typing import Any, cast
 
 import sympy as sp
 
-from lagrangian.derive.algebra.monomials import common, digits, packed
+from lagrangian.derive.algebra.monomials import common_divisor, digits, packed
 
 Flat = dict[int, Fraction]
 """A polynomial over display letters: packed monomial → rational coefficient."""
@@ -98,7 +98,7 @@ class Shortener:
             scale = lcm(*denominators)
             tree = self._outside({m: c * scale for m, c in poly.items()}, whole=False)
             tree = self.times(tree, Fraction(1, scale), 0)
-            bare = poly.get(common(poly), Fraction(1)).denominator > 1  # ½ (1 + 4 c² x²), not ½ + 2 c² x²
+            bare = poly.get(common_divisor(poly), Fraction(1)).denominator > 1  # ½ (1 + 4 c² x²), not ½ + 2 c² x²
             if tree.cost < best.cost + bare:
                 best = tree
         if len(poly) > 1 and any(e < 0 for m in poly for _, e in digits(m)):
@@ -269,7 +269,7 @@ def primitive(poly: Flat, *, whole: bool = True) -> tuple[Fraction, int, Flat]:
 
     Common denominators of numbers are always taken out, those of symbols only with ``whole``.
     """
-    monomial = common(poly)
+    monomial = common_divisor(poly)
     if not whole:
         shared = {i: all(dict(digits(m)).get(i, 0) < 0 for m in poly) for i, e in digits(monomial) if e < 0}
         monomial = int(packed((i, e) for i, e in digits(monomial) if shared.get(i, True)))

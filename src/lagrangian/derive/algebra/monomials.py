@@ -137,7 +137,7 @@ def content(numbers: Iterable[int]) -> int:
     return g
 
 
-def common(monomials: Iterable[int]) -> int:
+def common_divisor(monomials: Iterable[int]) -> int:
     """Return the monomial that divides all of them: the smallest exponent of every generator, even if negative."""
     least: dict[int, int] | None = None
     for m in monomials:

@@ -15,7 +15,16 @@ from sympy.core.function import AppliedUndef
 from lagrangian import bounded
 from lagrangian.derive.algebra.form import Form, OutOfReach, Ring
 from lagrangian.derive.algebra.generators import Symbolic
-from lagrangian.derive.algebra.monomials import LARGEST_EXPONENT, Packed, common, content, digits, turn, unit, whole
+from lagrangian.derive.algebra.monomials import (
+    LARGEST_EXPONENT,
+    Packed,
+    common_divisor,
+    content,
+    digits,
+    turn,
+    unit,
+    whole,
+)
 
 EXACT_TURNS = 12
 """cos(x + π·p/q) is expanded to cos x cos(πp/q) − sin x sin(πp/q) for q up to this, so that thirds cancel."""
@@ -94,7 +103,7 @@ class FormReader:
         if not form.parts:
             raise OutOfReach("an expression divides by zero")
         number = Fraction(content(c for poly in form.parts.values() for c in poly.values()), form.den)
-        monomial = common(m for poly in form.parts.values() for m in poly)
+        monomial = common_divisor(m for poly in form.parts.values() for m in poly)
         if q == 1:
             if form.parts[min(form.parts)][min(form.parts[min(form.parts)])] < 0:
                 number = -number

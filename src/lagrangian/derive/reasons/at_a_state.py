@@ -20,7 +20,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.derive.derived import Derived
 from lagrangian.derive.reasons.laws import AGREE
-from lagrangian.derive.reasons.loads import Bearing, Load
+from lagrangian.derive.reasons.loads import AppliedLoads, Load
 from lagrangian.derive.reasons.motion import Moving
 from lagrangian.derive.sampling import DIGITS, PLACES, SETS, CompiledExpressions, States
 from lagrangian.model import Model, time
@@ -74,7 +74,7 @@ class NumbersAt(Brief):
         return self.digits >= AGREE
 
 
-def numbers(d: Derived, moving: tuple[Moving, ...], bearing: Bearing) -> NumbersAt | None:
+def numbers(d: Derived, moving: tuple[Moving, ...], applied: AppliedLoads) -> NumbersAt | None:
     """Everything at a random state; None if some of it has no value at each of the states that were tried.
 
     Parameters with a value keep it, so that forces are what they are in the system.
@@ -84,7 +84,7 @@ def numbers(d: Derived, moving: tuple[Moving, ...], bearing: Bearing) -> Numbers
         for index in range(TRIES):
             at = _At(d.model, states, index)
             try:
-                return _numbers(d, moving, bearing, at)
+                return _numbers(d, moving, applied, at)
             except (ZeroDivisionError, ValueError, OverflowError, _NoState):
                 continue
     return None
@@ -117,13 +117,13 @@ class _At:
         return self.known.get(symbol, mpmath.mpf(float(self.states.of(symbol)[self.index])))
 
 
-def _numbers(d: Derived, moving: tuple[Moving, ...], bearing: Bearing, at: _At) -> NumbersAt:
+def _numbers(d: Derived, moving: tuple[Moving, ...], applied: AppliedLoads, at: _At) -> NumbersAt:
     coordinates, rows = d.model.coordinates, d.shares.rows
     slopes = [[slope.expr() for slope in row.slopes] for row in rows]
     _onto(d, at, slopes)
     A = _matrix(at([x for row in slopes for x in row]), len(rows), len(coordinates))
     _solve(d, at, A)
-    values = _Values(d, moving, bearing, at)
+    values = _Values(d, moving, applied, at)
     multipliers = tuple(at.known[row.symbol] for row in rows)
     pushed = [sum((A[r, j] * multipliers[r] for r in range(len(rows))), mpmath.mpf(0)) for j in range(len(coordinates))]
     lines = values.laws(pushed)
@@ -218,8 +218,8 @@ def _null(A: Any, n: int) -> tuple[Vector, ...]:
 class _Values:
     """Momenta, loads and virtual work at a state, from derivatives by SymPy."""
 
-    def __init__(self, d: Derived, moving: tuple[Moving, ...], bearing: Bearing, at: _At) -> None:
-        self.d, self.moving, self.bearing, self.at = d, moving, bearing, at
+    def __init__(self, d: Derived, moving: tuple[Moving, ...], applied: AppliedLoads, at: _At) -> None:
+        self.d, self.moving, self.applied, self.at = d, moving, applied, at
         self.columns: list[list[Vector]] = []
         self.rates: list[Vector] = []
         loads: list[Vector] = []
@@ -248,7 +248,7 @@ class _Values:
         )
 
     def _loads(self, m: Moving, size: int) -> Vector:
-        mine = [b.torque if m.turning else b.force for b in self.bearing.loads if b.body is m.body]
+        mine = [b.torque if m.turning else b.force for b in self.applied.loads if b.body is m.body]
         flat = self.at([x for v in mine for x in v]) if any(mine) else []
         return tuple(sum(flat[i::size], mpmath.mpf(0)) for i in range(size))
 
@@ -259,15 +259,15 @@ class _Values:
         for c in d.model.coordinates:
             by_rate = bounded.diff(bounded.diff(d.T, c.rate), time)
             exprs += [by_rate - bounded.diff(d.T, c.symbol), -bounded.diff(d.V, c.symbol), d.Xi[c.symbol]]
-            exprs += [item.effort * bounded.diff(item.rate, c.rate) for item in self.bearing.passed]
+            exprs += [item.effort * bounded.diff(item.rate, c.rate) for item in self.applied.passed]
         values = self.at(exprs)
-        size = 3 + len(self.bearing.passed)
-        vectors = [(load, self._vectors(load)) for load in self.bearing.loads]
+        size = 3 + len(self.applied.passed)
+        vectors = [(load, self._vectors(load)) for load in self.applied.loads]
         found: list[LawNumbers] = []
         for j in range(len(d.model.coordinates)):
             moved, fall, Xi, *shares = values[size * j : size * (j + 1)]
             through = {"V": mpmath.mpf(0), "Ξ": mpmath.mpf(0)}
-            for item, x in zip(self.bearing.passed, shares, strict=True):
+            for item, x in zip(self.applied.passed, shares, strict=True):
                 through[item.element.ledger] += x
             for load, parts in vectors:
                 through[load.element.ledger] += sum(_dot(v, self.columns[k][j]) for k, v in parts)

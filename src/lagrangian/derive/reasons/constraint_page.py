@@ -114,7 +114,7 @@ def _reasons(why: Reasoning) -> Iterator[Item]:
             rows.append((text(hold.body.title), by, because))
     header = (text("mass"), text("held by"), text("why no work"))
     yield Table(header, tuple(rows))
-    if titles := list(dict.fromkeys(item.element.title for item in why.bearing.passed)):
+    if titles := list(dict.fromkeys(item.element.title for item in why.applied.passed)):
         yield text(
             f"What is only passed on, of {and_(titles)}, is no constraint force: it is taken out of the sum here and "
             "counted below."

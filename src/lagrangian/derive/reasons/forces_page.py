@@ -85,7 +85,7 @@ def newton(why: Reasoning) -> Part:
 
 def _body(why: Reasoning, hold: Holding, *, alone: bool) -> Iterator[Item]:
     body = hold.body
-    acting = [load.element.title for load in why.bearing.loads if load.body is body]
+    acting = [load.element.title for load in why.applied.loads if load.body is body]
     acting = list(dict.fromkeys(acting))
     title = capital(body.title)
     described = (
@@ -180,7 +180,7 @@ def _pull(why: Reasoning, hold: Holding) -> Iterator[Item]:
 
 def _passed_on(why: Reasoning) -> Iterator[Item]:
     """What acts on parts without mass is in R."""
-    titles = list(dict.fromkeys(item.element.title for item in why.bearing.passed))
+    titles = list(dict.fromkeys(item.element.title for item in why.applied.passed))
     if not titles:
         return
     one = len(titles) == 1

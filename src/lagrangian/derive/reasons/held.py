@@ -19,7 +19,7 @@ from lagrangian import bounded
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import Context
 from lagrangian.derive.reasons.laws import reaction
-from lagrangian.derive.reasons.loads import Bearing, FixedPoints
+from lagrangian.derive.reasons.loads import AppliedLoads, FixedPoints
 from lagrangian.derive.reasons.motion import Column, Moving, dot
 from lagrangian.model import Body, Point, Torque, Words
 from lagrangian.model.elements.base import difference
@@ -51,7 +51,7 @@ class Holding(Brief):
     force: Form | None = None
 
 
-def holds(context: Context, moving: tuple[Moving, ...], bearing: Bearing) -> tuple[Holding, ...]:
+def holds(context: Context, moving: tuple[Moving, ...], applied: AppliedLoads) -> tuple[Holding, ...]:
     """What holds every body, in the order of the bodies."""
     bodies = context.model.bodies
     if len(bodies) > MOST_BODIES:
@@ -63,7 +63,7 @@ def holds(context: Context, moving: tuple[Moving, ...], bearing: Bearing) -> tup
         return tuple(found)
     carried = _carried(found)
     alone = all(h.kind in ("rod", "track") and h.carrier is None for h in found)
-    return tuple(_with_force(context, moving, bearing, hold, carried[hold.body], alone) for hold in found)
+    return tuple(_with_force(context, moving, applied, hold, carried[hold.body], alone) for hold in found)
 
 
 def _carried(found: list[Holding]) -> dict[Body, tuple[Body, ...]]:
@@ -80,19 +80,19 @@ def _carried(found: list[Holding]) -> dict[Body, tuple[Body, ...]]:
 def _with_force(
     context: Context,
     moving: tuple[Moving, ...],
-    bearing: Bearing,
+    applied: AppliedLoads,
     hold: Holding,
     carried: tuple[Body, ...],
     alone: bool,
 ) -> Holding:
     """Add the pull of a rod, the part along it of what holds all that hang on it; or the push of a track on a body that
     touches no other."""
-    simple = all(isinstance(x.element, Torque) for x in bearing.passed)
+    simple = all(isinstance(x.element, Torque) for x in applied.passed)
     if not hold.along or (len(carried) > 1 and (not simple or hold.kind != "rod")):
         return hold
     if hold.kind == "track" and not alone:
         return hold
-    whole = [reaction(context, bearing, m) for m in moving if m.body in carried and not m.turning]
+    whole = [reaction(context, applied, m) for m in moving if m.body in carried and not m.turning]
     along = context.algebra.total([dot(context, R, hold.along) for R in whole])
     force = -along if hold.kind == "rod" else along
     return replace(hold, force=force)

@@ -23,7 +23,7 @@ import mpmath
 from lagrangian.derive.algebra import Form
 from lagrangian.derive.context import Context
 from lagrangian.derive.derived import Derived
-from lagrangian.derive.reasons.loads import Bearing, load_work, on_body, passed_work
+from lagrangian.derive.reasons.loads import AppliedLoads, load_work, on_body, passed_work
 from lagrangian.derive.reasons.motion import Column, Moving, dot
 from lagrangian.derive.sampling import DIGITS, CompiledExpressions, States
 from lagrangian.page.formula import Check, Name, Partial, Text, Total, text
@@ -60,22 +60,22 @@ class Law:
         return self.held - self.passed
 
 
-def reaction(context: Context, bearing: Bearing, m: Moving) -> Column:
+def reaction(context: Context, applied: AppliedLoads, m: Moving) -> Column:
     """R = ṗ − the loads: the force that holds a body, or the moment, in terms of ξ, ξ̇ and ξ̈."""
-    loads = on_body(context, bearing.loads, m)
+    loads = on_body(context, applied.loads, m)
     return tuple(p - f for p, f in zip(m.momentum_rate, loads, strict=True))
 
 
-def laws(d: Derived, moving: tuple[Moving, ...], bearing: Bearing) -> tuple[Law, ...]:
+def laws(d: Derived, moving: tuple[Moving, ...], applied: AppliedLoads) -> tuple[Law, ...]:
     """Both sides of every equation, for every coordinate."""
     context: Context = d.shares.context
     total, form = context.algebra.total, context.form
     T, V = form(d.T), form(d.V)
-    reactions = [reaction(context, bearing, m) for m in moving]
+    reactions = [reaction(context, applied, m) for m in moving]
     found: list[Law] = []
     for j, c in enumerate(d.model.coordinates):
-        loads = [(load.element.ledger, load_work(context, moving, load, j)) for load in bearing.loads]
-        passed = [(item.element.ledger, passed_work(context, item, j)) for item in bearing.passed]
+        loads = [(load.element.ledger, load_work(context, moving, load, j)) for load in applied.loads]
+        passed = [(item.element.ledger, passed_work(context, item, j)) for item in applied.passed]
         by_rate, by_place, fall, Xi = T.diff(c.rate), T.diff(c.symbol), -V.diff(c.symbol), form(d.Xi[c.symbol])
         found.append(
             Law(

@@ -51,7 +51,7 @@ class PassedOn(Brief):
 
 
 @dataclass(frozen=True, eq=False)
-class Bearing:
+class AppliedLoads:
     """All loads on the bodies, and all efforts that massless parts pass on."""
 
     loads: tuple[Load, ...]
@@ -104,7 +104,7 @@ class FixedPoints:
         )
 
 
-def bearing(context: Context, moving: tuple[Moving, ...]) -> Bearing:
+def applied_loads(context: Context, moving: tuple[Moving, ...]) -> AppliedLoads:
     """The loads of all elements that act."""
     places = FixedPoints(context, moving)
     loads: list[Load] = []
@@ -113,7 +113,7 @@ def bearing(context: Context, moving: tuple[Moving, ...]) -> Bearing:
         for item in _of(places, element) if element.ledger in ("V", "Ξ") else ():
             loads += [item] if isinstance(item, Load) else []
             passed += [item] if isinstance(item, PassedOn) else []
-    return Bearing(tuple(loads), tuple(passed))
+    return AppliedLoads(tuple(loads), tuple(passed))
 
 
 def load_work(context: Context, moving: tuple[Moving, ...], load: Load, index: int) -> Form:

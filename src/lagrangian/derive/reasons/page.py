@@ -19,7 +19,7 @@ from lagrangian.derive.reasons.energy_page import forces, in_numbers, kinetic, s
 from lagrangian.derive.reasons.forces_page import newton, wiggle
 from lagrangian.derive.reasons.held import holds
 from lagrangian.derive.reasons.laws import laws, reaction
-from lagrangian.derive.reasons.loads import bearing
+from lagrangian.derive.reasons.loads import applied_loads
 from lagrangian.derive.reasons.motion import moving
 from lagrangian.derive.reasons.result import EquationCount, Reasoning, spared
 from lagrangian.errors import ModelError
@@ -67,7 +67,7 @@ def why(d: Derived) -> Why:
     _check_masses(d.model)
     context.algebra.renew()
     parts = moving(context)
-    loads = bearing(context, parts)
+    loads = applied_loads(context, parts)
     reactions = tuple(reaction(context, loads, m) for m in parts)
     found = Reasoning(
         d,

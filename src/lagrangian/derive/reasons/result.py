@@ -13,7 +13,7 @@ from lagrangian.derive.derived import Derived
 from lagrangian.derive.reasons.at_a_state import NumbersAt
 from lagrangian.derive.reasons.held import Holding
 from lagrangian.derive.reasons.laws import Law
-from lagrangian.derive.reasons.loads import Bearing
+from lagrangian.derive.reasons.loads import AppliedLoads
 from lagrangian.derive.reasons.motion import Column, Moving
 from lagrangian.model import Body
 from lagrangian.viewed import Brief
@@ -46,7 +46,7 @@ class Reasoning(Brief):
 
     derived: Derived
     moving: tuple[Moving, ...]
-    bearing: Bearing
+    applied: AppliedLoads
     reactions: tuple[Column, ...]
     laws: tuple[Law, ...]
     holds: tuple[Holding, ...]

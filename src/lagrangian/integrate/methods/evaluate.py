@@ -17,8 +17,8 @@ if TYPE_CHECKING:
 INLINE = 3000  # operations that may be printed in place, all copies together
 
 
-class Tapes:
-    """A program with hoisted parameters, for the groups x, u, p and t in any order.
+class PrintedProgram:
+    """A program as code within an integrator, with hoisted parameters, and the slots of its inputs x, u, p and t.
 
     ``own``: every lane has its own parameters, so the shared block has one number per lane.
     ``called``: the body is a function too, even if it is short enough to be printed in place.

@@ -23,7 +23,7 @@ from lagrangian.codegen.ir import Value, hexadecimal
 from lagrangian.graph import Program
 
 from . import memory_layout as at
-from .evaluate import Tapes
+from .evaluate import PrintedProgram
 from .memory_layout import Lanes
 from .method import Method, MethodStep
 from .pieces import Pieces
@@ -78,8 +78,8 @@ class EventDetector:
         self.events, self.count = events, len(events.direction)
         guard, after = parts(events)
         own = own and bool(guard.inputs.get("p"))
-        self.guard = Tapes(p, guard, "guard", own=own, copies=5)
-        self.after = None if after is None else Tapes(p, after, "after", own=own, copies=5)
+        self.guard = PrintedProgram(p, guard, "guard", own=own, copies=5)
+        self.after = None if after is None else PrintedProgram(p, after, "after", own=own, copies=5)
         self.pieces = Pieces(p, lanes, method, service, guard, own=own)
         self.armed, self.phase, self.fresh, self.fired = (p.reserve(self.count) for _ in range(4))
         self.low, self.high, self.busy, self.settled, self.cut, self.rounds = (p.reserve(1) for _ in range(6))

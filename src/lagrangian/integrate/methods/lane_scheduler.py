@@ -10,7 +10,7 @@ from typing import Protocol
 from lagrangian.integrate.status import RunStatus
 
 from . import memory_layout as at
-from .evaluate import Tapes
+from .evaluate import PrintedProgram
 from .memory_layout import Lanes
 from .method import Method
 from .printer import Printer
@@ -132,7 +132,7 @@ class LaneScheduler:
 
     # The service itself ------------------------------------------------------------------------------------------
 
-    def print(self, tapes: Tapes, watch: Watching | None, project: Noting | None) -> None:
+    def print(self, tapes: PrintedProgram, watch: Watching | None, project: Noting | None) -> None:
         """Print the service; at its end the function returns, or continues with ``begin`` or ``head``."""
         p, f, lanes = self.p, self.f, self.lanes
         f.label("service")

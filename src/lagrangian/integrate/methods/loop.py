@@ -18,7 +18,7 @@ from lagrangian.codegen.ir import Module, Value
 from lagrangian.integrate.status import RunStatus
 
 from . import memory_layout as at
-from .evaluate import Tapes
+from .evaluate import PrintedProgram
 from .events import EventDetector
 from .jets import Jets
 from .lane_end import attend
@@ -71,7 +71,7 @@ class Loop:
         own = variant.own and bool(program.inputs.get("p"))
         self.lanes = Lanes(p, self.inputs, len(program.inputs.get("p", ())))
         copies = method.evaluations + method.dense_evaluations + 2
-        self.tapes = Tapes(p, program, "body", own=own, copies=copies)
+        self.tapes = PrintedProgram(p, program, "body", own=own, copies=copies)
         self.new_x, self.new_lost, self.new_k = p.block(), p.block(), p.block()
         self.own_blocks = tuple(p.block() for _ in range(method.blocks))
         self.own_slots = tuple(p.reserve(1) for _ in range(method.slots))

@@ -14,7 +14,7 @@ from lagrangian.codegen.ir import Value
 from lagrangian.graph import Program, bounds, states_read
 
 from . import memory_layout as at
-from .evaluate import Tapes
+from .evaluate import PrintedProgram
 from .memory_layout import Lanes
 from .method import Method, MethodStep
 from .printer import Printer, Vec
@@ -42,7 +42,7 @@ class Pieces:
     ) -> None:
         self.p, self.f, self.lanes, self.method, self.service = p, p.f, lanes, method, service
         self.read = states_read(guard)
-        self.tapes = Tapes(p, bounds(guard), "bounds", own=own, copies=1)
+        self.tapes = PrintedProgram(p, bounds(guard), "bounds", own=own, copies=1)
         self.span, self.count = p.reserve(1), p.reserve(1)
         self.terms: list[int] = []
 

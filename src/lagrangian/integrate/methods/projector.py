@@ -19,7 +19,7 @@ from lagrangian.integrate.projection import (
 )
 
 from . import memory_layout as at
-from .evaluate import Tapes
+from .evaluate import PrintedProgram
 from .memory_layout import Lanes
 from .printer import Printer, Vec
 
@@ -60,11 +60,11 @@ class Projector:
         self.gap, self.size, self.shrunk, self.rounds = (p.reserve(1) for _ in range(4))
         self.worst = p.reserve(len(DRIFT))
 
-    def _tapes(self, program: Program, name: str, own: bool) -> Tapes:
-        return Tapes(self.p, program, name, own=own and bool(program.inputs.get("p")), copies=2, called=True)
+    def _tapes(self, program: Program, name: str, own: bool) -> PrintedProgram:
+        return PrintedProgram(self.p, program, name, own=own and bool(program.inputs.get("p")), copies=2, called=True)
 
     @property
-    def tapes(self) -> tuple[Tapes | None, Tapes]:
+    def tapes(self) -> tuple[PrintedProgram | None, PrintedProgram]:
         """The tapes that are evaluated, for the sizes of shared blocks."""
         return self.approach, self.landing
 

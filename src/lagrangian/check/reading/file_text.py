@@ -1,0 +1,92 @@
+"""The text of an answer's file: UTF-8, UTF-16 as Windows writes it, or Windows-1252 if no letter is in doubt.
+
+A file in another code page of Windows has the same bytes with other letters: θ of a Greek one is è. It is refused
+unless everything beyond ASCII is a sign, ½ or ², or a letter in a word of a sentence: Lösung, énergie.
+"""
+
+from __future__ import annotations
+
+import codecs
+import re
+
+from lagrangian.errors import ParseError, Place
+from lagrangian.model.names import FUNCTIONS
+from lagrangian.read import MAX_BYTES, decode
+
+_MARKED = (
+    (codecs.BOM_UTF32_LE, "utf-32"),
+    (codecs.BOM_UTF32_BE, "utf-32"),
+    (codecs.BOM_UTF16_LE, "utf-16"),
+    (codecs.BOM_UTF16_BE, "utf-16"),
+)
+_SIGNS = frozenset("½¼¾²³¹·×÷±°–—‘’‚“”„…•§´ \t™®©")
+_LETTERS = frozenset("äöüÄÖÜßéèêëàâçôîïûùœæñóíúáÉÈÀÇ")
+_WORD = re.compile(r"[^\W\d_¹²³¼½¾]+")
+_BEFORE = "^_²³*/+-−–=([)]|<>"
+_BEHIND = "'’′″\"^_²³*/+-−–=([)]|<>"
+_SHORTEST = 3
+_MANY = 0.3
+"""The share of zero bytes on one side from which a file without a mark is UTF-16: ASCII has one in every character."""
+
+
+def decode_answer(data: bytes, name: str) -> str:
+    """Return the text of an answer's file; raises `ParseError` with its place if it is no text that can be told."""
+    if len(data) <= MAX_BYTES:
+        for mark, encoding in _MARKED:
+            if data.startswith(mark):
+                return _decoded(data, encoding, name)
+        if (encoding := _unmarked(data)) is not None:
+            return _decoded(data, encoding, name)
+        if b"\0" not in data and (text := _of_windows(data)) is not None:
+            return text
+    return decode(data, name)
+
+
+def _decoded(data: bytes, encoding: str, name: str) -> str:
+    try:
+        return data.decode(encoding)
+    except UnicodeDecodeError:
+        raise ParseError(
+            f"the file begins as {encoding.upper()} and is not", place=Place(name), fix="save it as UTF-8", code="E702"
+        ) from None
+
+
+def _unmarked(data: bytes) -> str | None:
+    """The kind of UTF-16 that a file without a mark is; None if it is none."""
+    if len(data) < 4 or len(data) % 2 or b"\0" not in data:
+        return None
+    high, low = (data[side::2].count(0) / (len(data) // 2) for side in (1, 0))
+    if high > _MANY and low == 0:
+        return "utf-16-le"
+    return "utf-16-be" if low > _MANY and high == 0 else None
+
+
+def _of_windows(data: bytes) -> str | None:
+    """The text in Windows-1252; None if it is UTF-8, or if a letter may be another one."""
+    try:
+        data.decode("utf-8")
+        return None
+    except UnicodeDecodeError:
+        pass
+    try:
+        text = data.decode("cp1252")
+    except UnicodeDecodeError:
+        return None
+    return text if all(map(_is_sure, text.split("\n"))) else None
+
+
+def _is_sure(line: str) -> bool:
+    """Whether all characters of a line that are not ASCII are signs, or letters in words of a sentence."""
+    if any(not c.isascii() and c not in _SIGNS | _LETTERS for c in line):
+        return False
+    return all(_is_word(line, word) for word in _WORD.finditer(line) if not word.group().isascii())
+
+
+def _is_word(line: str, word: re.Match[str]) -> bool:
+    """Whether letters are a word of a sentence and no name: several, not beside an operator, and no function."""
+    letters = word.group()
+    before, behind = line[: word.start()].rstrip()[-1:], line[word.end() :].lstrip()[:1]
+    if len(letters) < _SHORTEST or (before and before in _BEFORE) or (behind and behind in _BEHIND):
+        return False
+    named = any(name in letters.lower() for name in FUNCTIONS if len(name) >= _SHORTEST)
+    return not named and ("=" not in line[: word.start()] or ":" in line[word.end() :])

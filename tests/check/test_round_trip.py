@@ -1,0 +1,111 @@
+"""What the program prints, and what SymPy prints of it, is read back and found right.
+
+Oracle: the derivation that was printed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+
+import pytest
+import sympy as sp
+
+from built_in import LARGE, derivation
+from lagrangian import Derivation, check, examples
+from lagrangian.check.reading import parse_answer
+
+SAMPLE = ("lecture-2", "duffing", "ladder")
+"""Several bodies with long energies, names with spaces, and constraints."""
+
+PRINTERS: tuple[Callable[[sp.Basic], str], ...] = (
+    str,
+    lambda x: f"\\[{sp.latex(x)}\\]",
+    lambda x: str(sp.mathematica_code(x)),
+    lambda x: str(sp.octave_code(x, strict=False)),
+)
+NOTATIONS = ("lecture", "physics", "robotics")
+
+
+def in_latex(lines: list[str]) -> str:
+    return "\n".join(f"\\[{line}\\]" for line in lines)
+
+
+def pages(derivation: Derivation) -> Iterator[tuple[str, str]]:
+    """The checklist in every notation and format, and the data."""
+    for notation in NOTATIONS:
+        for write in (derivation.to_text, derivation.to_markdown, derivation.to_latex):
+            yield f"{write.__name__} {notation}", write(notation=notation, brief=True)
+    data = derivation.to_dict()
+    for kind in ("plain", "latex"):
+        equations = [f"{e['left'][kind]} = {e['right'][kind]}" for e in data["equations"]]
+        energies = [f"{name} = {data[name][kind]}" for name in "TVL"]
+        forces = [f"\\Xi_{{{k + 1}}} = {x[kind]}" for k, x in enumerate(data["Xi"].values())]
+        lines = [*energies, *(x.replace("\\", "") if kind == "plain" else x for x in forces), *equations]
+        lines = [line.replace("Xi_{", "Xi_").replace("} =", " =") for line in lines] if kind == "plain" else lines
+        yield f"json {kind}", in_latex(lines) if kind == "latex" else "\n".join(lines)
+
+
+def printed(derivation: Derivation) -> Iterator[tuple[str, str]]:
+    """The equations and energies as SymPy prints them."""
+    for k, write in enumerate(PRINTERS):
+        yield f"sympy {k}", "\n".join(map(write, derivation.equations))
+        for name in "TVL":
+            energy = write(getattr(derivation, name))
+            yield f"sympy {k} {name}", f"$ {name} = {energy[2:-2]} $" if k == 1 else f"{name} = {energy}"
+
+
+def judged(derivation: Derivation, text: str) -> check.Verdict:
+    """The verdict without a search for mistakes."""
+    answer = parse_answer(text, derivation.model)
+    return check.check(derivation, check.lines_of(answer), explain=False)
+
+
+def is_right(verdict: check.Verdict) -> bool:
+    """Whether all lines are right; energies alone are no complete answer to a system with constraints."""
+    return verdict.right or (
+        verdict.status is check.Status.INCOMPLETE and all(f.status.right for f in verdict.findings)
+    )
+
+
+@pytest.mark.parametrize("name", SAMPLE)
+def test_what_is_printed_of_some_examples_is_right(name: str) -> None:
+    own = derivation(name)
+    for what, text in [*list(pages(own))[:3], *list(pages(own))[9:], *printed(own)]:
+        assert is_right(judged(own, text)), (what, text)
+
+
+@pytest.mark.slow
+def test_what_is_printed_of_all_examples_is_right() -> None:
+    for name in examples.names():
+        own = derivation(name)
+        if name not in LARGE:
+            for what, text in (*pages(own), *printed(own)):
+                assert is_right(judged(own, text)), (name, what, text)
+
+
+def test_matrices_that_are_drawn_are_read() -> None:
+    drawn = "    q = ⎡ x ⎤\n        ⎣ θ ⎦\n    M = ⎡ M + m   m l cos θ ⎤\n        ⎣ sym.    J + m l²  ⎦\n"
+    drawn += (
+        "    h = ⎡ b ẋ − m l θ̇² sin θ ⎤\n        ⎣    −m g l sin θ    ⎦\n    M q̈ + h = ⎡ {F} ⎤\n              ⎣ 0 ⎦"
+    )
+    own = derivation("cart-pole")
+    assert judged(own, drawn.format(F="F")).right
+    assert not judged(own, drawn.format(F="b")).right
+
+
+@pytest.mark.parametrize(
+    ("written", "right"),
+    [
+        ("T = T_1 + T_2 = 1/2 M x'^2 + 1/2 m (x_2'^2 + y_2'^2) + 1/2 J theta'^2 = {T}", True),
+        (
+            "T_1 = 1/2 M x'^2, T_2 = 1/2 m x'^2 + m l x' theta' cos theta + 1/2 (J + m l^2) theta'^2, T = T_1 + T_2",
+            True,
+        ),
+        ("T_1 = 1/2 M x'^2, T_2 = 1/2 m x'^2 + m l x' theta' cos theta + 1/2 J theta'^2, T = T_1 + T_2", False),
+        ("T = T_1 + T_2 = {T} + 1/2 m l^2 theta'^2", False),
+    ],
+)
+def test_sums_of_parts_are_judged_by_what_they_come_to(written: str, right: bool) -> None:
+    T = "1/2 (M + m) x'^2 + m l x' theta' cos theta + 1/2 (J + m l^2) theta'^2"
+    verdict = judged(derivation("cart-pole"), written.format(T=T))
+    assert [f.line.kind for f in verdict.findings] == ["T"] and verdict.right is right, verdict

@@ -1,0 +1,130 @@
+"""What rules find that no built-in example needs: rods between sliders, driven circles, forces beside springs."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from sympy import cos, sin, sqrt
+from sympy.physics.mechanics import dynamicsymbols
+
+import lagrangian as lg
+from lagrangian.graph import evaluate
+from lagrangian.page.placing import placed, places
+
+
+def trammel() -> lg.System:
+    s = lg.System("elliptic trammel")
+    theta = s.coordinates("theta")
+    m, l = s.parameters("m l", m="1 kg", l="1 m")
+    s.particle(m, at=s.point("A", (l * cos(theta), 0)), name="a")
+    s.particle(m, at=s.point("B", (0, l * sin(theta))), name="b")
+    return s
+
+
+def crank() -> lg.System:
+    s = lg.System("crank and piston")
+    phi = s.coordinates("phi")
+    m, r, l = s.parameters("m r l", m="1 kg", r="0.3 m", l="1 m")
+    s.particle(m, at=s.point("A", (r * cos(phi), r * sin(phi))), name="pin")
+    s.particle(m, at=s.point("B", (r * cos(phi) + sqrt(l**2 - r**2 * sin(phi) ** 2), 0)), name="piston")
+    return s
+
+
+GOVERNOR = """
+name = "governor"
+[coordinates]
+theta = "arms, from the vertical"
+phi = "spindle"
+[parameters]
+m = "1 kg"
+a = "0.3 m"
+[[frame]]
+name = "spindle"
+axis = [0, 0, 1]
+angle = "phi"
+[points]
+left = { frame = "spindle", offset = ["-a*sin(theta)", "0", "-a*cos(theta)"] }
+right = { frame = "spindle", offset = ["a*sin(theta)", "0", "-a*cos(theta)"] }
+sleeve = ["0", "0", "-2*a*cos(theta)"]
+[[particle]]
+name = "left"
+mass = "m"
+at = "left"
+[[particle]]
+name = "right"
+mass = "m"
+at = "right"
+[[particle]]
+name = "sleeve"
+mass = "m"
+at = "sleeve"
+[[gravity]]
+direction = [0, 0, -1]
+"""
+
+
+def governor() -> lg.System:
+    return lg.loads(GOVERNOR)
+
+
+def rods(picture: lg.Picture, q: np.ndarray) -> list[float]:
+    """The drawn lengths of all rods [px] at coordinates."""
+    program = picture.program
+    groups = {"x": [*map(float, q), *[0.0] * len(q)], "u": [], "t": [0.0]}
+    groups["p"] = [float(program.defaults[name]) for name in program.inputs["p"]]
+    at = places(picture.scene, evaluate(program, groups)["r"])
+    ends = [placed(part, at) for part in picture.scene.parts if part.kind == "rod"]
+    return [float(np.hypot(*(b - a))) for (_, a), (_, b) in ends]
+
+
+@pytest.mark.parametrize(("made", "count", "words"), [
+    (trammel, 1, "A rod between cart a and block b."),
+    (crank, 2, "A rod between the pin and the piston."),
+    (governor, 4, "a rod between the left and the sleeve"),
+])  # fmt: skip
+def test_bodies_at_a_constant_distance_are_joined(made: object, count: int, words: str) -> None:
+    picture = made().look()  # type: ignore[operator]
+    assert words.lower() in picture.description.lower()
+    q = np.array(list(picture.pose.values()))
+    assert len(rods(picture, q)) == count
+    if len(q) == 1:  # in the plane a rod is as long as it is
+        assert rods(picture, q) == pytest.approx(rods(picture, q + 0.2), abs=1e-9)
+        assert not any(p.kind == "measure" for p in picture.scene.parts)  # the coordinate is an angle, not a length
+
+
+def test_the_governor_opens_its_arms() -> None:
+    picture = governor().look()
+    assert picture.pose["theta"] > 0.3
+    balls = [p for p in picture.scene.parts if p.kind == "ball" and p.elements != ("sleeve",)]
+    (ax, ay), (bx, by) = (picture.scene.seen(p.placement.at) for p in balls if p.placement.at is not None)
+    assert np.hypot(ax - bx, ay - by) > 40
+
+
+def test_a_point_that_is_driven_round_has_its_circle() -> None:
+    s = lg.System("driven round")
+    theta, t = s.coordinates("theta"), dynamicsymbols._t
+    m, R, l, omega = s.parameters("m R l omega", m="1 kg", R="0.3 m", l="0.8 m", omega="3 rad/s")
+    pivot = s.point("pivot", (R * cos(omega * t), R * sin(omega * t)))
+    s.particle(m, at=pivot + (l * sin(theta), -l * cos(theta)))
+    scene = s.look().scene
+    circle = next(p for p in scene.parts if p.kind == "driven" and p.dashed)
+    assert np.hypot(*circle.shape.commands[0][1]) == pytest.approx(0.3 * scene.scale)
+    assert ("R",) in [label.names for label in scene.labels]
+    assert not any(p.kind == "pin" for p in scene.parts)
+
+
+def test_a_force_pulls_where_a_spring_leaves_no_room_to_push() -> None:
+    s = lg.System("hanging mass")
+    y, F = s.coordinates("y"), s.input("F")
+    m, k = s.parameters("m k", m="1 kg", k="100 N/m")
+    mass = s.point("P", (0, -y))
+    s.particle(m, at=mass)
+    s.spring(k, deflection=y)
+    s.force((0, -F), at=mass)
+    s.gravity(direction=(0, -1), g=9.81)
+    scene = s.look().scene
+    at = places(scene)
+    spring = next(p for p in scene.parts if p.kind == "spring")
+    arrow = [p for p in scene.parts if p.kind == "force"]
+    low = max(float(x[1]) for _, x in placed(spring, at))
+    assert all(float(y_) > low for p in arrow for _, x in placed(p, at) for y_ in x[1::2])
