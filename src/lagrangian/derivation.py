@@ -13,8 +13,10 @@ from lagrangian.errors import Error
 from lagrangian.model import Model, is_hard
 from lagrangian.model.rows import pressed_rows
 from lagrangian.page.formula import Check, text
+from lagrangian.structured.choose import AskedForm, derive_in_form, is_structured, is_tangled
 from lagrangian.values.dimensions import check_dimensions
 from lagrangian.verify.equations import verify
+from lagrangian.verify.listed import verify_listed
 from lagrangian.viewed import Viewed
 
 if TYPE_CHECKING:
@@ -67,7 +69,7 @@ class Derivation(Guided, derive.Derived):
         linearization with difference quotients. Every check has its figure. ``holds`` is None if something could not be
         checked on this machine, such as C without a compiler. Raises `ModelError` if ``states`` is not a valid number.
         """
-        found = verify(self, states=states, seed=seed)
+        found = verify_lines(self, states=states, seed=seed)
         return (*found, *verify_compiled(self.model, states=states, seed=seed))
 
     def check(self, answer: Any, *, hint: int = 3) -> CheckedAnswer:
@@ -150,6 +152,13 @@ class Derivation(Guided, derive.Derived):
         return self.to_text()
 
 
+def verify_lines(derivation: derive.Derived, *, states: int, seed: int) -> tuple[Check, ...]:
+    """Check the equations as they are written, in the coordinates or in named quantities."""
+    if derivation.form == "structured":
+        return verify_listed(derivation, states=states, seed=seed)
+    return verify(derivation, states=states, seed=seed)
+
+
 def verify_compiled(model: Model, *, states: int, seed: int) -> tuple[Check, ...]:
     """Check the compiled code, the exported code and the linearization of a model."""
     from lagrangian.compiled import Compiled, sources
@@ -169,17 +178,21 @@ def verify_floating(model: Model, *, states: int, seed: int) -> tuple[Check, ...
     return (*found, *verify_compiled(model, states=states, seed=seed))
 
 
-@bounded.answered("writing the equations out", is_hard)
-def derive_and_verify(model: Model, *, detail: derive.Detail = "usual") -> Derivation:
-    """Derive a model and add the checks at the end; ``detail="full"`` writes d/dt out term by term."""
+def _takes_long(model: Model, *, form: AskedForm = "auto", **_: object) -> bool:
+    return is_tangled(model) if is_structured(model, form) else is_hard(model)
+
+
+@bounded.answered("writing the equations out", _takes_long)
+def derive_and_verify(model: Model, *, detail: derive.Detail = "usual", form: AskedForm = "auto") -> Derivation:
+    """Derive a model and add the checks at the end; see `lagrangian.System.derive`."""
     check_dimensions(model)
-    data = derive.derive(model, detail=detail)
+    data = derive_in_form(model, form, detail=detail)
     made = Derivation(**vars(data))
     known = dynamics.notices(model)
     if made.constraints is not None:  # a row that the machine leaves out as well is said once
         told = " ".join(map(str, known))
         known += tuple(n for n in made.constraints.notices() if n.where.removeprefix("constraint ") not in told)
-    made = replace(made, notices=known, verified=verify(made, states=10, seed=1))
+    made = replace(made, notices=known, verified=verify_lines(made, states=10, seed=1))
     steps = tuple(replace(step, view=partial(_section, made, f"step-{step.number}")) for step in made.steps)
     return replace(made, steps=steps, ledger=Viewed(made.ledger, partial(_ledger, made)))
 

@@ -27,6 +27,7 @@ if TYPE_CHECKING:  # every verb imports what it needs, so that describing a syst
     from lagrangian.linear.linearization import Linearization
     from lagrangian.page.formula import Check
     from lagrangian.picture import Picture
+    from lagrangian.structured.choose import AskedForm
     from lagrangian.worksheet import Worksheet
     from lagrangian.write import Notation
 
@@ -45,16 +46,18 @@ class System(Simulated):
     Eq(L**2*m*Derivative(theta(t), (t, 2)) + L*g*m*sin(theta(t)), 0)
     """
 
-    def derive(self, *, detail: Detail = "usual") -> Derivation:
+    def derive(self, *, detail: Detail = "usual", form: AskedForm = "auto") -> Derivation:
         """Return the derivation: the seven steps, the equations, and the results of the checks.
 
-        ``detail="full"`` writes d/dt out term by term before the terms are collected. Raises `ModelError` if a
-        coordinate depends on others or moves no mass, or if the coordinates do not determine the position of every
-        mass.
+        ``form`` is how the equations are written: "expanded" in the coordinates alone, "structured" in velocities,
+        momenta and forces that are defined once, and "auto" in the second form where the first would be too long to
+        read. ``detail="full"`` writes d/dt out term by term before the terms are collected. Raises `ModelError` if a
+        coordinate depends on others or moves no mass, if the coordinates do not determine the position of every mass,
+        or if the system cannot have the form.
         """
         from lagrangian.derivation import derive_and_verify
 
-        return derive_and_verify(self.model, detail=detail)
+        return derive_and_verify(self.model, detail=detail, form=form)
 
     def check(self, answer: Any, *, hint: int = 3) -> CheckedAnswer:
         """Return whether an answer (text, LaTeX, SymPy equations, energies by name) is right; see `Derivation.check`.

@@ -20,6 +20,14 @@ if TYPE_CHECKING:
     from lagrangian.derive import Why
 
 
+class WrittenIn(StrEnum):
+    """How the equations are written."""
+
+    AUTO = "auto"
+    EXPANDED = "expanded"
+    STRUCTURED = "structured"
+
+
 class Detail(StrEnum):
     """How many steps of the differentiation are written."""
 
@@ -35,6 +43,10 @@ def derive(
     brief: Annotated[bool, typer.Option("--brief", help="Write only the one-page checklist.")] = False,
     full: Annotated[bool, typer.Option("--full", help="Write out even expressions that are too long to read.")] = False,
     detail: Annotated[Detail, typer.Option(help="“full” differentiates term by term in step 5.")] = Detail.USUAL,
+    form: Annotated[
+        WrittenIn,
+        typer.Option(help="“structured” writes the equations in velocities, momenta and forces that are defined once."),
+    ] = WrittenIn.AUTO,
     describe: Annotated[
         bool, typer.Option("--describe", help="Begin with what the system looks like, in words.")
     ] = False,
@@ -55,6 +67,7 @@ def derive(
       lagrangian derive carts.toml --brief
       lagrangian derive carts.toml --notation physics -o carts.tex
       lagrangian derive --example pendulum --why
+      lagrangian derive --example robot-arm --form structured
     """
     wanted = chosen(format, json, output, force)
     if describe and wanted not in (Format.TEXT, Format.MARKDOWN):
@@ -64,7 +77,7 @@ def derive(
         option = "--brief" if brief else "--describe" if describe else "--detail"
         what = f"{option} is for the steps of a derivation, and --why writes another page"
         raise Error(what, fix=f"leave {option} out, or --why", code="E406")
-    derivation = open_system(file, example).derive(detail=detail.value)
+    derivation = open_system(file, example).derive(detail=detail.value, form=form.value)
     if why:
         _reasons(derivation.why, wanted, notation, full, width, output)
         return

@@ -72,6 +72,12 @@ def compare(a: Derivable | Derived, b: Derivable | Derived, change: Mapping[Any,
 
 def _derived(thing: object, which: str) -> Derived:
     if isinstance(thing, Derived):
+        if thing.form == "structured":
+            raise ModelError(
+                f"the {which} of the two is written in named quantities, and comparing needs the coordinates alone",
+                fix='derive(form="expanded"), if that can be done',
+                code="E601",
+            )
         return thing
     if not hasattr(thing, "derive"):
         raise ModelError(
@@ -79,7 +85,7 @@ def _derived(thing: object, which: str) -> Derived:
             fix="compare(System, System), or their derivations",
             code="E406",
         )
-    return thing.derive()  # type: ignore[attr-defined]
+    return thing.derive(form="expanded")  # type: ignore[attr-defined]
 
 
 def _by_motions(sides: tuple[ComparedSystem, ComparedSystem], given: Mapping[Any, Any] | None) -> Comparison:

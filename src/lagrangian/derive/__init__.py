@@ -4,7 +4,7 @@
 """
 
 from lagrangian.derive.derive import derive
-from lagrangian.derive.derived import Derived, LedgerRow, Origin, Step
+from lagrangian.derive.derived import Derived, LedgerRow, NamedQuantity, Origin, QuantityKind, Step, WrittenForm
 from lagrangian.derive.lagrange import Detail
 from lagrangian.derive.multiplier import Minimal, Multiplier, SpeedLine
 from lagrangian.derive.reasons import Why, why
@@ -15,10 +15,13 @@ __all__ = [
     "LedgerRow",
     "Minimal",
     "Multiplier",
+    "NamedQuantity",
     "Origin",
+    "QuantityKind",
     "SpeedLine",
     "Step",
     "Why",
+    "WrittenForm",
     "derive",
     "why",
 ]

@@ -11,8 +11,12 @@ also have ``"text"`` (one line of Unicode). Keys at the top:
     Xi                          {coordinate: expression}
     equations                   list: "coordinate", "left", "right" (expressions), "terms" (list: expression, "kind",
                                 "elements")
+    form                        "expanded", or "structured": equations, energies and Ξ in named quantities
     mass_matrix, coriolis_matrix, gravity_vector, generalized_forces
-                                lists of rows of plain text; q̈ follows from M q̈ + C q̇ + G = Ξ
+                                of an expanded derivation: lists of rows of plain text; q̈ follows from
+                                M q̈ + C q̇ + G = Ξ
+    named_quantities            of a structured derivation, each in earlier ones: list: "symbol", "expression", "kind",
+                                "of" (what it belongs to), "inward" (a sum over all that hangs on it), "elements"
     steps                       list: "number", "title", "what", "why", "items", "reasons", "checks"
     result                      items of the closing section
     ledger                      list: "element", "column", "reason", "expression" (or null)
@@ -45,6 +49,7 @@ from lagrangian.page import formula as data
 from lagrangian.page.formula import Check
 from lagrangian.page.plain import plain
 from lagrangian.write.blocks import operations
+from lagrangian.write.expression import NamedSymbol
 from lagrangian.write.expression_tree import equality
 from lagrangian.write.quantities import Notation, Quantities
 from lagrangian.write.tex import WEB
@@ -64,10 +69,15 @@ def to_dict(
     return _Data(derivation, notation, brief, full).whole()
 
 
+def named_symbols(derivation: Derived) -> list[NamedSymbol]:
+    """The symbols that a derivation defines, turns first: m₁ c₂ v₃."""
+    return [NamedSymbol(d.symbol, 0 if d.kind == "turn" else 1, d.inward) for d in derivation.definitions]
+
+
 class _Data:
     def __init__(self, derivation: Derived, notation: Notation, brief: bool, full: bool) -> None:
         self.derivation, self.notation, self.brief = derivation, notation, brief
-        self.write = Quantities(derivation.model, notation, full=full)
+        self.write = Quantities(derivation.model, notation, full=full, named=named_symbols(derivation))
 
     def whole(self) -> dict[str, Any]:
         d, model = self.derivation, self.derivation.model
@@ -87,10 +97,8 @@ class _Data:
             "L": self.expression(d.L),
             "Xi": {plain(q): self.expression(x) for q, x in d.Xi.items()},
             "equations": [self.equation(i) for i in range(len(d.equations))],
-            "mass_matrix": _rows(d.mass_matrix),
-            "coriolis_matrix": _rows(d.coriolis_matrix),
-            "gravity_vector": _rows(d.gravity_vector),
-            "generalized_forces": _rows(d.generalized_forces),
+            "form": d.form,
+            **(self.named() if d.form == "structured" else self.matrices()),
             "steps": [
                 {
                     "number": s.number,
@@ -121,6 +129,32 @@ class _Data:
 
     def expression(self, expr: sp.Basic) -> dict[str, str]:
         return {"plain": plain(expr), "latex": WEB.latex(self.write.expressions(expr))}
+
+    def matrices(self) -> dict[str, Any]:
+        """M, C, G and Ξ of equations in the coordinates alone."""
+        d = self.derivation
+        return {
+            "mass_matrix": _rows(d.mass_matrix),
+            "coriolis_matrix": _rows(d.coriolis_matrix),
+            "gravity_vector": _rows(d.gravity_vector),
+            "generalized_forces": _rows(d.generalized_forces),
+        }
+
+    def named(self) -> dict[str, Any]:
+        """The definitions of equations in named quantities."""
+        return {
+            "named_quantities": [
+                {
+                    "symbol": plain(x.symbol),
+                    "expression": self.expression(x.expression),
+                    "kind": x.kind,
+                    "of": x.of,
+                    "inward": x.inward,
+                    "elements": list(x.elements),
+                }
+                for x in self.derivation.definitions
+            ]
+        }
 
     def constrained(self) -> dict[str, Any]:
         """What a system with constraints has besides."""

@@ -7,11 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal, Protocol, TypeAlias, cast
 
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
+from lagrangian import bounded
 from lagrangian.derive.multiplier import Minimal, Multiplier, equality
 from lagrangian.errors import ModelError, Notice, did_you_mean
 from lagrangian.model import as_expr
@@ -24,6 +25,9 @@ if TYPE_CHECKING:
     from lagrangian.model import Element, Model
     from lagrangian.page.report import Report
     from lagrangian.write.document import HeadPicture
+
+LARGEST_EXPANDED = 200_000
+"""The size above which an equation is not written in the coordinates alone."""
 
 
 @dataclass(frozen=True)
@@ -80,6 +84,55 @@ class Origin(Brief):
         )
 
 
+WrittenForm: TypeAlias = Literal["expanded", "structured"]
+"""How equations are written: in the coordinates alone, or in named quantities that are defined once."""
+
+QuantityKind: TypeAlias = Literal[
+    "turn", "vertical", "height", "velocity", "momentum", "acceleration", "force", "shared"
+]
+"""What a named quantity is; in this order they are introduced."""
+
+
+@dataclass(frozen=True, eq=False)
+class NamedQuantity(Brief):
+    """A quantity that is defined once: its ``symbol``, and its ``expression`` in the coordinates and earlier symbols.
+
+    ``kind`` says what it is and ``of`` what it belongs to; ``inward`` marks a sum over everything that hangs on that;
+    ``elements`` are the titles of the elements it comes from.
+    """
+
+    symbol: sp.Symbol
+    expression: sp.Expr
+    kind: QuantityKind
+    of: str = ""
+    inward: bool = False
+    elements: tuple[str, ...] = ()
+
+
+class MatrixForm(Protocol):
+    """M ξ̈ + C ξ̇ + G = Ξ: see `Derived`."""
+
+    @property
+    def M(self) -> sp.ImmutableMatrix:
+        """The mass matrix."""
+        ...
+
+    @property
+    def C(self) -> sp.ImmutableMatrix:
+        """The matrix of Christoffel symbols and rates."""
+        ...
+
+    @property
+    def G(self) -> sp.ImmutableMatrix:
+        """The rest of the left-hand sides."""
+        ...
+
+    @property
+    def Xi(self) -> sp.ImmutableMatrix:
+        """The generalized forces."""
+        ...
+
+
 @dataclass(frozen=True, eq=False)
 class Derived(Brief):
     """The equations of motion of a model, and how they were derived.
@@ -91,6 +144,10 @@ class Derived(Brief):
     contains the checks at the end. ``notes`` say what could not be shortened and why; ``notices`` are those of the
     system.
     ``constraints`` is what step 0 says of the constraints, None for a system without any.
+
+    ``form`` is "expanded" or "structured". Structured equations, and T, V, L and Ξ with them, are written in named
+    quantities, the ``definitions``, each in the coordinates and earlier quantities; of an expanded derivation there are
+    none.
 
     With constraints the equations are ``Eq(left-hand side, Ξ_i + Σ λ ∂c/∂ξ̇_i)``, and M ξ̈ + C ξ̇ + G = Ξ + Aᵀ λ.
     ``multipliers`` has a `Multiplier` for every row, by the row's name; ``constraint_equations`` are the conditions of
@@ -106,10 +163,7 @@ class Derived(Brief):
     Xi: Mapping[sp.Expr, sp.Expr]
     equations: tuple[sp.Eq, ...]
     terms: tuple[tuple[EquationTerm, ...], ...]
-    mass_matrix: sp.ImmutableMatrix
-    coriolis_matrix: sp.ImmutableMatrix
-    gravity_vector: sp.ImmutableMatrix
-    generalized_forces: sp.ImmutableMatrix
+    matrices: MatrixForm = field(repr=False)
     result: tuple[Item, ...]
     ledger: tuple[LedgerRow, ...]
     shares: Any = field(repr=False)
@@ -121,6 +175,58 @@ class Derived(Brief):
     notes: tuple[Text, ...] = ()
     notices: tuple[Notice, ...] = ()
     constraints: Constraints | None = None
+    form: WrittenForm = "expanded"
+    definitions: tuple[NamedQuantity, ...] = ()
+
+    @property
+    def mass_matrix(self) -> sp.ImmutableMatrix:
+        """M, n×n."""
+        return self.matrices.M
+
+    @property
+    def coriolis_matrix(self) -> sp.ImmutableMatrix:
+        """C, n×n, from Christoffel symbols, so that Ṁ − 2C is skew-symmetric."""
+        return self.matrices.C
+
+    @property
+    def gravity_vector(self) -> sp.ImmutableMatrix:
+        """G, n×1: ∂V/∂ξ, and terms from explicit time."""
+        return self.matrices.G
+
+    @property
+    def generalized_forces(self) -> sp.ImmutableMatrix:
+        """Ξ, n×1."""
+        return self.matrices.Xi
+
+    @property
+    def cse(self) -> tuple[list[tuple[sp.Symbol, sp.Expr]], list[sp.Eq]]:
+        """The definitions and the equations in the form of ``sympy.cse``: (replacements, reduced expressions)."""
+        return [(d.symbol, d.expression) for d in self.definitions], list(self.equations)
+
+    def expanded(self, index: int) -> sp.Eq:
+        """Return equation ``index`` in the coordinates alone, with every definition put in, but not multiplied out.
+
+        Raises `ModelError` if there is no such equation, and if it would be too long.
+        """
+        if isinstance(index, bool) or not 0 <= index < len(self.equations):
+            most = len(self.equations) - 1
+            raise ModelError(f"there is no equation {index}", fix=f"a number from 0 to {most}", code="E406")
+        meanings: dict[sp.Basic, sp.Expr] = {}
+        sizes: dict[sp.Basic, int] = {}
+        wanted = self.equations[index]
+        for d in self.definitions:
+            sizes[d.symbol] = bounded.size(d.expression, sizes)
+        long = max(bounded.size(side, sizes) for side in (wanted.lhs, wanted.rhs))
+        if long > LARGEST_EXPANDED:
+            raise ModelError(
+                f"equation {index} in the coordinates alone has {long} operands and operations",
+                fix="use its definitions, with cse for SymPy's printers and lambdify, or compile()",
+                code="E601",
+            )
+        for d in self.definitions:
+            if sizes[d.symbol] <= long:
+                meanings[d.symbol] = cast("sp.Expr", bounded.replaced(d.expression, meanings))
+        return cast("sp.Eq", bounded.replaced(wanted, meanings))
 
     @property
     def picture(self) -> HeadPicture | None:

@@ -5,10 +5,11 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, cast
 
 import sympy as sp
 
+from lagrangian import bounded
 from lagrangian.derive.constraints.page import Constraints
 from lagrangian.derive.context import Context
 from lagrangian.derive.derived import Step
@@ -88,5 +89,5 @@ def holonomic(context: Context) -> Step:
 
 def _explicit(model: Model, body: Any) -> list[sp.Expr]:
     """The components of a body's position with constant coordinates, in which only explicit time is left."""
-    held = {c.symbol: 0 for c in model.coordinates}
-    return [model.expand(x).subs(list(held.items())) for x in model.position(body.at)]
+    held = {c.symbol: sp.S.Zero for c in model.coordinates}
+    return [cast("sp.Expr", bounded.replaced(model.expand(x), held)) for x in model.position(body.at)]

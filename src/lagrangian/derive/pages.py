@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Iterator, Mapping
 
-from lagrangian.derive.data import to_dict
+from lagrangian.derive.data import named_symbols, to_dict
 from lagrangian.derive.derived import Derived, Step
 from lagrangian.model import Model
 from lagrangian.page import formula as data
@@ -57,7 +57,8 @@ SEE: Mapping[int, tuple[int, str]] = {
 
 class _Layout(Items):
     def __init__(self, derivation: Derived, notation: Notation, brief: bool, full: bool, details: bool) -> None:
-        super().__init__(derivation.model, notation, brief=brief, full=full, details=details)
+        named = named_symbols(derivation)
+        super().__init__(derivation.model, notation, brief=brief, full=full, details=details, named=named)
         self.derivation = derivation
         self.reasoning: Report[Model] | None = None
         self.from_masses = all(e.ledger != "T*" or e in derivation.model.bodies for e in derivation.model.elements)

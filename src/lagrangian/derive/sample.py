@@ -13,7 +13,7 @@ import sympy as sp
 
 from lagrangian import bounded
 from lagrangian.errors import ModelError
-from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy
+from lagrangian.graph import Graph, Output, Program, evaluate, from_sympy, vjp
 from lagrangian.model import Model, time
 from lagrangian.page.plain import plain
 
@@ -25,19 +25,30 @@ class Sampler:
     """Evaluates expressions at random coordinates, rates, accelerations, parameters, inputs and time.
 
     Everything is drawn from (0.4, 1.6), so that masses and lengths are positive and there are no special values. With
-    ``values``, parameters that have a value keep it.
+    ``values``, parameters that have a value keep it. ``slopes_of`` are expressions whose derivatives by the symbols
+    ``by`` come before the values of ``exprs``, row after row.
     """
 
-    def __init__(self, model: Model, exprs: Sequence[sp.Expr], *, values: bool = False) -> None:
+    def __init__(
+        self,
+        model: Model,
+        exprs: Sequence[sp.Expr],
+        *,
+        values: bool = False,
+        slopes_of: Sequence[sp.Expr] = (),
+        by: Sequence[sp.Expr] = (),
+    ) -> None:
         self._model = model
-        full = [model.expand(sp.sympify(e), constants=True) for e in exprs]
+        full, steep = ([model.expand(sp.sympify(e), constants=True) for e in listed] for listed in (exprs, slopes_of))
         atoms: set[sp.Basic] = set()
-        for e in full:
+        for e in (*full, *steep):
             atoms |= bounded.names(e)
         self.symbols = sorted(atoms | {time}, key=sp.default_sort_key)
         graph = Graph()
         table = {s: graph.input("x", i) for i, s in enumerate(self.symbols)}
-        ids = tuple(from_sympy(graph, e, table) for e in full)
+        columns = [table.get(x, graph.input("none", i)) for i, x in enumerate(by)]
+        slopes = [x for e in steep for x in vjp(graph, [from_sympy(graph, e, table)], [graph.one], columns)]
+        ids = (*slopes, *(from_sympy(graph, e, table) for e in full))
         names = tuple(plain(s) for s in self.symbols)
         self._program = Program("sample", graph, {"x": names}, {"y": Output(ids, (len(ids),))}, {})
         self._fixed: dict[sp.Basic, float] = {**model.values} if values else {}

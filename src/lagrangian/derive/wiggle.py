@@ -20,6 +20,7 @@ import sympy as sp
 from lagrangian import bounded
 from lagrangian.derive.sample import Sampler
 from lagrangian.errors import ModelError
+from lagrangian.graph import Graph, NotAlgebraic, PrimePoint, from_sympy, gradient
 from lagrangian.model import Element, Frame, Model
 from lagrangian.model.elements import MovingMass
 from lagrangian.model.rows import rows_of
@@ -62,13 +63,8 @@ def _study(model: Model, blocks: list[Rows], rows: Sequence[Rows] = (), *, refus
     """What moves with what; ``rows`` of constraints are counted with what has mass."""
     blocks = [*blocks, *rows]
     rates = [c.rate for c in model.coordinates]
-    entries: list[sp.Expr] = []
-    for _, mass in blocks:
-        for r in mass.rates:
-            there = r.atoms(sp.Derivative)
-            entries += [bounded.diff(r, v) if v in there else sp.S.Zero for v in rates]
-        entries += [x for row in mass.weight for x in row]
-    sampler = Sampler(model, entries)
+    weights = [x for _, mass in blocks for row in mass.weight for x in row]
+    sampler = Sampler(model, weights, slopes_of=[r for _, mass in blocks for r in mass.rates], by=rates)
     n, best = len(rates), -1
     seen = np.zeros((len(blocks), n), dtype=bool)
     worst: np.ndarray = np.zeros((0, n))
@@ -96,11 +92,11 @@ def _split(blocks: Sequence[Rows], values: np.ndarray, n: int) -> tuple[list[np.
     """Split the flat list of sampled values into the columns of each block, and these multiplied by the weight."""
     columns: list[np.ndarray] = []
     weighted: list[np.ndarray] = []
-    at = 0
+    slope, at = 0, n * sum(len(mass.rates) for _, mass in blocks)
     for _, mass in blocks:
         rows = len(mass.rates)
-        jacobian = values[at : at + rows * n].reshape(rows, n)
-        at += rows * n
+        jacobian = values[slope : slope + rows * n].reshape(rows, n)
+        slope += rows * n
         size = len(mass.weight)
         weight = values[at : at + size * size].reshape(size, size)
         at += size * size
@@ -194,4 +190,22 @@ def _figure(x: float) -> str:
 
 def depends(model: Model, expr: sp.Expr, symbol: sp.Expr) -> bool:
     """Whether ``expr`` changes with a coordinate, decided by its derivative."""
-    return expr.has(symbol) and bounded.diff(expr, symbol) != 0
+    if not expr.has(symbol):
+        return False
+    found = model.remembered(("changes with", expr), lambda: _changes_with(model, expr))
+    return bounded.diff(expr, symbol) != 0 if found is None else symbol in found
+
+
+def _changes_with(model: Model, expr: sp.Expr) -> frozenset[sp.Expr] | None:
+    """The coordinates whose derivatives are not identically 0: not 0 at a random point of a prime field.
+
+    None if the field has no value for a part of the expression.
+    """
+    graph = Graph()
+    table = {x: graph.input("x", i) for i, x in enumerate(sorted(bounded.names(expr), key=str))}
+    there = [c.symbol for c in model.coordinates if c.symbol in table]
+    slopes = gradient(graph, from_sympy(graph, expr, table), [table[x] for x in there])
+    values = PrimePoint(graph).values(slopes)
+    if isinstance(values, NotAlgebraic):
+        return None
+    return frozenset(x for x, value in zip(there, values, strict=True) if value)

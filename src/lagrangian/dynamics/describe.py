@@ -20,7 +20,7 @@ from lagrangian.dynamics.floating import Float, floating_body, floating_rates
 from lagrangian.dynamics.mechanics import Mechanics, Pairs
 from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.rotations import along_axis
-from lagrangian.dynamics.rows import Drag
+from lagrangian.dynamics.rows import Added, Drag
 from lagrangian.dynamics.vectors import Vector, dot, minus, plus, scaled, times, zeros
 from lagrangian.errors import ModelError
 from lagrangian.graph import Graph, gradient
@@ -50,6 +50,7 @@ def described(
     for element in model.elements:
         if element.ledger == "λ":
             continue
+        had = len(m.potentials), len(m.stores), len(m.efforts)
         try:
             ELEMENTS.get(element.kind, _any)(d, m, element)
         except ModelError as error:
@@ -57,6 +58,7 @@ def described(
                 error.element = element.title
             error.at(element.place)
             raise
+        m.added[element.title] = Added(m.potentials[had[0] :], m.stores[had[1] :], m.efforts[had[2] :])
     m.rows, m.spare = rows(d), model.spare
     m.known = model.remembered("orders of rows", dict)
     return m, d

@@ -22,7 +22,7 @@ from lagrangian.dynamics.floating import Float, transported
 from lagrangian.dynamics.inertia import AnyLink
 from lagrangian.dynamics.motion import Motion
 from lagrangian.dynamics.multipliers import AttachedRow, Problem, RowSolution
-from lagrangian.dynamics.rows import ConstraintRow, Drag
+from lagrangian.dynamics.rows import Added, ConstraintRow, Drag
 from lagrangian.dynamics.tape import make_tape, maximal_linear_nodes, moving_nodes
 from lagrangian.dynamics.vectors import dot, minus, plus, zeros
 from lagrangian.graph import Graph, count_operations, gradient, hessian, jvp, vjp
@@ -49,8 +49,8 @@ class Mechanics:
     their power is Σ rate · effort, and Ξ_i = Σ effort · ∂rate/∂v_i. ``stores`` are the (rate, effort) pairs of the
     energies in ``potentials``. ``kinetics`` are kinetic co-energies that were given directly, ``losses`` the powers
     that dampers take. ``rows`` are the rows of constraints, ``spare`` the sets in which some are known to follow from
-    others along the motion. ``drags`` are frictions whose normal forces are multipliers of rows. ``known`` are the
-    orders of elimination that other programs of the model found.
+    others along the motion. ``drags`` are frictions whose normal forces are multipliers of rows. ``added`` is
+    what each element added, by its title. ``known`` are the orders of elimination that other programs found.
     """
 
     graph: Graph
@@ -67,6 +67,7 @@ class Mechanics:
     floats: tuple[Float, ...] = ()
     spare: tuple[SpareRows, ...] = ()
     drags: list[Drag] = field(default_factory=list)
+    added: dict[str, Added] = field(default_factory=dict[str, Added])
     known: dict[tuple[str, ...], Known] = field(default_factory=dict)
 
     @property

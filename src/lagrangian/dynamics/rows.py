@@ -41,3 +41,12 @@ class Drag:
     rate: int
     factor: int | None
     row: str
+
+
+@dataclass(frozen=True)
+class Added:
+    """What one element added to a system: potentials, and (rate, effort) pairs of what it stores and of what acts."""
+
+    potentials: list[int]
+    stores: list[tuple[int, int]]
+    efforts: list[tuple[int, int]]

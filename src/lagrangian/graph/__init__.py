@@ -1,6 +1,6 @@
 """The expression graph: building, differentiating, evaluating it, and `Program`, on which everything else is built."""
 
-from lagrangian.graph.autodiff import Tangents, gradient, hessian, jacobian, jvp, vjp
+from lagrangian.graph.autodiff import Tangents, backwards, gradient, hessian, jacobian, jvp, vjp
 from lagrangian.graph.bounds import bends, bounds, states_read
 from lagrangian.graph.evaluate import evaluate
 from lagrangian.graph.from_sympy import from_sympy, unknown_part
@@ -20,6 +20,7 @@ __all__ = [
     "Program",
     "Scalar",
     "Tangents",
+    "backwards",
     "bends",
     "bounds",
     "copied",

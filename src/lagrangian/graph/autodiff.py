@@ -197,6 +197,12 @@ def _branch(g: Graph, node: Node, moving: Mapping[int, Tangent]) -> Tangent | No
 
 def vjp(graph: Graph, outputs: Sequence[int], cotangents: Sequence[int], inputs: Sequence[int]) -> list[int]:
     """Σ_i cotangent_i · ∂output_i/∂x for every node x of ``inputs``, computed in one backward pass."""
+    found = backwards(graph, outputs, cotangents, inputs)
+    return [found.get(i, graph.zero) for i in inputs]
+
+
+def backwards(graph: Graph, outputs: Sequence[int], cotangents: Sequence[int], inputs: Sequence[int]) -> dict[int, int]:
+    """The cotangents of all nodes between ``inputs`` and ``outputs`` (and these) in one backward pass."""
     g, nodes = graph, graph.nodes
     ends = set(inputs)
     zero = g.zero
@@ -219,7 +225,7 @@ def vjp(graph: Graph, outputs: Sequence[int], cotangents: Sequence[int], inputs:
             bar[a] = g.add(bar.get(a, zero), g.mul(g.const(2.0), g.mul(a, c)))
             continue
         _spread(g, i, node, c, bar, active)
-    return [bar.get(i, zero) for i in inputs]
+    return bar
 
 
 def _spread(g: Graph, i: int, node: Node, c: int, bar: dict[int, int], active: set[int]) -> None:

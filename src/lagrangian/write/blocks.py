@@ -21,6 +21,7 @@ from lagrangian.write.document import (
     Paragraph,
     TableBlock,
 )
+from lagrangian.write.expression import NamedSymbol
 from lagrangian.write.expression_tree import Addition, Math, Number, Tagged
 from lagrangian.write.numerals import figures
 from lagrangian.write.quantities import Notation, Quantities
@@ -40,10 +41,19 @@ class Items:
     of its length; ``details`` puts it under collapsible summaries instead. Raises `ModelError` for an unknown notation.
     """
 
-    def __init__(self, model: Model, notation: Notation, *, brief: bool, full: bool, details: bool) -> None:
+    def __init__(
+        self,
+        model: Model,
+        notation: Notation,
+        *,
+        brief: bool,
+        full: bool,
+        details: bool,
+        named: Sequence[NamedSymbol] = (),
+    ) -> None:
         self.brief, self.details = brief, details
-        self.write = Quantities(model, notation, full=full)
-        self.whole = self.write if full else Quantities(model, notation, full=True)
+        self.write = Quantities(model, notation, full=full, named=named)
+        self.whole = self.write if full else Quantities(model, notation, full=True, named=named)
         spoken = (*model.coordinates, *model.parameters, *model.inputs)
         self.given = frozenset(x.description for x in spoken if x.description)
         self.elided = False

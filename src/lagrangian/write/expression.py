@@ -3,7 +3,8 @@ fractions."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -51,13 +52,35 @@ _CONSTANTS = {sp.pi: "π", sp.E: "e", sp.oo: "∞", sp.zoo: "∞", sp.nan: "unde
 _RELATIONS = {"<": "<", "<=": "≤", ">": ">", ">=": "≥", "==": "=", "!=": "≠"}
 
 
+@dataclass(frozen=True)
+class NamedSymbol:
+    """A symbol that a page defines: products list it by its ``rank`` behind what belongs to the system; ``inward`` is
+    marked with ⁺."""
+
+    symbol: sp.Symbol
+    rank: int
+    inward: bool = False
+
+    @property
+    def letter(self) -> Letter:
+        """How it is written; the mark takes the place of the last part of its name."""
+        name = self.symbol.name.removesuffix(INWARD) if self.inward else self.symbol.name
+        return replace(letter(name), plus=self.inward)
+
+
+INWARD = "_out"
+"""How the name of a sum over all that hangs on something ends."""
+
+
 class Expressions:
     """Lays out the expressions of one system, whose symbols all look different."""
 
-    def __init__(self, model: Model) -> None:
+    def __init__(self, model: Model, named: Sequence[NamedSymbol] = ()) -> None:
         moving = [c.symbol for c in model.coordinates] + [d.symbol for d in model.definitions if d.moving]
-        self.letters = letters(model.symbols)
-        self._order = Order(moving, [i.symbol for i in model.inputs], _coefficients(model))
+        found = {**letters(model.symbols), **{x.symbol.name: x.letter for x in named}}
+        self.letters: Mapping[str, Letter] = found
+        ranks = {x.symbol: x.rank for x in named}
+        self._order = Order(moving, [i.symbol for i in model.inputs], _coefficients(model), ranks)
 
     def letter(self, name: str) -> Letter:
         """The letter for a symbol of the system, or for any other name."""

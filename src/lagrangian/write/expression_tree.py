@@ -57,7 +57,8 @@ FUNCTIONS = frozenset(["sin", "cos", "tan", "sinh", "cosh", "tanh", "arcsin", "a
 
 @dataclass(frozen=True)
 class Letter:
-    """A symbol: base letter, subscript parts, dots for time derivatives; ``star`` as in T*, ``bold`` for a vector.
+    """A symbol: base letter, subscript parts, dots for time derivatives; ``star`` as in T*, ``plus`` for a sum over all
+    that hangs on something, ``bold`` for a vector.
 
     A vector is ``apart`` if its plain letter would equal another symbol, so that even plain text must show it bold.
     ``base`` and the parts of ``sub`` are spelled: "theta", "x", "1r". A ``literal`` letter is shown exactly as spelled.
@@ -70,6 +71,12 @@ class Letter:
     bold: bool = False
     literal: bool = False
     apart: bool = False
+    plus: bool = False
+
+    @property
+    def mark(self) -> str:
+        """What stands behind it, raised."""
+        return "*" if self.star else "+" if self.plus else ""
 
 
 _NUMBERED = re.compile(rf"({'|'.join(sorted(GREEK, key=len, reverse=True))}|[A-Za-z])([0-9]+)\Z")

@@ -155,7 +155,7 @@ def _table(rows: tuple[tuple[Math, ...], ...]) -> str:
 
 def _power(base: Math, exponent: Math) -> str:
     raised = _inner(exponent)
-    if isinstance(base, Letter) and base.sub and not base.star:
+    if isinstance(base, Letter) and base.sub and not base.mark:
         return f"<msubsup>{_base(base)}{_sub(base)}{raised}</msubsup>"
     return f"<msup>{_inner(base)}{raised}</msup>"
 
@@ -177,11 +177,11 @@ def _apply(math: Apply) -> str:
 def _letter(math: Letter) -> str:
     base = _base(math)
     sub = _sub(math) if math.sub else ""
-    if sub and math.star:
-        return f"<msubsup>{base}{sub}<mo>*</mo></msubsup>"
+    if sub and math.mark:
+        return f"<msubsup>{base}{sub}<mo>{math.mark}</mo></msubsup>"
     if sub:
         return f"<msub>{base}{sub}</msub>"
-    return f"<msup>{base}<mo>*</mo></msup>" if math.star else base
+    return f"<msup>{base}<mo>{math.mark}</mo></msup>" if math.mark else base
 
 
 def _base(math: Letter) -> str:

@@ -8,7 +8,7 @@ natural order.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 import sympy as sp
@@ -26,14 +26,20 @@ class Order:
     """Sort keys for the factors and terms in the expressions of one system."""
 
     def __init__(
-        self, moving: Iterable[sp.Expr], inputs: Iterable[sp.Expr] = (), coefficients: Iterable[sp.Basic] = ()
+        self,
+        moving: Iterable[sp.Expr],
+        inputs: Iterable[sp.Expr] = (),
+        coefficients: Iterable[sp.Basic] = (),
+        named: Mapping[sp.Symbol, int] | None = None,
     ) -> None:
         """``moving``: the coordinates in declared order, then the definitions that move; ``inputs``: signals from
-        outside; ``coefficients``: the symbols in stiffnesses and damping coefficients.
+        outside; ``coefficients``: the symbols in stiffnesses and damping coefficients; ``named``: symbols that a page
+        defines, each with its rank among these, which all come last.
         """
         self._index: dict[sp.Basic, int] = {symbol: i for i, symbol in enumerate(moving)}
         self._inputs = frozenset(inputs)
         self._coefficients = frozenset(coefficients)
+        self._named = named or {}
         self._names: dict[sp.Expr, tuple[Any, ...]] = {}
         self._factors: dict[sp.Expr, tuple[Any, ...]] = {}
 
@@ -46,6 +52,8 @@ class Order:
     def _factor(self, factor: sp.Expr) -> tuple[Any, ...]:
         base, exponent = factor.as_base_exp() if isinstance(factor, sp.Pow) else (factor, sp.S.One)
         if isinstance(base, sp.Symbol):
+            if base in self._named:
+                return (_FUNCTION + 1, self._named[base], natural(base.name))
             return (self._class(base), _LETTERS.get(base.name[:1].lower(), 3), natural(base.name))
         if isinstance(base, (AppliedUndef, sp.Derivative)):
             return self._moving(base)

@@ -15,7 +15,7 @@ parameter V, the potential energy is U.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Literal, TypeAlias, cast, get_args
 
 import sympy as sp
@@ -37,7 +37,7 @@ from lagrangian.page.formula import (
     Total,
     Variation,
 )
-from lagrangian.write.expression import Expressions
+from lagrangian.write.expression import Expressions, NamedSymbol
 from lagrangian.write.expression_tree import (
     Addition,
     Fence,
@@ -116,13 +116,15 @@ _VECTORS = (
 class Quantities:
     """Lays out everything that formulas contain, in one notation; ``full`` writes out what would be summarized."""
 
-    def __init__(self, model: Model, notation: Notation, *, full: bool = False) -> None:
+    def __init__(
+        self, model: Model, notation: Notation, *, full: bool = False, named: Sequence[NamedSymbol] = ()
+    ) -> None:
         if notation not in NOTATIONS:
             known = ", ".join(NOTATIONS)
             hint = did_you_mean(str(notation), NOTATIONS)
             raise ModelError(f"unknown notation '{notation}'", fix=hint or f"use one of {known}", code="E405")
         self.notation, self.full = notation, full
-        self.expressions = Expressions(model)
+        self.expressions = Expressions(model, named)
         self._taken = {(x.base, x.sub) for x in self.expressions.letters.values() if not x.literal}
         self._subs = {""} | {self._index(e.name) for e in model.elements}
         names = sorted((re.escape(f"'{e.name}'") for e in model.elements), key=len, reverse=True)

@@ -132,7 +132,7 @@ class Tex:
     def _grouped(self, base: Math) -> str:
         """The base of a power; a letter keeps its own subscript beside the exponent."""
         inner = self.latex(base)
-        return f"{{{inner}}}" if isinstance(base, Letter) and base.star else inner
+        return f"{{{inner}}}" if isinstance(base, Letter) and base.mark else inner
 
     def _apply(self, math: Apply) -> str:
         name = rf"\{math.name}" if math.name in _KNOWN else rf"\operatorname{{{self.words(math.name)}}}"
@@ -160,7 +160,7 @@ class Tex:
         if math.dots:
             base = rf"{_DOTS[math.dots]}{{{base}}}"
         sub = r",".join(self._sub(part) for part in math.sub)
-        return base + ("^{*}" if math.star else "") + (f"_{{{sub}}}" if sub else "")
+        return base + (f"^{{{math.mark}}}" if math.mark else "") + (f"_{{{sub}}}" if sub else "")
 
     def base(self, base: str) -> str:
         """A base letter or word."""

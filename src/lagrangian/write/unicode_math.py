@@ -106,16 +106,16 @@ def _letter(math: Letter) -> str:
     if math.bold and math.apart:
         base = bold(base)
     shown = _dotted(base, math.dots)
+    mark = "⁺" if math.plus else math.mark
     small = [subscript(part) for part in math.sub]
     if len(small) == 1 and small[0] is not None:
-        return shown + small[0] + ("*" if math.star else "")
-    shown += "*" if math.star else ""
+        return shown + small[0] + mark
     if not math.sub:
-        return shown
+        return shown + mark
+    shown += math.mark if math.star else ""
     parts = [_part(p) for p in math.sub]
-    return shown + (
-        "_" + "_".join(parts) if all(p.isidentifier() or p.isalnum() for p in parts) else f"_({', '.join(parts)})"
-    )
+    index = "_" + "_".join(parts) if all(p.isidentifier() or p.isalnum() for p in parts) else f"_({', '.join(parts)})"
+    return shown + index + ("⁺" if math.plus else "")
 
 
 def _dotted(name: str, dots: int) -> str:

@@ -1,0 +1,104 @@
+"""Which form a derivation gets."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any, Literal, TypeAlias, get_args
+
+import sympy as sp
+
+from lagrangian.bounded import hard
+from lagrangian.derive import Derived, Detail, derive
+from lagrangian.errors import Error, ModelError, did_you_mean
+from lagrangian.model import Model
+from lagrangian.page.formula import text
+from lagrangian.structured.derive import derive_structured
+from lagrangian.structured.predict import is_long
+
+_log = logging.getLogger(__name__)
+
+AskedForm: TypeAlias = Literal["auto", "expanded", "structured"]
+"""How equations are to be written: in the coordinates alone, in named quantities, or whichever can be read."""
+
+
+def derive_in_form(model: Model, form: AskedForm = "auto", *, detail: Detail = "usual") -> Derived:
+    """Derive a model in the form asked for; "auto" writes long equations in named quantities.
+
+    Raises `ModelError` for an unknown form, for ``detail="full"`` of a structured derivation, and where the system
+    cannot have that form.
+    """
+    if form not in get_args(AskedForm):
+        known = get_args(AskedForm)
+        hint = did_you_mean(str(form), known) or f"use one of {', '.join(known)}"
+        raise ModelError(f"there is no form '{form}'", fix=hint, code="E405")
+    if is_structured(model, form):
+        return _structured(model, detail)
+    try:
+        return derive(model, detail=detail)
+    except Error as error:
+        if form == "expanded" or refusal(model) or error.code != "E601":
+            raise
+        _log.info("deriving: %s", error)
+        made = _structured(model, detail)
+        return replace(made, notes=(*made.notes, text(f"Written in named quantities, because {error.what}.")))
+
+
+def is_structured(model: Model, form: AskedForm = "auto") -> bool:
+    """Whether a derivation in this form is written in named quantities from the start."""
+    if form == "auto":
+        return model.remembered("written in names", lambda: not refusal(model) and is_long(model))
+    return form == "structured"
+
+
+def is_tangled(model: Model) -> bool:
+    """Whether SymPy may take long over a single point, frame or element, however many there are."""
+    return model.remembered("is_tangled", lambda: hard(_pieces(model), plain=LONGEST_PIECES))
+
+
+LONGEST_PIECES = 20_000
+"""The total size of the descriptions above which deriving is counted."""
+
+
+def _pieces(model: Model) -> Iterator[sp.Basic]:
+    """What elements, points and frames are described by, each relative to the one before it."""
+    points = {id(p): p for e in model.elements for _, p in e.points()}
+    frames = {id(f): f for e in model.elements for _, f in e.frames()}
+    listed: list[Any] = [use.expr for e in model.elements for use in e.uses()]
+    listed += [d.expression for d in model.definitions]
+    listed += [x for p in points.values() for x in p.offset]
+    listed += [x for f in frames.values() for x in (*(f.axis or ()), f.angle)]
+    for x in listed:
+        yield sp.sympify(x)
+
+
+def _structured(model: Model, detail: Detail) -> Derived:
+    refused = refusal(model)
+    if refused:
+        raise ModelError(
+            f"system '{model.name}' has no structured derivation: {refused}",
+            fix="leave the form out, or ask for the expanded one",
+            code="E601",
+        )
+    if detail == "full":
+        raise ModelError(
+            "step 5 is written term by term only in the expanded form",
+            fix="leave the detail out, or ask for the expanded form",
+            code="E405",
+        )
+    return derive_structured(model)
+
+
+def refusal(model: Model) -> str:
+    """Why a model has no structured derivation; empty if it has one."""
+    if model.constraints:
+        return "it has constraints"
+    if model.floating:
+        return "a frame floats, whose velocities are not the rates of its coordinates"
+    if model.frictions:
+        return "it has dry friction"
+    given = [e for e in model.elements if e.ledger == "T*" and e not in model.bodies]
+    if given:
+        return f"{given[0].title} is an energy of motion that was given, without bodies"
+    return ""

@@ -1,0 +1,129 @@
+"""A derivation in named quantities."""
+
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import cast
+
+import sympy as sp
+
+from lagrangian.derive import Derived, LedgerRow
+from lagrangian.derive.algebra import Algebra
+from lagrangian.derive.context import Context
+from lagrangian.derive.coordinates import coordinates
+from lagrangian.derive.forces import contributions, forces
+from lagrangian.derive.holonomy import holonomic
+from lagrangian.derive.result import ledger_items
+from lagrangian.derive.wiggle import study
+from lagrangian.dynamics.christoffel import coriolis
+from lagrangian.model import Model
+from lagrangian.page.formula import EquationTerm, Heading, Item, text
+from lagrangian.structured.listing import Listing, listing
+from lagrangian.structured.shares import ListedShares
+from lagrangian.structured.steps import ListedSteps, boxed, equalities
+from lagrangian.structured.writing import ListingWriter
+
+_log = logging.getLogger(__name__)
+
+
+def derive_structured(model: Model) -> Derived:
+    """Return the equations of motion of a model in named quantities, with the seven steps that lead to them.
+
+    It takes a model without constraints, floating frames and energies that are given directly; see `refusal`.
+    """
+    _log.info("deriving: which coordinates move what")
+    wiggle = study(model)
+    efforts = [x for e in model.elements for action in e.works(model) for x in (action.effort, action.rate)]
+    context = Context(model, Algebra(model, efforts), wiggle)
+    _log.info("deriving: velocities, momenta and forces")
+    found = listing(model)
+    write = ListingWriter(found)
+    steps = ListedSteps(found, write)
+    step0, step1 = holonomic(context), coordinates(context)
+    step2, step3, step4, step5 = steps.kinetic(), steps.potential(), steps.lagrangian(), steps.left_hand_sides()
+    _log.info("deriving: step 6, the generalized forces")
+    step6 = forces(context, contributions(context), step1.expressions["relative"])
+    book = _ledger(steps)
+    equations = equalities(found, write)
+    symbols = tuple(c.symbol for c in model.coordinates)
+    return Derived(
+        model=model,
+        steps=(step0, step1, step2, step3, step4, step5, step6),
+        T=step2.expressions["T"],
+        V=step3.expressions["V"],
+        L=step4.expressions["L"],
+        Xi={q: write(x) for q, x in zip(symbols, found.forces, strict=True)},
+        equations=equations,
+        terms=tuple(_terms(found, equation) for equation in equations),
+        matrices=ListedMatrices(found),
+        result=(*_closing(found, write), *ledger_items(book)),
+        ledger=book,
+        shares=ListedShares(found, write),
+        form="structured",
+        definitions=steps.definitions(),
+    )
+
+
+def _terms(found: Listing, equation: sp.Eq) -> tuple[EquationTerm, ...]:
+    bodies = tuple(b.body.title for b in found.bodies)
+    left = tuple(EquationTerm(x, "inertia", bodies) for x in _summands(equation.lhs))
+    acting = tuple(t for t, added in found.mechanics.added.items() if added.efforts)
+    return left + tuple(EquationTerm(x, "input", acting) for x in _summands(equation.rhs) if x != 0)
+
+
+def _summands(side: sp.Basic) -> tuple[sp.Expr, ...]:
+    return tuple(sp.Add.make_args(cast("sp.Expr", side)))
+
+
+def _closing(found: Listing, write: ListingWriter) -> list[Item]:
+    return [
+        Heading(text("Equations of motion")),
+        *boxed(found, write),
+        text("The quantities in them are defined in steps 2 and 5. The mass matrix is the same lines with one ξ̈ at 1."),
+    ]
+
+
+def _ledger(steps: ListedSteps) -> tuple[LedgerRow, ...]:
+    """All elements, each exactly once in T*, V or Ξ, and the reason."""
+    energies: dict[str, sp.Expr] = {element.title: value for element, value in steps.V}
+    energies |= {b.body.title: value for b, (_, value) in zip(steps.found.bodies, steps.T, strict=True)}
+    return tuple(LedgerRow(e.title, e.ledger, energies.get(e.title), text(*e.because)) for e in steps.model.elements)
+
+
+@dataclass(frozen=True, eq=False)
+class ListedMatrices:
+    """M ξ̈ + C ξ̇ + G = Ξ of a listing in the coordinates alone, computed when they are asked for."""
+
+    found: Listing
+    _made: dict[str, sp.ImmutableMatrix] = field(default_factory=dict[str, sp.ImmutableMatrix])
+
+    @property
+    def M(self) -> sp.ImmutableMatrix:
+        """The mass matrix."""
+        return self._matrix("M", self.found.mechanics.mass_matrix)
+
+    @property
+    def C(self) -> sp.ImmutableMatrix:
+        """The matrix of Christoffel symbols and rates."""
+        return self._matrix("C", lambda: coriolis(self.found.mechanics))
+
+    @property
+    def G(self) -> sp.ImmutableMatrix:
+        """∂V/∂ξ."""
+        return self._matrix("G", lambda: [[x] for x in self.found.mechanics.potential_force()])
+
+    @property
+    def Xi(self) -> sp.ImmutableMatrix:
+        """The generalized forces."""
+        return self._matrix("Xi", lambda: [[x] for x in self.found.forces])
+
+    def _matrix(self, name: str, rows: Callable[[], list[list[int]]]) -> sp.ImmutableMatrix:
+        if name not in self._made:
+            write = ListingWriter(self.found, names=False)
+            self._made[name] = sp.ImmutableMatrix([[write(x) for x in row] for row in rows()])
+        return self._made[name]

@@ -1,0 +1,64 @@
+"""The nodes of a system's graph that people would name, in the order in which a lecture introduces them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from lagrangian.derive import QuantityKind
+from lagrangian.dynamics.axes import Accelerations
+from lagrangian.dynamics.description import Description
+from lagrangian.dynamics.mechanics import Mechanics
+from lagrangian.dynamics.vectors import Vector, cross, plus, scaled, times
+from lagrangian.model import Body
+from lagrangian.structured.names import Indices
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A node that may get a name: a ``letter`` with the parts of its ``index``; ``inward`` marks a sum over everything
+    further out. ``words`` say what it belongs to.
+    """
+
+    node: int
+    kind: QuantityKind
+    letter: str
+    index: tuple[str, ...]
+    words: str
+    inward: bool = False
+    elements: tuple[str, ...] = ()
+    negative: bool = False
+
+
+@dataclass(frozen=True)
+class BodyMotion:
+    """A body with its momentum and inertial force, component by component, on the velocities they belong to."""
+
+    body: Body
+    index: str
+    velocity: Vector
+    omega: Vector
+    P: Vector
+    H: Vector
+    F: Vector
+    N: Vector
+
+
+def body_motions(d: Description, m: Mechanics, acc: Accelerations, indices: Indices) -> list[BodyMotion]:
+    """P = m v, H = J ω, F = m a and N = J α + ω × H of every body, about its centre of mass.
+
+    P and F are in the axes in which its place is given, H and N in the body's own."""
+    g = d.graph
+    found: list[BodyMotion] = []
+    for body in d.model.bodies:
+        place, mass = d.places[body.at], d.node(body.mass)
+        P, F = scaled(g, mass, place.velocity), scaled(g, mass, acc.a[place])
+        J = [d.nodes(row) for row in body.tensor]
+        if body.axes is None or not J:
+            found.append(BodyMotion(body, indices.places[place], place.velocity, [], P, [], F, []))
+            continue
+        axes = d.axes[body.axes]
+        H, N = times(g, J, axes.omega), times(g, J, acc.alpha[axes])
+        if len(J) == 3:
+            N = plus(g, N, cross(g, axes.omega, H))
+        found.append(BodyMotion(body, indices.axes[axes], place.velocity, list(axes.omega), P, H, F, N))
+    return found

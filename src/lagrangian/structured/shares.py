@@ -1,0 +1,58 @@
+"""Which elements a term of a listing comes from: the same pass backwards with one element's forces alone."""
+
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import sympy as sp
+
+from lagrangian.derive import Origin
+from lagrangian.dynamics.mechanics import Pairs
+from lagrangian.model import Element
+from lagrangian.structured.listing import Listing
+from lagrangian.structured.writing import ListingWriter
+
+
+@dataclass(frozen=True, eq=False)
+class ListedShares:
+    """The contributions to every equation of a listing."""
+
+    found: Listing
+    write: ListingWriter
+
+    def where(self, term: sp.Expr) -> tuple[Origin, ...]:
+        """The elements behind every equation in which a term stands, each with its share of that whole equation.
+
+        A sum over all that hangs on a joint comes from many elements; what each adds to it is what it adds to the
+        equation.
+        """
+        wanted = sp.sympify(term)
+        found: list[Origin] = []
+        for i, (row, force) in enumerate(zip(self.found.rows, self.found.forces, strict=True)):
+            if any(wanted in sp.Add.make_args(side) or wanted == side for side in (self.write(row), self.write(force))):
+                found += self.of(i)
+        return tuple(found)
+
+    def of(self, index: int) -> Iterator[Origin]:
+        """The share of every element in an equation."""
+        name = self.found.model.coordinates[index].name
+        for element, pairs, step in self._acting():
+            share = self.found.mechanics.gathered(pairs)[index]
+            if share != self.found.graph.zero:
+                yield Origin(element, name, self.write(share), step)
+
+    def _acting(self) -> Iterator[tuple[Element, Pairs, int]]:
+        """Every element with its forces on velocities, and the step that counts it."""
+        m = self.found.mechanics
+        for b in self.found.bodies:
+            yield b.body, [*zip(b.velocity, b.F, strict=True), *zip(b.omega, b.N, strict=True)], 2
+        for element in self.found.model.elements:
+            stored = [(rate, self.found.graph.neg(effort)) for rate, effort in m.added[element.title].stores]
+            if stored:
+                yield element, stored, 3
+            if acting := list(m.added[element.title].efforts):
+                yield element, acting, 6

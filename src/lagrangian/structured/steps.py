@@ -1,0 +1,311 @@
+"""Steps 2 to 6 of the lecture for a listing: the same steps, in quantities that are defined once."""
+
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from itertools import groupby
+from typing import cast
+
+import sympy as sp
+
+from lagrangian.derive import NamedQuantity, QuantityKind, Step
+from lagrangian.model import Element, Gravity
+from lagrangian.page.formula import (
+    Formula,
+    Heading,
+    Item,
+    Left,
+    Minus,
+    Name,
+    Partial,
+    Product,
+    Square,
+    Terms,
+    Text,
+    Total,
+    formula,
+    text,
+)
+from lagrangian.structured.listing import Listing
+from lagrangian.structured.writing import ListingWriter
+
+ORDER: tuple[QuantityKind, ...] = ("turn", "velocity", "vertical", "height", "momentum", "acceleration", "force")
+"""The kinds of quantities in the order in which the steps introduce them."""
+
+HEADINGS = {
+    "turn": "Turns",
+    "velocity": "Velocities",
+    "vertical": "The upward direction in the axes of the frames",
+    "height": "Heights",
+    "momentum": "Momenta",
+    "acceleration": "Accelerations",
+    "force": "Forces",
+}
+
+
+class ListedSteps:
+    """The steps of a listing; ``write`` has its names."""
+
+    def __init__(self, found: Listing, write: ListingWriter) -> None:
+        self.found, self.write, self.model = found, write, found.model
+        self.flat = self.model.dimension == 2
+        self.T = [self._kinetic(k) for k in range(len(found.bodies))]
+        self.V = [(element, self._potential(element)) for element in self.model.elements if element.ledger == "V"]
+        self.sections = self._sections()
+
+    def _sections(self) -> dict[QuantityKind, list[NamedQuantity]]:
+        """The quantities by kind, vectors in the order x, y, z, each quantity after those that it needs.
+
+        A part without a meaning of its own stands before the first that needs it.
+        """
+        kinds: dict[QuantityKind, list[NamedQuantity]] = {kind: [] for kind in ORDER}
+        known = {q.symbol: q for q in self.write.quantities.values()}
+        done: set[sp.Basic] = set()
+        first: dict[tuple[str, str, bool], int] = {}
+        for node, q in sorted(self.write.quantities.items()):
+            first.setdefault(_group(q), node)
+
+        def put(q: NamedQuantity, kind: QuantityKind) -> None:
+            if q.symbol in done:
+                return
+            done.add(q.symbol)
+            kind = kind if q.kind == "shared" else q.kind
+            for needed in sorted((s for s in q.expression.free_symbols if s in known), key=str):
+                put(known[cast("sp.Symbol", needed)], kind)
+            kinds[kind].append(q)
+
+        ordered = sorted(known.values(), key=lambda q: (first[_group(q)], str(q.symbol)))
+        for kind in ORDER:
+            for q in ordered:
+                if q.kind == kind:
+                    put(q, kind)
+        for q in ordered:
+            put(q, "force")
+        return kinds
+
+    def definitions(self) -> tuple[NamedQuantity, ...]:
+        """All quantities, each after those that it needs."""
+        return tuple(q for kind in ORDER for q in self.sections[kind])
+
+    def lines(self, kind: QuantityKind) -> Iterator[Item]:
+        """The definitions of a kind under their heading; several turns share a line."""
+        listed = self.sections[kind]
+        if not listed:
+            return
+        yield Heading(text(HEADINGS[kind]))
+        if kind == "turn":
+            parts: list[str | Left] = []
+            for q in listed:
+                parts += [", " if parts else "", q.symbol, " = ", q.expression]
+            yield text(*parts, ".")
+            return
+        for of, group in groupby(listed, key=lambda q: (q.of, q.inward)):
+            for k, q in enumerate(group):
+                note = text(self._belongs(q)) if k == 0 and of[0] else None
+                yield formula(q.symbol, q.expression, note=note)
+
+    def _belongs(self, q: NamedQuantity) -> str:
+        return f"{q.of} and all that hangs on it" if q.inward else q.of
+
+    # -- step 2 -------------------------------------------------------------------------------------------------------
+
+    def _kinetic(self, index: int) -> tuple[Left, sp.Expr]:
+        """½ m v² + ½ ω·J ω of a body: as it is shown, and as an expression."""
+        b, body = self.found.bodies[index], self.found.bodies[index].body
+        v, omega = [self.write(x) for x in b.velocity], [self.write(x) for x in b.omega]
+        shown: list[Left] = []
+        value = body.mass / 2 * sp.Add(*[x**2 for x in v])
+        if any(x != 0 for x in v) and body.mass != 0:
+            shown.append(Square(body.mass / 2, tuple(x for x in v if x != 0)))
+        for i, row in enumerate(body.tensor):
+            for k, entry in enumerate(row):
+                value += entry * omega[i] * omega[k] / 2
+                share = entry / 2 if i == k else entry
+                if k < i or share == 0 or 0 in (omega[i], omega[k]):
+                    continue
+                shown.append(Square(share, (omega[i],)) if i == k else share * omega[i] * omega[k])
+        return (shown[0] if len(shown) == 1 else Terms(tuple(shown))) if shown else sp.S.Zero, value
+
+    def kinetic(self) -> Step:
+        """T* = Σ ½ m v² + ½ ω·J ω, in the velocities of the frames and points."""
+        where = (
+            "All vectors have their components in the fixed axes."
+            if self.flat
+            else "The components of a vector are along the axes of the frame that it belongs to: those of frame k turn "
+            "with it. A second index says that a vector is taken in the axes of another frame."
+        )
+        items: list[Item] = [
+            text(
+                "Written out in the coordinates these equations would fill many pages. So every quantity that a person "
+                f"would name gets a name, and is defined once. {where}"
+            ),
+            *self.lines("turn"),
+            *self.lines("velocity"),
+            Heading(text("Energies")),
+        ]
+        names = [Name("T*", b.index) for b in self.found.bodies]
+        for name, b, (shown, _) in zip(names, self.found.bodies, self.T, strict=True):
+            items.append(formula(name, shown, note=text(b.body.title)))
+        items.append(formula(Name("T*"), Terms(tuple(names)), brief=True))
+        return Step(
+            2,
+            "Kinetic co-energy",
+            text("Wrote ½mv² for every mass and ½ωᵀJω for every body that turns, and added them up."),
+            text(
+                "Every mass that moves stores kinetic co-energy. A velocity follows from that of the frame before it, "
+                "so each line needs only the one above."
+            ),
+            tuple(items),
+            {"T": sp.Add(*[value for _, value in self.T])},
+            tuple(
+                text(n, f": {b.body.title} has mass and moves") for n, b in zip(names, self.found.bodies, strict=True)
+            ),
+        )
+
+    # -- step 3 -------------------------------------------------------------------------------------------------------
+
+    def _potential(self, element: Element) -> sp.Expr:
+        if isinstance(element, Gravity):
+            heights = self.found.heights
+            return sp.Add(*[b.body.mass * element.g * self.write(heights[b.body.name]) for b in self.found.bodies])
+        return sp.Add(*[self.write(x) for x in self.found.mechanics.added[element.title].potentials])
+
+    def potential(self) -> Step:
+        """V = Σ m g h + the energies of springs."""
+        items: list[Item] = [*self.lines("vertical"), *self.lines("height"), Heading(text("Energies"))]
+        names: list[Name] = []
+        reasons: list[Text] = []
+        for element, value in self.V:
+            if isinstance(element, Gravity):
+                for b in self.found.bodies:
+                    names.append(Name("V", b.index))
+                    height = self.write(self.found.heights[b.body.name])
+                    items.append(
+                        formula(names[-1], Product((b.body.mass * element.g, height)), note=text(b.body.title))
+                    )
+                    reasons.append(text(names[-1], f": {element.title} pulls on {b.body.title}: mgh"))
+            else:
+                names.append(Name("V", element.name))
+                items.append(formula(names[-1], value, note=text(element.title)))
+                reasons.append(text(names[-1], f": {element.title} {element.stored}"))
+        total: Left = Terms(tuple(names)) if names else sp.S.Zero
+        if not names:
+            items = [text("Nothing stores energy by its position: no spring, no gravity.")]
+        items.append(formula(Name("V"), total, brief=True))
+        return Step(
+            3,
+            "Potential energy",
+            text("Wrote ½k(Δx)² for every spring and mgh for every mass under gravity, and added them up."),
+            text(
+                "The work of a spring's force or of a weight depends only on where it starts and ends, so it is the "
+                "difference of an energy. Such forces are counted here and never again among the ",
+                Name("Xi"),
+                ".",
+            ),
+            tuple(items),
+            {"V": sp.Add(*[value for _, value in self.V])},
+            tuple(reasons),
+        )
+
+    # -- step 4 -------------------------------------------------------------------------------------------------------
+
+    def lagrangian(self) -> Step:
+        """L = T* − V."""
+        T = sp.Add(*[value for _, value in self.T])
+        V = sp.Add(*[value for _, value in self.V])
+        return Step(
+            4,
+            "Lagrangian",
+            text("Subtracted the potential energy from the kinetic co-energy."),
+            text(
+                "Inertia and all conservative forces follow from this one scalar by differentiation; no force between "
+                "two bodies has to be found."
+            ),
+            (formula(Name("L"), Terms((Name("T*"), Minus(Name("V")))), brief=True),),
+            {"L": T - V},
+            (text(Name("L"), " = ", Name("T*"), " − ", Name("V"), ": kinetic co-energy minus potential energy"),),
+        )
+
+    # -- step 5 -------------------------------------------------------------------------------------------------------
+
+    def left_hand_sides(self) -> Step:
+        """Momenta, accelerations and forces, their sums inwards, and three short lines for every coordinate."""
+        by_xi = Partial(Name("L"), Name("xi", "i", 1))
+        law = Terms((Total(by_xi), Minus(Partial(Name("L"), Name("xi", "i")))))
+        items: list[Item] = [formula(law, Name("Xi", "i"), brief=True), *self._reason()]
+        items += [*self.lines("momentum"), *self.lines("acceleration"), *self.lines("force")]
+        shown: dict[str, dict[sp.Expr, sp.Expr]] = {"momenta": {}, "gradients": {}, "left_hand_sides": {}}
+        for i, c in enumerate(self.model.coordinates):
+            momentum, slope = self.write(self.found.momenta[i]), self.write(self.found.gradients[i])
+            by_rate, by_place = Partial(Name("L"), c.rate), Partial(Name("T*"), c.symbol)
+            row = self.write(self.found.rows[i])
+            whole = Terms((Total(by_rate), Minus(Partial(Name("L"), c.symbol))))
+            items += [
+                Heading(text(f"Equation {i + 1}: ", c.symbol)),
+                formula(by_rate, momentum),
+                formula(by_place, slope),
+                formula(whole, row, brief=True),
+            ]
+            shown["momenta"][c.symbol], shown["gradients"][c.symbol] = momentum, slope
+            shown["left_hand_sides"][c.symbol] = row
+        return Step(
+            5,
+            "Left-hand sides",
+            text(
+                "Differentiated the Lagrangian for every coordinate: by its rate, then in time, and by the coordinate."
+            ),
+            text(
+                "Wiggle one coordinate alone: by d'Alembert's principle the work of inertia, of the conservative "
+                "forces and of all others adds up to zero. The left-hand side is the part that follows from ",
+                Name("L"),
+                ", ",
+                Name("Xi", "i"),
+                " is the rest.",
+            ),
+            tuple(items),
+            shown,
+            tuple(
+                text(f"equation {i + 1}: all that moves with ", c.symbol, ": its inertia, springs and weights")
+                for i, c in enumerate(self.model.coordinates)
+            ),
+        )
+
+    def _reason(self) -> Iterator[Item]:
+        """Why the left-hand side of a coordinate is a force on what moves with it."""
+        turning = "" if self.flat else " For a body that turns the same holds with Jω̇ + ω × Jω in the place of ma."
+        yield text(
+            "The derivative of mv·∂v/∂ξ̇ in time is ma·∂v/∂ξ̇ + mv·d/dt(∂v/∂ξ̇), and d/dt(∂v/∂ξ̇) = ∂v/∂ξ. So the second "
+            "part is ∂T*/∂ξ, which Lagrange's equation takes away again, and of every mass only ma·∂v/∂ξ̇ is left: its "
+            f"force of inertia, along the velocity that the rate gives it.{turning}"
+        )
+        yield text(
+            "What a rate moves is everything that hangs on its joint. So momenta and forces are summed from the "
+            "outside inwards; a sum is marked with ⁺: it belongs to what is named and to all that hangs on it."
+        )
+        if any(isinstance(e, Gravity) for e in self.model.elements):
+            yield text(
+                "Accelerations are counted against free fall: the ground itself is accelerated upwards with g, and no "
+                "weight is left to be added (the same as −∂L/∂ξ of the potential energy of weights)."
+            )
+
+
+def _group(q: NamedQuantity) -> tuple[str, str, bool]:
+    """What the components of one vector have in common."""
+    return str(q.symbol)[:1], q.of, q.inward
+
+
+def boxed(found: Listing, write: ListingWriter) -> list[Formula]:
+    """The equations of motion, one for every coordinate."""
+    return [
+        formula(write(row), write(force), brief=True, boxed=True)
+        for row, force in zip(found.rows, found.forces, strict=True)
+    ]
+
+
+def equalities(found: Listing, write: ListingWriter) -> tuple[sp.Eq, ...]:
+    """The equations of motion as ``Eq(left-hand side, Ξ)``."""
+    pairs: Sequence[tuple[int, int]] = list(zip(found.rows, found.forces, strict=True))
+    return tuple(cast("sp.Eq", sp.Eq(write(row), write(force), evaluate=False)) for row, force in pairs)

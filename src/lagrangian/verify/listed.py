@@ -1,0 +1,166 @@
+"""Checks of a derivation in named quantities: every line of it is proved, not the graph it was read from.
+
+The printed definitions and lines are read back into a graph of their own. There they meet L = T* − V, differentiated by
+the machine, at random points of a prime field: what is zero there is zero identically, except with a probability of
+about the degree over the prime, some 1e-16 a point. Where the field has no value (logarithms, cases, …), numbers at
+random states decide.
+"""
+
+# SymPy has no type stubs:
+# pyright: reportMissingTypeStubs=false, reportUnknownMemberType=false
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import sympy as sp
+
+from lagrangian import dynamics
+from lagrangian.derive import Derived
+from lagrangian.graph import Graph, NotAlgebraic, Output, PrimePoint, Program, from_sympy, gradient
+from lagrangian.model import Model, time
+from lagrangian.page.formula import Check, Name, Text, text
+from lagrangian.verify.motion import verify_motion
+from lagrangian.verify.states import evaluated, random_states, relative
+
+POINTS = 3
+"""The number of random points of the prime field."""
+
+TOLERANCE = 1e-9
+"""The relative difference up to which two numbers count as equal: no more than rounding."""
+
+
+@dataclass(frozen=True)
+class _Claim:
+    """Two lists of nodes that are equal if the derivation is right."""
+
+    what: Text
+    shown: Sequence[int]
+    other: Sequence[int]
+
+
+def verify_listed(derivation: Derived, *, states: int, seed: int) -> tuple[Check, ...]:
+    """Prove the lines of a structured derivation, and check what is compiled of its model at random states.
+
+    Raises `ModelError` if units do not agree, or if no random state has finite forces.
+    """
+    reading = _Reading(derivation)
+    checks = [_proved(reading.graph, claim) for claim in reading.claims()]
+    checks.append(_in_numbers(reading, states, seed))
+    return (*checks, *verify_motion(derivation.model, states=states, seed=seed))
+
+
+class _Reading:
+    """The lines of a derivation, read back as nodes beside the mechanics of its model."""
+
+    def __init__(self, derivation: Derived) -> None:
+        self.derivation, self.model = derivation, derivation.model
+        self.graph = Graph()
+        self.inputs = dynamics.Inputs.of(self.graph, self.model)
+        self.mechanics = dynamics.describe(self.model, self.graph, self.inputs)
+        self.a = [self.graph.input("a", i) for i in range(len(self.inputs.v))]
+        self.table = _table(self.model, self.inputs, self.a)
+        for d in derivation.definitions:
+            self.table[d.symbol] = self.node(d.expression)
+
+    def node(self, expr: sp.Basic) -> int:
+        """The node of an expression in the coordinates and the defined symbols."""
+        return from_sympy(self.graph, expr, self.table)
+
+    def rows(self) -> list[int]:
+        """Left minus right of every equation."""
+        return [self.graph.sub(self.node(e.lhs), self.node(e.rhs)) for e in self.derivation.equations]
+
+    def claims(self) -> list[_Claim]:
+        """What the lines say, and the same by differentiating L."""
+        g, d, m = self.graph, self.derivation, self.mechanics
+        step5 = d.steps[5].expressions
+        momenta = [self.node(x) for x in step5["momenta"].values()]
+        gradients = [self.node(x) for x in step5["gradients"].values()]
+        T, V = self.node(d.T), self.node(d.V)
+        rates = m.motion.second_rate(momenta, self.a)
+        stored = gradient(g, V, self.inputs.q)
+        lagrange = [
+            g.sub(g.sub(rate, slope), g.neg(force)) for rate, slope, force in zip(rates, gradients, stored, strict=True)
+        ]
+        L, Xi = Name("L"), Name("Xi")
+        return [
+            _Claim(
+                text("the equations are Lagrange's equations of ", L, ", differentiated by the machine: identically"),
+                self.rows(),
+                m.inverse_from_lagrangian(self.a),
+            ),
+            _Claim(
+                text(
+                    "d/dt of the momenta shown, minus ∂",
+                    Name("T*"),
+                    "/∂ξ as shown, plus ∂",
+                    Name("V"),
+                    "/∂ξ, are the left-hand sides shown: identically",
+                ),
+                [self.node(x) for x in step5["left_hand_sides"].values()],
+                lagrange,
+            ),
+            _Claim(
+                text("the momenta shown are ∂", Name("T*"), "/∂ξ̇ of the energies shown: identically"),
+                momenta,
+                gradient(g, T, self.inputs.v),
+            ),
+            _Claim(
+                text("the energies shown are those of the bodies and springs: identically"), [T, V], self._energies()
+            ),
+            _Claim(
+                text(Xi, " is the power of the forces by its rate: identically"), self._forces(), m.gathered(m.efforts)
+            ),
+        ]
+
+    def _energies(self) -> list[int]:
+        return [self.mechanics.kinetic(), self.mechanics.potential()]
+
+    def _forces(self) -> list[int]:
+        return [self.node(x) for x in self.derivation.Xi.values()]
+
+
+def _table(model: Model, inputs: dynamics.Inputs, a: Sequence[int]) -> dict[sp.Basic, int]:
+    """The node of every symbol of a model."""
+    table: dict[sp.Basic, int] = {time: inputs.t}
+    for c, q, v, vdot in zip(model.coordinates, inputs.q, inputs.v, a, strict=True):
+        table |= {c.symbol: q, c.rate: v, c.acceleration: vdot}
+    table |= dict(zip((u.symbol for u in model.inputs), inputs.u, strict=True))
+    table |= dict(zip((p.symbol for p in model.parameters), inputs.p, strict=True))
+    return table
+
+
+def _proved(g: Graph, claim: _Claim) -> Check:
+    """Whether a claim holds at random points of a prime field."""
+    apart = [g.sub(x, y) for x, y in zip(claim.shown, claim.other, strict=True)]
+    for k in range(POINTS):
+        values = PrimePoint(g, seed=k + 1).values(apart)
+        if isinstance(values, NotAlgebraic):
+            return Check(claim.what, None, f"no exact numbers for {values.operation}; see the next line")
+        if any(values):
+            wrong = [i + 1 for i, x in enumerate(values) if x]
+            return Check(claim.what, False, f"wrong: line {', '.join(map(str, wrong))}")
+    return Check(claim.what, True, f"zero at {POINTS} random points of a prime field")
+
+
+def _in_numbers(reading: _Reading, states: int, seed: int) -> Check:
+    """The equations as shown against virtual work, in numbers."""
+    g, model = reading.graph, reading.model
+    shown, work = reading.rows(), reading.mechanics.inverse(reading.a)
+    forward = dynamics.forward(model)
+    names = dynamics.inverse(model).inputs
+    program = Program("lines", g, names, {k: Output(tuple(x), (len(x),)) for k, x in (("r", shown), ("w", work))})
+    worst = 0.0
+    for state in random_states(model, forward, states, seed):
+        got = {k: np.array(x, float) for k, x in evaluated(program, state).items()}
+        size = np.abs(np.array(state["a"])).max() if not np.any(got["w"]) else got["w"]
+        worst = float(np.maximum(worst, relative(got["r"] - got["w"], size)))
+    n = f"{states} random state{'s' if states != 1 else ''}"
+    return Check(
+        text("the equations agree with virtual work, a route without energies"),
+        worst < TOLERANCE,
+        f"largest relative difference {worst:.1e} at {n}",
+    )
