@@ -128,3 +128,60 @@ def test_a_force_pulls_where_a_spring_leaves_no_room_to_push() -> None:
     arrow = [p for p in scene.parts if p.kind == "force"]
     low = max(float(x[1]) for _, x in placed(spring, at))
     assert all(float(y_) > low for p in arrow for _, x in placed(p, at) for y_ in x[1::2])
+
+
+def test_a_hoop_that_turns_by_its_coordinate_is_a_wheel_and_the_coordinate_an_angle() -> None:
+    s = lg.System("hoop")
+    theta = s.coordinates("theta")
+    M, R, J = s.parameters("M R J", M="1 kg", R="0.5 m", J="0.25 kg*m^2")
+    hoop = s.frame(-theta)
+    s.rigid_body(M, J, s.point("C", (R * theta, 0)), hoop, name="hoop")
+    scene = s.look().scene
+    wheel = next(p for p in scene.parts if p.kind == "wheel")
+    centre, rim = (np.array(scene.positions[k]) for k in (wheel.placement.at, wheel.placement.towards))
+    assert np.linalg.norm(rim - centre) == pytest.approx(0.5)
+    assert not any(p.kind == "measure" for p in scene.parts)
+    assert "rolling on a horizontal track" in scene.description
+
+
+def test_friction_of_a_gear_is_drawn_at_the_gear_that_turns_by_its_deflection() -> None:
+    s = lg.System("gears")
+    phi = s.coordinates("phi")
+    m, J, r1, r2, b = s.parameters("m J r1 r2 b", m="1 kg", J="0.1 kg*m^2", r1="0.1 m", r2="0.3 m", b="0.1 N*m*s")
+    s.rigid_body(m, J, at=s.origin, frame=s.frame(phi), name="pinion")
+    s.rigid_body(m, J, at=s.point("O", (r1 + r2, 0)), frame=s.frame(-phi * r1 / r2), name="gear")
+    s.damper(b, deflection=phi * r1 / r2)
+    picture = s.look()
+    assert picture.missing == ()
+    ring = next(p for p in picture.scene.parts if p.kind == "damper")
+    assert picture.scene.positions[ring.placement.at] == pytest.approx((0.4, 0.0))
+
+
+def test_what_hangs_beside_a_cart_is_joined_to_it() -> None:
+    s = lg.System("cart with an arm")
+    x, theta = s.coordinates("x theta")
+    M, m, l, d = s.parameters("M m l d", M="3 kg", m="1 kg", l="0.5 m", d="0.4 m")
+    cart = s.point("cart", (x, 0))
+    joint = s.point("joint", (d, 0), relative_to=cart)
+    s.particle(M, at=cart, name="cart")
+    s.particle(m, at=joint + (l * sin(theta), -l * cos(theta)))
+    scene = s.look().scene
+    bracket = next(p for p in scene.parts if p.kind == "rod" and p.elements == ("cart",))
+    a, b = (np.array(scene.positions[k]) for k in (bracket.placement.at, bracket.placement.towards))
+    assert b - a == pytest.approx([0.4, 0.0])
+
+
+def test_a_floor_reaches_the_walls_that_springs_are_tied_to() -> None:
+    s = lg.System("between walls")
+    x = s.coordinates("x")
+    m, k, c = s.parameters("m k c", m="1 kg", k="40 N/m", c="40 N/m")
+    s.particle(m, at=s.point("P", (x, 0)))
+    s.spring(k, deflection=x)
+    s.spring(c, deflection=-x)
+    scene = s.look().scene
+    at = places(scene)
+    floor = next(p for p in scene.parts if p.kind == "floor")
+    (_, a), (_, b) = placed(floor, at)[:2]
+    walls = [placed(p, at)[0][1] for p in scene.parts if p.kind == "wall"]
+    assert len(walls) == 2
+    assert (min(a[0], b[0]), max(a[0], b[0])) == pytest.approx((min(w[0] for w in walls), max(w[0] for w in walls)))

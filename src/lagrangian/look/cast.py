@@ -224,7 +224,21 @@ def _round(motions: Motions, part: Player) -> bool:
         if motions.still(part.point) and any(h.how is HoldKind.SLIDE and i in h.moving for h in motions.holds):
             part.glyph, part.radius = BodyGlyph.PULLEY, radius
             return True
-    return _rolls_around(motions, part)
+    return _rolls_along(motions, part) or _rolls_around(motions, part)
+
+
+def _rolls_along(motions: Motions, part: Player) -> bool:
+    """Whether a body rolls on a line: its centre moves with speed R ω, and R is a parameter."""
+    hold, i = motions.holds[part.point], motions.holds[part.point].along
+    if hold.how is not HoldKind.SLIDE or i is None or part.frame is None or motions.turns(part.frame) != (i,):
+        return False
+    moved = motions.views.J[:, part.point, :, i] - motions.views.J[:, hold.holder, :, i]
+    turn = float(abs(motions.angle_slopes(part.frame)[i]))
+    radius = motions.named(float(np.linalg.norm(moved[0])) / turn) if turn > 1e-9 else None
+    if radius is None or not motions.even(part.point, hold.holder, i):
+        return False
+    part.glyph, part.radius, part.direction = BodyGlyph.WHEEL, radius, direction(moved[0][:, None])
+    return True
 
 
 def _rolls_around(motions: Motions, part: Player) -> bool:

@@ -70,7 +70,7 @@ class MeasureArtist:
         for k, part in points:
             for h in (0, *self.pulleys, *(p.point for p in sliders if p.point != k)):
                 known = motions.coordinates(k)
-                if not motions.even(k, h, i) and any(turn.slopes[i] for turn in self.turns):
+                if any(turn.slopes[i] for turn in self.turns) and (not motions.even(k, h, i) or self._turned_by(i)):
                     continue  # it is an angle that moves this body, too
                 if motions.coordinates(k, h) == (i,) and i in known and (h == 0 or i not in motions.coordinates(h)):
                     J = motions.views.J[0, k] - motions.views.J[0, h]
@@ -83,6 +83,10 @@ class MeasureArtist:
                     self._length(i, name, k, h, e / size, part)
                     return True
         return False
+
+    def _turned_by(self, i: int) -> bool:
+        """Whether a body turns by a coordinate itself, not by a multiple of it."""
+        return any(turn.frame is not None and self._is(turn.slopes, np.eye(len(turn.slopes))[i]) for turn in self.turns)
 
     def _length(self, i: int, name: str, k: int, h: int, e: Array, part: Player | None) -> None:
         board = self.board

@@ -24,6 +24,9 @@ Array = NDArray[np.float64]
 SOLE = CART[1] / 2 + 2 * WHEEL - 2
 """How far the floor is below the point of a cart [px]."""
 
+WALL = 92.0
+"""How far a wall is from the edge of the body that is tied to it [px]."""
+
 MARGIN = 62.0
 """How far a floor reaches beyond the bodies on it [px]."""
 
@@ -46,6 +49,7 @@ def draw_supports(board: Board, parts: list[Player], ties: list[Tie], ends: dict
             continue
         _rod(board, hold.holder, k, rope=hold.how is HoldKind.TELESCOPE)
         rods.append((hold.holder, k))
+    _brackets(board, parts, rods)
     for a, b in couplers(board.motions, parts):
         _rod(board, a, b)
         rods += [(a, b), (b, a)]
@@ -89,6 +93,18 @@ def _rod(board: Board, a: int, b: int, *, rope: bool = False) -> None:
         n = np.array([end[1] - start[1], start[0] - end[0]])
         n = n if n[0] > 0 or (n[0] == 0 and n[1] < 0) else -n
         board.wish((length.name,), (start + end) / 2, n, "thin", names, distance=4.0)
+
+
+def _brackets(board: Board, parts: list[Player], rods: list[tuple[int, int]]) -> None:
+    """From a body without joints of its own to a rod that hangs beside it."""
+    for k in dict.fromkeys(a for a, _ in rods):
+        owners = [x for x in parts if x.frame is None and x.point != k and not board.motions.coordinates(k, x.point)]
+        owner = next((x for x in owners if board.motions.coordinates(k)), None)
+        if owner is None or np.linalg.norm(board.at(k) - board.at(owner.point)) < CART[0] / 2:
+            continue
+        place = board.towards(owner.point, k)
+        board.put(line((0.0, 0.0), (1.0, 0.0)), "body", place, of=(owner.name,), kind="rod", width=5.0, layer=BODY - 4)
+        board.fence(board.at(owner.point), board.at(k))
 
 
 def _wires(board: Board, parts: list[Player]) -> None:
@@ -192,6 +208,7 @@ def _floors(board: Board, parts: list[Player], ends: dict[int, list[Array]]) -> 
             along = np.array([np.cos(angle), np.sin(angle)])
             lines.append((angle, foot, along, [foot], [part.point]))
     for angle, start, along, feet, points in lines:
+        feet += [start + x * along for x in _walls(board, points, start, along)]
         _floor(board, angle, start, along, feet, points[0], [end for k in points for end in ends.get(k, ())])
 
 
@@ -216,6 +233,13 @@ def _floor(
         moved = board.motions.views.J[0, k] - board.motions.views.J[0, board.motions.holds[k].holder]
         name = board.motions.slope_name(direction(moved))
         _incline(board, angle, start + (right if angle > 0 else left) * along, along, name)
+
+
+def _walls(board: Board, points: list[int], start: Array, along: Array) -> list[float]:
+    """Where along a floor bodies are tied to walls [px], less the margin of the floor."""
+    way = 1.0 if along[0] > 0 or (abs(along[0]) < 1e-9 and along[1] < 0) else -1.0
+    reach = CART[0] / 2 + WALL - MARGIN
+    return [float((board.at(k) - start) @ along) + way * s * reach for k, s in board.walled if k in points]
 
 
 def _incline(board: Board, angle: float, corner: Array, along: Array, name: str) -> None:

@@ -17,7 +17,7 @@ from lagrangian.look.cast import BodyGlyph, Player
 from lagrangian.look.holds import HoldKind
 from lagrangian.look.shapes import BLOCK, CART, arc, coil, dashpot, floor, heading, line, lines, spiral, turned
 from lagrangian.look.spread import slide_along, wall_side
-from lagrangian.look.supports import sole_of
+from lagrangian.look.supports import WALL, sole_of
 from lagrangian.look.ties import Tie
 from lagrangian.look.turning import Turn
 from lagrangian.model import Element
@@ -25,8 +25,6 @@ from lagrangian.page.scene import Disc, Path, Placement, Role
 
 Array = NDArray[np.float64]
 
-WALL = 92.0
-"""How far a wall is from the edge of the body that is tied to it [px]."""
 APART = 20.0
 """The distance of parallel ties [px]."""
 ARM = 105.0
@@ -208,7 +206,8 @@ class TieArtist:
         springs = [
             t for t in self.ties if t.way == "slides" and t.a is None and t.b == k and t.element.kind == "spring"
         ]
-        return -side if tie in springs[1::2] else side
+        same = [t for t in springs if wall_side(board, part, t) == side]
+        return -side if tie in same[1::2] else side
 
     def _to_wall(self, tie: Tie, k: int, offset: float, names: tuple[str, ...], role: Role) -> None:
         board, side = self.board, self._side(tie)
@@ -216,6 +215,7 @@ class TieArtist:
             board.walled.add((tie.b, side))
         e = slide_along(board, self.by_point[k])
         n = np.array([-e[1], e[0]])
+        offset *= 0.7 if self._lift(k, e).any() else 1.0  # a block on a slope has its floor just below
         edge = side * self._half(k, e) * e + offset * n + self._lift(k, e)
         wall_at = self._half(k, e) + WALL + self._rim(k)
         away = side * wall_at * e + offset * n + self._lift(k, e)

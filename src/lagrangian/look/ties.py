@@ -115,11 +115,12 @@ class Resolver:
     def _joint(self, element: Element, g: Array) -> Tie | None:
         if not g.any():
             return None
-        for turn in self.turns:
-            ratio = _ratio(g, turn.slopes)
-            if ratio is not None:
-                if abs(abs(ratio) - 1.0) < 1e-9:
-                    return Tie(element, "joint", None, turn, float(np.sign(ratio)))
+        ratios = [(turn, ratio) for turn in self.turns if (ratio := _ratio(g, turn.slopes)) is not None]
+        for turn, ratio in ratios:
+            if abs(abs(ratio) - 1.0) < 1e-9:
+                return Tie(element, "joint", None, turn, float(np.sign(ratio)))
+        for turn, ratio in ratios:
+            if turn.joint != turn.tip:
                 arm = self.motions.named(abs(ratio)) or sp.Float(abs(ratio), 17)
                 return Tie(element, "arm", None, turn, float(np.sign(ratio)), arm)
         for i, one in enumerate(self.turns):
