@@ -6,7 +6,7 @@
 A change of structure is a change of structure alone where two snapshots are equal. A folder holds
 
     pages/EXAMPLE/NOTATION.txt .md .tex .html       the derivation in every format and notation
-    pages/EXAMPLE/data.json, checklist.txt          its data, and the one-page checklist
+    pages/EXAMPLE/checklist.txt, schematic.svg …    the one-page checklist, the picture, and the model file
     commands/EXAMPLE/VERB.txt                       exit code, standard output and standard error of a command line
     kernels/EXAMPLE.txt                             the bits of all compiled functions at fixed states
     runs/EXAMPLE.txt                                the bits of runs by every method
@@ -54,15 +54,14 @@ SHARED = {  # command lines that name no example
     "compare-different": "compare -e pendulum -e duffing",
     "set-unknown": "simulate -e pendulum --set length=3",
     "set-bad-unit": "simulate -e pendulum --set l=3kg",
-} | {f"help-{verb}": f"{verb} --help" for verb in (
-    "derive", "verify", "check", "export", "compare", "linearize", "equilibria", "conserved", "simulate", "sweep",
-    "new", "examples", "schema", "version",
-)}  # fmt: skip
+}
 EACH = {  # command lines of each example, after `-e EXAMPLE`
     "derive": "derive {e}",
     "derive-brief": "derive {e} --brief",
     "derive-detail": "derive {e} --detail full --width 60",
     "derive-json": "derive {e} --json",
+    "derive-why": "derive {e} --why",
+    "worksheet": "worksheet {e}",
     "verify": "verify {e}",
     "linearize": "linearize {e}",
     "linearize-latex": "linearize {e} -f latex",
@@ -110,7 +109,9 @@ def compare(before: Path, after: Path) -> int:
 
 
 def _shared(folder: Path) -> None:
-    for name, line in SHARED.items():
+    from lagrangian.cli.verbs import VERBS
+
+    for name, line in (SHARED | {f"help-{verb}": f"{verb} --help" for verb in VERBS}).items():
         _write(folder / "commands" / f"{name}.txt", _command(line))
 
 
@@ -139,6 +140,7 @@ def _pages(system: Any) -> Iterator[tuple[str, str]]:
     yield "everything.txt", derivation.to_text(full=True)
     yield "notebook.html", derivation._repr_html_() + system._repr_html_()
     yield "model.toml", system.to_toml()
+    yield "schematic.svg", system.look().to_svg()
 
 
 def _kernels(system: Any) -> Iterator[str]:
