@@ -32,6 +32,48 @@ class Background {
   }
 }
 
+/** A plot that fills while runs come from the background. What extends it takes what has come, and shows it. */
+class BackgroundPlot {
+  /** What is computed, once anything is. */
+  asked = null;
+  /** Whether the next frame shows what has come. */
+  due = false;
+  runs = new Map();
+
+  /**
+   * @param {string} kind  of the job, which is also the name of the panel
+   * @param {PageState} state
+   * @param {(words: string) => void} told
+   */
+  constructor(kind, state, told) {
+    Object.assign(this, { kind, state, told, plot: new Plot(element(`${kind}-canvas`)) });
+    this.background = new Background((found) => this.take(found), told);
+  }
+
+  /** Begin anew with a job. */
+  draw(job) {
+    this.asked = job;
+    this.runs.clear();
+    this.began = performance.now();
+    this.background.ask({ ...job, kind: this.kind });
+  }
+
+  /** The time since then, in words. */
+  passed() {
+    return `${((performance.now() - this.began) / 1000).toFixed(1)} s`;
+  }
+
+  /** Show what has come with the next frame. */
+  showSoon() {
+    if (this.due) return;
+    this.due = true;
+    requestAnimationFrame(() => {
+      this.due = false;
+      this.show();
+    });
+  }
+}
+
 /** Draw a panel while it is open, shortly after the last change; returns what tells it of a change. */
 function whileOpen(id, controls, draw, stop) {
   const details = element(id).querySelector("details");

@@ -1,34 +1,18 @@
 "use strict";
 // The Poincaré section: points of many motions, a colour for each.
 
-class PoincareSection {
-  plot = new Plot(element("section-canvas"));
-  points = new Map();
-  asked = null;
-  due = false;
-
-  /** @param {PageState} state */
-  constructor(state, told) {
-    Object.assign(this, { state, told });
-    this.background = new Background((found) => this.take(found), told);
-  }
-
+class PoincareSection extends BackgroundPlot {
   draw(job) {
-    this.asked = job;
-    this.points.clear();
-    this.began = performance.now();
-    this.background.ask({ ...job, kind: "section" });
+    super.draw(job);
     this.told("Computing …");
     this.show();
   }
 
   take({ run, points, total }) {
-    this.points.set(run, [...(this.points.get(run) ?? []), ...points]);
-    const count = [...this.points.values()].reduce((n, own) => n + own.length / 2, 0);
-    this.told(`${count.toLocaleString("en")} points of ${total} motions in ${((performance.now() - this.began) / 1000).toFixed(1)} s`);
-    if (this.due) return;
-    this.due = true;
-    requestAnimationFrame(() => this.show());
+    this.runs.set(run, [...(this.runs.get(run) ?? []), ...points]);
+    const count = [...this.runs.values()].reduce((n, own) => n + own.length / 2, 0);
+    this.told(`${count.toLocaleString("en")} points of ${total} motions in ${this.passed()}`);
+    this.showSoon();
   }
 
   wrapped(c, x) {
@@ -36,11 +20,9 @@ class PoincareSection {
   }
 
   show() {
-    this.due = false;
-    if (!this.asked) return;
     const { plot, state } = this, { across, up } = this.asked, { context, box } = plot;
     const xs = [Infinity, -Infinity], ys = [Infinity, -Infinity];
-    const spots = [...this.points].map(([run, own]) => [run, Array.from({ length: own.length / 2 }, (_, k) => [this.wrapped(across.state, own[2 * k]), this.wrapped(up, own[2 * k + 1])])]);
+    const spots = [...this.runs].map(([run, own]) => [run, Array.from({ length: own.length / 2 }, (_, k) => [this.wrapped(across.state, own[2 * k]), this.wrapped(up, own[2 * k + 1])])]);
     for (const [, own] of spots)
       for (const [x, y] of own) {
         [xs[0], xs[1]] = [Math.min(xs[0], x), Math.max(xs[1], x)];
@@ -61,7 +43,7 @@ class PoincareSection {
  * @param {Sliders} sliders
  */
 function offerSection(state, sliders) {
-  const { data, set, nq, size } = state, told = (words) => (element("section-told").textContent = words), section = new PoincareSection(state, told);
+  const { data, set, nq, size } = state, told = (words) => (element("section-told").textContent = words), section = new PoincareSection("section", state, told);
   const chosen = (id) => Number(element(`section-${id}`).value);
   const begin = () => {
     const where = chosen("where");

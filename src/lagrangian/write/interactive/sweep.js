@@ -1,39 +1,16 @@
 "use strict";
 // The sweep: one state over time, for many values of a parameter at once.
 
-/** @param {PageState} state */
-class Sweep {
-  plot = new Plot(element("sweep-canvas"));
-  /** The runs that have come, by their place between the ends of the range. */
-  runs = new Map();
-  asked = null;
-  due = false;
-
-  constructor(state, told) {
-    Object.assign(this, { state, told });
-    this.background = new Background((found) => this.take(found), told);
-  }
-
-  /** Begin anew with a range of a parameter. */
-  draw(job) {
-    this.asked = job;
-    this.runs.clear();
-    this.began = performance.now();
-    this.background.ask({ ...job, kind: "sweep" });
-  }
-
+/** Runs by their place between the ends of the range. */
+class Sweep extends BackgroundPlot {
   take({ share, values, count, whole }) {
     this.runs.set(share, { values, whole });
     const ended = [...this.runs.values()].filter((run) => !run.whole).length;
-    this.told(`${count} runs in ${((performance.now() - this.began) / 1000).toFixed(1)} s${ended ? `, ${ended} of them end early` : ""}`);
-    if (this.due) return;
-    this.due = true;
-    requestAnimationFrame(() => this.show());
+    this.told(`${count} runs in ${this.passed()}${ended ? `, ${ended} of them end early` : ""}`);
+    this.showSoon();
   }
 
   show() {
-    this.due = false;
-    if (!this.asked) return;
     const { plot, state } = this, { end, samples } = this.asked, dark = matchMedia("(prefers-color-scheme: dark)").matches;
     let [low, high] = [Infinity, -Infinity];
     for (const { values } of this.runs.values()) for (const x of values) [low, high] = [Math.min(low, x), Math.max(high, x)];
@@ -54,7 +31,7 @@ class Sweep {
  * @param {Sliders} sliders
  */
 function offerSweep(state, sliders) {
-  const { data, set } = state, told = (words) => (element("sweep-told").textContent = words), sweep = new Sweep(state, told);
+  const { data, set } = state, told = (words) => (element("sweep-told").textContent = words), sweep = new Sweep("sweep", state, told);
   element("sweep").hidden = !data.p.names.length;
   if (!data.p.names.length) return () => {};
   const chosen = () => Number(element("sweep-of").value);
