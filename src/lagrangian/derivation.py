@@ -118,20 +118,24 @@ class Derivation(Guided, derive.Derived):
         scheme = MarkingScheme(points=points or {}, require=require, coordinates=coordinates, other=other)
         judging = Judging(scheme=scheme, hint=hint, told=hint if told is None else told, feedback=feedback)
         run: dict[str, Any] = {"roster": roster, "store": store, "processes": processes, "progress": progress}
-        return check_class(self.model, answers, judging=judging, derivation=self, **run)
+        derived = self if self.form == "expanded" else None  # answers are compared in the coordinates alone
+        return check_class(self.model, answers, judging=judging, derivation=derived, **run)
 
     @cached_property
     def why(self) -> Why:
         """Why Lagrange's equations hold for this system: F = ma for every mass, and how constraint forces drop out.
 
         The lecture's equations (1) to (12) with the symbols of this system, every equality checked, and the constraint
-        force on every body. Raises `ModelError` for a system that is given by its energies, which has no masses.
+        force on every body. Raises `ModelError` for a system that is given by its energies, which has no masses, and
+        for one whose equations cannot be written in the coordinates alone.
         """
-        return derive.why(self)
+        return derive.why(self if self.form == "expanded" else derive.derive(self.model))
 
     @property
     def reasoning(self) -> Report[Model] | None:
-        """The page of `why`; None for a system that has none."""
+        """The page of `why`; None for a system that has none, and where its equations are too long to read."""
+        if self.form == "structured" and is_structured(self.model):
+            return None
         try:
             return self.why.report()
         except Error:

@@ -187,6 +187,13 @@ def test_forms_that_cannot_be_had_are_refused() -> None:
     assert "given" in refusal(s.model)
 
 
+def test_answers_and_reasons_go_back_to_the_coordinates() -> None:
+    d = built_in.system("double-pendulum-relative").derive(form="structured")
+    assert d.check(built_in.derivation("double-pendulum-relative").to_text(brief=True)).right
+    assert not d.check("m2*L2^2*(theta1'' + theta2'') = 0").right
+    assert d.why.checks and all(c.holds for c in d.why.checks)
+
+
 def test_comparing_needs_the_coordinates_alone(puma_lines: Any) -> None:
     with pytest.raises(ModelError, match="written in named quantities"):
         lg.compare(puma_lines, puma_lines)

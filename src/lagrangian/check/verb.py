@@ -9,7 +9,7 @@ from typing import Any
 from lagrangian import check
 from lagrangian.advice import Advice, Argument
 from lagrangian.check.reading import Answer, decode_answer, parse_answer
-from lagrangian.derive import Derived
+from lagrangian.derive import Derived, derive
 from lagrangian.errors import Error, ModelError, ParseError
 from lagrangian.model import Model
 from lagrangian.page.formula import text
@@ -38,10 +38,13 @@ def check_answer(derivation: Derived, answer: Any, *, hint: int = 3, name: str |
     """Check an answer: text or LaTeX, an `Answer` that was read, SymPy equations, or energies by name.
 
     ``hint`` limits how much the result reveals: 0 right or wrong, 1 the line, 2 the element and the step, 3 the term.
-    ``name`` is the file of the answer, for messages. Raises `ParseError`, with the place, if a text cannot be read.
+    ``name`` is the file of the answer, for messages. Raises `ParseError`, with the place, if a text cannot be read, and
+    `ModelError` if the equations cannot be written in the coordinates alone.
     """
     if isinstance(hint, bool) or hint not in (0, 1, 2, 3):
         raise ModelError(f"a hint has a level from 0 to 3 (got {hint})", fix=Advice(Argument("hint", "2")), code="E406")
+    if derivation.form == "structured":  # answers are compared in the coordinates alone
+        derivation = derive(derivation.model)
     if isinstance(answer, str):
         answer = parse_answer(answer, derivation.model, name=name)
     if isinstance(answer, Answer):
