@@ -11,6 +11,7 @@ if _typing.TYPE_CHECKING:
     from lagrangian.compare import Comparison, PicturePair, compare
     from lagrangian.compiled import Compiled
     from lagrangian.derivation import Derivation
+    from lagrangian.derivatives.results import Derivatives, InverseDerivatives
     from lagrangian.derive import LedgerRow, Origin, Step, Why
     from lagrangian.derive.constraints.page import Constraints
     from lagrangian.equilibria.points import Equilibria, Equilibrium
@@ -44,6 +45,7 @@ else:
             "compare": "Comparison PicturePair compare",
             "compiled": "Compiled",
             "derivation": "Derivation",
+            "derivatives.results": "Derivatives InverseDerivatives",
             "derive": "LedgerRow Origin Step Why",
             "derive.constraints.page": "Constraints",
             "equilibria.points": "Equilibria Equilibrium",
@@ -85,6 +87,7 @@ __all__ = [
     "ConservedQuantities",
     "Constraints",
     "Derivation",
+    "Derivatives",
     "Ensemble",
     "EquationTerm",
     "Equilibria",
@@ -93,6 +96,7 @@ __all__ = [
     "Event",
     "Execution",
     "Hamiltonian",
+    "InverseDerivatives",
     "LedgerRow",
     "Linearization",
     "LinearizationAlong",

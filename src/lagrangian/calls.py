@@ -203,5 +203,7 @@ COMPILED: Mapping[str, str] = {
     **dict.fromkeys(("jacobian", "J"), 'point(P, q)["J"], or frame(F, q)["J"]'),
     **dict.fromkeys(("simulate", "run", "solve"), "system.simulate(10.0)"),
     **dict.fromkeys(("C", "coriolis"), "coriolis_matrix(q, v)"),
+    **dict.fromkeys(("Minv", "gradients", "partials"), "derivatives(q, v, u)"),
+    **dict.fromkeys(("linearize", "A", "B"), "linearized(q, v, u), or system.linearize() about an equilibrium"),
 }
 """Common names that a compiled system does not have, with advice."""

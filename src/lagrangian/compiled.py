@@ -13,10 +13,10 @@ from numpy.typing import ArrayLike, NDArray
 from lagrangian import codegen as machine
 from lagrangian import dynamics
 from lagrangian.codegen.labels import comment
+from lagrangian.differentiated import Differentiated
 from lagrangian.errors import ModelError, RunError
 from lagrangian.graph import reached
 from lagrangian.queries import by_name as _named
-from lagrangian.restricted import Restricted
 
 if TYPE_CHECKING:
     from lagrangian.graph import Program
@@ -36,7 +36,7 @@ NOT_FINITE = "E503"
 """The error code of results that are not finite."""
 
 
-class Compiled(Restricted):
+class Compiled(Differentiated):
     """The dynamics M(q) q̈ + C(q, q̇) q̇ + G(q) = Ξ of a system, as functions in machine code.
 
     Every method takes arrays of shape ``(..., n)``, whose leading dimensions broadcast together, in the declared order
@@ -81,13 +81,8 @@ class Compiled(Restricted):
             if name in _STILL:
                 optional["v"] = 0.0
             found = machine.compile(self.program(name), optional=optional, lanes=self._lanes, threads=self._threads)
-            if name in _SOLVING and self.parameters:
-                # imported here because exporting source code needs no machine code
-                from lagrangian.simulate.admission import Admission, fitness
-
-                fit = fitness(self._model, self.parameters)
-                if fit is not None:
-                    found.admit = Admission(self._model, fit)
+            if name in _SOLVING:
+                self._admit(found)
             self._kernels[name] = found
         return found
 

@@ -38,16 +38,34 @@ class Looking(Guided):
         """Call a kernel with coordinates, …, inputs, parameters and t; if the result is not finite, explain why."""
         raise TypeError(f"{type(self).__name__} calls no kernel")
 
-    def _made(self, key: Any, make: Callable[[], Program]) -> machine.Kernel:
-        """Return what was compiled under a key; compile it at the first request."""
+    def _made(
+        self, key: Any, make: Callable[[], Program], *, still: bool = True, admitted: bool = False
+    ) -> machine.Kernel:
+        """Return what was compiled under a key; compile it at the first request.
+
+        With ``still``, v may be left out and is 0; with ``admitted``, masses are checked in all parameters given.
+        """
         found = self._seen.pop(key, None)
         if found is None:
-            optional = {"u": 0.0, "t": 0.0, "v": 0.0}
+            optional = {"u": 0.0, "t": 0.0, **({"v": 0.0} if still else {})}
             found = machine.compile(make(), optional=optional, lanes=self._lanes, threads=self._threads)
+            if admitted:
+                self._admit(found)
         self._seen[key] = found  # the most recently used is last
         for oldest in list(self._seen)[:-REMEMBERED]:
             self._seen.pop(oldest, None)
         return found
+
+    def _admit(self, kernel: machine.Kernel) -> None:
+        """Have a kernel refuse parameters with which a mass or an inertia is impossible."""
+        if not self._model.parameters:
+            return
+        # imported here because exporting source code needs no machine code
+        from lagrangian.simulate.admission import Admission, fitness
+
+        fit = fitness(self._model, tuple(p.name for p in self._model.parameters))
+        if fit is not None:
+            kernel.admit = Admission(self._model, fit)
 
     def point(
         self, point: str | Point, q: ArrayLike, v: ArrayLike | None = None, p: Any = None, t: ArrayLike = 0.0

@@ -16,6 +16,7 @@ from lagrangian.dynamics.constraint_programs import (
     pushed_bias,
     residual,
 )
+from lagrangian.dynamics.derivatives import VARIED, derivatives, inverse_derivatives, tangent
 from lagrangian.dynamics.describe import describe, placed
 from lagrangian.dynamics.description import Inputs
 from lagrangian.dynamics.feedback import SUPPLY, balance_terms_closed, closed, observe_closed, power_closed
@@ -57,6 +58,7 @@ __all__ = [
     "LEAST_REGULARITY",
     "PARADOX",
     "SUPPLY",
+    "VARIED",
     "Bodies",
     "Inputs",
     "Mechanics",
@@ -76,6 +78,7 @@ __all__ = [
     "coriolis",
     "correction",
     "dependent_rows",
+    "derivatives",
     "describe",
     "divisors",
     "energy",
@@ -84,6 +87,7 @@ __all__ = [
     "frame_program",
     "impacts",
     "inverse",
+    "inverse_derivatives",
     "inverse_from_lagrangian",
     "loose",
     "loss",
@@ -108,6 +112,7 @@ __all__ = [
     "residual",
     "rhs",
     "slips",
+    "tangent",
     "velocities",
     "verdict",
     "watched",

@@ -1,0 +1,1 @@
+"""How do the accelerations change? Derivatives of the dynamics, and of single steps, as numbers."""

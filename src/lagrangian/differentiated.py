@@ -1,0 +1,209 @@
+"""The methods of a compiled system that differentiate it: accelerations, forces, linear models, single steps."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from math import isfinite
+from typing import Any, Literal, overload
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from lagrangian import codegen as machine
+from lagrangian import dynamics
+from lagrangian.derivatives.results import Derivatives, InverseDerivatives
+from lagrangian.derivatives.steps import Rates, VelocityMap, differentiated, stepped, tableau
+from lagrangian.errors import RunError
+from lagrangian.queries import by_name
+from lagrangian.restricted import Restricted, Values
+
+Array = NDArray[np.float64]
+VARIED = dynamics.VARIED
+
+
+class Differentiated(Restricted):
+    """The part of a compiled system that differentiates it; `lagrangian.compiled.Compiled` adds the equations."""
+
+    def _kernel(self, name: str) -> machine.Kernel:
+        """The kernel of a program by its name."""
+        raise TypeError(f"{type(self).__name__} compiles no program")
+
+    @overload
+    def derivatives(
+        self,
+        q: ArrayLike,
+        v: ArrayLike,
+        u: Values = None,
+        p: Values = None,
+        t: ArrayLike = 0.0,
+        *,
+        a: None = None,
+        wrt: str | Sequence[str] = VARIED,
+    ) -> Derivatives: ...
+
+    @overload
+    def derivatives(
+        self,
+        q: ArrayLike,
+        v: ArrayLike,
+        u: Values = None,
+        p: Values = None,
+        t: ArrayLike = 0.0,
+        *,
+        a: ArrayLike,
+        wrt: str | Sequence[str] = VARIED,
+    ) -> InverseDerivatives: ...
+
+    def derivatives(
+        self,
+        q: ArrayLike,
+        v: ArrayLike,
+        u: Values = None,
+        p: Values = None,
+        t: ArrayLike = 0.0,
+        *,
+        a: ArrayLike | None = None,
+        wrt: str | Sequence[str] = VARIED,
+    ) -> Derivatives | InverseDerivatives:
+        """Return the accelerations a = M⁻¹ (Ξ − C v − G) with their exact derivatives, as `lagrangian.Derivatives`.
+
+        ∂a/∂x = −M⁻¹ ∂(M a + C v + G − Ξ)/∂x at a held constant: ``d.a_q``, ``d.a_v`` and ``d.Minv`` = ∂a/∂Ξ have the
+        shape ``(..., n, n)``, ``d.a_u`` ``(..., n, number of inputs)``, in SI units. For floating frames column k of
+        ``a_q`` is the change along the k-th velocity, δq = N(q) e_k. ``wrt`` says what is computed: "q", "v", "u" and
+        names of parameters, whose derivatives are ``d.a_p["m"]``, ``(..., n)``. Every set is compiled at its first
+        call.
+
+        With ``a`` given, the forces r = M a + C v + G − Ξ of inverse dynamics are differentiated:
+        `lagrangian.InverseDerivatives` with ``d.r``, ``d.r_q``, ``d.r_v``, ``d.r_u``, ``d.r_p`` and ``d.M``.
+
+        Raises `ModelError` for unknown names in ``wrt`` and for systems with constraints, `RunError` as `forward`.
+        """
+        names = (wrt,) if isinstance(wrt, str) else tuple(wrt)
+        if a is None:
+            kernel = self._slopes(names)
+            return Derivatives(kernel.program, self._called(kernel, (q, v, u, p, t)), names)
+        kernel = self._made(
+            ("inverse derivatives", names), lambda: dynamics.inverse_derivatives(self._model, names), still=False
+        )
+        return InverseDerivatives(kernel.program, self._called(kernel, (q, v, a, u, p, t)), names)
+
+    def linearized(
+        self, q: ArrayLike, v: ArrayLike, u: Values = None, p: Values = None, t: ArrayLike = 0.0
+    ) -> tuple[Array, Array]:
+        """Return A and B of δẋ = A δx + B δu about any states, shapes ``(..., 2n, 2n)`` and ``(..., 2n, n_u)``.
+
+        δx = (δq, δv), A = [[0, 1], [∂a/∂q, ∂a/∂v]] and B = [[0], [∂a/∂u]] with n velocities. For a floating frame δq
+        are the six components ξ along its velocities, δq = N(q) ξ, whose rate is ξ̇ = δv − ad_v ξ with the Lie bracket
+        of velocities; −ad_v then stands in place of 0. About an equilibrium `System.linearize` returns the same in
+        coordinates, with poles and modes. Raises as `derivatives`.
+        """
+        d = self.derivatives(q, v, u, p, t)
+        n = len(self.velocities)
+        A, B = np.zeros((*d.a.shape[:-1], 2 * n, 2 * n)), np.zeros((*d.a.shape[:-1], 2 * n, len(self.inputs)))
+        A[..., :n, n:], A[..., n:, :n], A[..., n:, n:] = np.eye(n), d.a_q, d.a_v
+        B[..., n:, :] = d.a_u
+        if (tangent := self._tangent(q, v)) is not None:
+            A[..., :n, :n] = -tangent.ad
+        return A, B
+
+    @overload
+    def step(
+        self,
+        q: ArrayLike,
+        v: ArrayLike,
+        u: Values,
+        dt: float,
+        *,
+        method: str = "rk4",
+        derivatives: Literal[False] = False,
+        p: Values = None,
+        t: ArrayLike = 0.0,
+    ) -> Array: ...
+
+    @overload
+    def step(
+        self,
+        q: ArrayLike,
+        v: ArrayLike,
+        u: Values,
+        dt: float,
+        *,
+        method: str = "rk4",
+        derivatives: Literal[True],
+        p: Values = None,
+        t: ArrayLike = 0.0,
+    ) -> tuple[Array, Array, Array]: ...
+
+    def step(
+        self,
+        q: ArrayLike,
+        v: ArrayLike,
+        u: Values,
+        dt: float,
+        *,
+        method: str = "rk4",
+        derivatives: bool = False,
+        p: Values = None,
+        t: ArrayLike = 0.0,
+    ) -> Array | tuple[Array, Array, Array]:
+        """Return the state x₁ = [q₁; v₁] after one step of ``dt`` seconds with constant inputs, ``(..., n_q + n_v)``.
+
+        ``method`` is "rk4", "midpoint" or "euler". With ``derivatives``, return x₁, A and B: A = ∂x₁/∂x has the shape
+        ``(..., 2n, 2n)`` and B = ∂x₁/∂u ``(..., 2n, n_u)``. They are the exact derivatives of this discrete step, not
+        of the motion that it approximates, in δx = (δq, δv); for a floating frame δq are components along its
+        velocities, before and after the step. Raises as `derivatives`, and `RunError` for another method or step.
+        """
+        table = tableau(method)
+        if isinstance(dt, bool) or not isinstance(dt, (int, float, np.floating, np.integer)) or not isfinite(dt):
+            raise RunError(f"dt must be a finite number of seconds (got {dt!r:.60})", code="E501")
+        start, time = (_array(q, self.coordinates, "q"), _array(v, self.velocities, "v")), np.asarray(t, float)
+
+        def rates(q: Array, v: Array, later: float) -> Rates:
+            return self._rates((q, v, u, p, time + later), derivatives=derivatives)
+
+        x, stages = stepped(table, float(dt), *start, rates)
+        if not derivatives:
+            return x
+        places = len(self.coordinates)
+        return x, *differentiated(table, float(dt), stages, self._tangent(x[..., :places], x[..., places:]))
+
+    def _rates(self, given: tuple[Any, ...], *, derivatives: bool) -> Rates:
+        """q̇ and v̇ at a state, which is given as for `forward`."""
+        q, v, *_ = given
+        tangent = self._tangent(q, v)
+        qdot = v if tangent is None else tangent.qdot
+        if not derivatives:
+            return Rates(qdot, self._called(self._kernel("forward"), given))
+        d = self.derivatives(*given)
+        return Rates(qdot, d.a, d.a_q, d.a_v, d.a_u, tangent)
+
+    def _tangent(self, q: ArrayLike, v: ArrayLike) -> VelocityMap | None:
+        """How q moves with v; None where q̇ = v."""
+        if not self._model.floating:
+            return None
+        kernel = self._made("tangent", lambda: dynamics.tangent(self._model))
+        found = self._called(kernel, (q, v, None, None, 0.0))
+        return VelocityMap(found["qdot"], found["N"], found["Nq"], found["back"], found["ad"])
+
+    def _slopes(self, wrt: tuple[str, ...]) -> machine.Kernel:
+        """The kernel of `derivatives`; parameters are checked as those of `forward` are."""
+        return self._made(
+            ("derivatives", wrt), lambda: dynamics.derivatives(self._model, wrt), still=False, admitted=True
+        )
+
+
+def _array(given: Any, names: tuple[str, ...], what: str) -> Array:
+    """q or v as an array, (..., n), of a mapping by name or an array; raises `RunError` if it does not fit."""
+    named = by_name(given)
+    if isinstance(named, Mapping):
+        if set(named) != set(names):
+            raise RunError(f"{what} must have a value for each of {', '.join(names)[:200]}", code="E401")
+        given = np.stack(np.broadcast_arrays(*(np.asarray(named[name], float) for name in names)), axis=-1)
+    found = np.asarray(given, float)
+    if found.ndim == 0 or found.shape[-1] != len(names):
+        raise RunError(
+            f"{what} has the shape {found.shape}; its last axis must have {len(names)} entries",
+            fix="one number each, in the order " + ", ".join(names[:12]),
+            code="E501",
+        )
+    return found

@@ -1,0 +1,248 @@
+"""Derivatives of the dynamics: ∂a/∂(q, v, u, p) and M⁻¹ of the accelerations a, ∂r/∂(q, v, u, p) and M of the forces r.
+
+a(q, v, u, p) solves r(q, v, a, u, p) = 0, where r = M a + h is linear in a. Therefore
+
+    ∂a/∂x = −M⁻¹ D,        D = ∂r/∂x at a held constant
+
+D is computed forwards, by columns, or backwards, by rows, from an r whose accelerations are *inputs* of the graph.
+Their values are substituted afterwards: if they were nodes from the beginning, the graph would simplify with them, as
+in a + (−b) → a − b, and what is held constant would be bypassed. M⁻¹ comes from the elimination that gives a, with a
+unit load for each velocity; D is multiplied by it, or each column of D is a load itself. All combinations are
+counted, and the cheapest is returned.
+
+Derivatives with respect to q are along the velocities: column k is the rate of change for q̇ = N(q) e_k. Without
+floating frames N = 1, and these are the partial derivatives; with a floating frame there are six columns for its
+seven coordinates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import product as pairs_of
+
+from lagrangian.dynamics.floating import bracket
+from lagrangian.dynamics.mechanics import MANY, Mechanics
+from lagrangian.dynamics.programs import _matrix, _program, _start, _vector
+from lagrangian.dynamics.recorded import RecordedElimination
+from lagrangian.dynamics.vectors import Matrix, Vector, dot, plus, product, scaled, transposed, zeros
+from lagrangian.errors import ModelError, did_you_mean
+from lagrangian.graph import Graph, Output, Program, Tangents, count_operations, jvp, replaced, vjp
+from lagrangian.model import Model
+
+VARIED = ("q", "v", "u")
+"""The groups with respect to which derivatives are taken unless others are named."""
+
+Direction = dict[int, int]
+"""A direction in which the inputs of a graph are varied: input node → its tangent."""
+
+
+@dataclass(frozen=True)
+class Directions:
+    """The directions of all columns of a derivative, group after group; ``groups``: output name → number of columns."""
+
+    groups: dict[str, int]
+    columns: list[Direction]
+
+    @property
+    def varied(self) -> list[int]:
+        """The inputs that any direction varies."""
+        return list(dict.fromkeys(x for column in self.columns for x in column))
+
+    def split(self, of: str, matrix: Matrix) -> dict[str, Output]:
+        """The columns of a matrix, one output for each group: ``a_q`` for ``of`` = "a"."""
+        found: dict[str, Output] = {}
+        first = 0
+        for name, count in self.groups.items():
+            flat = [x for row in matrix for x in row[first : first + count]]
+            found[f"{of}_{name}"] = Output(tuple(flat), (len(matrix), count))
+            first += count
+        return found
+
+
+def parameters_in(model: Model, wrt: Sequence[str]) -> tuple[str, ...]:
+    """The parameters among the names of ``wrt``; raises `ModelError` for a name that is neither a group nor a
+    parameter, and for one that is given twice."""
+    known = [p.name for p in model.parameters]
+    for at, name in enumerate(wrt):
+        if name not in VARIED and name not in known:
+            raise ModelError(
+                f"there is nothing called '{name[:64]}' to differentiate with respect to",
+                fix=did_you_mean(name, known) or f"use {', '.join(map(repr, VARIED))} and names of parameters",
+                code="E402",
+            )
+        if name in wrt[:at]:
+            raise ModelError(f"'{name}' is given twice in wrt", fix="name it once", code="E404")
+    return tuple(name for name in wrt if name not in VARIED)
+
+
+def directions_of(model: Model, wrt: Sequence[str]) -> tuple[Graph, Mechanics, Directions]:
+    """A new graph with a model's mechanics, and the directions that ``wrt`` names."""
+    named = parameters_in(model, wrt)
+    g, _, m = _start(model)
+    groups: dict[str, int] = {}
+    columns: list[Direction] = []
+    if "q" in wrt:
+        groups["q"] = len(m.v)
+        for v in m.v:
+            along = zip(m.q, jvp(g, m.motion.rates, {v: g.one}), strict=True)
+            columns.append({q: x for q, x in along if x != g.zero})
+    if "v" in wrt:
+        groups["v"] = len(m.v)
+        columns += [{v: g.one} for v in m.v]
+    if "u" in wrt and model.inputs:
+        groups["u"] = len(model.inputs)
+        columns += [{g.input("u", k): g.one} for k in range(len(model.inputs))]
+    if named:
+        groups["p"] = len(named)
+        order = [p.name for p in model.parameters]
+        columns += [{g.input("p", order.index(name)): g.one} for name in named]
+    return g, m, Directions(groups, columns)
+
+
+def _by_columns(g: Graph, r: Sequence[int], directions: Directions) -> Matrix:
+    """∂r along every direction, one forward pass a column; rows of the matrix belong to r."""
+    return transposed([Tangents(g, column)(r) for column in directions.columns]) or [[] for _ in r]
+
+
+def _by_rows(g: Graph, r: Sequence[int], directions: Directions) -> Matrix:
+    """The same, one backward pass a row."""
+    varied = directions.varied
+    found: Matrix = []
+    for x in r:
+        slope = dict(zip(varied, vjp(g, [x], [g.one], varied), strict=True))
+        found.append([dot(g, [slope[i] for i in column], list(column.values())) for column in directions.columns])
+    return found
+
+
+@dataclass(frozen=True)
+class SolvedForward:
+    """Accelerations a, and the factors from which they and M⁻¹ come."""
+
+    graph: Graph
+    velocities: Vector
+    a: Vector
+    factors: RecordedElimination
+
+    def along(self, loads: Sequence[int]) -> Vector:
+        """−M⁻¹ loads."""
+        value = self.factors.answer(dict(zip(self.velocities, loads, strict=True)))
+        return [value[v] for v in self.velocities]
+
+    def inverse_inertia(self) -> Matrix:
+        """M⁻¹; of two entries that are equal by symmetry the one that takes fewer operations is used for both."""
+        g, n = self.graph, len(self.velocities)
+        columns = [self.along([g.negative if i == k else g.zero for i in range(n)]) for k in range(n)]
+        above = [[columns[max(i, k)][min(i, k)] for k in range(n)] for i in range(n)]
+        below = [[columns[min(i, k)][max(i, k)] for k in range(n)] for i in range(n)]
+        return min((above, below), key=lambda rows: _cost(g, [x for row in rows for x in row]))
+
+
+def _cost(g: Graph, ids: Sequence[int]) -> int:
+    return count_operations(g, ids, hoist=["p"]).operations
+
+
+def _solutions(m: Mechanics) -> Iterator[tuple[bool, SolvedForward]]:
+    """The eliminations worth trying, and whether each is of the mass matrix itself."""
+    few = len(m.v) <= MANY
+    for links in m.groupings if few else m.groupings[:1]:
+        for free in (True, False) if few and m.motion.free_rates() else (True,):
+            acc = m.accelerations(zeros(m.graph, len(m.v)), free=free)
+            for problem in m.problems(links, m.missing(acc, links), [], acc.vdot):
+                factors = RecordedElimination.of(problem)
+                value = factors.answer(problem.linear)
+                a = plus(m.graph, problem.reference, [value[v] for v in m.v])
+                yield not problem.tape.forms, SolvedForward(m.graph, list(m.v), a, factors)
+
+
+def _cheapest_solutions(m: Mechanics) -> list[tuple[SolvedForward, Matrix]]:
+    """The solution with the fewest operations for a and M⁻¹, along the tape and of the mass matrix, with M⁻¹."""
+    best: dict[bool, tuple[int, SolvedForward, Matrix]] = {}
+    for dense, solution in _solutions(m):
+        Minv = solution.inverse_inertia()
+        cost = _cost(m.graph, [*solution.a, *(x for row in Minv for x in row)])
+        if dense not in best or cost < best[dense][0]:
+            best[dense] = cost, solution, Minv
+    return [(solution, Minv) for _, solution, Minv in best.values()]
+
+
+def candidates(m: Mechanics, directions: Directions) -> Iterator[tuple[Vector, Matrix, Matrix]]:
+    """a, M⁻¹ and ∂a along the directions, in every way that is counted."""
+    g, n = m.graph, len(m.v)
+    held = [g.input("a", i) for i in range(n)]
+    r = m.inverse(held)
+    ways = [_by_rows(g, r, directions), _by_columns(g, r, directions)]
+    for (solution, Minv), D in pairs_of(_cheapest_solutions(m), ways):
+        flat = replaced(g, [x for row in D for x in row], dict(zip(held, solution.a, strict=True)))
+        width = len(directions.columns)
+        slopes = [flat[i * width : (i + 1) * width] for i in range(n)]
+        yield solution.a, Minv, [[g.neg(x) for x in row] for row in product(g, Minv, slopes)]
+        yield solution.a, Minv, transposed([solution.along(column) for column in transposed(slopes)]) or slopes
+
+
+def derivatives(model: Model, wrt: Sequence[str] = VARIED) -> Program:
+    """q, v, u, p, t → "a" (n,), "Minv" = M⁻¹ = ∂a/∂Ξ (n, n), and ∂a/∂x for every x named in ``wrt``.
+
+    ``wrt`` contains "q", "v", "u" and names of parameters, for the outputs "a_q" and "a_v" (n, n), "a_u" (n, number of
+    inputs) and "a_p" (n, number of parameters named, in that order). "a_q" is along the velocities. Raises `ModelError`
+    for other names, for constraints, and where the mass matrix is singular by structure.
+    """
+    if model.constraints:
+        raise constrained(model)
+    graph, m, directions = directions_of(model, wrt)
+    found = [
+        {"a": _vector(a), **directions.split("a", slopes), "Minv": _matrix(Minv)}
+        for a, Minv, slopes in candidates(m, directions)
+    ]
+    outputs = min(found, key=lambda outputs: _cost(graph, [i for x in outputs.values() for i in x.ids]))
+    return _program(model, "derivatives", graph, outputs)
+
+
+def inverse_derivatives(model: Model, wrt: Sequence[str] = VARIED) -> Program:
+    """q, v, a, u, p, t → "r" (n,), "M" = ∂r/∂a (n, n), and ∂r/∂x as "r_q", "r_v", "r_u", "r_p"; see `derivatives`."""
+    if model.constraints:
+        raise constrained(model)
+    graph, m, directions = directions_of(model, wrt)
+    r = m.inverse([graph.input("a", i) for i in range(len(m.v))])
+    M = _matrix(m.mass_matrix())
+    found = [
+        {"r": _vector(r), **directions.split("r", slopes), "M": M}
+        for slopes in (_by_rows(graph, r, directions), _by_columns(graph, r, directions))
+    ]
+    outputs = min(found, key=lambda outputs: _cost(graph, [i for x in outputs.values() for i in x.ids]))
+    return _program(model, "inverse_derivatives", graph, outputs, groups=("q", "v", "a"))
+
+
+def tangent(model: Model) -> Program:
+    """q, v, u, p, t → "qdot" = N v and how it varies: "N", "Nq" = ∂(N v)/∂q, "back" = N⁺ with N⁺ N = 1, and "ad".
+
+    "ad" is the matrix of ad_v, w ↦ [v, w]: variations δq = N ξ have the rate ξ̇ = δv − ad_v ξ. Its entries are 0 but
+    for floating frames.
+    """
+    g, _, m = _start(model)
+    rates, n = list(m.motion.rates), len(m.v)
+    N = transposed([jvp(g, rates, {v: g.one}) for v in m.v])
+    Nq = transposed([jvp(g, rates, {q: g.one}) for q in m.q])
+    back = transposed(N)
+    ad = [zeros(g, n) for _ in range(n)]
+    for at in m.floats:
+        e = m.q[at.q + 3 : at.q + 7]
+        over = g.div(g.const(4.0), dot(g, e, e))  # the columns of N that turn have the length |e|/2
+        for i in range(at.v + 3, at.v + 6):
+            back[i] = scaled(g, over, back[i])
+        own = slice(at.v, at.v + 6)
+        for k in range(6):
+            unit = [g.one if i == k else g.zero for i in range(6)]
+            for i, x in enumerate(bracket(g, m.v[own], unit)):
+                ad[at.v + i][at.v + k] = x
+    outputs = {"qdot": _vector(rates), "N": _matrix(N), "Nq": _matrix(Nq), "back": _matrix(back), "ad": _matrix(ad)}
+    return _program(model, "tangent", g, outputs)
+
+
+def constrained(model: Model) -> ModelError:
+    """Return the error that refuses derivatives of a system with constraints."""
+    return ModelError(
+        f"the derivatives of system '{model.name}' are not available: with constraints, states cannot be varied freely",
+        fix="linearize() returns A and B of the motions that the constraints allow",
+        code="E201",
+    )
