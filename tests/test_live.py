@@ -205,6 +205,21 @@ def test_a_link_restores_the_state(browser: Any, file: Path) -> None:
 
 
 @in_browser
+def test_a_page_in_a_frame_offers_no_link_to_it(browser: Any, file: Path) -> None:
+    made = Opened(browser, file.as_uri())
+    assert made.page.locator("#copy-link").is_visible()
+    made.page.set_content('<iframe sandbox="allow-scripts" width="900" height="700"></iframe>')
+    text = file.read_text(encoding="utf-8")
+    made.page.locator("iframe").evaluate("(frame, text) => { frame.srcdoc = text; }", text)
+    frame = made.page.frame_locator("iframe")
+    frame.locator("#values .control").first.wait_for()
+    made.page.wait_for_timeout(200)
+    assert not frame.locator("#copy-link").is_visible()
+    assert frame.locator("#copy-model").is_visible()
+    made.context.close()
+
+
+@in_browser
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_320_pixels_are_enough(browser: Any, file: Path, scheme: str) -> None:
     made = Opened(browser, file.as_uri(), viewport={"width": 320, "height": 640}, color_scheme=scheme)

@@ -53,6 +53,7 @@ function offerSaving(state, address) {
     address.remember(0);
     copy(event.currentTarget, location.href.split("#")[0] + address.text());
   });
+  element("copy-link").hidden = ["about:", "blob:"].includes(location.protocol); // a frame has no address of its own
   on("copy-model", "click", (event) => copy(event.currentTarget, modelText(state)));
   element("copy-model").hidden = !data.model.length;
   on("csv", "click", () => save(new Blob([csvText(state)], { type: "text/csv" }), `${data.file}.csv`));
