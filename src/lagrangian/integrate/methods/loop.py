@@ -200,7 +200,7 @@ class Loop:
             fine, good = f.logic("and", fine, finite), f.logic("and", good, finite)
             self.project.note(new_t, good)
         self._inspect(s, good, new_t)
-        self._commit(s, good, new_t)
+        self._accept(s, good, new_t)
         p.store(f.select(good, left, p.load(lanes.left)), lanes.left)
         arrived = f.logic("and", good, f.compare("ole", left, 0.0))
         broken = f.logic("and", running, f.opposite(fine))
@@ -232,7 +232,7 @@ class Loop:
         bad = f.logic("and", running, f.opposite(good))
         stuck = f.logic("and", bad, f.compare("ole", t + next_h * 0.125, t))
         p.store(f.select(running, next_h, wanted), lanes.h)
-        self._commit(s, good, new_t)
+        self._accept(s, good, new_t)
         p.count(bad, lanes.rejected)
         code = p.whole_select(finite, self._constant(RunStatus.UNDERFLOW), self._constant(RunStatus.NOT_FINITE))
         attend(self, running, f.logic("and", good, last), stuck, code)
@@ -266,7 +266,7 @@ class Loop:
         stuck = f.logic("and", running, f.compare("ole", t + wanted * 0.125, t))
         self._inspect(s, good, new_t)
         p.store(f.select(f.logic("and", good, f.compare("ogt", wanted, 0.0)), wanted, unit), lanes.h)
-        self._commit(s, good, new_t)
+        self._accept(s, good, new_t)
         broken = f.logic("or", stuck, f.logic("and", running, f.opposite(fine)))
         code = p.whole_select(fine, self._constant(RunStatus.UNDERFLOW), self._constant(RunStatus.NOT_FINITE))
         arrived = f.logic("and", f.logic("and", good, last), f.opposite(broken))
@@ -350,8 +350,8 @@ class Loop:
                     p.store(f.select(free, -float("inf"), p.load(lanes.end)), lanes.end)
             self._samples(s, good, coefficients)
 
-    def _commit(self, s: MethodStep, good: str, new_t: Value) -> None:
-        """Store the new state if the step is good."""
+    def _accept(self, s: MethodStep, good: str, new_t: Value) -> None:
+        """Accept the step if it is good: the new state is stored."""
         p, f, lanes, watch = self.p, self.f, self.lanes, self.watch
         if watch is not None:
             # a lane that an event stopped inside the step continues from the event's time and state
